@@ -1,0 +1,18 @@
+// SPDX-License-Identifier: MIT
+// The vulkan backend: what backends/backends.cpp needs of it.
+#pragma once
+
+#include <memory>
+#include <vector>
+
+#include "core/gpu/device.h"
+
+namespace grisaille::vulkan {
+
+// The devices that --device chooses from, in the order of their numbers.
+std::vector<gpu::ListedDevice> listDevices();
+
+// Throws kBackendMissing, kNoDevice, kDeviceTooOld, kDeviceFailed.
+std::unique_ptr<gpu::Device> createDevice(const gpu::DeviceOptions& options);
+
+}  // namespace grisaille::vulkan

@@ -1,0 +1,34 @@
+# SPDX-License-Identifier: MIT
+# grisaille_add_shader(<target> <name> <source> [DEFINES <NAME[=VALUE]>...])
+#
+# Compiles one Vulkan GLSL stage (.vert .frag .comp) into <target>: glslc makes SPIR-V 1.6, the
+# project's shader compiler makes GLSL 4.50 and the reflection of it. The target then finds
+#   #include "shaders/<name>.h"    extern const grisaille_shader grisaille_shader_<name>;
+# and in it, for every uniform block of the shader, a macro that checks a C++ struct against it:
+#   GRISAILLE_CHECK_BLOCK_<name>_<Block>(Struct);
+# Sources may include "common/..." (the shared GLSL) and files beside themselves.
+
+set(GRISAILLE_SHADER_INCLUDE ${CMAKE_CURRENT_LIST_DIR}/../shaders CACHE INTERNAL "The shared GLSL")
+
+function(grisaille_add_shader target name source)
+  cmake_parse_arguments(ARG "" "" "DEFINES" ${ARGN})
+  cmake_path(ABSOLUTE_PATH source NORMALIZE OUTPUT_VARIABLE source)
+  set(folder ${CMAKE_CURRENT_BINARY_DIR}/${target}_shaders)
+  set(stem ${folder}/shaders/${name})
+  set(defines ${ARG_DEFINES})
+  list(TRANSFORM defines PREPEND -D)
+  cmake_path(GET source PARENT_PATH beside)
+  file(MAKE_DIRECTORY ${folder}/shaders)
+  add_custom_command(
+    OUTPUT ${stem}.c ${stem}.h
+    COMMAND ${GRISAILLE_GLSLC} --target-env=vulkan1.3 -O -g ${defines}
+            -I ${GRISAILLE_SHADER_INCLUDE} -I ${beside} -MD -MF ${stem}.d -MT ${stem}.c
+            ${source} -o ${stem}.spv
+    COMMAND grisaille_shader_compiler ${stem}.spv ${name} ${stem}
+    DEPENDS ${source} grisaille_shader_compiler
+    DEPFILE ${stem}.d
+    COMMENT "Compiling shader ${name}"
+    VERBATIM)
+  target_sources(${target} PRIVATE ${stem}.c ${stem}.h)
+  target_include_directories(${target} PRIVATE ${folder})
+endfunction()

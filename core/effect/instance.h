@@ -1,0 +1,45 @@
+// SPDX-License-Identifier: MIT
+// One effect at work on one device: the host's side of grisaille_host and grisaille_frame.
+#pragma once
+
+#include <array>
+#include <memory>
+#include <span>
+
+#include "core/effect/registry.h"
+#include "core/gpu/device.h"
+
+namespace grisaille::effect {
+
+gpu::Format formatOf(grisaille_format format);
+
+// What one record() works on. Everything is valid during the call.
+struct FrameInputs {
+  gpu::Commands* commands = nullptr;
+  uint32_t width = 0;
+  uint32_t height = 0;
+  const grisaille_view* view = nullptr;
+  gpu::BufferRange viewBlock;
+  std::array<gpu::Texture, GRISAILLE_ATTACHMENT_COUNT> attachments;
+  std::span<const gpu::Texture> outputs;  // one an output; null where nobody wants it
+  std::span<const double> values;
+};
+
+class Instance {
+ public:
+  // Throws kEffectCreate with the effect's own words.
+  Instance(gpu::Device& device, const Effect& effect);
+  ~Instance();
+  Instance(const Instance&) = delete;
+  Instance& operator=(const Instance&) = delete;
+
+  // Records the effect's passes, labelled "<effect key>/<pass>". Throws kEffectRecord with the
+  // effect's own words, or the layer's error that made it fail.
+  void record(const FrameInputs& inputs);
+
+ private:
+  struct State;
+  std::unique_ptr<State> state_;
+};
+
+}  // namespace grisaille::effect

@@ -1,0 +1,72 @@
+// SPDX-License-Identifier: MIT
+// Which effects there are: plugins found in folders, checked by table, refused by name and reason.
+#pragma once
+
+#include <memory>
+#include <span>
+#include <string>
+#include <string_view>
+#include <vector>
+
+#include "core/error.h"
+#include "grisaille/effect.h"
+
+namespace grisaille::effect {
+
+// An effect of a loaded plugin. Valid while its registry lives.
+struct Effect {
+  const grisaille_effect_desc* desc = nullptr;
+  std::string path;  // of the plugin
+
+  std::span<const grisaille_param_desc> params() const {
+    return {desc->params, desc->param_count};
+  }
+  std::span<const grisaille_output_desc> outputs() const {
+    return {desc->outputs, desc->output_count};
+  }
+};
+
+struct Refused {
+  std::string path;
+  Error reason;
+};
+
+// Throws kPluginTable with the field's path ("effects[0].params[3].hard_max"). Checks one
+// description; the registry calls it for every effect before anything else of the plugin.
+void checkTable(const grisaille_plugin_desc& plugin);
+
+class Registry {
+ public:
+  Registry();
+  ~Registry();
+  Registry(const Registry&) = delete;
+  Registry& operator=(const Registry&) = delete;
+
+  // Loads every *.so of a folder, by name. Plugins that do not fit join refused(). Throws kPluginPath
+  // when the folder cannot be read.
+  void scan(const std::string& folder);
+
+  // Loads one plugin. Throws kPlugin*; what is already registered stays.
+  void load(const std::string& path);
+
+  std::span<const Effect> effects() const;  // by key
+  std::span<const Refused> refused() const;
+
+  // Throws kEffectUnknown, with the nearest key, and with the reason when a plugin whose file is
+  // named after the key was refused.
+  const Effect& find(std::string_view key) const;
+
+ private:
+  struct State;
+  std::unique_ptr<State> state_;
+};
+
+// Where plugins are looked for: `lib/grisaille/effects` beside the program's folder, then the folders
+// of GRISAILLE_EFFECT_PATH (':' between), then `extra`. The first may be missing; the others not.
+struct SearchPath {
+  std::string folder;
+  bool required = false;
+};
+std::vector<SearchPath> searchPaths(std::span<const std::string> extra);
+
+}  // namespace grisaille::effect

@@ -1,0 +1,45 @@
+// SPDX-License-Identifier: MIT
+// Errors with a number. Every failure of the program is an entry of core/error_list.h and reaches
+// the user as one line: "error E2101: <what and why>; <what to do>".
+#pragma once
+
+#include <fmt/format.h>
+
+#include <stdexcept>
+#include <string>
+#include <string_view>
+
+namespace grisaille {
+
+enum class ErrorId : int {
+#define GRISAILLE_ERROR(name, number, remedy) name = number,
+#include "core/error_list.h"
+#undef GRISAILLE_ERROR
+};
+
+// What to do about an error: the sentence of the list, without a full stop.
+std::string_view remedyOf(ErrorId id);
+
+// Replaces every control character by '?', so that text taken from a file or a driver stays on one
+// line, and cuts it to 400 bytes.
+std::string oneLine(std::string_view text);
+
+// Thrown by the whole core. `what()` is the full line.
+class Error : public std::runtime_error {
+ public:
+  // `detail` says what failed and why, without a full stop.
+  Error(ErrorId id, std::string_view detail);
+
+  template <typename First, typename... Rest>
+  Error(ErrorId id, fmt::format_string<First, Rest...> format, First&& first, Rest&&... rest)
+      : Error(id, fmt::format(format, std::forward<First>(first), std::forward<Rest>(rest)...)) {}
+
+  ErrorId id() const { return id_; }
+  const std::string& detail() const { return detail_; }
+
+ private:
+  ErrorId id_;
+  std::string detail_;
+};
+
+}  // namespace grisaille

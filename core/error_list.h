@@ -1,0 +1,85 @@
+// SPDX-License-Identifier: MIT
+// The one list of errors: GRISAILLE_ERROR(name, number, what to do). Numbers are never reused.
+// 1xxx the GPU layer, 2xxx scenes and cameras, 3xxx effects and plugins, 4xxx images and files,
+// 5xxx the command line and settings.
+// No include guard: included where GRISAILLE_ERROR is defined.
+
+// --- 10xx: a device and its backend
+GRISAILLE_ERROR(kBackendMissing, 1001, "install its driver library or choose another --backend")
+GRISAILLE_ERROR(kBackendUnknown, 1002, "choose opengl or vulkan")
+GRISAILLE_ERROR(kNoDevice, 1003, "see `grisaille backends` for what is there")
+GRISAILLE_ERROR(kDeviceTooOld, 1004, "update the driver or choose another --device or --backend")
+GRISAILLE_ERROR(kDeviceFailed, 1005, "report it with the line above, or try the other --backend")
+GRISAILLE_ERROR(kDeviceLost, 1006, "start again; lower the size or the settings if it repeats")
+GRISAILLE_ERROR(kOutOfDeviceMemory, 1007, "use a smaller --size or close other programs")
+GRISAILLE_ERROR(kShaderRefused, 1008, "report it with the driver's name, or try the other --backend")
+// --- 11xx: descriptors
+GRISAILLE_ERROR(kStaleHandle, 1101, "do not use a resource after destroying it")
+GRISAILLE_ERROR(kTooManyResources, 1102, "destroy resources that are no longer used")
+GRISAILLE_ERROR(kBufferSize, 1103, "give a size from 1 byte to the device's limit")
+GRISAILLE_ERROR(kBufferUsage, 1104, "name at least one usage, and bind a buffer only as named")
+GRISAILLE_ERROR(kTextureSize, 1105, "give sizes from 1 to the device's limit")
+GRISAILLE_ERROR(kTextureMips, 1106, "give 1 to floor(log2(largest side)) + 1 levels")
+GRISAILLE_ERROR(kTextureFormat, 1107, "choose a format that allows the usage")
+GRISAILLE_ERROR(kTextureUsage, 1108, "name at least one usage, and bind a texture only as named")
+GRISAILLE_ERROR(kShaderMissing, 1109, "give a compiled shader of the right stage")
+GRISAILLE_ERROR(kSpecialization, 1110, "set only constants that the shader declares, each once")
+GRISAILLE_ERROR(kPipelineTargets, 1111, "match the target formats of pipeline and render call")
+GRISAILLE_ERROR(kVertexLayout, 1112, "feed every vertex input of the shader from a declared stream")
+GRISAILLE_ERROR(kInitialData, 1113, "give exactly as many bytes as the resource holds, or none")
+// --- 12xx: recording
+GRISAILLE_ERROR(kNotRecording, 1201, "record between begin() and submit()")
+GRISAILLE_ERROR(kAlreadyRecording, 1202, "submit() the frame before the next begin()")
+GRISAILLE_ERROR(kPassNesting, 1203, "end one pass before the next, and all before submit()")
+GRISAILLE_ERROR(kPassMissing, 1204, "record work between beginPass() and endPass()")
+GRISAILLE_ERROR(kBindingMissing, 1205, "bind every slot that the shader reads or writes")
+GRISAILLE_ERROR(kBindingUnknown, 1206, "bind only slots that the shader declares, each once")
+GRISAILLE_ERROR(kBindingRange, 1207, "bind a range inside the resource, aligned as the device asks")
+GRISAILLE_ERROR(kBindingSmall, 1208, "bind at least as many bytes as the shader's block holds")
+GRISAILLE_ERROR(kBindingFormat, 1209, "bind an image of the format that the shader declares")
+GRISAILLE_ERROR(kHazard, 1210, "do not read and write one subresource in the same call")
+GRISAILLE_ERROR(kUninitialised, 1211, "write a resource before it is read")
+GRISAILLE_ERROR(kDispatchSize, 1212, "dispatch 1 to the device's limit of groups on each axis")
+GRISAILLE_ERROR(kTargetMismatch, 1213, "give targets of one size, at least one")
+GRISAILLE_ERROR(kDrawRange, 1214, "draw only indices and vertices that the buffers hold")
+GRISAILLE_ERROR(kUploadRange, 1215, "upload exactly the bytes of a range inside the resource")
+GRISAILLE_ERROR(kTransientStale, 1216, "use a transient texture only in the frame that made it")
+GRISAILLE_ERROR(kReadbackRange, 1217, "read a subresource or range that exists")
+GRISAILLE_ERROR(kLeaked, 1218, "destroy every resource before its device")
+GRISAILLE_ERROR(kUniformSize, 1219, "give 1 to 65536 bytes")
+// --- 21xx: scenes
+GRISAILLE_ERROR(kSceneUnreadable, 2101, "check the path and that the file is a whole glTF 2.0 file")
+GRISAILLE_ERROR(kSceneInvalid, 2102, "repair the file, for example by exporting it again")
+GRISAILLE_ERROR(kSceneExtension, 2103, "export the scene without this extension")
+GRISAILLE_ERROR(kSceneEmpty, 2104, "give a scene with at least one triangle")
+GRISAILLE_ERROR(kSceneTooLarge, 2105, "give a scene within the limits that the message names")
+GRISAILLE_ERROR(kSceneImage, 2106, "replace the image by a PNG or JPEG that opens elsewhere")
+// --- 22xx: cameras
+GRISAILLE_ERROR(kCameraUnreadable, 2201, "check the path and that the file is JSON")
+GRISAILLE_ERROR(kCameraInvalid, 2202, "write eye, target, fovy_degrees and optionally up and size")
+// --- 31xx: plugins
+GRISAILLE_ERROR(kPluginUnloadable, 3101, "give a shared library built for this machine")
+GRISAILLE_ERROR(kPluginSymbol, 3102, "export the data symbol `grisaille_plugin`")
+GRISAILLE_ERROR(kPluginAbi, 3103, "rebuild the plugin against this program's effect header")
+GRISAILLE_ERROR(kPluginTable, 3104, "correct the field that the message names in the plugin's table")
+GRISAILLE_ERROR(kPluginDuplicate, 3105, "remove one of the two plugins or rename the effect")
+GRISAILLE_ERROR(kPluginPath, 3106, "give a folder that exists and can be read")
+// --- 32xx: running effects
+GRISAILLE_ERROR(kEffectUnknown, 3201, "see `grisaille effects` for what is there")
+GRISAILLE_ERROR(kEffectCreate, 3202, "leave the effect out of --effects or repair its plugin")
+GRISAILLE_ERROR(kEffectRecord, 3203, "leave the effect out of --effects or repair its plugin")
+GRISAILLE_ERROR(kEffectTwice, 3204, "name each effect once")
+// --- 33xx: parameter values
+GRISAILLE_ERROR(kParameterUnknown, 3301, "see `grisaille effects` for the keys")
+GRISAILLE_ERROR(kParameterRange, 3302, "give a value inside the range")
+GRISAILLE_ERROR(kParameterType, 3303, "give a value of the parameter's type")
+// --- 41xx: images and files
+GRISAILLE_ERROR(kImageUnreadable, 4101, "check the path and that the file is an image")
+GRISAILLE_ERROR(kImageFormat, 4102, "end the name in .exr or .png")
+GRISAILLE_ERROR(kFileUnwritable, 4103, "check that the folder exists, is writable and has room")
+GRISAILLE_ERROR(kImageMismatch, 4104, "compare images of the same size and channels")
+// --- 51xx: the command line and settings
+GRISAILLE_ERROR(kUsage, 5101, "see --help")
+GRISAILLE_ERROR(kOutputUnknown, 5102, "name an output of the frame or of an active effect")
+GRISAILLE_ERROR(kSettingsUnreadable, 5103, "check the path and that the file is TOML")
+GRISAILLE_ERROR(kSettingsInvalid, 5104, "correct the line that the message names")

@@ -1,0 +1,86 @@
+// SPDX-License-Identifier: MIT
+// Slots behind handles: index and generation, so that a stale handle is found out.
+// The idea is sokol_gfx's: a slot's generation grows when it is freed.
+#pragma once
+
+#include <optional>
+#include <vector>
+
+#include "core/error.h"
+#include "core/gpu/types.h"
+
+namespace grisaille::gpu {
+
+template <typename HandleType, typename Value>
+class HandlePool {
+ public:
+  // `kind` is for messages: "texture".
+  explicit HandlePool(const char* kind) : kind_(kind) {}
+
+  // Throws kTooManyResources at 65535 live ones. References from get() may move.
+  HandleType add(Value value) {
+    uint32_t index = 0;
+    if (!free_.empty()) {
+      index = free_.back();
+      free_.pop_back();
+    } else {
+      if (slots_.size() >= 0xffffu) {
+        throw Error(ErrorId::kTooManyResources, "65535 of kind {} exist already", kind_);
+      }
+      index = static_cast<uint32_t>(slots_.size());
+      slots_.emplace_back();
+    }
+    Slot& slot = slots_[index];
+    slot.value.emplace(std::move(value));
+    return {slot.generation << 16 | index};
+  }
+
+  bool alive(HandleType handle) const { return find(handle) != nullptr; }
+
+  // Throws kStaleHandle.
+  Value& get(HandleType handle) {
+    const Slot* slot = find(handle);
+    if (slot == nullptr) {
+      throw Error(ErrorId::kStaleHandle, "{} {:#x} was never made or is destroyed", kind_,
+                  handle.value);
+    }
+    return *const_cast<Slot*>(slot)->value;
+  }
+  const Value& get(HandleType handle) const { return const_cast<HandlePool*>(this)->get(handle); }
+
+  // Throws kStaleHandle.
+  Value remove(HandleType handle) {
+    Value value = std::move(get(handle));
+    Slot& slot = slots_[handle.index()];
+    slot.value.reset();
+    slot.generation = slot.generation == 0xffffu ? 1 : slot.generation + 1;
+    free_.push_back(handle.index());
+    return value;
+  }
+
+  // Calls visit(handle, value) for all that live.
+  template <typename Visit>
+  void forEach(Visit&& visit) {
+    for (uint32_t i = 0; i < slots_.size(); ++i) {
+      if (slots_[i].value) visit(HandleType{slots_[i].generation << 16 | i}, *slots_[i].value);
+    }
+  }
+
+ private:
+  struct Slot {
+    uint32_t generation = 1;  // never 0, so that no handle is 0
+    std::optional<Value> value;
+  };
+
+  const Slot* find(HandleType handle) const {
+    if (handle.index() >= slots_.size()) return nullptr;
+    const Slot& slot = slots_[handle.index()];
+    return slot.value && slot.generation == handle.generation() ? &slot : nullptr;
+  }
+
+  const char* kind_;
+  std::vector<Slot> slots_;
+  std::vector<uint32_t> free_;
+};
+
+}  // namespace grisaille::gpu

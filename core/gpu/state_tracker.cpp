@@ -1,0 +1,148 @@
+// SPDX-License-Identifier: MIT
+#include "core/gpu/state_tracker.h"
+
+namespace grisaille::gpu {
+namespace {
+
+bool needsBarrier(Access before, Access after) {
+  return before != after || has(before, kWriteAccess);
+}
+
+}  // namespace
+
+void StateTracker::add(Buffer buffer) { buffers_[buffer.value] = {}; }
+
+void StateTracker::add(Texture texture, uint32_t mips, uint32_t layers) {
+  TextureState& state = textures_[texture.value];
+  state.mips = mips;
+  state.layers = layers;
+  state.states.assign(size_t{mips} * layers, Access::kNone);
+  state.pending.assign(size_t{mips} * layers, Access::kNone);
+}
+
+void StateTracker::remove(Buffer buffer) { buffers_.erase(buffer.value); }
+void StateTracker::remove(Texture texture) { textures_.erase(texture.value); }
+
+void StateTracker::use(Buffer buffer, Access access) {
+  const auto found = buffers_.find(buffer.value);
+  if (found == buffers_.end()) return;
+  if (found->second.pending == Access::kNone) touchedBuffers_.push_back(buffer.value);
+  found->second.pending = found->second.pending | access;
+}
+
+void StateTracker::use(TextureView view, Access access) {
+  const auto found = textures_.find(view.texture.value);
+  if (found == textures_.end()) return;
+  TextureState& state = found->second;
+  if (!state.touched) touchedTextures_.push_back(view.texture.value);
+  state.touched = true;
+  const uint32_t mipEnd = view.mipCount == 0 ? state.mips : view.mip + view.mipCount;
+  const uint32_t layerEnd = view.layerCount == 0 ? state.layers : view.layer + view.layerCount;
+  for (uint32_t layer = view.layer; layer < layerEnd; ++layer) {
+    for (uint32_t mip = view.mip; mip < mipEnd; ++mip) {
+      Access& pending = state.pending[layer * state.mips + mip];
+      pending = pending | access;
+    }
+  }
+}
+
+void StateTracker::use(const Shader& shader, std::span<const Binding> bindings) {
+  for (const Binding& binding : bindings) {
+    for (uint32_t i = 0; i < shader.slot_count; ++i) {
+      const grisaille_shader_slot& slot = shader.slots[i];
+      if (slot.slot_class != binding.slotClass || slot.slot != binding.slot) continue;
+      const Access storage = (slot.reads != 0 ? Access::kStorageRead : Access::kNone) |
+                             (slot.writes != 0 ? Access::kStorageWrite : Access::kNone);
+      switch (slot.slot_class) {
+        case GRISAILLE_SLOT_UNIFORM:
+          use(binding.buffer.buffer, Access::kUniform);
+          break;
+        case GRISAILLE_SLOT_STORAGE:
+          use(binding.buffer.buffer, storage);
+          break;
+        case GRISAILLE_SLOT_TEXTURE:
+          use(binding.view, Access::kSampled);
+          break;
+        default:
+          use(binding.view, storage);
+          break;
+      }
+    }
+  }
+}
+
+std::span<const Transition> StateTracker::flush() {
+  transitions_.clear();
+  for (const uint32_t value : touchedBuffers_) {
+    const auto found = buffers_.find(value);
+    if (found == buffers_.end()) continue;
+    BufferState& state = found->second;
+    if (needsBarrier(state.state, state.pending)) {
+      Transition transition;
+      transition.buffer = {value};
+      transition.before = state.state;
+      transition.after = state.pending;
+      transitions_.push_back(transition);
+    }
+    state.state = state.pending;
+    state.pending = Access::kNone;
+  }
+  touchedBuffers_.clear();
+  for (const uint32_t value : touchedTextures_) {
+    const auto found = textures_.find(value);
+    if (found != textures_.end()) flushTexture({value}, found->second);
+  }
+  touchedTextures_.clear();
+  return transitions_;
+}
+
+void StateTracker::flushTexture(Texture texture, TextureState& state) {
+  state.touched = false;
+  for (uint32_t layer = 0; layer < state.layers; ++layer) {
+    for (uint32_t mip = 0; mip < state.mips; ++mip) {
+      Access& before = state.states[layer * state.mips + mip];
+      Access& after = state.pending[layer * state.mips + mip];
+      if (after == Access::kNone) continue;
+      if (needsBarrier(before, after)) appendTexture(texture, mip, layer, before, after);
+      before = after;
+      after = Access::kNone;
+    }
+  }
+}
+
+void StateTracker::appendTexture(Texture texture, uint32_t mip, uint32_t layer, Access before,
+                                 Access after) {
+  if (!transitions_.empty()) {
+    Transition& last = transitions_.back();
+    const bool alike = last.texture == texture && last.before == before && last.after == after;
+    if (alike && last.layerCount == 1 && last.layer == layer && last.mip + last.mipCount == mip) {
+      ++last.mipCount;
+      mergeLayers();
+      return;
+    }
+  }
+  transitions_.push_back({.buffer = {},
+                          .texture = texture,
+                          .mip = mip,
+                          .mipCount = 1,
+                          .layer = layer,
+                          .layerCount = 1,
+                          .before = before,
+                          .after = after});
+  mergeLayers();
+}
+
+// Joins the last two when they are the same levels of neighbouring layers.
+void StateTracker::mergeLayers() {
+  if (transitions_.size() < 2) return;
+  Transition& first = transitions_[transitions_.size() - 2];
+  const Transition& last = transitions_.back();
+  if (first.texture == last.texture && first.before == last.before && first.after == last.after &&
+      first.mip == last.mip && first.mipCount == last.mipCount &&
+      first.layer + first.layerCount == last.layer) {
+    first.layerCount += last.layerCount;
+    transitions_.pop_back();
+  }
+}
+
+}  // namespace grisaille::gpu

@@ -1,0 +1,89 @@
+// SPDX-License-Identifier: MIT
+// What state every subresource is in, and which barriers the next call needs. Backends turn the
+// transitions into their API's barriers; the null device records them, so that this is tested
+// without a driver. After nvrhi's state tracking, per mip level and layer.
+#pragma once
+
+#include <span>
+#include <unordered_map>
+#include <vector>
+
+#include "core/gpu/types.h"
+
+namespace grisaille::gpu {
+
+// How a call uses a resource; a set of flags.
+enum class Access : uint16_t {
+  kNone = 0,
+  kVertex = 1,
+  kIndex = 2,
+  kUniform = 4,
+  kSampled = 8,
+  kStorageRead = 16,
+  kStorageWrite = 32,
+  kColorTarget = 64,
+  kDepthTarget = 128,
+  kCopyRead = 256,
+  kCopyWrite = 512,
+};
+constexpr Access operator|(Access a, Access b) {
+  return static_cast<Access>(static_cast<int>(a) | static_cast<int>(b));
+}
+constexpr bool has(Access set, Access any) {
+  return (static_cast<int>(set) & static_cast<int>(any)) != 0;
+}
+constexpr Access kWriteAccess =
+    Access::kStorageWrite | Access::kColorTarget | Access::kDepthTarget | Access::kCopyWrite;
+
+// One of buffer and texture is set. `before` is kNone for contents that were never written.
+struct Transition {
+  Buffer buffer;
+  Texture texture;
+  uint32_t mip = 0, mipCount = 1, layer = 0, layerCount = 1;
+  Access before = Access::kNone;
+  Access after = Access::kNone;
+};
+
+class StateTracker {
+ public:
+  void add(Buffer buffer);
+  void add(Texture texture, uint32_t mips, uint32_t layers);
+  void remove(Buffer buffer);
+  void remove(Texture texture);
+
+  // Declares one use of the coming call. Several uses of one subresource are combined. Resources that
+  // were not added (a backend's own uniform memory) are ignored. A view's zero counts are resolved.
+  void use(Buffer buffer, Access access);
+  void use(TextureView view, Access access);
+
+  // The same for all bindings of a shader, by its reflection. Slots it does not declare are ignored.
+  void use(const Shader& shader, std::span<const Binding> bindings);
+
+  // The transitions that the declared uses need. A read after a read of the same kind needs none; a
+  // texture's adjacent subresources with like states are merged. Valid until the next flush().
+  std::span<const Transition> flush();
+
+ private:
+  struct TextureState {
+    uint32_t mips = 1, layers = 1;
+    std::vector<Access> states;   // layer-major: layer * mips + mip
+    std::vector<Access> pending;  // like states
+    bool touched = false;
+  };
+  struct BufferState {
+    Access state = Access::kNone;
+    Access pending = Access::kNone;
+  };
+
+  void flushTexture(Texture texture, TextureState& state);
+  void appendTexture(Texture texture, uint32_t mip, uint32_t layer, Access before, Access after);
+  void mergeLayers();
+
+  std::unordered_map<uint32_t, BufferState> buffers_;
+  std::unordered_map<uint32_t, TextureState> textures_;
+  std::vector<uint32_t> touchedBuffers_;
+  std::vector<uint32_t> touchedTextures_;
+  std::vector<Transition> transitions_;
+};
+
+}  // namespace grisaille::gpu

@@ -1,0 +1,74 @@
+// SPDX-License-Identifier: MIT
+// Pictures in memory, in and out of files (through OpenImageIO), and how far two of them differ.
+#pragma once
+
+#include <cstddef>
+#include <cstdint>
+#include <span>
+#include <string>
+#include <vector>
+
+namespace grisaille::image {
+
+// Rows from the top, channels interleaved.
+struct Image {
+  uint32_t width = 0;
+  uint32_t height = 0;
+  uint32_t channels = 0;
+  std::vector<float> pixels;  // width * height * channels
+
+  float at(uint32_t x, uint32_t y, uint32_t channel = 0) const {
+    return pixels[(size_t{y} * width + x) * channels + channel];
+  }
+};
+
+// 8 bits a channel, RGBA, as stored (not linearised).
+struct Image8 {
+  uint32_t width = 0;
+  uint32_t height = 0;
+  std::vector<uint8_t> pixels;  // width * height * 4
+};
+
+enum class Transfer : uint8_t {
+  kData,   // numbers: files hold them as they are
+  kColour  // linear light: files of integers hold it sRGB encoded
+};
+
+struct WriteOptions {
+  Transfer transfer = Transfer::kData;
+  uint32_t pngBits = 8;  // 8 or 16
+};
+
+// By the name's ending: .exr holds 32-bit floats as they are, .png rounds to integers after clamping
+// to [0, 1] (NaN: 0). Written aside, then renamed: a failure leaves no half file and an older file
+// as it was. Throws kImageFormat, kFileUnwritable.
+void write(const Image& image, const std::string& path, const WriteOptions& options = {});
+
+// Throws kImageFormat when `path` has an ending that write() does not take: ask before long work.
+void checkWritable(const std::string& path);
+
+// Any format OpenImageIO reads; integers become [0, 1]. Throws kImageUnreadable.
+Image read(const std::string& path);
+
+// A PNG or JPEG in memory. `name` is for messages. Throws kSceneImage.
+Image8 decode(std::span<const std::byte> encoded, const std::string& name);
+
+// The number that holds for two images of one size and channel count. Pixels where either is not
+// finite count apart.
+struct Difference {
+  uint64_t compared = 0;   // values
+  uint64_t nonFinite = 0;  // values left out
+  double rmse = 0;
+  double meanAbsolute = 0;
+  double bias = 0;  // mean of a - b
+  double largest = 0;
+  double percentile99 = 0;  // of the absolute difference
+};
+
+// Throws kImageMismatch.
+Difference compare(const Image& a, const Image& b);
+
+// Share of values that differ by more than `threshold`. Throws kImageMismatch.
+double shareOver(const Image& a, const Image& b, double threshold);
+
+}  // namespace grisaille::image

@@ -1,0 +1,44 @@
+// SPDX-License-Identifier: MIT
+// A pinhole camera and its files: JSON with `eye`, `target` (metres, world), optional `up` (default
+// +y), `fovy_degrees`, optional `size` [width, height] and optional `near` (metres).
+#pragma once
+
+#include <glm/glm.hpp>
+#include <string>
+
+#include "core/scene/scene.h"
+
+namespace grisaille::scene {
+
+struct Camera {
+  glm::dvec3 eye = glm::dvec3(0, 0, 1);
+  glm::dvec3 target = glm::dvec3(0);
+  glm::dvec3 up = glm::dvec3(0, 1, 0);
+  double fovyDegrees = 60;          // of the whole height, 1 ... 170
+  glm::uvec2 size = glm::uvec2(0);  // pixels; 0: not given
+  double nearPlane = 0.01;          // metres, over 0
+};
+
+// Throws kCameraInvalid with the field's name: non-finite numbers, eye = target, up along the view
+// direction, an angle out of range.
+void validate(const Camera& camera);
+
+// Throws kCameraUnreadable, kCameraInvalid.
+Camera loadCamera(const std::string& path);
+
+// Writes the file aside and renames it. Throws kFileUnwritable.
+void saveCamera(const Camera& camera, const std::string& path);
+
+// The built-in atrium's own camera.
+Camera atriumCamera();
+
+// A camera that sees the whole of any scene, from outside its bounds.
+Camera overviewCamera(const Bounds& bounds);
+
+// Columns are the view axes in world space: right, up, backward.
+glm::dmat3 worldFromView(const Camera& camera);
+
+// Reversed depth, infinitely far: clip z = near, clip w = -view z.
+glm::dmat4 clipFromView(const Camera& camera, double aspect);
+
+}  // namespace grisaille::scene

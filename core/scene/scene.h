@@ -1,0 +1,82 @@
+// SPDX-License-Identifier: MIT
+// A scene in memory: triangles, materials, still-encoded textures, instances. World axes are
+// right-handed with +y up; lengths are metres.
+#pragma once
+
+#include <cstddef>
+#include <cstdint>
+#include <glm/glm.hpp>
+#include <string>
+#include <string_view>
+#include <vector>
+
+namespace grisaille::scene {
+
+enum class Wrap : uint8_t { kRepeat, kClamp, kMirror };
+
+// A texture as the file holds it: decoded (image::decode) only by who needs it.
+struct Texture {
+  std::string name;                // for messages
+  std::vector<std::byte> encoded;  // PNG or JPEG
+  Wrap wrapU = Wrap::kRepeat;
+  Wrap wrapV = Wrap::kRepeat;
+};
+
+struct Material {
+  std::string name;
+  glm::vec4 baseColor = glm::vec4(1);  // linear; multiplies the texture
+  int baseColorTexture = -1;           // index into Scene::textures, -1: none
+  bool masked = false;                 // texels with alpha under the cutoff are holes
+  float alphaCutoff = 0.5f;
+  bool doubleSided = false;  // else back faces are not drawn
+};
+
+// A run of Scene::indices with one material.
+struct Primitive {
+  uint32_t firstIndex = 0;
+  uint32_t indexCount = 0;  // a multiple of 3
+  uint32_t material = 0;
+};
+
+struct Instance {
+  uint32_t primitive = 0;
+  glm::dmat4 worldFromObject = glm::dmat4(1);
+};
+
+struct Bounds {
+  glm::dvec3 min = glm::dvec3(0);
+  glm::dvec3 max = glm::dvec3(0);
+};
+
+// Vertex arrays are of equal length. Indices count from the arrays' start. Counter-clockwise
+// triangles face the viewer, unless the instance's transform mirrors.
+struct Scene {
+  std::string name;
+  std::vector<glm::vec3> positions;
+  std::vector<glm::vec3> normals;  // unit
+  std::vector<glm::vec2> texCoords;  // (0, 0) is the image's top left corner
+  std::vector<uint32_t> indices;
+  std::vector<Primitive> primitives;
+  std::vector<Material> materials;
+  std::vector<Texture> textures;
+  std::vector<Instance> instances;
+  Bounds bounds;  // of all instances, world
+};
+
+// Sets scene.bounds from its instances.
+void computeBounds(Scene& scene);
+
+// Triangles of all instances.
+uint64_t triangleCount(const Scene& scene);
+
+// Reads glTF 2.0, .gltf or .glb. Throws kScene* errors; never partial results.
+Scene loadGltf(const std::string& path);
+
+// Writes the scene as one .glb, aside and then renamed. Throws kFileUnwritable.
+void writeGlb(const Scene& scene, const std::string& path);
+
+// The built-in scene: an atrium of columns, arches, vases, steps, a hanging cloth and foliage cards
+// with an alpha mask, at least 50,000 triangles. The same on every machine.
+Scene makeAtrium();
+
+}  // namespace grisaille::scene

@@ -1,0 +1,6 @@
+// SPDX-License-Identifier: MIT
+// Binding numbers: slot n of a class, as grisaille/shader.h counts them.
+#define UNIFORM(n) set = 0, binding = (0 + (n))
+#define STORAGE(n) set = 0, binding = (16 + (n))
+#define TEXTURE(n) set = 0, binding = (32 + (n))
+#define IMAGE(n) set = 0, binding = (48 + (n))
