@@ -13,6 +13,7 @@ GRISAILLE_ERROR(kDeviceFailed, 1005, "report it with the line above, or try the 
 GRISAILLE_ERROR(kDeviceLost, 1006, "start again; lower the size or the settings if it repeats")
 GRISAILLE_ERROR(kOutOfDeviceMemory, 1007, "use a smaller --size or close other programs")
 GRISAILLE_ERROR(kShaderRefused, 1008, "report it with the driver's name, or try the other --backend")
+GRISAILLE_ERROR(kDriverMessages, 1009, "report them; the program should cause none")
 // --- 11xx: descriptors
 GRISAILLE_ERROR(kStaleHandle, 1101, "do not use a resource after destroying it")
 GRISAILLE_ERROR(kTooManyResources, 1102, "destroy resources that are no longer used")
@@ -47,6 +48,7 @@ GRISAILLE_ERROR(kTransientStale, 1216, "use a transient texture only in the fram
 GRISAILLE_ERROR(kReadbackRange, 1217, "read a subresource or range that exists")
 GRISAILLE_ERROR(kLeaked, 1218, "destroy every resource before its device")
 GRISAILLE_ERROR(kUniformSize, 1219, "give 1 to 65536 bytes")
+GRISAILLE_ERROR(kDestroyedInUse, 1220, "destroy before the frame uses it or after submit()")
 // --- 21xx: scenes
 GRISAILLE_ERROR(kSceneUnreadable, 2101, "check the path and that the file is a whole glTF 2.0 file")
 GRISAILLE_ERROR(kSceneInvalid, 2102, "repair the file, for example by exporting it again")

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: MIT
-// One effect at work on one device: the host's side of grisaille_host and grisaille_frame.
+// One effect at work on one device.
 #pragma once
 
 #include <array>
@@ -11,7 +11,8 @@
 
 namespace grisaille::effect {
 
-gpu::Format formatOf(grisaille_format format);
+// kNone for a number that names no format.
+gpu::Format formatOf(uint32_t format);
 
 // What one record() works on. Everything is valid during the call.
 struct FrameInputs {
@@ -34,7 +35,9 @@ class Instance {
   Instance& operator=(const Instance&) = delete;
 
   // Records the effect's passes, labelled "<effect key>/<pass>". Throws kEffectRecord with the
-  // effect's own words, or the layer's error that made it fail.
+  // effect's own words and the layer's error that made it fail, by its number; the frame is then to
+  // be abandoned. At most once between the device's begin() and submit(): what the effect destroys
+  // meanwhile is kept until the next call, since this frame may use it.
   void record(const FrameInputs& inputs);
 
  private:

@@ -13,14 +13,12 @@
 
 namespace grisaille::effect {
 
-// An effect of a loaded plugin. Valid while its registry lives.
+// An effect of a loaded plugin. What it points to is valid while its registry lives.
 struct Effect {
   const grisaille_effect_desc* desc = nullptr;
   std::string path;  // of the plugin
 
-  std::span<const grisaille_param_desc> params() const {
-    return {desc->params, desc->param_count};
-  }
+  std::span<const grisaille_param_desc> params() const { return {desc->params, desc->param_count}; }
   std::span<const grisaille_output_desc> outputs() const {
     return {desc->outputs, desc->output_count};
   }
@@ -31,8 +29,8 @@ struct Refused {
   Error reason;
 };
 
-// Throws kPluginTable with the field's path ("effects[0].params[3].hard_max"). Checks one
-// description; the registry calls it for every effect before anything else of the plugin.
+// Throws kPluginTable with the field's path ("effects[0].params[3].hard_max"). The registry calls
+// it once magic and versions fit, before anything of the plugin is called.
 void checkTable(const grisaille_plugin_desc& plugin);
 
 class Registry {
@@ -42,18 +40,19 @@ class Registry {
   Registry(const Registry&) = delete;
   Registry& operator=(const Registry&) = delete;
 
-  // Loads every *.so of a folder, by name. Plugins that do not fit join refused(). Throws kPluginPath
-  // when the folder cannot be read.
+  // Loads every *.so of a folder, in the order of their names. Plugins that do not fit join
+  // refused(), each file once. Throws kPluginPath when the folder cannot be read.
   void scan(const std::string& folder);
 
-  // Loads one plugin. Throws kPlugin*; what is already registered stays.
+  // Loads one plugin: all its effects or none. A file that is loaded already, by whatever path, is
+  // passed over. Throws kPlugin*; what is already registered stays.
   void load(const std::string& path);
 
-  std::span<const Effect> effects() const;  // by key
+  std::span<const Effect> effects() const;  // by key; good until the next scan() or load()
   std::span<const Refused> refused() const;
 
   // Throws kEffectUnknown, with the nearest key, and with the reason when a plugin whose file is
-  // named after the key was refused.
+  // named after the key was refused. The reference is good as long as effects().
   const Effect& find(std::string_view key) const;
 
  private:
@@ -61,8 +60,9 @@ class Registry {
   std::unique_ptr<State> state_;
 };
 
-// Where plugins are looked for: `lib/grisaille/effects` beside the program's folder, then the folders
-// of GRISAILLE_EFFECT_PATH (':' between), then `extra`. The first may be missing; the others not.
+// Where plugins are looked for: `lib/grisaille/effects` beside the program's folder, then the
+// folders of GRISAILLE_EFFECT_PATH (':' between), then `extra`. The first may be missing; the
+// others not.
 struct SearchPath {
   std::string folder;
   bool required = false;

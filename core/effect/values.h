@@ -15,15 +15,16 @@ class Values {
  public:
   explicit Values(const Effect& effect);  // all defaults
 
-  const Effect& effect() const { return *effect_; }
+  const Effect& effect() const { return effect_; }
   std::span<const double> all() const { return values_; }
 
   // Index of a key. Throws kParameterUnknown with the nearest key.
   size_t indexOf(std::string_view key) const;
   double get(std::string_view key) const { return values_[indexOf(key)]; }
 
-  // `text` as on the command line: a number, true|false, an enum's key. Throws kParameterUnknown,
-  // kParameterType, kParameterRange (naming the nearest valid value); the value is unchanged then.
+  // `text` as on the command line: a number, true|false|on|off|1|0, an enum's key. Throws
+  // kParameterUnknown, kParameterType, kParameterRange (naming the nearest valid value); the value
+  // is unchanged then.
   void set(std::string_view key, std::string_view text);
   void set(std::string_view key, double value);
 
@@ -31,12 +32,12 @@ class Values {
   std::string text(std::string_view key) const;
 
  private:
-  const Effect* effect_;
+  Effect effect_;
   std::vector<double> values_;
 };
 
-// The candidate that `word` most likely meant (edit distance, at most a third of its letters plus one
-// wrong), or "" where none is near.
+// The candidate that `word` most likely meant (edit distance, at most a third of its letters plus
+// one wrong), or "" where none is near.
 std::string nearest(std::string_view word, std::span<const std::string> candidates);
 
 }  // namespace grisaille::effect

@@ -2,11 +2,12 @@
 // The layer's interface: a Device makes resources, its Commands record a frame.
 //
 // Conventions that hold on every backend: clip space has y up and depth 1 at the near plane, 0 at
-// infinity; row 0 of every texture, of gl_FragCoord and of every upload and readback is the top row.
+// infinity; row 0 of every texture, of gl_FragCoord and of every upload and readback is the top
+// row.
 //
-// Threads: a Device and its Commands belong to one thread at a time. Errors: every function may throw
-// grisaille::Error; a call that throws has done nothing. Barriers, layouts and memory are the layer's
-// business: work recorded later sees what work recorded before it wrote.
+// Threads: a Device and its Commands belong to one thread at a time. Errors: every function may
+// throw grisaille::Error; a call that throws has done nothing. Barriers, layouts and memory are the
+// layer's business: work recorded later sees what work recorded before it wrote.
 #pragma once
 
 #include <functional>
@@ -28,10 +29,10 @@ struct ListedDevice {
 };
 
 struct DeviceOptions {
-  std::string device;   // "", a number or part of a name, as listed by the backend
-  bool check = false;   // the API's own validation, where it is installed
-  bool timed = false;   // time every pass; on software drivers this waits for each
-  MessageSink message;  // none: standard error
+  std::string device = {};   // "", a number or part of a name, as listed by the backend
+  bool check = false;        // the API's own validation, where it is installed
+  bool timed = false;        // time every pass; on software drivers this waits for each
+  MessageSink message = {};  // none: standard error
 };
 
 class Commands {

@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: MIT
-// A device without a driver: it keeps what is uploaded, draws and computes nothing, and records what
-// it was asked to do. Tests of everything above the layer run on it.
+// A device without a driver: it keeps what is uploaded, draws and computes nothing, and records
+// what it was asked to do. Tests of everything above the layer run on it.
 #pragma once
 
 #include <variant>
@@ -11,12 +11,29 @@
 namespace grisaille::gpu {
 
 // What was recorded, in order, from the last begin() on.
-struct RecordedPass { std::string label; bool begins = true; };
-struct RecordedBarriers { std::vector<Transition> transitions; };
-struct RecordedDispatch { std::string pipeline; std::array<uint32_t, 3> groups; std::vector<Binding> bindings; };
-struct RecordedRender { size_t draws = 0; std::vector<std::string> targets; bool depth = false; };
-struct RecordedUpload { std::string resource; size_t bytes = 0; };
-using Recorded = std::variant<RecordedPass, RecordedBarriers, RecordedDispatch, RecordedRender, RecordedUpload>;
+struct RecordedPass {
+  std::string label;
+  bool begins = true;
+};
+struct RecordedBarriers {
+  std::vector<Transition> transitions;
+};
+struct RecordedDispatch {
+  std::string pipeline;
+  std::array<uint32_t, 3> groups;
+  std::vector<Binding> bindings;
+};
+struct RecordedRender {
+  size_t draws = 0;
+  std::vector<std::string> targets;
+  bool depth = false;
+};
+struct RecordedUpload {
+  std::string resource;
+  size_t bytes = 0;
+};
+using Recorded =
+    std::variant<RecordedPass, RecordedBarriers, RecordedDispatch, RecordedRender, RecordedUpload>;
 
 class NullDevice : public Device {
  public:

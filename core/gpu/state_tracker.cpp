@@ -1,6 +1,8 @@
 // SPDX-License-Identifier: MIT
 #include "core/gpu/state_tracker.h"
 
+#include "core/error.h"
+
 namespace grisaille::gpu {
 namespace {
 
@@ -10,7 +12,9 @@ bool needsBarrier(Access before, Access after) {
 
 }  // namespace
 
-void StateTracker::add(Buffer buffer) { buffers_[buffer.value] = {}; }
+void StateTracker::add(Buffer buffer) {
+  buffers_[buffer.value] = {};
+}
 
 void StateTracker::add(Texture texture, uint32_t mips, uint32_t layers) {
   TextureState& state = textures_[texture.value];
@@ -18,26 +22,39 @@ void StateTracker::add(Texture texture, uint32_t mips, uint32_t layers) {
   state.layers = layers;
   state.states.assign(size_t{mips} * layers, Access::kNone);
   state.pending.assign(size_t{mips} * layers, Access::kNone);
+  state.touched = false;
 }
 
-void StateTracker::remove(Buffer buffer) { buffers_.erase(buffer.value); }
-void StateTracker::remove(Texture texture) { textures_.erase(texture.value); }
+void StateTracker::remove(Buffer buffer) {
+  buffers_.erase(buffer.value);
+}
+void StateTracker::remove(Texture texture) {
+  textures_.erase(texture.value);
+}
 
 void StateTracker::use(Buffer buffer, Access access) {
   const auto found = buffers_.find(buffer.value);
-  if (found == buffers_.end()) return;
+  if (found == buffers_.end() || access == Access::kNone) return;
   if (found->second.pending == Access::kNone) touchedBuffers_.push_back(buffer.value);
   found->second.pending = found->second.pending | access;
 }
 
 void StateTracker::use(TextureView view, Access access) {
   const auto found = textures_.find(view.texture.value);
-  if (found == textures_.end()) return;
+  if (found == textures_.end() || access == Access::kNone) return;
   TextureState& state = found->second;
+  const uint64_t mipEnd = view.mipCount == 0 ? state.mips : uint64_t{view.mip} + view.mipCount;
+  const uint64_t layerEnd =
+      view.layerCount == 0 ? state.layers : uint64_t{view.layer} + view.layerCount;
+  if (view.mip >= state.mips || mipEnd > state.mips || view.layer >= state.layers ||
+      layerEnd > state.layers) {
+    throw Error(
+        ErrorId::kBindingRange,
+        "levels {} ... {} of layers {} ... {} are not in a texture of {} levels and {} layers",
+        view.mip, mipEnd, view.layer, layerEnd, state.mips, state.layers);
+  }
   if (!state.touched) touchedTextures_.push_back(view.texture.value);
   state.touched = true;
-  const uint32_t mipEnd = view.mipCount == 0 ? state.mips : view.mip + view.mipCount;
-  const uint32_t layerEnd = view.layerCount == 0 ? state.layers : view.layer + view.layerCount;
   for (uint32_t layer = view.layer; layer < layerEnd; ++layer) {
     for (uint32_t mip = view.mip; mip < mipEnd; ++mip) {
       Access& pending = state.pending[layer * state.mips + mip];
@@ -51,8 +68,10 @@ void StateTracker::use(const Shader& shader, std::span<const Binding> bindings) 
     for (uint32_t i = 0; i < shader.slot_count; ++i) {
       const grisaille_shader_slot& slot = shader.slots[i];
       if (slot.slot_class != binding.slotClass || slot.slot != binding.slot) continue;
-      const Access storage = (slot.reads != 0 ? Access::kStorageRead : Access::kNone) |
-                             (slot.writes != 0 ? Access::kStorageWrite : Access::kNone);
+      // A slot that is neither read nor written may still be asked for its size.
+      const Access storage =
+          (slot.writes != 0 ? Access::kStorageWrite : Access::kNone) |
+          (slot.reads != 0 || slot.writes == 0 ? Access::kStorageRead : Access::kNone);
       switch (slot.slot_class) {
         case GRISAILLE_SLOT_UNIFORM:
           use(binding.buffer.buffer, Access::kUniform);
@@ -77,6 +96,7 @@ std::span<const Transition> StateTracker::flush() {
     const auto found = buffers_.find(value);
     if (found == buffers_.end()) continue;
     BufferState& state = found->second;
+    if (state.pending == Access::kNone) continue;  // removed and added again in between
     if (needsBarrier(state.state, state.pending)) {
       Transition transition;
       transition.buffer = {value};
@@ -94,6 +114,23 @@ std::span<const Transition> StateTracker::flush() {
   }
   touchedTextures_.clear();
   return transitions_;
+}
+
+void StateTracker::rollBack(const StateTracker& earlier) {
+  for (auto& [value, state] : buffers_) {
+    const auto found = earlier.buffers_.find(value);
+    state = found == earlier.buffers_.end() ? BufferState{} : found->second;
+  }
+  for (auto& [value, state] : textures_) {
+    const auto found = earlier.textures_.find(value);
+    if (found != earlier.textures_.end()) {
+      state = found->second;
+    } else {
+      add(Texture{value}, state.mips, state.layers);
+    }
+  }
+  touchedBuffers_.clear();
+  touchedTextures_.clear();
 }
 
 void StateTracker::flushTexture(Texture texture, TextureState& state) {

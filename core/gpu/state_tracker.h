@@ -51,17 +51,24 @@ class StateTracker {
   void remove(Buffer buffer);
   void remove(Texture texture);
 
-  // Declares one use of the coming call. Several uses of one subresource are combined. Resources that
-  // were not added (a backend's own uniform memory) are ignored. A view's zero counts are resolved.
+  // Declares one use of the coming call. Several uses of one subresource are combined. Resources
+  // that were not added (a backend's own uniform memory) are ignored. A view's zero counts are
+  // resolved.
   void use(Buffer buffer, Access access);
-  void use(TextureView view, Access access);
+  void use(TextureView view, Access access);  // throws kBindingRange
 
-  // The same for all bindings of a shader, by its reflection. Slots it does not declare are ignored.
+  // The same for all bindings of a shader, by its reflection. Slots it does not declare are
+  // ignored.
   void use(const Shader& shader, std::span<const Binding> bindings);
 
   // The transitions that the declared uses need. A read after a read of the same kind needs none; a
   // texture's adjacent subresources with like states are merged. Valid until the next flush().
   std::span<const Transition> flush();
+
+  // Takes back the uses since `earlier` was copied from this, for a frame that is dropped. What was
+  // added since stays, as never used; what was removed since stays removed. `earlier` must have
+  // been copied right after a flush().
+  void rollBack(const StateTracker& earlier);
 
  private:
   struct TextureState {

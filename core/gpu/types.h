@@ -55,11 +55,11 @@ enum class Format : uint8_t {
 };
 
 struct FormatInfo {
-  const char* name;      // "r32f": as GLSL spells the image format, or a like short word
-  uint32_t texelBytes;   // bytes of one texel in memory and in uploads and readbacks
-  uint32_t channels;     // 1 ... 4
-  bool depth;            // a depth target rather than a colour target
-  bool storage;          // may be bound as an image
+  const char* name;     // "r32f": as GLSL spells the image format, or a like short word
+  uint32_t texelBytes;  // bytes of one texel in memory and in uploads and readbacks
+  uint32_t channels;    // 1 ... 4
+  bool depth;           // a depth target rather than a colour target
+  bool storage;         // may be bound as an image
 };
 
 // Valid for every format but kNone.
@@ -86,7 +86,7 @@ constexpr bool has(TextureUsage set, TextureUsage one) {
 
 // Uploads into a buffer and reads back from it are always allowed.
 struct BufferDesc {
-  std::string_view label;
+  std::string_view label = {};
   uint64_t size = 0;  // bytes, 1 ... Capabilities::maxBufferBytes
   BufferUsage usage = BufferUsage::kNone;
 };
@@ -94,7 +94,7 @@ struct BufferDesc {
 // A 2D texture or, with layers > 1, a 2D array. Row 0 is the top row. Uploads and readbacks are
 // always allowed. Contents are undefined until written.
 struct TextureDesc {
-  std::string_view label;
+  std::string_view label = {};
   Format format = Format::kNone;
   uint32_t width = 0;   // texels, 1 ... Capabilities::maxTextureSize
   uint32_t height = 0;  // texels
@@ -107,7 +107,7 @@ enum class Filter : uint8_t { kNearest, kLinear };
 enum class Address : uint8_t { kClamp, kRepeat, kMirror };
 
 struct SamplerDesc {
-  std::string_view label;
+  std::string_view label = {};
   Filter filter = Filter::kNearest;  // within a level, both ways
   Filter mipFilter = Filter::kNearest;
   Address addressU = Address::kClamp;
@@ -117,14 +117,14 @@ struct SamplerDesc {
 
 // Part of a buffer. size 0: to its end.
 struct BufferRange {
-  Buffer buffer;
+  Buffer buffer = {};
   uint64_t offset = 0;  // bytes
   uint64_t size = 0;    // bytes
 };
 
 // Part of a texture. A count of 0 means all that follow. A view of one layer of an array is 2D.
 struct TextureView {
-  Texture texture;
+  Texture texture = {};
   uint32_t mip = 0;
   uint32_t mipCount = 0;
   uint32_t layer = 0;
@@ -142,9 +142,9 @@ struct Specialization {
 };
 
 struct ComputePipelineDesc {
-  std::string_view label;
-  const Shader* shader = nullptr;  // stays valid while the pipeline lives
-  std::span<const Specialization> constants;  // others keep their defaults
+  std::string_view label = {};
+  const Shader* shader = nullptr;                  // stays valid while the pipeline lives
+  std::span<const Specialization> constants = {};  // others keep their defaults
 };
 
 enum class AttributeFormat : uint8_t { kFloat1, kFloat2, kFloat3, kFloat4 };
@@ -167,13 +167,13 @@ constexpr uint32_t kMaxColorTargets = 4;
 // Triangle lists, counter-clockwise is front, no blending. Depth, where there is a depth target, is
 // tested with GREATER (reversed depth) and written.
 struct GraphicsPipelineDesc {
-  std::string_view label;
+  std::string_view label = {};
   const Shader* vertex = nullptr;
   const Shader* fragment = nullptr;  // none: depth only
-  std::span<const Specialization> constants;
-  std::span<const uint32_t> streamStrides;  // bytes, one a vertex stream
-  std::span<const VertexAttribute> attributes;
-  std::span<const Format> colorFormats;
+  std::span<const Specialization> constants = {};
+  std::span<const uint32_t> streamStrides = {};  // bytes, one a vertex stream
+  std::span<const VertexAttribute> attributes = {};
+  std::span<const Format> colorFormats = {};
   Format depthFormat = Format::kNone;
 };
 
@@ -183,19 +183,31 @@ struct GraphicsPipelineDesc {
 struct Binding {
   uint32_t slotClass = 0;  // grisaille_slot_class
   uint32_t slot = 0;
-  BufferRange buffer;   // uniform, storage
-  TextureView view;     // texture, image (one mip level)
-  Sampler sampler;      // texture
+  BufferRange buffer = {};  // uniform, storage
+  TextureView view = {};    // texture, image (one mip level)
+  Sampler sampler = {};     // texture
 };
 
 inline Binding uniformBinding(uint32_t slot, BufferRange range) {
-  return {.slotClass = GRISAILLE_SLOT_UNIFORM, .slot = slot, .buffer = range, .view = {}, .sampler = {}};
+  return {.slotClass = GRISAILLE_SLOT_UNIFORM,
+          .slot = slot,
+          .buffer = range,
+          .view = {},
+          .sampler = {}};
 }
 inline Binding storageBinding(uint32_t slot, BufferRange range) {
-  return {.slotClass = GRISAILLE_SLOT_STORAGE, .slot = slot, .buffer = range, .view = {}, .sampler = {}};
+  return {.slotClass = GRISAILLE_SLOT_STORAGE,
+          .slot = slot,
+          .buffer = range,
+          .view = {},
+          .sampler = {}};
 }
 inline Binding textureBinding(uint32_t slot, TextureView view, Sampler sampler) {
-  return {.slotClass = GRISAILLE_SLOT_TEXTURE, .slot = slot, .buffer = {}, .view = view, .sampler = sampler};
+  return {.slotClass = GRISAILLE_SLOT_TEXTURE,
+          .slot = slot,
+          .buffer = {},
+          .view = view,
+          .sampler = sampler};
 }
 inline Binding imageBinding(uint32_t slot, Texture texture, uint32_t mip = 0) {
   return {.slotClass = GRISAILLE_SLOT_IMAGE,
@@ -206,20 +218,20 @@ inline Binding imageBinding(uint32_t slot, Texture texture, uint32_t mip = 0) {
 }
 
 struct Dispatch {
-  ComputePipeline pipeline;
-  std::span<const Binding> bindings;
+  ComputePipeline pipeline = {};
+  std::span<const Binding> bindings = {};
   std::array<uint32_t, 3> groups = {1, 1, 1};
 };
 
 enum class Cull : uint8_t { kNone, kBack, kFront };
 
 struct Draw {
-  GraphicsPipeline pipeline;
-  std::span<const Binding> bindings;
-  std::span<const BufferRange> vertexStreams;
-  BufferRange indices;        // 32-bit; no buffer: vertices in order
-  uint32_t count = 0;         // indices, or vertices
-  uint32_t first = 0;         // first index, or first vertex
+  GraphicsPipeline pipeline = {};
+  std::span<const Binding> bindings = {};
+  std::span<const BufferRange> vertexStreams = {};
+  BufferRange indices = {};  // 32-bit; no buffer: vertices in order
+  uint32_t count = 0;        // indices, or vertices
+  uint32_t first = 0;        // first index, or first vertex
   Cull cull = Cull::kNone;
 };
 
@@ -228,34 +240,34 @@ enum class Load : uint8_t { kClear, kLoad, kDiscard };
 
 // `view` is one mip level of one layer (its counts are ignored).
 struct ColorTarget {
-  TextureView view;
+  TextureView view = {};
   Load load = Load::kClear;
-  std::array<float, 4> clear = {0, 0, 0, 0};
+  std::array<float, 4> clear = {0, 0, 0, 0};  // of kR32Uint: converted to integers
 };
 
 struct DepthTarget {
-  TextureView view;  // no texture: none
+  TextureView view = {};  // no texture: none
   Load load = Load::kClear;
   float clear = 0;  // reversed depth: infinitely far
 };
 
 // The viewport is the whole of the targets.
 struct Render {
-  std::span<const ColorTarget> colors;
-  DepthTarget depth;
-  std::span<const Draw> draws;  // in order
+  std::span<const ColorTarget> colors = {};
+  DepthTarget depth = {};
+  std::span<const Draw> draws = {};  // in order
 };
 
 // --- The device ----------------------------------------------------------------------------------
 
 struct Capabilities {
-  uint32_t maxTextureSize = 0;         // texels a side
+  uint32_t maxTextureSize = 0;  // texels a side
   uint32_t maxTextureLayers = 0;
-  uint64_t maxBufferBytes = 0;         // of one buffer
-  uint64_t maxStorageRange = 0;        // bytes of one storage binding
-  uint32_t maxUniformRange = 0;        // bytes of one uniform binding, at least 65536
-  uint32_t uniformAlignment = 1;       // bytes, of a uniform binding's offset
-  uint32_t storageAlignment = 1;       // bytes, of a storage binding's offset
+  uint64_t maxBufferBytes = 0;    // of one buffer
+  uint64_t maxStorageRange = 0;   // bytes of one storage binding
+  uint32_t maxUniformRange = 0;   // bytes of one uniform binding, at least 65536
+  uint32_t uniformAlignment = 1;  // bytes, of a uniform binding's offset
+  uint32_t storageAlignment = 1;  // bytes, of a storage binding's offset
   std::array<uint32_t, 3> maxGroups = {};
   float maxAnisotropy = 1;
 };
@@ -266,16 +278,16 @@ enum class Clock : uint8_t { kNone, kGpu, kWall };
 const char* clockName(Clock clock);  // "none", "gpu", "wall"
 
 struct DeviceInfo {
-  std::string backend;  // "opengl", "vulkan", "null"
-  std::string name;     // the device, as its driver calls it
-  std::string driver;   // the driver and its version
+  std::string backend = {};  // "opengl", "vulkan", "null"
+  std::string name = {};     // the device, as its driver calls it
+  std::string driver = {};   // the driver and its version
   bool software = false;
   Clock clock = Clock::kNone;
-  Capabilities capabilities;
+  Capabilities capabilities = {};
 };
 
 struct PassTime {
-  std::string label;
+  std::string label = {};
   double milliseconds = 0;
 };
 
@@ -283,7 +295,7 @@ struct PassTime {
 // clock as the passes.
 struct FrameTimes {
   uint64_t frame = 0;  // counted from 0 for the first begin()
-  std::vector<PassTime> passes;
+  std::vector<PassTime> passes = {};
   double wholeMilliseconds = 0;
 };
 

@@ -39,9 +39,9 @@ struct WriteOptions {
   uint32_t pngBits = 8;  // 8 or 16
 };
 
-// By the name's ending: .exr holds 32-bit floats as they are, .png rounds to integers after clamping
-// to [0, 1] (NaN: 0). Written aside, then renamed: a failure leaves no half file and an older file
-// as it was. Throws kImageFormat, kFileUnwritable.
+// By the name's ending: .exr holds 32-bit floats as they are, .png rounds to integers after
+// clamping to [0, 1] (NaN: 0). Written aside, then renamed: a failure leaves no half file and an
+// older file as it was. Throws kImageFormat, kFileUnwritable.
 void write(const Image& image, const std::string& path, const WriteOptions& options = {});
 
 // Throws kImageFormat when `path` has an ending that write() does not take: ask before long work.
@@ -50,8 +50,12 @@ void checkWritable(const std::string& path);
 // Any format OpenImageIO reads; integers become [0, 1]. Throws kImageUnreadable.
 Image read(const std::string& path);
 
-// A PNG or JPEG in memory. `name` is for messages. Throws kSceneImage.
+// A PNG or JPEG in memory, of at most 16384 pixels a side. `name` is for messages. Throws
+// kSceneImage.
 Image8 decode(std::span<const std::byte> encoded, const std::string& name);
+
+// A PNG of 8 bits a channel, RGBA, in memory.
+std::vector<std::byte> encodePng(const Image8& image);
 
 // The number that holds for two images of one size and channel count. Pixels where either is not
 // finite count apart.
@@ -68,7 +72,8 @@ struct Difference {
 // Throws kImageMismatch.
 Difference compare(const Image& a, const Image& b);
 
-// Share of values that differ by more than `threshold`. Throws kImageMismatch.
+// Share of values that differ by more than `threshold`. A value that is not finite differs from all
+// but its like. Throws kImageMismatch.
 double shareOver(const Image& a, const Image& b, double threshold);
 
 }  // namespace grisaille::image

@@ -53,7 +53,7 @@ struct Bounds {
 struct Scene {
   std::string name;
   std::vector<glm::vec3> positions;
-  std::vector<glm::vec3> normals;  // unit
+  std::vector<glm::vec3> normals;    // unit
   std::vector<glm::vec2> texCoords;  // (0, 0) is the image's top left corner
   std::vector<uint32_t> indices;
   std::vector<Primitive> primitives;
@@ -69,14 +69,19 @@ void computeBounds(Scene& scene);
 // Triangles of all instances.
 uint64_t triangleCount(const Scene& scene);
 
-// Reads glTF 2.0, .gltf or .glb. Throws kScene* errors; never partial results.
+// Reads glTF 2.0, .gltf or .glb: the default scene, else the first, else all nodes. Blended
+// materials become masks with a cutoff of 0.5; points and lines are left out; skins, morph targets
+// and animations are not applied. Only base colour images are read. Throws kScene* errors; never
+// partial results.
 Scene loadGltf(const std::string& path);
 
-// Writes the scene as one .glb, aside and then renamed. Throws kFileUnwritable.
+// Writes the scene as one .glb, aside and then renamed. Throws kFileUnwritable, kSceneEmpty,
+// kSceneTooLarge.
 void writeGlb(const Scene& scene, const std::string& path);
 
 // The built-in scene: an atrium of columns, arches, vases, steps, a hanging cloth and foliage cards
-// with an alpha mask, at least 50,000 triangles. The same on every machine.
+// with an alpha mask, at least 50,000 triangles. The same on every machine, to the bit (of the
+// texture: its texels).
 Scene makeAtrium();
 
 }  // namespace grisaille::scene

@@ -78,7 +78,7 @@ typedef struct grisaille_param_desc {
   double soft_max;
   double default_value;
   double step;                    /* a slider's step, over 0 unless the scale is logarithmic */
-  const char *const *enum_keys;   /* enum: as written on the command line */
+  const char *const *enum_keys;   /* enum: as on the command line: a-z, 0-9, _, -; unique */
   const char *const *enum_labels; /* enum: for people */
 } grisaille_param_desc;
 
@@ -109,7 +109,7 @@ typedef enum grisaille_format {
 /* How the composed picture uses an output. */
 typedef enum grisaille_role {
   GRISAILLE_ROLE_NONE = 0,      /* not at all: only written to a file or shown on its own */
-  GRISAILLE_ROLE_VISIBILITY = 1, /* first channel in [0,1], 1 = open: multiplies the light */
+  GRISAILLE_ROLE_VISIBILITY = 1, /* first channel in [0,1], 1 = open: multiplies the light; no R32UI */
   GRISAILLE_ROLE_PAINT = 2      /* rgba, straight alpha, linear: laid over the surface's colour */
 } grisaille_role;
 

@@ -1,0 +1,16 @@
+// SPDX-License-Identifier: MIT
+// The subcommands of the program, one file each. Every function adds its subcommand, whose callback
+// does the work and throws grisaille::Error.
+#pragma once
+
+#include <CLI/CLI.hpp>
+
+namespace grisaille::app {
+
+void addRender(CLI::App& program);
+void addEffects(CLI::App& program);
+void addBackends(CLI::App& program);
+void addScene(CLI::App& program);
+void addCompletion(CLI::App& program);
+
+}  // namespace grisaille::app

@@ -1,0 +1,138 @@
+// SPDX-License-Identifier: MIT
+#include "app/effect_tables.h"
+
+#include <fmt/format.h>
+
+#include <nlohmann/json.hpp>
+#include <vector>
+
+namespace grisaille::app {
+namespace {
+
+const char* typeName(const grisaille_param_desc& param) {
+  static constexpr const char* kNames[] = {"float", "int", "bool", "enum"};
+  return kNames[param.type];
+}
+
+std::string valueText(const grisaille_param_desc& param, double value) {
+  if (param.type == GRISAILLE_PARAM_ENUM) return param.enum_keys[static_cast<size_t>(value)];
+  if (param.type == GRISAILLE_PARAM_BOOL) return value != 0 ? "true" : "false";
+  return fmt::format("{}", value);
+}
+
+// "1 ... 256 px" or "box | edge_aware".
+std::string rangeText(const grisaille_param_desc& param) {
+  if (param.type == GRISAILLE_PARAM_BOOL) return "true | false";
+  if (param.type == GRISAILLE_PARAM_ENUM) {
+    return fmt::format("{}", fmt::join(param.enum_keys, param.enum_keys + param.enum_count, " | "));
+  }
+  return fmt::format("{} ... {}{}{}", param.hard_min, param.hard_max, *param.unit != 0 ? " " : "",
+                     param.unit);
+}
+
+std::string readsText(const effect::Effect& effect) {
+  static constexpr const char* kNames[GRISAILLE_ATTACHMENT_COUNT] = {"depth", "view_depth",
+                                                                     "normal", "base_colour"};
+  std::vector<double> defaults;
+  for (const grisaille_param_desc& param : effect.params()) defaults.push_back(param.default_value);
+  const uint32_t reads = effect.desc->reads(defaults.data());
+  std::vector<std::string> names;
+  for (uint32_t a = 0; a < GRISAILLE_ATTACHMENT_COUNT; ++a) {
+    if ((reads & GRISAILLE_READS(a)) != 0) names.emplace_back(kNames[a]);
+  }
+  return fmt::format("{}", fmt::join(names, ", "));
+}
+
+nlohmann::ordered_json jsonOf(const grisaille_param_desc& param) {
+  nlohmann::ordered_json json = {{"key", param.key},
+                                 {"label", param.label},
+                                 {"type", typeName(param)},
+                                 {"unit", param.unit},
+                                 {"tooltip", param.tooltip},
+                                 {"advanced", (param.flags & GRISAILLE_PARAM_ADVANCED) != 0}};
+  if (param.type == GRISAILLE_PARAM_ENUM) {
+    json["default"] = valueText(param, param.default_value);
+    for (uint32_t i = 0; i < param.enum_count; ++i) {
+      json["values"].push_back({{"key", param.enum_keys[i]}, {"label", param.enum_labels[i]}});
+    }
+  } else if (param.type == GRISAILLE_PARAM_BOOL) {
+    json["default"] = param.default_value != 0;
+  } else {
+    json["default"] = param.default_value;
+    json["hard_range"] = {param.hard_min, param.hard_max};
+    json["soft_range"] = {param.soft_min, param.soft_max};
+    json["step"] = param.step;
+    json["scale"] = (param.flags & GRISAILLE_PARAM_LOG) != 0 ? "log" : "linear";
+  }
+  return json;
+}
+
+}  // namespace
+
+std::string effectsText(const effect::Registry& registry) {
+  std::string text;
+  for (const effect::Effect& effect : registry.effects()) {
+    text += fmt::format("{} {}: {}\n  {}\n  reads {}\n", effect.desc->key, effect.desc->version,
+                        effect.desc->tooltip, effect.path, readsText(effect));
+    for (const grisaille_param_desc& param : effect.params()) {
+      text += fmt::format("  {:<14} {:<10} {:<32} {}\n", param.key,
+                          valueText(param, param.default_value), rangeText(param), param.tooltip);
+    }
+    for (const grisaille_output_desc& output : effect.outputs()) {
+      text += fmt::format("  writes {}: {}\n", output.key, output.tooltip);
+    }
+  }
+  for (const effect::Refused& refused : registry.refused()) {
+    text += fmt::format("refused {}\n  {}\n", refused.path, refused.reason.what());
+  }
+  return text.empty() ? "no effects\n" : text;
+}
+
+std::string effectsJson(const effect::Registry& registry) {
+  nlohmann::ordered_json json = {{"effects", nlohmann::json::array()},
+                                 {"refused", nlohmann::json::array()}};
+  for (const effect::Effect& effect : registry.effects()) {
+    nlohmann::ordered_json entry = {
+        {"key", effect.desc->key},         {"label", effect.desc->label},
+        {"version", effect.desc->version}, {"tooltip", effect.desc->tooltip},
+        {"path", effect.path},             {"parameters", nlohmann::json::array()},
+        {"outputs", nlohmann::json::array()}};
+    for (const grisaille_param_desc& param : effect.params()) {
+      entry["parameters"].push_back(jsonOf(param));
+    }
+    for (const grisaille_output_desc& output : effect.outputs()) {
+      entry["outputs"].push_back({{"key", output.key}, {"tooltip", output.tooltip}});
+    }
+    json["effects"].push_back(std::move(entry));
+  }
+  for (const effect::Refused& refused : registry.refused()) {
+    json["refused"].push_back({{"path", refused.path},
+                               {"error", static_cast<int>(refused.reason.id())},
+                               {"reason", refused.reason.what()}});
+  }
+  return json.dump(2) + "\n";
+}
+
+std::string effectMarkdown(const effect::Effect& effect) {
+  std::string text =
+      "| parameter | default | range | what it does |\n|---|---|---|---|\n";
+  const auto cell = [](std::string value) {
+    for (size_t at = 0; (at = value.find('|', at)) != std::string::npos; at += 2) {
+      value.insert(at, "\\");
+    }
+    return value;
+  };
+  for (const grisaille_param_desc& param : effect.params()) {
+    text += fmt::format("| `{}`{} | {} | {} | {} |\n", param.key,
+                        (param.flags & GRISAILLE_PARAM_ADVANCED) != 0 ? " (advanced)" : "",
+                        valueText(param, param.default_value), cell(rangeText(param)),
+                        cell(param.tooltip));
+  }
+  text += "\n| output | what it holds |\n|---|---|\n";
+  for (const grisaille_output_desc& output : effect.outputs()) {
+    text += fmt::format("| `{}` | {} |\n", output.key, cell(output.tooltip));
+  }
+  return text;
+}
+
+}  // namespace grisaille::app

@@ -1,0 +1,230 @@
+// SPDX-License-Identifier: MIT
+// grisaille render: one scene, one camera, pictures into files.
+#include <fmt/format.h>
+
+#include <charconv>
+#include <cstdio>
+#include <memory>
+#include <optional>
+
+#include "app/active_effects.h"
+#include "app/command.h"
+#include "app/settings.h"
+#include "app/timings.h"
+#include "backends/backends.h"
+#include "core/error.h"
+#include "core/image/image.h"
+#include "core/image/write_aside.h"
+
+namespace grisaille::app {
+namespace {
+
+struct Options {
+  std::string scene, camera, size, backend, device, config, timings;
+  std::vector<std::string> effects, sets, writes, pluginPaths;
+  std::string surface = "white";
+  uint32_t frames = 1;
+  bool check = false;
+  bool effectsGiven = false;
+};
+
+struct Write {
+  std::string output, file;
+};
+
+constexpr uint32_t kLargestSide = 16384;
+
+glm::uvec2 parseSize(const std::string& text) {
+  glm::uvec2 size(0);
+  const char* end = text.data() + text.size();
+  const auto width = std::from_chars(text.data(), end, size.x);
+  const bool cross = width.ec == std::errc() && width.ptr != end && *width.ptr == 'x';
+  const auto height = cross ? std::from_chars(width.ptr + 1, end, size.y) : width;
+  if (!cross || height.ec != std::errc() || height.ptr != end || size.x < 1 || size.y < 1 ||
+      size.x > kLargestSide || size.y > kLargestSide) {
+    throw Error(ErrorId::kUsage, "size '{}' is not WIDTHxHEIGHT with sides from 1 to {}", text,
+                kLargestSide);
+  }
+  return size;
+}
+
+std::vector<Write> parseWrites(const std::vector<std::string>& texts) {
+  std::vector<Write> writes;
+  for (const std::string& text : texts) {
+    const size_t equals = text.find('=');
+    if (equals == std::string::npos || equals == 0 || equals + 1 == text.size()) {
+      throw Error(ErrorId::kUsage, "'{}' is not of the form NAME=FILE", text);
+    }
+    writes.push_back({.output = text.substr(0, equals), .file = text.substr(equals + 1)});
+    image::checkWritable(writes.back().file);
+  }
+  return writes;
+}
+
+// The device asked for, or, where none was named, the first backend that starts.
+std::unique_ptr<gpu::Device> makeDevice(const Options& options, gpu::DeviceOptions device) {
+  if (!options.backend.empty()) return backends::create(options.backend, device);
+  std::string reasons;
+  for (const backends::Backend& backend : backends::all()) {
+    try {
+      return backends::create(backend.name, device);
+    } catch (const Error& error) {
+      reasons += fmt::format("{}{}: {}", reasons.empty() ? "" : "; ", backend.name, error.detail());
+    }
+  }
+  throw Error(ErrorId::kNoDevice, "no backend starts: {}", reasons);
+}
+
+void applySettings(const Settings& settings, ActiveEffects& active) {
+  for (const Settings::Value& value : settings.values) {
+    try {
+      active.values(value.effect).set(value.key, value.text);
+    } catch (const Error& error) {
+      throw Error(error.id(), "{}: {}", value.place, error.detail());
+    }
+  }
+}
+
+void writeTimings(const Options& options, gpu::Device& device) {
+  device.wait();
+  const std::vector<gpu::FrameTimes> frames = device.takeTimes();
+  const std::string csv = timingsCsv(frames, device.info().clock);
+  if (options.timings == "-") {
+    std::fputs(csv.c_str(), stdout);
+  } else {
+    image::writeFileAside(options.timings, csv);
+  }
+  const std::string doubt = timingsDoubt(frames);
+  if (!doubt.empty()) fmt::print(stderr, "warning: {}\n", doubt);
+}
+
+// What the command line asks for, checked before anything slow is done.
+struct Job {
+  std::vector<Write> writes;
+  std::unique_ptr<effect::Registry> registry;
+  std::optional<ActiveEffects> active;
+  scene::Scene scene;
+  scene::Camera camera;
+  glm::uvec2 size = glm::uvec2(1280, 720);
+
+  explicit Job(const Options& options) : writes(parseWrites(options.writes)) {
+    if (writes.empty()) writes.push_back({.output = "color", .file = "grisaille.png"});
+    glm::uvec2 given(0);
+    if (!options.size.empty()) given = parseSize(options.size);
+    const Settings settings = options.config.empty() ? Settings{} : readSettings(options.config);
+    registry = loadEffects(options.pluginPaths);
+    active.emplace(*registry, options.effectsGiven || !settings.effects ? options.effects
+                                                                        : *settings.effects);
+    applySettings(settings, *active);
+    for (const std::string& assignment : options.sets) active->set(assignment);
+    for (const Write& write : writes) frame::checkOutput(write.output, active->effects());
+
+    if (!options.camera.empty()) camera = scene::loadCamera(options.camera);
+    scene = options.scene.empty() ? scene::makeAtrium() : scene::loadGltf(options.scene);
+    if (options.camera.empty()) {
+      camera = options.scene.empty() ? scene::atriumCamera() : scene::overviewCamera(scene.bounds);
+    }
+    if (camera.size.x > 0) size = camera.size;
+    if (given.x > 0) size = given;
+  }
+};
+
+void renderFrames(const Options& options, const Job& job, gpu::Device& device, std::FILE* notes) {
+  const auto instances = job.active->start(device);
+  const std::vector<frame::ActiveEffect> effects = job.active->with(instances);
+  std::vector<std::string> outputs;
+  for (const Write& write : job.writes) outputs.push_back(write.output);
+  frame::Renderer renderer(device, job.scene);
+  for (uint32_t i = 0; i < options.frames; ++i) {
+    renderer.render({.camera = job.camera,
+                     .width = job.size.x,
+                     .height = job.size.y,
+                     .surface = options.surface == "base" ? frame::Surface::kBaseColour
+                                                          : frame::Surface::kWhite,
+                     .effects = effects,
+                     .outputs = outputs});
+  }
+  for (const Write& write : job.writes) {
+    image::write(renderer.read(write.output), write.file,
+                 {.transfer = frame::transferOf(write.output)});
+    fmt::print(notes, "wrote {}\n", write.file);
+  }
+}
+
+void render(const Options& options) {
+  const Job job(options);
+  size_t messages = 0;
+  const auto count = [&](gpu::Severity severity, std::string_view text) {
+    const bool info = severity == gpu::Severity::kInfo;
+    if (!info) ++messages;
+    fmt::print(stderr, "{}: {}\n", info ? "note" : "driver", text);
+  };
+  {
+    const auto device = makeDevice(options, {.device = options.device,
+                                             .check = options.check,
+                                             .timed = !options.timings.empty(),
+                                             .message = count});
+    const gpu::DeviceInfo& info = device->info();
+    // Standard output is for the table where it was asked for there.
+    std::FILE* notes = options.timings == "-" ? stderr : stdout;
+    fmt::print(notes, "{}: {} ({}){}\n", info.backend, info.name, info.driver,
+               info.software ? ", software" : "");
+    renderFrames(options, job, *device, notes);
+    if (!options.timings.empty()) writeTimings(options, *device);
+  }
+  if (options.check && messages > 0) {
+    throw Error(ErrorId::kDriverMessages, "{} messages of the driver or its validation", messages);
+  }
+}
+
+}  // namespace
+
+void addRender(CLI::App& program) {
+  auto options = std::make_shared<Options>();
+  options->effects = {"ssao"};
+  CLI::App* command = program.add_subcommand("render", "Render a scene to files");
+  command->add_option("scene", options->scene, "A .gltf or .glb file; without one, the built-in atrium");
+  command->add_option("--camera", options->camera, "A camera file: JSON with eye, target, fovy_degrees")
+      ->type_name("FILE");
+  command->add_option("--size", options->size, "Pixels; default: the camera's size, else 1280x720")
+      ->type_name("WxH");
+  command->add_option("--backend", options->backend, "opengl or vulkan; default: the first that starts")
+      ->type_name("NAME");
+  command->add_option("--device", options->device, "Number or part of the name, see `grisaille backends`")
+      ->type_name("N|NAME");
+  CLI::Option* effects =
+      command->add_option("--effects", options->effects, "Effects in the order they run; default: ssao")
+          ->type_name("KEY,...")
+          ->delimiter(',')
+          ->expected(0, 64);
+  command->add_option("--set", options->sets, "A parameter's value, see `grisaille effects`")
+      ->type_name("EFFECT.PARAMETER=VALUE")
+      ->allow_extra_args(false);
+  command->add_option("--config", options->config, "Settings: effects and values; --set goes over it")
+      ->type_name("FILE.toml");
+  command
+      ->add_option("--write", options->writes,
+                   "color, depth (metres, 0 = sky), normal (world), base_colour or an effect's output, "
+                   "as .exr or .png; default: color=grisaille.png")
+      ->type_name("NAME=FILE")
+      ->allow_extra_args(false);
+  command->add_option("--surface", options->surface, "What the light falls on in color")
+      ->check(CLI::IsMember({"white", "base"}))
+      ->capture_default_str();
+  command->add_option("--frames", options->frames, "How often to render; the last one is written")
+      ->check(CLI::Range(1u, 1000000u))
+      ->capture_default_str();
+  command->add_option("--timings", options->timings, "CSV of every pass's time; -: to standard output")
+      ->type_name("FILE.csv|-");
+  command->add_option("--plugin-path", options->pluginPaths, "A further folder of effects")
+      ->type_name("DIR")
+      ->allow_extra_args(false);
+  command->add_flag("--check", options->check, "Validate every call, in the layer and in the driver");
+  command->callback([options, effects] {
+    options->effectsGiven = effects->count() > 0;
+    std::erase(options->effects, "");
+    render(*options);
+  });
+}
+
+}  // namespace grisaille::app

@@ -1,0 +1,55 @@
+// SPDX-License-Identifier: MIT
+// grisaille scene: what a scene holds; writes it, and a camera for it, to files.
+#include <fmt/format.h>
+
+#include <cstdio>
+#include <memory>
+
+#include "app/command.h"
+#include "core/scene/camera.h"
+#include "core/scene/scene.h"
+
+namespace grisaille::app {
+namespace {
+
+struct Options {
+  std::string scene, write, writeCamera;
+};
+
+void showScene(const Options& options) {
+  const scene::Scene scene =
+      options.scene.empty() ? scene::makeAtrium() : scene::loadGltf(options.scene);
+  const scene::Bounds& b = scene.bounds;
+  fmt::print(
+      "{}: {} triangles, {} primitives, {} instances, {} materials, {} textures\n"
+      "bounds {:.3f} {:.3f} {:.3f} to {:.3f} {:.3f} {:.3f} m\n",
+      scene.name, scene::triangleCount(scene), scene.primitives.size(), scene.instances.size(),
+      scene.materials.size(), scene.textures.size(), b.min.x, b.min.y, b.min.z, b.max.x, b.max.y,
+      b.max.z);
+  if (!options.write.empty()) {
+    scene::writeGlb(scene, options.write);
+    fmt::print("wrote {}\n", options.write);
+  }
+  if (!options.writeCamera.empty()) {
+    scene::saveCamera(
+        options.scene.empty() ? scene::atriumCamera() : scene::overviewCamera(scene.bounds),
+        options.writeCamera);
+    fmt::print("wrote {}\n", options.writeCamera);
+  }
+}
+
+}  // namespace
+
+void addScene(CLI::App& program) {
+  auto options = std::make_shared<Options>();
+  CLI::App* command =
+      program.add_subcommand("scene", "Show what a scene holds, or write it and its camera");
+  command->add_option("scene", options->scene, "A .gltf or .glb file; without one, the built-in atrium");
+  command->add_option("--write", options->write, "Write the scene, textures and all")
+      ->type_name("FILE.glb");
+  command->add_option("--write-camera", options->writeCamera, "Write the camera that render would use")
+      ->type_name("FILE.json");
+  command->callback([options] { showScene(*options); });
+}
+
+}  // namespace grisaille::app

@@ -1,0 +1,276 @@
+// SPDX-License-Identifier: MIT
+#include <epoxy/gl.h>
+
+#include <array>
+#include <cstdio>
+#include <optional>
+
+#include "backends/opengl/adapters.h"
+#include "backends/opengl/commands.h"
+#include "backends/opengl/context.h"
+#include "backends/opengl/debug_output.h"
+#include "backends/opengl/info.h"
+#include "backends/opengl/opengl.h"
+#include "backends/opengl/pipelines.h"
+#include "backends/opengl/readback.h"
+#include "core/error.h"
+
+namespace grisaille::opengl {
+namespace {
+
+// The state that no call of this backend changes.
+void setFixedState() {
+  glClipControl(GL_UPPER_LEFT, GL_ZERO_TO_ONE);  // y up, row 0 on top, depth from 0
+  glDepthFunc(GL_GREATER);
+  glEnable(GL_FRAMEBUFFER_SRGB);  // of sRGB formats alone
+  glPixelStorei(GL_PACK_ALIGNMENT, 1);
+  glPixelStorei(GL_UNPACK_ALIGNMENT, 1);
+}
+
+gpu::MessageSink orStandardError(const gpu::MessageSink& sink) {
+  if (sink) return sink;
+  return [](gpu::Severity, std::string_view line) { fmt::print(stderr, "opengl: {}\n", line); };
+}
+
+class GlDevice final : public gpu::Device {
+ public:
+  GlDevice(const Adapter& adapter, const gpu::DeviceOptions& options);
+  ~GlDevice() override;
+
+  const gpu::DeviceInfo& info() const override { return info_; }
+
+  gpu::Buffer createBuffer(const gpu::BufferDesc& desc) override;
+  gpu::Texture createTexture(const gpu::TextureDesc& desc) override;
+  gpu::Sampler createSampler(const gpu::SamplerDesc& desc) override;
+  gpu::ComputePipeline createComputePipeline(const gpu::ComputePipelineDesc& desc) override;
+  gpu::GraphicsPipeline createGraphicsPipeline(const gpu::GraphicsPipelineDesc& desc) override;
+  void destroy(gpu::Buffer buffer) override;
+  void destroy(gpu::Texture texture) override;
+  void destroy(gpu::Sampler sampler) override;
+  void destroy(gpu::ComputePipeline pipeline) override;
+  void destroy(gpu::GraphicsPipeline pipeline) override;
+
+  gpu::Commands& begin() override;
+  void submit() override;
+  void abandon() override;
+  void wait() override;
+  std::vector<std::byte> read(gpu::Texture texture, uint32_t mip, uint32_t layer) override;
+  std::vector<std::byte> read(gpu::BufferRange range) override;
+  std::vector<gpu::FrameTimes> takeTimes() override;
+
+ private:
+  // What goes with the context, in the order of making.
+  struct Contents {
+    Contents(Context& context, const gpu::DeviceInfo& info, gpu::Clock clock)
+        : timer(clock), commands(context, resources, timer, info.capabilities.uniformAlignment) {}
+    Resources resources;
+    PassTimer timer;
+    GlCommands commands;
+  };
+
+  uint32_t slot() const { return static_cast<uint32_t>(frame_ % kFramesInFlight); }
+  void endFrame();
+  void waitForFence(GLsync& fence);
+  void throwIfLost();
+  void reportErrors();
+
+  gpu::MessageSink sink_;
+  bool check_;
+  Context context_;
+  gpu::DeviceInfo info_;
+  std::optional<Contents> contents_;
+  std::array<GLsync, kFramesInFlight> fences_ = {};
+  uint64_t frame_ = 0;  // the next one to begin, or the one being recorded
+  bool recording_ = false;
+};
+
+GlDevice::GlDevice(const Adapter& adapter, const gpu::DeviceOptions& options)
+    : sink_(orStandardError(options.message)),
+      check_(options.check),
+      context_(adapter.display, options.check ? ContextKind::kDebug : ContextKind::kCore) {
+  context_.makeCurrent();
+  startDebugOutput(sink_, options.check);
+  info_ = readInfo(adapter.listed);
+  setFixedState();
+  contents_.emplace(context_, info_, options.timed ? info_.clock : gpu::Clock::kNone);
+}
+
+GlDevice::~GlDevice() {
+  try {
+    context_.makeCurrent();
+  } catch (const Error& error) {
+    // Another thread holds the context; OpenGL ignores what comes now, and the context's end frees
+    // what it owns.
+    sink_(gpu::Severity::kError, error.what());
+  }
+  glFinish();
+  for (const GLsync fence : fences_) glDeleteSync(fence);  // ignores none
+  contents_.reset();
+}
+
+gpu::Buffer GlDevice::createBuffer(const gpu::BufferDesc& desc) {
+  context_.makeCurrent();
+  return contents_->resources.createBuffer(desc);
+}
+
+gpu::Texture GlDevice::createTexture(const gpu::TextureDesc& desc) {
+  context_.makeCurrent();
+  return contents_->resources.createTexture(desc);
+}
+
+gpu::Sampler GlDevice::createSampler(const gpu::SamplerDesc& desc) {
+  context_.makeCurrent();
+  return contents_->resources.createSampler(desc);
+}
+
+gpu::ComputePipeline GlDevice::createComputePipeline(const gpu::ComputePipelineDesc& desc) {
+  context_.makeCurrent();
+  return contents_->resources.computePipelines.add(buildCompute(desc));
+}
+
+gpu::GraphicsPipeline GlDevice::createGraphicsPipeline(const gpu::GraphicsPipelineDesc& desc) {
+  context_.makeCurrent();
+  return contents_->resources.graphicsPipelines.add(buildGraphics(desc));
+}
+
+// OpenGL itself keeps what submitted work uses.
+void GlDevice::destroy(gpu::Buffer buffer) {
+  if (!buffer) return;
+  context_.makeCurrent();
+  contents_->resources.destroy(buffer);
+}
+
+void GlDevice::destroy(gpu::Texture texture) {
+  if (!texture) return;
+  context_.makeCurrent();
+  contents_->resources.destroy(texture);
+}
+
+void GlDevice::destroy(gpu::Sampler sampler) {
+  if (!sampler) return;
+  context_.makeCurrent();
+  contents_->resources.samplers.remove(sampler);
+}
+
+void GlDevice::destroy(gpu::ComputePipeline pipeline) {
+  if (!pipeline) return;
+  context_.makeCurrent();
+  contents_->resources.computePipelines.remove(pipeline);
+}
+
+void GlDevice::destroy(gpu::GraphicsPipeline pipeline) {
+  if (!pipeline) return;
+  context_.makeCurrent();
+  contents_->resources.graphicsPipelines.remove(pipeline);
+}
+
+gpu::Commands& GlDevice::begin() {
+  context_.makeCurrent();
+  waitForFence(fences_[slot()]);
+  contents_->timer.collect();
+  contents_->commands.beginFrame(slot());
+  recording_ = true;
+  return contents_->commands;
+}
+
+void GlDevice::submit() {
+  context_.makeCurrent();
+  contents_->timer.submit(frame_);
+  endFrame();
+  throwIfLost();
+  reportErrors();
+}
+
+void GlDevice::abandon() {
+  if (!recording_) return;
+  context_.makeCurrent();
+  contents_->timer.drop();
+  endFrame();
+}
+
+// What was recorded is with the driver already.
+void GlDevice::endFrame() {
+  contents_->commands.endFrame();
+  fences_[slot()] = glFenceSync(GL_SYNC_GPU_COMMANDS_COMPLETE, 0);
+  glFlush();
+  ++frame_;
+  recording_ = false;
+}
+
+void GlDevice::wait() {
+  context_.makeCurrent();
+  glFinish();
+  throwIfLost();
+  contents_->timer.collect();
+}
+
+std::vector<std::byte> GlDevice::read(gpu::Texture texture, uint32_t mip, uint32_t layer) {
+  context_.makeCurrent();
+  std::vector<std::byte> bytes = readTexture(contents_->resources, texture, mip, layer);
+  throwIfLost();
+  return bytes;
+}
+
+std::vector<std::byte> GlDevice::read(gpu::BufferRange range) {
+  context_.makeCurrent();
+  std::vector<std::byte> bytes = readBuffer(contents_->resources, range);
+  throwIfLost();
+  return bytes;
+}
+
+std::vector<gpu::FrameTimes> GlDevice::takeTimes() {
+  context_.makeCurrent();
+  return contents_->timer.take();
+}
+
+void GlDevice::waitForFence(GLsync& fence) {
+  constexpr GLuint64 kPatience = 1'000'000'000;  // nanoseconds between two looks for a reset
+  if (fence == nullptr) return;
+  GLenum status = GL_TIMEOUT_EXPIRED;
+  while (status == GL_TIMEOUT_EXPIRED) {
+    status = glClientWaitSync(fence, GL_SYNC_FLUSH_COMMANDS_BIT, kPatience);
+    throwIfLost();
+  }
+  glDeleteSync(fence);
+  fence = nullptr;
+  if (status == GL_WAIT_FAILED) {
+    throw Error(ErrorId::kDeviceLost, "OpenGL cannot wait for frame {}", frame_ - kFramesInFlight);
+  }
+}
+
+void GlDevice::throwIfLost() {
+  const GLenum status = glGetGraphicsResetStatus();
+  if (status == GL_NO_ERROR) return;
+  throw Error(ErrorId::kDeviceLost, "OpenGL reset the device {} (status {:#x})", info_.name,
+              status);
+}
+
+// Errors that no debug output told of: each is a mistake of this backend or a lack of memory.
+void GlDevice::reportErrors() {
+  const GLenum error = glGetError();
+  if (error == GL_NO_ERROR) return;
+  if (error == GL_OUT_OF_MEMORY) {
+    throw Error(ErrorId::kOutOfDeviceMemory, "no memory for what frame {} needs", frame_ - 1);
+  }
+  if (check_) return;
+  sink_(gpu::Severity::kError, fmt::format("OpenGL error {:#x} in frame {}", error, frame_ - 1));
+}
+
+}  // namespace
+
+std::vector<gpu::ListedDevice> listDevices() {
+  std::vector<gpu::ListedDevice> listed;
+  for (const Adapter& adapter : adapters()) listed.push_back(adapter.listed);
+  return listed;
+}
+
+std::unique_ptr<gpu::Device> createDevice(const gpu::DeviceOptions& options) {
+  const Adapter& adapter = chooseAdapter(options.device);
+  if (adapter.version < 45) {
+    throw Error(ErrorId::kDeviceTooOld, "{} has OpenGL {}.{}, and 4.5 is needed",
+                adapter.listed.name, adapter.version / 10, adapter.version % 10);
+  }
+  return std::make_unique<GlDevice>(adapter, options);
+}
+
+}  // namespace grisaille::opengl

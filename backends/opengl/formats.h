@@ -1,0 +1,19 @@
+// SPDX-License-Identifier: MIT
+// The layer's formats in OpenGL's words.
+#pragma once
+
+#include <cstdint>
+
+#include "core/gpu/types.h"
+
+namespace grisaille::opengl {
+
+struct GlFormat {
+  uint32_t internalFormat;
+  uint32_t transferFormat;  // of uploads and readbacks
+  uint32_t transferType;
+};
+
+const GlFormat& glFormat(gpu::Format format);
+
+}  // namespace grisaille::opengl

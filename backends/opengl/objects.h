@@ -1,0 +1,52 @@
+// SPDX-License-Identifier: MIT
+// Owners of OpenGL's object names.
+#pragma once
+
+#include <cstdint>
+#include <string_view>
+#include <utility>
+
+namespace grisaille::opengl {
+
+enum class ObjectKind : uint8_t {
+  kNone,
+  kBuffer,
+  kTexture,
+  kSampler,
+  kProgram,
+  kVertexArray,
+  kFramebuffer,
+  kTimestamp,
+};
+
+// Deletes its object; the context must be current then.
+class Object {
+ public:
+  Object() = default;
+  explicit Object(ObjectKind kind);  // any kind but kTexture
+  static Object texture(uint32_t target);
+  static Object textureView();  // a name alone, for glTextureView
+  ~Object() { reset(); }
+  Object(Object&& other) noexcept
+      : kind_(std::exchange(other.kind_, ObjectKind::kNone)),
+        name_(std::exchange(other.name_, 0)) {}
+  Object& operator=(Object&& other) noexcept {
+    reset();
+    kind_ = std::exchange(other.kind_, ObjectKind::kNone);
+    name_ = std::exchange(other.name_, 0);
+    return *this;
+  }
+
+  uint32_t name() const { return name_; }
+
+  // What debuggers call it; "" leaves it unnamed.
+  void label(std::string_view text) const;
+
+ private:
+  void reset();
+
+  ObjectKind kind_ = ObjectKind::kNone;
+  uint32_t name_ = 0;
+};
+
+}  // namespace grisaille::opengl

@@ -1,0 +1,105 @@
+// SPDX-License-Identifier: MIT
+// The OpenGL objects behind the handles, with what is derived from them: texture views and
+// framebuffers.
+#pragma once
+
+#include <compare>
+#include <functional>
+#include <map>
+#include <vector>
+
+#include "backends/opengl/objects.h"
+#include "core/gpu/handle_pool.h"
+#include "core/gpu/state_tracker.h"
+#include "core/gpu/types.h"
+
+namespace grisaille::opengl {
+
+struct BufferResource {
+  Object object;
+  uint64_t size = 0;
+  gpu::BufferUsage usage = gpu::BufferUsage::kNone;
+};
+
+struct CachedView {
+  gpu::TextureView range;  // its texture is not set
+  bool arrayed = false;
+  Object object;
+};
+
+struct TextureResource {
+  Object object;
+  gpu::TextureDesc desc;          // its label is not kept
+  std::vector<CachedView> views;  // made when first bound
+};
+
+struct SamplerResource {
+  Object object;
+};
+
+struct ComputePipelineResource {
+  Object program;
+  const gpu::Shader* shader = nullptr;
+};
+
+struct GraphicsPipelineResource {
+  Object program;
+  Object vertexArray;
+  const gpu::Shader* vertex = nullptr;
+  const gpu::Shader* fragment = nullptr;
+  std::vector<uint32_t> strides;
+};
+
+// One attachment, or none: texture name 0.
+struct Attachment {
+  uint32_t texture = 0;
+  uint32_t mip = 0;
+  uint32_t layer = 0;
+  auto operator<=>(const Attachment&) const = default;
+};
+
+// The colour targets, then the depth target.
+using FramebufferKey = std::array<Attachment, gpu::kMaxColorTargets + 1>;
+
+// Runs `allocate`, which gives storage to an object; throws kOutOfDeviceMemory when OpenGL refuses.
+void allocateStorage(const char* kind, std::string_view label, uint64_t bytes,
+                     const std::function<void()>& allocate);
+
+class Resources {
+ public:
+  // All throw kOutOfDeviceMemory, kTooManyResources.
+  gpu::Buffer createBuffer(const gpu::BufferDesc& desc);
+  gpu::Texture createTexture(const gpu::TextureDesc& desc);
+  gpu::Sampler createSampler(const gpu::SamplerDesc& desc);
+
+  void destroy(gpu::Buffer buffer);
+  void destroy(gpu::Texture texture);
+
+  // A buffer that stays mapped for writing and that barriers need not know.
+  gpu::Buffer createMapped(uint64_t size, std::byte*& memory);
+
+  // The name to bind for a shader's texture slot: the texture itself where that will do. `arrayed`
+  // as the slot says, so that an array of one layer can stand in an array's slot.
+  uint32_t viewName(const gpu::TextureView& view, bool arrayed);
+
+  uint32_t framebuffer(const FramebufferKey& key);
+
+  // The tracker's transitions as memory barriers.
+  void barriers();
+
+  gpu::HandlePool<gpu::Buffer, BufferResource> buffers{"buffer"};
+  gpu::HandlePool<gpu::Texture, TextureResource> textures{"texture"};
+  gpu::HandlePool<gpu::Sampler, SamplerResource> samplers{"sampler"};
+  gpu::HandlePool<gpu::ComputePipeline, ComputePipelineResource> computePipelines{
+      "compute pipeline"};
+  gpu::HandlePool<gpu::GraphicsPipeline, GraphicsPipelineResource> graphicsPipelines{
+      "graphics pipeline"};
+  gpu::StateTracker tracker;
+
+ private:
+  uint32_t barrierBits(const gpu::Transition& transition) const;
+
+  std::map<FramebufferKey, Object> framebuffers_;
+};
+
+}  // namespace grisaille::opengl

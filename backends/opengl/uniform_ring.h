@@ -1,0 +1,42 @@
+// SPDX-License-Identifier: MIT
+// Memory for the uniforms of the frames in flight: written by the CPU through a lasting mapping,
+// and written again once the frame's fence has passed.
+#pragma once
+
+#include <span>
+#include <vector>
+
+#include "backends/opengl/resources.h"
+
+namespace grisaille::opengl {
+
+constexpr uint32_t kFramesInFlight = 2;
+
+class UniformRing {
+ public:
+  // `alignment` in bytes, of a uniform binding's offset.
+  UniformRing(Resources& resources, uint32_t alignment)
+      : resources_(resources), alignment_(alignment) {}
+
+  // Begins with the memory of slot 0 ... kFramesInFlight - 1, which no frame reads any more.
+  void beginFrame(uint32_t slot);
+
+  gpu::BufferRange push(std::span<const std::byte> bytes);
+
+ private:
+  struct Chunk {
+    gpu::Buffer buffer;
+    std::byte* memory = nullptr;
+    uint64_t size = 0;
+  };
+
+  Chunk makeChunk(uint64_t size);
+
+  Resources& resources_;
+  uint64_t alignment_;
+  std::array<std::vector<Chunk>, kFramesInFlight> chunks_;
+  uint32_t slot_ = 0;
+  uint64_t used_ = 0;  // bytes of the slot's last chunk
+};
+
+}  // namespace grisaille::opengl

@@ -1,0 +1,17 @@
+// SPDX-License-Identifier: MIT
+// The Vulkan API, and its results as errors.
+#pragma once
+
+#include <volk.h>
+
+#include <string_view>
+
+#include "core/error.h"
+
+namespace grisaille::vulkan {
+
+// Throws kOutOfDeviceMemory, kDeviceLost or, for other failures, `otherwise`. `what` names the
+// call.
+void check(VkResult result, std::string_view what, ErrorId otherwise = ErrorId::kDeviceFailed);
+
+}  // namespace grisaille::vulkan

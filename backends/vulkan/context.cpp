@@ -1,0 +1,135 @@
+// SPDX-License-Identifier: MIT
+#include "backends/vulkan/context.h"
+
+#include <algorithm>
+
+#include "backends/vulkan/features.h"
+
+namespace grisaille::vulkan {
+
+Context::Context(bool check, const gpu::MessageSink& message) : instance_(check, message) {}
+
+Context::Context(const gpu::DeviceOptions& options) : Context(options.check, options.message) {
+  const std::vector<Candidate> list = candidates(instance_);
+  const Candidate& chosen = choose(list, options.device);
+  open(chosen);
+  describe(chosen);
+}
+
+Context::~Context() {
+  if (device != VK_NULL_HANDLE) vk.vkDestroyDevice(device, nullptr);
+}
+
+void Context::open(const Candidate& chosen) {
+  physical = chosen.device;
+  queueFamily = chosen.queueFamily;
+  timestampBits = chosen.timestampBits;
+  const float priority = 1;
+  VkDeviceQueueCreateInfo queues{VK_STRUCTURE_TYPE_DEVICE_QUEUE_CREATE_INFO};
+  queues.queueFamilyIndex = queueFamily;
+  queues.queueCount = 1;
+  queues.pQueuePriorities = &priority;
+  FeatureChain features;
+  enableFeatures(physical, features);
+  VkDeviceCreateInfo create{VK_STRUCTURE_TYPE_DEVICE_CREATE_INFO, &features.v10};
+  create.queueCreateInfoCount = 1;
+  create.pQueueCreateInfos = &queues;
+  check(vkCreateDevice(physical, &create, nullptr, &device), "vkCreateDevice");
+  volkLoadDeviceTable(&vk, device);
+  vk.vkGetDeviceQueue(device, queueFamily, 0, &queue);
+}
+
+void Context::describe(const Candidate& chosen) {
+  VkPhysicalDeviceMaintenance4Properties maintenance4{
+      VK_STRUCTURE_TYPE_PHYSICAL_DEVICE_MAINTENANCE_4_PROPERTIES};
+  VkPhysicalDeviceMaintenance3Properties maintenance3{
+      VK_STRUCTURE_TYPE_PHYSICAL_DEVICE_MAINTENANCE_3_PROPERTIES, &maintenance4};
+  VkPhysicalDeviceProperties2 all{
+      VK_STRUCTURE_TYPE_PHYSICAL_DEVICE_PROPERTIES_2, &maintenance3, {}};
+  vkGetPhysicalDeviceProperties2(physical, &all);
+  vkGetPhysicalDeviceMemoryProperties(physical, &memory_);
+  properties = all.properties;
+  maxAllocationBytes_ = maintenance3.maxMemoryAllocationSize;
+
+  info.backend = "vulkan";
+  info.name = chosen.listed.name;
+  info.driver = chosen.listed.driver;
+  info.software = chosen.listed.software;
+  const gpu::Clock stamps = timestampBits == 0 ? gpu::Clock::kNone : gpu::Clock::kGpu;
+  info.clock = info.software ? gpu::Clock::kWall : stamps;
+
+  const VkPhysicalDeviceLimits& limits = properties.limits;
+  gpu::Capabilities& able = info.capabilities;
+  able.maxTextureSize =
+      std::min({limits.maxImageDimension2D, limits.maxFramebufferWidth, limits.maxFramebufferHeight,
+                limits.maxViewportDimensions[0], limits.maxViewportDimensions[1]});
+  able.maxTextureLayers = limits.maxImageArrayLayers;
+  able.maxBufferBytes = std::min(maintenance4.maxBufferSize, maxAllocationBytes_);
+  able.maxStorageRange = limits.maxStorageBufferRange;
+  able.maxUniformRange = limits.maxUniformBufferRange;
+  able.uniformAlignment = static_cast<uint32_t>(limits.minUniformBufferOffsetAlignment);
+  able.storageAlignment = static_cast<uint32_t>(limits.minStorageBufferOffsetAlignment);
+  std::copy_n(limits.maxComputeWorkGroupCount, 3, able.maxGroups.begin());
+  FeatureChain enabled;
+  enableFeatures(physical, enabled);
+  able.maxAnisotropy =
+      enabled.v10.features.samplerAnisotropy != 0 ? limits.maxSamplerAnisotropy : 1;
+}
+
+VkDeviceMemory Context::allocate(const VkMemoryRequirements& requirements, MemoryKind kind) {
+  const VkMemoryPropertyFlags required =
+      kind == MemoryKind::kDevice
+          ? 0
+          : VK_MEMORY_PROPERTY_HOST_VISIBLE_BIT | VK_MEMORY_PROPERTY_HOST_COHERENT_BIT;
+  const VkMemoryPropertyFlags preferred =
+      kind == MemoryKind::kDevice     ? VK_MEMORY_PROPERTY_DEVICE_LOCAL_BIT
+      : kind == MemoryKind::kReadback ? VK_MEMORY_PROPERTY_HOST_CACHED_BIT
+                                      : 0;
+  const auto find = [&](VkMemoryPropertyFlags flags) {
+    uint32_t type = 0;
+    while (type < memory_.memoryTypeCount &&
+           ((requirements.memoryTypeBits >> type & 1u) == 0 ||
+            (memory_.memoryTypes[type].propertyFlags & flags) != flags)) {
+      ++type;
+    }
+    return type;
+  };
+  uint32_t type = find(required | preferred);
+  if (type == memory_.memoryTypeCount) type = find(required);
+  if (type == memory_.memoryTypeCount) {
+    throw Error(ErrorId::kDeviceFailed, "{} has no memory of a type that is needed", info.name);
+  }
+  const uint64_t heap = memory_.memoryHeaps[memory_.memoryTypes[type].heapIndex].size;
+  if (requirements.size > std::min(heap, maxAllocationBytes_)) {
+    throw Error(ErrorId::kOutOfDeviceMemory, "{} bytes are more than {} gives at once",
+                requirements.size, info.name);
+  }
+  if (allocations_ >= properties.limits.maxMemoryAllocationCount) {
+    throw Error(ErrorId::kTooManyResources, "{} allows {} pieces of memory", info.name,
+                properties.limits.maxMemoryAllocationCount);
+  }
+  VkMemoryAllocateInfo allocation{VK_STRUCTURE_TYPE_MEMORY_ALLOCATE_INFO};
+  allocation.allocationSize = requirements.size;
+  allocation.memoryTypeIndex = type;
+  VkDeviceMemory memory = VK_NULL_HANDLE;
+  check(vk.vkAllocateMemory(device, &allocation, nullptr, &memory), "vkAllocateMemory");
+  ++allocations_;
+  return memory;
+}
+
+void Context::free(VkDeviceMemory memory) {
+  if (memory == VK_NULL_HANDLE) return;
+  vk.vkFreeMemory(device, memory, nullptr);
+  --allocations_;
+}
+
+void Context::setName(VkObjectType type, uint64_t object, std::string_view label) const {
+  const std::string text(label);
+  VkDebugUtilsObjectNameInfoEXT named{VK_STRUCTURE_TYPE_DEBUG_UTILS_OBJECT_NAME_INFO_EXT};
+  named.objectType = type;
+  named.objectHandle = object;
+  named.pObjectName = text.c_str();
+  debug().setName(device, &named);
+}
+
+}  // namespace grisaille::vulkan

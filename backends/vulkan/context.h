@@ -1,0 +1,61 @@
+// SPDX-License-Identifier: MIT
+// An open device: its function table, queue, limits and memory. Every part of the backend holds a
+// reference to the one Context.
+#pragma once
+
+#include <string>
+#include <string_view>
+
+#include "backends/vulkan/instance.h"
+
+namespace grisaille::vulkan {
+
+// Where memory lies.
+enum class MemoryKind {
+  kDevice,    // the device's own
+  kUpload,    // written by the host, mapped
+  kReadback,  // read by the host, mapped, cached where there is such a type
+};
+
+class Context {
+ public:
+  explicit Context(const gpu::DeviceOptions& options);
+  ~Context();
+  Context(const Context&) = delete;
+  Context& operator=(const Context&) = delete;
+
+  // Throws kOutOfDeviceMemory, kTooManyResources.
+  VkDeviceMemory allocate(const VkMemoryRequirements& requirements, MemoryKind kind);
+  void free(VkDeviceMemory memory);
+
+  // For debuggers and messages.
+  template <typename Object>
+  void name(VkObjectType type, Object object, std::string_view label) const {
+    if (debug().setName != nullptr && !label.empty()) {
+      setName(type, reinterpret_cast<uint64_t>(object), label);
+    }
+  }
+  const DebugFunctions& debug() const { return instance_.debug(); }
+
+  VolkDeviceTable vk{};
+  VkDevice device = VK_NULL_HANDLE;
+  VkPhysicalDevice physical = VK_NULL_HANDLE;
+  VkQueue queue = VK_NULL_HANDLE;
+  uint32_t queueFamily = 0;
+  uint32_t timestampBits = 0;  // valid bits of the queue's timestamps; 0: it has none
+  VkPhysicalDeviceProperties properties{};
+  gpu::DeviceInfo info;
+
+ private:
+  Context(bool check, const gpu::MessageSink& message);
+  void open(const Candidate& chosen);
+  void describe(const Candidate& chosen);
+  void setName(VkObjectType type, uint64_t object, std::string_view label) const;
+
+  Instance instance_;
+  VkPhysicalDeviceMemoryProperties memory_{};
+  uint64_t maxAllocationBytes_ = 0;
+  uint32_t allocations_ = 0;
+};
+
+}  // namespace grisaille::vulkan

@@ -1,0 +1,64 @@
+// SPDX-License-Identifier: MIT
+// The Vulkan loader, an instance, its messages, and the choice of a physical device.
+#pragma once
+
+#include <string>
+#include <vector>
+
+#include "backends/vulkan/api.h"
+#include "core/gpu/device.h"
+
+namespace grisaille::vulkan {
+
+// VK_EXT_debug_utils; null where the extension is not there.
+struct DebugFunctions {
+  PFN_vkSetDebugUtilsObjectNameEXT setName = nullptr;
+  PFN_vkCmdBeginDebugUtilsLabelEXT beginLabel = nullptr;
+  PFN_vkCmdEndDebugUtilsLabelEXT endLabel = nullptr;
+};
+
+class Instance {
+ public:
+  // With `check`, the validation layer's messages go to `message`. Throws kBackendMissing,
+  // kDeviceTooOld.
+  Instance(bool check, gpu::MessageSink message);
+  ~Instance();
+  Instance(const Instance&) = delete;
+  Instance& operator=(const Instance&) = delete;
+
+  const DebugFunctions& debug() const { return debug_; }
+
+  // In the loader's order.
+  std::vector<VkPhysicalDevice> devices() const;
+
+ private:
+  // Delegated to, so that the destructor runs when the public constructor throws.
+  explicit Instance(gpu::MessageSink message);
+  void create(bool debugUtils, bool validate);
+  void createMessenger();
+
+  gpu::MessageSink message_;
+  VkInstance instance_ = VK_NULL_HANDLE;
+  DebugFunctions debug_;
+  PFN_vkDestroyDebugUtilsMessengerEXT destroyMessenger_ = nullptr;
+  VkDebugUtilsMessengerEXT messenger_ = VK_NULL_HANDLE;
+};
+
+// A physical device and what the backend needs to know to open it.
+struct Candidate {
+  VkPhysicalDevice device = VK_NULL_HANDLE;
+  VkPhysicalDeviceType type = VK_PHYSICAL_DEVICE_TYPE_OTHER;
+  gpu::ListedDevice listed;
+  std::string lacks;         // what the backend requires and this device has not; "" when it fits
+  uint32_t queueFamily = 0;  // draws and computes
+  uint32_t timestampBits = 0;
+};
+
+std::vector<Candidate> candidates(const Instance& instance);
+
+// `wanted` as DeviceOptions::device. Throws kNoDevice, kDeviceTooOld.
+const Candidate& choose(const std::vector<Candidate>& candidates, const std::string& wanted);
+
+VkFormat vulkanFormat(gpu::Format format);
+
+}  // namespace grisaille::vulkan

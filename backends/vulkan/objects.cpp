@@ -1,0 +1,192 @@
+// SPDX-License-Identifier: MIT
+#include "backends/vulkan/objects.h"
+
+#include <algorithm>
+
+#include "backends/vulkan/barriers.h"
+
+namespace grisaille::vulkan {
+namespace {
+
+VkImageCreateInfo imageInfo(const gpu::TextureDesc& desc) {
+  VkImageCreateInfo info{VK_STRUCTURE_TYPE_IMAGE_CREATE_INFO};
+  info.imageType = VK_IMAGE_TYPE_2D;
+  info.format = vulkanFormat(desc.format);
+  info.extent = {desc.width, desc.height, 1};
+  info.mipLevels = desc.mips;
+  info.arrayLayers = desc.layers;
+  info.samples = VK_SAMPLE_COUNT_1_BIT;
+  info.tiling = VK_IMAGE_TILING_OPTIMAL;
+  info.usage = VK_IMAGE_USAGE_TRANSFER_SRC_BIT | VK_IMAGE_USAGE_TRANSFER_DST_BIT;
+  if (has(desc.usage, gpu::TextureUsage::kSampled)) info.usage |= VK_IMAGE_USAGE_SAMPLED_BIT;
+  if (has(desc.usage, gpu::TextureUsage::kStorage)) info.usage |= VK_IMAGE_USAGE_STORAGE_BIT;
+  if (has(desc.usage, gpu::TextureUsage::kTarget)) {
+    info.usage |= gpu::formatInfo(desc.format).depth ? VK_IMAGE_USAGE_DEPTH_STENCIL_ATTACHMENT_BIT
+                                                     : VK_IMAGE_USAGE_COLOR_ATTACHMENT_BIT;
+  }
+  return info;
+}
+
+// Drivers bound one image's bytes besides its sides.
+void checkImageFits(const Context& context, const VkImageCreateInfo& info,
+                    const gpu::TextureDesc& desc) {
+  VkImageFormatProperties limits{};
+  const VkResult result = vkGetPhysicalDeviceImageFormatProperties(
+      context.physical, info.format, info.imageType, info.tiling, info.usage, info.flags, &limits);
+  check(result, fmt::format("a texture of format {}", gpu::formatInfo(desc.format).name),
+        ErrorId::kTextureFormat);
+  uint64_t bytes = 0;
+  for (uint32_t mip = 0; mip < desc.mips; ++mip) {
+    bytes += uint64_t{std::max(1u, desc.width >> mip)} * std::max(1u, desc.height >> mip) *
+             gpu::formatInfo(desc.format).texelBytes;
+  }
+  bytes *= desc.layers;
+  if (bytes > limits.maxResourceSize) {
+    throw Error(ErrorId::kOutOfDeviceMemory, "a texture of {} bytes is more than {} holds", bytes,
+                context.info.name);
+  }
+}
+
+VkSamplerAddressMode addressMode(gpu::Address address) {
+  switch (address) {
+    case gpu::Address::kRepeat:
+      return VK_SAMPLER_ADDRESS_MODE_REPEAT;
+    case gpu::Address::kMirror:
+      return VK_SAMPLER_ADDRESS_MODE_MIRRORED_REPEAT;
+    default:
+      return VK_SAMPLER_ADDRESS_MODE_CLAMP_TO_EDGE;
+  }
+}
+
+}  // namespace
+
+BufferObject makeBuffer(Context& context, std::string_view label, uint64_t size,
+                        VkBufferUsageFlags usage, MemoryKind kind) {
+  const VolkDeviceTable& vk = context.vk;
+  if (size > context.info.capabilities.maxBufferBytes) {
+    throw Error(ErrorId::kOutOfDeviceMemory, "a buffer of {} bytes is more than {} holds", size,
+                context.info.name);
+  }
+  BufferObject object;
+  object.size = size;
+  VkBufferCreateInfo info{VK_STRUCTURE_TYPE_BUFFER_CREATE_INFO};
+  info.size = size;
+  info.usage = usage;
+  check(vk.vkCreateBuffer(context.device, &info, nullptr, &object.buffer), "vkCreateBuffer");
+  try {
+    VkMemoryRequirements requirements{};
+    vk.vkGetBufferMemoryRequirements(context.device, object.buffer, &requirements);
+    object.memory = context.allocate(requirements, kind);
+    check(vk.vkBindBufferMemory(context.device, object.buffer, object.memory, 0),
+          "vkBindBufferMemory");
+    if (kind != MemoryKind::kDevice) {
+      void* mapped = nullptr;
+      check(vk.vkMapMemory(context.device, object.memory, 0, VK_WHOLE_SIZE, 0, &mapped),
+            "vkMapMemory");
+      object.mapped = static_cast<std::byte*>(mapped);
+    }
+  } catch (...) {
+    release(context, object);
+    throw;
+  }
+  context.name(VK_OBJECT_TYPE_BUFFER, object.buffer, label);
+  return object;
+}
+
+TextureObject makeTexture(Context& context, const gpu::TextureDesc& desc) {
+  const VolkDeviceTable& vk = context.vk;
+  const VkImageCreateInfo info = imageInfo(desc);
+  checkImageFits(context, info, desc);
+  TextureObject object;
+  object.desc = desc;
+  object.desc.label = {};
+  check(vk.vkCreateImage(context.device, &info, nullptr, &object.image), "vkCreateImage");
+  try {
+    VkMemoryRequirements requirements{};
+    vk.vkGetImageMemoryRequirements(context.device, object.image, &requirements);
+    object.memory = context.allocate(requirements, MemoryKind::kDevice);
+    check(vk.vkBindImageMemory(context.device, object.image, object.memory, 0),
+          "vkBindImageMemory");
+  } catch (...) {
+    release(context, object);
+    throw;
+  }
+  context.name(VK_OBJECT_TYPE_IMAGE, object.image, desc.label);
+  return object;
+}
+
+SamplerObject makeSampler(Context& context, const gpu::SamplerDesc& desc) {
+  const auto filter = [](gpu::Filter f) {
+    return f == gpu::Filter::kLinear ? VK_FILTER_LINEAR : VK_FILTER_NEAREST;
+  };
+  const float anisotropy = std::min(desc.maxAnisotropy, context.info.capabilities.maxAnisotropy);
+  VkSamplerCreateInfo info{VK_STRUCTURE_TYPE_SAMPLER_CREATE_INFO};
+  info.magFilter = info.minFilter = filter(desc.filter);
+  info.mipmapMode = desc.mipFilter == gpu::Filter::kLinear ? VK_SAMPLER_MIPMAP_MODE_LINEAR
+                                                           : VK_SAMPLER_MIPMAP_MODE_NEAREST;
+  info.addressModeU = addressMode(desc.addressU);
+  info.addressModeV = addressMode(desc.addressV);
+  info.addressModeW = VK_SAMPLER_ADDRESS_MODE_CLAMP_TO_EDGE;
+  info.anisotropyEnable = anisotropy > 1 ? VK_TRUE : VK_FALSE;
+  info.maxAnisotropy = std::max(1.0f, anisotropy);
+  info.maxLod = VK_LOD_CLAMP_NONE;
+  SamplerObject object;
+  check(context.vk.vkCreateSampler(context.device, &info, nullptr, &object.sampler),
+        "vkCreateSampler");
+  context.name(VK_OBJECT_TYPE_SAMPLER, object.sampler, desc.label);
+  return object;
+}
+
+VkImageView viewOf(Context& context, TextureObject& texture, const gpu::TextureView& range,
+                   VkImageViewType type) {
+  for (const TextureObject::View& made : texture.views) {
+    const gpu::TextureView& r = made.range;
+    if (made.type == type && r.mip == range.mip && r.mipCount == range.mipCount &&
+        r.layer == range.layer && r.layerCount == range.layerCount) {
+      return made.view;
+    }
+  }
+  VkImageViewCreateInfo info{VK_STRUCTURE_TYPE_IMAGE_VIEW_CREATE_INFO};
+  info.image = texture.image;
+  info.viewType = type;
+  info.format = vulkanFormat(texture.desc.format);
+  info.subresourceRange = {aspectOf(texture.desc.format), range.mip, range.mipCount, range.layer,
+                           range.layerCount};
+  TextureObject::View made{.range = range, .type = type, .view = VK_NULL_HANDLE};
+  texture.views.reserve(texture.views.size() + 1);
+  check(context.vk.vkCreateImageView(context.device, &info, nullptr, &made.view),
+        "vkCreateImageView");
+  texture.views.push_back(made);
+  return made.view;
+}
+
+VkBufferImageCopy copyRegion(const gpu::TextureDesc& desc, uint32_t mip, uint32_t layer,
+                             uint64_t bufferOffset) {
+  VkBufferImageCopy region{};
+  region.bufferOffset = bufferOffset;
+  region.imageSubresource = {aspectOf(desc.format), mip, layer, 1};
+  region.imageExtent = {std::max(1u, desc.width >> mip), std::max(1u, desc.height >> mip), 1};
+  return region;
+}
+
+void release(Context& context, BufferObject& object) {
+  context.vk.vkDestroyBuffer(context.device, object.buffer, nullptr);
+  context.free(object.memory);
+  object = {};
+}
+
+void release(Context& context, TextureObject& object) {
+  for (const TextureObject::View& made : object.views) {
+    context.vk.vkDestroyImageView(context.device, made.view, nullptr);
+  }
+  context.vk.vkDestroyImage(context.device, object.image, nullptr);
+  context.free(object.memory);
+  object = {};
+}
+
+void release(Context& context, SamplerObject& object) {
+  context.vk.vkDestroySampler(context.device, object.sampler, nullptr);
+  object = {};
+}
+
+}  // namespace grisaille::vulkan

@@ -1,0 +1,31 @@
+// SPDX-License-Identifier: MIT
+// The queue and a counter that every submission raises by one when it has finished.
+#pragma once
+
+#include "backends/vulkan/context.h"
+
+namespace grisaille::vulkan {
+
+class Timeline {
+ public:
+  explicit Timeline(Context& context);
+  ~Timeline();
+  Timeline(const Timeline&) = delete;
+  Timeline& operator=(const Timeline&) = delete;
+
+  // Returns the count that stands for this submission.
+  uint64_t submit(VkCommandBuffer commands);
+
+  uint64_t submitted() const { return submitted_; }
+  uint64_t completed() const;
+
+  // Throws kDeviceLost.
+  void wait(uint64_t count) const;
+
+ private:
+  Context& context_;
+  VkSemaphore semaphore_ = VK_NULL_HANDLE;
+  uint64_t submitted_ = 0;
+};
+
+}  // namespace grisaille::vulkan

@@ -1,0 +1,40 @@
+# SPDX-License-Identifier: MIT
+# grisaille_add_effect(<name> SOURCES <file>... [SHADERS <shader>=<file>...] [DEFINES <NAME[=VALUE]>...]
+#                      [OUTPUT_DIR <folder>])
+#
+# Builds the plugin <name>.so as the target effect_<name>. It sees the installed effect headers and
+# its own shaders (`#include "shaders/<shader>.h"`), nothing else of the project; what more it needs
+# is linked with target_link_libraries(effect_<name> PRIVATE ...). Nothing but the symbol
+# `grisaille_plugin` leaves it, and all that it calls must be linked, so that it loads and unloads
+# anywhere. OUTPUT_DIR is lib/grisaille/effects of the build folder, where the program looks.
+
+function(grisaille_add_effect name)
+  cmake_parse_arguments(ARG "" "OUTPUT_DIR" "SOURCES;SHADERS;DEFINES" ${ARGN})
+  if(ARG_UNPARSED_ARGUMENTS OR NOT ARG_SOURCES)
+    message(FATAL_ERROR "grisaille_add_effect(${name}): give SOURCES; unknown: ${ARG_UNPARSED_ARGUMENTS}")
+  endif()
+  if(NOT ARG_OUTPUT_DIR)
+    set(ARG_OUTPUT_DIR ${CMAKE_BINARY_DIR}/lib/grisaille/effects)
+  endif()
+  set(target effect_${name})
+  add_library(${target} MODULE ${ARG_SOURCES})
+  # Folders included by the directory above would let the project's own headers in.
+  set_target_properties(${target} PROPERTIES
+    PREFIX "" OUTPUT_NAME ${name} LIBRARY_OUTPUT_DIRECTORY ${ARG_OUTPUT_DIR}
+    INCLUDE_DIRECTORIES "" C_VISIBILITY_PRESET hidden CXX_VISIBILITY_PRESET hidden
+    VISIBILITY_INLINES_HIDDEN ON)
+  target_link_libraries(${target} PRIVATE grisaille_abi)
+  target_compile_definitions(${target} PRIVATE ${ARG_DEFINES})
+  # A unique symbol of the standard library's templates would keep the plugin from unloading.
+  target_compile_options(${target} PRIVATE $<$<CXX_COMPILER_ID:GNU>:-fno-gnu-unique>)
+  if(NOT GRISAILLE_SANITIZE)
+    # The sanitizers' functions are the program's, found when the plugin is loaded.
+    target_link_options(${target} PRIVATE LINKER:-z,defs)
+  endif()
+  foreach(shader ${ARG_SHADERS})
+    if(NOT shader MATCHES "^([A-Za-z0-9_]+)=(.+)$")
+      message(FATAL_ERROR "grisaille_add_effect(${name}): a shader is <name>=<file>, not ${shader}")
+    endif()
+    grisaille_add_shader(${target} ${CMAKE_MATCH_1} ${CMAKE_MATCH_2})
+  endforeach()
+endfunction()

@@ -1,0 +1,105 @@
+// SPDX-License-Identifier: MIT
+#include "core/effect/host_services.h"
+
+#include <utility>
+
+namespace grisaille::effect {
+
+HostServices::HostServices(gpu::Device& device, std::string_view key)
+    : device_(device), key_(key), host_(hostTable(this)), frame_(frameTable(this)) {}
+
+std::string HostServices::labelled(const char* label) const {
+  return label != nullptr && *label != '\0' ? key_ + '/' + oneLine(label) : key_;
+}
+
+// --- Calls ---------------------------------------------------------------------------------------
+
+void HostServices::open() {
+  ownWords_.clear();
+  refused_.clear();
+  misuse_.clear();
+  inside_ = true;
+}
+
+const grisaille_frame* HostServices::openFrame(const FrameInputs& inputs) {
+  destroyBuried(buffers_);
+  destroyBuried(textures_);
+  destroyBuried(samplers_);
+  destroyBuried(pipelines_);
+  attachments_.clear();
+  outputs_.clear();
+  writable_.clear();
+  uniforms_ = {inputs.viewBlock.buffer.value};
+  for (const gpu::Texture texture : inputs.attachments) attachments_.push_back({texture.value});
+  frame_.wanted = 0;
+  for (const gpu::Texture texture : inputs.outputs) {
+    if (texture) {
+      frame_.wanted |= 1u << outputs_.size();
+      writable_.insert(texture.value);
+    }
+    outputs_.push_back({texture.value});
+  }
+  frame_.width = inputs.width;
+  frame_.height = inputs.height;
+  frame_.index = frames_++;
+  frame_.values = inputs.values.data();
+  frame_.view = inputs.view;
+  const gpu::BufferRange& block = inputs.viewBlock;
+  frame_.view_block = {{block.buffer.value}, 0, block.offset, block.size};
+  frame_.attachments = attachments_.data();
+  frame_.outputs = outputs_.data();
+  commands_ = inputs.commands;
+  open();
+  return &frame_;
+}
+
+void HostServices::close() {
+  inside_ = false;
+  gpu::Commands* commands = std::exchange(commands_, nullptr);
+  if (!std::exchange(passOpen_, false)) return;
+  if (misuse_.empty()) misuse_ = "it left a pass open";
+  try {
+    commands->endPass();
+  } catch (const Error&) {
+    // The call has failed anyhow, and the frame will be abandoned.
+  }
+}
+
+std::string HostServices::failure(grisaille_result result) const {
+  if (result == GRISAILLE_OK) return misuse_;
+  std::string words = ownWords_;
+  for (const std::string& more : {refused_, misuse_}) {
+    if (!more.empty()) words += words.empty() ? more : " (" + more + ")";
+  }
+  return words.empty() ? "it gave no reason" : words;
+}
+
+// --- Destroying ----------------------------------------------------------------------------------
+
+template <typename Handle>
+void HostServices::destroyBuried(Kind<Handle>& kind) {
+  for (const Handle handle : std::exchange(kind.buried, {})) device_.destroy(handle);
+}
+
+template <typename Handle>
+void HostServices::destroyOwn(Kind<Handle>& kind) noexcept {
+  for (const uint32_t id : kind.own) kind.buried.push_back({id});
+  kind.own.clear();
+  for (const Handle handle : kind.buried) {
+    try {
+      device_.destroy(handle);
+    } catch (const Error&) {
+      // The device is lost, or its own destruction will report what is left.
+    }
+  }
+  kind.buried.clear();
+}
+
+void HostServices::destroyAll() noexcept {
+  destroyOwn(buffers_);
+  destroyOwn(textures_);
+  destroyOwn(samplers_);
+  destroyOwn(pipelines_);
+}
+
+}  // namespace grisaille::effect

@@ -1,0 +1,73 @@
+// SPDX-License-Identifier: MIT
+#include "core/effect/instance.h"
+
+#include "core/effect/host_services.h"
+
+namespace grisaille::effect {
+
+gpu::Format formatOf(uint32_t format) {
+  switch (format) {
+    case GRISAILLE_FORMAT_R8:
+      return gpu::Format::kR8Unorm;
+    case GRISAILLE_FORMAT_RGBA8:
+      return gpu::Format::kRgba8Unorm;
+    case GRISAILLE_FORMAT_R16F:
+      return gpu::Format::kR16Float;
+    case GRISAILLE_FORMAT_RGBA16F:
+      return gpu::Format::kRgba16Float;
+    case GRISAILLE_FORMAT_R32F:
+      return gpu::Format::kR32Float;
+    case GRISAILLE_FORMAT_RG32F:
+      return gpu::Format::kRg32Float;
+    case GRISAILLE_FORMAT_RGBA32F:
+      return gpu::Format::kRgba32Float;
+    case GRISAILLE_FORMAT_R32UI:
+      return gpu::Format::kR32Uint;
+    default:
+      return gpu::Format::kNone;
+  }
+}
+
+struct Instance::State {
+  State(gpu::Device& device, const grisaille_effect_desc& d) : desc(d), services(device, d.key) {}
+  ~State() { services.destroyAll(); }
+
+  const grisaille_effect_desc& desc;
+  HostServices services;
+  void* effect = nullptr;  // what create() handed out
+};
+
+Instance::Instance(gpu::Device& device, const Effect& effect)
+    : state_(std::make_unique<State>(device, *effect.desc)) {
+  HostServices& services = state_->services;
+  services.open();
+  const grisaille_result result = state_->desc.create(services.table(), &state_->effect);
+  services.close();
+  const std::string failure = services.failure(result);
+  if (failure.empty()) return;
+  if (result == GRISAILLE_OK) {
+    services.open();
+    state_->desc.destroy(state_->effect);
+    services.close();
+  }
+  throw Error(ErrorId::kEffectCreate, "{} cannot be created: {}", state_->desc.key, failure);
+}
+
+Instance::~Instance() {
+  state_->services.open();
+  state_->desc.destroy(state_->effect);
+  state_->services.close();
+}
+
+void Instance::record(const FrameInputs& inputs) {
+  HostServices& services = state_->services;
+  const grisaille_frame* frame = services.openFrame(inputs);
+  const grisaille_result result = state_->desc.record(state_->effect, frame);
+  services.close();
+  const std::string failure = services.failure(result);
+  if (!failure.empty()) {
+    throw Error(ErrorId::kEffectRecord, "{} cannot record: {}", state_->desc.key, failure);
+  }
+}
+
+}  // namespace grisaille::effect

@@ -1,0 +1,119 @@
+// SPDX-License-Identifier: MIT
+#include "core/effect/registry.h"
+
+#include <algorithm>
+#include <filesystem>
+#include <set>
+
+#include "core/effect/shared_library.h"
+#include "core/effect/values.h"
+
+namespace grisaille::effect {
+namespace fs = std::filesystem;
+namespace {
+
+void checkAbi(const grisaille_plugin_desc& plugin) {
+  if (plugin.magic != GRISAILLE_MAGIC) {
+    throw Error(ErrorId::kPluginAbi, "its description begins with {:#x}, not with {:#x}",
+                plugin.magic, GRISAILLE_MAGIC);
+  }
+  if (plugin.abi_major != GRISAILLE_ABI_MAJOR || plugin.abi_minor > GRISAILLE_ABI_MINOR) {
+    throw Error(ErrorId::kPluginAbi, "it is made for version {}.{}, this program has {}.{}",
+                plugin.abi_major, plugin.abi_minor, GRISAILLE_ABI_MAJOR, GRISAILLE_ABI_MINOR);
+  }
+}
+
+}  // namespace
+
+struct Registry::State {
+  std::vector<Effect> effects;  // by key
+  std::vector<Refused> refused;
+  std::vector<Library> libraries;
+  std::set<fs::path> loadedFiles;   // real paths
+  std::set<fs::path> refusedFiles;  // real paths, by scan()
+
+  void add(const std::string& path);
+};
+
+Registry::Registry() : state_(std::make_unique<State>()) {}
+Registry::~Registry() = default;
+
+void Registry::State::add(const std::string& path) {
+  std::error_code failed;
+  const fs::path real = fs::canonical(path, failed);
+  if (failed) throw Error(ErrorId::kPluginUnloadable, "{}", failed.message());
+  if (loadedFiles.contains(real)) return;
+
+  Library library = openLibrary(real.string());
+  const auto& plugin =
+      *static_cast<const grisaille_plugin_desc*>(symbolOf(library, GRISAILLE_PLUGIN_SYMBOL));
+  checkAbi(plugin);
+  checkTable(plugin);
+  const std::span fresh(plugin.effects, plugin.effect_count);
+  for (const grisaille_effect_desc* desc : fresh) {
+    const auto twin = std::ranges::find_if(
+        effects, [&](const Effect& e) { return std::string_view(e.desc->key) == desc->key; });
+    if (twin != effects.end()) {
+      throw Error(ErrorId::kPluginDuplicate, "its effect {} is in {} already", desc->key,
+                  twin->path);
+    }
+  }
+  for (const grisaille_effect_desc* desc : fresh) effects.push_back({desc, path});
+  std::ranges::sort(effects, {}, [](const Effect& e) { return std::string_view(e.desc->key); });
+  libraries.push_back(std::move(library));
+  loadedFiles.insert(real);
+}
+
+void Registry::scan(const std::string& folder) {
+  std::vector<std::string> paths;
+  std::error_code failed;
+  // increment(), not ++, so that a folder that fails halfway is an error of ours.
+  for (fs::directory_iterator file(folder, failed); !failed && file != fs::directory_iterator();
+       file.increment(failed)) {
+    if (file->path().extension() == ".so") paths.push_back(file->path().string());
+  }
+  if (failed) throw Error(ErrorId::kPluginPath, "{}: {}", folder, failed.message());
+  std::ranges::sort(paths);
+  for (const std::string& path : paths) {
+    try {
+      load(path);
+    } catch (const Error& reason) {
+      const fs::path real = fs::weakly_canonical(path, failed);
+      if (state_->refusedFiles.insert(real).second) state_->refused.push_back({path, reason});
+    }
+  }
+}
+
+void Registry::load(const std::string& path) {
+  try {
+    state_->add(path);
+  } catch (const Error& error) {
+    throw Error(error.id(), "{}: {}", path, error.detail());
+  }
+}
+
+std::span<const Effect> Registry::effects() const {
+  return state_->effects;
+}
+std::span<const Refused> Registry::refused() const {
+  return state_->refused;
+}
+
+const Effect& Registry::find(std::string_view key) const {
+  std::vector<std::string> keys;
+  for (const Effect& effect : state_->effects) {
+    if (key == effect.desc->key) return effect;
+    keys.emplace_back(effect.desc->key);
+  }
+  for (const Refused& refused : state_->refused) {
+    if (fs::path(refused.path).stem() == key) {
+      throw Error(ErrorId::kEffectUnknown, "the plugin of {} was refused: {}", oneLine(key),
+                  refused.reason.detail());
+    }
+  }
+  const std::string near = nearest(key, keys);
+  throw Error(ErrorId::kEffectUnknown, "there is no effect \"{}\"{}", oneLine(key),
+              near.empty() ? "" : ", nearest is " + near);
+}
+
+}  // namespace grisaille::effect

@@ -1,0 +1,242 @@
+// SPDX-License-Identifier: MIT
+// The rules of grisaille/effect.h for a plugin's tables, field by field.
+#include <algorithm>
+#include <array>
+#include <cmath>
+#include <string>
+#include <string_view>
+
+#include "core/effect/registry.h"
+
+namespace grisaille::effect {
+namespace {
+
+constexpr uint32_t kMaxEffects = 64;
+constexpr uint32_t kMaxParams = 256;
+constexpr uint32_t kMaxOutputs = 16;
+constexpr uint32_t kMaxEnumEntries = 64;
+constexpr uint32_t kKnownFlags = GRISAILLE_PARAM_LOG | GRISAILLE_PARAM_ADVANCED;
+constexpr double kMaxWhole = 9007199254740992;  // 2^53: beyond it a double skips whole numbers
+constexpr std::array<std::string_view, 5> kUnits = {"", "m", "px", "rad", "s"};
+
+// `what` goes on from the field's path: "is 3, over 2".
+template <typename... Args>
+[[noreturn]] void refuse(const std::string& field, fmt::format_string<Args...> what,
+                         Args&&... args) {
+  throw Error(ErrorId::kPluginTable, "{} {}", field,
+              fmt::format(what, std::forward<Args>(args)...));
+}
+
+// Version 1.0 is the oldest and the newest there is, so that a size is right or wrong. Once fields
+// are appended, a shorter struct down to that of 1.0 fits too.
+void checkSize(const std::string& owner, uint32_t size, size_t known) {
+  if (size > known) {
+    refuse(owner + ".struct_size", "is {}, more than the {} that this program knows", size, known);
+  }
+  if (size < known) {
+    refuse(owner + ".struct_size", "is {}, less than the {} of version 1.0", size, known);
+  }
+}
+
+void checkCount(const std::string& field, uint32_t count, uint32_t least, uint32_t most) {
+  if (count < least || count > most) refuse(field, "is {}, outside {} to {}", count, least, most);
+}
+
+void checkZero(const std::string& field, uint32_t value) {
+  if (value != 0) refuse(field, "is {}, must be 0", value);
+}
+
+template <typename Pointer>
+void checkPresent(const std::string& field, Pointer pointer) {
+  if (pointer == nullptr) refuse(field, "is null");
+}
+
+// One line for people.
+void checkLine(const std::string& field, const char* text) {
+  checkPresent(field, text);
+  if (*text == '\0') refuse(field, "is empty");
+  for (const char* c = text; *c != '\0'; ++c) {
+    if (static_cast<unsigned char>(*c) < 0x20 || *c == 0x7f) {
+      refuse(field, "holds the control character {:#04x}", static_cast<unsigned char>(*c));
+    }
+  }
+}
+
+bool isSmallLetter(char c) {
+  return c >= 'a' && c <= 'z';
+}
+bool isKeyLetter(char c) {
+  return isSmallLetter(c) || (c >= '0' && c <= '9') || c == '_';
+}
+
+void checkKey(const std::string& field, const char* key) {
+  checkLine(field, key);
+  const std::string_view text = key;
+  if (!isSmallLetter(text.front()) || !std::ranges::all_of(text, isKeyLetter)) {
+    refuse(field, "is \"{}\", must be of a-z, 0-9, _ and begin with a letter", oneLine(text));
+  }
+}
+
+// `keyOf(n)` for n < index is checked already.
+template <typename KeyOf>
+void checkUnique(const std::string& list, const char* member, uint32_t index, KeyOf&& keyOf) {
+  const std::string_view key = keyOf(index);
+  for (uint32_t i = 0; i < index; ++i) {
+    if (key == keyOf(i)) {
+      refuse(fmt::format("{}[{}]{}", list, index, member), "is \"{}\", as {}[{}]{} is already", key,
+             list, i, member);
+    }
+  }
+}
+
+void checkEnum(const std::string& at, const grisaille_param_desc& param) {
+  checkCount(at + ".enum_count", param.enum_count, 2, kMaxEnumEntries);
+  checkPresent(at + ".enum_keys", param.enum_keys);
+  checkPresent(at + ".enum_labels", param.enum_labels);
+  for (uint32_t i = 0; i < param.enum_count; ++i) {
+    const std::string field = fmt::format("{}.enum_keys[{}]", at, i);
+    checkLine(field, param.enum_keys[i]);
+    const std::string_view key = param.enum_keys[i];
+    if (!std::ranges::all_of(key, [](char c) { return isKeyLetter(c) || c == '-'; })) {
+      refuse(field, "is \"{}\", must be of a-z, 0-9, _, -", oneLine(key));
+    }
+    checkUnique(at + ".enum_keys", "", i, [&](uint32_t n) { return param.enum_keys[n]; });
+    checkLine(fmt::format("{}.enum_labels[{}]", at, i), param.enum_labels[i]);
+  }
+}
+
+void checkType(const std::string& at, const grisaille_param_desc& param) {
+  if (param.type > GRISAILLE_PARAM_ENUM) refuse(at + ".type", "is {}, which is none", param.type);
+  if ((param.flags & ~kKnownFlags) != 0) {
+    refuse(at + ".flags", "is {:#x}, of which this program knows {:#x}", param.flags, kKnownFlags);
+  }
+  const bool isEnum = param.type == GRISAILLE_PARAM_ENUM;
+  if (isEnum) {
+    checkEnum(at, param);
+  } else {
+    checkZero(at + ".enum_count", param.enum_count);
+  }
+  const bool isBool = param.type == GRISAILLE_PARAM_BOOL;
+  if ((isEnum || isBool) && (param.flags & GRISAILLE_PARAM_LOG) != 0) {
+    refuse(at + ".flags", "asks for a logarithmic scale, which only numbers have");
+  }
+  if (isEnum || isBool) {
+    const double last = isBool ? 1.0 : param.enum_count - 1.0;
+    if (param.hard_min != 0) refuse(at + ".hard_min", "is {}, must be 0", param.hard_min);
+    if (param.hard_max != last) refuse(at + ".hard_max", "is {}, must be {}", param.hard_max, last);
+  }
+}
+
+void checkRange(const std::string& at, const grisaille_param_desc& p) {
+  if (p.soft_min < p.hard_min) {
+    refuse(at + ".soft_min", "is {}, under hard_min {}", p.soft_min, p.hard_min);
+  }
+  if (p.soft_max <= p.soft_min) {
+    refuse(at + ".soft_max", "is {}, not over soft_min {}", p.soft_max, p.soft_min);
+  }
+  if (p.hard_max < p.soft_max) {
+    refuse(at + ".hard_max", "is {}, under soft_max {}", p.hard_max, p.soft_max);
+  }
+  if (p.default_value < p.hard_min || p.default_value > p.hard_max) {
+    refuse(at + ".default_value", "is {}, outside {} to {}", p.default_value, p.hard_min,
+           p.hard_max);
+  }
+  const bool log = (p.flags & GRISAILLE_PARAM_LOG) != 0;
+  if (log && p.soft_min <= 0) {
+    refuse(at + ".soft_min", "is {}, not over 0 as a logarithmic scale needs", p.soft_min);
+  }
+  if (p.step < 0 || (p.step == 0 && !log)) refuse(at + ".step", "is {}, not over 0", p.step);
+}
+
+void checkNumbers(const std::string& at, const grisaille_param_desc& param) {
+  struct Named {
+    const char* name;
+    double value;
+  };
+  for (const Named& n :
+       {Named{".hard_min", param.hard_min}, Named{".hard_max", param.hard_max},
+        Named{".soft_min", param.soft_min}, Named{".soft_max", param.soft_max},
+        Named{".default_value", param.default_value}, Named{".step", param.step}}) {
+    if (!std::isfinite(n.value)) refuse(at + n.name, "is {}, which is not finite", n.value);
+    if (param.type == GRISAILLE_PARAM_FLOAT) continue;
+    if (n.value != std::trunc(n.value)) refuse(at + n.name, "is {}, which is not whole", n.value);
+    if (std::abs(n.value) > kMaxWhole) refuse(at + n.name, "is {}, beyond 2^53", n.value);
+  }
+}
+
+void checkParam(const std::string& at, const grisaille_param_desc& param) {
+  checkSize(at, param.struct_size, sizeof(grisaille_param_desc));
+  checkKey(at + ".key", param.key);
+  checkLine(at + ".label", param.label);
+  checkPresent(at + ".unit", param.unit);
+  if (std::ranges::find(kUnits, param.unit) == kUnits.end()) {
+    refuse(at + ".unit", "is \"{}\", must be m, px, rad, s or empty", oneLine(param.unit));
+  }
+  checkLine(at + ".tooltip", param.tooltip);
+  checkType(at, param);
+  checkNumbers(at, param);
+  checkRange(at, param);
+}
+
+void checkOutput(const std::string& at, const grisaille_output_desc& output) {
+  checkSize(at, output.struct_size, sizeof(grisaille_output_desc));
+  checkKey(at + ".key", output.key);
+  checkLine(at + ".tooltip", output.tooltip);
+  const uint32_t format = output.format;
+  if (format < GRISAILLE_FORMAT_R8 || format > GRISAILLE_FORMAT_R32UI) {
+    refuse(at + ".format", "is {}, which is none", format);
+  }
+  if (output.role > GRISAILLE_ROLE_PAINT) {
+    refuse(at + ".role", "is {}, which is none", output.role);
+  }
+  if (output.role == GRISAILLE_ROLE_VISIBILITY && format == GRISAILLE_FORMAT_R32UI) {
+    refuse(at + ".format", "is {}, whose whole numbers cannot be a visibility", format);
+  }
+  if (output.role == GRISAILLE_ROLE_PAINT && format != GRISAILLE_FORMAT_RGBA8 &&
+      format != GRISAILLE_FORMAT_RGBA16F && format != GRISAILLE_FORMAT_RGBA32F) {
+    refuse(at + ".format", "is {}, without the four channels of paint", format);
+  }
+}
+
+void checkEffect(const std::string& at, const grisaille_effect_desc& effect) {
+  checkSize(at, effect.struct_size, sizeof(grisaille_effect_desc));
+  checkKey(at + ".key", effect.key);
+  checkLine(at + ".label", effect.label);
+  checkLine(at + ".version", effect.version);
+  checkLine(at + ".tooltip", effect.tooltip);
+  checkZero(at + ".reserved", effect.reserved);
+  checkPresent(at + ".reads", effect.reads);
+  checkPresent(at + ".create", effect.create);
+  checkPresent(at + ".record", effect.record);
+  checkPresent(at + ".destroy", effect.destroy);
+
+  checkCount(at + ".param_count", effect.param_count, 0, kMaxParams);
+  if (effect.param_count > 0) checkPresent(at + ".params", effect.params);
+  for (uint32_t i = 0; i < effect.param_count; ++i) {
+    checkParam(fmt::format("{}.params[{}]", at, i), effect.params[i]);
+    checkUnique(at + ".params", ".key", i, [&](uint32_t n) { return effect.params[n].key; });
+  }
+  checkCount(at + ".output_count", effect.output_count, 1, kMaxOutputs);
+  checkPresent(at + ".outputs", effect.outputs);
+  for (uint32_t i = 0; i < effect.output_count; ++i) {
+    checkOutput(fmt::format("{}.outputs[{}]", at, i), effect.outputs[i]);
+    checkUnique(at + ".outputs", ".key", i, [&](uint32_t n) { return effect.outputs[n].key; });
+  }
+}
+
+}  // namespace
+
+void checkTable(const grisaille_plugin_desc& plugin) {
+  checkSize("plugin", plugin.struct_size, sizeof(grisaille_plugin_desc));
+  checkZero("plugin.reserved", plugin.reserved);
+  checkCount("effect_count", plugin.effect_count, 1, kMaxEffects);
+  checkPresent("effects", plugin.effects);
+  for (uint32_t i = 0; i < plugin.effect_count; ++i) {
+    const std::string at = fmt::format("effects[{}]", i);
+    checkPresent(at, plugin.effects[i]);
+    checkEffect(at, *plugin.effects[i]);
+    checkUnique("effects", ".key", i, [&](uint32_t n) { return plugin.effects[n]->key; });
+  }
+}
+
+}  // namespace grisaille::effect

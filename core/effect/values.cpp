@@ -1,0 +1,171 @@
+// SPDX-License-Identifier: MIT
+#include "core/effect/values.h"
+
+#include <algorithm>
+#include <array>
+#include <charconv>
+#include <cmath>
+#include <numeric>
+#include <utility>
+
+#include "core/error.h"
+
+namespace grisaille::effect {
+namespace {
+
+std::string number(double value) {
+  std::array<char, 32> text;
+  const auto end = std::to_chars(text.data(), text.data() + text.size(), value).ptr;
+  return {text.data(), end};
+}
+
+std::string quoted(std::string_view text) {
+  return '"' + oneLine(text) + '"';
+}
+
+std::span<const char* const> entries(const grisaille_param_desc& param) {
+  return {param.enum_keys, param.enum_count};
+}
+
+// Edit distance with swaps of neighbours: insertions, deletions, changes and swaps count 1.
+size_t distance(std::string_view a, std::string_view b) {
+  std::vector<size_t> beforeLast, last(b.size() + 1), current(b.size() + 1);
+  std::iota(last.begin(), last.end(), size_t{0});
+  for (size_t i = 1; i <= a.size(); ++i) {
+    current[0] = i;
+    for (size_t j = 1; j <= b.size(); ++j) {
+      const size_t change = last[j - 1] + (a[i - 1] == b[j - 1] ? 0 : 1);
+      current[j] = std::min({last[j] + 1, current[j - 1] + 1, change});
+      if (i > 1 && j > 1 && a[i - 1] == b[j - 2] && a[i - 2] == b[j - 1]) {
+        current[j] = std::min(current[j], beforeLast[j - 2] + 1);
+      }
+    }
+    beforeLast = std::exchange(last, current);
+  }
+  return last[b.size()];
+}
+
+[[noreturn]] void throwEnum(const std::string& name, const grisaille_param_desc& param,
+                            std::string_view text) {
+  const std::vector<std::string> keys(entries(param).begin(), entries(param).end());
+  const std::string near = nearest(text, keys);
+  std::string all;
+  for (const std::string& key : keys) all += (all.empty() ? "" : ", ") + key;
+  throw Error(ErrorId::kParameterRange, "{} has no entry {}{}; it has {}", name, quoted(text),
+              near.empty() ? "" : ", nearest is " + near, all);
+}
+
+double parseBool(const std::string& name, std::string_view text) {
+  if (text == "true" || text == "on" || text == "1") return 1;
+  if (text == "false" || text == "off" || text == "0") return 0;
+  throw Error(ErrorId::kParameterType, "{} is {}, neither true nor false", name, quoted(text));
+}
+
+double parseEnum(const std::string& name, const grisaille_param_desc& param,
+                 std::string_view text) {
+  const auto keys = entries(param);
+  const auto found = std::ranges::find(keys, text);
+  if (found == keys.end()) throwEnum(name, param, text);
+  return static_cast<double>(found - keys.begin());
+}
+
+double parseNumber(const std::string& name, const grisaille_param_desc& param,
+                   std::string_view text) {
+  double value = 0;
+  const auto [end, status] = std::from_chars(text.data(), text.data() + text.size(), value);
+  if (end != text.data() + text.size() || status == std::errc::invalid_argument) {
+    throw Error(ErrorId::kParameterType, "{} is {}, which is not a number", name, quoted(text));
+  }
+  if (status == std::errc::result_out_of_range) {
+    throw Error(ErrorId::kParameterRange, "{} is {}, which no number here can hold; give {} to {}",
+                name, quoted(text), number(param.hard_min), number(param.hard_max));
+  }
+  return value;
+}
+
+// Throws unless the parameter may have the value.
+void checkValue(const std::string& name, const grisaille_param_desc& param, double value) {
+  if (!std::isfinite(value)) {
+    throw Error(ErrorId::kParameterType, "{} is {}, which is not a finite number", name, value);
+  }
+  if (param.type != GRISAILLE_PARAM_FLOAT && value != std::trunc(value)) {
+    throw Error(ErrorId::kParameterType, "{} is {}, which is not whole; nearest is {}", name,
+                number(value),
+                number(std::clamp(std::round(value), param.hard_min, param.hard_max)));
+  }
+  if (value < param.hard_min || value > param.hard_max) {
+    const bool under = value < param.hard_min;
+    throw Error(ErrorId::kParameterRange, "{} is {}, {} the {} allowed value; nearest is {}{}{}",
+                name, number(value), under ? "under" : "over", under ? "least" : "greatest",
+                number(under ? param.hard_min : param.hard_max), *param.unit != '\0' ? " " : "",
+                param.unit);
+  }
+}
+
+}  // namespace
+
+Values::Values(const Effect& effect) : effect_(effect) {
+  for (const grisaille_param_desc& param : effect.params()) values_.push_back(param.default_value);
+}
+
+size_t Values::indexOf(std::string_view key) const {
+  const auto params = effect_.params();
+  const auto found = std::ranges::find_if(params, [&](const auto& p) { return key == p.key; });
+  if (found != params.end()) return static_cast<size_t>(found - params.begin());
+  std::vector<std::string> keys;
+  for (const grisaille_param_desc& param : params) keys.emplace_back(param.key);
+  const std::string near = nearest(key, keys);
+  throw Error(ErrorId::kParameterUnknown, "effect {} has no parameter {}{}", effect_.desc->key,
+              quoted(key), near.empty() ? "" : ", nearest is " + near);
+}
+
+void Values::set(std::string_view key, std::string_view text) {
+  const grisaille_param_desc& param = effect_.params()[indexOf(key)];
+  const std::string name = fmt::format("{}.{}", effect_.desc->key, param.key);
+  switch (param.type) {
+    case GRISAILLE_PARAM_BOOL:
+      return set(key, parseBool(name, text));
+    case GRISAILLE_PARAM_ENUM:
+      return set(key, parseEnum(name, param, text));
+    default:
+      return set(key, parseNumber(name, param, text));
+  }
+}
+
+void Values::set(std::string_view key, double value) {
+  const size_t index = indexOf(key);
+  const grisaille_param_desc& param = effect_.params()[index];
+  checkValue(fmt::format("{}.{}", effect_.desc->key, param.key), param, value);
+  values_[index] = value;
+}
+
+std::string Values::text(std::string_view key) const {
+  const size_t index = indexOf(key);
+  const grisaille_param_desc& param = effect_.params()[index];
+  const double value = values_[index];
+  switch (param.type) {
+    case GRISAILLE_PARAM_BOOL:
+      return value != 0 ? "true" : "false";
+    case GRISAILLE_PARAM_ENUM:
+      return entries(param)[static_cast<size_t>(value)];
+    case GRISAILLE_PARAM_INT:
+      return std::to_string(static_cast<int64_t>(value));
+    default:
+      return number(value);
+  }
+}
+
+std::string nearest(std::string_view word, std::span<const std::string> candidates) {
+  const std::string* best = nullptr;
+  size_t least = word.size() / 3 + 2;  // one more than may be wrong
+  for (const std::string& candidate : candidates) {
+    const size_t wrong = distance(word, candidate);
+    if (wrong < least) {
+      least = wrong;
+      best = &candidate;
+    }
+  }
+  return best != nullptr ? *best : std::string();
+}
+
+}  // namespace grisaille::effect

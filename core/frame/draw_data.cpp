@@ -1,0 +1,83 @@
+// SPDX-License-Identifier: MIT
+#include "core/frame/draw_data.h"
+
+#include <algorithm>
+#include <array>
+#include <cmath>
+
+namespace grisaille::frame {
+namespace {
+
+// IEC 61966-2-1.
+float toLinear(uint8_t value) {
+  static const std::array<float, 256> table = [] {
+    std::array<float, 256> t{};
+    for (size_t i = 0; i < t.size(); ++i) {
+      const float v = static_cast<float>(i) / 255.0f;
+      t[i] = v <= 0.04045f ? v / 12.92f : std::pow((v + 0.055f) / 1.055f, 2.4f);
+    }
+    return t;
+  }();
+  return table[value];
+}
+
+uint8_t toSrgb(float linear) {
+  const float v =
+      linear <= 0.0031308f ? linear * 12.92f : 1.055f * std::pow(linear, 1.0f / 2.4f) - 0.055f;
+  return static_cast<uint8_t>(std::lround(std::clamp(v, 0.0f, 1.0f) * 255.0f));
+}
+
+// A box of 2x2; the last row and column of an odd size count twice.
+std::vector<uint8_t> halved(const std::vector<uint8_t>& from, uint32_t width, uint32_t height) {
+  const uint32_t w = std::max(1u, width / 2), h = std::max(1u, height / 2);
+  std::vector<uint8_t> to(size_t{w} * h * 4);
+  for (uint32_t y = 0; y < h; ++y) {
+    for (uint32_t x = 0; x < w; ++x) {
+      const uint32_t xs[2] = {std::min(2 * x, width - 1), std::min(2 * x + 1, width - 1)};
+      const uint32_t ys[2] = {std::min(2 * y, height - 1), std::min(2 * y + 1, height - 1)};
+      for (uint32_t c = 0; c < 4; ++c) {
+        float sum = 0;
+        for (const uint32_t sy : ys) {
+          for (const uint32_t sx : xs) {
+            const uint8_t value = from[(size_t{sy} * width + sx) * 4 + c];
+            sum += c == 3 ? static_cast<float>(value) / 255.0f : toLinear(value);
+          }
+        }
+        to[(size_t{y} * w + x) * 4 + c] =
+            c == 3 ? static_cast<uint8_t>(std::lround(sum * 255.0f / 4)) : toSrgb(sum / 4);
+      }
+    }
+  }
+  return to;
+}
+
+}  // namespace
+
+std::vector<std::vector<uint8_t>> mipChain(const image::Image8& image) {
+  std::vector<std::vector<uint8_t>> levels = {image.pixels};
+  uint32_t width = image.width, height = image.height;
+  while (width > 1 || height > 1) {
+    levels.push_back(halved(levels.back(), width, height));
+    width = std::max(1u, width / 2);
+    height = std::max(1u, height / 2);
+  }
+  return levels;
+}
+
+std::vector<std::vector<uint8_t>> alphaAlone(const image::Image8& image) {
+  std::vector<uint8_t> alpha(image.pixels.size() / 4);
+  for (size_t i = 0; i < alpha.size(); ++i) alpha[i] = image.pixels[i * 4 + 3];
+  return {alpha};
+}
+
+glm::dmat4 normalTransform(const glm::dmat3& linear) {
+  glm::dmat3 cofactor(glm::cross(linear[1], linear[2]), glm::cross(linear[2], linear[0]),
+                      glm::cross(linear[0], linear[1]));
+  if (glm::determinant(linear) < 0) cofactor = -cofactor;
+  // Scaled to lengths near 1, so that tiny and huge scenes stay inside single precision.
+  const double largest = std::max({glm::length(cofactor[0]), glm::length(cofactor[1]),
+                                   glm::length(cofactor[2])});
+  return glm::dmat4(largest > 0 ? cofactor / largest : cofactor);
+}
+
+}  // namespace grisaille::frame

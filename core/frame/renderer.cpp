@@ -1,0 +1,323 @@
+// SPDX-License-Identifier: MIT
+#include "core/frame/renderer.h"
+
+#include <algorithm>
+#include <array>
+
+#include "core/error.h"
+#include "core/frame/texture_image.h"
+#include "core/frame/view_block.h"
+#include "shaders/compose.h"
+#include "shaders/view_depth.h"
+
+namespace grisaille::frame {
+namespace {
+
+constexpr const char* kColor = "color";
+constexpr const char* kDepth = "depth";
+constexpr const char* kNormal = "normal";
+constexpr const char* kBaseColour = "base_colour";
+constexpr const char* kFrameOutputs[] = {kColor, kDepth, kNormal, kBaseColour};
+// Clip depth is drawn into this; nobody can ask for it by name.
+constexpr const char* kClipDepth = "clip depth";
+
+constexpr uint32_t kGroup = 8;  // threads a side, in both shaders of this room
+
+uint32_t groups(uint32_t pixels) { return (pixels + kGroup - 1) / kGroup; }
+
+// The target that holds an effect's output.
+std::string targetName(const effect::Effect& effect, const grisaille_output_desc& output) {
+  return std::string(effect.desc->key) + "." + output.key;
+}
+
+// "ao" names the first active effect's output of that key, "ssao.ao" that of one effect.
+bool names(std::string_view name, const effect::Effect& effect,
+           const grisaille_output_desc& output) {
+  return name == output.key || name == targetName(effect, output);
+}
+
+constexpr auto kDrawn = gpu::TextureUsage::kTarget | gpu::TextureUsage::kSampled;
+constexpr auto kComputed = gpu::TextureUsage::kStorage | gpu::TextureUsage::kSampled;
+
+}  // namespace
+
+std::vector<std::string> outputNames(std::span<const effect::Effect* const> effects) {
+  std::vector<std::string> all(std::begin(kFrameOutputs), std::end(kFrameOutputs));
+  for (const effect::Effect* effect : effects) {
+    for (const grisaille_output_desc& output : effect->outputs()) {
+      if (std::find(all.begin(), all.end(), output.key) == all.end()) all.emplace_back(output.key);
+      all.push_back(targetName(*effect, output));
+    }
+  }
+  return all;
+}
+
+void checkOutput(std::string_view name, std::span<const effect::Effect* const> effects) {
+  const std::vector<std::string> all = outputNames(effects);
+  if (std::find(all.begin(), all.end(), name) != all.end()) return;
+  const std::string near = effect::nearest(name, all);
+  throw Error(ErrorId::kOutputUnknown, "there is no output '{}'{}; there are {}", name,
+              near.empty() ? "" : fmt::format(", did you mean '{}'?", near), fmt::join(all, ", "));
+}
+
+image::Transfer transferOf(std::string_view output) {
+  return output == kColor || output == kBaseColour ? image::Transfer::kColour
+                                                   : image::Transfer::kData;
+}
+
+// What one frame needs, worked out before anything is recorded.
+struct Renderer::Plan {
+  uint32_t attachments = 0;  // of GRISAILLE_READS
+  // One a effect of the frame: the outputs that somebody wants. 0: it does not run.
+  std::vector<uint32_t> wanted;
+  bool color = false;
+
+  explicit Plan(const FrameDesc& desc) {
+    color = wants(desc, kColor);
+    if (wants(desc, kDepth)) attachments |= GRISAILLE_READS(GRISAILLE_VIEW_DEPTH);
+    if (wants(desc, kNormal)) attachments |= GRISAILLE_READS(GRISAILLE_NORMAL);
+    if (wants(desc, kBaseColour) || (color && desc.surface == Surface::kBaseColour)) {
+      attachments |= GRISAILLE_READS(GRISAILLE_BASE_COLOUR);
+    }
+    for (const ActiveEffect& active : desc.effects) {
+      uint32_t bits = 0;
+      const auto outputs = active.effect().outputs();
+      for (size_t i = 0; i < outputs.size(); ++i) {
+        const bool composed = color && outputs[i].role != GRISAILLE_ROLE_NONE;
+        const bool asked =
+            std::any_of(desc.outputs.begin(), desc.outputs.end(), [&](const std::string& name) {
+              return names(name, active.effect(), outputs[i]);
+            });
+        if (composed || asked) bits |= 1u << i;
+      }
+      wanted.push_back(bits);
+      if (bits != 0) attachments |= active.effect().desc->reads(active.values->all().data());
+    }
+  }
+
+  bool reads(grisaille_attachment attachment) const {
+    return (attachments & GRISAILLE_READS(attachment)) != 0;
+  }
+
+ private:
+  static bool wants(const FrameDesc& desc, std::string_view name) {
+    return std::find(desc.outputs.begin(), desc.outputs.end(), name) != desc.outputs.end();
+  }
+};
+
+Renderer::Renderer(gpu::Device& device, const scene::Scene& scene)
+    : device_(device), scene_(device, scene) {}
+
+Renderer::~Renderer() {
+  for (const auto& [name, slot] : targets_) device_.destroy(slot.texture);
+  device_.destroy(viewDepth_);
+  device_.destroy(compose_);
+  device_.destroy(nearest_);
+  device_.destroy(white_);
+  device_.destroy(clear_);
+}
+
+void Renderer::render(const FrameDesc& desc) {
+  scene::validate(desc.camera);
+  std::vector<const effect::Effect*> effects;
+  for (const ActiveEffect& active : desc.effects) effects.push_back(&active.effect());
+  for (const std::string& name : desc.outputs) checkOutput(name, effects);
+
+  const Plan plan(desc);
+  for (auto& [name, slot] : targets_) slot.used = false;
+  outputs_.clear();
+  gpu::Commands& commands = device_.begin();
+  try {
+    record(commands, desc, plan);
+  } catch (...) {
+    device_.abandon();
+    throw;
+  }
+  device_.submit();
+  std::erase_if(targets_, [&](const auto& entry) {
+    if (!entry.second.used) device_.destroy(entry.second.texture);
+    return !entry.second.used;
+  });
+}
+
+void Renderer::record(gpu::Commands& commands, const FrameDesc& desc, const Plan& plan) {
+  if (!nearest_) {
+    nearest_ = device_.createSampler({.label = "nearest"});
+    viewDepth_ = device_.createComputePipeline(
+        {.label = "view depth", .shader = &grisaille_shader_view_depth, .constants = {}});
+  }
+  const ViewBlock block = viewBlock(desc.camera, desc.width, desc.height);
+  const gpu::BufferRange range = commands.uniform(std::as_bytes(std::span(&block, 1)));
+  if (plan.attachments != 0) recordScene(commands, desc, plan, range);
+  recordEffects(commands, desc, plan, range);
+  if (plan.color) recordCompose(commands, desc);
+  for (const std::string& name : desc.outputs) outputs_.try_emplace(name, name);
+}
+
+void Renderer::recordScene(gpu::Commands& commands, const FrameDesc& desc, const Plan& plan,
+                           gpu::BufferRange viewBlock) {
+  SceneTargets targets;
+  targets.depth = target(kClipDepth, gpu::Format::kD32Float, kDrawn, desc);
+  if (plan.reads(GRISAILLE_NORMAL)) {
+    targets.normal = target(kNormal, gpu::Format::kRgba16Float, kDrawn, desc);
+  }
+  if (plan.reads(GRISAILLE_BASE_COLOUR)) {
+    targets.baseColour = target(kBaseColour, gpu::Format::kRgba8Srgb, kDrawn, desc);
+  }
+  commands.beginPass("scene/geometry");
+  scene_.draw(commands, desc.camera, desc.width, desc.height, targets);
+  commands.endPass();
+  if (!plan.reads(GRISAILLE_VIEW_DEPTH)) return;
+
+  const gpu::Texture depth = target(kDepth, gpu::Format::kR32Float, kComputed, desc);
+  const std::array bindings = {
+      gpu::uniformBinding(0, viewBlock),
+      gpu::textureBinding(0, {.texture = targets.depth}, nearest_),
+      gpu::imageBinding(0, depth),
+  };
+  commands.beginPass("scene/view_depth");
+  commands.dispatch({.pipeline = viewDepth_,
+                     .bindings = bindings,
+                     .groups = {groups(desc.width), groups(desc.height), 1}});
+  commands.endPass();
+}
+
+void Renderer::recordEffects(gpu::Commands& commands, const FrameDesc& desc, const Plan& plan,
+                             gpu::BufferRange viewBlock) {
+  const grisaille_view view = viewOf(desc.camera, desc.width, desc.height);
+  for (size_t i = 0; i < desc.effects.size(); ++i) {
+    if (plan.wanted[i] == 0) continue;
+    const ActiveEffect& active = desc.effects[i];
+    const uint32_t reads = active.effect().desc->reads(active.values->all().data());
+    effect::FrameInputs inputs;
+    inputs.commands = &commands;
+    inputs.width = desc.width;
+    inputs.height = desc.height;
+    inputs.view = &view;
+    inputs.viewBlock = viewBlock;
+    constexpr const char* kAttachments[GRISAILLE_ATTACHMENT_COUNT] = {kClipDepth, kDepth, kNormal,
+                                                                      kBaseColour};
+    for (size_t a = 0; a < GRISAILLE_ATTACHMENT_COUNT; ++a) {
+      if ((reads & GRISAILLE_READS(a)) != 0) inputs.attachments[a] = find(kAttachments[a]);
+    }
+    std::vector<gpu::Texture> outputs;
+    const auto descs = active.effect().outputs();
+    for (size_t o = 0; o < descs.size(); ++o) {
+      if ((plan.wanted[i] & (1u << o)) == 0) {
+        outputs.emplace_back();
+        continue;
+      }
+      const std::string name = targetName(active.effect(), descs[o]);
+      const auto format = effect::formatOf(descs[o].format);
+      outputs.push_back(target(name, format, kComputed, desc));
+      outputs_.try_emplace(name, name);
+      outputs_.try_emplace(descs[o].key, name);
+    }
+    inputs.outputs = outputs;
+    inputs.values = active.values->all();
+    active.instance->record(inputs);
+  }
+}
+
+void Renderer::recordCompose(gpu::Commands& commands, const FrameDesc& desc) {
+  commands.beginPass("compose/color");
+  if (!compose_) {
+    compose_ = device_.createComputePipeline(
+        {.label = "compose", .shader = &grisaille_shader_compose, .constants = {}});
+    const auto neutral = [&](const char* label, uint32_t texel) {
+      const gpu::Texture texture = device_.createTexture({.label = label,
+                                                          .format = gpu::Format::kRgba8Unorm,
+                                                          .width = 1,
+                                                          .height = 1,
+                                                          .usage = gpu::TextureUsage::kSampled});
+      commands.upload(texture, 0, 0, std::as_bytes(std::span(&texel, 1)));
+      return texture;
+    };
+    white_ = neutral("white", 0xffffffffu);
+    clear_ = neutral("clear", 0);
+  }
+  // Layers that can share a dispatch do: a paint and a visibility after it.
+  struct Layer {
+    gpu::Texture paint, visibility;
+  };
+  std::vector<Layer> layers(1);
+  for (const ActiveEffect& active : desc.effects) {
+    for (const grisaille_output_desc& output : active.effect().outputs()) {
+      const bool paint = output.role == GRISAILLE_ROLE_PAINT;
+      if (!paint && output.role != GRISAILLE_ROLE_VISIBILITY) continue;
+      const gpu::Texture texture = find(targetName(active.effect(), output));
+      if (paint ? layers.back().paint || layers.back().visibility : bool{layers.back().visibility}) {
+        layers.emplace_back();
+      }
+      (paint ? layers.back().paint : layers.back().visibility) = texture;
+    }
+  }
+  gpu::Texture surface = desc.surface == Surface::kBaseColour ? find(kBaseColour) : white_;
+  for (size_t i = 0; i < layers.size(); ++i) {
+    const bool last = i + 1 == layers.size();
+    const gpu::Texture to = last ? target(kColor, gpu::Format::kRgba16Float, kComputed, desc)
+                                 : commands.transient({.label = "layer",
+                                                       .format = gpu::Format::kRgba16Float,
+                                                       .width = desc.width,
+                                                       .height = desc.height,
+                                                       .usage = kComputed});
+    composeLayer(commands, surface, layers[i].paint, layers[i].visibility, to, desc);
+    surface = to;
+  }
+  commands.endPass();
+}
+
+void Renderer::composeLayer(gpu::Commands& commands, gpu::Texture surface, gpu::Texture paint,
+                            gpu::Texture visibility, gpu::Texture target,
+                            const FrameDesc& desc) {
+  const std::array bindings = {
+      gpu::textureBinding(0, {.texture = surface}, nearest_),
+      gpu::textureBinding(1, {.texture = paint ? paint : clear_}, nearest_),
+      gpu::textureBinding(2, {.texture = visibility ? visibility : white_}, nearest_),
+      gpu::imageBinding(0, target),
+  };
+  commands.dispatch({.pipeline = compose_,
+                     .bindings = bindings,
+                     .groups = {groups(desc.width), groups(desc.height), 1}});
+}
+
+gpu::Texture Renderer::target(const std::string& name, gpu::Format format, gpu::TextureUsage usage,
+                              const FrameDesc& desc) {
+  Slot& slot = targets_[name];
+  const bool fits = slot.texture && slot.desc.width == desc.width &&
+                    slot.desc.height == desc.height && slot.desc.format == format;
+  if (!fits) {
+    device_.destroy(slot.texture);
+    slot = {};
+    slot.desc = {
+        .format = format, .width = desc.width, .height = desc.height, .usage = usage};
+    gpu::TextureDesc labelled = slot.desc;
+    labelled.label = name;
+    slot.texture = device_.createTexture(labelled);
+  }
+  slot.used = true;
+  return slot.texture;
+}
+
+gpu::Texture Renderer::find(std::string_view name) const {
+  const auto found = targets_.find(name);
+  return found == targets_.end() ? gpu::Texture{} : found->second.texture;
+}
+
+gpu::Texture Renderer::texture(std::string_view output) const {
+  const auto found = outputs_.find(output);
+  if (found == outputs_.end()) {
+    throw Error(ErrorId::kOutputUnknown, "the last frame was not asked for '{}'", output);
+  }
+  return find(found->second);
+}
+
+image::Image Renderer::read(std::string_view output) {
+  const gpu::Texture from = texture(output);
+  const gpu::TextureDesc& desc = targets_.find(outputs_.find(output)->second)->second.desc;
+  image::Image image = toImage(device_.read(from), desc.format, desc.width, desc.height);
+  const bool opaque = output == kColor || output == kNormal || output == kBaseColour;
+  return opaque ? firstChannels(image, 3) : image;
+}
+
+}  // namespace grisaille::frame

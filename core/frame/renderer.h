@@ -1,0 +1,101 @@
+// SPDX-License-Identifier: MIT
+// One frame: draws exactly the attachments that the active effects and the wanted outputs read, runs
+// the effects in order, composes the picture.
+#pragma once
+
+#include <map>
+#include <memory>
+#include <optional>
+#include <span>
+#include <string>
+#include <string_view>
+#include <vector>
+
+#include "core/effect/instance.h"
+#include "core/effect/values.h"
+#include "core/frame/scene_resources.h"
+#include "core/gpu/device.h"
+#include "core/image/image.h"
+#include "core/scene/camera.h"
+
+namespace grisaille::frame {
+
+// An effect switched on, with its values. Both stay valid during render().
+struct ActiveEffect {
+  effect::Instance* instance = nullptr;
+  const effect::Values* values = nullptr;
+
+  const effect::Effect& effect() const { return values->effect(); }
+};
+
+// What the light falls on in the composed picture.
+enum class Surface : uint8_t { kWhite, kBaseColour };
+
+struct FrameDesc {
+  scene::Camera camera;
+  uint32_t width = 0;   // pixels
+  uint32_t height = 0;
+  Surface surface = Surface::kWhite;
+  std::span<const ActiveEffect> effects;  // in the order they run
+  std::span<const std::string> outputs;   // names as outputNames() lists them
+};
+
+// Every frame has color (composed, linear light), depth (linear view depth in metres, 0 = sky),
+// normal (world) and base_colour; an active effect adds its own outputs.
+std::vector<std::string> outputNames(std::span<const effect::Effect* const> effects);
+
+// Throws kOutputUnknown, naming the nearest, unless outputNames() lists `name`.
+void checkOutput(std::string_view name, std::span<const effect::Effect* const> effects);
+
+// How a file of integers holds an output: the composed picture and base colour are light.
+image::Transfer transferOf(std::string_view output);
+
+class Renderer {
+ public:
+  // Device and scene outlive this; the scene stays unchanged.
+  Renderer(gpu::Device& device, const scene::Scene& scene);
+  ~Renderer();
+  Renderer(const Renderer&) = delete;
+  Renderer& operator=(const Renderer&) = delete;
+
+  // Records and submits one frame. What throws leaves no frame open.
+  void render(const FrameDesc& desc);
+
+  // An output of the last frame, as numbers; 1, 3 or 4 channels. Waits for the device. Throws
+  // kOutputUnknown unless that frame was asked for it.
+  image::Image read(std::string_view output);
+
+  // The same as a texture, for presenting; valid until the next render().
+  gpu::Texture texture(std::string_view output) const;
+
+ private:
+  struct Plan;
+  struct Slot {
+    gpu::Texture texture;
+    gpu::TextureDesc desc;
+    bool used = false;
+  };
+
+  void record(gpu::Commands& commands, const FrameDesc& desc, const Plan& plan);
+  void recordScene(gpu::Commands& commands, const FrameDesc& desc, const Plan& plan,
+                   gpu::BufferRange viewBlock);
+  void recordEffects(gpu::Commands& commands, const FrameDesc& desc, const Plan& plan,
+                     gpu::BufferRange viewBlock);
+  void recordCompose(gpu::Commands& commands, const FrameDesc& desc);
+  // One layer of the composition: `over` paints, `visibility` multiplies; null: the neutral texture.
+  void composeLayer(gpu::Commands& commands, gpu::Texture surface, gpu::Texture paint,
+                    gpu::Texture visibility, gpu::Texture target, const FrameDesc& desc);
+  gpu::Texture target(const std::string& name, gpu::Format format, gpu::TextureUsage usage,
+                      const FrameDesc& desc);
+  gpu::Texture find(std::string_view name) const;
+
+  gpu::Device& device_;
+  SceneResources scene_;
+  std::map<std::string, Slot, std::less<>> targets_;  // by output name, or attachment name
+  std::map<std::string, std::string, std::less<>> outputs_;  // of the last frame: name to target
+  gpu::ComputePipeline viewDepth_, compose_;
+  gpu::Sampler nearest_;
+  gpu::Texture white_, clear_;
+};
+
+}  // namespace grisaille::frame

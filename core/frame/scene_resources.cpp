@@ -1,0 +1,278 @@
+// SPDX-License-Identifier: MIT
+#include "core/frame/scene_resources.h"
+
+#include <algorithm>
+#include <bit>
+#include <cmath>
+
+#include "core/frame/draw_data.h"
+#include "core/image/image.h"
+#include "shaders/geometry_frag_001.h"
+#include "shaders/geometry_frag_010.h"
+#include "shaders/geometry_frag_011.h"
+#include "shaders/geometry_frag_100.h"
+#include "shaders/geometry_frag_101.h"
+#include "shaders/geometry_frag_110.h"
+#include "shaders/geometry_frag_111.h"
+#include "shaders/geometry_vert_000.h"
+#include "shaders/geometry_vert_001.h"
+#include "shaders/geometry_vert_010.h"
+#include "shaders/geometry_vert_011.h"
+#include "shaders/geometry_vert_100.h"
+#include "shaders/geometry_vert_101.h"
+#include "shaders/geometry_vert_110.h"
+#include "shaders/geometry_vert_111.h"
+
+namespace grisaille::frame {
+namespace {
+
+// shaders/scene/draw.glsl, std140.
+struct DrawBlock {
+  glm::mat4 clip_from_object;
+  glm::mat4 normal_from_object;
+  glm::vec4 base_color;
+  float alpha_cutoff = 0;
+  float front_sign = 1;
+  glm::vec2 padding = glm::vec2(0);
+};
+GRISAILLE_CHECK_BLOCK_geometry_vert_101_DrawBlock(DrawBlock);
+
+// By Variant::index(): normal, base colour, mask.
+constexpr const gpu::Shader* kVertex[8] = {
+    &grisaille_shader_geometry_vert_000, &grisaille_shader_geometry_vert_001,
+    &grisaille_shader_geometry_vert_010, &grisaille_shader_geometry_vert_011,
+    &grisaille_shader_geometry_vert_100, &grisaille_shader_geometry_vert_101,
+    &grisaille_shader_geometry_vert_110, &grisaille_shader_geometry_vert_111};
+constexpr const gpu::Shader* kFragment[8] = {
+    nullptr,
+    &grisaille_shader_geometry_frag_001,
+    &grisaille_shader_geometry_frag_010,
+    &grisaille_shader_geometry_frag_011,
+    &grisaille_shader_geometry_frag_100,
+    &grisaille_shader_geometry_frag_101,
+    &grisaille_shader_geometry_frag_110,
+    &grisaille_shader_geometry_frag_111};
+
+gpu::Address address(scene::Wrap wrap) {
+  switch (wrap) {
+    case scene::Wrap::kRepeat:
+      return gpu::Address::kRepeat;
+    case scene::Wrap::kClamp:
+      return gpu::Address::kClamp;
+    case scene::Wrap::kMirror:
+      return gpu::Address::kMirror;
+  }
+  return gpu::Address::kRepeat;
+}
+
+std::vector<scene::Bounds> boundsOfPrimitives(const scene::Scene& scene) {
+  std::vector<scene::Bounds> all;
+  for (const scene::Primitive& primitive : scene.primitives) {
+    scene::Bounds bounds{glm::dvec3(INFINITY), glm::dvec3(-INFINITY)};
+    for (uint32_t i = 0; i < primitive.indexCount; ++i) {
+      const glm::dvec3 p(scene.positions[scene.indices[primitive.firstIndex + i]]);
+      bounds.min = glm::min(bounds.min, p);
+      bounds.max = glm::max(bounds.max, p);
+    }
+    all.push_back(bounds);
+  }
+  return all;
+}
+
+// False when all corners lie outside one side of the frustum. The near side is left to the clipper.
+bool mayBeSeen(const scene::Bounds& bounds, const glm::dmat4& clipFromObject) {
+  int outside[4] = {0, 0, 0, 0};
+  for (int corner = 0; corner < 8; ++corner) {
+    const glm::dvec4 p = clipFromObject * glm::dvec4((corner & 1) != 0 ? bounds.max.x : bounds.min.x,
+                                                     (corner & 2) != 0 ? bounds.max.y : bounds.min.y,
+                                                     (corner & 4) != 0 ? bounds.max.z : bounds.min.z,
+                                                     1);
+    outside[0] += p.x > p.w ? 1 : 0;
+    outside[1] += p.x < -p.w ? 1 : 0;
+    outside[2] += p.y > p.w ? 1 : 0;
+    outside[3] += p.y < -p.w ? 1 : 0;
+  }
+  return std::find(std::begin(outside), std::end(outside), 8) == std::end(outside);
+}
+
+}  // namespace
+
+SceneResources::SceneResources(gpu::Device& device, const scene::Scene& scene)
+    : device_(device),
+      scene_(scene),
+      textures_(scene.textures.size()),
+      primitiveBounds_(boundsOfPrimitives(scene)) {}
+
+SceneResources::~SceneResources() {
+  for (const gpu::Buffer buffer : {positions_, normals_, texCoords_, indices_}) {
+    device_.destroy(buffer);
+  }
+  for (const gpu::GraphicsPipeline pipeline : pipelines_) device_.destroy(pipeline);
+  for (const DeviceTexture& texture : textures_) {
+    device_.destroy(texture.alpha);
+    device_.destroy(texture.colour);
+  }
+  for (const gpu::Sampler sampler : samplers_) device_.destroy(sampler);
+  device_.destroy(white_);
+}
+
+gpu::Buffer SceneResources::vertexBuffer(gpu::Commands& commands, gpu::Buffer& buffer,
+                                         const char* label, std::span<const std::byte> bytes,
+                                         gpu::BufferUsage usage) {
+  if (!buffer) {
+    buffer = device_.createBuffer({.label = label, .size = bytes.size(), .usage = usage});
+    commands.upload(buffer, 0, bytes);
+  }
+  return buffer;
+}
+
+gpu::GraphicsPipeline SceneResources::pipeline(Variant variant) {
+  gpu::GraphicsPipeline& pipeline = pipelines_[variant.index()];
+  if (pipeline) return pipeline;
+  constexpr uint32_t kStrides[] = {sizeof(glm::vec3), sizeof(glm::vec3), sizeof(glm::vec2)};
+  std::vector<uint32_t> strides = {kStrides[0]};
+  std::vector<gpu::VertexAttribute> attributes = {{.location = 0, .stream = 0}};
+  std::vector<gpu::Format> colors;
+  if (variant.normal) {
+    attributes.push_back({.location = 1, .stream = static_cast<uint32_t>(strides.size())});
+    strides.push_back(kStrides[1]);
+    colors.push_back(gpu::Format::kRgba16Float);
+  }
+  if (variant.base || variant.mask) {
+    attributes.push_back({.location = 2,
+                          .stream = static_cast<uint32_t>(strides.size()),
+                          .format = gpu::AttributeFormat::kFloat2});
+    strides.push_back(kStrides[2]);
+  }
+  if (variant.base) colors.push_back(gpu::Format::kRgba8Srgb);
+  pipeline = device_.createGraphicsPipeline({.label = "geometry",
+                                             .vertex = kVertex[variant.index()],
+                                             .fragment = kFragment[variant.index()],
+                                             .constants = {},
+                                             .streamStrides = strides,
+                                             .attributes = attributes,
+                                             .colorFormats = colors,
+                                             .depthFormat = gpu::Format::kD32Float});
+  return pipeline;
+}
+
+gpu::Texture SceneResources::texture(gpu::Commands& commands, const scene::Material& material,
+                                     bool base) {
+  if (material.baseColorTexture < 0) {
+    if (!white_) {
+      white_ = device_.createTexture({.label = "white",
+                                      .format = gpu::Format::kRgba8Unorm,
+                                      .width = 1,
+                                      .height = 1,
+                                      .usage = gpu::TextureUsage::kSampled});
+      constexpr uint32_t kWhite = 0xffffffffu;
+      commands.upload(white_, 0, 0, std::as_bytes(std::span(&kWhite, 1)));
+    }
+    return white_;
+  }
+  const scene::Texture& source = scene_.textures[static_cast<size_t>(material.baseColorTexture)];
+  DeviceTexture& texture = textures_[static_cast<size_t>(material.baseColorTexture)];
+  gpu::Texture& wanted = base ? texture.colour : texture.alpha;
+  if (wanted) return wanted;
+  const image::Image8 image = image::decode(source.encoded, source.name);
+  const std::vector<std::vector<uint8_t>> levels = base ? mipChain(image) : alphaAlone(image);
+  wanted = device_.createTexture(
+      {.label = source.name,
+       .format = base ? gpu::Format::kRgba8Srgb : gpu::Format::kR8Unorm,
+       .width = image.width,
+       .height = image.height,
+       .mips = static_cast<uint32_t>(levels.size()),
+       .usage = gpu::TextureUsage::kSampled});
+  for (uint32_t mip = 0; mip < levels.size(); ++mip) {
+    commands.upload(wanted, mip, 0, std::as_bytes(std::span(levels[mip])));
+  }
+  return wanted;
+}
+
+gpu::Sampler SceneResources::sampler(const scene::Material& material, bool base) {
+  scene::Wrap u = scene::Wrap::kRepeat, v = scene::Wrap::kRepeat;
+  if (material.baseColorTexture >= 0) {
+    u = scene_.textures[static_cast<size_t>(material.baseColorTexture)].wrapU;
+    v = scene_.textures[static_cast<size_t>(material.baseColorTexture)].wrapV;
+  }
+  gpu::Sampler& sampler =
+      samplers_[static_cast<size_t>(u) * 6 + static_cast<size_t>(v) * 2 + (base ? 1 : 0)];
+  if (!sampler) {
+    sampler = device_.createSampler({.label = "base colour",
+                                     .filter = gpu::Filter::kLinear,
+                                     .mipFilter = base ? gpu::Filter::kLinear : gpu::Filter::kNearest,
+                                     .addressU = address(u),
+                                     .addressV = address(v),
+                                     .maxAnisotropy = base ? 8.0f : 1.0f});
+  }
+  return sampler;
+}
+
+void SceneResources::draw(gpu::Commands& commands, const scene::Camera& camera, uint32_t width,
+                          uint32_t height, const SceneTargets& targets) {
+  const bool normal{targets.normal}, base{targets.baseColour};
+  const auto bytes = [](const auto& values) { return std::as_bytes(std::span(values)); };
+  const auto vertex = gpu::BufferUsage::kVertex;
+  vertexBuffer(commands, positions_, "positions", bytes(scene_.positions), vertex);
+  vertexBuffer(commands, indices_, "indices", bytes(scene_.indices), gpu::BufferUsage::kIndex);
+  if (normal) vertexBuffer(commands, normals_, "normals", bytes(scene_.normals), vertex);
+
+  const glm::dmat4 clipFromCamera =
+      scene::clipFromView(camera, double{1} * width / height) *
+      glm::dmat4(glm::transpose(scene::worldFromView(camera)));
+
+  // Bindings and streams stay where they are until render() returns: reserved, so nothing moves.
+  std::vector<gpu::Draw> draws;
+  std::vector<std::array<gpu::Binding, 2>> bindings;
+  std::vector<std::array<gpu::BufferRange, 3>> streams;
+  bindings.reserve(scene_.instances.size());
+  streams.reserve(scene_.instances.size());
+  for (const scene::Instance& instance : scene_.instances) {
+    const scene::Primitive& primitive = scene_.primitives[instance.primitive];
+    const scene::Material& material = scene_.materials[primitive.material];
+    glm::dmat4 cameraFromObject = instance.worldFromObject;
+    cameraFromObject[3] -= glm::dvec4(camera.eye, 0);
+    const glm::dmat4 clipFromObject = clipFromCamera * cameraFromObject;
+    if (!mayBeSeen(primitiveBounds_[instance.primitive], clipFromObject)) continue;
+
+    const glm::dmat3 linear(cameraFromObject);
+    const bool mirrors = glm::determinant(linear) < 0;
+    const DrawBlock block{.clip_from_object = glm::mat4(clipFromObject),
+                          .normal_from_object = glm::mat4(normalTransform(linear)),
+                          .base_color = material.baseColor,
+                          .alpha_cutoff = material.alphaCutoff,
+                          .front_sign = mirrors ? -1.0f : 1.0f};
+    const Variant variant{.normal = normal, .base = base, .mask = material.masked};
+
+    auto& stream = streams.emplace_back();
+    size_t streamCount = 0;
+    stream[streamCount++].buffer = positions_;
+    if (normal) stream[streamCount++].buffer = normals_;
+    auto& binding = bindings.emplace_back();
+    size_t bindingCount = 0;
+    binding[bindingCount++] =
+        gpu::uniformBinding(0, commands.uniform(std::as_bytes(std::span(&block, 1))));
+    if (base || material.masked) {
+      stream[streamCount++].buffer =
+          vertexBuffer(commands, texCoords_, "texture coordinates", bytes(scene_.texCoords), vertex);
+      binding[bindingCount++] = gpu::textureBinding(
+          0, {.texture = texture(commands, material, base)}, sampler(material, base));
+    }
+    draws.push_back({.pipeline = pipeline(variant),
+                     .bindings = std::span(binding).first(bindingCount),
+                     .vertexStreams = std::span(stream).first(streamCount),
+                     .indices = {.buffer = indices_},
+                     .count = primitive.indexCount,
+                     .first = primitive.firstIndex,
+                     .cull = material.doubleSided ? gpu::Cull::kNone
+                             : mirrors            ? gpu::Cull::kFront
+                                                  : gpu::Cull::kBack});
+  }
+
+  std::vector<gpu::ColorTarget> colors;
+  if (normal) colors.push_back({.view = {.texture = targets.normal}});
+  if (base) colors.push_back({.view = {.texture = targets.baseColour}});
+  commands.render({.colors = colors, .depth = {.view = {.texture = targets.depth}}, .draws = draws});
+}
+
+}  // namespace grisaille::frame

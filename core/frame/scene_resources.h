@@ -1,0 +1,62 @@
+// SPDX-License-Identifier: MIT
+// A scene on the device, and the one pass that draws it. What no draw has asked for yet takes
+// nothing: normals, texture coordinates and textures arrive with the first draw that needs them.
+#pragma once
+
+#include <array>
+#include <optional>
+#include <vector>
+
+#include "core/gpu/device.h"
+#include "core/scene/camera.h"
+#include "core/scene/scene.h"
+
+namespace grisaille::frame {
+
+// What one draw writes; normal and base colour may be null.
+struct SceneTargets {
+  gpu::Texture depth;       // kD32Float
+  gpu::Texture normal;      // kRgba16Float
+  gpu::Texture baseColour;  // kRgba8Srgb
+};
+
+class SceneResources {
+ public:
+  // `scene` stays where it is and unchanged while this lives.
+  SceneResources(gpu::Device& device, const scene::Scene& scene);
+  ~SceneResources();
+  SceneResources(const SceneResources&) = delete;
+  SceneResources& operator=(const SceneResources&) = delete;
+
+  // Inside a pass. Draws every instance that may be seen.
+  void draw(gpu::Commands& commands, const scene::Camera& camera, uint32_t width, uint32_t height,
+            const SceneTargets& targets);
+
+ private:
+  // Which of the things below a draw needs.
+  struct Variant {
+    bool normal = false, base = false, mask = false;
+    size_t index() const { return (normal ? 4u : 0u) + (base ? 2u : 0u) + (mask ? 1u : 0u); }
+  };
+  // A scene texture on the device: its alpha alone, or its colour with mip levels.
+  struct DeviceTexture {
+    gpu::Texture alpha, colour;
+  };
+
+  gpu::Buffer vertexBuffer(gpu::Commands& commands, gpu::Buffer& buffer, const char* label,
+                           std::span<const std::byte> bytes, gpu::BufferUsage usage);
+  gpu::GraphicsPipeline pipeline(Variant variant);
+  gpu::Texture texture(gpu::Commands& commands, const scene::Material& material, bool base);
+  gpu::Sampler sampler(const scene::Material& material, bool base);
+
+  gpu::Device& device_;
+  const scene::Scene& scene_;
+  gpu::Buffer positions_, normals_, texCoords_, indices_;
+  std::array<gpu::GraphicsPipeline, 8> pipelines_;
+  std::vector<DeviceTexture> textures_;
+  std::array<gpu::Sampler, 18> samplers_;  // wrap u, wrap v, with mips
+  gpu::Texture white_;                     // for materials without a texture
+  std::vector<scene::Bounds> primitiveBounds_;  // object space
+};
+
+}  // namespace grisaille::frame

@@ -1,0 +1,19 @@
+// SPDX-License-Identifier: MIT
+// A texture's bytes as numbers.
+#pragma once
+
+#include <span>
+
+#include "core/gpu/types.h"
+#include "core/image/image.h"
+
+namespace grisaille::frame {
+
+// `bytes` as Device::read gives them; unorm formats become [0, 1], sRGB ones linear light.
+image::Image toImage(std::span<const std::byte> bytes, gpu::Format format, uint32_t width,
+                     uint32_t height);
+
+// The first `channels` of every pixel.
+image::Image firstChannels(const image::Image& image, uint32_t channels);
+
+}  // namespace grisaille::frame

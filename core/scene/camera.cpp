@@ -1,0 +1,182 @@
+// SPDX-License-Identifier: MIT
+#include "core/scene/camera.h"
+
+#include <cmath>
+#include <filesystem>
+#include <fstream>
+#include <nlohmann/json.hpp>
+
+#include "core/effect/values.h"
+#include "core/error.h"
+#include "core/image/write_aside.h"
+
+namespace grisaille::scene {
+namespace {
+
+using nlohmann::json;
+
+constexpr uint32_t kLargestSize = 16384;  // pixels a side
+constexpr uintmax_t kLargestFile = 1 << 20;
+
+[[noreturn]] void refuse(std::string_view field, std::string_view why) {
+  throw Error(ErrorId::kCameraInvalid, "{} {}", field, why);
+}
+
+double numberOf(const json& value, std::string_view field) {
+  if (!value.is_number()) refuse(field, fmt::format("is {}, not a number", value.type_name()));
+  return value.get<double>();
+}
+
+glm::dvec3 vectorOf(const json& value, std::string_view field) {
+  if (!value.is_array() || value.size() != 3) refuse(field, "is not an array of three numbers");
+  return {numberOf(value[0], field), numberOf(value[1], field), numberOf(value[2], field)};
+}
+
+glm::uvec2 sizeOf(const json& value) {
+  if (!value.is_array() || value.size() != 2) refuse("size", "is not an array of two numbers");
+  glm::uvec2 size;
+  for (int i = 0; i < 2; ++i) {
+    const double side = numberOf(value[static_cast<size_t>(i)], "size");
+    if (!(side >= 1 && side <= kLargestSize) || side != std::floor(side)) {
+      refuse("size", fmt::format("holds {}, not a whole number from 1 to {}", side, kLargestSize));
+    }
+    size[i] = static_cast<uint32_t>(side);
+  }
+  return size;
+}
+
+json parse(const std::string& path) {
+  std::error_code code;
+  if (!std::filesystem::is_regular_file(path, code)) {
+    throw Error(ErrorId::kCameraUnreadable, "{}: {}", path,
+                code ? code.message() : "not a regular file");
+  }
+  if (std::filesystem::file_size(path, code) > kLargestFile || code) {
+    throw Error(ErrorId::kCameraUnreadable, "{}: larger than a camera file can be", path);
+  }
+  std::ifstream file(path, std::ios::binary);
+  if (!file) throw Error(ErrorId::kCameraUnreadable, "{}: cannot be opened", path);
+  try {
+    return json::parse(file);
+  } catch (const json::exception& error) {
+    throw Error(ErrorId::kCameraUnreadable, "{}: {}", path, error.what());
+  }
+}
+
+[[noreturn]] void refuseKey(const std::string& key) {
+  const std::string keys[] = {"eye", "target", "up", "fovy_degrees", "size", "near"};
+  const std::string near = effect::nearest(key, keys);
+  refuse(fmt::format("\"{}\"", key),
+         fmt::format("is no key of a camera{}{}", near.empty() ? "" : ", nearest is ", near));
+}
+
+void set(Camera& camera, const std::string& key, const json& value) {
+  if (key == "eye") {
+    camera.eye = vectorOf(value, key);
+  } else if (key == "target") {
+    camera.target = vectorOf(value, key);
+  } else if (key == "up") {
+    camera.up = vectorOf(value, key);
+  } else if (key == "fovy_degrees") {
+    camera.fovyDegrees = numberOf(value, key);
+  } else if (key == "size") {
+    camera.size = sizeOf(value);
+  } else if (key == "near") {
+    camera.nearPlane = numberOf(value, key);
+  } else {
+    refuseKey(key);
+  }
+}
+
+void requireFinite(const glm::dvec3& vector, std::string_view field) {
+  for (int i = 0; i < 3; ++i) {
+    // Beyond this, products of coordinates would not be finite either.
+    if (!(std::abs(vector[i]) <= 1e15)) refuse(field, "is not finite");
+  }
+}
+
+}  // namespace
+
+void validate(const Camera& camera) {
+  requireFinite(camera.eye, "eye");
+  requireFinite(camera.target, "target");
+  requireFinite(camera.up, "up");
+  if (!(camera.fovyDegrees >= 1 && camera.fovyDegrees <= 170)) {
+    refuse("fovy_degrees", fmt::format("is {}, out of 1 to 170", camera.fovyDegrees));
+  }
+  if (!(camera.nearPlane > 0 && camera.nearPlane <= 1e6)) {
+    refuse("near", fmt::format("is {}, out of over 0 to 1e6", camera.nearPlane));
+  }
+  if ((camera.size.x == 0) != (camera.size.y == 0) || camera.size.x > kLargestSize ||
+      camera.size.y > kLargestSize) {
+    refuse("size", fmt::format("is out of 1 to {} a side", kLargestSize));
+  }
+  const glm::dvec3 view = camera.target - camera.eye;
+  const double distance = glm::length(view);
+  // The direction must survive the rounding of the coordinates that it is the difference of.
+  if (!(distance > 1e-9 * (1 + glm::length(camera.eye)))) refuse("target", "is at the eye");
+  const double upLength = glm::length(camera.up);
+  if (!(upLength > 1e-9)) refuse("up", "has no length");
+  if (!(glm::length(glm::cross(view / distance, camera.up / upLength)) > 1e-6)) {
+    refuse("up", "is along the view direction");
+  }
+}
+
+Camera loadCamera(const std::string& path) {
+  const json document = parse(path);
+  try {
+    if (!document.is_object()) refuse("the file", "holds no object");
+    Camera camera;
+    for (const auto& [key, value] : document.items()) set(camera, key, value);
+    for (const char* key : {"eye", "target", "fovy_degrees"}) {
+      if (!document.contains(key)) refuse(key, "is missing");
+    }
+    validate(camera);
+    return camera;
+  } catch (const Error& error) {
+    throw Error(error.id(), "{}: {}", path, error.detail());
+  }
+}
+
+void saveCamera(const Camera& camera, const std::string& path) {
+  const auto array = [](const glm::dvec3& v) { return json::array({v.x, v.y, v.z}); };
+  nlohmann::ordered_json document{{"eye", array(camera.eye)},
+                                  {"target", array(camera.target)},
+                                  {"up", array(camera.up)},
+                                  {"fovy_degrees", camera.fovyDegrees}};
+  if (camera.size.x != 0) document["size"] = {camera.size.x, camera.size.y};
+  document["near"] = camera.nearPlane;
+  image::writeFileAside(path, document.dump() + "\n");
+}
+
+Camera overviewCamera(const Bounds& bounds) {
+  const glm::dvec3 centre = 0.5 * (bounds.min + bounds.max);
+  const double radius = std::max(0.5 * glm::length(bounds.max - bounds.min), 1e-3);
+  Camera camera;
+  camera.fovyDegrees = 40;
+  // The sphere about the bounds fits the narrower half angle of a picture up to 9 wide : 16 high.
+  const double halfAngle = std::atan(std::tan(glm::radians(camera.fovyDegrees / 2)) * 9.0 / 16.0);
+  const double distance = radius / std::sin(halfAngle);
+  camera.target = centre;
+  camera.eye = centre + distance * glm::normalize(glm::dvec3(0.6, 0.45, 1));
+  camera.nearPlane = std::min((distance - radius) / 2, 0.01 * distance);
+  return camera;
+}
+
+glm::dmat3 worldFromView(const Camera& camera) {
+  const glm::dvec3 backward = glm::normalize(camera.eye - camera.target);
+  const glm::dvec3 right = glm::normalize(glm::cross(camera.up, backward));
+  return {right, glm::cross(backward, right), backward};
+}
+
+glm::dmat4 clipFromView(const Camera& camera, double aspect) {
+  const double scale = 1 / std::tan(glm::radians(camera.fovyDegrees) / 2);
+  glm::dmat4 clip(0);
+  clip[0][0] = scale / aspect;
+  clip[1][1] = scale;
+  clip[2][3] = -1;
+  clip[3][2] = camera.nearPlane;
+  return clip;
+}
+
+}  // namespace grisaille::scene

@@ -1,0 +1,234 @@
+// SPDX-License-Identifier: MIT
+#include "core/scene/gltf_accessor.h"
+
+#include <tiny_gltf.h>
+
+#include <algorithm>
+#include <cmath>
+#include <cstring>
+#include <limits>
+#include <type_traits>
+
+#include "core/error.h"
+#include "core/scene/gltf_file.h"
+
+namespace grisaille::scene {
+namespace {
+
+// `count` elements that lie inside a buffer, `stride` bytes apart, at any alignment.
+struct Elements {
+  const unsigned char* first = nullptr;
+  size_t stride = 0;
+  size_t count = 0;
+};
+
+const tinygltf::Accessor& accessorAt(const tinygltf::Model& model, int index) {
+  if (index < 0 || static_cast<size_t>(index) >= model.accessors.size()) {
+    throw Error(ErrorId::kSceneInvalid, "accessor {} does not exist", index);
+  }
+  return model.accessors[static_cast<size_t>(index)];
+}
+
+// Checks a range of a buffer view. Its stride is the view's, or else packed.
+Elements elementsOf(const tinygltf::Model& model, int accessor, int view, uint64_t offset,
+                    uint64_t count, size_t elementSize) {
+  const std::span<const unsigned char> bytes = viewBytes(model, view);
+  const size_t given = model.bufferViews[static_cast<size_t>(view)].byteStride;
+  const size_t stride = given == 0 ? elementSize : given;
+  const bool fits = stride >= elementSize && count > 0 && offset <= bytes.size() &&
+                    bytes.size() - offset >= elementSize &&
+                    (bytes.size() - offset - elementSize) / stride >= count - 1;
+  if (!fits) {
+    throw Error(ErrorId::kSceneInvalid,
+                "accessor {}: {} elements of {} bytes do not fit in buffer view {}", accessor,
+                count, elementSize, view);
+  }
+  return {.first = bytes.data() + offset, .stride = stride, .count = static_cast<size_t>(count)};
+}
+
+template <typename T>
+T load(const unsigned char* at) {
+  T value;
+  std::memcpy(&value, at, sizeof value);
+  return value;
+}
+
+template <typename T>
+float toFloat(T value, bool normalized) {
+  if constexpr (std::is_floating_point_v<T>) {
+    return value;
+  } else {
+    const auto number = static_cast<float>(value);
+    if (!normalized) return number;
+    return std::max(number / static_cast<float>(std::numeric_limits<T>::max()), -1.0f);
+  }
+}
+
+// Calls `f` with a value of the component's C++ type.
+template <typename F>
+void withType(int accessor, int componentType, F&& f) {
+  switch (componentType) {
+    case TINYGLTF_COMPONENT_TYPE_BYTE:
+      return f(int8_t{});
+    case TINYGLTF_COMPONENT_TYPE_UNSIGNED_BYTE:
+      return f(uint8_t{});
+    case TINYGLTF_COMPONENT_TYPE_SHORT:
+      return f(int16_t{});
+    case TINYGLTF_COMPONENT_TYPE_UNSIGNED_SHORT:
+      return f(uint16_t{});
+    case TINYGLTF_COMPONENT_TYPE_UNSIGNED_INT:
+      return f(uint32_t{});
+    case TINYGLTF_COMPONENT_TYPE_FLOAT:
+      return f(float{});
+    default:
+      throw Error(ErrorId::kSceneInvalid, "accessor {}: component type {} cannot be used here",
+                  accessor, componentType);
+  }
+}
+
+void requireType(int accessor, bool good) {
+  if (!good) {
+    throw Error(ErrorId::kSceneInvalid, "accessor {}: its type does not suit its use", accessor);
+  }
+}
+
+std::vector<uint32_t> readIntegers(int accessor, int componentType, const Elements& elements) {
+  std::vector<uint32_t> result(elements.count);
+  withType(accessor, componentType, [&]<typename T>(T) {
+    requireType(accessor, std::is_unsigned_v<T>);
+    for (size_t i = 0; i < elements.count; ++i) {
+      result[i] = static_cast<uint32_t>(load<T>(elements.first + i * elements.stride));
+    }
+  });
+  return result;
+}
+
+// Where the elements of a sparse accessor are replaced, and by which.
+struct Replacement {
+  std::vector<uint32_t> indices;
+  Elements values;
+};
+
+Replacement replacementOf(const tinygltf::Model& model, int index, size_t elementSize) {
+  const tinygltf::Accessor& accessor = accessorAt(model, index);
+  const auto& sparse = accessor.sparse;
+  if (!sparse.isSparse) return {};
+  if (sparse.count < 1 || static_cast<uint64_t>(sparse.count) > accessor.count ||
+      sparse.indices.byteOffset < 0 || sparse.values.byteOffset < 0) {
+    throw Error(ErrorId::kSceneInvalid, "accessor {}: a sparse count or offset is out of range",
+                index);
+  }
+  const auto count = static_cast<uint64_t>(sparse.count);
+  size_t indexSize = 0;
+  withType(index, sparse.indices.componentType, [&]<typename T>(T) { indexSize = sizeof(T); });
+  const Elements indices =
+      elementsOf(model, index, sparse.indices.bufferView,
+                 static_cast<uint64_t>(sparse.indices.byteOffset), count, indexSize);
+  Replacement result{
+      .indices = readIntegers(index, sparse.indices.componentType, indices),
+      .values = elementsOf(model, index, sparse.values.bufferView,
+                           static_cast<uint64_t>(sparse.values.byteOffset), count, elementSize)};
+  for (const uint32_t i : result.indices) {
+    if (i >= accessor.count) {
+      throw Error(ErrorId::kSceneInvalid, "accessor {}: sparse index {} of {} elements", index, i,
+                  accessor.count);
+    }
+  }
+  return result;
+}
+
+// Elements of the dense part; none where the accessor has no buffer view, which means zeros.
+Elements denseOf(const tinygltf::Model& model, int index, size_t elementSize) {
+  const tinygltf::Accessor& accessor = accessorAt(model, index);
+  if (accessor.bufferView >= 0) {
+    return elementsOf(model, index, accessor.bufferView, accessor.byteOffset, accessor.count,
+                      elementSize);
+  }
+  // No buffer bounds this count.
+  if (accessor.count > kMaxVertices) {
+    throw Error(ErrorId::kSceneTooLarge, "accessor {}: {} elements, at most {}", index,
+                accessor.count, kMaxVertices);
+  }
+  if (accessor.count == 0) throw Error(ErrorId::kSceneInvalid, "accessor {} is empty", index);
+  return {};
+}
+
+template <typename Vec>
+std::vector<Vec> readVectors(const tinygltf::Model& model, int index, int type) {
+  const tinygltf::Accessor& accessor = accessorAt(model, index);
+  requireType(index, accessor.type == type);
+  std::vector<Vec> result;
+  withType(index, accessor.componentType, [&]<typename T>(T) {
+    requireType(index, !std::is_same_v<T, uint32_t>);
+    constexpr int kSize = Vec::length();
+    const Elements dense = denseOf(model, index, sizeof(T) * kSize);
+    const Replacement sparse = replacementOf(model, index, sizeof(T) * kSize);
+    result.resize(accessor.count, Vec(0));
+    const auto convert = [&](const Elements& from, size_t i, Vec& to) {
+      const unsigned char* at = from.first + i * from.stride;
+      for (int c = 0; c < kSize; ++c) {
+        to[c] = toFloat(load<T>(at + static_cast<size_t>(c) * sizeof(T)), accessor.normalized);
+      }
+    };
+    for (size_t i = 0; i < dense.count; ++i) convert(dense, i, result[i]);
+    for (size_t i = 0; i < sparse.indices.size(); ++i) {
+      convert(sparse.values, i, result[sparse.indices[i]]);
+    }
+  });
+  for (size_t i = 0; i < result.size(); ++i) {
+    for (int c = 0; c < Vec::length(); ++c) {
+      if (std::isfinite(result[i][c])) continue;
+      throw Error(ErrorId::kSceneInvalid, "accessor {}: element {} is not finite", index, i);
+    }
+  }
+  return result;
+}
+
+}  // namespace
+
+std::span<const unsigned char> viewBytes(const tinygltf::Model& model, int bufferView) {
+  if (bufferView < 0 || static_cast<size_t>(bufferView) >= model.bufferViews.size()) {
+    throw Error(ErrorId::kSceneInvalid, "buffer view {} does not exist", bufferView);
+  }
+  const tinygltf::BufferView& view = model.bufferViews[static_cast<size_t>(bufferView)];
+  if (view.buffer < 0 || static_cast<size_t>(view.buffer) >= model.buffers.size()) {
+    throw Error(ErrorId::kSceneInvalid, "buffer view {}: buffer {} does not exist", bufferView,
+                view.buffer);
+  }
+  const auto& data = model.buffers[static_cast<size_t>(view.buffer)].data;
+  if (view.byteOffset > data.size() || view.byteLength > data.size() - view.byteOffset) {
+    throw Error(ErrorId::kSceneInvalid, "buffer view {}: {} bytes from {} leave its buffer of {}",
+                bufferView, view.byteLength, view.byteOffset, data.size());
+  }
+  return std::span(data).subspan(view.byteOffset, view.byteLength);
+}
+
+uint64_t accessorCount(const tinygltf::Model& model, int accessor) {
+  return accessorAt(model, accessor).count;
+}
+
+std::vector<glm::vec3> readVec3(const tinygltf::Model& model, int accessor) {
+  return readVectors<glm::vec3>(model, accessor, TINYGLTF_TYPE_VEC3);
+}
+
+std::vector<glm::vec2> readVec2(const tinygltf::Model& model, int accessor) {
+  return readVectors<glm::vec2>(model, accessor, TINYGLTF_TYPE_VEC2);
+}
+
+std::vector<uint32_t> readIndices(const tinygltf::Model& model, int index) {
+  const tinygltf::Accessor& accessor = accessorAt(model, index);
+  requireType(index, accessor.type == TINYGLTF_TYPE_SCALAR && !accessor.normalized);
+  size_t size = 0;
+  withType(index, accessor.componentType, [&]<typename T>(T) { size = sizeof(T); });
+  const Elements dense = denseOf(model, index, size);
+  const Replacement sparse = replacementOf(model, index, size);
+  std::vector<uint32_t> result(accessor.count, 0);
+  if (dense.count > 0) result = readIntegers(index, accessor.componentType, dense);
+  if (!sparse.indices.empty()) {
+    const auto values = readIntegers(index, accessor.componentType, sparse.values);
+    for (size_t i = 0; i < values.size(); ++i) result[sparse.indices[i]] = values[i];
+  }
+  return result;
+}
+
+}  // namespace grisaille::scene

@@ -1,0 +1,236 @@
+// SPDX-License-Identifier: MIT
+#include "core/scene/gltf_file.h"
+
+#include <tiny_gltf.h>
+
+#include <cstring>
+#include <filesystem>
+#include <fstream>
+#include <limits>
+#include <nlohmann/json.hpp>
+#include <span>
+#include <string_view>
+
+#include "core/error.h"
+#include "core/scene/gltf_accessor.h"
+
+namespace grisaille::scene {
+namespace {
+
+using nlohmann::json;
+using Bytes = std::vector<unsigned char>;
+
+constexpr uint64_t kMaxFileBytes = std::numeric_limits<uint32_t>::max();
+// tinygltf recurses into `extras`; real files nest a dozen levels.
+constexpr int kDeepestJson = 64;
+constexpr std::string_view kSupportedExtensions[] = {"KHR_mesh_quantization",
+                                                     "KHR_texture_transform"};
+
+// `name`: of a file that the scene's own file names, for messages.
+Bytes readFile(const std::filesystem::path& path, const std::string& name, uint64_t mostBytes,
+               ErrorId id) {
+  std::error_code code;
+  const std::string subject = name.empty() ? "" : fmt::format("file \"{}\": ", name);
+  const bool regular = std::filesystem::is_regular_file(path, code);
+  if (code) throw Error(id, "{}{}", subject, code.message());
+  // A pipe or a device could block or never end.
+  if (!regular) throw Error(id, "{}not a regular file", subject);
+  const uintmax_t size = std::filesystem::file_size(path, code);
+  if (code) throw Error(id, "{}{}", subject, code.message());
+  if (size > mostBytes) {
+    throw Error(ErrorId::kSceneTooLarge, "{}{} bytes, at most {} fit", subject, size, mostBytes);
+  }
+  Bytes bytes(size);
+  std::ifstream file(path, std::ios::binary);
+  file.read(reinterpret_cast<char*>(bytes.data()), static_cast<std::streamsize>(size));
+  if (!file) throw Error(id, "{}cannot be read", subject);
+  return bytes;
+}
+
+// A file that the scene names, which must lie in or below the scene's folder.
+std::filesystem::path besideScene(const std::filesystem::path& folder, const std::string& name) {
+  const std::filesystem::path relative(name);
+  bool leaves = relative.is_absolute() || name.empty() || name.find('\0') != std::string::npos;
+  for (const auto& part : relative) leaves = leaves || part == "..";
+  if (leaves) {
+    throw Error(ErrorId::kSceneInvalid, "\"{}\" leads out of the scene's folder", name);
+  }
+  return folder / relative;
+}
+
+// What tinygltf's file callbacks share.
+struct Files {
+  std::filesystem::path folder;
+  size_t buffersLeft = 0;  // external buffers come first, then external images
+  uint64_t bytesLeft = kMaxFileBytes;
+};
+
+bool readForTinygltf(Bytes* out, std::string*, const std::string& name, void* user) {
+  Files& files = *static_cast<Files*>(user);
+  if (files.buffersLeft == 0) {
+    // An image: hand over its decoded name in place of its bytes, for imageBytes() to read when a
+    // material needs it.
+    out->assign(name.begin(), name.end());
+    return true;
+  }
+  --files.buffersLeft;
+  *out =
+      readFile(besideScene(files.folder, name), name, files.bytesLeft, ErrorId::kSceneUnreadable);
+  files.bytesLeft -= out->size();
+  return true;
+}
+
+bool keepImage(tinygltf::Image* image, const int, std::string*, std::string*, int, int,
+               const unsigned char* bytes, int size, void*) {
+  // An image in a buffer stays there. Its range is not checked yet, so `bytes` must not be touched.
+  if (image->bufferView < 0 && size > 0) image->image.assign(bytes, bytes + size);
+  return true;
+}
+
+uint32_t word(const Bytes& bytes, size_t offset) {
+  return static_cast<uint32_t>(bytes[offset]) | static_cast<uint32_t>(bytes[offset + 1]) << 8 |
+         static_cast<uint32_t>(bytes[offset + 2]) << 16 |
+         static_cast<uint32_t>(bytes[offset + 3]) << 24;
+}
+
+bool isBinary(const Bytes& bytes) {
+  return bytes.size() >= 4 && std::memcmp(bytes.data(), "glTF", 4) == 0;
+}
+
+std::span<const unsigned char> jsonOf(const Bytes& bytes) {
+  if (!isBinary(bytes)) return bytes;
+  constexpr size_t kHeader = 20;  // file header and first chunk's header
+  constexpr uint32_t kJsonChunk = 0x4e4f534a;
+  if (bytes.size() < kHeader) throw Error(ErrorId::kSceneUnreadable, "the header is cut short");
+  if (word(bytes, 4) != 2) {
+    throw Error(ErrorId::kSceneUnreadable, "binary glTF version {}, only 2 is read",
+                word(bytes, 4));
+  }
+  if (word(bytes, 8) > bytes.size()) {
+    throw Error(ErrorId::kSceneUnreadable, "the header announces {} bytes, the file has {}",
+                word(bytes, 8), bytes.size());
+  }
+  const size_t length = word(bytes, 12);
+  if (word(bytes, 16) != kJsonChunk || length > bytes.size() - kHeader) {
+    throw Error(ErrorId::kSceneUnreadable, "the first chunk is not JSON or is cut short");
+  }
+  return std::span(bytes).subspan(kHeader, length);
+}
+
+json parseJson(std::span<const unsigned char> text) {
+  const auto shallow = [](int depth, json::parse_event_t, json&) {
+    if (depth > kDeepestJson) {
+      throw Error(ErrorId::kSceneTooLarge, "the JSON nests deeper than {} levels", kDeepestJson);
+    }
+    return true;
+  };
+  try {
+    return json::parse(text.begin(), text.end(), shallow);
+  } catch (const json::exception& error) {
+    throw Error(ErrorId::kSceneUnreadable, "{}", error.what());
+  }
+}
+
+void checkAsset(const json& document) {
+  const auto asset = document.find("asset");
+  if (!document.is_object() || asset == document.end() || !asset->is_object() ||
+      !asset->contains("version") || !(*asset)["version"].is_string()) {
+    throw Error(ErrorId::kSceneUnreadable, "no asset.version, so this is not glTF");
+  }
+  // A minor version may be newer than ours unless the file asks for more.
+  const auto version = (*asset)["version"].get<std::string>();
+  const auto minimum = asset->value("minVersion", json("2.0"));
+  if (!version.starts_with("2.") || minimum != "2.0") {
+    throw Error(ErrorId::kSceneUnreadable, "glTF version {} (at least {}), only 2.0 is read",
+                version, minimum.dump());
+  }
+}
+
+void checkExtensions(const json& document) {
+  const auto required = document.find("extensionsRequired");
+  if (required == document.end()) return;
+  if (!required->is_array()) throw Error(ErrorId::kSceneInvalid, "extensionsRequired is no array");
+  for (const json& name : *required) {
+    const bool supported = name.is_string() &&
+                           std::any_of(std::begin(kSupportedExtensions),
+                                       std::end(kSupportedExtensions), [&](std::string_view known) {
+                                         return name.get_ref<const std::string&>() == known;
+                                       });
+    if (!supported) {
+      throw Error(ErrorId::kSceneExtension, "the scene requires {}", name.dump());
+    }
+  }
+}
+
+// How many buffers tinygltf will ask the disk for.
+size_t externalBuffers(const json& document) {
+  size_t external = 0, embedded = 0;
+  const auto buffers = document.find("buffers");
+  if (buffers == document.end() || !buffers->is_array()) return 0;
+  for (const json& buffer : *buffers) {
+    const auto uri = buffer.find("uri");
+    if (!buffer.is_object() || uri == buffer.end()) {
+      ++embedded;
+    } else if (!uri->is_string() || !uri->get_ref<const std::string&>().starts_with("data:")) {
+      ++external;
+    }
+  }
+  // tinygltf would copy the binary chunk once for each.
+  if (embedded > 1) throw Error(ErrorId::kSceneInvalid, "{} buffers without a uri", embedded);
+  return external;
+}
+
+}  // namespace
+
+void readModel(const std::string& path, tinygltf::Model& model) {
+  const Bytes bytes = readFile(path, "", kMaxFileBytes, ErrorId::kSceneUnreadable);
+  if (bytes.empty()) throw Error(ErrorId::kSceneUnreadable, "the file is empty");
+  Files files{.folder = std::filesystem::path(path).parent_path()};
+  {
+    const json document = parseJson(jsonOf(bytes));
+    checkAsset(document);
+    checkExtensions(document);
+    files.buffersLeft = externalBuffers(document);
+  }
+  tinygltf::TinyGLTF loader;
+  loader.SetImageLoader(keepImage, nullptr);
+  loader.SetFsCallbacks({.FileExists = [](const std::string&, void*) { return true; },
+                         .ExpandFilePath = [](const std::string& name, void*) { return name; },
+                         .ReadWholeFile = readForTinygltf,
+                         .WriteWholeFile = nullptr,
+                         .user_data = &files});
+  std::string error, warning;
+  bool good = false;
+  const auto size = static_cast<unsigned>(bytes.size());
+  try {
+    good = isBinary(bytes)
+               ? loader.LoadBinaryFromMemory(&model, &error, &warning, bytes.data(), size)
+               : loader.LoadASCIIFromString(&model, &error, &warning,
+                                            reinterpret_cast<const char*>(bytes.data()), size, "");
+  } catch (const Error&) {
+    throw;
+  } catch (const std::exception& thrown) {
+    error = thrown.what();
+  }
+  while (!error.empty() && error.back() == '\n') error.pop_back();
+  if (!good || !error.empty()) throw Error(ErrorId::kSceneInvalid, "{}", error);
+}
+
+std::vector<std::byte> imageBytes(const std::string& path, const tinygltf::Model& model,
+                                  int index) {
+  if (index < 0 || static_cast<size_t>(index) >= model.images.size()) {
+    throw Error(ErrorId::kSceneInvalid, "image {} does not exist", index);
+  }
+  const tinygltf::Image& image = model.images[static_cast<size_t>(index)];
+  const auto copy = [](std::span<const unsigned char> from) {
+    const auto bytes = std::as_bytes(from);
+    return std::vector<std::byte>(bytes.begin(), bytes.end());
+  };
+  if (image.bufferView >= 0) return copy(viewBytes(model, image.bufferView));
+  if (image.uri.empty()) return copy(image.image);
+  const std::string name(image.image.begin(), image.image.end());
+  const auto folder = std::filesystem::path(path).parent_path();
+  return copy(readFile(besideScene(folder, name), name, kMaxFileBytes, ErrorId::kSceneImage));
+}
+
+}  // namespace grisaille::scene

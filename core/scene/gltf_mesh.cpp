@@ -1,0 +1,224 @@
+// SPDX-License-Identifier: MIT
+#include "core/scene/gltf_mesh.h"
+
+#include <tiny_gltf.h>
+
+#include <cmath>
+#include <numeric>
+
+#include "core/error.h"
+#include "core/scene/gltf_accessor.h"
+#include "core/scene/gltf_file.h"
+
+namespace grisaille::scene {
+namespace {
+
+int attribute(const tinygltf::Primitive& primitive, const std::string& name) {
+  const auto found = primitive.attributes.find(name);
+  return found == primitive.attributes.end() ? -1 : found->second;
+}
+
+// Twice the triangle's area long; zero where it has none.
+glm::dvec3 faceNormal(const glm::dvec3& a, const glm::dvec3& b, const glm::dvec3& c) {
+  return glm::cross(b - a, c - a);
+}
+
+// Strips and fans to triangles that keep their winding.
+std::vector<uint32_t> toTriangles(std::vector<uint32_t> indices, int mode) {
+  const size_t count = indices.size();
+  if (mode == TINYGLTF_MODE_TRIANGLES) {
+    if (count % 3 == 0) return indices;
+    throw Error(ErrorId::kSceneInvalid, "{} indices do not make whole triangles", count);
+  }
+  std::vector<uint32_t> result;
+  if (count < 3) return result;
+  result.reserve((count - 2) * 3);
+  for (size_t i = 2; i < count; ++i) {
+    if (mode == TINYGLTF_MODE_TRIANGLE_FAN) {
+      result.insert(result.end(), {indices[i - 1], indices[i], indices[0]});
+    } else if (i % 2 == 0) {
+      result.insert(result.end(), {indices[i - 2], indices[i - 1], indices[i]});
+    } else {
+      result.insert(result.end(), {indices[i - 1], indices[i - 2], indices[i]});
+    }
+  }
+  return result;
+}
+
+std::vector<uint32_t> trianglesOf(const tinygltf::Model& model,
+                                  const tinygltf::Primitive& primitive, uint64_t vertexCount) {
+  std::vector<uint32_t> indices;
+  if (primitive.indices >= 0) {
+    // A strip makes up to three of each index.
+    if (accessorCount(model, primitive.indices) > kMaxIndices / 3) {
+      throw Error(ErrorId::kSceneTooLarge, "{} indices, at most {}",
+                  accessorCount(model, primitive.indices), kMaxIndices / 3);
+    }
+    indices = readIndices(model, primitive.indices);
+  } else {
+    indices.resize(vertexCount);
+    std::iota(indices.begin(), indices.end(), 0u);
+  }
+  for (const uint32_t index : indices) {
+    if (index >= vertexCount) {
+      throw Error(ErrorId::kSceneInvalid, "accessor {}: index {} of {} vertices", primitive.indices,
+                  index, vertexCount);
+    }
+  }
+  return toTriangles(std::move(indices), primitive.mode);
+}
+
+}  // namespace
+
+MeshLoader::MeshLoader(const tinygltf::Model& model, std::vector<TexCoordUse> uses, Scene& scene)
+    : model_(model), uses_(std::move(uses)), scene_(scene) {}
+
+const std::vector<uint32_t>& MeshLoader::primitivesOf(int mesh) {
+  if (mesh < 0 || static_cast<size_t>(mesh) >= model_.meshes.size()) {
+    throw Error(ErrorId::kSceneInvalid, "mesh {} does not exist", mesh);
+  }
+  const auto [found, isNew] = meshes_.try_emplace(mesh);
+  if (isNew) {
+    const tinygltf::Mesh& from = model_.meshes[static_cast<size_t>(mesh)];
+    for (const tinygltf::Primitive& primitive : from.primitives) {
+      loadPrimitive(primitive, found->second);
+    }
+  }
+  return found->second;
+}
+
+void MeshLoader::loadPrimitive(const tinygltf::Primitive& from, std::vector<uint32_t>& result) {
+  if (from.mode < TINYGLTF_MODE_POINTS || from.mode > TINYGLTF_MODE_TRIANGLE_FAN) {
+    throw Error(ErrorId::kSceneInvalid, "primitive mode {} is unknown", from.mode);
+  }
+  VertexKey key{.positions = attribute(from, "POSITION"), .normals = attribute(from, "NORMAL")};
+  if (from.mode < TINYGLTF_MODE_TRIANGLES || key.positions < 0) return;
+  const uint64_t vertexCount = accessorCount(model_, key.positions);
+  if (vertexCount > kMaxVertices) {
+    throw Error(ErrorId::kSceneTooLarge, "accessor {}: {} vertices, at most {}", key.positions,
+                vertexCount, kMaxVertices);
+  }
+  const uint32_t material = materialOf(from);
+  const TexCoordUse& use = uses_[material];
+  key.texCoords = attribute(from, "TEXCOORD_" + std::to_string(use.set));
+  if (use.transform != glm::dmat3x2(1)) key.material = material + 1;
+
+  std::vector<uint32_t> triangles = trianglesOf(model_, from, vertexCount);
+  if (triangles.empty()) return;
+  if (scene_.indices.size() + triangles.size() > kMaxIndices) {
+    throw Error(ErrorId::kSceneTooLarge, "over {} indices", kMaxIndices);
+  }
+  const VertexRun run = key.normals < 0 ? flatVertices(key, triangles) : vertices(key);
+  const auto first = static_cast<uint32_t>(scene_.indices.size());
+  for (const uint32_t index : triangles) scene_.indices.push_back(run.first + index);
+  if (run.lacksNormals) repairNormals(std::span(scene_.indices).subspan(first));
+  result.push_back(static_cast<uint32_t>(scene_.primitives.size()));
+  scene_.primitives.push_back({.firstIndex = first,
+                               .indexCount = static_cast<uint32_t>(triangles.size()),
+                               .material = material});
+}
+
+uint32_t MeshLoader::materialOf(const tinygltf::Primitive& from) {
+  if (from.material >= 0 && static_cast<size_t>(from.material) < model_.materials.size()) {
+    return static_cast<uint32_t>(from.material);
+  }
+  if (from.material != -1) {
+    throw Error(ErrorId::kSceneInvalid, "material {} does not exist", from.material);
+  }
+  if (defaultMaterial_ < 0) {
+    defaultMaterial_ = static_cast<int>(scene_.materials.size());
+    scene_.materials.push_back({.name = "default"});
+    uses_.emplace_back();
+  }
+  return static_cast<uint32_t>(defaultMaterial_);
+}
+
+MeshLoader::VertexRun MeshLoader::vertices(const VertexKey& key) {
+  const auto found = runs_.find(key);
+  if (found != runs_.end()) return found->second;
+  const uint64_t count = accessorCount(model_, key.positions);
+  if (scene_.positions.size() + count > kMaxVertices) {
+    throw Error(ErrorId::kSceneTooLarge, "over {} vertices", kMaxVertices);
+  }
+  if (accessorCount(model_, key.normals) != count) {
+    throw Error(ErrorId::kSceneInvalid, "accessor {}: {} normals for {} positions", key.normals,
+                accessorCount(model_, key.normals), count);
+  }
+  VertexRun run{.first = static_cast<uint32_t>(scene_.positions.size())};
+  const std::vector<glm::vec3> positions = readVec3(model_, key.positions);
+  std::vector<glm::vec3> normals = readVec3(model_, key.normals);
+  for (glm::vec3& normal : normals) {
+    const double length = glm::length(glm::dvec3(normal));
+    normal = length > 1e-12 ? glm::vec3(glm::dvec3(normal) / length) : glm::vec3(0);
+    run.lacksNormals = run.lacksNormals || length <= 1e-12;
+  }
+  scene_.positions.insert(scene_.positions.end(), positions.begin(), positions.end());
+  scene_.normals.insert(scene_.normals.end(), normals.begin(), normals.end());
+  appendTexCoords(key, count);
+  runs_.emplace(key, run);
+  return run;
+}
+
+// The format asks for flat shading where normals are missing: no vertex is shared then.
+MeshLoader::VertexRun MeshLoader::flatVertices(const VertexKey& key,
+                                               std::vector<uint32_t>& triangles) {
+  if (scene_.positions.size() + triangles.size() > kMaxVertices) {
+    throw Error(ErrorId::kSceneTooLarge, "over {} vertices", kMaxVertices);
+  }
+  const VertexRun run{.first = static_cast<uint32_t>(scene_.positions.size())};
+  const std::vector<glm::vec3> positions = readVec3(model_, key.positions);
+  for (size_t i = 0; i < triangles.size(); i += 3) {
+    const glm::vec3 p[] = {positions[triangles[i]], positions[triangles[i + 1]],
+                           positions[triangles[i + 2]]};
+    const glm::dvec3 normal = faceNormal(p[0], p[1], p[2]);
+    const double length = glm::length(normal);
+    scene_.positions.insert(scene_.positions.end(), p, p + 3);
+    // Nobody sees a triangle without area.
+    scene_.normals.insert(scene_.normals.end(), 3,
+                          length > 0 ? glm::vec3(normal / length) : glm::vec3(0, 1, 0));
+  }
+  const size_t before = scene_.texCoords.size();
+  appendTexCoords(key, positions.size());
+  const std::vector<glm::vec2> shared(
+      scene_.texCoords.begin() + static_cast<std::ptrdiff_t>(before), scene_.texCoords.end());
+  scene_.texCoords.resize(before);
+  for (const uint32_t index : triangles) scene_.texCoords.push_back(shared[index]);
+  std::iota(triangles.begin(), triangles.end(), 0u);
+  return run;
+}
+
+void MeshLoader::appendTexCoords(const VertexKey& key, size_t count) {
+  if (key.texCoords < 0) {
+    scene_.texCoords.resize(scene_.texCoords.size() + count, glm::vec2(0));
+    return;
+  }
+  if (accessorCount(model_, key.texCoords) != count) {
+    throw Error(ErrorId::kSceneInvalid, "accessor {}: {} texture coordinates for {} positions",
+                key.texCoords, accessorCount(model_, key.texCoords), count);
+  }
+  std::vector<glm::vec2> texCoords = readVec2(model_, key.texCoords);
+  if (key.material > 0) {
+    const glm::dmat3x2& transform = uses_[key.material - 1].transform;
+    for (glm::vec2& uv : texCoords) uv = glm::vec2(transform * glm::dvec3(uv, 1));
+  }
+  scene_.texCoords.insert(scene_.texCoords.end(), texCoords.begin(), texCoords.end());
+}
+
+// Gives vertices whose normal has no length the mean normal of their faces here, by area.
+void MeshLoader::repairNormals(std::span<const uint32_t> indices) {
+  std::map<uint32_t, glm::dvec3> sums;
+  for (size_t i = 0; i < indices.size(); i += 3) {
+    const auto p = [&](size_t k) { return glm::dvec3(scene_.positions[indices[i + k]]); };
+    for (size_t k = 0; k < 3; ++k) {
+      if (scene_.normals[indices[i + k]] == glm::vec3(0)) {
+        sums[indices[i + k]] += faceNormal(p(0), p(1), p(2));
+      }
+    }
+  }
+  for (const auto& [vertex, sum] : sums) {
+    const double length = glm::length(sum);
+    scene_.normals[vertex] = length > 0 ? glm::vec3(sum / length) : glm::vec3(0, 1, 0);
+  }
+}
+
+}  // namespace grisaille::scene

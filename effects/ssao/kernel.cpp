@@ -1,0 +1,67 @@
+// SPDX-License-Identifier: MIT
+#include "kernel.h"
+
+#include <cmath>
+#include <glm/gtc/constants.hpp>
+#include <utility>
+
+namespace grisaille::ssao {
+namespace {
+
+// PCG hash (Jarzynski and Olano 2020), so that every machine draws the same points.
+uint32_t hash(uint32_t value) {
+  const uint32_t state = value * 747796405u + 2891336453u;
+  const uint32_t word = ((state >> ((state >> 28) + 4)) ^ state) * 277803737u;
+  return (word >> 22) ^ word;
+}
+
+class Random {
+ public:
+  Random(uint32_t seed, uint32_t stream) : state_(hash(seed ^ hash(stream))) {}
+
+  uint32_t next() { return state_ = hash(state_); }
+  double unit() { return next() / 4294967296.0; }  // [0, 1)
+
+ private:
+  uint32_t state_;
+};
+
+double fraction(double value) { return value - std::floor(value); }
+
+}  // namespace
+
+std::array<glm::vec4, kMaxKernelSize> makeKernel(uint32_t size, Sampling sampling, uint32_t seed) {
+  // Points of the R3 sequence (Roberts 2018) from a random start: random for every seed, but without
+  // the clumps and gaps that independent points have.
+  constexpr double kPlastic = 1.2207440846057596;  // root of x^4 = x + 1
+  Random random(seed, 0);
+  const glm::dvec3 start(random.unit(), random.unit(), random.unit());
+  std::array<glm::vec4, kMaxKernelSize> kernel{};
+  for (uint32_t i = 0; i < size; ++i) {
+    const double u = fraction(start.x + i / kPlastic);
+    const double v = fraction(start.y + i / (kPlastic * kPlastic));
+    const double w = fraction(start.z + i / (kPlastic * kPlastic * kPlastic));
+    const double angle = glm::two_pi<double>() * v;
+    // Hemisphere: directions with the cosine's density, as diffuse light falls. Sphere: all alike.
+    const double z = sampling == Sampling::kHemisphere ? std::sqrt(1 - u) : 1 - 2 * u;
+    const double r = std::sqrt(std::max(0.0, 1 - z * z));
+    const double length = w;
+    kernel[i] = glm::vec4(
+        glm::dvec4(r * std::cos(angle) * length, r * std::sin(angle) * length, z * length, 0));
+  }
+  return kernel;
+}
+
+std::vector<glm::vec2> makeNoise(uint32_t seed) {
+  constexpr uint32_t kCount = kNoiseSize * kNoiseSize;
+  Random random(seed, 1);
+  std::vector<glm::vec2> noise;
+  for (uint32_t i = 0; i < kCount; ++i) {
+    const double angle = glm::two_pi<double>() * i / kCount;
+    noise.emplace_back(std::cos(angle), std::sin(angle));
+  }
+  for (uint32_t i = kCount - 1; i > 0; --i) std::swap(noise[i], noise[random.next() % (i + 1)]);
+  return noise;
+}
+
+}  // namespace grisaille::ssao

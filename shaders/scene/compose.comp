@@ -1,0 +1,24 @@
+#version 460
+// SPDX-License-Identifier: MIT
+// Surface colour, with paint laid over it, times visibility. Linear light. A slot that nobody fills
+// holds a 1x1 texture of the neutral value: white surface, clear paint, open visibility.
+#extension GL_GOOGLE_include_directive : require
+#include "common/bindings.glsl"
+
+layout(local_size_x = 8, local_size_y = 8) in;
+layout(TEXTURE(0)) uniform sampler2D surface;     // rgb; a = 0: sky, which is white
+layout(TEXTURE(1)) uniform sampler2D paint;       // straight alpha
+layout(TEXTURE(2)) uniform sampler2D visibility;  // r
+layout(IMAGE(0), rgba16f) writeonly uniform image2D color;
+
+void main() {
+  const ivec2 pixel = ivec2(gl_GlobalInvocationID.xy);
+  const ivec2 size = imageSize(color);
+  if (any(greaterThanEqual(pixel, size))) return;
+  const vec2 uv = (vec2(pixel) + 0.5) / vec2(size);
+  const vec4 base = textureLod(surface, uv, 0.0);
+  const vec4 over = textureLod(paint, uv, 0.0);
+  vec3 light = base.a > 0.0 ? base.rgb : vec3(1.0);
+  light = mix(light, over.rgb, over.a) * textureLod(visibility, uv, 0.0).r;
+  imageStore(color, pixel, vec4(light, 1.0));
+}

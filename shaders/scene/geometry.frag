@@ -1,0 +1,38 @@
+#version 460
+// SPDX-License-Identifier: MIT
+#extension GL_GOOGLE_include_directive : require
+#include "draw.glsl"
+
+#if NORMAL
+layout(location = 0) in vec3 world_normal;
+layout(location = 0) out vec4 out_normal;
+#endif
+#if BASE || MASK
+layout(location = 1) in vec2 uv;
+layout(TEXTURE(0)) uniform sampler2D base_texture;
+#endif
+#if BASE
+layout(location = NORMAL) out vec4 out_base;
+#endif
+
+void main() {
+#if MASK
+  // The mask is read at full resolution: smaller levels would thin or close the leaves. Without base
+  // colour the texture holds the alpha channel alone.
+#if BASE
+  const float alpha = textureLod(base_texture, uv, 0.0).a * draw.base_color.a;
+#else
+  const float alpha = textureLod(base_texture, uv, 0.0).r * draw.base_color.a;
+#endif
+  if (alpha < draw.alpha_cutoff) discard;
+#endif
+#if NORMAL
+  const float facing = gl_FrontFacing ? draw.front_sign : -draw.front_sign;
+  // An interpolated normal of length 0 has no direction: it is written as 0, as the sky's is.
+  const float squared = dot(world_normal, world_normal);
+  out_normal = vec4(squared > 0.0 ? world_normal * (facing * inversesqrt(squared)) : vec3(0.0), 1.0);
+#endif
+#if BASE
+  out_base = vec4(texture(base_texture, uv).rgb * draw.base_color.rgb, 1.0);
+#endif
+}

@@ -1,0 +1,24 @@
+#version 460
+// SPDX-License-Identifier: MIT
+#extension GL_GOOGLE_include_directive : require
+#include "draw.glsl"
+
+layout(location = 0) in vec3 position;
+#if NORMAL
+layout(location = 1) in vec3 normal;
+layout(location = 0) out vec3 world_normal;
+#endif
+#if BASE || MASK
+layout(location = 2) in vec2 tex_coord;
+layout(location = 1) out vec2 uv;
+#endif
+
+void main() {
+  gl_Position = draw.clip_from_object * vec4(position, 1.0);
+#if NORMAL
+  world_normal = mat3(draw.normal_from_object) * normal;
+#endif
+#if BASE || MASK
+  uv = tex_coord;
+#endif
+}

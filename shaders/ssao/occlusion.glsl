@@ -1,0 +1,96 @@
+// SPDX-License-Identifier: MIT
+// The classic SSAO of one pixel. SPHERE is 1 to sample all around instead of over the surface.
+//
+// The pixel is put back into view space. A sample point is occluded when the depth buffer, where the
+// point projects, holds a surface nearer than the point by more than the bias, and that surface is in
+// range of the pixel. Occlusion is the share of occluded points.
+#extension GL_EXT_control_flow_attributes : require
+#include "common/view.glsl"
+
+layout(constant_id = 0) const uint kKernelSize = 64u;
+layout(constant_id = 1) const uint kRotation = 0u;    // 0 noise, 1 none
+layout(constant_id = 2) const uint kRangeCheck = 0u;  // 0 linear, 1 raw depth, 2 none
+layout(constant_id = 3) const bool kFinish = false;   // apply intensity and power: no blur follows
+
+layout(local_size_x = 8, local_size_y = 8) in;
+layout(UNIFORM(1), std140) uniform Settings {
+  vec4 kernel[256];  // in the unit sphere, +z away from the surface
+  float radius;      // metres
+  float bias;        // metres
+  float intensity;
+  float power;
+} settings;
+layout(TEXTURE(0)) uniform sampler2D view_depth;  // nearest, clamped: the edge goes on outside
+layout(TEXTURE(1)) uniform sampler2D rotations;   // 4x4, repeated
+#if !SPHERE
+layout(TEXTURE(2)) uniform sampler2D world_normal;
+#endif
+layout(IMAGE(0), r16f) writeonly uniform image2D visibility;
+
+// Axes with z along n, a unit vector, in one branchless step (Duff et al. 2017).
+mat3 basis(vec3 n) {
+  const float s = n.z >= 0.0 ? 1.0 : -1.0;
+  const float a = -1.0 / (s + n.z);
+  const float b = n.x * n.y * a;
+  return mat3(vec3(1.0 + s * n.x * n.x * a, s * b, -s * n.x), vec3(b, s + n.y * n.y * a, -n.y), n);
+}
+
+bool inRange(float pixel_depth, float surface_depth) {
+  if (kRangeCheck == 0u) return abs(pixel_depth - surface_depth) < settings.radius;
+  if (kRangeCheck == 1u) {
+    const float near = view.camera_fraction.w;
+    return abs(near / pixel_depth - near / surface_depth) < settings.radius;
+  }
+  return true;
+}
+
+float occlusionAt(ivec2 pixel, float depth) {
+  const vec2 centre = vec2(pixel) + 0.5;
+  const vec3 position = viewPosition(centre, depth);
+#if SPHERE
+  mat3 axes = mat3(1.0);
+#else
+  vec3 normal = mat3(view.view_from_world) *
+                textureLod(world_normal, centre * view.size.zw, 0.0).xyz;
+  // A surface without a direction is taken to face the camera.
+  if (dot(normal, normal) < 0.25) normal = vec3(0.0, 0.0, 1.0);
+  mat3 axes = basis(normal);
+#endif
+  if (kRotation == 0u) {
+    const vec2 turn = textureLod(rotations, centre * 0.25, 0.0).xy;
+    axes = mat3(axes[0] * turn.x + axes[1] * turn.y, axes[1] * turn.x - axes[0] * turn.y, axes[2]);
+  }
+  // From kernel space to texture coordinates times view depth, and to view depth, at once: a sample
+  // point then costs three dot products, one division and one fetch.
+  const vec2 scale = view.pixel_from_view.xy * view.size.zw;
+  const vec2 offset = view.pixel_from_view.zw * view.size.zw;
+  axes *= settings.radius;
+  const vec3 row_x = vec3(axes[0].x, axes[1].x, axes[2].x) * scale.x;
+  const vec3 row_y = vec3(axes[0].y, axes[1].y, axes[2].y) * scale.y;
+  const vec3 row_depth = -vec3(axes[0].z, axes[1].z, axes[2].z);
+  const vec2 start = position.xy * scale;
+  const float near = view.camera_fraction.w;
+
+  float occluded = 0.0;
+  [[unroll]] for (uint i = 0u; i < kKernelSize; ++i) {
+    const vec3 point = settings.kernel[i].xyz;
+    const float point_depth = depth + dot(row_depth, point);
+    const vec2 uv = (start + vec2(dot(row_x, point), dot(row_y, point))) / point_depth + offset;
+    const float surface = textureLod(view_depth, uv, 0.0).x;
+    // Nothing is known behind the camera; the sky, depth 0, hides nothing.
+    const bool hit = point_depth > near && surface > 0.0 && point_depth - surface > settings.bias &&
+                     inRange(depth, surface);
+    occluded += hit ? 1.0 : 0.0;
+  }
+  return occluded / float(kKernelSize);
+}
+
+void main() {
+  const ivec2 pixel = ivec2(gl_GlobalInvocationID.xy);
+  if (any(greaterThanEqual(pixel, imageSize(visibility)))) return;
+  const float depth = textureLod(view_depth, (vec2(pixel) + 0.5) * view.size.zw, 0.0).x;
+  float open = 1.0;
+  if (depth > 0.0) open -= occlusionAt(pixel, depth);
+  if (kFinish) open = pow(clamp(1.0 - settings.intensity * (1.0 - open), 0.0, 1.0), settings.power);
+  imageStore(visibility, pixel, vec4(open));
+}

@@ -1,0 +1,5 @@
+#version 460
+// SPDX-License-Identifier: MIT
+#extension GL_GOOGLE_include_directive : require
+#define SPHERE 1
+#include "occlusion.glsl"

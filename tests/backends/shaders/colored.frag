@@ -1,0 +1,8 @@
+// SPDX-License-Identifier: MIT
+#version 460
+#include "common/bindings.glsl"
+
+layout(location = 0) in vec4 vertex_color;
+layout(location = 0) out vec4 color;
+
+void main() { color = vertex_color; }

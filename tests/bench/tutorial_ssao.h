@@ -1,0 +1,57 @@
+// SPDX-License-Identifier: MIT
+// The benchmark's baseline: ambient occlusion as tutorials teach it, on the project's own layer. A
+// fragment pass of 64 taps over view-space positions and normals in 16-bit floats, radius 0.5 m,
+// bias 0.025 m, then a 4 x 4 box blur.
+#pragma once
+
+#include <array>
+#include <cstdint>
+#include <glm/glm.hpp>
+#include <span>
+#include <string_view>
+
+#include "core/gpu/device.h"
+
+namespace grisaille::bench {
+
+class TutorialSsao {
+ public:
+  // `device` outlives it and is not recording.
+  explicit TutorialSsao(gpu::Device& device);
+  ~TutorialSsao();
+  TutorialSsao(const TutorialSsao&) = delete;
+  TutorialSsao& operator=(const TutorialSsao&) = delete;
+
+  struct Inputs {
+    gpu::Texture position;  // rgba16f, view space, metres
+    gpu::Texture normal;    // rgba16f, view space
+  };
+
+  // Pass "tutorial_inputs", not part of the baseline's cost: its buffers from the frame's
+  // attachments (grisaille_attachment: view depth, world normal). Transient. `projection` is clip
+  // from view.
+  Inputs makeInputs(gpu::Commands& commands, gpu::Texture viewDepth, gpu::Texture worldNormal,
+                    const glm::mat4& projection, const glm::mat3& viewFromWorld, uint32_t width,
+                    uint32_t height);
+
+  // Passes "tutorial_occlusion" and "tutorial_blur". A transient r8 texture, 1: open.
+  gpu::Texture record(gpu::Commands& commands, gpu::Texture position, gpu::Texture normal,
+                      const glm::mat4& projection, uint32_t width, uint32_t height);
+
+ private:
+  gpu::GraphicsPipeline pipeline(std::string_view label, const gpu::Shader& fragment,
+                                 std::span<const gpu::Format> formats);
+  void pass(gpu::Commands& commands, std::string_view label, gpu::GraphicsPipeline pipeline,
+            std::span<const gpu::Binding> bindings, std::span<const gpu::Texture> targets);
+
+  gpu::Device& device_;
+  std::array<glm::vec4, 64> kernel_ = {};
+  gpu::Texture noise_;
+  gpu::Sampler clamped_;
+  gpu::Sampler repeated_;
+  gpu::GraphicsPipeline inputs_;
+  gpu::GraphicsPipeline occlusion_;
+  gpu::GraphicsPipeline blur_;
+};
+
+}  // namespace grisaille::bench

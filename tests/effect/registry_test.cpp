@@ -1,0 +1,229 @@
+// SPDX-License-Identifier: MIT
+#include "core/effect/registry.h"
+
+#include <dlfcn.h>
+#include <gtest/gtest.h>
+#include <sys/stat.h>
+#include <unistd.h>
+
+#include <algorithm>
+#include <filesystem>
+#include <fstream>
+#include <map>
+
+#include "tests/support/expect_error.h"
+
+namespace grisaille::effect {
+namespace {
+
+namespace fs = std::filesystem;
+
+const fs::path kPlugins = PLUGIN_DIR;
+
+struct RegistryTest : testing::Test {
+  fs::path folder = fs::temp_directory_path() / fmt::format("grisaille_registry_{}", getpid());
+
+  void SetUp() override { fs::create_directory(folder); }
+  void TearDown() override { fs::remove_all(folder); }
+
+  std::string file(const std::string& name, const std::string& content) {
+    std::ofstream(folder / name, std::ios::binary) << content;
+    return folder / name;
+  }
+};
+
+std::string contentOf(const fs::path& path) {
+  std::ifstream file(path, std::ios::binary);
+  return {std::istreambuf_iterator<char>(file), {}};
+}
+
+std::vector<std::string> keysOf(const Registry& registry) {
+  std::vector<std::string> keys;
+  for (const Effect& effect : registry.effects()) keys.emplace_back(effect.desc->key);
+  return keys;
+}
+
+bool isLoaded(const fs::path& path) {
+  void* library = dlopen(path.c_str(), RTLD_LAZY | RTLD_NOLOAD);
+  if (library != nullptr) dlclose(library);
+  return library != nullptr;
+}
+
+TEST_F(RegistryTest, FindsSoundPluginsByKey) {
+  Registry registry;
+  registry.scan(kPlugins / "sound");
+  EXPECT_EQ(keysOf(registry), (std::vector<std::string>{"copy", "plain"}));
+  EXPECT_TRUE(registry.refused().empty());
+
+  const Effect& copy = registry.find("copy");
+  EXPECT_STREQ(copy.desc->version, "1.2.3");
+  EXPECT_EQ(fs::path(copy.path).filename(), "copy.so");
+  ASSERT_EQ(copy.params().size(), 4u);
+  EXPECT_STREQ(copy.params()[1].key, "entry");
+  ASSERT_EQ(copy.outputs().size(), 2u);
+  EXPECT_EQ(copy.desc->reads(std::array{1.0, 0.0, 0.0, 0.0}.data()),
+            GRISAILLE_READS(GRISAILLE_VIEW_DEPTH));
+  EXPECT_EQ(copy.desc->reads(std::array{1.0, 0.0, 1.0, 0.0}.data()), 0u);
+}
+
+TEST_F(RegistryTest, FaultyOnesAreRefusedByReasonAndTheRestGoesOn) {
+  const std::map<std::string, ErrorId> expected = {
+      {"symbol", ErrorId::kPluginSymbol},
+      {"magic", ErrorId::kPluginAbi},
+      {"major", ErrorId::kPluginAbi},
+      {"minor", ErrorId::kPluginAbi},
+      {"size", ErrorId::kPluginTable},
+      {"effect_size", ErrorId::kPluginTable},
+      {"range", ErrorId::kPluginTable},
+      {"tooltip", ErrorId::kPluginTable},
+      {"null_key", ErrorId::kPluginTable},
+      {"no_record", ErrorId::kPluginTable},
+      {"directory", ErrorId::kPluginUnloadable},
+      {"text", ErrorId::kPluginUnloadable},
+  };
+  for (const auto& entry : fs::directory_iterator(kPlugins / "faulty")) {
+    fs::create_symlink(entry.path(), folder / entry.path().filename());
+  }
+  fs::create_symlink(kPlugins / "sound" / "plain.so", folder / "plain.so");
+  fs::create_directory(folder / "directory.so");
+  file("text.so", "not a library\n");
+  file("readme.txt", "passed over");
+
+  Registry registry;
+  registry.scan(folder);
+  EXPECT_EQ(keysOf(registry), std::vector<std::string>{"plain"});
+  ASSERT_EQ(registry.refused().size(), expected.size());
+  EXPECT_TRUE(std::ranges::is_sorted(registry.refused(), {}, &Refused::path));
+  for (const Refused& refused : registry.refused()) {
+    const std::string name = fs::path(refused.path).stem();
+    ASSERT_TRUE(expected.contains(name)) << name;
+    EXPECT_EQ(refused.reason.id(), expected.at(name)) << refused.reason.what();
+    EXPECT_NE(refused.reason.detail().find(refused.path), std::string::npos);
+    EXPECT_FALSE(isLoaded(kPlugins / "faulty" / (name + ".so"))) << name;
+    EXPECT_ERROR(expected.at(name), Registry().load(refused.path));
+  }
+  registry.scan(folder);  // again: nothing twice
+  EXPECT_EQ(registry.refused().size(), expected.size());
+}
+
+TEST_F(RegistryTest, VersionsAndFieldsAreNamed) {
+  const auto words = [](const char* name) {
+    try {
+      Registry().load(kPlugins / "faulty" / name);
+    } catch (const Error& error) {
+      return error.detail();
+    }
+    return std::string();
+  };
+  EXPECT_NE(words("major.so").find("version 2.0, this program has 1.0"), std::string::npos);
+  EXPECT_NE(words("minor.so").find("version 1.1, this program has 1.0"), std::string::npos);
+  EXPECT_NE(words("range.so").find("effects[0].params[0].hard_max is 0.5, under soft_max 1"),
+            std::string::npos);
+  EXPECT_NE(words("tooltip.so").find("effects[0].outputs[0].tooltip"), std::string::npos);
+}
+
+TEST_F(RegistryTest, WhatIsNoLibraryIsUnloadable) {
+  for (const std::string& content : {std::string(), std::string("x"), std::string("#!/bin/sh\n"),
+                                     std::string("\x7f"
+                                                 "ELF"),
+                                     std::string(5000, '\0'),
+                                     "\x7f"
+                                     "ELF" +
+                                         std::string(5000, '\xff')}) {
+    EXPECT_ERROR(ErrorId::kPluginUnloadable, Registry().load(file("x.so", content)));
+  }
+  EXPECT_ERROR(ErrorId::kPluginUnloadable, Registry().load(folder / "missing.so"));
+  EXPECT_ERROR(ErrorId::kPluginUnloadable, Registry().load(""));
+  EXPECT_ERROR(ErrorId::kPluginUnloadable, Registry().load("/dev/null"));
+  EXPECT_ERROR(ErrorId::kPluginUnloadable, Registry().load(folder));
+  ASSERT_EQ(mkfifo((folder / "pipe.so").c_str(), 0600), 0);
+  EXPECT_ERROR(ErrorId::kPluginUnloadable, Registry().load(folder / "pipe.so"));
+  fs::create_symlink(folder / "nowhere.so", folder / "dangling.so");
+  EXPECT_ERROR(ErrorId::kPluginUnloadable, Registry().load(folder / "dangling.so"));
+}
+
+// A library cut anywhere is refused or, where only what the loader does not map is missing, taken.
+TEST_F(RegistryTest, CutLibrariesNeverCrash) {
+  const std::string whole = contentOf(kPlugins / "sound" / "plain.so");
+  ASSERT_GT(whole.size(), 4096u);
+  size_t refused = 0;
+  for (size_t length = 0; length < whole.size(); length += whole.size() / 61) {
+    const std::string path = file(fmt::format("cut_{}.so", length), whole.substr(0, length));
+    try {
+      Registry().load(path);
+    } catch (const Error& error) {
+      EXPECT_EQ(error.id(), ErrorId::kPluginUnloadable) << length << ": " << error.what();
+      ++refused;
+    }
+  }
+  EXPECT_GT(refused, 10u);
+}
+
+TEST_F(RegistryTest, TheSameFileByAnotherPathIsPassedOver) {
+  fs::create_symlink(kPlugins / "sound" / "copy.so", folder / "copy.so");
+  fs::create_symlink(kPlugins / "sound" / "copy.so", folder / "other.so");
+  Registry registry;
+  registry.scan(kPlugins / "sound");
+  registry.scan(folder);
+  registry.load(kPlugins / "sound" / ".." / "sound" / "copy.so");
+  EXPECT_EQ(registry.effects().size(), 2u);
+  EXPECT_TRUE(registry.refused().empty());
+}
+
+TEST_F(RegistryTest, AnotherFileWithTheSameKeyIsADuplicate) {
+  Registry registry;
+  registry.scan(kPlugins / "sound");
+  const std::string twin = kPlugins / "twin" / "twin.so";
+  EXPECT_ERROR(ErrorId::kPluginDuplicate, registry.load(twin));
+  registry.scan(kPlugins / "twin");
+  ASSERT_EQ(registry.refused().size(), 1u);
+  const std::string& words = registry.refused()[0].reason.detail();
+  EXPECT_NE(words.find(twin), std::string::npos) << words;
+  EXPECT_NE(words.find(registry.find("copy").path), std::string::npos) << words;
+  EXPECT_STREQ(registry.find("copy").desc->version, "1.2.3");
+}
+
+TEST_F(RegistryTest, UnknownEffectsNameTheNearestOrTheRefusal) {
+  fs::create_symlink(kPlugins / "faulty" / "range.so", folder / "range.so");
+  Registry registry;
+  EXPECT_ERROR(ErrorId::kEffectUnknown, registry.find("copy"));
+  registry.scan(kPlugins / "sound");
+  registry.scan(folder);
+  const auto words = [&](const char* key) {
+    try {
+      registry.find(key);
+    } catch (const Error& error) {
+      EXPECT_EQ(error.id(), ErrorId::kEffectUnknown);
+      return error.detail();
+    }
+    return std::string();
+  };
+  EXPECT_NE(words("cpoy").find("nearest is copy"), std::string::npos);
+  EXPECT_EQ(words("something").find("nearest"), std::string::npos);
+  EXPECT_NE(words("range").find("hard_max"), std::string::npos);
+}
+
+TEST_F(RegistryTest, FoldersThatCannotBeReadAreErrors) {
+  Registry registry;
+  EXPECT_ERROR(ErrorId::kPluginPath, registry.scan(folder / "missing"));
+  EXPECT_ERROR(ErrorId::kPluginPath, registry.scan(file("file", "")));
+  EXPECT_ERROR(ErrorId::kPluginPath, registry.scan(""));
+  registry.scan(folder);
+  EXPECT_TRUE(registry.effects().empty());
+}
+
+TEST_F(RegistryTest, LoadsAndUnloadsAgainAndAgain) {
+  for (int i = 0; i < 200; ++i) {
+    Registry registry;
+    registry.scan(kPlugins / "sound");
+    registry.scan(kPlugins / "faulty");
+    ASSERT_EQ(registry.effects().size(), 2u);
+    ASSERT_TRUE(isLoaded(kPlugins / "sound" / "copy.so"));
+  }
+  for (const char* name : {"sound/copy.so", "sound/plain.so", "faulty/range.so"}) {
+    EXPECT_FALSE(isLoaded(kPlugins / name)) << name;
+  }
+}
+
+}  // namespace
+}  // namespace grisaille::effect

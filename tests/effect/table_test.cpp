@@ -1,0 +1,245 @@
+// SPDX-License-Identifier: MIT
+// checkTable() over in-memory tables: a valid one passes, and each fault is refused by its field.
+#include <gtest/gtest.h>
+
+#include <functional>
+#include <limits>
+
+#include "core/effect/registry.h"
+#include "grisaille/effect.hpp"
+
+namespace grisaille::effect {
+namespace {
+
+uint32_t readsNothing(const double*) {
+  return 0;
+}
+grisaille_result createNothing(const grisaille_host*, void**) {
+  return GRISAILLE_OK;
+}
+grisaille_result recordNothing(void*, const grisaille_frame*) {
+  return GRISAILLE_OK;
+}
+void destroyNothing(void*) {}
+
+// A plugin of two effects whose every field may be changed.
+struct Table {
+  const char* keys[3] = {"one", "two-b", "3"};
+  const char* labels[3] = {"One", "Two", "Three"};
+  grisaille_param_desc params[4] = {
+      plugin::floatParam({.key = "radius",
+                          .label = "Radius",
+                          .unit = "m",
+                          .tooltip = "How far",
+                          .hardMin = 0,
+                          .hardMax = 100,
+                          .softMin = 0.01,
+                          .softMax = 10,
+                          .defaultValue = 0.5,
+                          .log = true}),
+      plugin::intParam({.key = "size",
+                        .label = "Size",
+                        .unit = "px",
+                        .tooltip = "How many",
+                        .hardMin = -4,
+                        .hardMax = 256,
+                        .softMin = 0,
+                        .softMax = 64,
+                        .defaultValue = 64}),
+      plugin::boolParam({.key = "on", .label = "On", .tooltip = "Whether", .defaultValue = true}),
+      plugin::enumParam({.key = "way",
+                         .label = "Way",
+                         .tooltip = "Which",
+                         .keys = keys,
+                         .labels = labels,
+                         .defaultValue = 2})};
+  grisaille_output_desc outputs[2] = {plugin::output({.key = "ao",
+                                                      .format = GRISAILLE_FORMAT_R8,
+                                                      .role = GRISAILLE_ROLE_VISIBILITY,
+                                                      .tooltip = "1 = open"}),
+                                      plugin::output({.key = "paint",
+                                                      .format = GRISAILLE_FORMAT_RGBA8,
+                                                      .role = GRISAILLE_ROLE_PAINT,
+                                                      .tooltip = "Straight alpha"})};
+  grisaille_effect_desc first = {.struct_size = sizeof(grisaille_effect_desc),
+                                 .param_count = 4,
+                                 .output_count = 2,
+                                 .reserved = 0,
+                                 .key = "first",
+                                 .label = "First",
+                                 .version = "1.0.0",
+                                 .tooltip = "What it does",
+                                 .params = params,
+                                 .outputs = outputs,
+                                 .reads = readsNothing,
+                                 .create = createNothing,
+                                 .record = recordNothing,
+                                 .destroy = destroyNothing};
+  grisaille_effect_desc second = [this] {
+    grisaille_effect_desc desc = first;
+    desc.key = "second";
+    desc.param_count = 0;
+    desc.params = nullptr;
+    return desc;
+  }();
+  const grisaille_effect_desc* effects[2] = {&first, &second};
+  grisaille_plugin_desc plugin = {GRISAILLE_MAGIC,
+                                  GRISAILLE_ABI_MAJOR,
+                                  GRISAILLE_ABI_MINOR,
+                                  sizeof(grisaille_plugin_desc),
+                                  2,
+                                  0,
+                                  effects};
+};
+
+constexpr double kNan = std::numeric_limits<double>::quiet_NaN();
+constexpr double kInf = std::numeric_limits<double>::infinity();
+
+struct Fault {
+  const char* field;  // that the message begins with
+  std::function<void(Table&)> make;
+};
+
+const std::vector<Fault>& faults() {
+  static const std::vector<Fault> list = {
+      {"plugin.struct_size", [](Table& t) { t.plugin.struct_size += 8; }},
+      {"plugin.struct_size", [](Table& t) { t.plugin.struct_size -= 8; }},
+      {"plugin.struct_size", [](Table& t) { t.plugin.struct_size = 0; }},
+      {"plugin.reserved", [](Table& t) { t.plugin.reserved = 1; }},
+      {"effect_count", [](Table& t) { t.plugin.effect_count = 0; }},
+      {"effect_count", [](Table& t) { t.plugin.effect_count = 65; }},
+      {"effects", [](Table& t) { t.plugin.effects = nullptr; }},
+      {"effects[1]", [](Table& t) { t.effects[1] = nullptr; }},
+      {"effects[1].key", [](Table& t) { t.second.key = "first"; }},
+
+      {"effects[0].struct_size", [](Table& t) { t.first.struct_size += 8; }},
+      {"effects[0].struct_size", [](Table& t) { t.first.struct_size = 4; }},
+      {"effects[0].key", [](Table& t) { t.first.key = nullptr; }},
+      {"effects[0].key", [](Table& t) { t.first.key = ""; }},
+      {"effects[0].key", [](Table& t) { t.first.key = "1st"; }},
+      {"effects[0].key", [](Table& t) { t.first.key = "First"; }},
+      {"effects[0].key", [](Table& t) { t.first.key = "fir-st"; }},
+      {"effects[0].key", [](Table& t) { t.first.key = "fir.st"; }},
+      {"effects[0].key", [](Table& t) { t.first.key = "\xc3\xa9"; }},
+      {"effects[0].label", [](Table& t) { t.first.label = nullptr; }},
+      {"effects[0].version", [](Table& t) { t.first.version = ""; }},
+      {"effects[0].tooltip", [](Table& t) { t.first.tooltip = "a\nb"; }},
+      {"effects[0].tooltip", [](Table& t) { t.first.tooltip = "a\x1b[2J"; }},
+      {"effects[0].reserved", [](Table& t) { t.first.reserved = 1; }},
+      {"effects[0].reads", [](Table& t) { t.first.reads = nullptr; }},
+      {"effects[0].create", [](Table& t) { t.first.create = nullptr; }},
+      {"effects[0].record", [](Table& t) { t.first.record = nullptr; }},
+      {"effects[0].destroy", [](Table& t) { t.first.destroy = nullptr; }},
+      {"effects[0].param_count", [](Table& t) { t.first.param_count = 257; }},
+      {"effects[0].params", [](Table& t) { t.first.params = nullptr; }},
+      {"effects[0].output_count", [](Table& t) { t.first.output_count = 0; }},
+      {"effects[0].output_count", [](Table& t) { t.first.output_count = 17; }},
+      {"effects[0].outputs", [](Table& t) { t.first.outputs = nullptr; }},
+      {"effects[1].outputs", [](Table& t) { t.second.outputs = nullptr; }},
+
+      {"effects[0].params[0].struct_size", [](Table& t) { t.params[0].struct_size = 200; }},
+      {"effects[0].params[0].struct_size", [](Table& t) { t.params[0].struct_size = 0; }},
+      {"effects[0].params[0].type", [](Table& t) { t.params[0].type = 4; }},
+      {"effects[0].params[0].flags", [](Table& t) { t.params[0].flags |= 4; }},
+      {"effects[0].params[2].flags", [](Table& t) { t.params[2].flags = GRISAILLE_PARAM_LOG; }},
+      {"effects[0].params[3].flags", [](Table& t) { t.params[3].flags = GRISAILLE_PARAM_LOG; }},
+      {"effects[0].params[0].enum_count", [](Table& t) { t.params[0].enum_count = 2; }},
+      {"effects[0].params[0].key", [](Table& t) { t.params[0].key = nullptr; }},
+      {"effects[0].params[1].key", [](Table& t) { t.params[1].key = "_size"; }},
+      {"effects[0].params[3].key", [](Table& t) { t.params[3].key = "radius"; }},
+      {"effects[0].params[0].label", [](Table& t) { t.params[0].label = nullptr; }},
+      {"effects[0].params[0].unit", [](Table& t) { t.params[0].unit = nullptr; }},
+      {"effects[0].params[0].unit", [](Table& t) { t.params[0].unit = "ft"; }},
+      {"effects[0].params[0].tooltip", [](Table& t) { t.params[0].tooltip = nullptr; }},
+      {"effects[0].params[0].tooltip", [](Table& t) { t.params[0].tooltip = "a\rb"; }},
+
+      {"effects[0].params[0].hard_min", [](Table& t) { t.params[0].hard_min = -kInf; }},
+      {"effects[0].params[0].hard_max", [](Table& t) { t.params[0].hard_max = kInf; }},
+      {"effects[0].params[0].soft_min", [](Table& t) { t.params[0].soft_min = kNan; }},
+      {"effects[0].params[0].soft_max", [](Table& t) { t.params[0].soft_max = kNan; }},
+      {"effects[0].params[0].default_value", [](Table& t) { t.params[0].default_value = kNan; }},
+      {"effects[0].params[0].step", [](Table& t) { t.params[0].step = kNan; }},
+      {"effects[0].params[0].soft_min", [](Table& t) { t.params[0].soft_min = 0; }},
+      {"effects[0].params[0].soft_min", [](Table& t) { t.params[0].hard_min = 1; }},
+      {"effects[0].params[0].soft_max", [](Table& t) { t.params[0].soft_max = 0.01; }},
+      {"effects[0].params[0].hard_max", [](Table& t) { t.params[0].hard_max = 5; }},
+      {"effects[0].params[0].default_value", [](Table& t) { t.params[0].default_value = 101; }},
+      {"effects[0].params[0].default_value", [](Table& t) { t.params[0].default_value = -1; }},
+      {"effects[0].params[0].step", [](Table& t) { t.params[0].step = -1; }},
+      {"effects[0].params[0].step", [](Table& t) { t.params[0].flags = 0; }},
+
+      {"effects[0].params[1].default_value", [](Table& t) { t.params[1].default_value = 1.5; }},
+      {"effects[0].params[1].hard_max", [](Table& t) { t.params[1].hard_max = 256.5; }},
+      {"effects[0].params[1].hard_max", [](Table& t) { t.params[1].hard_max = 1e17; }},
+      {"effects[0].params[1].step", [](Table& t) { t.params[1].step = 0; }},
+      {"effects[0].params[1].step", [](Table& t) { t.params[1].step = 0.5; }},
+      {"effects[0].params[2].hard_max", [](Table& t) { t.params[2].hard_max = 2; }},
+      {"effects[0].params[2].hard_min", [](Table& t) { t.params[2].hard_min = -1; }},
+      {"effects[0].params[3].hard_max", [](Table& t) { t.params[3].hard_max = 3; }},
+      {"effects[0].params[3].default_value", [](Table& t) { t.params[3].default_value = 3; }},
+      {"effects[0].params[3].default_value", [](Table& t) { t.params[3].default_value = 0.5; }},
+      {"effects[0].params[3].enum_count", [](Table& t) { t.params[3].enum_count = 1; }},
+      {"effects[0].params[3].enum_count", [](Table& t) { t.params[3].enum_count = 65; }},
+      {"effects[0].params[3].enum_keys", [](Table& t) { t.params[3].enum_keys = nullptr; }},
+      {"effects[0].params[3].enum_labels", [](Table& t) { t.params[3].enum_labels = nullptr; }},
+      {"effects[0].params[3].enum_keys[1]", [](Table& t) { t.keys[1] = nullptr; }},
+      {"effects[0].params[3].enum_keys[2]", [](Table& t) { t.keys[2] = "one"; }},
+      {"effects[0].params[3].enum_keys[0]", [](Table& t) { t.keys[0] = "a b"; }},
+      {"effects[0].params[3].enum_labels[0]", [](Table& t) { t.labels[0] = nullptr; }},
+
+      {"effects[0].outputs[0].struct_size", [](Table& t) { t.outputs[0].struct_size = 0; }},
+      {"effects[0].outputs[0].format", [](Table& t) { t.outputs[0].format = 0; }},
+      {"effects[0].outputs[0].format", [](Table& t) { t.outputs[0].format = 9; }},
+      {"effects[0].outputs[0].format",
+       [](Table& t) { t.outputs[0].format = GRISAILLE_FORMAT_R32UI; }},
+      {"effects[0].outputs[1].format",
+       [](Table& t) { t.outputs[1].format = GRISAILLE_FORMAT_R32F; }},
+      {"effects[0].outputs[0].role", [](Table& t) { t.outputs[0].role = 3; }},
+      {"effects[0].outputs[0].key", [](Table& t) { t.outputs[0].key = "A"; }},
+      {"effects[0].outputs[1].key", [](Table& t) { t.outputs[1].key = "ao"; }},
+      {"effects[0].outputs[0].tooltip", [](Table& t) { t.outputs[0].tooltip = ""; }},
+  };
+  return list;
+}
+
+TEST(Table, ValidOnePasses) {
+  const Table table;
+  EXPECT_NO_THROW(checkTable(table.plugin));
+}
+
+TEST(Table, LimitsPass) {
+  Table table;
+  table.params[1].hard_max = 9007199254740992;
+  table.params[0].default_value = table.params[0].hard_max;
+  table.params[2].unit = "";
+  EXPECT_NO_THROW(checkTable(table.plugin));
+  table.first.param_count = 0;
+  table.first.params = nullptr;
+  EXPECT_NO_THROW(checkTable(table.plugin));
+}
+
+TEST(Table, EveryFaultIsRefusedByItsField) {
+  for (size_t i = 0; i < faults().size(); ++i) {
+    const Fault& fault = faults()[i];
+    SCOPED_TRACE(fmt::format("fault {}: {}", i, fault.field));
+    Table table;
+    fault.make(table);
+    try {
+      checkTable(table.plugin);
+      ADD_FAILURE() << "the table was accepted";
+    } catch (const Error& error) {
+      EXPECT_EQ(error.id(), ErrorId::kPluginTable);
+      EXPECT_EQ(error.detail().substr(0, error.detail().find(' ')), fault.field) << error.what();
+    }
+  }
+}
+
+TEST(Table, WrapperRefusesUnequalEnumLists) {
+  const char* const keys[] = {"a", "b"};
+  const char* const labels[] = {"A", "B", "C"};
+  EXPECT_THROW(plugin::enumParam({.key = "e", .keys = keys, .labels = labels}),
+               std::invalid_argument);
+}
+
+}  // namespace
+}  // namespace grisaille::effect

@@ -1,0 +1,134 @@
+// SPDX-License-Identifier: MIT
+// What the attachments hold, on every backend.
+#include <gtest/gtest.h>
+
+#include <array>
+#include <cmath>
+
+#include "core/frame/renderer.h"
+#include "tests/support/devices.h"
+#include "tests/support/scenes.h"
+
+namespace grisaille {
+namespace {
+
+class AttachmentsTest : public tests::BackendTest {
+ protected:
+  std::vector<image::Image> render(const scene::Scene& scene, const scene::Camera& camera,
+                                   const std::vector<std::string>& outputs, uint32_t width = 32,
+                                   uint32_t height = 24) {
+    frame::Renderer renderer(device(), scene);
+    renderer.render({.camera = camera,
+                     .width = width,
+                     .height = height,
+                     .surface = frame::Surface::kBaseColour,
+                     .effects = {},
+                     .outputs = outputs});
+    std::vector<image::Image> images;
+    for (const std::string& output : outputs) images.push_back(renderer.read(output));
+    return images;
+  }
+};
+GRISAILLE_ON_EVERY_BACKEND(AttachmentsTest);
+
+// View depth of the floor under a pixel, from the pinhole's own geometry.
+TEST_P(AttachmentsTest, FloorDepthIsExact) {
+  for (const glm::dvec3 eye : {glm::dvec3(0, 1.5, 0), glm::dvec3(12345.678, 1.5, -9876.5)}) {
+    scene::Scene scene = tests::floorScene();
+    scene.instances[0].worldFromObject[3] = glm::dvec4(eye.x, 0, eye.z, 1);
+    const scene::Camera camera = {.eye = eye, .target = eye + glm::dvec3(1, -0.5, -2)};
+    const image::Image depth = render(scene, camera, {"depth"})[0];
+    const glm::dmat3 axes = scene::worldFromView(camera);
+    const double half = std::tan(glm::radians(camera.fovyDegrees) / 2);
+    uint32_t seen = 0;
+    for (uint32_t y = 0; y < depth.height; ++y) {
+      for (uint32_t x = 0; x < depth.width; ++x) {
+        const glm::dvec3 ray =
+            axes * glm::dvec3(half * (2 * (x + 0.5) - depth.width) / depth.height,
+                              half * (depth.height - 2 * (y + 0.5)) / depth.height, -1);
+        const double expected = ray.y < 0 ? -eye.y / ray.y : 0;
+        const glm::dvec3 hit = ray * expected;
+        const bool edge = std::max(std::abs(hit.x), std::abs(hit.z)) > 49;
+        if (edge) continue;
+        if (expected == 0) {
+          EXPECT_EQ(depth.at(x, y), 0.0f) << x << " " << y;
+        } else {
+          EXPECT_NEAR(depth.at(x, y) / expected, 1, 2e-6) << x << " " << y;
+          ++seen;
+        }
+      }
+    }
+    EXPECT_GT(seen, 300u);
+  }
+}
+
+TEST_P(AttachmentsTest, NormalsAreWorldAxesAndFaceTheCamera) {
+  scene::Scene scene = tests::floorScene();
+  scene.materials[0].doubleSided = true;
+  for (const double height : {2.0, -2.0}) {
+    const scene::Camera camera = {.eye = glm::dvec3(0, height, 0),
+                                  .target = glm::dvec3(0.5, 0, -0.1)};
+    const image::Image normal = render(scene, camera, {"normal"})[0];
+    const float up = height > 0 ? 1.0f : -1.0f;
+    EXPECT_NEAR(normal.at(16, 12, 0), 0, 1e-3);
+    EXPECT_NEAR(normal.at(16, 12, 1), up, 1e-3);
+    EXPECT_NEAR(normal.at(16, 12, 2), 0, 1e-3);
+  }
+}
+
+TEST_P(AttachmentsTest, MirroredAndStretchedInstancesKeepRightNormals) {
+  for (const glm::dvec3 scale : {glm::dvec3(1), glm::dvec3(-1, 1, 1), glm::dvec3(1e-3, 3, 5)}) {
+    scene::Scene scene;
+    scene.materials.push_back({.name = "one side"});
+    const glm::vec3 normal = glm::normalize(glm::vec3(0.3f, 1, 0));
+    // A slope that falls along +x: single-sided, so that a wrong winding shows as a hole.
+    addQuad(scene, {glm::vec3(-9, 2.7f, 9), {9, -2.7f, 9}, {9, -2.7f, -9}, {-9, 2.7f, -9}}, normal);
+    scene.instances[0].worldFromObject =
+        glm::dmat4(glm::dmat3(scale.x, 0, 0, 0, scale.y, 0, 0, 0, scale.z));
+    const scene::Camera camera = {.eye = glm::dvec3(0, 4, 0), .target = glm::dvec3(0.0001, 0, 0)};
+    const image::Image image = render(scene, camera, {"normal"}, 33, 33)[0];
+    const glm::dvec3 expected = glm::normalize(glm::dvec3(normal) / scale);
+    for (uint32_t c = 0; c < 3; ++c) {
+      EXPECT_NEAR(image.at(16, 16, c), expected[static_cast<int>(c)], 2e-3) << scale.x << " " << c;
+    }
+  }
+}
+
+TEST_P(AttachmentsTest, BackFacesOfOneSidedMaterialsAreNotDrawn) {
+  const scene::Camera below = {.eye = glm::dvec3(0, -2, 0), .target = glm::dvec3(0.5, 0, -0.1)};
+  const image::Image depth = render(tests::floorScene(), below, {"depth"})[0];
+  for (const float value : depth.pixels) EXPECT_EQ(value, 0.0f);
+}
+
+TEST_P(AttachmentsTest, BaseColourComesFromTheMaterialAndTheSkyIsWhite) {
+  scene::Scene scene = tests::floorScene();
+  scene.materials[0].baseColor = glm::vec4(0.5f, 0.25f, 1, 1);
+  const scene::Camera camera = {.eye = glm::dvec3(0, 2, 0), .target = glm::dvec3(0, 2, -1)};
+  const auto images = render(scene, camera, {"base_colour", "color"});
+  EXPECT_NEAR(images[0].at(16, 23, 0), 0.5, 0.005);
+  EXPECT_NEAR(images[0].at(16, 23, 1), 0.25, 0.005);
+  EXPECT_NEAR(images[0].at(16, 23, 2), 1, 0.005);
+  EXPECT_NEAR(images[1].at(16, 23, 1), 0.25, 0.005);
+  EXPECT_EQ(images[1].at(16, 0, 1), 1.0f);
+}
+
+TEST_P(AttachmentsTest, SizesChangeFromFrameToFrame) {
+  const scene::Scene scene = tests::cornerScene();
+  const scene::Camera camera = {.eye = glm::dvec3(0, 1, 3), .target = glm::dvec3(0, 0.5, 0)};
+  frame::Renderer renderer(device(), scene);
+  const std::vector<std::string> outputs = {"depth", "normal", "color"};
+  constexpr std::array<glm::uvec2, 5> kSizes = {glm::uvec2{1, 1}, {257, 129}, {1, 512}, {3, 3}, {64, 64}};
+  for (const glm::uvec2 size : kSizes) {
+    renderer.render(
+        {.camera = camera, .width = size.x, .height = size.y, .effects = {}, .outputs = outputs});
+    for (const std::string& output : outputs) {
+      const image::Image image = renderer.read(output);
+      EXPECT_EQ(image.width, size.x);
+      EXPECT_EQ(image.height, size.y);
+    }
+    EXPECT_GT(renderer.read("depth").at(size.x / 2, size.y / 2), 0.0f);
+  }
+}
+
+}  // namespace
+}  // namespace grisaille

@@ -1,0 +1,145 @@
+// SPDX-License-Identifier: MIT
+// Nothing is drawn, allocated or recorded that the wanted outputs do not need: on the null device.
+#include <gtest/gtest.h>
+
+#include "core/frame/renderer.h"
+#include "core/gpu/checking_device.h"
+#include "core/gpu/null_device.h"
+#include "tests/support/expect_error.h"
+#include "tests/support/scenes.h"
+
+namespace grisaille {
+namespace {
+
+struct Recording {
+  std::vector<std::string> passes;
+  std::vector<gpu::RecordedRender> renders;
+  size_t dispatches = 0;
+};
+
+class PlanTest : public ::testing::Test {
+ protected:
+  void SetUp() override {
+    registry_.scan(EFFECTS_FOLDER);
+    auto null = gpu::makeNullDevice();
+    null_ = null.get();
+    device_ = gpu::makeCheckingDevice(std::move(null), [](gpu::Severity, std::string_view text) {
+      ADD_FAILURE() << text;
+    });
+    values_.emplace(registry_.find("ssao"));
+    instance_.emplace(*device_, registry_.find("ssao"));
+    renderer_.emplace(*device_, scene_);
+  }
+  void TearDown() override {
+    renderer_.reset();
+    instance_.reset();
+    device_.reset();
+  }
+
+  Recording record(const std::vector<std::string>& outputs, bool withSsao,
+                   frame::Surface surface = frame::Surface::kWhite) {
+    std::vector<frame::ActiveEffect> effects;
+    if (withSsao) effects.push_back({.instance = &*instance_, .values = &*values_});
+    renderer_->render({.camera = camera_,
+                       .width = 64,
+                       .height = 32,
+                       .surface = surface,
+                       .effects = effects,
+                       .outputs = outputs});
+    Recording recording;
+    for (const gpu::Recorded& entry : null_->recorded()) {
+      if (const auto* pass = std::get_if<gpu::RecordedPass>(&entry); pass != nullptr && pass->begins) {
+        recording.passes.push_back(pass->label);
+      } else if (const auto* render = std::get_if<gpu::RecordedRender>(&entry)) {
+        recording.renders.push_back(*render);
+      } else if (std::holds_alternative<gpu::RecordedDispatch>(entry)) {
+        ++recording.dispatches;
+      }
+    }
+    return recording;
+  }
+
+  using Labels = std::vector<std::string>;
+  scene::Scene scene_ = tests::cornerScene();
+  scene::Camera camera_ = {.eye = glm::dvec3(0, 1, 3), .target = glm::dvec3(0, 0.5, 0)};
+  effect::Registry registry_;
+  gpu::NullDevice* null_ = nullptr;
+  std::unique_ptr<gpu::Device> device_;
+  std::optional<effect::Values> values_;
+  std::optional<effect::Instance> instance_;
+  std::optional<frame::Renderer> renderer_;
+};
+
+TEST_F(PlanTest, ColorAloneDrawsNoScene) {
+  const Recording recording = record({"color"}, false);
+  EXPECT_EQ(recording.passes, Labels{"compose/color"});
+  EXPECT_TRUE(recording.renders.empty());
+}
+
+TEST_F(PlanTest, DepthDrawsDepthAlone) {
+  const Recording recording = record({"depth"}, true);
+  EXPECT_EQ(recording.passes, (Labels{"scene/geometry", "scene/view_depth"}));
+  ASSERT_EQ(recording.renders.size(), 1u);
+  EXPECT_TRUE(recording.renders[0].targets.empty());
+  EXPECT_TRUE(recording.renders[0].depth);
+}
+
+TEST_F(PlanTest, NormalNeedsNoViewDepth) {
+  const Recording recording = record({"normal"}, false);
+  EXPECT_EQ(recording.passes, Labels{"scene/geometry"});
+  ASSERT_EQ(recording.renders.size(), 1u);
+  EXPECT_EQ(recording.renders[0].targets.size(), 1u);
+}
+
+TEST_F(PlanTest, AoReadsDepthAndNormalButNoColour) {
+  const Recording recording = record({"ao"}, true);
+  EXPECT_EQ(recording.passes,
+            (Labels{"scene/geometry", "scene/view_depth", "ssao/occlusion", "ssao/blur"}));
+  ASSERT_EQ(recording.renders.size(), 1u);
+  EXPECT_EQ(recording.renders[0].targets, Labels{"normal"});
+}
+
+TEST_F(PlanTest, SphereSamplingReadsNoNormal) {
+  values_->set("sampling", "sphere");
+  const Recording recording = record({"ssao.ao"}, true);
+  ASSERT_EQ(recording.renders.size(), 1u);
+  EXPECT_TRUE(recording.renders[0].targets.empty());
+}
+
+TEST_F(PlanTest, NoBlurRecordsNoBlurPass) {
+  for (const char* size : {"0", "1"}) {
+    values_->set("blur_size", size);
+    EXPECT_EQ(record({"ao"}, true).passes,
+              (Labels{"scene/geometry", "scene/view_depth", "ssao/occlusion"}));
+  }
+}
+
+TEST_F(PlanTest, BaseColourIsDrawnForTheBaseSurfaceAlone) {
+  EXPECT_TRUE(record({"color"}, false).renders.empty());
+  const Recording recording = record({"color"}, false, frame::Surface::kBaseColour);
+  ASSERT_EQ(recording.renders.size(), 1u);
+  EXPECT_EQ(recording.renders[0].targets, Labels{"base_colour"});
+}
+
+TEST_F(PlanTest, WhatIsBehindTheCameraIsNotDrawn) {
+  camera_ = {.eye = glm::dvec3(0, 1, 100), .target = glm::dvec3(0, 1, 200)};
+  EXPECT_EQ(record({"depth"}, false).renders.at(0).draws, 0u);
+}
+
+TEST_F(PlanTest, UnknownOutputIsAnErrorAndTheNextFrameWorks) {
+  EXPECT_ERROR(ErrorId::kOutputUnknown, record({"oa"}, true));
+  EXPECT_ERROR(ErrorId::kOutputUnknown, record({"ao"}, false));
+  EXPECT_EQ(record({"color"}, false).passes.size(), 1u);
+  EXPECT_ERROR(ErrorId::kOutputUnknown, renderer_->read("ao"));
+}
+
+TEST_F(PlanTest, BadCameraIsAnErrorAndTheNextFrameWorks) {
+  const scene::Camera good = camera_;
+  camera_.target = camera_.eye;
+  EXPECT_ERROR(ErrorId::kCameraInvalid, record({"ao"}, true));
+  camera_ = good;
+  EXPECT_EQ(record({"ao"}, true).passes.size(), 4u);
+}
+
+}  // namespace
+}  // namespace grisaille

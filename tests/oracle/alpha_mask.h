@@ -1,0 +1,32 @@
+// SPDX-License-Identifier: MIT
+#pragma once
+
+#include <cstdint>
+#include <glm/glm.hpp>
+#include <vector>
+
+#include "core/scene/scene.h"
+
+namespace grisaille::oracle {
+
+// The alpha of a masked material, sampled as the GPU's linear filter does at mip 0.
+class AlphaMask {
+ public:
+  // Throws kSceneImage.
+  AlphaMask(const scene::Scene& scene, const scene::Material& material);
+
+  bool isHole(const glm::vec2& texCoord) const;
+
+ private:
+  float texel(int64_t x, int64_t y) const;
+
+  uint32_t width_ = 1;
+  uint32_t height_ = 1;
+  std::vector<uint8_t> alpha_ = {255};
+  scene::Wrap wrapU_ = scene::Wrap::kRepeat;
+  scene::Wrap wrapV_ = scene::Wrap::kRepeat;
+  float factor_ = 1;
+  float cutoff_ = 0.5f;
+};
+
+}  // namespace grisaille::oracle

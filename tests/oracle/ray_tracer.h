@@ -1,0 +1,76 @@
+// SPDX-License-Identifier: MIT
+// Ray-traced truth: what the rasteriser should have drawn, and what a screen-space occlusion
+// approximates. Embree finds the triangle; the numbers that matter are then worked out in double.
+//
+// Holes: texels of a masked material whose base colour alpha (texture, mip 0, bilinear, times the
+// factor) is under the cutoff let every ray through. Primary rays also pass through the back faces
+// of single-sided materials, as drawing does; occlusion rays are blocked from either side.
+#pragma once
+
+#include <cstdint>
+#include <glm/glm.hpp>
+#include <memory>
+#include <span>
+#include <vector>
+
+#include "core/image/image.h"
+#include "core/scene/camera.h"
+#include "core/scene/scene.h"
+
+namespace grisaille::oracle {
+
+// What one pixel sees. Vectors are in world axes; both normals point to the side that is seen: they
+// are turned round where a double-sided surface shows its back.
+struct Hit {
+  glm::uvec2 pixel = glm::uvec2(0);
+  double viewDepth = 0;                 // along the view direction, metres; 0: sky, the rest unset
+  glm::dvec3 position = glm::dvec3(0);  // world, metres
+  glm::dvec3 facetNormal = glm::dvec3(0);
+  glm::vec3 normal = glm::vec3(0);  // interpolated, unit
+  float facetReach = 0;             // largest coordinate of a corner, from the origin, metres
+  uint32_t instance = 0;
+  uint32_t primitive = 0;
+  uint32_t material = 0;
+};
+
+// NaN where every ray went under the facet, 1 for the sky.
+struct Visibility {
+  float mean = 1;
+  float standardError = 0;
+};
+
+class RayTracer {
+ public:
+  // `scene` outlives the tracer. Embree works in 32 bits, so all instances are put into world space
+  // relative to `origin` in double first: give the camera's eye. Throws kSceneImage (a mask that
+  // does not decode), kSceneTooLarge.
+  RayTracer(const scene::Scene& scene, const glm::dvec3& origin);
+  ~RayTracer();
+  RayTracer(const RayTracer&) = delete;
+  RayTracer& operator=(const RayTracer&) = delete;
+
+  // Rays through pixel centres, as the camera's pinhole draws them: (x + 0.5, y + 0.5), y down. The
+  // near plane cuts. One hit a pixel, in the order given; without `pixels`, all of them by rows.
+  std::vector<Hit> castPrimary(const scene::Camera& camera, uint32_t width, uint32_t height,
+                               std::span<const glm::uvec2> pixels) const;
+  std::vector<Hit> castPrimary(const scene::Camera& camera, uint32_t width, uint32_t height) const;
+
+  // The share of `samples` cosine-weighted rays about the interpolated normal that travel `radius`
+  // metres unblocked. Rays that go under the facet are left out of the count. Points are scrambled
+  // Sobol, seeded by pixel and `seed`; the error is the binomial one, an upper bound for them.
+  // Rays start off the facet by 2e-6 of the largest coordinate involved: some ten times the
+  // rounding of the 32-bit triangle.
+  std::vector<Visibility> ambientOcclusion(std::span<const Hit> hits, double radius,
+                                           uint32_t samples, uint32_t seed) const;
+
+ private:
+  struct Impl;
+  std::unique_ptr<Impl> impl_;
+};
+
+// Pictures of `width` x `height` hits by rows.
+image::Image depthImage(std::span<const Hit> hits, uint32_t width, uint32_t height);
+image::Image normalImage(std::span<const Hit> hits, uint32_t width, uint32_t height);
+image::Image visibilityImage(std::span<const Visibility> values, uint32_t width, uint32_t height);
+
+}  // namespace grisaille::oracle

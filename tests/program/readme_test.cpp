@@ -1,0 +1,76 @@
+// SPDX-License-Identifier: MIT
+// The manual tells the truth: its commands run, its tables are the effects' own.
+#include <gtest/gtest.h>
+
+#include <sstream>
+
+#include "tests/program/run.h"
+
+namespace grisaille::tests {
+namespace {
+
+const std::filesystem::path kSource = SOURCE_FOLDER;
+
+// The lines of all ```sh blocks of a file.
+std::vector<std::string> commandsOf(const std::filesystem::path& file) {
+  std::istringstream text(readFile(file));
+  std::vector<std::string> commands;
+  bool inside = false;
+  for (std::string line; std::getline(text, line);) {
+    if (line.rfind("```", 0) == 0) {
+      inside = !inside && line == "```sh";
+    } else if (inside && !line.empty() && line[0] != '#') {
+      commands.push_back(line);
+    }
+  }
+  return commands;
+}
+
+// Runs a manual's commands in order in one folder, as a reader would. `./dev` builds and tests, which
+// is what is being done here: only its subcommand is looked up.
+void runCommands(const std::filesystem::path& file) {
+  const TemporaryFolder folder;
+  const std::string help = runShell("./dev help", kSource).out;
+  size_t ran = 0;
+  for (const std::string& command : commandsOf(file)) {
+    SCOPED_TRACE(command);
+    if (command.rfind("./dev", 0) == 0) {
+      const size_t start = 6, end = std::min(command.find(' ', start), command.size());
+      const std::string name = command.size() > start ? command.substr(start, end - start) : "help";
+      EXPECT_TRUE(name == "help" || help.find("\n  " + name + " ") != std::string::npos);
+      continue;
+    }
+    const Outcome outcome = runShell(command, folder.path());
+    EXPECT_EQ(outcome.status, 0) << outcome.err;
+    ++ran;
+  }
+  EXPECT_GT(ran, 0u) << file;
+}
+
+TEST(Readme, CommandsRun) { runCommands(kSource / "README.md"); }
+TEST(Readme, SsaoCommandsRun) { runCommands(kSource / "effects/ssao/README.md"); }
+
+TEST(Readme, TablesAreTheEffectsOwn) {
+  const Outcome outcome = runProgram({"effects", "--markdown", "ssao"}, ".");
+  ASSERT_EQ(outcome.status, 0) << outcome.err;
+  for (const char* file : {"README.md", "effects/ssao/README.md"}) {
+    EXPECT_NE(readFile(kSource / file).find(outcome.out), std::string::npos)
+        << file << " lacks this table:\n"
+        << outcome.out;
+  }
+}
+
+TEST(Readme, EveryLinkedFileIsThere) {
+  for (const char* file : {"README.md", "effects/ssao/README.md"}) {
+    const std::string text = readFile(kSource / file);
+    for (size_t at = 0; (at = text.find("](", at)) != std::string::npos; ++at) {
+      const std::string target = text.substr(at + 2, text.find(')', at) - at - 2);
+      if (target.rfind("http", 0) == 0 || target[0] == '#') continue;
+      const auto path = (kSource / file).parent_path() / target;
+      EXPECT_TRUE(std::filesystem::exists(path)) << path;
+    }
+  }
+}
+
+}  // namespace
+}  // namespace grisaille::tests

@@ -1,0 +1,214 @@
+// SPDX-License-Identifier: MIT
+// The main job, as a whole program, on every backend: pictures against a ray cast of the same scene,
+// against the other backend, and against ray-traced truth.
+#include <gtest/gtest.h>
+
+#include <algorithm>
+#include <cmath>
+#include <nlohmann/json.hpp>
+
+#include "core/image/image.h"
+#include "tests/oracle/ray_tracer.h"
+#include "tests/program/run.h"
+
+namespace grisaille::tests {
+namespace {
+
+constexpr const char* kCameras[] = {"atrium", "arcade", "gallery", "lion"};
+
+// The backends that have a device.
+std::vector<std::string> backends() {
+  const Outcome outcome = runProgram({"backends", "--json"}, ".");
+  std::vector<std::string> names;
+  for (const auto& backend : nlohmann::json::parse(outcome.out)) {
+    if (!backend["devices"].empty()) names.push_back(backend["backend"]);
+  }
+  return names;
+}
+
+// Every `stride`-th pixel both ways, off the picture's border.
+std::vector<glm::uvec2> somePixels(const image::Image& image, uint32_t stride) {
+  std::vector<glm::uvec2> pixels;
+  for (uint32_t y = stride / 2; y < image.height; y += stride) {
+    for (uint32_t x = stride / 2; x < image.width; x += stride) pixels.emplace_back(x, y);
+  }
+  return pixels;
+}
+
+struct Agreement {
+  double median = 0;   // relative error of depth
+  double over1e3 = 0;  // share of pixels off by more than 1e-3, sky against surface counted
+};
+
+Agreement compareDepth(const image::Image& depth, const std::vector<oracle::Hit>& truth) {
+  std::vector<double> errors;
+  for (const oracle::Hit& hit : truth) {
+    const double drawn = depth.at(hit.pixel.x, hit.pixel.y);
+    if (hit.viewDepth == 0 || drawn == 0) {
+      errors.push_back(hit.viewDepth == drawn ? 0 : 1);
+    } else {
+      errors.push_back(std::abs(drawn / hit.viewDepth - 1));
+    }
+  }
+  Agreement agreement;
+  agreement.over1e3 =
+      static_cast<double>(std::count_if(errors.begin(), errors.end(),
+                                        [](double error) { return error > 1e-3; })) /
+      static_cast<double>(errors.size());
+  std::nth_element(errors.begin(), errors.begin() + errors.size() / 2, errors.end());
+  agreement.median = errors[errors.size() / 2];
+  return agreement;
+}
+
+struct Pictures {
+  image::Image ao, depth, normal, color;
+};
+
+// Renders under --check: a single message of the layer, the driver or its validation fails the run.
+Pictures render(const std::string& backend, std::vector<std::string> arguments) {
+  const TemporaryFolder folder;
+  arguments.insert(arguments.begin(), "render");
+  for (const char* more : {"--backend", backend.c_str(), "--check", "--effects", "ssao", "--write",
+                           "ao=a.exr", "--write", "depth=d.exr", "--write", "normal=n.exr",
+                           "--write", "color=c.png"}) {
+    arguments.emplace_back(more);
+  }
+  const Outcome outcome = runProgram(arguments, folder.path());
+  EXPECT_EQ(outcome.status, 0) << outcome.err;
+  EXPECT_EQ(outcome.err, "");
+  if (outcome.status != 0) return {};
+  EXPECT_EQ(folder.files(), (std::vector<std::string>{"a.exr", "c.png", "d.exr", "n.exr"}));
+  return {.ao = image::read(folder / "a.exr"),
+          .depth = image::read(folder / "d.exr"),
+          .normal = image::read(folder / "n.exr"),
+          .color = image::read(folder / "c.png")};
+}
+
+void expectWholePictures(const Pictures& pictures) {
+  for (const float value : pictures.ao.pixels) {
+    ASSERT_TRUE(std::isfinite(value) && value >= 0 && value <= 1) << value;
+  }
+  for (const float value : pictures.depth.pixels) ASSERT_TRUE(std::isfinite(value) && value >= 0);
+  // White light on white surfaces: grey everywhere, sRGB encoded in the PNG.
+  for (uint32_t y = 0; y < pictures.ao.height; y += 7) {
+    for (uint32_t x = 0; x < pictures.ao.width; x += 7) {
+      const float v = pictures.ao.at(x, y);
+      const double code =
+          v <= 0.0031308f ? v * 12.92 : 1.055 * std::pow(static_cast<double>(v), 1 / 2.4) - 0.055;
+      for (uint32_t c = 0; c < 3; ++c) ASSERT_NEAR(pictures.color.at(x, y, c), code, 1.1 / 255);
+    }
+  }
+}
+
+void expectBackendsAgree(const std::vector<Pictures>& all) {
+  for (size_t i = 1; i < all.size(); ++i) {
+    EXPECT_LT(image::shareOver(all[0].ao, all[i].ao, 2.0 / 255), 0.001);
+    const image::Image &a = all[0].depth, &b = all[i].depth;
+    uint64_t off = 0, compared = 0;
+    for (uint32_t y = 1; y + 1 < a.height; ++y) {
+      for (uint32_t x = 1; x + 1 < a.width; ++x) {
+        const float depth = a.at(x, y);
+        const bool edge = std::abs(a.at(x - 1, y) / depth - 1) > 0.02f ||
+                          std::abs(a.at(x + 1, y) / depth - 1) > 0.02f ||
+                          std::abs(a.at(x, y - 1) / depth - 1) > 0.02f ||
+                          std::abs(a.at(x, y + 1) / depth - 1) > 0.02f;
+        if (edge || depth == 0) continue;
+        ++compared;
+        if (std::abs(b.at(x, y) / depth - 1) > 1e-5f) ++off;
+      }
+    }
+    EXPECT_EQ(off, 0u) << "of " << compared;
+  }
+}
+
+TEST(Render, BuiltInSceneAgreesWithARayCastOnEveryBackend) {
+  const scene::Scene scene = scene::makeAtrium();
+  const scene::Camera camera = scene::atriumCamera();
+  const oracle::RayTracer tracer(scene, camera.eye);
+  std::vector<Pictures> all;
+  for (const std::string& backend : backends()) {
+    SCOPED_TRACE(backend);
+    all.push_back(render(backend, {"--size", "640x360"}));
+    if (HasFailure()) return;
+    expectWholePictures(all.back());
+    const std::vector<glm::uvec2> pixels = somePixels(all.back().depth, 2);
+    const std::vector<oracle::Hit> truth = tracer.castPrimary(camera, 640, 360, pixels);
+    const Agreement agreement = compareDepth(all.back().depth, truth);
+    EXPECT_LT(agreement.median, 1e-5);
+    EXPECT_LT(agreement.over1e3, 0.01);
+    uint64_t turned = 0, sky = 0;
+    for (const oracle::Hit& hit : truth) {
+      if (hit.viewDepth == 0) {
+        ++sky;
+        continue;
+      }
+      const glm::uvec2 p = hit.pixel;
+      const image::Image& n = all.back().normal;
+      const glm::vec3 drawn(n.at(p.x, p.y, 0), n.at(p.x, p.y, 1), n.at(p.x, p.y, 2));
+      if (glm::dot(drawn, hit.normal) < 0.99f) ++turned;
+    }
+    EXPECT_LT(static_cast<double>(turned) / static_cast<double>(truth.size()), 0.01);
+    EXPECT_GT(sky, 0u) << "the built-in camera should see the sky";
+  }
+  ASSERT_FALSE(all.empty()) << "no backend runs here";
+  expectBackendsAgree(all);
+}
+
+class Sponza : public ::testing::TestWithParam<const char*> {};
+INSTANTIATE_TEST_SUITE_P(, Sponza, ::testing::ValuesIn(kCameras),
+                         [](const auto& test) { return std::string(test.param); });
+
+TEST_P(Sponza, AgreesWithARayCastAndTheOtherBackend) {
+  if (sponza().empty()) GTEST_SKIP() << kNoSponza;
+  const scene::Scene scene = scene::loadGltf(sponza());
+  const scene::Camera camera = scene::loadCamera(sponzaCamera(GetParam()));
+  const oracle::RayTracer tracer(scene, camera.eye);
+  std::vector<Pictures> all;
+  for (const std::string& backend : backends()) {
+    SCOPED_TRACE(backend);
+    all.push_back(render(backend, {sponza(), "--camera", sponzaCamera(GetParam())}));
+    if (HasFailure()) return;
+    expectWholePictures(all.back());
+    const std::vector<oracle::Hit> truth =
+        tracer.castPrimary(camera, 1280, 720, somePixels(all.back().depth, 3));
+    const Agreement agreement = compareDepth(all.back().depth, truth);
+    EXPECT_LT(agreement.median, 1e-5);
+    EXPECT_LT(agreement.over1e3, 0.01);
+    RecordProperty(backend + " depth median", std::to_string(agreement.median));
+  }
+  expectBackendsAgree(all);
+}
+
+// Against the share of cosine-weighted rays that travel half a metre, the defaults are no worse than
+// the best-known tutorial's 64 taps: 0.117 there.
+TEST(SponzaTruth, DefaultsAreNoWorseThanTheTutorial) {
+  if (sponza().empty()) GTEST_SKIP() << kNoSponza;
+  constexpr uint32_t kSamples = 256;
+  const scene::Scene scene = scene::loadGltf(sponza());
+  for (const std::string& backend : backends()) {
+    double sum = 0;
+    for (const char* name : kCameras) {
+      const scene::Camera camera = scene::loadCamera(sponzaCamera(name));
+      const oracle::RayTracer tracer(scene, camera.eye);
+      const image::Image ao =
+          render(backend, {sponza(), "--camera", sponzaCamera(name)}).ao;
+      if (HasFailure()) return;
+      const auto hits = tracer.castPrimary(camera, 1280, 720, somePixels(ao, 10));
+      const auto truth = tracer.ambientOcclusion(hits, 0.5, kSamples, 1);
+      double squares = 0;
+      size_t count = 0;
+      for (size_t i = 0; i < hits.size(); ++i) {
+        if (std::isnan(truth[i].mean)) continue;
+        const double off = ao.at(hits[i].pixel.x, hits[i].pixel.y) - truth[i].mean;
+        squares += off * off;
+        ++count;
+      }
+      sum += std::sqrt(squares / static_cast<double>(count));
+    }
+    std::printf("%s: RMSE %.4f over four cameras\n", backend.c_str(), sum / 4);
+    EXPECT_LE(sum / 4, 0.117) << backend;
+  }
+}
+
+}  // namespace
+}  // namespace grisaille::tests

@@ -1,0 +1,98 @@
+// SPDX-License-Identifier: MIT
+// Devices for tests: every one is checked, and any message of it or of its driver fails the test.
+#pragma once
+
+#include <gtest/gtest.h>
+
+#include <functional>
+#include <memory>
+#include <string>
+#include <vector>
+
+#include "core/gpu/device.h"
+
+namespace grisaille::tests {
+
+// The backends that have a device on this machine.
+std::vector<std::string> presentBackends();
+
+// The names of all backends of the program, for INSTANTIATE_TEST_SUITE_P.
+std::vector<std::string> backendNames();
+
+// A checked device whose messages fail the current test.
+std::unique_ptr<gpu::Device> openDevice(const std::string& backend, bool timed = false);
+
+// A test that runs on every backend that is present, on a device of its own. What it makes through
+// the functions below is destroyed at its end.
+class BackendTest : public ::testing::TestWithParam<std::string> {
+ protected:
+  void SetUp() override;
+  void TearDown() override;
+
+  gpu::Device& device() { return *device_; }
+  // Replaces the device by one that times its passes.
+  void reopenTimed();
+
+  gpu::Buffer makeBuffer(uint64_t size, gpu::BufferUsage usage);
+  gpu::Texture makeTexture(gpu::TextureDesc desc);
+  gpu::Sampler makeSampler(const gpu::SamplerDesc& desc);
+  gpu::ComputePipeline makeCompute(const gpu::Shader& shader,
+                                   std::span<const gpu::Specialization> constants = {});
+  gpu::GraphicsPipeline makeGraphics(gpu::GraphicsPipelineDesc desc);
+
+  // A buffer with these values.
+  template <typename T>
+  gpu::Buffer bufferOf(const std::vector<T>& values, gpu::BufferUsage usage) {
+    const gpu::Buffer buffer = makeBuffer(values.size() * sizeof(T), usage);
+    inFrame([&](gpu::Commands& commands) {
+      commands.upload(buffer, 0, std::as_bytes(std::span(values)));
+    });
+    return buffer;
+  }
+
+  // One layer of one level, filled with these values.
+  template <typename T>
+  void fill(gpu::Texture texture, const std::vector<T>& values, uint32_t mip = 0,
+            uint32_t layer = 0) {
+    inFrame([&](gpu::Commands& commands) {
+      commands.upload(texture, mip, layer, std::as_bytes(std::span(values)));
+    });
+  }
+
+  template <typename T>
+  std::vector<T> readTexture(gpu::Texture texture, uint32_t mip = 0, uint32_t layer = 0) {
+    return valuesOf<T>(device().read(texture, mip, layer));
+  }
+  template <typename T>
+  std::vector<T> readBuffer(gpu::BufferRange range) {
+    return valuesOf<T>(device().read(range));
+  }
+
+  // Records and submits a frame.
+  void inFrame(const std::function<void(gpu::Commands&)>& record);
+  // A frame of one pass of one dispatch.
+  void compute(const gpu::Dispatch& dispatch);
+  // A frame of one pass of one render call.
+  void render(const gpu::Render& render);
+
+ private:
+  template <typename T>
+  static std::vector<T> valuesOf(const std::vector<std::byte>& bytes) {
+    EXPECT_EQ(bytes.size() % sizeof(T), 0u);
+    std::vector<T> values(bytes.size() / sizeof(T));
+    std::copy_n(bytes.data(), values.size() * sizeof(T),
+                reinterpret_cast<std::byte*>(values.data()));
+    return values;
+  }
+  void closeDevice();
+
+  std::unique_ptr<gpu::Device> device_;
+  std::vector<std::function<void(gpu::Device&)>> destroy_;
+};
+
+}  // namespace grisaille::tests
+
+// Runs the tests of a BackendTest on every backend.
+#define GRISAILLE_ON_EVERY_BACKEND(Suite)                                                    \
+  INSTANTIATE_TEST_SUITE_P(, Suite, ::testing::ValuesIn(::grisaille::tests::backendNames()), \
+                           [](const auto& test) { return test.param; })
