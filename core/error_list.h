@@ -27,7 +27,6 @@ GRISAILLE_ERROR(kShaderMissing, 1109, "give a compiled shader of the right stage
 GRISAILLE_ERROR(kSpecialization, 1110, "set only constants that the shader declares, each once")
 GRISAILLE_ERROR(kPipelineTargets, 1111, "match the target formats of pipeline and render call")
 GRISAILLE_ERROR(kVertexLayout, 1112, "feed every vertex input of the shader from a declared stream")
-GRISAILLE_ERROR(kInitialData, 1113, "give exactly as many bytes as the resource holds, or none")
 // --- 12xx: recording
 GRISAILLE_ERROR(kNotRecording, 1201, "record between begin() and submit()")
 GRISAILLE_ERROR(kAlreadyRecording, 1202, "submit() the frame before the next begin()")

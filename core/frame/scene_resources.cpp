@@ -195,15 +195,17 @@ gpu::Sampler SceneResources::sampler(const scene::Material& material, bool base)
     u = scene_.textures[static_cast<size_t>(material.baseColorTexture)].wrapU;
     v = scene_.textures[static_cast<size_t>(material.baseColorTexture)].wrapV;
   }
-  gpu::Sampler& sampler =
-      samplers_[static_cast<size_t>(u) * 6 + static_cast<size_t>(v) * 2 + (base ? 1 : 0)];
+  // A mask is read from one level, which drivers' anisotropic filters do not keep to.
+  const bool anisotropic = base && !material.masked;
+  gpu::Sampler& sampler = samplers_[static_cast<size_t>(u) * 9 + static_cast<size_t>(v) * 3 +
+                                    (anisotropic ? 2 : base ? 1 : 0)];
   if (!sampler) {
     sampler = device_.createSampler({.label = "base colour",
                                      .filter = gpu::Filter::kLinear,
                                      .mipFilter = base ? gpu::Filter::kLinear : gpu::Filter::kNearest,
                                      .addressU = address(u),
                                      .addressV = address(v),
-                                     .maxAnisotropy = base ? 8.0f : 1.0f});
+                                     .maxAnisotropy = anisotropic ? 8.0f : 1.0f});
   }
   return sampler;
 }

@@ -4,10 +4,15 @@
 #include <OpenImageIO/filesystem.h>
 #include <OpenImageIO/imageio.h>
 
+#include <fcntl.h>
+#include <unistd.h>
+
 #include <algorithm>
 #include <cmath>
+#include <cstdio>
 #include <cstring>
 #include <filesystem>
+#include <mutex>
 
 #include "core/error.h"
 #include "core/image/write_aside.h"
@@ -29,6 +34,35 @@ Format formatOf(const std::string& path) {
   throw Error(ErrorId::kImageFormat, "{}: the ending \"{}\" names no format that is written", path,
               ending);
 }
+
+// Keeps the process's standard error shut while it lives: libpng prints each error there although
+// the library reports it too, and offers no way to stop it. Threads may overlap.
+class SilentStderr {
+ public:
+  SilentStderr() {
+    const std::lock_guard lock(mutex_);
+    if (users_++ > 0) return;
+    std::fflush(stderr);
+    saved_ = dup(STDERR_FILENO);
+    const int nowhere = open("/dev/null", O_WRONLY | O_CLOEXEC);
+    if (saved_ >= 0 && nowhere >= 0) dup2(nowhere, STDERR_FILENO);
+    if (nowhere >= 0) close(nowhere);
+  }
+  ~SilentStderr() {
+    const std::lock_guard lock(mutex_);
+    if (--users_ > 0 || saved_ < 0) return;
+    std::fflush(stderr);
+    dup2(saved_, STDERR_FILENO);
+    close(saved_);
+  }
+  SilentStderr(const SilentStderr&) = delete;
+  SilentStderr& operator=(const SilentStderr&) = delete;
+
+ private:
+  static inline std::mutex mutex_;
+  static inline int users_ = 0;
+  static inline int saved_ = -1;
+};
 
 // OpenImageIO keeps errors in two places and prints those that nobody fetched: fetch both.
 template <typename Stream>
@@ -74,12 +108,27 @@ OIIO::ImageSpec specOf(const Image& image, OIIO::TypeDesc type) {
   return spec;
 }
 
-void writeTo(const std::string& file, const OIIO::ImageSpec& spec, const void* pixels) {
-  const auto output = OIIO::ImageOutput::create(file);
-  if (!output || !output->open(file, spec) || !output->write_image(spec.format, pixels) ||
-      !output->close()) {
-    throw Error(ErrorId::kFileUnwritable, "{}: {}", file, errorOf(output.get()));
+// The bytes of a file. They go to memory first: the library overlooks a disk that is full.
+std::vector<unsigned char> encode(const char* plugin, const OIIO::ImageSpec& spec,
+                                  const void* pixels) {
+  const SilentStderr silent;
+  std::vector<unsigned char> bytes;
+  OIIO::Filesystem::IOVecOutput memory(bytes);
+  const auto output = OIIO::ImageOutput::create(plugin);
+  if (!output || !output->set_ioproxy(&memory) || !output->open(plugin, spec) ||
+      !output->write_image(spec.format, pixels) || !output->close()) {
+    throw Error(ErrorId::kFileUnwritable, "an {} file cannot be made: {}", plugin,
+                errorOf(output.get()));
   }
+  return bytes;
+}
+
+std::vector<unsigned char> encodePngOf(const Image& image, const WriteOptions& options) {
+  const bool wide = options.pngBits == 16;
+  OIIO::ImageSpec spec = specOf(image, wide ? OIIO::TypeDesc::UINT16 : OIIO::TypeDesc::UINT8);
+  if (options.transfer == Transfer::kColour) spec.attribute("oiio:ColorSpace", "sRGB");
+  return wide ? encode("png", spec, quantise<uint16_t>(image, options.transfer).data())
+              : encode("png", spec, quantise<uint8_t>(image, options.transfer).data());
 }
 
 OIIO::ImageSpec readConfig() {
@@ -143,20 +192,11 @@ void write(const Image& image, const std::string& path, const WriteOptions& opti
     throw Error(ErrorId::kImageFormat, "{}: a PNG of {} bits, only 8 and 16 are written", path,
                 options.pngBits);
   }
-  writeAside(path, [&](const std::string& part) {
-    if (format == Format::kExr) {
-      writeTo(part, specOf(image, OIIO::TypeDesc::FLOAT), image.pixels.data());
-      return;
-    }
-    const bool wide = options.pngBits == 16;
-    OIIO::ImageSpec spec = specOf(image, wide ? OIIO::TypeDesc::UINT16 : OIIO::TypeDesc::UINT8);
-    if (options.transfer == Transfer::kColour) spec.attribute("oiio:ColorSpace", "sRGB");
-    if (wide) {
-      writeTo(part, spec, quantise<uint16_t>(image, options.transfer).data());
-    } else {
-      writeTo(part, spec, quantise<uint8_t>(image, options.transfer).data());
-    }
-  });
+  const std::vector<unsigned char> bytes =
+      format == Format::kExr
+          ? encode("openexr", specOf(image, OIIO::TypeDesc::FLOAT), image.pixels.data())
+          : encodePngOf(image, options);
+  writeFileAside(path, {reinterpret_cast<const char*>(bytes.data()), bytes.size()});
 }
 
 Image read(const std::string& path) {
@@ -165,6 +205,7 @@ Image read(const std::string& path) {
     throw Error(ErrorId::kImageUnreadable, "{}: {}", path,
                 code ? code.message() : "not a regular file");
   }
+  const SilentStderr silent;
   const OIIO::ImageSpec config = readConfig();
   const auto input = OIIO::ImageInput::open(path, &config);
   if (!input) {
@@ -190,6 +231,7 @@ Image read(const std::string& path) {
 
 Image8 decode(std::span<const std::byte> encoded, const std::string& name) {
   const char* plugin = pluginFor(encoded, name);
+  const SilentStderr silent;
   OIIO::Filesystem::IOMemReader memory(encoded.data(), encoded.size());
   const auto input = OIIO::ImageInput::create(plugin);
   OIIO::ImageSpec spec;
@@ -216,16 +258,9 @@ std::vector<std::byte> encodePng(const Image8& image) {
   OIIO::ImageSpec spec(static_cast<int>(image.width), static_cast<int>(image.height), 4,
                        OIIO::TypeDesc::UINT8);
   spec.attribute("oiio:UnassociatedAlpha", 1);
-  std::vector<unsigned char> bytes;
-  OIIO::Filesystem::IOVecOutput memory(bytes);
-  const auto output = OIIO::ImageOutput::create("png");
-  if (!output || !output->set_ioproxy(&memory) || !output->open("png", spec) ||
-      !output->write_image(spec.format, image.pixels.data()) || !output->close()) {
-    throw Error(ErrorId::kFileUnwritable, "a PNG in memory: {}", errorOf(output.get()));
-  }
-  std::vector<std::byte> result(bytes.size());
-  std::memcpy(result.data(), bytes.data(), bytes.size());
-  return result;
+  const std::vector<unsigned char> bytes = encode("png", spec, image.pixels.data());
+  const auto view = std::as_bytes(std::span(bytes));
+  return {view.begin(), view.end()};
 }
 
 }  // namespace grisaille::image

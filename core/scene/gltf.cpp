@@ -4,6 +4,7 @@
 #include <cmath>
 #include <filesystem>
 #include <glm/gtc/quaternion.hpp>
+#include <set>
 
 #include "core/error.h"
 #include "core/scene/gltf_file.h"
@@ -76,12 +77,18 @@ std::vector<int> rootsOf(const tinygltf::Model& model) {
   return roots;
 }
 
+struct PlacedMesh {
+  int mesh;
+  glm::dmat4 worldFromObject;
+};
+
 // Depth first in file order, with a stack of its own: a file may nest nodes to any depth.
-void addInstances(const tinygltf::Model& model, MeshLoader& meshes, Scene& scene) {
+std::vector<PlacedMesh> placeMeshes(const tinygltf::Model& model) {
   struct Visit {
     int node;
     glm::dmat4 worldFromParent;
   };
+  std::vector<PlacedMesh> placed;
   std::vector<Visit> stack;
   const auto push = [&](const std::vector<int>& nodes, const glm::dmat4& worldFromParent) {
     for (auto node = nodes.rbegin(); node != nodes.rend(); ++node) {
@@ -103,15 +110,25 @@ void addInstances(const tinygltf::Model& model, MeshLoader& meshes, Scene& scene
       if (!std::isfinite(world[i / 4][i % 4]))
         refuseNode(visit.node, "is placed beyond all numbers");
     }
-    if (node.mesh != -1) {
-      for (const uint32_t primitive : meshes.primitivesOf(node.mesh)) {
-        if (scene.instances.size() >= kMaxInstances) {
-          throw Error(ErrorId::kSceneTooLarge, "over {} instances", kMaxInstances);
-        }
-        scene.instances.push_back({.primitive = primitive, .worldFromObject = world});
-      }
-    }
+    if (node.mesh != -1) placed.push_back({node.mesh, world});
     push(node.children, world);
+  }
+  return placed;
+}
+
+void addInstances(const tinygltf::Model& model, MeshLoader& meshes, Scene& scene) {
+  const std::vector<PlacedMesh> placed = placeMeshes(model);
+  // Meshes that are shown, in the order of the file.
+  std::set<int> shown;
+  for (const PlacedMesh& one : placed) shown.insert(one.mesh);
+  for (const int mesh : shown) meshes.primitivesOf(mesh);
+  for (const PlacedMesh& one : placed) {
+    for (const uint32_t primitive : meshes.primitivesOf(one.mesh)) {
+      if (scene.instances.size() >= kMaxInstances) {
+        throw Error(ErrorId::kSceneTooLarge, "over {} instances", kMaxInstances);
+      }
+      scene.instances.push_back({.primitive = primitive, .worldFromObject = one.worldFromObject});
+    }
   }
 }
 

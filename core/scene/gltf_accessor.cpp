@@ -140,7 +140,7 @@ Replacement replacementOf(const tinygltf::Model& model, int index, size_t elemen
 // Elements of the dense part; none where the accessor has no buffer view, which means zeros.
 Elements denseOf(const tinygltf::Model& model, int index, size_t elementSize) {
   const tinygltf::Accessor& accessor = accessorAt(model, index);
-  if (accessor.bufferView >= 0) {
+  if (accessor.bufferView != -1) {
     return elementsOf(model, index, accessor.bufferView, accessor.byteOffset, accessor.count,
                       elementSize);
   }

@@ -94,6 +94,9 @@ void MeshLoader::loadPrimitive(const tinygltf::Primitive& from, std::vector<uint
   VertexKey key{.positions = attribute(from, "POSITION"), .normals = attribute(from, "NORMAL")};
   if (from.mode < TINYGLTF_MODE_TRIANGLES || key.positions < 0) return;
   const uint64_t vertexCount = accessorCount(model_, key.positions);
+  if (vertexCount == 0) {
+    throw Error(ErrorId::kSceneInvalid, "accessor {} is empty", key.positions);
+  }
   if (vertexCount > kMaxVertices) {
     throw Error(ErrorId::kSceneTooLarge, "accessor {}: {} vertices, at most {}", key.positions,
                 vertexCount, kMaxVertices);

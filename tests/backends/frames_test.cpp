@@ -187,6 +187,34 @@ TEST_P(Frames, AnAbandonedFrameLeavesNoTrace) {
   EXPECT_EQ(readTexture<uint32_t>(texture), std::vector<uint32_t>(64, 40));
 }
 
+// Dropping a frame takes back its uses, not what was made or destroyed meanwhile.
+TEST_P(Frames, WhatIsMadeAroundAnAbandonedFrameStays) {
+  const gpu::ComputePipeline write = makeCompute(grisaille_shader_image_write_comp);
+  const gpu::ComputePipeline step = makeCompute(grisaille_shader_image_step_comp);
+  const gpu::TextureDesc desc{.label = "around",
+                              .format = Format::kR32Uint,
+                              .width = 64,
+                              .height = 64,
+                              .usage = TextureUsage::kStorage};
+  const gpu::Texture doomed = device().createTexture(desc);
+  const gpu::Texture before = makeTexture(desc);
+  device().begin();
+  const gpu::Texture within = makeTexture(desc);
+  device().destroy(doomed);
+  device().abandon();
+  for (const gpu::Texture texture : {before, within}) {
+    const gpu::Binding bindings[] = {gpu::imageBinding(0, texture)};
+    inFrame([&](gpu::Commands& commands) {
+      commands.beginPass("use");
+      commands.dispatch({.pipeline = write, .bindings = bindings, .groups = {8, 8, 1}});
+      commands.dispatch({.pipeline = step, .bindings = bindings, .groups = {8, 8, 1}});
+      commands.endPass();
+    });
+    const std::vector<uint32_t> texels = readTexture<uint32_t>(texture);
+    for (uint32_t i = 0; i < 64 * 64; ++i) ASSERT_EQ(texels[i], (i / 64 * 65536 + i % 64) * 3 + 1);
+  }
+}
+
 TEST_P(Frames, EmptyFramesAndPassesAreAllowed) {
   for (int i = 0; i < 10; ++i) {
     inFrame([](gpu::Commands&) {});

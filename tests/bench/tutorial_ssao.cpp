@@ -12,6 +12,8 @@
 namespace grisaille::bench {
 namespace {
 
+constexpr gpu::Format kInputFormat = gpu::Format::kRgba16Float;
+constexpr gpu::Format kOutputFormat = gpu::Format::kR8Unorm;
 constexpr uint32_t kNoiseSize = 4;  // texels a side
 
 struct InputsBlock {
@@ -37,13 +39,13 @@ class Random {
   std::mt19937 engine_{1};
 };
 
-gpu::Texture target(gpu::Commands& commands, std::string_view label, gpu::Format format,
-                    uint32_t width, uint32_t height) {
-  return commands.transient({.label = label,
-                             .format = format,
-                             .width = width,
-                             .height = height,
-                             .usage = gpu::TextureUsage::kTarget | gpu::TextureUsage::kSampled});
+gpu::TextureDesc targetDesc(std::string_view label, gpu::Format format, uint32_t width,
+                            uint32_t height) {
+  return {.label = label,
+          .format = format,
+          .width = width,
+          .height = height,
+          .usage = gpu::TextureUsage::kTarget | gpu::TextureUsage::kSampled};
 }
 
 template <typename Block>
@@ -77,8 +79,8 @@ TutorialSsao::TutorialSsao(gpu::Device& device) : device_(device) {
   repeated_ = device_.createSampler({.label = "tutorial repeated",
                                      .addressU = gpu::Address::kRepeat,
                                      .addressV = gpu::Address::kRepeat});
-  const std::array inputFormats = {gpu::Format::kRgba16Float, gpu::Format::kRgba16Float};
-  const std::array outputFormats = {gpu::Format::kR8Unorm};
+  const std::array inputFormats = {kInputFormat, kInputFormat};
+  const std::array outputFormats = {kOutputFormat};
   inputs_ = pipeline("tutorial inputs", grisaille_shader_tutorial_inputs, inputFormats);
   occlusion_ = pipeline("tutorial occlusion", grisaille_shader_tutorial_occlusion, outputFormats);
   blur_ = pipeline("tutorial blur", grisaille_shader_tutorial_blur, outputFormats);
@@ -92,6 +94,7 @@ TutorialSsao::~TutorialSsao() {
   device_.destroy(inputs_);
   device_.destroy(repeated_);
   device_.destroy(clamped_);
+  device_.destroy(output_);
   device_.destroy(noise_);
 }
 
@@ -121,8 +124,8 @@ TutorialSsao::Inputs TutorialSsao::makeInputs(gpu::Commands& commands, gpu::Text
                                               const glm::mat3& viewFromWorld, uint32_t width,
                                               uint32_t height) {
   const Inputs inputs = {
-      .position = target(commands, "tutorial position", gpu::Format::kRgba16Float, width, height),
-      .normal = target(commands, "tutorial normal", gpu::Format::kRgba16Float, width, height)};
+      .position = commands.transient(targetDesc("tutorial position", kInputFormat, width, height)),
+      .normal = commands.transient(targetDesc("tutorial normal", kInputFormat, width, height))};
   const InputsBlock block = {
       .rotation = glm::mat4(viewFromWorld),
       .tangents = glm::vec4(1 / projection[0][0], 1 / projection[1][1], 0, 0)};
@@ -148,14 +151,17 @@ gpu::Texture TutorialSsao::record(gpu::Commands& commands, gpu::Texture position
                                gpu::textureBinding(1, {.texture = normal}, clamped_),
                                gpu::textureBinding(2, {.texture = noise_}, repeated_)};
   const gpu::Texture raw =
-      target(commands, "tutorial visibility", gpu::Format::kR8Unorm, width, height);
+      commands.transient(targetDesc("tutorial visibility", kOutputFormat, width, height));
   pass(commands, "tutorial_occlusion", occlusion_, bindings, std::span(&raw, 1));
 
-  const gpu::Texture blurred =
-      target(commands, "tutorial blurred", gpu::Format::kR8Unorm, width, height);
+  if (outputSize_ != glm::uvec2(width, height)) {
+    device_.destroy(output_);
+    output_ = device_.createTexture(targetDesc("tutorial blurred", kOutputFormat, width, height));
+    outputSize_ = glm::uvec2(width, height);
+  }
   const std::array blurBindings = {gpu::textureBinding(0, {.texture = raw}, clamped_)};
-  pass(commands, "tutorial_blur", blur_, blurBindings, std::span(&blurred, 1));
-  return blurred;
+  pass(commands, "tutorial_blur", blur_, blurBindings, std::span(&output_, 1));
+  return output_;
 }
 
 }  // namespace grisaille::bench

@@ -34,7 +34,8 @@ class TutorialSsao {
                     const glm::mat4& projection, const glm::mat3& viewFromWorld, uint32_t width,
                     uint32_t height);
 
-  // Passes "tutorial_occlusion" and "tutorial_blur". A transient r8 texture, 1: open.
+  // Passes "tutorial_occlusion" and "tutorial_blur". Returns an r8 texture, 1: open, that stays
+  // until a later frame asks for another size; one size a frame.
   gpu::Texture record(gpu::Commands& commands, gpu::Texture position, gpu::Texture normal,
                       const glm::mat4& projection, uint32_t width, uint32_t height);
 
@@ -47,6 +48,8 @@ class TutorialSsao {
   gpu::Device& device_;
   std::array<glm::vec4, 64> kernel_ = {};
   gpu::Texture noise_;
+  gpu::Texture output_;
+  glm::uvec2 outputSize_ = glm::uvec2(0);
   gpu::Sampler clamped_;
   gpu::Sampler repeated_;
   gpu::GraphicsPipeline inputs_;

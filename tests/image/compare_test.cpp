@@ -6,6 +6,7 @@
 
 #include "core/error.h"
 #include "core/image/image.h"
+#include "tests/support/expect_error.h"
 
 namespace grisaille::image {
 namespace {
@@ -68,13 +69,8 @@ TEST(Compare, OtherShapesAreRefused) {
   wide.width = 1;
   wide.channels = 2;
   for (const Image& b : {tall, wide, row({1})}) {
-    try {
-      compare(a, b);
-      ADD_FAILURE();
-    } catch (const Error& error) {
-      EXPECT_EQ(error.id(), ErrorId::kImageMismatch);
-    }
-    EXPECT_THROW(shareOver(a, b, 0), Error);
+    EXPECT_ERROR(ErrorId::kImageMismatch, compare(a, b));
+    EXPECT_ERROR(ErrorId::kImageMismatch, shareOver(a, b, 0));
   }
 }
 

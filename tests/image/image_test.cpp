@@ -14,22 +14,12 @@
 
 #include "core/error.h"
 #include "core/image/write_aside.h"
+#include "tests/support/expect_error.h"
 
 namespace grisaille::image {
 namespace {
 
 namespace fs = std::filesystem;
-
-template <typename F>
-void expectError(ErrorId id, F&& f, const std::string& what = "") {
-  try {
-    f();
-    ADD_FAILURE() << "no error: " << what;
-  } catch (const Error& error) {
-    EXPECT_EQ(error.id(), id) << what << ": " << error.what();
-    EXPECT_EQ(std::string(error.what()).find('\n'), std::string::npos);
-  }
-}
 
 class ImageFiles : public ::testing::Test {
  protected:
@@ -133,26 +123,24 @@ TEST_F(ImageFiles, RowsRunFromTheTop) {
 TEST_F(ImageFiles, OtherEndingsAndShapesAreRefused) {
   const Image image = noise(3, 0, 1);
   for (const char* name : {"a", "a.jpg", "a.exr.txt", ".png", "a.hdr"}) {
-    expectError(
-        ErrorId::kImageFormat, [&] { write(image, file(name)); }, name);
-    expectError(
-        ErrorId::kImageFormat, [&] { checkWritable(file(name)); }, name);
+    EXPECT_ERROR(ErrorId::kImageFormat, write(image, file(name)));
+    EXPECT_ERROR(ErrorId::kImageFormat, checkWritable(file(name)));
   }
   checkWritable("/no/such/folder/a.exr");
-  expectError(ErrorId::kImageFormat, [&] { write(image, file("a.png"), {.pngBits = 12}); });
+  EXPECT_ERROR(ErrorId::kImageFormat, write(image, file("a.png"), {.pngBits = 12}));
   Image broken = image;
   broken.pixels.pop_back();
-  expectError(ErrorId::kImageMismatch, [&] { write(broken, file("a.png")); });
-  expectError(ErrorId::kImageMismatch, [&] { write(Image{}, file("a.exr")); });
+  EXPECT_ERROR(ErrorId::kImageMismatch, write(broken, file("a.png")));
+  EXPECT_ERROR(ErrorId::kImageMismatch, write(Image{}, file("a.exr")));
   EXPECT_TRUE(fs::is_empty(folder_));
 }
 
 TEST_F(ImageFiles, AFailureLeavesNothingBehind) {
   const Image image = noise(3, 0, 1);
-  expectError(ErrorId::kFileUnwritable, [&] { write(image, file("missing/a.png")); });
-  expectError(ErrorId::kFileUnwritable, [&] { write(image, file("missing/a.exr")); });
+  EXPECT_ERROR(ErrorId::kFileUnwritable, write(image, file("missing/a.png")));
+  EXPECT_ERROR(ErrorId::kFileUnwritable, write(image, file("missing/a.exr")));
   fs::create_directories(folder_ / "folder.png");
-  expectError(ErrorId::kFileUnwritable, [&] { write(image, file("folder.png")); });
+  EXPECT_ERROR(ErrorId::kFileUnwritable, write(image, file("folder.png")));
   EXPECT_EQ(std::distance(fs::directory_iterator(folder_), {}), 1);
 }
 
@@ -174,7 +162,7 @@ TEST_F(ImageFiles, AFullDiskIsAnError) {
   if (!fs::exists("/dev/full")) GTEST_SKIP() << "no /dev/full here";
   const std::string part = fmt::format("{}.{}.part.png", file("a.png"), getpid());
   fs::create_symlink("/dev/full", part);
-  expectError(ErrorId::kFileUnwritable, [&] { write(noise(3, 0, 1), file("a.png")); });
+  EXPECT_ERROR(ErrorId::kFileUnwritable, write(noise(3, 0, 1), file("a.png")));
   EXPECT_TRUE(fs::is_empty(folder_));
 }
 
@@ -183,8 +171,7 @@ TEST_F(ImageFiles, WhatIsNoImageCannotBeRead) {
   writeFileAside(file("empty.exr"), "");
   mkfifo(file("pipe.png").c_str(), 0600);
   for (const char* name : {"text.png", "empty.exr", "missing.exr", "pipe.png", "."}) {
-    expectError(
-        ErrorId::kImageUnreadable, [&] { read(file(name)); }, name);
+    EXPECT_ERROR(ErrorId::kImageUnreadable, read(file(name)));
   }
 }
 
@@ -232,7 +219,7 @@ TEST(Decode, HostileBytesAreRefusedInSilence) {
   ::testing::internal::CaptureStderr();
   ::testing::internal::CaptureStdout();
   const auto refused = [](std::span<const std::byte> bytes) {
-    expectError(ErrorId::kSceneImage, [&] { decode(bytes, "hostile"); });
+    EXPECT_ERROR(ErrorId::kSceneImage, decode(bytes, "hostile"));
   };
   refused({});
   for (size_t size = 1; size + 12 < good.size(); size += 17) {

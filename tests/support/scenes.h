@@ -2,6 +2,8 @@
 // Small scenes for tests.
 #pragma once
 
+#include <array>
+
 #include "core/scene/camera.h"
 #include "core/scene/scene.h"
 

@@ -55,7 +55,7 @@ constexpr grisaille_output_desc kOutputs[] = {
 class Copy {
  public:
   explicit Copy(plugin::Host host)
-      : copy_(host, "copy", grisaille_shader_copy, 2),
+      : copy_(host, "copy", grisaille_shader_copy, 1),
         table_(host.buffer("table", sizeof(values_))),
         near_(host.sampler({.label = "near", .linear = false})),
         scratch_(host.texture({.label = "scratch", .width = 4, .height = 4, .mips = 2})) {}
@@ -73,8 +73,10 @@ class Copy {
     }
     const grisaille_texture between =
         frame.transient({.label = "between", .width = frame.width(), .height = frame.height()});
-    copy(frame, "in", frame.attachment(GRISAILLE_VIEW_DEPTH), between);
-    if (frame.wanted(0)) copy(frame, "out", between, frame.output(0));
+    const uint32_t entry = frame.value<uint32_t>(kEntry);
+    copy(frame, "in", entry, frame.attachment(GRISAILLE_VIEW_DEPTH), between);
+    // The cache holds one pipeline: this drops the one that the frame has just used.
+    if (frame.wanted(0)) copy(frame, "out", 15 - entry, between, frame.output(0));
     if (frame.wanted(1)) {
       const std::vector<std::array<uint16_t, 4>> zero(size_t{frame.width()} * frame.height());
       frame.uploadTexture(frame.output(1), zero);
@@ -82,14 +84,13 @@ class Copy {
   }
 
  private:
-  void copy(const plugin::Frame& frame, const char* pass, grisaille_texture from,
+  void copy(const plugin::Frame& frame, const char* pass, uint32_t entry, grisaille_texture from,
             grisaille_texture to) {
     struct Settings {
       float gain;
       float padding[3];
     };
-    const grisaille_pipeline pipeline =
-        copy_.get({plugin::specialize(0, frame.value<uint32_t>(kEntry))});
+    const grisaille_pipeline pipeline = copy_.get({plugin::specialize(0, entry)});
     const grisaille_range settings =
         frame.uniform(Settings{.gain = frame.value<float>(kGain), .padding = {}});
     frame.pass(pass, [&] {

@@ -16,18 +16,18 @@
 #endif
 
 typedef struct Plain {
-  const grisaille_host *host;
+  const grisaille_host* host;
   grisaille_buffer left; /* the host destroys it */
 } Plain;
 
-static uint32_t reads(const double *values) {
+static uint32_t reads(const double* values) {
   (void)values;
   return 0;
 }
 
-static grisaille_result create(const grisaille_host *host, void **out) {
+static grisaille_result create(const grisaille_host* host, void** out) {
   const grisaille_buffer_desc desc = {sizeof desc, 0, 64, "left"};
-  Plain *plain = malloc(sizeof *plain);
+  Plain* plain = malloc(sizeof *plain);
   if (plain == NULL) return GRISAILLE_FAILED;
   plain->host = host;
   if (host->create_buffer(host, &desc, &plain->left) != GRISAILLE_OK) {
@@ -38,10 +38,10 @@ static grisaille_result create(const grisaille_host *host, void **out) {
   return GRISAILLE_OK;
 }
 
-static grisaille_result record(void *instance, const grisaille_frame *frame) {
+static grisaille_result record(void* instance, const grisaille_frame* frame) {
   const uint64_t bytes = (uint64_t)frame->width * frame->height * sizeof(float);
   grisaille_result result = GRISAILLE_OK;
-  float *texels = NULL;
+  float* texels = NULL;
   (void)instance;
   if ((frame->wanted & 1) == 0) return GRISAILLE_OK;
   texels = calloc(1, bytes);
@@ -52,7 +52,9 @@ static grisaille_result record(void *instance, const grisaille_frame *frame) {
   return result;
 }
 
-static void destroy(void *instance) { free(instance); }
+static void destroy(void* instance) {
+  free(instance);
+}
 
 static const grisaille_param_desc kParams[] = {{
     .struct_size = sizeof(grisaille_param_desc),
@@ -107,7 +109,7 @@ static const grisaille_effect_desc kEffect = {
     .destroy = destroy,
 };
 
-static const grisaille_effect_desc *const kEffects[] = {&kEffect};
+static const grisaille_effect_desc* const kEffects[] = {&kEffect};
 
 #if defined(FAULT_MAGIC)
 #define MAGIC 0x12345678u

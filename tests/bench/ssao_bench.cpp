@@ -1,0 +1,338 @@
+// SPDX-License-Identifier: MIT
+// What SSAO costs and how wrong it is, as Markdown: every setting beside the tutorial's way, run in
+// turn in one process (A B C ... A B C ...), so that a machine that slows down slows all of them.
+// Costs are medians of the layer's own pass times; ratios are taken round by round.
+#include <fmt/format.h>
+
+#include <CLI/CLI.hpp>
+#include <algorithm>
+#include <array>
+#include <chrono>
+#include <cmath>
+#include <filesystem>
+#include <optional>
+#include <thread>
+
+#include "backends/backends.h"
+#include "core/effect/instance.h"
+#include "core/effect/registry.h"
+#include "core/effect/values.h"
+#include "core/error.h"
+#include "core/frame/renderer.h"
+#include "core/frame/texture_image.h"
+#include "core/scene/camera.h"
+#include "core/scene/scene.h"
+#include "tests/bench/tutorial_ssao.h"
+#include "tests/oracle/ray_tracer.h"
+
+namespace grisaille::bench {
+namespace {
+
+using Clock = std::chrono::steady_clock;
+
+struct Options {
+  uint32_t rounds = 9;
+  uint32_t samples = 256;
+  std::string backend;
+  uint32_t width = 1280;
+  uint32_t height = 720;
+};
+
+struct Setting {
+  std::string name;
+  std::vector<std::pair<const char*, const char*>> values;
+};
+
+std::vector<Setting> settings() {
+  std::vector<Setting> all;
+  for (const char* taps : {"4", "8", "16", "32", "64", "128", "256"}) {
+    all.push_back({fmt::format("{} taps, 4x4 box", taps), {{"kernel_size", taps}}});
+  }
+  all.push_back({"64 taps, 4x4 box, intensity 1", {{"intensity", "1"}}});
+  all.push_back({"64 taps, no blur", {{"blur_size", "0"}}});
+  all.push_back({"64 taps, 4x4 edge-aware", {{"blur", "edge_aware"}}});
+  all.push_back({"64 taps, 8x8 box", {{"blur_size", "8"}}});
+  all.push_back({"64 taps, sphere", {{"sampling", "sphere"}}});
+  return all;
+}
+
+double median(std::vector<double> values) {
+  std::nth_element(values.begin(), values.begin() + values.size() / 2, values.end());
+  return values[values.size() / 2];
+}
+
+// The scene and the cameras that are measured: Sponza's four where it is there, else the atrium's.
+struct Subject {
+  std::string name;
+  scene::Scene scene;
+  std::vector<scene::Camera> cameras;
+  double loadSeconds = 0;
+};
+
+Subject loadSubject() {
+  const char* given = std::getenv("GRISAILLE_SPONZA");
+  const std::filesystem::path file =
+      given != nullptr ? std::filesystem::path(given)
+                       : std::filesystem::path(SOURCE_FOLDER) / "../shared/scenes/Sponza.glb";
+  Subject subject;
+  const auto start = Clock::now();
+  if (std::filesystem::exists(file)) {
+    subject.name = "Crytek Sponza";
+    subject.scene = scene::loadGltf(file);
+    for (const char* camera : {"atrium", "arcade", "gallery", "lion"}) {
+      subject.cameras.push_back(scene::loadCamera(
+          (file.parent_path() / "../cameras" / camera).string() + ".json"));
+    }
+  } else {
+    fmt::print(stderr, "Sponza is not there: measuring the built-in atrium\n");
+    subject.name = "the built-in atrium";
+    subject.scene = scene::makeAtrium();
+    subject.cameras.push_back(scene::atriumCamera());
+  }
+  subject.loadSeconds = std::chrono::duration<double>(Clock::now() - start).count();
+  return subject;
+}
+
+// Ray-traced truth at every tenth pixel both ways of one camera.
+struct Truth {
+  std::vector<oracle::Hit> hits;
+  std::vector<oracle::Visibility> visibility;
+};
+
+Truth traceTruth(const Subject& subject, const scene::Camera& camera, const Options& options) {
+  std::vector<glm::uvec2> pixels;
+  for (uint32_t y = 5; y < options.height; y += 10) {
+    for (uint32_t x = 5; x < options.width; x += 10) pixels.emplace_back(x, y);
+  }
+  const oracle::RayTracer tracer(subject.scene, camera.eye);
+  Truth truth;
+  truth.hits = tracer.castPrimary(camera, options.width, options.height, pixels);
+  truth.visibility = tracer.ambientOcclusion(truth.hits, 0.5, options.samples, 1);
+  return truth;
+}
+
+double rmse(const image::Image& ao, const Truth& truth) {
+  double squares = 0;
+  size_t count = 0;
+  for (size_t i = 0; i < truth.hits.size(); ++i) {
+    if (std::isnan(truth.visibility[i].mean)) continue;
+    const double off =
+        ao.at(truth.hits[i].pixel.x, truth.hits[i].pixel.y) - truth.visibility[i].mean;
+    squares += off * off;
+    ++count;
+  }
+  return std::sqrt(squares / static_cast<double>(count));
+}
+
+// One backend's device with everything that is run on it.
+class Bench {
+ public:
+  Bench(const std::string& backend, const Subject& subject, const effect::Registry& registry,
+        const Options& options)
+      : options_(options), subject_(subject) {
+    const auto start = Clock::now();
+    device_ = backends::create(backend, {.timed = true});
+    tutorial_.emplace(*device_);
+    instance_.emplace(*device_, registry.find("ssao"));
+    renderer_.emplace(*device_, subject.scene);
+    for (const Setting& setting : settings()) {
+      effect::Values& values = values_.emplace_back(registry.find("ssao"));
+      for (const auto& [key, value] : setting.values) values.set(key, value);
+    }
+    render(effect::Values(registry.find("ssao")), subject.cameras[0]);
+    device_->wait();
+    firstFrameSeconds_ = std::chrono::duration<double>(Clock::now() - start).count();
+    drawTutorial(subject.cameras[0]);
+    device_->wait();
+    device_->takeTimes();
+  }
+
+  gpu::Device& device() { return *device_; }
+  double firstFrameSeconds() const { return firstFrameSeconds_; }
+
+  // Milliseconds of the effect's passes.
+  double timeSetting(size_t setting) {
+    render(values_[setting], subject_.cameras[0]);
+    return taken(std::array<std::string_view, 2>{"ssao/occlusion", "ssao/blur"});
+  }
+  double timeTutorial() {
+    drawTutorial(subject_.cameras[0]);
+    return taken(std::array<std::string_view, 2>{"tutorial_occlusion", "tutorial_blur"});
+  }
+
+  image::Image ao(size_t setting, const scene::Camera& camera) {
+    render(values_[setting], camera);
+    return renderer_->read("ao");
+  }
+  image::Image tutorialAo(const scene::Camera& camera) {
+    render(values_[0], camera);
+    drawTutorial(camera);
+    return frame::toImage(device_->read(target_), gpu::Format::kR8Unorm, options_.width,
+                          options_.height);
+  }
+
+ private:
+  void render(const effect::Values& values, const scene::Camera& camera) {
+    const std::array effects = {frame::ActiveEffect{.instance = &*instance_, .values = &values}};
+    renderer_->render({.camera = camera,
+                       .width = options_.width,
+                       .height = options_.height,
+                       .effects = effects,
+                       .outputs = outputs_});
+  }
+
+  // From the attachments of the last render().
+  void drawTutorial(const scene::Camera& camera) {
+    const double aspect = double{1} * options_.width / options_.height;
+    const glm::mat4 projection(scene::clipFromView(camera, aspect));
+    const glm::mat3 viewFromWorld(glm::transpose(scene::worldFromView(camera)));
+    gpu::Commands& commands = device_->begin();
+    const TutorialSsao::Inputs inputs =
+        tutorial_->makeInputs(commands, renderer_->texture("depth"), renderer_->texture("normal"),
+                              projection, viewFromWorld, options_.width, options_.height);
+    target_ = tutorial_->record(commands, inputs.position, inputs.normal, projection,
+                                options_.width, options_.height);
+    device_->submit();
+  }
+
+  // Milliseconds of the last frame's passes of these labels.
+  double taken(std::span<const std::string_view> labels) {
+    device_->wait();
+    double sum = 0;
+    for (const gpu::PassTime& pass : device_->takeTimes().back().passes) {
+      if (std::find(labels.begin(), labels.end(), pass.label) != labels.end()) {
+        sum += pass.milliseconds;
+      }
+    }
+    return sum;
+  }
+
+  Options options_;
+  const Subject& subject_;
+  std::unique_ptr<gpu::Device> device_;
+  std::optional<TutorialSsao> tutorial_;
+  std::optional<effect::Instance> instance_;
+  std::optional<frame::Renderer> renderer_;
+  gpu::Texture target_;  // the tutorial's result; its own
+  std::vector<effect::Values> values_;
+  std::vector<std::string> outputs_ = {"ao", "depth", "normal"};
+  double firstFrameSeconds_ = 0;
+};
+
+struct Row {
+  std::string name;
+  std::vector<double> milliseconds, ratios;
+  double error = 0;
+};
+
+void printRows(const std::vector<Row>& rows) {
+  fmt::print("| setting | ms, median | ms, least to most | cost, tutorial = 1 | RMSE |\n"
+             "|---|---|---|---|---|\n");
+  for (const Row& row : rows) {
+    const auto [least, most] = std::minmax_element(row.milliseconds.begin(), row.milliseconds.end());
+    fmt::print("| {} | {:.2f} | {:.2f} to {:.2f} | {:.3f} | {:.4f} |\n", row.name,
+               median(row.milliseconds), *least, *most, median(row.ratios), row.error);
+  }
+}
+
+// How far a straight line through 8 to 256 taps misses the cost of each, at most.
+void printLinearity(const std::vector<Row>& rows) {
+  constexpr double kTaps[] = {4, 8, 16, 32, 64, 128, 256};
+  const double slope =
+      (median(rows[7].milliseconds) - median(rows[2].milliseconds)) / (kTaps[6] - kTaps[1]);
+  double worst = 0;
+  for (size_t i = 1; i < std::size(kTaps); ++i) {
+    const double line = median(rows[2].milliseconds) + slope * (kTaps[i] - kTaps[1]);
+    worst = std::max(worst, std::abs(median(rows[i + 1].milliseconds) / line - 1));
+  }
+  fmt::print("\nA tap costs {:.3f} ms; a line through 8 and 256 taps misses no cost between by more "
+             "than {:.0f} %.\n\n",
+             slope, worst * 100);
+}
+
+void runBackend(const std::string& backend, const Subject& subject,
+                const std::vector<Truth>& truths, const effect::Registry& registry,
+                const Options& options) {
+  Bench bench(backend, subject, registry, options);
+  const gpu::DeviceInfo& info = bench.device().info();
+  const std::vector<Setting> all = settings();
+  std::vector<Row> rows(all.size() + 1);
+  rows[0].name = "the tutorial's way, 64 taps";
+  for (uint32_t round = 0; round < options.rounds; ++round) {
+    fmt::print(stderr, "{}: round {} of {}\n", backend, round + 1, options.rounds);
+    const double tutorial = bench.timeTutorial();
+    rows[0].milliseconds.push_back(tutorial);
+    rows[0].ratios.push_back(1);
+    for (size_t i = 0; i < all.size(); ++i) {
+      rows[i + 1].name = all[i].name;
+      rows[i + 1].milliseconds.push_back(bench.timeSetting(i));
+      rows[i + 1].ratios.push_back(rows[i + 1].milliseconds.back() / tutorial);
+    }
+  }
+  for (size_t c = 0; c < subject.cameras.size(); ++c) {
+    const double share = 1.0 / static_cast<double>(subject.cameras.size());
+    rows[0].error += share * rmse(bench.tutorialAo(subject.cameras[c]), truths[c]);
+    for (size_t i = 0; i < all.size(); ++i) {
+      rows[i + 1].error += share * rmse(bench.ao(i, subject.cameras[c]), truths[c]);
+    }
+  }
+  fmt::print("## {}: {}\n\nDriver: {}{}. Clock: {}. {} rounds. Loading the scene took {:.2f} s, "
+             "device and first frame {:.2f} s more.\n\n",
+             info.backend, info.name, info.driver, info.software ? " (software)" : "",
+             gpu::clockName(info.clock), options.rounds, subject.loadSeconds,
+             bench.firstFrameSeconds());
+  printRows(rows);
+  printLinearity(rows);
+}
+
+void run(const Options& options) {
+  const Subject subject = loadSubject();
+  std::vector<Truth> truths;
+  for (const scene::Camera& camera : subject.cameras) {
+    fmt::print(stderr, "tracing truth {} of {}\n", truths.size() + 1, subject.cameras.size());
+    truths.push_back(traceTruth(subject, camera, options));
+  }
+  effect::Registry registry;
+  registry.scan(EFFECTS_FOLDER);
+  fmt::print("# What SSAO costs and how wrong it is\n\nMade by `./dev bench` on {}, {}x{}, radius "
+             "0.5 m, {} hardware threads.\n\n",
+             subject.name, options.width, options.height, std::thread::hardware_concurrency());
+  fmt::print(
+      "Cost: the occlusion and blur passes on the first camera. Tutorial: a fragment shader;\n"
+      "view-space positions and normals in 16-bit float textures; 64 samples from a uniform array,\n"
+      "each a full matrix product and a fetch; smooth range check; 4x4 box blur in a second pass.\n"
+      "Error: root mean square against ray-traced visibility ({} cosine-weighted rays a pixel, every\n"
+      "tenth pixel both ways), averaged over {} cameras.\n\n",
+      options.samples, subject.cameras.size());
+  for (const backends::Backend& backend : backends::all()) {
+    if (!options.backend.empty() && options.backend != backend.name) continue;
+    try {
+      runBackend(backend.name, subject, truths, registry, options);
+    } catch (const Error& error) {
+      if (error.id() != ErrorId::kBackendMissing && error.id() != ErrorId::kNoDevice) throw;
+      fmt::print("## {}\n\nNot here: {}\n\n", backend.name, error.detail());
+    }
+  }
+}
+
+}  // namespace
+}  // namespace grisaille::bench
+
+int main(int argc, char** argv) {
+  grisaille::bench::Options options;
+  CLI::App program("What SSAO costs and how wrong it is, as Markdown");
+  program.add_option("--rounds", options.rounds, "How often each setting is timed")
+      ->check(CLI::Range(1u, 1000u));
+  program.add_option("--samples", options.samples, "Rays a pixel of the truth")
+      ->check(CLI::Range(1u, 65536u));
+  program.add_option("--backend", options.backend, "opengl or vulkan; default: both");
+  program.add_option("--width", options.width, "Pixels")->check(CLI::Range(16u, 16384u));
+  program.add_option("--height", options.height, "Pixels")->check(CLI::Range(16u, 16384u));
+  CLI11_PARSE(program, argc, argv);
+  try {
+    grisaille::bench::run(options);
+  } catch (const std::exception& error) {
+    fmt::print(stderr, "{}\n", error.what());
+    return 1;
+  }
+}
