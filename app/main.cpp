@@ -2,6 +2,7 @@
 // grisaille: screen-space effects whose error is measured. See README.md.
 #include <cstdio>
 #include <exception>
+#include <new>
 
 #include "app/command.h"
 #include "core/error.h"
@@ -24,8 +25,14 @@ int main(int argc, char** argv) {
   } catch (const CLI::ParseError& error) {
     // Help and version come this way too, with status 0.
     return program.exit(error) == 0 ? 0 : 2;
-  } catch (const std::exception& error) {
+  } catch (const grisaille::Error& error) {
     std::fprintf(stderr, "%s\n", error.what());
-    return 1;
+  } catch (const std::bad_alloc&) {
+    std::fprintf(stderr, "%s\n",
+                 grisaille::Error(grisaille::ErrorId::kOutOfMemory, "memory ran out").what());
+  } catch (const std::exception& error) {
+    std::fprintf(stderr, "%s\n",
+                 grisaille::Error(grisaille::ErrorId::kUnexpected, error.what()).what());
   }
+  return 1;
 }

@@ -3,6 +3,7 @@
 
 #include <toml++/toml.h>
 
+#include <filesystem>
 #include <fstream>
 
 #include "core/error.h"
@@ -45,10 +46,10 @@ std::vector<std::string> effectKeys(const std::string& path, const toml::node& n
 
 Settings readSettings(const std::string& path) {
   std::ifstream file(path, std::ios::binary);
-  std::string text{std::istreambuf_iterator<char>(file), {}};
-  if (!file.good() && !file.eof()) {
+  if (!file || std::filesystem::is_directory(path)) {
     throw Error(ErrorId::kSettingsUnreadable, "cannot read settings '{}'", path);
   }
+  const std::string text{std::istreambuf_iterator<char>(file), {}};
   toml::table table;
   try {
     table = toml::parse(text, path);

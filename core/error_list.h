@@ -84,3 +84,6 @@ GRISAILLE_ERROR(kUsage, 5101, "see --help")
 GRISAILLE_ERROR(kOutputUnknown, 5102, "name an output of the frame or of an active effect")
 GRISAILLE_ERROR(kSettingsUnreadable, 5103, "check the path and that the file is TOML")
 GRISAILLE_ERROR(kSettingsInvalid, 5104, "correct the line that the message names")
+// --- 90xx: the program itself
+GRISAILLE_ERROR(kUnexpected, 9001, "report it with the command that led here")
+GRISAILLE_ERROR(kOutOfMemory, 9002, "use a smaller --size or scene, or close other programs")

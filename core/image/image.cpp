@@ -105,6 +105,8 @@ OIIO::ImageSpec specOf(const Image& image, OIIO::TypeDesc type) {
   if (image.channels == 2) spec.channelnames = {"R", "G"};
   // Store what is given: no division by alpha on the way.
   spec.attribute("oiio:UnassociatedAlpha", 1);
+  // Else OpenImageIO notes the time of writing, and equal pictures make different files.
+  spec.attribute("DateTime", "1970:01:01 00:00:00");
   return spec;
 }
 
@@ -137,6 +139,19 @@ OIIO::ImageSpec readConfig() {
   return config;
 }
 
+// Whether the chunks lie inside the bytes up to the last one. OpenImageIO leaks where they do not.
+bool isWholePng(std::span<const std::byte> bytes) {
+  constexpr size_t kSignature = 8, kFrame = 12;  // a chunk's length, type and checksum
+  for (size_t at = kSignature; bytes.size() - at >= kFrame;) {
+    size_t length = 0;
+    for (size_t i = 0; i < 4; ++i) length = length << 8 | std::to_integer<size_t>(bytes[at + i]);
+    if (length > bytes.size() - at - kFrame) return false;
+    if (std::memcmp(&bytes[at + 4], "IEND", 4) == 0) return true;
+    at += kFrame + length;
+  }
+  return false;
+}
+
 bool endsLikeJpeg(std::span<const std::byte> bytes) {
   // A file cut short decodes to grey with no error: look for the end marker. Some writers pad.
   const size_t from = bytes.size() > 64 ? bytes.size() - 64 : 0;
@@ -150,7 +165,8 @@ const char* pluginFor(std::span<const std::byte> encoded, const std::string& nam
   constexpr unsigned char kPng[] = {0x89, 'P', 'N', 'G', 0x0d, 0x0a, 0x1a, 0x0a};
   constexpr unsigned char kJpeg[] = {0xff, 0xd8, 0xff};
   if (encoded.size() >= sizeof kPng && std::memcmp(encoded.data(), kPng, sizeof kPng) == 0) {
-    return "png";
+    if (isWholePng(encoded)) return "png";
+    throw Error(ErrorId::kSceneImage, "image \"{}\": the PNG is cut short", name);
   }
   if (encoded.size() >= sizeof kJpeg && std::memcmp(encoded.data(), kJpeg, sizeof kJpeg) == 0) {
     if (endsLikeJpeg(encoded)) return "jpeg";

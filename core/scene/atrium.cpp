@@ -346,7 +346,7 @@ class Atrium {
     const uint32_t earth =
         add(lathe(std::array{glm::dvec2(0.2, 0.3), glm::dvec2(0.245, 0.36), glm::dvec2(0.1, 0.385)},
                   20),
-            kSoil, kSmooth);
+            kSoil, kCrease60);
     const uint32_t plants[] = {add(plant(26, 0.95, 1), kLeaf, kSmooth),
                                add(plant(22, 0.75, 2), kLeaf, kSmooth)};
     const glm::dvec3 spots[] = {{-3.9, 0.005, -2.2}, {-0.2, 0.005, -2.85},

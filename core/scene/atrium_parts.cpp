@@ -169,7 +169,7 @@ Solid drape(double width, double drop, double railRadius) {
   constexpr double kBehind = 0.45;
   const double over = railRadius * 3.14159265358979;
   const double length = kBehind + over + drop;
-  return sheet(44, 32, [=](double u, double v) -> glm::dvec3 {
+  return sheet(60, 24, [=](double u, double v) -> glm::dvec3 {
     const double along = v * length;
     const double x = (u - 0.5) * width;
     if (along < kBehind) return {x, along - kBehind, -railRadius};
@@ -181,7 +181,7 @@ Solid drape(double width, double drop, double railRadius) {
     const double below = along - kBehind - over;
     const double depth = smooth(below / 1.2);
     const double fold =
-        sinTurns(5.5 * u + 0.2 * sinTurns(1.3 * u)) + 0.35 * sinTurns(13 * u + 0.3 + 0.1 * below);
+        sinTurns(5.5 * u + 0.2 * sinTurns(1.3 * u)) + 0.35 * sinTurns(9 * u + 0.3 + 0.1 * below);
     return {x * (1 - 0.1 * depth) + 0.012 * depth * cosTurns(11 * u), -below,
             railRadius + 0.26 * smooth(below / 0.6) + 0.055 * depth * fold};
   });

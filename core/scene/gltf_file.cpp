@@ -114,21 +114,49 @@ std::span<const unsigned char> jsonOf(const Bytes& bytes) {
   if (word(bytes, 16) != kJsonChunk || length > bytes.size() - kHeader) {
     throw Error(ErrorId::kSceneUnreadable, "the first chunk is not JSON or is cut short");
   }
+  // tinygltf forgets the second chunk's header here and would read past the end.
+  const size_t second = kHeader + length;
+  if (word(bytes, 8) > second &&
+      (bytes.size() - second < 8 || word(bytes, second) > bytes.size() - second - 8)) {
+    throw Error(ErrorId::kSceneUnreadable, "the second chunk is cut short");
+  }
   return std::span(bytes).subspan(kHeader, length);
 }
 
-json parseJson(std::span<const unsigned char> text) {
-  const auto shallow = [](int depth, json::parse_event_t, json&) {
-    if (depth > kDeepestJson) {
-      throw Error(ErrorId::kSceneTooLarge, "the JSON nests deeper than {} levels", kDeepestJson);
-    }
-    return true;
-  };
-  try {
-    return json::parse(text.begin(), text.end(), shallow);
-  } catch (const json::exception& error) {
+// Accepts any JSON that does not nest deep. (The parser's own callback has the depth too, but takes
+// time in the square of a list's length.)
+class DepthCheck : public nlohmann::json_sax<json> {
+ public:
+  bool null() override { return true; }
+  bool boolean(bool) override { return true; }
+  bool number_integer(number_integer_t) override { return true; }
+  bool number_unsigned(number_unsigned_t) override { return true; }
+  bool number_float(number_float_t, const string_t&) override { return true; }
+  bool string(string_t&) override { return true; }
+  bool binary(binary_t&) override { return true; }
+  bool key(string_t&) override { return true; }
+  bool start_object(size_t) override { return enter(); }
+  bool start_array(size_t) override { return enter(); }
+  bool end_object() override { return leave(); }
+  bool end_array() override { return leave(); }
+  bool parse_error(size_t, const std::string&, const json::exception& error) override {
     throw Error(ErrorId::kSceneUnreadable, "{}", error.what());
   }
+
+ private:
+  bool enter() {
+    if (++depth_ <= kDeepestJson) return true;
+    throw Error(ErrorId::kSceneTooLarge, "the JSON nests deeper than {} levels", kDeepestJson);
+  }
+  bool leave() { return --depth_ >= 0; }
+
+  int depth_ = 0;
+};
+
+json parseJson(std::span<const unsigned char> text) {
+  DepthCheck check;
+  json::sax_parse(text.begin(), text.end(), &check);
+  return json::parse(text.begin(), text.end());
 }
 
 void checkAsset(const json& document) {

@@ -12,6 +12,8 @@ layout(constant_id = 1) const uint kRotation = 0u;    // 0 noise, 1 none
 layout(constant_id = 2) const uint kRangeCheck = 0u;  // 0 linear, 1 raw depth, 2 none
 layout(constant_id = 3) const bool kFinish = false;   // apply intensity and power: no blur follows
 
+const uint kBlock = 4u;  // sample points
+
 layout(local_size_x = 8, local_size_y = 8) in;
 layout(UNIFORM(1), std140) uniform Settings {
   vec4 kernel[256];  // in the unit sphere, +z away from the surface
@@ -35,13 +37,29 @@ mat3 basis(vec3 n) {
   return mat3(vec3(1.0 + s * n.x * n.x * a, s * b, -s * n.x), vec3(b, s + n.y * n.y * a, -n.y), n);
 }
 
-bool inRange(float pixel_depth, float surface_depth) {
-  if (kRangeCheck == 0u) return abs(pixel_depth - surface_depth) < settings.radius;
+// What all sample points of a pixel share.
+struct Taps {
+  vec4 row_x, row_y;  // kernel point and 1 to texture coordinates times view depth
+  vec4 row_depth;     // and to view depth, metres
+  vec2 offset;        // texture coordinates of the view's axis
+  float nearest;      // a surface must be farther than this to be in range, metres
+  float raw;          // the pixel's raw depth
+};
+
+// 1 when sample point i is occluded.
+float tap(Taps taps, uint i) {
+  const vec4 point = vec4(settings.kernel[i].xyz, 1.0);
+  // A point behind the camera is taken to the near plane, where no surface can be nearer.
+  const float point_depth = max(dot(taps.row_depth, point), view.camera_fraction.w);
+  const vec2 uv = vec2(dot(taps.row_x, point), dot(taps.row_y, point)) / point_depth + taps.offset;
+  const float surface = textureLod(view_depth, uv, 0.0).x;
+  // Linear range check: a surface nearer than the point is in range when it is not nearer than the
+  // pixel by the radius. The sky, depth 0, never is.
+  bool hit = surface < point_depth - settings.bias && surface > taps.nearest;
   if (kRangeCheck == 1u) {
-    const float near = view.camera_fraction.w;
-    return abs(near / pixel_depth - near / surface_depth) < settings.radius;
+    hit = hit && abs(taps.raw - view.camera_fraction.w / surface) < settings.radius;
   }
-  return true;
+  return hit ? 1.0 : 0.0;
 }
 
 float occlusionAt(ivec2 pixel, float depth) {
@@ -63,24 +81,22 @@ float occlusionAt(ivec2 pixel, float depth) {
   // From kernel space to texture coordinates times view depth, and to view depth, at once: a sample
   // point then costs three dot products, one division and one fetch.
   const vec2 scale = view.pixel_from_view.xy * view.size.zw;
-  const vec2 offset = view.pixel_from_view.zw * view.size.zw;
   axes *= settings.radius;
-  const vec3 row_x = vec3(axes[0].x, axes[1].x, axes[2].x) * scale.x;
-  const vec3 row_y = vec3(axes[0].y, axes[1].y, axes[2].y) * scale.y;
-  const vec3 row_depth = -vec3(axes[0].z, axes[1].z, axes[2].z);
-  const vec2 start = position.xy * scale;
-  const float near = view.camera_fraction.w;
+  Taps taps;
+  taps.row_x = vec4(vec3(axes[0].x, axes[1].x, axes[2].x) * scale.x, position.x * scale.x);
+  taps.row_y = vec4(vec3(axes[0].y, axes[1].y, axes[2].y) * scale.y, position.y * scale.y);
+  taps.row_depth = vec4(-axes[0].z, -axes[1].z, -axes[2].z, depth);
+  taps.offset = view.pixel_from_view.zw * view.size.zw;
+  taps.nearest = kRangeCheck == 0u ? max(depth - settings.radius, 0.0) : 0.0;
+  taps.raw = view.camera_fraction.w / depth;
 
+  // Blocks of a fixed length are unrolled on every driver, the whole of a long loop is not.
   float occluded = 0.0;
-  [[unroll]] for (uint i = 0u; i < kKernelSize; ++i) {
-    const vec3 point = settings.kernel[i].xyz;
-    const float point_depth = depth + dot(row_depth, point);
-    const vec2 uv = (start + vec2(dot(row_x, point), dot(row_y, point))) / point_depth + offset;
-    const float surface = textureLod(view_depth, uv, 0.0).x;
-    // Nothing is known behind the camera; the sky, depth 0, hides nothing.
-    const bool hit = point_depth > near && surface > 0.0 && point_depth - surface > settings.bias &&
-                     inRange(depth, surface);
-    occluded += hit ? 1.0 : 0.0;
+  for (uint block = 0u; block < kKernelSize / kBlock; ++block) {
+    [[unroll]] for (uint i = 0u; i < kBlock; ++i) occluded += tap(taps, block * kBlock + i);
+  }
+  [[unroll]] for (uint i = kKernelSize / kBlock * kBlock; i < kKernelSize; ++i) {
+    occluded += tap(taps, i);
   }
   return occluded / float(kKernelSize);
 }

@@ -199,7 +199,8 @@ class Bench {
   double taken(std::span<const std::string_view> labels) {
     device_->wait();
     double sum = 0;
-    for (const gpu::PassTime& pass : device_->takeTimes().back().passes) {
+    const std::vector<gpu::FrameTimes> frames = device_->takeTimes();
+    for (const gpu::PassTime& pass : frames.back().passes) {
       if (std::find(labels.begin(), labels.end(), pass.label) != labels.end()) {
         sum += pass.milliseconds;
       }

@@ -82,7 +82,7 @@ TEST_P(AttachmentsTest, MirroredAndStretchedInstancesKeepRightNormals) {
     scene.materials.push_back({.name = "one side"});
     const glm::vec3 normal = glm::normalize(glm::vec3(0.3f, 1, 0));
     // A slope that falls along +x: single-sided, so that a wrong winding shows as a hole.
-    addQuad(scene, {glm::vec3(-9, 2.7f, 9), {9, -2.7f, 9}, {9, -2.7f, -9}, {-9, 2.7f, -9}}, normal);
+    tests::addQuad(scene, {glm::vec3(-9, 2.7f, 9), {9, -2.7f, 9}, {9, -2.7f, -9}, {-9, 2.7f, -9}}, normal);
     scene.instances[0].worldFromObject =
         glm::dmat4(glm::dmat3(scale.x, 0, 0, 0, scale.y, 0, 0, 0, scale.z));
     const scene::Camera camera = {.eye = glm::dvec3(0, 4, 0), .target = glm::dvec3(0.0001, 0, 0)};

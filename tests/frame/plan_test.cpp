@@ -80,15 +80,14 @@ TEST_F(PlanTest, DepthDrawsDepthAlone) {
   const Recording recording = record({"depth"}, true);
   EXPECT_EQ(recording.passes, (Labels{"scene/geometry", "scene/view_depth"}));
   ASSERT_EQ(recording.renders.size(), 1u);
-  EXPECT_TRUE(recording.renders[0].targets.empty());
-  EXPECT_TRUE(recording.renders[0].depth);
+  EXPECT_EQ(recording.renders[0].targets, Labels{"clip depth"});
 }
 
 TEST_F(PlanTest, NormalNeedsNoViewDepth) {
   const Recording recording = record({"normal"}, false);
   EXPECT_EQ(recording.passes, Labels{"scene/geometry"});
   ASSERT_EQ(recording.renders.size(), 1u);
-  EXPECT_EQ(recording.renders[0].targets.size(), 1u);
+  EXPECT_EQ(recording.renders[0].targets, (Labels{"normal", "clip depth"}));
 }
 
 TEST_F(PlanTest, AoReadsDepthAndNormalButNoColour) {
@@ -96,14 +95,14 @@ TEST_F(PlanTest, AoReadsDepthAndNormalButNoColour) {
   EXPECT_EQ(recording.passes,
             (Labels{"scene/geometry", "scene/view_depth", "ssao/occlusion", "ssao/blur"}));
   ASSERT_EQ(recording.renders.size(), 1u);
-  EXPECT_EQ(recording.renders[0].targets, Labels{"normal"});
+  EXPECT_EQ(recording.renders[0].targets, (Labels{"normal", "clip depth"}));
 }
 
 TEST_F(PlanTest, SphereSamplingReadsNoNormal) {
   values_->set("sampling", "sphere");
   const Recording recording = record({"ssao.ao"}, true);
   ASSERT_EQ(recording.renders.size(), 1u);
-  EXPECT_TRUE(recording.renders[0].targets.empty());
+  EXPECT_EQ(recording.renders[0].targets, Labels{"clip depth"});
 }
 
 TEST_F(PlanTest, NoBlurRecordsNoBlurPass) {
@@ -118,7 +117,7 @@ TEST_F(PlanTest, BaseColourIsDrawnForTheBaseSurfaceAlone) {
   EXPECT_TRUE(record({"color"}, false).renders.empty());
   const Recording recording = record({"color"}, false, frame::Surface::kBaseColour);
   ASSERT_EQ(recording.renders.size(), 1u);
-  EXPECT_EQ(recording.renders[0].targets, Labels{"base_colour"});
+  EXPECT_EQ(recording.renders[0].targets, (Labels{"base_colour", "clip depth"}));
 }
 
 TEST_F(PlanTest, WhatIsBehindTheCameraIsNotDrawn) {

@@ -76,7 +76,7 @@ TEST_F(CommandLine, RefusedPluginsAreListedAndTheRestGoesOn) {
   EXPECT_EQ(json["effects"].size(), 1u);
   const Outcome used =
       render({"--plugin-path", folder_.path(), "--effects", "broken", "--write", "color=c.png"});
-  expectError(used, 3201, "not a library");
+  expectError(used, 3201, "broken.so");
 }
 
 TEST_F(CommandLine, BackendsListsDevices) {

@@ -49,8 +49,13 @@ int waitFor(pid_t child) {
 
 Outcome run(std::vector<std::string> arguments, const fs::path& folder,
             std::vector<std::string> environment) {
+  const size_t given = environment.size();
   for (char** variable = environ; *variable != nullptr; ++variable) {
-    environment.emplace_back(*variable);
+    const std::string text = *variable;
+    const std::string name = text.substr(0, text.find('=') + 1);
+    const bool replaced = std::any_of(environment.begin(), environment.begin() + given,
+                                      [&](const std::string& g) { return g.rfind(name, 0) == 0; });
+    if (!replaced) environment.push_back(text);
   }
   const TemporaryFolder output;
   const std::string out = output / "out", err = output / "err";

@@ -45,7 +45,7 @@ TEST(Atrium, IsTheSameOnEveryMachine) {
   for (const Instance& instance : atrium().instances) {
     state = hash(state, &instance.worldFromObject, sizeof instance.worldFromObject);
   }
-  EXPECT_EQ(state, 5606244957236522394u);
+  EXPECT_EQ(state, 16779352904752206454u);
   const image::Image8 leaf = image::decode(atrium().textures.at(0).encoded, "leaf");
   EXPECT_EQ(hash(0xcbf29ce484222325u, leaf.pixels), 2333328223688851514u);
 }
@@ -85,7 +85,7 @@ TEST(Atrium, NormalsAreUnitAndAgreeWithTheWinding) {
     for (size_t k = 0; k < 3; ++k) {
       const glm::dvec3 normal(scene.normals[scene.indices[i + k]]);
       ASSERT_NEAR(glm::length(normal), 1, 1e-6);
-      ASSERT_GT(glm::dot(normal, glm::normalize(face)), 0.1) << i / 3;
+      ASSERT_GT(glm::dot(normal, glm::normalize(face)), 0.2) << i / 3;
     }
   }
 }

@@ -154,7 +154,7 @@ TEST_P(SsaoTest, BlurOfTheNoisesSizeRemovesItsPattern) {
 TEST_P(SsaoTest, EdgeAwareBlurKeepsTheSkylineAndBoxDoesNotDarkenIt) {
   // A post before the sky, its foot on the floor: no floor pixel far behind may darken it.
   scene::Scene scene = tests::floorScene();
-  addQuad(scene, {glm::vec3(-0.2f, 0, 1), {0.2f, 0, 1}, {0.2f, 3, 1}, {-0.2f, 3, 1}}, {0, 0, 1});
+  tests::addQuad(scene, {glm::vec3(-0.2f, 0, 1), {0.2f, 0, 1}, {0.2f, 3, 1}, {-0.2f, 3, 1}}, {0, 0, 1});
   const scene::Camera camera = {.eye = glm::dvec3(0, 1.5, 4), .target = glm::dvec3(0, 1.4, 0)};
   const image::Image ao = renderAo(
       device(), scene, camera, {{"blur", "edge_aware"}, {"blur_size", "8"}, {"radius", "0.3"}});
