@@ -17,7 +17,8 @@ void listBackends(bool asJson) {
   nlohmann::ordered_json json = nlohmann::json::array();
   std::string text;
   for (const backends::Backend& backend : backends::all()) {
-    nlohmann::ordered_json entry = {{"backend", backend.name}, {"devices", nlohmann::json::array()}};
+    nlohmann::ordered_json entry = {{"backend", backend.name},
+                                    {"devices", nlohmann::json::array()}};
     text += fmt::format("{}\n", backend.name);
     try {
       size_t number = 0;
@@ -42,8 +43,7 @@ void listBackends(bool asJson) {
 
 void addBackends(CLI::App& program) {
   auto json = std::make_shared<bool>(false);
-  CLI::App* command =
-      program.add_subcommand("backends", "List the backends and their devices");
+  CLI::App* command = program.add_subcommand("backends", "List the backends and their devices");
   command->add_flag("--json", *json, "As JSON");
   command->callback([json] { listBackends(*json); });
 }

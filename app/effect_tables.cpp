@@ -44,12 +44,10 @@ std::string readsText(const effect::Effect& effect) {
 }
 
 nlohmann::ordered_json jsonOf(const grisaille_param_desc& param) {
-  nlohmann::ordered_json json = {{"key", param.key},
-                                 {"label", param.label},
-                                 {"type", typeName(param)},
-                                 {"unit", param.unit},
-                                 {"tooltip", param.tooltip},
-                                 {"advanced", (param.flags & GRISAILLE_PARAM_ADVANCED) != 0}};
+  nlohmann::ordered_json json = {
+      {"key", param.key},         {"label", param.label},
+      {"type", typeName(param)},  {"unit", param.unit},
+      {"tooltip", param.tooltip}, {"advanced", (param.flags & GRISAILLE_PARAM_ADVANCED) != 0}};
   if (param.type == GRISAILLE_PARAM_ENUM) {
     json["default"] = valueText(param, param.default_value);
     for (uint32_t i = 0; i < param.enum_count; ++i) {
@@ -92,11 +90,13 @@ std::string effectsJson(const effect::Registry& registry) {
   nlohmann::ordered_json json = {{"effects", nlohmann::json::array()},
                                  {"refused", nlohmann::json::array()}};
   for (const effect::Effect& effect : registry.effects()) {
-    nlohmann::ordered_json entry = {
-        {"key", effect.desc->key},         {"label", effect.desc->label},
-        {"version", effect.desc->version}, {"tooltip", effect.desc->tooltip},
-        {"path", effect.path},             {"parameters", nlohmann::json::array()},
-        {"outputs", nlohmann::json::array()}};
+    nlohmann::ordered_json entry = {{"key", effect.desc->key},
+                                    {"label", effect.desc->label},
+                                    {"version", effect.desc->version},
+                                    {"tooltip", effect.desc->tooltip},
+                                    {"path", effect.path},
+                                    {"parameters", nlohmann::json::array()},
+                                    {"outputs", nlohmann::json::array()}};
     for (const grisaille_param_desc& param : effect.params()) {
       entry["parameters"].push_back(jsonOf(param));
     }
@@ -114,8 +114,7 @@ std::string effectsJson(const effect::Registry& registry) {
 }
 
 std::string effectMarkdown(const effect::Effect& effect) {
-  std::string text =
-      "| parameter | default | range | what it does |\n|---|---|---|---|\n";
+  std::string text = "| parameter | default | range | what it does |\n|---|---|---|---|\n";
   const auto cell = [](std::string value) {
     for (size_t at = 0; (at = value.find('|', at)) != std::string::npos; at += 2) {
       value.insert(at, "\\");

@@ -113,8 +113,8 @@ struct Job {
     if (!options.size.empty()) given = parseSize(options.size);
     const Settings settings = options.config.empty() ? Settings{} : readSettings(options.config);
     registry = loadEffects(options.pluginPaths);
-    active.emplace(*registry, options.effectsGiven || !settings.effects ? options.effects
-                                                                        : *settings.effects);
+    active.emplace(*registry,
+                   options.effectsGiven || !settings.effects ? options.effects : *settings.effects);
     applySettings(settings, *active);
     for (const std::string& assignment : options.sets) active->set(assignment);
     for (const Write& write : writes) frame::checkOutput(write.output, active->effects());
@@ -183,29 +183,39 @@ void addRender(CLI::App& program) {
   auto options = std::make_shared<Options>();
   options->effects = {"ssao"};
   CLI::App* command = program.add_subcommand("render", "Render a scene to files");
-  command->add_option("scene", options->scene, "A .gltf or .glb file; without one, the built-in atrium");
-  command->add_option("--camera", options->camera, "A camera file: JSON with eye, target, fovy_degrees")
+  command->add_option("scene", options->scene,
+                      "A .gltf or .glb file; without one, the built-in atrium");
+  command
+      ->add_option("--camera", options->camera,
+                   "A camera file: JSON with eye, target, fovy_degrees")
       ->type_name("FILE");
   command->add_option("--size", options->size, "Pixels; default: the camera's size, else 1280x720")
       ->type_name("WxH");
-  command->add_option("--backend", options->backend, "opengl or vulkan; default: the first that starts")
+  command
+      ->add_option("--backend", options->backend,
+                   "opengl or vulkan; default: the first that starts")
       ->type_name("NAME");
-  command->add_option("--device", options->device, "Number or part of the name, see `grisaille backends`")
+  command
+      ->add_option("--device", options->device,
+                   "Number or part of the name, see `grisaille backends`")
       ->type_name("N|NAME");
-  CLI::Option* effects =
-      command->add_option("--effects", options->effects, "Effects in the order they run; default: ssao")
-          ->type_name("KEY,...")
-          ->delimiter(',')
-          ->expected(0, 64);
+  CLI::Option* effects = command
+                             ->add_option("--effects", options->effects,
+                                          "Effects in the order they run; default: ssao")
+                             ->type_name("KEY,...")
+                             ->delimiter(',')
+                             ->expected(0, 64);
   command->add_option("--set", options->sets, "A parameter's value, see `grisaille effects`")
       ->type_name("EFFECT.PARAMETER=VALUE")
       ->allow_extra_args(false);
-  command->add_option("--config", options->config, "Settings: effects and values; --set goes over it")
+  command
+      ->add_option("--config", options->config, "Settings: effects and values; --set goes over it")
       ->type_name("FILE.toml");
   command
-      ->add_option("--write", options->writes,
-                   "color, depth (metres, 0 = sky), normal (world), base_colour or an effect's output, "
-                   "as .exr or .png; default: color=grisaille.png")
+      ->add_option(
+          "--write", options->writes,
+          "color, depth (metres, 0 = sky), normal (world), base_colour or an effect's output, "
+          "as .exr or .png; default: color=grisaille.png")
       ->type_name("NAME=FILE")
       ->allow_extra_args(false);
   command->add_option("--surface", options->surface, "What the light falls on in color")
@@ -214,12 +224,14 @@ void addRender(CLI::App& program) {
   command->add_option("--frames", options->frames, "How often to render; the last one is written")
       ->check(CLI::Range(1u, 1000000u))
       ->capture_default_str();
-  command->add_option("--timings", options->timings, "CSV of every pass's time; -: to standard output")
+  command
+      ->add_option("--timings", options->timings, "CSV of every pass's time; -: to standard output")
       ->type_name("FILE.csv|-");
   command->add_option("--plugin-path", options->pluginPaths, "A further folder of effects")
       ->type_name("DIR")
       ->allow_extra_args(false);
-  command->add_flag("--check", options->check, "Validate every call, in the layer and in the driver");
+  command->add_flag("--check", options->check,
+                    "Validate every call, in the layer and in the driver");
   command->callback([options, effects] {
     options->effectsGiven = effects->count() > 0;
     std::erase(options->effects, "");

@@ -44,10 +44,12 @@ void addScene(CLI::App& program) {
   auto options = std::make_shared<Options>();
   CLI::App* command =
       program.add_subcommand("scene", "Show what a scene holds, or write it and its camera");
-  command->add_option("scene", options->scene, "A .gltf or .glb file; without one, the built-in atrium");
+  command->add_option("scene", options->scene,
+                      "A .gltf or .glb file; without one, the built-in atrium");
   command->add_option("--write", options->write, "Write the scene, textures and all")
       ->type_name("FILE.glb");
-  command->add_option("--write-camera", options->writeCamera, "Write the camera that render would use")
+  command
+      ->add_option("--write-camera", options->writeCamera, "Write the camera that render would use")
       ->type_name("FILE.json");
   command->callback([options] { showScene(*options); });
 }

@@ -35,7 +35,8 @@ std::string timingsDoubt(std::span<const gpu::FrameTimes> frames) {
   }
   if (doubtful == 0) return "";
   return fmt::format(
-      "in {} of {} frames the passes' times differ from the frame's by more than 5 % (at most {:.0f} "
+      "in {} of {} frames the passes' times differ from the frame's by more than 5 % (at most "
+      "{:.0f} "
       "%); work outside passes, or a busy machine",
       doubtful, frames.size(), worst * 100);
 }

@@ -20,7 +20,9 @@ constexpr bool kAlwaysCheck = true;
 
 }  // namespace
 
-std::span<const Backend> all() { return kBackends; }
+std::span<const Backend> all() {
+  return kBackends;
+}
 
 const Backend& find(std::string_view name) {
   for (const Backend& backend : kBackends) {

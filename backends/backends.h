@@ -24,7 +24,8 @@ std::span<const Backend> all();
 // Throws kBackendUnknown.
 const Backend& find(std::string_view name);
 
-// A device of the named backend, inside the checking device when options.check (or in a debug build).
+// A device of the named backend, inside the checking device when options.check (or in a debug
+// build).
 std::unique_ptr<gpu::Device> create(std::string_view name, const gpu::DeviceOptions& options);
 
 }  // namespace grisaille::backends

@@ -12,7 +12,8 @@ GRISAILLE_ERROR(kDeviceTooOld, 1004, "update the driver or choose another --devi
 GRISAILLE_ERROR(kDeviceFailed, 1005, "report it with the line above, or try the other --backend")
 GRISAILLE_ERROR(kDeviceLost, 1006, "start again; lower the size or the settings if it repeats")
 GRISAILLE_ERROR(kOutOfDeviceMemory, 1007, "use a smaller --size or close other programs")
-GRISAILLE_ERROR(kShaderRefused, 1008, "report it with the driver's name, or try the other --backend")
+GRISAILLE_ERROR(kShaderRefused, 1008,
+                "report it with the driver's name, or try the other --backend")
 GRISAILLE_ERROR(kDriverMessages, 1009, "report them; the program should cause none")
 // --- 11xx: descriptors
 GRISAILLE_ERROR(kStaleHandle, 1101, "do not use a resource after destroying it")
@@ -62,7 +63,8 @@ GRISAILLE_ERROR(kCameraInvalid, 2202, "write eye, target, fovy_degrees and optio
 GRISAILLE_ERROR(kPluginUnloadable, 3101, "give a shared library built for this machine")
 GRISAILLE_ERROR(kPluginSymbol, 3102, "export the data symbol `grisaille_plugin`")
 GRISAILLE_ERROR(kPluginAbi, 3103, "rebuild the plugin against this program's effect header")
-GRISAILLE_ERROR(kPluginTable, 3104, "correct the field that the message names in the plugin's table")
+GRISAILLE_ERROR(kPluginTable, 3104,
+                "correct the field that the message names in the plugin's table")
 GRISAILLE_ERROR(kPluginDuplicate, 3105, "remove one of the two plugins or rename the effect")
 GRISAILLE_ERROR(kPluginPath, 3106, "give a folder that exists and can be read")
 // --- 32xx: running effects

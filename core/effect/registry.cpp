@@ -1,5 +1,6 @@
 // SPDX-License-Identifier: MIT
 #include "core/effect/registry.h"
+#include "core/nearest.h"
 
 #include <algorithm>
 #include <filesystem>

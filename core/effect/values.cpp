@@ -9,6 +9,7 @@
 #include <utility>
 
 #include "core/error.h"
+#include "core/nearest.h"
 
 namespace grisaille::effect {
 namespace {
@@ -25,24 +26,6 @@ std::string quoted(std::string_view text) {
 
 std::span<const char* const> entries(const grisaille_param_desc& param) {
   return {param.enum_keys, param.enum_count};
-}
-
-// Edit distance with swaps of neighbours: insertions, deletions, changes and swaps count 1.
-size_t distance(std::string_view a, std::string_view b) {
-  std::vector<size_t> beforeLast, last(b.size() + 1), current(b.size() + 1);
-  std::iota(last.begin(), last.end(), size_t{0});
-  for (size_t i = 1; i <= a.size(); ++i) {
-    current[0] = i;
-    for (size_t j = 1; j <= b.size(); ++j) {
-      const size_t change = last[j - 1] + (a[i - 1] == b[j - 1] ? 0 : 1);
-      current[j] = std::min({last[j] + 1, current[j - 1] + 1, change});
-      if (i > 1 && j > 1 && a[i - 1] == b[j - 2] && a[i - 2] == b[j - 1]) {
-        current[j] = std::min(current[j], beforeLast[j - 2] + 1);
-      }
-    }
-    beforeLast = std::exchange(last, current);
-  }
-  return last[b.size()];
 }
 
 [[noreturn]] void throwEnum(const std::string& name, const grisaille_param_desc& param,
@@ -153,19 +136,6 @@ std::string Values::text(std::string_view key) const {
     default:
       return number(value);
   }
-}
-
-std::string nearest(std::string_view word, std::span<const std::string> candidates) {
-  const std::string* best = nullptr;
-  size_t least = word.size() / 3 + 2;  // one more than may be wrong
-  for (const std::string& candidate : candidates) {
-    const size_t wrong = distance(word, candidate);
-    if (wrong < least) {
-      least = wrong;
-      best = &candidate;
-    }
-  }
-  return best != nullptr ? *best : std::string();
 }
 
 }  // namespace grisaille::effect

@@ -36,8 +36,4 @@ class Values {
   std::vector<double> values_;
 };
 
-// The candidate that `word` most likely meant (edit distance, at most a third of its letters plus
-// one wrong), or "" where none is near.
-std::string nearest(std::string_view word, std::span<const std::string> candidates);
-
 }  // namespace grisaille::effect

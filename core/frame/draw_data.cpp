@@ -75,8 +75,8 @@ glm::dmat4 normalTransform(const glm::dmat3& linear) {
                       glm::cross(linear[0], linear[1]));
   if (glm::determinant(linear) < 0) cofactor = -cofactor;
   // Scaled to lengths near 1, so that tiny and huge scenes stay inside single precision.
-  const double largest = std::max({glm::length(cofactor[0]), glm::length(cofactor[1]),
-                                   glm::length(cofactor[2])});
+  const double largest =
+      std::max({glm::length(cofactor[0]), glm::length(cofactor[1]), glm::length(cofactor[2])});
   return glm::dmat4(largest > 0 ? cofactor / largest : cofactor);
 }
 

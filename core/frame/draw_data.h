@@ -10,7 +10,8 @@
 
 namespace grisaille::frame {
 
-// All levels down to 1x1, RGBA with sRGB colour, averaged in linear light; the top one is the image.
+// All levels down to 1x1, RGBA with sRGB colour, averaged in linear light; the top one is the
+// image.
 std::vector<std::vector<uint8_t>> mipChain(const image::Image8& image);
 
 // One level of the alpha channel, one byte a texel.

@@ -7,6 +7,7 @@
 #include "core/error.h"
 #include "core/frame/texture_image.h"
 #include "core/frame/view_block.h"
+#include "core/nearest.h"
 #include "shaders/compose.h"
 #include "shaders/view_depth.h"
 
@@ -23,7 +24,9 @@ constexpr const char* kClipDepth = "clip depth";
 
 constexpr uint32_t kGroup = 8;  // threads a side, in both shaders of this room
 
-uint32_t groups(uint32_t pixels) { return (pixels + kGroup - 1) / kGroup; }
+uint32_t groups(uint32_t pixels) {
+  return (pixels + kGroup - 1) / kGroup;
+}
 
 // The target that holds an effect's output.
 std::string targetName(const effect::Effect& effect, const grisaille_output_desc& output) {
@@ -55,12 +58,13 @@ std::vector<std::string> outputNames(std::span<const effect::Effect* const> effe
 void checkOutput(std::string_view name, std::span<const effect::Effect* const> effects) {
   const std::vector<std::string> all = outputNames(effects);
   if (std::find(all.begin(), all.end(), name) != all.end()) return;
-  const std::string near = effect::nearest(name, all);
+  const std::string near = nearest(name, all);
   throw Error(ErrorId::kOutputUnknown, "there is no output '{}'{}; there are {}", name,
               near.empty() ? "" : fmt::format(", did you mean '{}'?", near), fmt::join(all, ", "));
 }
 
 image::Transfer transferOf(std::string_view output) {
+  if (output == kNormal) return image::Transfer::kSigned;
   return output == kColor || output == kBaseColour ? image::Transfer::kColour
                                                    : image::Transfer::kData;
 }
@@ -84,10 +88,9 @@ struct Renderer::Plan {
       const auto outputs = active.effect().outputs();
       for (size_t i = 0; i < outputs.size(); ++i) {
         const bool composed = color && outputs[i].role != GRISAILLE_ROLE_NONE;
-        const bool asked =
-            std::any_of(desc.outputs.begin(), desc.outputs.end(), [&](const std::string& name) {
-              return names(name, active.effect(), outputs[i]);
-            });
+        const bool asked = std::any_of(
+            desc.outputs.begin(), desc.outputs.end(),
+            [&](const std::string& name) { return names(name, active.effect(), outputs[i]); });
         if (composed || asked) bits |= 1u << i;
       }
       wanted.push_back(bits);
@@ -246,7 +249,8 @@ void Renderer::recordCompose(gpu::Commands& commands, const FrameDesc& desc) {
       const bool paint = output.role == GRISAILLE_ROLE_PAINT;
       if (!paint && output.role != GRISAILLE_ROLE_VISIBILITY) continue;
       const gpu::Texture texture = find(targetName(active.effect(), output));
-      if (paint ? layers.back().paint || layers.back().visibility : bool{layers.back().visibility}) {
+      if (paint ? layers.back().paint || layers.back().visibility
+                : bool{layers.back().visibility}) {
         layers.emplace_back();
       }
       (paint ? layers.back().paint : layers.back().visibility) = texture;
@@ -268,8 +272,7 @@ void Renderer::recordCompose(gpu::Commands& commands, const FrameDesc& desc) {
 }
 
 void Renderer::composeLayer(gpu::Commands& commands, gpu::Texture surface, gpu::Texture paint,
-                            gpu::Texture visibility, gpu::Texture target,
-                            const FrameDesc& desc) {
+                            gpu::Texture visibility, gpu::Texture target, const FrameDesc& desc) {
   const std::array bindings = {
       gpu::textureBinding(0, {.texture = surface}, nearest_),
       gpu::textureBinding(1, {.texture = paint ? paint : clear_}, nearest_),
@@ -289,8 +292,7 @@ gpu::Texture Renderer::target(const std::string& name, gpu::Format format, gpu::
   if (!fits) {
     device_.destroy(slot.texture);
     slot = {};
-    slot.desc = {
-        .format = format, .width = desc.width, .height = desc.height, .usage = usage};
+    slot.desc = {.format = format, .width = desc.width, .height = desc.height, .usage = usage};
     gpu::TextureDesc labelled = slot.desc;
     labelled.label = name;
     slot.texture = device_.createTexture(labelled);

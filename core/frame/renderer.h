@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: MIT
-// One frame: draws exactly the attachments that the active effects and the wanted outputs read, runs
-// the effects in order, composes the picture.
+// One frame: draws exactly the attachments that the active effects and the wanted outputs read,
+// runs the effects in order, composes the picture.
 #pragma once
 
 #include <map>
@@ -33,7 +33,7 @@ enum class Surface : uint8_t { kWhite, kBaseColour };
 
 struct FrameDesc {
   scene::Camera camera;
-  uint32_t width = 0;   // pixels
+  uint32_t width = 0;  // pixels
   uint32_t height = 0;
   Surface surface = Surface::kWhite;
   std::span<const ActiveEffect> effects;  // in the order they run
@@ -47,7 +47,8 @@ std::vector<std::string> outputNames(std::span<const effect::Effect* const> effe
 // Throws kOutputUnknown, naming the nearest, unless outputNames() lists `name`.
 void checkOutput(std::string_view name, std::span<const effect::Effect* const> effects);
 
-// How a file of integers holds an output: the composed picture and base colour are light.
+// How a file of integers holds an output: the composed picture and base colour are light, normals
+// have signs.
 image::Transfer transferOf(std::string_view output);
 
 class Renderer {
@@ -82,7 +83,8 @@ class Renderer {
   void recordEffects(gpu::Commands& commands, const FrameDesc& desc, const Plan& plan,
                      gpu::BufferRange viewBlock);
   void recordCompose(gpu::Commands& commands, const FrameDesc& desc);
-  // One layer of the composition: `over` paints, `visibility` multiplies; null: the neutral texture.
+  // One layer of the composition: `over` paints, `visibility` multiplies; null: the neutral
+  // texture.
   void composeLayer(gpu::Commands& commands, gpu::Texture surface, gpu::Texture paint,
                     gpu::Texture visibility, gpu::Texture target, const FrameDesc& desc);
   gpu::Texture target(const std::string& name, gpu::Format format, gpu::TextureUsage usage,
@@ -91,7 +93,7 @@ class Renderer {
 
   gpu::Device& device_;
   SceneResources scene_;
-  std::map<std::string, Slot, std::less<>> targets_;  // by output name, or attachment name
+  std::map<std::string, Slot, std::less<>> targets_;         // by output name, or attachment name
   std::map<std::string, std::string, std::less<>> outputs_;  // of the last frame: name to target
   gpu::ComputePipeline viewDepth_, compose_;
   gpu::Sampler nearest_;

@@ -43,15 +43,14 @@ constexpr const gpu::Shader* kVertex[8] = {
     &grisaille_shader_geometry_vert_010, &grisaille_shader_geometry_vert_011,
     &grisaille_shader_geometry_vert_100, &grisaille_shader_geometry_vert_101,
     &grisaille_shader_geometry_vert_110, &grisaille_shader_geometry_vert_111};
-constexpr const gpu::Shader* kFragment[8] = {
-    nullptr,
-    &grisaille_shader_geometry_frag_001,
-    &grisaille_shader_geometry_frag_010,
-    &grisaille_shader_geometry_frag_011,
-    &grisaille_shader_geometry_frag_100,
-    &grisaille_shader_geometry_frag_101,
-    &grisaille_shader_geometry_frag_110,
-    &grisaille_shader_geometry_frag_111};
+constexpr const gpu::Shader* kFragment[8] = {nullptr,
+                                             &grisaille_shader_geometry_frag_001,
+                                             &grisaille_shader_geometry_frag_010,
+                                             &grisaille_shader_geometry_frag_011,
+                                             &grisaille_shader_geometry_frag_100,
+                                             &grisaille_shader_geometry_frag_101,
+                                             &grisaille_shader_geometry_frag_110,
+                                             &grisaille_shader_geometry_frag_111};
 
 gpu::Address address(scene::Wrap wrap) {
   switch (wrap) {
@@ -83,10 +82,10 @@ std::vector<scene::Bounds> boundsOfPrimitives(const scene::Scene& scene) {
 bool mayBeSeen(const scene::Bounds& bounds, const glm::dmat4& clipFromObject) {
   int outside[4] = {0, 0, 0, 0};
   for (int corner = 0; corner < 8; ++corner) {
-    const glm::dvec4 p = clipFromObject * glm::dvec4((corner & 1) != 0 ? bounds.max.x : bounds.min.x,
-                                                     (corner & 2) != 0 ? bounds.max.y : bounds.min.y,
-                                                     (corner & 4) != 0 ? bounds.max.z : bounds.min.z,
-                                                     1);
+    const glm::dvec4 p =
+        clipFromObject * glm::dvec4((corner & 1) != 0 ? bounds.max.x : bounds.min.x,
+                                    (corner & 2) != 0 ? bounds.max.y : bounds.min.y,
+                                    (corner & 4) != 0 ? bounds.max.z : bounds.min.z, 1);
     outside[0] += p.x > p.w ? 1 : 0;
     outside[1] += p.x < -p.w ? 1 : 0;
     outside[2] += p.y > p.w ? 1 : 0;
@@ -176,13 +175,12 @@ gpu::Texture SceneResources::texture(gpu::Commands& commands, const scene::Mater
   if (wanted) return wanted;
   const image::Image8 image = image::decode(source.encoded, source.name);
   const std::vector<std::vector<uint8_t>> levels = base ? mipChain(image) : alphaAlone(image);
-  wanted = device_.createTexture(
-      {.label = source.name,
-       .format = base ? gpu::Format::kRgba8Srgb : gpu::Format::kR8Unorm,
-       .width = image.width,
-       .height = image.height,
-       .mips = static_cast<uint32_t>(levels.size()),
-       .usage = gpu::TextureUsage::kSampled});
+  wanted = device_.createTexture({.label = source.name,
+                                  .format = base ? gpu::Format::kRgba8Srgb : gpu::Format::kR8Unorm,
+                                  .width = image.width,
+                                  .height = image.height,
+                                  .mips = static_cast<uint32_t>(levels.size()),
+                                  .usage = gpu::TextureUsage::kSampled});
   for (uint32_t mip = 0; mip < levels.size(); ++mip) {
     commands.upload(wanted, mip, 0, std::as_bytes(std::span(levels[mip])));
   }
@@ -198,14 +196,17 @@ gpu::Sampler SceneResources::sampler(const scene::Material& material, bool base)
   // A mask is read from one level, which drivers' anisotropic filters do not keep to.
   const bool anisotropic = base && !material.masked;
   gpu::Sampler& sampler = samplers_[static_cast<size_t>(u) * 9 + static_cast<size_t>(v) * 3 +
-                                    (anisotropic ? 2 : base ? 1 : 0)];
+                                    (anisotropic ? 2
+                                     : base      ? 1
+                                                 : 0)];
   if (!sampler) {
-    sampler = device_.createSampler({.label = "base colour",
-                                     .filter = gpu::Filter::kLinear,
-                                     .mipFilter = base ? gpu::Filter::kLinear : gpu::Filter::kNearest,
-                                     .addressU = address(u),
-                                     .addressV = address(v),
-                                     .maxAnisotropy = anisotropic ? 8.0f : 1.0f});
+    sampler =
+        device_.createSampler({.label = "base colour",
+                               .filter = gpu::Filter::kLinear,
+                               .mipFilter = base ? gpu::Filter::kLinear : gpu::Filter::kNearest,
+                               .addressU = address(u),
+                               .addressV = address(v),
+                               .maxAnisotropy = anisotropic ? 8.0f : 1.0f});
   }
   return sampler;
 }
@@ -219,9 +220,8 @@ void SceneResources::draw(gpu::Commands& commands, const scene::Camera& camera, 
   vertexBuffer(commands, indices_, "indices", bytes(scene_.indices), gpu::BufferUsage::kIndex);
   if (normal) vertexBuffer(commands, normals_, "normals", bytes(scene_.normals), vertex);
 
-  const glm::dmat4 clipFromCamera =
-      scene::clipFromView(camera, double{1} * width / height) *
-      glm::dmat4(glm::transpose(scene::worldFromView(camera)));
+  const glm::dmat4 clipFromCamera = scene::clipFromView(camera, double{1} * width / height) *
+                                    glm::dmat4(glm::transpose(scene::worldFromView(camera)));
 
   // Bindings and streams stay where they are until render() returns: reserved, so nothing moves.
   std::vector<gpu::Draw> draws;
@@ -255,8 +255,8 @@ void SceneResources::draw(gpu::Commands& commands, const scene::Camera& camera, 
     binding[bindingCount++] =
         gpu::uniformBinding(0, commands.uniform(std::as_bytes(std::span(&block, 1))));
     if (base || material.masked) {
-      stream[streamCount++].buffer =
-          vertexBuffer(commands, texCoords_, "texture coordinates", bytes(scene_.texCoords), vertex);
+      stream[streamCount++].buffer = vertexBuffer(commands, texCoords_, "texture coordinates",
+                                                  bytes(scene_.texCoords), vertex);
       binding[bindingCount++] = gpu::textureBinding(
           0, {.texture = texture(commands, material, base)}, sampler(material, base));
     }
@@ -274,7 +274,8 @@ void SceneResources::draw(gpu::Commands& commands, const scene::Camera& camera, 
   std::vector<gpu::ColorTarget> colors;
   if (normal) colors.push_back({.view = {.texture = targets.normal}});
   if (base) colors.push_back({.view = {.texture = targets.baseColour}});
-  commands.render({.colors = colors, .depth = {.view = {.texture = targets.depth}}, .draws = draws});
+  commands.render(
+      {.colors = colors, .depth = {.view = {.texture = targets.depth}}, .draws = draws});
 }
 
 }  // namespace grisaille::frame

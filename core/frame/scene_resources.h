@@ -54,8 +54,8 @@ class SceneResources {
   gpu::Buffer positions_, normals_, texCoords_, indices_;
   std::array<gpu::GraphicsPipeline, 8> pipelines_;
   std::vector<DeviceTexture> textures_;
-  std::array<gpu::Sampler, 27> samplers_;  // wrap u, wrap v, one level | mips | anisotropic
-  gpu::Texture white_;                     // for materials without a texture
+  std::array<gpu::Sampler, 27> samplers_;       // wrap u, wrap v, one level | mips | anisotropic
+  gpu::Texture white_;                          // for materials without a texture
   std::vector<scene::Bounds> primitiveBounds_;  // object space
 };
 

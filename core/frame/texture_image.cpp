@@ -38,7 +38,8 @@ image::Image toImage(std::span<const std::byte> bytes, gpu::Format format, uint3
     case gpu::Format::kR8Unorm:
     case gpu::Format::kRgba8Unorm:
     case gpu::Format::kRgba8Srgb:
-      convert<uint8_t>(bytes, image.pixels, [](uint8_t v) { return static_cast<float>(v) / 255.0f; });
+      convert<uint8_t>(bytes, image.pixels,
+                       [](uint8_t v) { return static_cast<float>(v) / 255.0f; });
       break;
     case gpu::Format::kR16Float:
     case gpu::Format::kRgba16Float:

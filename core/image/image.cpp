@@ -88,7 +88,8 @@ std::vector<Integer> quantise(const Image& image, Transfer transfer) {
   std::vector<Integer> result(image.pixels.size());
   for (size_t i = 0; i < result.size(); ++i) {
     const float stored = image.pixels[i];
-    double value = std::isnan(stored) ? 0.0 : std::clamp(double{stored}, 0.0, 1.0);
+    const double shown = transfer == Transfer::kSigned ? (double{stored} + 1) / 2 : double{stored};
+    double value = std::isnan(shown) ? 0.0 : std::clamp(shown, 0.0, 1.0);
     const auto channel = static_cast<uint32_t>(i % image.channels);
     if (transfer == Transfer::kColour && !isAlpha(channel, image.channels)) {
       value = encodeSrgb(value);

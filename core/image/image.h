@@ -30,8 +30,9 @@ struct Image8 {
 };
 
 enum class Transfer : uint8_t {
-  kData,   // numbers: files hold them as they are
-  kColour  // linear light: files of integers hold it sRGB encoded
+  kData,    // numbers: files hold them as they are
+  kColour,  // linear light: files of integers hold it sRGB encoded
+  kSigned   // numbers from -1 to 1: files of integers hold (x + 1) / 2
 };
 
 struct WriteOptions {

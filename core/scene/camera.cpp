@@ -6,9 +6,9 @@
 #include <fstream>
 #include <nlohmann/json.hpp>
 
-#include "core/effect/values.h"
 #include "core/error.h"
 #include "core/image/write_aside.h"
+#include "core/nearest.h"
 
 namespace grisaille::scene {
 namespace {
@@ -65,7 +65,7 @@ json parse(const std::string& path) {
 
 [[noreturn]] void refuseKey(const std::string& key) {
   const std::string keys[] = {"eye", "target", "up", "fovy_degrees", "size", "near"};
-  const std::string near = effect::nearest(key, keys);
+  const std::string near = nearest(key, keys);
   refuse(fmt::format("\"{}\"", key),
          fmt::format("is no key of a camera{}{}", near.empty() ? "" : ", nearest is ", near));
 }

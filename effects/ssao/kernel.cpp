@@ -26,13 +26,15 @@ class Random {
   uint32_t state_;
 };
 
-double fraction(double value) { return value - std::floor(value); }
+double fraction(double value) {
+  return value - std::floor(value);
+}
 
 }  // namespace
 
 std::array<glm::vec4, kMaxKernelSize> makeKernel(uint32_t size, Sampling sampling, uint32_t seed) {
-  // Points of the R3 sequence (Roberts 2018) from a random start: random for every seed, but without
-  // the clumps and gaps that independent points have.
+  // Points of the R3 sequence (Roberts 2018) from a random start: random for every seed, but
+  // without the clumps and gaps that independent points have.
   constexpr double kPlastic = 1.2207440846057596;  // root of x^4 = x + 1
   Random random(seed, 0);
   const glm::dvec3 start(random.unit(), random.unit(), random.unit());

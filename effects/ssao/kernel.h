@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: MIT
-// The sample points and the rotations of the classic SSAO (Mittring 2007; in a hemisphere: Filion and
-// McNaughton 2008), drawn at random once from a seed.
+// The sample points and the rotations of the classic SSAO (Mittring 2007; in a hemisphere: Filion
+// and McNaughton 2008), drawn at random once from a seed.
 #pragma once
 
 #include <array>

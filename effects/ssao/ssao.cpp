@@ -61,8 +61,9 @@ constexpr grisaille_param_desc kParams[] = {
     plugin::floatParam({.key = "bias",
                         .label = "Bias",
                         .unit = "m",
-                        .tooltip = "How much nearer than a sample point the surface must be to occlude "
-                                   "it; hides self-occlusion, loses fine detail",
+                        .tooltip =
+                            "How much nearer than a sample point the surface must be to occlude "
+                            "it; hides self-occlusion, loses fine detail",
                         .hardMin = 0,
                         .hardMax = 1e6,
                         .softMin = 0,
@@ -72,8 +73,9 @@ constexpr grisaille_param_desc kParams[] = {
     plugin::intParam({.key = "blur_size",
                       .label = "Blur size",
                       .unit = "px",
-                      .tooltip = "Side of the square that is averaged; 0 and 1: no blur; 4 removes the "
-                                 "noise's pattern exactly",
+                      .tooltip =
+                          "Side of the square that is averaged; 0 and 1: no blur; 4 removes the "
+                          "noise's pattern exactly",
                       .hardMin = 0,
                       .hardMax = 16,
                       .softMin = 0,
@@ -109,31 +111,35 @@ constexpr grisaille_param_desc kParams[] = {
                       .advanced = true}),
     plugin::enumParam({.key = "sampling",
                        .label = "Sampling",
-                       .tooltip = "Where the sample points lie: in the hemisphere over the surface, or "
-                                  "all around, which needs no normals and brightens convex edges",
+                       .tooltip =
+                           "Where the sample points lie: in the hemisphere over the surface, or "
+                           "all around, which needs no normals and brightens convex edges",
                        .keys = kSamplingKeys,
                        .labels = kSamplingLabels,
                        .defaultValue = 0,
                        .advanced = true}),
-    plugin::enumParam({.key = "rotation",
-                       .label = "Rotation",
-                       .tooltip = "Turns the kernel from pixel to pixel, which makes noise out of bands",
-                       .keys = kRotationKeys,
-                       .labels = kRotationLabels,
-                       .defaultValue = 0,
-                       .advanced = true}),
+    plugin::enumParam(
+        {.key = "rotation",
+         .label = "Rotation",
+         .tooltip = "Turns the kernel from pixel to pixel, which makes noise out of bands",
+         .keys = kRotationKeys,
+         .labels = kRotationLabels,
+         .defaultValue = 0,
+         .advanced = true}),
     plugin::enumParam({.key = "range_check",
                        .label = "Range check",
-                       .tooltip = "Which depths must be within the radius for a surface to occlude: raw "
-                                  "depth is wrong near and far, none leaves halos",
+                       .tooltip =
+                           "Which depths must be within the radius for a surface to occlude: raw "
+                           "depth is wrong near and far, none leaves halos",
                        .keys = kRangeKeys,
                        .labels = kRangeLabels,
                        .defaultValue = 0,
                        .advanced = true}),
     plugin::enumParam({.key = "blur",
                        .label = "Blur",
-                       .tooltip = "Box averages across edges; edge-aware leaves out what is more than "
-                                  "the radius nearer or farther",
+                       .tooltip =
+                           "Box averages across edges; edge-aware leaves out what is more than "
+                           "the radius nearer or farther",
                        .keys = kBlurKeys,
                        .labels = kBlurLabels,
                        .defaultValue = 0,
@@ -223,15 +229,12 @@ class Ssao {
     // Constants 0 ... 3 of shaders/ssao/occlusion.glsl.
     const grisaille_constant constants[] = {
         plugin::specialize(0, count), plugin::specialize(1, frame.value<uint32_t>(kRotation)),
-        plugin::specialize(2, frame.value<uint32_t>(kRangeCheck)),
-        plugin::specialize(3, !blurred)};
+        plugin::specialize(2, frame.value<uint32_t>(kRangeCheck)), plugin::specialize(3, !blurred)};
     const bool normals = sampling == Sampling::kHemisphere;
     std::vector<grisaille_binding> bindings = {
-        plugin::uniform(0, frame.viewBlock()),
-        plugin::uniform(1, frame.uniform(settings)),
+        plugin::uniform(0, frame.viewBlock()), plugin::uniform(1, frame.uniform(settings)),
         plugin::texture(0, frame.attachment(GRISAILLE_VIEW_DEPTH), clamped_),
-        plugin::texture(1, noise_, repeated_),
-        plugin::image(0, target)};
+        plugin::texture(1, noise_, repeated_), plugin::image(0, target)};
     if (normals) {
       bindings.push_back(plugin::texture(2, frame.attachment(GRISAILLE_NORMAL), clamped_));
     }
@@ -243,8 +246,8 @@ class Ssao {
                                 .intensity = frame.value<float>(kIntensity),
                                 .power = frame.value<float>(kPower)};
     // Constants 0 and 1 of shaders/ssao/blur.comp.
-    const grisaille_constant constants[] = {
-        plugin::specialize(0, size), plugin::specialize(1, frame.value<uint32_t>(kBlur))};
+    const grisaille_constant constants[] = {plugin::specialize(0, size),
+                                            plugin::specialize(1, frame.value<uint32_t>(kBlur))};
     const grisaille_binding bindings[] = {
         plugin::uniform(0, frame.viewBlock()), plugin::uniform(1, frame.uniform(settings)),
         plugin::texture(0, frame.attachment(GRISAILLE_VIEW_DEPTH), clamped_),

@@ -82,7 +82,8 @@ TEST_P(AttachmentsTest, MirroredAndStretchedInstancesKeepRightNormals) {
     scene.materials.push_back({.name = "one side"});
     const glm::vec3 normal = glm::normalize(glm::vec3(0.3f, 1, 0));
     // A slope that falls along +x: single-sided, so that a wrong winding shows as a hole.
-    tests::addQuad(scene, {glm::vec3(-9, 2.7f, 9), {9, -2.7f, 9}, {9, -2.7f, -9}, {-9, 2.7f, -9}}, normal);
+    tests::addQuad(scene, {glm::vec3(-9, 2.7f, 9), {9, -2.7f, 9}, {9, -2.7f, -9}, {-9, 2.7f, -9}},
+                   normal);
     scene.instances[0].worldFromObject =
         glm::dmat4(glm::dmat3(scale.x, 0, 0, 0, scale.y, 0, 0, 0, scale.z));
     const scene::Camera camera = {.eye = glm::dvec3(0, 4, 0), .target = glm::dvec3(0.0001, 0, 0)};
@@ -117,7 +118,8 @@ TEST_P(AttachmentsTest, SizesChangeFromFrameToFrame) {
   const scene::Camera camera = {.eye = glm::dvec3(0, 1, 3), .target = glm::dvec3(0, 0.5, 0)};
   frame::Renderer renderer(device(), scene);
   const std::vector<std::string> outputs = {"depth", "normal", "color"};
-  constexpr std::array<glm::uvec2, 5> kSizes = {glm::uvec2{1, 1}, {257, 129}, {1, 512}, {3, 3}, {64, 64}};
+  constexpr std::array<glm::uvec2, 5> kSizes = {
+      glm::uvec2{1, 1}, {257, 129}, {1, 512}, {3, 3}, {64, 64}};
   for (const glm::uvec2 size : kSizes) {
     renderer.render(
         {.camera = camera, .width = size.x, .height = size.y, .effects = {}, .outputs = outputs});

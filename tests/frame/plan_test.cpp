@@ -23,9 +23,8 @@ class PlanTest : public ::testing::Test {
     registry_.scan(EFFECTS_FOLDER);
     auto null = gpu::makeNullDevice();
     null_ = null.get();
-    device_ = gpu::makeCheckingDevice(std::move(null), [](gpu::Severity, std::string_view text) {
-      ADD_FAILURE() << text;
-    });
+    device_ = gpu::makeCheckingDevice(
+        std::move(null), [](gpu::Severity, std::string_view text) { ADD_FAILURE() << text; });
     values_.emplace(registry_.find("ssao"));
     instance_.emplace(*device_, registry_.find("ssao"));
     renderer_.emplace(*device_, scene_);
@@ -48,7 +47,8 @@ class PlanTest : public ::testing::Test {
                        .outputs = outputs});
     Recording recording;
     for (const gpu::Recorded& entry : null_->recorded()) {
-      if (const auto* pass = std::get_if<gpu::RecordedPass>(&entry); pass != nullptr && pass->begins) {
+      if (const auto* pass = std::get_if<gpu::RecordedPass>(&entry);
+          pass != nullptr && pass->begins) {
         recording.passes.push_back(pass->label);
       } else if (const auto* render = std::get_if<gpu::RecordedRender>(&entry)) {
         recording.renders.push_back(*render);

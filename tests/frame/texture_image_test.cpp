@@ -38,8 +38,7 @@ TEST(DrawData, MipsEndAtOneTexelAndKeepTheLightOfAConstant) {
 }
 
 TEST(DrawData, MipsAverageLightNotCodes) {
-  const image::Image8 image = {
-      .width = 2, .height = 1, .pixels = {0, 0, 0, 0, 255, 255, 255, 255}};
+  const image::Image8 image = {.width = 2, .height = 1, .pixels = {0, 0, 0, 0, 255, 255, 255, 255}};
   const auto levels = frame::mipChain(image);
   EXPECT_EQ(levels[1][0], 188);  // half the light, sRGB encoded
   EXPECT_EQ(levels[1][3], 128);  // alpha is a number

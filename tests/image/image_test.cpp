@@ -102,6 +102,14 @@ TEST_F(ImageFiles, PngEncodesColourButNeverAlpha) {
   }
 }
 
+TEST_F(ImageFiles, PngHoldsSignedNumbersAboutTheMiddle) {
+  const Image image = noise(3, -1, 1);
+  write(image, file("a.png"), {.transfer = Transfer::kSigned, .pngBits = 16});
+  Image back = read(file("a.png"));
+  for (float& value : back.pixels) value = 2 * value - 1;
+  EXPECT_LE(compare(image, back).largest, 1.0 / 65535 + 1e-6);
+}
+
 TEST_F(ImageFiles, PngClampsAndHasNoNan) {
   const Image image{
       .width = 5,

@@ -14,7 +14,7 @@ namespace {
 
 struct Case {
   std::string name;
-  std::string file;     // written beside the command; "" for none
+  std::string file;  // written beside the command; "" for none
   std::string content;
   std::vector<std::string> arguments;  // FILE stands for the file's path
   int number = 0;
@@ -44,7 +44,8 @@ Case badScene(const std::string& name, const std::string& content, int number = 
 
 std::vector<Case> cases() {
   const std::string asset = R"({"asset": {"version": "2.0"})";
-  const std::string triangle = asset +
+  const std::string triangle =
+      asset +
       R"(, "buffers": [{"byteLength": 36, "uri": "data:application/octet-stream;base64,)"
       R"(AAAAAAAAAAAAAAAAAACAPwAAAAAAAAAAAAAAAAAAgD8AAAAA"}],)"
       R"("bufferViews": [{"buffer": 0, "byteLength": 36}],)"
@@ -86,7 +87,11 @@ std::vector<Case> cases() {
       {"missing camera", "", "", {"--camera", "no such camera.json"}, 2201},
       {"folder to write to is missing", "", "", {"--write", "color=no/such/folder/c.png"}, 4103},
       {"name to write is a folder", "folder.png/x", "", {"--write", "color=folder.png"}, 4103},
-      {"timings to a missing folder", "", "", {"--timings", "no/such/t.csv", "--write", "color=c.png"}, 4103},
+      {"timings to a missing folder",
+       "",
+       "",
+       {"--timings", "no/such/t.csv", "--write", "color=c.png"},
+       4103},
   };
 }
 
@@ -118,9 +123,8 @@ TEST(BadInput, EachKindIsOneLineAndANumber) {
 // An image that is none: only who needs it is told.
 TEST(BadInput, BrokenTextureFailsOnlyWhereItIsNeeded) {
   const TemporaryFolder folder;
-  const std::string scene = folder.write(
-      "scene.gltf",
-      R"({"asset": {"version": "2.0"},
+  const std::string scene = folder.write("scene.gltf",
+                                         R"({"asset": {"version": "2.0"},
         "buffers": [{"byteLength": 36, "uri": "data:application/octet-stream;base64,AAAAAAAAAAAAAAAAAACAPwAAAAAAAAAAAAAAAAAAgD8AAAAA"}],
         "bufferViews": [{"buffer": 0, "byteLength": 36}],
         "accessors": [{"bufferView": 0, "componentType": 5126, "count": 3, "type": "VEC3"}],
@@ -142,10 +146,10 @@ TEST(BadInput, BrokenTextureFailsOnlyWhereItIsNeeded) {
 TEST(BadInput, FailedWriteLeavesTheOldFile) {
   const TemporaryFolder folder;
   const std::string old = folder.write("c.png", "precious");
-  const Outcome outcome = runProgram(
-      {"render", "--camera", folder.write("camera.json", kCamera), "--effects", "ssao", "--set",
-       "ssao.radius=-1", "--write", "color=c.png"},
-      folder.path());
+  const Outcome outcome =
+      runProgram({"render", "--camera", folder.write("camera.json", kCamera), "--effects", "ssao",
+                  "--set", "ssao.radius=-1", "--write", "color=c.png"},
+                 folder.path());
   EXPECT_EQ(outcome.status, 1);
   EXPECT_EQ(readFile(old), "precious");
 }

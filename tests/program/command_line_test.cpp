@@ -39,9 +39,9 @@ TEST_F(CommandLine, HelpNamesEverySubcommandAndOption) {
     EXPECT_EQ(grisaille({command, "--help"}).status, 0);
   }
   const std::string render = grisaille({"render", "--help"}).out;
-  for (const char* option : {"--camera", "--size", "--backend", "--device", "--effects", "--set",
-                             "--config", "--write", "--frames", "--timings", "--plugin-path",
-                             "--check", "--surface"}) {
+  for (const char* option :
+       {"--camera", "--size", "--backend", "--device", "--effects", "--set", "--config", "--write",
+        "--frames", "--timings", "--plugin-path", "--check", "--surface"}) {
     EXPECT_NE(render.find(option), std::string::npos) << option;
   }
   EXPECT_EQ(grisaille({"--version"}).out, "0.1.0\n");
@@ -120,16 +120,20 @@ TEST_F(CommandLine, SettingsFileIsTakenAndTheCommandLineGoesOverIt) {
   const std::string good = folder_.write(
       "good.toml", "effects = [\"ssao\"]\n[ssao]\nintensity = 0\nblur = \"edge_aware\"\n");
   EXPECT_EQ(render({"--config", good, "--write", "ao=0.exr"}).status, 0);
-  EXPECT_EQ(render({"--config", good, "--set", "ssao.intensity=1", "--write", "ao=1.exr"}).status, 0);
+  EXPECT_EQ(render({"--config", good, "--set", "ssao.intensity=1", "--write", "ao=1.exr"}).status,
+            0);
   EXPECT_NE(readFile(folder_ / "0.exr"), readFile(folder_ / "1.exr"));
 
-  expectError(render({"--config", folder_.write("a.toml", "[ssao]\nradius = \n")}), 5103, "a.toml:2");
+  expectError(render({"--config", folder_.write("a.toml", "[ssao]\nradius = \n")}), 5103,
+              "a.toml:2");
   expectError(render({"--config", folder_.write("b.toml", "\n[ssao]\nradus = 1\n")}), 3301,
               "b.toml:3");
-  expectError(render({"--config", folder_.write("c.toml", "[ssao]\nradius = -1\n")}), 3302, "c.toml:2");
+  expectError(render({"--config", folder_.write("c.toml", "[ssao]\nradius = -1\n")}), 3302,
+              "c.toml:2");
   expectError(render({"--config", folder_.write("d.toml", "effects = 3\n")}), 5104, "d.toml:1");
   expectError(render({"--config", folder_.write("e.toml", "[ssao]\nradius = [1]\n")}), 5104);
-  expectError(render({"--config", folder_.write("f.toml", "[sspn]\nradius = 1\n")}), 3201, "f.toml:2");
+  expectError(render({"--config", folder_.write("f.toml", "[sspn]\nradius = 1\n")}), 3201,
+              "f.toml:2");
   expectError(render({"--config", folder_.path()}), 5103);
 }
 
@@ -137,8 +141,8 @@ TEST_F(CommandLine, TimingsAreCsvOfEveryPassOfEveryFrame) {
   const Outcome outcome = render({"--frames", "3", "--timings", "-", "--write", "ao=a.exr"});
   ASSERT_EQ(outcome.status, 0) << outcome.err;
   EXPECT_EQ(outcome.out.rfind("frame,effect,pass,milliseconds,clock\n", 0), 0u) << outcome.out;
-  for (const char* row : {"\n0,scene,geometry,", "\n1,scene,view_depth,", "\n2,ssao,occlusion,",
-                          "\n2,ssao,blur,"}) {
+  for (const char* row :
+       {"\n0,scene,geometry,", "\n1,scene,view_depth,", "\n2,ssao,occlusion,", "\n2,ssao,blur,"}) {
     EXPECT_NE(outcome.out.find(row), std::string::npos) << row << outcome.out;
   }
   EXPECT_TRUE(outcome.out.find(",wall\n") != std::string::npos ||

@@ -5,9 +5,9 @@
 #include <stdlib.h>
 #include <string.h>
 
-__attribute__((visibility("default"))) void *dlopen(const char *name, int flags) {
-  void *(*next)(const char *, int) = (void *(*)(const char *, int))dlsym(RTLD_NEXT, "dlopen");
-  const char *hidden = getenv("HIDE_LIBRARY");
+__attribute__((visibility("default"))) void* dlopen(const char* name, int flags) {
+  void* (*next)(const char*, int) = (void* (*)(const char*, int))dlsym(RTLD_NEXT, "dlopen");
+  const char* hidden = getenv("HIDE_LIBRARY");
   if (name != NULL && hidden != NULL && strstr(name, hidden) != NULL) name = "hidden by a test";
   return next(name, flags);
 }

@@ -26,8 +26,8 @@ std::vector<std::string> commandsOf(const std::filesystem::path& file) {
   return commands;
 }
 
-// Runs a manual's commands in order in one folder, as a reader would. `./dev` builds and tests, which
-// is what is being done here: only its subcommand is looked up.
+// Runs a manual's commands in order in one folder, as a reader would. `./dev` builds and tests,
+// which is what is being done here: only its subcommand is looked up.
 void runCommands(const std::filesystem::path& file) {
   const TemporaryFolder folder;
   const std::string help = runShell("./dev help", kSource).out;
@@ -47,8 +47,12 @@ void runCommands(const std::filesystem::path& file) {
   EXPECT_GT(ran, 0u) << file;
 }
 
-TEST(Readme, CommandsRun) { runCommands(kSource / "README.md"); }
-TEST(Readme, SsaoCommandsRun) { runCommands(kSource / "effects/ssao/README.md"); }
+TEST(Readme, CommandsRun) {
+  runCommands(kSource / "README.md");
+}
+TEST(Readme, SsaoCommandsRun) {
+  runCommands(kSource / "effects/ssao/README.md");
+}
 
 TEST(Readme, TablesAreTheEffectsOwn) {
   const Outcome outcome = runProgram({"effects", "--markdown", "ssao"}, ".");

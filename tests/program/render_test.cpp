@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: MIT
-// The main job, as a whole program, on every backend: pictures against a ray cast of the same scene,
-// against the other backend, and against ray-traced truth.
+// The main job, as a whole program, on every backend: pictures against a ray cast of the same
+// scene, against the other backend, and against ray-traced truth.
 #include <gtest/gtest.h>
 
 #include <algorithm>
@@ -52,8 +52,8 @@ Agreement compareDepth(const image::Image& depth, const std::vector<oracle::Hit>
   }
   Agreement agreement;
   agreement.over1e3 =
-      static_cast<double>(std::count_if(errors.begin(), errors.end(),
-                                        [](double error) { return error > 1e-3; })) /
+      static_cast<double>(
+          std::count_if(errors.begin(), errors.end(), [](double error) { return error > 1e-3; })) /
       static_cast<double>(errors.size());
   std::nth_element(errors.begin(), errors.begin() + errors.size() / 2, errors.end());
   agreement.median = errors[errors.size() / 2];
@@ -68,9 +68,9 @@ struct Pictures {
 Pictures render(const std::string& backend, std::vector<std::string> arguments) {
   const TemporaryFolder folder;
   arguments.insert(arguments.begin(), "render");
-  for (const char* more : {"--backend", backend.c_str(), "--check", "--effects", "ssao", "--write",
-                           "ao=a.exr", "--write", "depth=d.exr", "--write", "normal=n.exr",
-                           "--write", "color=c.png"}) {
+  for (const char* more :
+       {"--backend", backend.c_str(), "--check", "--effects", "ssao", "--write", "ao=a.exr",
+        "--write", "depth=d.exr", "--write", "normal=n.exr", "--write", "color=c.png"}) {
     arguments.emplace_back(more);
   }
   const Outcome outcome = runProgram(arguments, folder.path());
@@ -186,8 +186,8 @@ TEST_P(Sponza, AgreesWithARayCastAndTheOtherBackend) {
   expectBackendsAgree(all);
 }
 
-// Against the share of cosine-weighted rays that travel half a metre, the defaults are no worse than
-// the best-known tutorial's 64 taps: 0.117 there.
+// Against the share of cosine-weighted rays that travel half a metre, the defaults are no worse
+// than the best-known tutorial's 64 taps: 0.117 there.
 TEST(SponzaTruth, DefaultsAreNoWorseThanTheTutorial) {
   if (sponza().empty()) GTEST_SKIP() << kNoSponza;
   constexpr uint32_t kSamples = 256;
@@ -197,8 +197,7 @@ TEST(SponzaTruth, DefaultsAreNoWorseThanTheTutorial) {
     for (const char* name : kCameras) {
       const scene::Camera camera = scene::loadCamera(sponzaCamera(name));
       const oracle::RayTracer tracer(scene, camera.eye);
-      const image::Image ao =
-          render(backend, {sponza(), "--camera", sponzaCamera(name)}).ao;
+      const image::Image ao = render(backend, {sponza(), "--camera", sponzaCamera(name)}).ao;
       if (HasFailure()) return;
       const auto hits = tracer.castPrimary(camera, 1280, 720, somePixels(ao, 10));
       const auto truth = tracer.ambientOcclusion(hits, 0.5, kSamples, 1);

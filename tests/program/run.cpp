@@ -122,8 +122,8 @@ std::string readFile(const fs::path& path) {
 
 std::string sponza() {
   const char* given = std::getenv("GRISAILLE_SPONZA");
-  const fs::path path = given != nullptr ? fs::path(given)
-                                         : fs::path(SOURCE_FOLDER) / "../shared/scenes/Sponza.glb";
+  const fs::path path =
+      given != nullptr ? fs::path(given) : fs::path(SOURCE_FOLDER) / "../shared/scenes/Sponza.glb";
   return fs::exists(path) ? fs::canonical(path).string() : "";
 }
 

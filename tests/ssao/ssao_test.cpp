@@ -79,13 +79,20 @@ TEST_P(SsaoTest, EverySettingGivesVisibilities) {
 TEST_P(SsaoTest, ExtremesStayVisibilities) {
   const scene::Scene scene = tests::cornerScene();
   const std::vector<Settings> extremes = {
-      {{"kernel_size", "1"}},     {{"kernel_size", "256"}},
-      {{"radius", "1e-6"}},       {{"radius", "1e6"}},
-      {{"bias", "0"}},            {{"bias", "1e6"}},
-      {{"blur_size", "0"}},       {{"blur_size", "16"}},
-      {{"intensity", "0"}},       {{"intensity", "10"}},
-      {{"power", "0.1"}},         {{"power", "10"}},
-      {{"seed", "65535"}},        {{"radius", "1e6"}, {"sampling", "sphere"}},
+      {{"kernel_size", "1"}},
+      {{"kernel_size", "256"}},
+      {{"radius", "1e-6"}},
+      {{"radius", "1e6"}},
+      {{"bias", "0"}},
+      {{"bias", "1e6"}},
+      {{"blur_size", "0"}},
+      {{"blur_size", "16"}},
+      {{"intensity", "0"}},
+      {{"intensity", "10"}},
+      {{"power", "0.1"}},
+      {{"power", "10"}},
+      {{"seed", "65535"}},
+      {{"radius", "1e6"}, {"sampling", "sphere"}},
       {{"radius", "1e-6"}, {"blur", "edge_aware"}, {"blur_size", "16"}}};
   for (const Settings& settings : extremes) {
     expectVisibility(renderAo(device(), scene, kCrease, settings),
@@ -107,8 +114,8 @@ TEST_P(SsaoTest, SkyIsFullyOpen) {
 TEST_P(SsaoTest, FlatFloorIsOpenInTheHemisphereAndHalfShutInTheSphere) {
   const scene::Scene scene = tests::floorScene();
   EXPECT_GT(mean(renderAo(device(), scene, kDown, {}), 0, kHeight), 0.98);
-  const double sphere =
-      mean(renderAo(device(), scene, kDown, {{"sampling", "sphere"}, {"intensity", "1"}}), 0, kHeight);
+  const double sphere = mean(
+      renderAo(device(), scene, kDown, {{"sampling", "sphere"}, {"intensity", "1"}}), 0, kHeight);
   EXPECT_GT(sphere, 0.4);
   EXPECT_LT(sphere, 0.65);
 }
@@ -154,10 +161,11 @@ TEST_P(SsaoTest, BlurOfTheNoisesSizeRemovesItsPattern) {
 TEST_P(SsaoTest, EdgeAwareBlurKeepsTheSkylineAndBoxDoesNotDarkenIt) {
   // A post before the sky, its foot on the floor: no floor pixel far behind may darken it.
   scene::Scene scene = tests::floorScene();
-  tests::addQuad(scene, {glm::vec3(-0.2f, 0, 1), {0.2f, 0, 1}, {0.2f, 3, 1}, {-0.2f, 3, 1}}, {0, 0, 1});
+  tests::addQuad(scene, {glm::vec3(-0.2f, 0, 1), {0.2f, 0, 1}, {0.2f, 3, 1}, {-0.2f, 3, 1}},
+                 {0, 0, 1});
   const scene::Camera camera = {.eye = glm::dvec3(0, 1.5, 4), .target = glm::dvec3(0, 1.4, 0)};
-  const image::Image ao = renderAo(
-      device(), scene, camera, {{"blur", "edge_aware"}, {"blur_size", "8"}, {"radius", "0.3"}});
+  const image::Image ao = renderAo(device(), scene, camera,
+                                   {{"blur", "edge_aware"}, {"blur_size", "8"}, {"radius", "0.3"}});
   EXPECT_GT(ao.at(kWidth / 2, kHeight / 2), 0.97f);
 }
 

@@ -17,9 +17,8 @@ void addQuad(scene::Scene& scene, const std::array<glm::vec3, 4>& corners, glm::
   const auto firstIndex = static_cast<uint32_t>(scene.indices.size());
   for (const uint32_t corner : {0u, 1u, 2u, 0u, 2u, 3u}) scene.indices.push_back(first + corner);
   scene.primitives.push_back({.firstIndex = firstIndex, .indexCount = 6, .material = material});
-  scene.instances.push_back(
-      {.primitive = static_cast<uint32_t>(scene.primitives.size() - 1),
-       .worldFromObject = glm::dmat4(1)});
+  scene.instances.push_back({.primitive = static_cast<uint32_t>(scene.primitives.size() - 1),
+                             .worldFromObject = glm::dmat4(1)});
   scene::computeBounds(scene);
 }
 
