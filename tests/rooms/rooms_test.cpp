@@ -1,0 +1,114 @@
+// SPDX-License-Identifier: MIT
+// Arrows between the rooms run one way: app -> core <- backends, effects -> the installed header.
+// Reads every #include of the tree and fails on one that runs elsewhere.
+#include <gtest/gtest.h>
+
+#include <filesystem>
+#include <fstream>
+#include <regex>
+#include <string>
+#include <vector>
+
+namespace grisaille::tests {
+namespace {
+
+namespace fs = std::filesystem;
+
+struct Room {
+  std::string folder;             // longest match wins
+  std::vector<std::string> sees;  // prefixes of the project's own headers
+};
+
+// A file always sees the headers of its own folder, and core's errors.
+const std::vector<Room>& rooms() {
+  static const std::vector<Room> kRooms = {
+      {"core", {}},
+      {"core/image", {}},
+      {"core/scene", {"core/image/"}},
+      {"core/gpu", {"grisaille/shader.h"}},
+      {"core/effect", {"core/gpu/", "grisaille/"}},
+      {"core/effect/include/grisaille", {"grisaille/"}},
+      {"core/frame",
+       {"core/effect/", "core/gpu/", "core/image/", "core/scene/", "grisaille/", "shaders/"}},
+      {"backends", {"backends/opengl/opengl.h", "backends/vulkan/vulkan.h", "core/gpu/"}},
+      {"backends/opengl", {"core/gpu/"}},
+      {"backends/vulkan", {"core/gpu/"}},
+      {"effects", {"grisaille/", "shaders/"}},
+      {"app", {"backends/backends.h", "core/", "grisaille/"}},
+  };
+  return kRooms;
+}
+
+// Headers of a graphics API, and the rooms that may see them.
+const std::regex& apiHeader() {
+  static const std::regex kHeader("^(epoxy|GL|GLES[0-9]*|EGL|KHR|vulkan)/.*|^volk\\.h");
+  return kHeader;
+}
+
+bool startsWith(const std::string& text, const std::string& prefix) {
+  return text.rfind(prefix, 0) == 0;
+}
+
+const Room* roomOf(const std::string& folder) {
+  const Room* found = nullptr;
+  for (const Room& room : rooms()) {
+    const bool inside = folder == room.folder || startsWith(folder, room.folder + "/");
+    if (inside && (!found || room.folder.size() > found->folder.size())) found = &room;
+  }
+  return found;
+}
+
+bool allowed(const std::string& folder, const std::string& header, bool quoted) {
+  if (std::regex_match(header, apiHeader())) return startsWith(folder, "backends/");
+  // A library's header, or one that lies beside the file.
+  if (!quoted || header.find('/') == std::string::npos) return true;
+  if (header == "core/error.h" || header == "core/error_list.h" || header == "core/nearest.h") {
+    return !startsWith(folder, "effects") && !startsWith(folder, "core/effect/include");
+  }
+  // An effect's own folder is the second level: one effect never sees another.
+  if (startsWith(header, folder + "/")) return true;
+  const Room* room = roomOf(folder);
+  if (!room) return false;
+  for (const std::string& prefix : room->sees) {
+    if (startsWith(header, prefix)) return true;
+  }
+  return false;
+}
+
+TEST(Rooms, ArrowsRunOneWay) {
+  const std::regex include("^\\s*#\\s*include\\s*([<\"])([^>\"]+)[>\"].*");
+  size_t read = 0;
+  for (const char* top : {"core", "backends", "effects", "app"}) {
+    for (const auto& entry : fs::recursive_directory_iterator(fs::path(SOURCE_FOLDER) / top)) {
+      const std::string ending = entry.path().extension();
+      if (ending != ".h" && ending != ".hpp" && ending != ".cpp" && ending != ".c") continue;
+      const std::string file = fs::relative(entry.path(), SOURCE_FOLDER);
+      const std::string folder = fs::path(file).parent_path();
+      std::ifstream text(entry.path());
+      for (std::string line; std::getline(text, line);) {
+        std::smatch match;
+        if (!std::regex_match(line, match, include)) continue;
+        ++read;
+        EXPECT_TRUE(allowed(folder, match[2], match[1] == "\"")) << file << " sees " << match[2];
+      }
+    }
+  }
+  EXPECT_GT(read, 300u);
+}
+
+TEST(Rooms, ForbiddenArrowsAreSeen) {
+  EXPECT_FALSE(allowed("core/frame", "backends/backends.h", true));
+  EXPECT_FALSE(allowed("core/gpu", "core/frame/renderer.h", true));
+  EXPECT_FALSE(allowed("core/scene", "core/gpu/device.h", true));
+  EXPECT_FALSE(allowed("core/gpu", "vulkan/vulkan.h", false));
+  EXPECT_FALSE(allowed("app", "volk.h", false));
+  EXPECT_FALSE(allowed("app", "backends/vulkan/vulkan.h", true));
+  EXPECT_FALSE(allowed("backends/opengl", "backends/vulkan/vulkan.h", true));
+  EXPECT_FALSE(allowed("effects/ssao", "core/error.h", true));
+  EXPECT_FALSE(allowed("effects/ssao", "effects/sspm/sspm.h", true));
+  EXPECT_TRUE(allowed("effects/ssao", "grisaille/effect.hpp", true));
+  EXPECT_TRUE(allowed("backends/vulkan", "volk.h", false));
+}
+
+}  // namespace
+}  // namespace grisaille::tests
