@@ -8,7 +8,7 @@
 #include <nlohmann/json.hpp>
 
 #include "core/image/image.h"
-#include "tests/oracle/ray_tracer.h"
+#include "core/trace/ray_tracer.h"
 #include "tests/program/run.h"
 
 namespace grisaille::tests {
@@ -40,9 +40,9 @@ struct Agreement {
   double over1e3 = 0;  // share of pixels off by more than 1e-3, sky against surface counted
 };
 
-Agreement compareDepth(const image::Image& depth, const std::vector<oracle::Hit>& truth) {
+Agreement compareDepth(const image::Image& depth, const std::vector<trace::Hit>& truth) {
   std::vector<double> errors;
-  for (const oracle::Hit& hit : truth) {
+  for (const trace::Hit& hit : truth) {
     const double drawn = depth.at(hit.pixel.x, hit.pixel.y);
     if (hit.viewDepth == 0 || drawn == 0) {
       errors.push_back(hit.viewDepth == drawn ? 0 : 1);
@@ -139,7 +139,7 @@ void expectBackendsAgree(const std::vector<Pictures>& all) {
 TEST(Render, BuiltInSceneAgreesWithARayCastOnEveryBackend) {
   const scene::Scene scene = scene::makeAtrium();
   const scene::Camera camera = scene::atriumCamera();
-  const oracle::RayTracer tracer(scene, camera.eye);
+  const trace::RayTracer tracer(scene, camera.eye);
   std::vector<Pictures> all;
   for (const std::string& backend : backends()) {
     SCOPED_TRACE(backend);
@@ -147,12 +147,12 @@ TEST(Render, BuiltInSceneAgreesWithARayCastOnEveryBackend) {
     if (HasFailure()) return;
     expectWholePictures(all.back());
     const std::vector<glm::uvec2> pixels = somePixels(all.back().depth, 2);
-    const std::vector<oracle::Hit> truth = tracer.castPrimary(camera, 640, 360, pixels);
+    const std::vector<trace::Hit> truth = tracer.castPrimary(camera, 640, 360, pixels);
     const Agreement agreement = compareDepth(all.back().depth, truth);
     EXPECT_LT(agreement.median, 1e-5);
     EXPECT_LT(agreement.over1e3, 0.01);
     uint64_t turned = 0, sky = 0;
-    for (const oracle::Hit& hit : truth) {
+    for (const trace::Hit& hit : truth) {
       if (hit.viewDepth == 0) {
         ++sky;
         continue;
@@ -177,14 +177,14 @@ TEST_P(Sponza, AgreesWithARayCastAndTheOtherBackend) {
   if (sponza().empty()) GTEST_SKIP() << kNoSponza;
   const scene::Scene scene = scene::loadGltf(sponza());
   const scene::Camera camera = scene::loadCamera(sponzaCamera(GetParam()));
-  const oracle::RayTracer tracer(scene, camera.eye);
+  const trace::RayTracer tracer(scene, camera.eye);
   std::vector<Pictures> all;
   for (const std::string& backend : backends()) {
     SCOPED_TRACE(backend);
     all.push_back(render(backend, {sponza(), "--camera", sponzaCamera(GetParam())}));
     if (HasFailure()) return;
     expectWholePictures(all.back());
-    const std::vector<oracle::Hit> truth =
+    const std::vector<trace::Hit> truth =
         tracer.castPrimary(camera, 1280, 720, somePixels(all.back().depth, 3));
     const Agreement agreement = compareDepth(all.back().depth, truth);
     EXPECT_LT(agreement.median, 1e-5);
@@ -204,7 +204,7 @@ TEST(SponzaTruth, DefaultsAreNoWorseThanTheTutorial) {
     double sum = 0;
     for (const char* name : kCameras) {
       const scene::Camera camera = scene::loadCamera(sponzaCamera(name));
-      const oracle::RayTracer tracer(scene, camera.eye);
+      const trace::RayTracer tracer(scene, camera.eye);
       const image::Image ao = render(backend, {sponza(), "--camera", sponzaCamera(name)}).ao;
       if (HasFailure()) return;
       const auto hits = tracer.castPrimary(camera, 1280, 720, somePixels(ao, 10));
