@@ -37,8 +37,9 @@ _grisaille() {{
     --set)
       compopt -o nospace
       words=$("${{COMP_WORDS[0]}}" completion --parameters 2>/dev/null) ;;
-    --write) compopt -o nospace; words="color= depth= normal= base_colour= ao=" ;;
-    --camera|--config|--timings|--write-camera) COMPREPLY=($(compgen -f -- "$current")); return ;;
+    --load|--save) compopt -o nospace; words="sspm=" ;;
+    --write) compopt -o nospace; words="color= depth= normal= facet_normal= base_colour= ao= paint= paint_coverage=" ;;
+    --camera|--config|--timings|--coverage|--write-camera) COMPREPLY=($(compgen -f -- "$current")); return ;;
     --plugin-path) COMPREPLY=($(compgen -d -- "$current")); return ;;
   esac
   if [[ -z $words ]]; then

@@ -31,8 +31,8 @@ std::string rangeText(const grisaille_param_desc& param) {
 }
 
 std::string readsText(const effect::Effect& effect) {
-  static constexpr const char* kNames[GRISAILLE_ATTACHMENT_COUNT] = {"depth", "view_depth",
-                                                                     "normal", "base_colour"};
+  static constexpr const char* kNames[GRISAILLE_ATTACHMENT_COUNT] = {
+      "depth", "view_depth", "normal", "base_colour", "facet_normal"};
   std::vector<double> defaults;
   for (const grisaille_param_desc& param : effect.params()) defaults.push_back(param.default_value);
   const uint32_t reads = effect.desc->reads(defaults.data());
@@ -115,11 +115,13 @@ std::string effectsJson(const effect::Registry& registry) {
 
 std::string effectMarkdown(const effect::Effect& effect) {
   std::string text = "| parameter | default | range | what it does |\n|---|---|---|---|\n";
-  const auto cell = [](std::string value) {
-    for (size_t at = 0; (at = value.find('|', at)) != std::string::npos; at += 2) {
-      value.insert(at, "\\");
+  const auto cell = [](std::string_view value) {
+    std::string escaped;
+    for (const char c : value) {
+      if (c == '|') escaped += '\\';
+      escaped += c;
     }
-    return value;
+    return escaped;
   };
   for (const grisaille_param_desc& param : effect.params()) {
     text += fmt::format("| `{}`{} | {} | {} | {} |\n", param.key,

@@ -9,7 +9,10 @@
 
 #include "app/active_effects.h"
 #include "app/command.h"
+#include "app/coverage.h"
+#include "app/scene_rays.h"
 #include "app/settings.h"
+#include "app/shot_options.h"
 #include "app/timings.h"
 #include "backends/backends.h"
 #include "core/error.h"
@@ -22,6 +25,7 @@ namespace {
 struct Options {
   std::string scene, camera, size, backend, device, config, timings;
   std::vector<std::string> effects, sets, writes, pluginPaths;
+  ShotOptions shots;
   std::string surface = "white";
   uint32_t frames = 1;
   bool check = false;
@@ -62,7 +66,7 @@ std::vector<Write> parseWrites(const std::vector<std::string>& texts) {
 }
 
 // The device asked for, or, where none was named, the first backend that starts.
-std::unique_ptr<gpu::Device> makeDevice(const Options& options, gpu::DeviceOptions device) {
+std::unique_ptr<gpu::Device> makeDevice(const Options& options, const gpu::DeviceOptions& device) {
   if (!options.backend.empty()) return backends::create(options.backend, device);
   std::string reasons;
   for (const backends::Backend& backend : backends::all()) {
@@ -85,29 +89,23 @@ void applySettings(const Settings& settings, ActiveEffects& active) {
   }
 }
 
-void writeTimings(const Options& options, gpu::Device& device) {
-  device.wait();
-  const std::vector<gpu::FrameTimes> frames = device.takeTimes();
-  const std::string csv = timingsCsv(frames, device.info().clock);
-  if (options.timings == "-") {
-    std::fputs(csv.c_str(), stdout);
-  } else {
-    image::writeFileAside(options.timings, csv);
-  }
-  const std::string doubt = timingsDoubt(frames);
-  if (!doubt.empty()) fmt::print(stderr, "warning: {}\n", doubt);
-}
-
 // What the command line asks for, checked before anything slow is done.
 struct Job {
   std::vector<Write> writes;
   std::unique_ptr<effect::Registry> registry;
   std::optional<ActiveEffects> active;
+  std::optional<Shots> shots;
   scene::Scene scene;
   scene::Camera camera;
   glm::uvec2 size = glm::uvec2(1280, 720);
 
+  // The effect that --coverage counts.
+  std::optional<Painter> painter;
+
   explicit Job(const Options& options) : writes(parseWrites(options.writes)) {
+    if (options.timings == "-" && options.shots.coverage == "-") {
+      throw Error(ErrorId::kUsage, "--timings and --coverage cannot both be standard output");
+    }
     if (writes.empty()) writes.push_back({.output = "color", .file = "grisaille.png"});
     glm::uvec2 given(0);
     if (!options.size.empty()) given = parseSize(options.size);
@@ -126,14 +124,52 @@ struct Job {
     }
     if (camera.size.x > 0) size = camera.size;
     if (given.x > 0) size = given;
+    shots.emplace(options.shots, *active, camera, size);
+    if (!options.shots.coverage.empty()) painter = findPainter(*active);
   }
 };
 
-void renderFrames(const Options& options, const Job& job, gpu::Device& device, std::FILE* notes) {
+// Standard output is for a table where one was asked for there.
+std::FILE* notesOf(const Options& options) {
+  return options.timings == "-" || options.shots.coverage == "-" ? stderr : stdout;
+}
+
+void writeText(const std::string& file, const std::string& text) {
+  if (file == "-") {
+    std::fputs(text.c_str(), stdout);
+  } else {
+    image::writeFileAside(file, text);
+  }
+}
+
+void writeTimings(const Options& options, gpu::Device& device) {
+  device.wait();
+  const std::vector<gpu::FrameTimes> frames = device.takeTimes();
+  writeText(options.timings, timingsCsv(frames, device.info().clock));
+  const std::string doubt = timingsDoubt(frames);
+  if (!doubt.empty()) fmt::print(stderr, "warning: {}\n", doubt);
+}
+
+void writeCoverage(const Options& options, const Job& job, frame::Renderer& renderer) {
+  const auto shares = colorShares(
+      renderer.read(job.painter->owner), renderer.read(job.painter->paint), renderer.read("depth"),
+      renderer.read("facet_normal"), job.camera, job.shots->of(job.painter->effect));
+  writeText(options.shots.coverage, coverageCsv(shares));
+}
+
+void renderFrames(const Options& options, const Job& job, gpu::Device& device) {
   const auto instances = job.active->start(device);
-  const std::vector<frame::ActiveEffect> effects = job.active->with(instances);
+  std::vector<frame::ActiveEffect> effects = job.active->with(instances);
+  for (frame::ActiveEffect& active : effects) {
+    active.shots = job.shots->of(active.effect().desc->key);
+  }
   std::vector<std::string> outputs;
   for (const Write& write : job.writes) outputs.push_back(write.output);
+  if (job.painter) {
+    outputs.insert(outputs.end(),
+                   {job.painter->owner, job.painter->paint, "depth", "facet_normal"});
+  }
+  SceneRays rays(job.scene);
   frame::Renderer renderer(device, job.scene);
   for (uint32_t i = 0; i < options.frames; ++i) {
     renderer.render({.camera = job.camera,
@@ -142,12 +178,20 @@ void renderFrames(const Options& options, const Job& job, gpu::Device& device, s
                      .surface = options.surface == "base" ? frame::Surface::kBaseColour
                                                           : frame::Surface::kWhite,
                      .effects = effects,
-                     .outputs = outputs});
+                     .outputs = outputs,
+                     .rays = &rays});
+    for (frame::ActiveEffect& active : effects) active.shotsKept = active.shots.size();
   }
   for (const Write& write : job.writes) {
     image::write(renderer.read(write.output), write.file,
                  {.transfer = frame::transferOf(write.output)});
-    fmt::print(notes, "wrote {}\n", write.file);
+    fmt::print(notesOf(options), "wrote {}\n", write.file);
+  }
+  if (job.painter) writeCoverage(options, job, renderer);
+  job.shots->save();
+  if (renderer.waiting() > 0) {
+    fmt::print(stderr, "warning: {} shots wait, since nothing tells where they land\n",
+               renderer.waiting());
   }
 }
 
@@ -165,11 +209,9 @@ void render(const Options& options) {
                                              .timed = !options.timings.empty(),
                                              .message = count});
     const gpu::DeviceInfo& info = device->info();
-    // Standard output is for the table where it was asked for there.
-    std::FILE* notes = options.timings == "-" ? stderr : stdout;
-    fmt::print(notes, "{}: {} ({}){}\n", info.backend, info.name, info.driver,
+    fmt::print(notesOf(options), "{}: {} ({}){}\n", info.backend, info.name, info.driver,
                info.software ? ", software" : "");
-    renderFrames(options, job, *device, notes);
+    renderFrames(options, job, *device);
     if (!options.timings.empty()) writeTimings(options, *device);
   }
   if (options.check && messages > 0) {
@@ -214,8 +256,8 @@ void addRender(CLI::App& program) {
   command
       ->add_option(
           "--write", options->writes,
-          "color, depth (metres, 0 = sky), normal (world), base_colour or an effect's output, "
-          "as .exr or .png; default: color=grisaille.png")
+          "color, depth (metres, 0 = sky), normal and facet_normal (world), base_colour or an "
+          "effect's output, as .exr or .png; default: color=grisaille.png")
       ->type_name("NAME=FILE")
       ->allow_extra_args(false);
   command->add_option("--surface", options->surface, "What the light falls on in color")
@@ -227,6 +269,7 @@ void addRender(CLI::App& program) {
   command
       ->add_option("--timings", options->timings, "CSV of every pass's time; -: to standard output")
       ->type_name("FILE.csv|-");
+  options->shots.addTo(*command);
   command->add_option("--plugin-path", options->pluginPaths, "A further folder of effects")
       ->type_name("DIR")
       ->allow_extra_args(false);

@@ -72,10 +72,21 @@ GRISAILLE_ERROR(kEffectUnknown, 3201, "see `grisaille effects` for what is there
 GRISAILLE_ERROR(kEffectCreate, 3202, "leave the effect out of --effects or repair its plugin")
 GRISAILLE_ERROR(kEffectRecord, 3203, "leave the effect out of --effects or repair its plugin")
 GRISAILLE_ERROR(kEffectTwice, 3204, "name each effect once")
+GRISAILLE_ERROR(kEffectTakesNoShots, 3205, "name an active effect that takes shots, such as sspm")
 // --- 33xx: parameter values
 GRISAILLE_ERROR(kParameterUnknown, 3301, "see `grisaille effects` for the keys")
 GRISAILLE_ERROR(kParameterRange, 3302, "give a value inside the range")
 GRISAILLE_ERROR(kParameterType, 3303, "give a value of the parameter's type")
+// --- 34xx: shots
+GRISAILLE_ERROR(kShotOrigin, 3401, "give finite metres, on each axis within 1e9 of 0")
+GRISAILLE_ERROR(kShotDirection, 3402, "give three finite numbers that are not all 0")
+GRISAILLE_ERROR(kShotColor, 3403, "give linear red, green and blue from 0 to 1")
+GRISAILLE_ERROR(kShotRange, 3404,
+                "give metres over 0 and up to 1e6, or 0 for the effect's own range")
+GRISAILLE_ERROR(kShotFileUnreadable, 3411, "check the path and that the file may be read")
+GRISAILLE_ERROR(kShotFileInvalid, 3412, "correct the place that the message names or save it again")
+GRISAILLE_ERROR(kShotFileVersion, 3413, "save the shots again, in a version that can be read")
+GRISAILLE_ERROR(kShotFileEnding, 3414, "end the name in .json or .shots")
 // --- 41xx: images and files
 GRISAILLE_ERROR(kImageUnreadable, 4101, "check the path and that the file is an image")
 GRISAILLE_ERROR(kImageFormat, 4102, "end the name in .exr or .png")

@@ -20,6 +20,7 @@ extern const bool grisaille_vulkan_keeps_libraries;
 const bool grisaille_vulkan_keeps_libraries =
     keep("libVkLayer_khronos_validation.so") && keep("libvulkan_lvp.so");
 
+// Names that the sanitizer looks for. NOLINTBEGIN(*-reserved-identifier,*-identifier-naming)
 __attribute__((visibility("default"))) const char* __lsan_default_suppressions();
 const char* __lsan_default_suppressions() {
   return "leak:libVkLayer_khronos_validation\n";
@@ -29,5 +30,6 @@ __attribute__((visibility("default"))) const char* __lsan_default_options();
 const char* __lsan_default_options() {
   return "print_suppressions=0";
 }
+// NOLINTEND(*-reserved-identifier,*-identifier-naming)
 
 }  // extern "C"

@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: MIT
 // The C functions of grisaille_host and grisaille_frame.
 #include <algorithm>
+#include <cmath>
 #include <stdexcept>
 #include <utility>
 
@@ -20,7 +21,7 @@ template <typename... Args>
   throw Misuse(fmt::format(what, std::forward<Args>(args)...));
 }
 
-// Version 1.0 is the oldest and the newest there is, so that a size is right or wrong.
+// No version has given these another size, so that a size is right or wrong.
 template <typename Desc>
 const Desc& checked(const Desc* desc) {
   if (desc == nullptr) misuse("its description is null");
@@ -31,9 +32,9 @@ const Desc& checked(const Desc* desc) {
 }
 
 template <typename T>
-std::span<const T> array(const T* data, uint32_t count, const char* name) {
+std::span<T> array(T* data, uint64_t count, const char* name) {
   if (data == nullptr && count > 0) misuse("{} is null", name);
-  return {data, count};
+  return {data, static_cast<size_t>(count)};
 }
 
 std::span<const std::byte> bytesOf(const void* data, uint64_t bytes) {
@@ -45,6 +46,18 @@ template <typename T>
 T& present(T* out) {
   if (out == nullptr) misuse("the place for its result is null");
   return *out;
+}
+
+void checkRay(uint64_t index, const grisaille_ray& ray) {
+  if (!std::ranges::all_of(ray.origin, [](double x) { return std::isfinite(x); })) {
+    misuse("the origin of ray {} is not finite", index);
+  }
+  const double length =
+      std::hypot(double{ray.direction[0]}, double{ray.direction[1]}, double{ray.direction[2]});
+  if (!(std::abs(length - 1) <= 1e-3)) {
+    misuse("the direction of ray {} is {} long, not 1", index, length);
+  }
+  if (!(ray.reach > 0)) misuse("the reach of ray {} is {}, not over 0", index, ray.reach);
 }
 
 }  // namespace
@@ -183,6 +196,21 @@ struct HostFunctions {
     });
   }
 
+  static grisaille_result castRays(const grisaille_host* self, const grisaille_ray* rays,
+                                   uint64_t count, grisaille_hit* hits) {
+    bool offered = true;
+    const grisaille_result result = serve(self, "cast_rays", [&](HostServices& s) {
+      if (s.commands_ == nullptr) misuse("it is called outside record()");
+      offered = s.rays_ != nullptr;
+      if (!offered) return;
+      const auto given = array(rays, count, "rays");
+      const auto answers = array(hits, count, "hits");
+      for (size_t i = 0; i < given.size(); ++i) checkRay(i, given[i]);
+      s.rays_->cast(given, answers);
+    });
+    return offered ? result : GRISAILLE_UNSUPPORTED;
+  }
+
   static grisaille_result beginPass(const grisaille_frame* self, const char* label) {
     return record(self, "begin_pass", [&](HostServices& s) {
       if (label == nullptr || *label == '\0') misuse("its label is empty");
@@ -256,6 +284,10 @@ struct HostFunctions {
     });
   }
 
+  static grisaille_result waiting(const grisaille_frame* self, uint64_t count) {
+    return record(self, "waiting", [&](HostServices& s) { s.waiting_ = count; });
+  }
+
   // Conversions. They throw Misuse for what is not the effect's to use.
   static gpu::TextureDesc textureDesc(const grisaille_texture_desc& desc) {
     const gpu::Format format = formatOf(desc.format);
@@ -325,7 +357,8 @@ grisaille_host hostTable(HostServices* self) {
           .destroy_pipeline = HostFunctions::destroyPipeline,
           .destroy_texture = HostFunctions::destroyTexture,
           .destroy_buffer = HostFunctions::destroyBuffer,
-          .destroy_sampler = HostFunctions::destroySampler};
+          .destroy_sampler = HostFunctions::destroySampler,
+          .cast_rays = HostFunctions::castRays};
 }
 
 grisaille_frame frameTable(HostServices* self) {
@@ -346,7 +379,10 @@ grisaille_frame frameTable(HostServices* self) {
           .uniform = HostFunctions::uniform,
           .transient = HostFunctions::transient,
           .upload_buffer = HostFunctions::uploadBuffer,
-          .upload_texture = HostFunctions::uploadTexture};
+          .upload_texture = HostFunctions::uploadTexture,
+          .shots = nullptr,
+          .patience = 0,
+          .waiting = HostFunctions::waiting};
 }
 
 }  // namespace grisaille::effect

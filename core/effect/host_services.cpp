@@ -1,12 +1,17 @@
 // SPDX-License-Identifier: MIT
 #include "core/effect/host_services.h"
 
+#include <algorithm>
 #include <utility>
 
 namespace grisaille::effect {
 
-HostServices::HostServices(gpu::Device& device, std::string_view key)
-    : device_(device), key_(key), host_(hostTable(this)), frame_(frameTable(this)) {}
+HostServices::HostServices(gpu::Device& device, std::string_view key, bool takesShots)
+    : device_(device),
+      key_(key),
+      takesShots_(takesShots),
+      host_(hostTable(this)),
+      frame_(frameTable(this)) {}
 
 std::string HostServices::labelled(const char* label) const {
   return label != nullptr && *label != '\0' ? key_ + '/' + oneLine(label) : key_;
@@ -21,7 +26,7 @@ void HostServices::open() {
   inside_ = true;
 }
 
-const grisaille_frame* HostServices::openFrame(const FrameInputs& inputs) {
+const grisaille_frame* HostServices::openFrame(const FrameInputs& inputs, size_t shotsKept) {
   destroyBuried(buffers_);
   destroyBuried(textures_);
   destroyBuried(samplers_);
@@ -48,6 +53,15 @@ const grisaille_frame* HostServices::openFrame(const FrameInputs& inputs) {
   frame_.view_block = {{block.buffer.value}, 0, block.offset, block.size};
   frame_.attachments = attachments_.data();
   frame_.outputs = outputs_.data();
+  shots_ = {.struct_size = sizeof(grisaille_shots),
+            .stride = sizeof(grisaille_shot),
+            .shots = inputs.shots.data(),
+            .count = inputs.shots.size(),
+            .kept = std::min(shotsKept, inputs.shots.size())};
+  frame_.shots = takesShots_ ? &shots_ : nullptr;
+  frame_.patience = inputs.patience;
+  rays_ = inputs.rays;
+  waiting_ = 0;
   commands_ = inputs.commands;
   open();
   return &frame_;

@@ -21,7 +21,7 @@ grisaille_frame frameTable(HostServices* self);
 class HostServices {
  public:
   // `key` names the effect in labels.
-  HostServices(gpu::Device& device, std::string_view key);
+  HostServices(gpu::Device& device, std::string_view key, bool takesShots);
   HostServices(const HostServices&) = delete;
   HostServices& operator=(const HostServices&) = delete;
 
@@ -32,11 +32,14 @@ class HostServices {
   // faults of the call before; openFrame() also destroys what was destroyed during the frame
   // before.
   void open();
-  const grisaille_frame* openFrame(const FrameInputs& inputs);
+  const grisaille_frame* openFrame(const FrameInputs& inputs, size_t shotsKept);
   void close();  // ends a pass that was left open, which is a fault
 
   // Why the call between open() and close() failed, in one line; "" when it did not.
   std::string failure(grisaille_result result) const;
+
+  // What the effect counted in the last frame.
+  uint64_t waiting() const { return waiting_; }
 
   // Destroys what the effect left.
   void destroyAll() noexcept;
@@ -59,6 +62,7 @@ class HostServices {
 
   gpu::Device& device_;
   std::string key_;
+  const bool takesShots_;
   grisaille_host host_;
   bool inside_ = false;  // an effect's function runs
 
@@ -69,6 +73,9 @@ class HostServices {
 
   // Of the frame being recorded.
   grisaille_frame frame_;
+  grisaille_shots shots_ = {};
+  RayService* rays_ = nullptr;
+  uint64_t waiting_ = 0;
   gpu::Commands* commands_ = nullptr;
   bool passOpen_ = false;
   std::vector<grisaille_texture> attachments_;  // may be read

@@ -1,6 +1,8 @@
 // SPDX-License-Identifier: MIT
 #include "core/effect/instance.h"
 
+#include <algorithm>
+
 #include "core/effect/host_services.h"
 
 namespace grisaille::effect {
@@ -29,16 +31,19 @@ gpu::Format formatOf(uint32_t format) {
 }
 
 struct Instance::State {
-  State(gpu::Device& device, const grisaille_effect_desc& d) : desc(d), services(device, d.key) {}
+  State(gpu::Device& device, const Effect& of)
+      : desc(*of.desc), services(device, desc.key, of.takesShots()) {}
   ~State() { services.destroyAll(); }
 
   const grisaille_effect_desc& desc;
   HostServices services;
   void* effect = nullptr;  // what create() handed out
+  // So many of the first shots have stayed since the last record() that worked.
+  size_t shotsKept = 0;
 };
 
 Instance::Instance(gpu::Device& device, const Effect& effect)
-    : state_(std::make_unique<State>(device, *effect.desc)) {
+    : state_(std::make_unique<State>(device, effect)) {
   HostServices& services = state_->services;
   services.open();
   const grisaille_result result = state_->desc.create(services.table(), &state_->effect);
@@ -61,13 +66,23 @@ Instance::~Instance() {
 
 void Instance::record(const FrameInputs& inputs) {
   HostServices& services = state_->services;
-  const grisaille_frame* frame = services.openFrame(inputs);
+  limitShotsKept(inputs.shotsKept);
+  const grisaille_frame* frame = services.openFrame(inputs, state_->shotsKept);
   const grisaille_result result = state_->desc.record(state_->effect, frame);
   services.close();
   const std::string failure = services.failure(result);
   if (!failure.empty()) {
     throw Error(ErrorId::kEffectRecord, "{} cannot record: {}", state_->desc.key, failure);
   }
+  state_->shotsKept = std::numeric_limits<size_t>::max();
+}
+
+void Instance::limitShotsKept(size_t count) {
+  state_->shotsKept = std::min(state_->shotsKept, count);
+}
+
+uint64_t Instance::waiting() const {
+  return state_->services.waiting();
 }
 
 }  // namespace grisaille::effect

@@ -3,6 +3,8 @@
 #pragma once
 
 #include <array>
+#include <cstddef>
+#include <limits>
 #include <memory>
 #include <span>
 
@@ -14,6 +16,15 @@ namespace grisaille::effect {
 // kNone for a number that names no format.
 gpu::Format formatOf(uint32_t format);
 
+// Who casts an effect's rays through the scene.
+class RayService {
+ public:
+  virtual ~RayService() = default;
+
+  // One hit a ray. Rays are as grisaille/effect.h has them. Throws Error.
+  virtual void cast(std::span<const grisaille_ray> rays, std::span<grisaille_hit> hits) = 0;
+};
+
 // What one record() works on. Everything is valid during the call.
 struct FrameInputs {
   gpu::Commands* commands = nullptr;
@@ -24,6 +35,11 @@ struct FrameInputs {
   std::array<gpu::Texture, GRISAILLE_ATTACHMENT_COUNT> attachments;
   std::span<const gpu::Texture> outputs;  // one an output; null where nobody wants it
   std::span<const double> values;
+  std::span<const grisaille_shot> shots = {};  // the user's; for those effects alone that take them
+  // So many of the first shots are those of the frame before.
+  size_t shotsKept = 0;
+  double patience = std::numeric_limits<double>::infinity();  // as grisaille_frame has it
+  RayService* rays = nullptr;                                 // null: none are cast
 };
 
 class Instance {
@@ -39,6 +55,13 @@ class Instance {
   // be abandoned. At most once between the device's begin() and submit(): what the effect destroys
   // meanwhile is kept until the next call, since this frame may use it.
   void record(const FrameInputs& inputs);
+
+  // For frames that go by without record(): no more than the first `count` shots have stayed. The
+  // effect gets the least count since the last record() that worked.
+  void limitShotsKept(size_t count);
+
+  // What waits to be drawn, as the effect counted it in the last record().
+  uint64_t waiting() const;
 
  private:
   struct State;

@@ -27,7 +27,8 @@ void checkAbi(const grisaille_plugin_desc& plugin) {
 }  // namespace
 
 struct Registry::State {
-  std::vector<Effect> effects;  // by key
+  std::vector<Effect> effects;                                      // by key
+  std::vector<std::unique_ptr<const grisaille_effect_desc>> descs;  // of them
   std::vector<Refused> refused;
   std::vector<Library> libraries;
   std::set<fs::path> loadedFiles;   // real paths
@@ -59,7 +60,10 @@ void Registry::State::add(const std::string& path) {
                   twin->path);
     }
   }
-  for (const grisaille_effect_desc* desc : fresh) effects.push_back({desc, path});
+  for (const grisaille_effect_desc* desc : fresh) {
+    descs.push_back(std::make_unique<const grisaille_effect_desc>(whole(desc)));
+    effects.push_back({descs.back().get(), path});
+  }
   std::ranges::sort(effects, {}, [](const Effect& e) { return std::string_view(e.desc->key); });
   libraries.push_back(std::move(library));
   loadedFiles.insert(real);

@@ -15,13 +15,14 @@ namespace grisaille::effect {
 
 // An effect of a loaded plugin. What it points to is valid while its registry lives.
 struct Effect {
-  const grisaille_effect_desc* desc = nullptr;
-  std::string path;  // of the plugin
+  const grisaille_effect_desc* desc = nullptr;  // whole, however old the plugin
+  std::string path;                             // of the plugin
 
   std::span<const grisaille_param_desc> params() const { return {desc->params, desc->param_count}; }
   std::span<const grisaille_output_desc> outputs() const {
     return {desc->outputs, desc->output_count};
   }
+  bool takesShots() const { return (desc->flags & GRISAILLE_EFFECT_TAKES_SHOTS) != 0; }
 };
 
 struct Refused {
@@ -32,6 +33,9 @@ struct Refused {
 // Throws kPluginTable with the field's path ("effects[0].params[3].hard_max"). The registry calls
 // it once magic and versions fit, before anything of the plugin is called.
 void checkTable(const grisaille_plugin_desc& plugin);
+
+// A checked description with what it lacks, being of an older version, as zero.
+grisaille_effect_desc whole(const grisaille_effect_desc* desc);
 
 class Registry {
  public:

@@ -3,6 +3,8 @@
 #include <algorithm>
 #include <array>
 #include <cmath>
+#include <cstddef>
+#include <cstring>
 #include <string>
 #include <string_view>
 
@@ -15,7 +17,9 @@ constexpr uint32_t kMaxEffects = 64;
 constexpr uint32_t kMaxParams = 256;
 constexpr uint32_t kMaxOutputs = 16;
 constexpr uint32_t kMaxEnumEntries = 64;
-constexpr uint32_t kKnownFlags = GRISAILLE_PARAM_LOG | GRISAILLE_PARAM_ADVANCED;
+constexpr uint32_t kParamFlags = GRISAILLE_PARAM_LOG | GRISAILLE_PARAM_ADVANCED;
+constexpr uint32_t kEffectFlags = GRISAILLE_EFFECT_TAKES_SHOTS;
+constexpr size_t kOldestEffectDesc = offsetof(grisaille_effect_desc, flags);
 constexpr double kMaxWhole = 9007199254740992;  // 2^53: beyond it a double skips whole numbers
 constexpr std::array<std::string_view, 5> kUnits = {"", "m", "px", "rad", "s"};
 
@@ -27,15 +31,21 @@ template <typename... Args>
               fmt::format(what, std::forward<Args>(args)...));
 }
 
-// Version 1.0 is the oldest and the newest there is, so that a size is right or wrong. Once fields
-// are appended, a shorter struct down to that of 1.0 fits too.
-void checkSize(const std::string& owner, uint32_t size, size_t known) {
+// `oldest` is the size that version 1.0 gives the struct; no version between has another one.
+void checkSize(const std::string& owner, uint32_t size, size_t known, size_t oldest) {
   if (size > known) {
     refuse(owner + ".struct_size", "is {}, more than the {} that this program knows", size, known);
   }
-  if (size < known) {
-    refuse(owner + ".struct_size", "is {}, less than the {} of version 1.0", size, known);
+  if (size < oldest) {
+    refuse(owner + ".struct_size", "is {}, less than the {} of version 1.0", size, oldest);
   }
+  if (size != known && size != oldest) {
+    refuse(owner + ".struct_size", "is {}, neither {} nor the {} of version 1.0", size, known,
+           oldest);
+  }
+}
+void checkSize(const std::string& owner, uint32_t size, size_t known) {
+  checkSize(owner, size, known, known);
 }
 
 void checkCount(const std::string& field, uint32_t count, uint32_t least, uint32_t most) {
@@ -44,6 +54,12 @@ void checkCount(const std::string& field, uint32_t count, uint32_t least, uint32
 
 void checkZero(const std::string& field, uint32_t value) {
   if (value != 0) refuse(field, "is {}, must be 0", value);
+}
+
+void checkFlags(const std::string& owner, uint32_t flags, uint32_t known) {
+  if ((flags & ~known) != 0) {
+    refuse(owner + ".flags", "is {:#x}, of which this program knows {:#x}", flags, known);
+  }
 }
 
 template <typename Pointer>
@@ -107,9 +123,7 @@ void checkEnum(const std::string& at, const grisaille_param_desc& param) {
 
 void checkType(const std::string& at, const grisaille_param_desc& param) {
   if (param.type > GRISAILLE_PARAM_ENUM) refuse(at + ".type", "is {}, which is none", param.type);
-  if ((param.flags & ~kKnownFlags) != 0) {
-    refuse(at + ".flags", "is {:#x}, of which this program knows {:#x}", param.flags, kKnownFlags);
-  }
+  checkFlags(at, param.flags, kParamFlags);
   const bool isEnum = param.type == GRISAILLE_PARAM_ENUM;
   if (isEnum) {
     checkEnum(at, param);
@@ -186,11 +200,14 @@ void checkOutput(const std::string& at, const grisaille_output_desc& output) {
   if (format < GRISAILLE_FORMAT_R8 || format > GRISAILLE_FORMAT_R32UI) {
     refuse(at + ".format", "is {}, which is none", format);
   }
-  if (output.role > GRISAILLE_ROLE_PAINT) {
+  if (output.role > GRISAILLE_ROLE_OWNER) {
     refuse(at + ".role", "is {}, which is none", output.role);
   }
   if (output.role == GRISAILLE_ROLE_VISIBILITY && format == GRISAILLE_FORMAT_R32UI) {
     refuse(at + ".format", "is {}, whose whole numbers cannot be a visibility", format);
+  }
+  if (output.role == GRISAILLE_ROLE_OWNER && format != GRISAILLE_FORMAT_R32UI) {
+    refuse(at + ".format", "is {}, which cannot number shots", format);
   }
   if (output.role == GRISAILLE_ROLE_PAINT && format != GRISAILLE_FORMAT_RGBA8 &&
       format != GRISAILLE_FORMAT_RGBA16F && format != GRISAILLE_FORMAT_RGBA32F) {
@@ -198,13 +215,17 @@ void checkOutput(const std::string& at, const grisaille_output_desc& output) {
   }
 }
 
-void checkEffect(const std::string& at, const grisaille_effect_desc& effect) {
-  checkSize(at, effect.struct_size, sizeof(grisaille_effect_desc));
+void checkEffect(const std::string& at, const grisaille_effect_desc* desc) {
+  checkPresent(at, desc);
+  checkSize(at, desc->struct_size, sizeof(grisaille_effect_desc), kOldestEffectDesc);
+  const grisaille_effect_desc effect = whole(desc);
   checkKey(at + ".key", effect.key);
   checkLine(at + ".label", effect.label);
   checkLine(at + ".version", effect.version);
   checkLine(at + ".tooltip", effect.tooltip);
   checkZero(at + ".reserved", effect.reserved);
+  checkFlags(at, effect.flags, kEffectFlags);
+  checkZero(at + ".reserved2", effect.reserved2);
   checkPresent(at + ".reads", effect.reads);
   checkPresent(at + ".create", effect.create);
   checkPresent(at + ".record", effect.record);
@@ -226,6 +247,12 @@ void checkEffect(const std::string& at, const grisaille_effect_desc& effect) {
 
 }  // namespace
 
+grisaille_effect_desc whole(const grisaille_effect_desc* desc) {
+  grisaille_effect_desc copy = {};
+  std::memcpy(&copy, desc, desc->struct_size);
+  return copy;
+}
+
 void checkTable(const grisaille_plugin_desc& plugin) {
   checkSize("plugin", plugin.struct_size, sizeof(grisaille_plugin_desc));
   checkZero("plugin.reserved", plugin.reserved);
@@ -233,8 +260,7 @@ void checkTable(const grisaille_plugin_desc& plugin) {
   checkPresent("effects", plugin.effects);
   for (uint32_t i = 0; i < plugin.effect_count; ++i) {
     const std::string at = fmt::format("effects[{}]", i);
-    checkPresent(at, plugin.effects[i]);
-    checkEffect(at, *plugin.effects[i]);
+    checkEffect(at, plugin.effects[i]);
     checkUnique("effects", ".key", i, [&](uint32_t n) { return plugin.effects[n]->key; });
   }
 }

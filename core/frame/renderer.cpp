@@ -18,7 +18,8 @@ constexpr const char* kColor = "color";
 constexpr const char* kDepth = "depth";
 constexpr const char* kNormal = "normal";
 constexpr const char* kBaseColour = "base_colour";
-constexpr const char* kFrameOutputs[] = {kColor, kDepth, kNormal, kBaseColour};
+constexpr const char* kFacetNormal = "facet_normal";
+constexpr const char* kFrameOutputs[] = {kColor, kDepth, kNormal, kBaseColour, kFacetNormal};
 // Clip depth is drawn into this; nobody can ask for it by name.
 constexpr const char* kClipDepth = "clip depth";
 
@@ -64,7 +65,7 @@ void checkOutput(std::string_view name, std::span<const effect::Effect* const> e
 }
 
 image::Transfer transferOf(std::string_view output) {
-  if (output == kNormal) return image::Transfer::kSigned;
+  if (output == kNormal || output == kFacetNormal) return image::Transfer::kSigned;
   return output == kColor || output == kBaseColour ? image::Transfer::kColour
                                                    : image::Transfer::kData;
 }
@@ -80,6 +81,7 @@ struct Renderer::Plan {
     color = wants(desc, kColor);
     if (wants(desc, kDepth)) attachments |= GRISAILLE_READS(GRISAILLE_VIEW_DEPTH);
     if (wants(desc, kNormal)) attachments |= GRISAILLE_READS(GRISAILLE_NORMAL);
+    if (wants(desc, kFacetNormal)) attachments |= GRISAILLE_READS(GRISAILLE_FACET_NORMAL);
     if (wants(desc, kBaseColour) || (color && desc.surface == Surface::kBaseColour)) {
       attachments |= GRISAILLE_READS(GRISAILLE_BASE_COLOUR);
     }
@@ -87,7 +89,9 @@ struct Renderer::Plan {
       uint32_t bits = 0;
       const auto outputs = active.effect().outputs();
       for (size_t i = 0; i < outputs.size(); ++i) {
-        const bool composed = color && outputs[i].role != GRISAILLE_ROLE_NONE;
+        const uint32_t role = outputs[i].role;
+        const bool composed =
+            color && (role == GRISAILLE_ROLE_VISIBILITY || role == GRISAILLE_ROLE_PAINT);
         const bool asked = std::any_of(
             desc.outputs.begin(), desc.outputs.end(),
             [&](const std::string& name) { return names(name, active.effect(), outputs[i]); });
@@ -121,6 +125,10 @@ Renderer::~Renderer() {
 }
 
 void Renderer::render(const FrameDesc& desc) {
+  // First of all, so that none misses it where it is not wanted or the frame fails.
+  for (const ActiveEffect& active : desc.effects) {
+    active.instance->limitShotsKept(active.shotsKept);
+  }
   scene::validate(desc.camera);
   std::vector<const effect::Effect*> effects;
   for (const ActiveEffect& active : desc.effects) effects.push_back(&active.effect());
@@ -129,6 +137,7 @@ void Renderer::render(const FrameDesc& desc) {
   const Plan plan(desc);
   for (auto& [name, slot] : targets_) slot.used = false;
   outputs_.clear();
+  waiting_ = 0;
   gpu::Commands& commands = device_.begin();
   try {
     record(commands, desc, plan);
@@ -167,6 +176,9 @@ void Renderer::recordScene(gpu::Commands& commands, const FrameDesc& desc, const
   if (plan.reads(GRISAILLE_BASE_COLOUR)) {
     targets.baseColour = target(kBaseColour, gpu::Format::kRgba8Srgb, kDrawn, desc);
   }
+  if (plan.reads(GRISAILLE_FACET_NORMAL)) {
+    targets.facetNormal = target(kFacetNormal, gpu::Format::kRgba16Float, kDrawn, desc);
+  }
   commands.beginPass("scene/geometry");
   scene_.draw(commands, desc.camera, desc.width, desc.height, targets);
   commands.endPass();
@@ -199,7 +211,7 @@ void Renderer::recordEffects(gpu::Commands& commands, const FrameDesc& desc, con
     inputs.view = &view;
     inputs.viewBlock = viewBlock;
     constexpr const char* kAttachments[GRISAILLE_ATTACHMENT_COUNT] = {kClipDepth, kDepth, kNormal,
-                                                                      kBaseColour};
+                                                                      kBaseColour, kFacetNormal};
     for (size_t a = 0; a < GRISAILLE_ATTACHMENT_COUNT; ++a) {
       if ((reads & GRISAILLE_READS(a)) != 0) inputs.attachments[a] = find(kAttachments[a]);
     }
@@ -218,7 +230,12 @@ void Renderer::recordEffects(gpu::Commands& commands, const FrameDesc& desc, con
     }
     inputs.outputs = outputs;
     inputs.values = active.values->all();
+    inputs.shots = active.shots;
+    inputs.shotsKept = active.shotsKept;
+    inputs.patience = desc.patience;
+    inputs.rays = desc.rays;
     active.instance->record(inputs);
+    waiting_ += active.instance->waiting();
   }
 }
 
@@ -318,7 +335,7 @@ image::Image Renderer::read(std::string_view output) {
   const gpu::Texture from = texture(output);
   const gpu::TextureDesc& desc = targets_.find(outputs_.find(output)->second)->second.desc;
   image::Image image = toImage(device_.read(from), desc.format, desc.width, desc.height);
-  const bool opaque = output == kColor || output == kNormal || output == kBaseColour;
+  const bool opaque = transferOf(output) != image::Transfer::kData;
   return opaque ? firstChannels(image, 3) : image;
 }
 

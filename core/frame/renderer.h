@@ -3,6 +3,7 @@
 // runs the effects in order, composes the picture.
 #pragma once
 
+#include <limits>
 #include <map>
 #include <memory>
 #include <optional>
@@ -24,6 +25,10 @@ namespace grisaille::frame {
 struct ActiveEffect {
   effect::Instance* instance = nullptr;
   const effect::Values* values = nullptr;
+  // As effect::FrameInputs has them; `shotsKept` are of the render() before, whether it failed or
+  // not. An instance that was left out for a while is told by limitShotsKept().
+  std::span<const grisaille_shot> shots = {};
+  size_t shotsKept = 0;
 
   const effect::Effect& effect() const { return values->effect(); }
 };
@@ -38,10 +43,14 @@ struct FrameDesc {
   Surface surface = Surface::kWhite;
   std::span<const ActiveEffect> effects;  // in the order they run
   std::span<const std::string> outputs;   // names as outputNames() lists them
+
+  // For the effects, as effect::FrameInputs has them.
+  double patience = std::numeric_limits<double>::infinity();
+  effect::RayService* rays = nullptr;
 };
 
 // Every frame has color (composed, linear light), depth (linear view depth in metres, 0 = sky),
-// normal (world) and base_colour; an active effect adds its own outputs.
+// normal and facet_normal (world) and base_colour; an active effect adds its own outputs.
 std::vector<std::string> outputNames(std::span<const effect::Effect* const> effects);
 
 // Throws kOutputUnknown, naming the nearest, unless outputNames() lists `name`.
@@ -61,6 +70,10 @@ class Renderer {
 
   // Records and submits one frame. What throws leaves no frame open.
   void render(const FrameDesc& desc);
+
+  // What waits to be drawn in a later frame, summed over the effects of the last one. 0: its
+  // picture is whole.
+  uint64_t waiting() const { return waiting_; }
 
   // An output of the last frame, as numbers; 1, 3 or 4 channels. Waits for the device. Throws
   // kOutputUnknown unless that frame was asked for it.
@@ -98,6 +111,7 @@ class Renderer {
   gpu::ComputePipeline viewDepth_, compose_;
   gpu::Sampler nearest_;
   gpu::Texture white_, clear_;
+  uint64_t waiting_ = 0;
 };
 
 }  // namespace grisaille::frame

@@ -4,24 +4,11 @@
 #include <algorithm>
 #include <bit>
 #include <cmath>
+#include <cstddef>
 
 #include "core/frame/draw_data.h"
 #include "core/image/image.h"
-#include "shaders/geometry_frag_001.h"
-#include "shaders/geometry_frag_010.h"
-#include "shaders/geometry_frag_011.h"
-#include "shaders/geometry_frag_100.h"
-#include "shaders/geometry_frag_101.h"
-#include "shaders/geometry_frag_110.h"
-#include "shaders/geometry_frag_111.h"
-#include "shaders/geometry_vert_000.h"
-#include "shaders/geometry_vert_001.h"
-#include "shaders/geometry_vert_010.h"
-#include "shaders/geometry_vert_011.h"
-#include "shaders/geometry_vert_100.h"
-#include "shaders/geometry_vert_101.h"
-#include "shaders/geometry_vert_110.h"
-#include "shaders/geometry_vert_111.h"
+#include "shaders/geometry_variants.h"
 
 namespace grisaille::frame {
 namespace {
@@ -34,23 +21,12 @@ struct DrawBlock {
   float alpha_cutoff = 0;
   float front_sign = 1;
   glm::vec2 padding = glm::vec2(0);
+  glm::mat4 camera_from_object;
 };
-GRISAILLE_CHECK_BLOCK_geometry_vert_101_DrawBlock(DrawBlock);
+GRISAILLE_CHECK_BLOCK_geometry_vert_110_DrawBlock(DrawBlock);
 
-// By Variant::index(): normal, base colour, mask.
-constexpr const gpu::Shader* kVertex[8] = {
-    &grisaille_shader_geometry_vert_000, &grisaille_shader_geometry_vert_001,
-    &grisaille_shader_geometry_vert_010, &grisaille_shader_geometry_vert_011,
-    &grisaille_shader_geometry_vert_100, &grisaille_shader_geometry_vert_101,
-    &grisaille_shader_geometry_vert_110, &grisaille_shader_geometry_vert_111};
-constexpr const gpu::Shader* kFragment[8] = {nullptr,
-                                             &grisaille_shader_geometry_frag_001,
-                                             &grisaille_shader_geometry_frag_010,
-                                             &grisaille_shader_geometry_frag_011,
-                                             &grisaille_shader_geometry_frag_100,
-                                             &grisaille_shader_geometry_frag_101,
-                                             &grisaille_shader_geometry_frag_110,
-                                             &grisaille_shader_geometry_frag_111};
+// What shaders that know no facets see of it.
+constexpr size_t kBlockWithoutFacet = offsetof(DrawBlock, camera_from_object);
 
 gpu::Address address(scene::Wrap wrap) {
   switch (wrap) {
@@ -126,7 +102,7 @@ gpu::Buffer SceneResources::vertexBuffer(gpu::Commands& commands, gpu::Buffer& b
 }
 
 gpu::GraphicsPipeline SceneResources::pipeline(Variant variant) {
-  gpu::GraphicsPipeline& pipeline = pipelines_[variant.index()];
+  gpu::GraphicsPipeline& pipeline = pipelines_[variant.fragment()];
   if (pipeline) return pipeline;
   constexpr uint32_t kStrides[] = {sizeof(glm::vec3), sizeof(glm::vec3), sizeof(glm::vec2)};
   std::vector<uint32_t> strides = {kStrides[0]};
@@ -137,16 +113,17 @@ gpu::GraphicsPipeline SceneResources::pipeline(Variant variant) {
     strides.push_back(kStrides[1]);
     colors.push_back(gpu::Format::kRgba16Float);
   }
-  if (variant.base || variant.mask) {
+  if (variant.uv()) {
     attributes.push_back({.location = 2,
                           .stream = static_cast<uint32_t>(strides.size()),
                           .format = gpu::AttributeFormat::kFloat2});
     strides.push_back(kStrides[2]);
   }
   if (variant.base) colors.push_back(gpu::Format::kRgba8Srgb);
+  if (variant.facet) colors.push_back(gpu::Format::kRgba16Float);
   pipeline = device_.createGraphicsPipeline({.label = "geometry",
-                                             .vertex = kVertex[variant.index()],
-                                             .fragment = kFragment[variant.index()],
+                                             .vertex = kGeometryVertex[variant.vertex()],
+                                             .fragment = kGeometryFragment[variant.fragment()],
                                              .constants = {},
                                              .streamStrides = strides,
                                              .attributes = attributes,
@@ -213,7 +190,7 @@ gpu::Sampler SceneResources::sampler(const scene::Material& material, bool base)
 
 void SceneResources::draw(gpu::Commands& commands, const scene::Camera& camera, uint32_t width,
                           uint32_t height, const SceneTargets& targets) {
-  const bool normal{targets.normal}, base{targets.baseColour};
+  const bool normal{targets.normal}, base{targets.baseColour}, facet{targets.facetNormal};
   const auto bytes = [](const auto& values) { return std::as_bytes(std::span(values)); };
   const auto vertex = gpu::BufferUsage::kVertex;
   vertexBuffer(commands, positions_, "positions", bytes(scene_.positions), vertex);
@@ -243,8 +220,10 @@ void SceneResources::draw(gpu::Commands& commands, const scene::Camera& camera, 
                           .normal_from_object = glm::mat4(normalTransform(linear)),
                           .base_color = material.baseColor,
                           .alpha_cutoff = material.alphaCutoff,
-                          .front_sign = mirrors ? -1.0f : 1.0f};
-    const Variant variant{.normal = normal, .base = base, .mask = material.masked};
+                          .front_sign = mirrors ? -1.0f : 1.0f,
+                          .camera_from_object = glm::mat4(cameraFromObject)};
+    const auto blockBytes = std::as_bytes(std::span(&block, 1));
+    const Variant variant{.facet = facet, .normal = normal, .base = base, .mask = material.masked};
 
     auto& stream = streams.emplace_back();
     size_t streamCount = 0;
@@ -252,9 +231,9 @@ void SceneResources::draw(gpu::Commands& commands, const scene::Camera& camera, 
     if (normal) stream[streamCount++].buffer = normals_;
     auto& binding = bindings.emplace_back();
     size_t bindingCount = 0;
-    binding[bindingCount++] =
-        gpu::uniformBinding(0, commands.uniform(std::as_bytes(std::span(&block, 1))));
-    if (base || material.masked) {
+    binding[bindingCount++] = gpu::uniformBinding(
+        0, commands.uniform(facet ? blockBytes : blockBytes.first(kBlockWithoutFacet)));
+    if (variant.uv()) {
       stream[streamCount++].buffer = vertexBuffer(commands, texCoords_, "texture coordinates",
                                                   bytes(scene_.texCoords), vertex);
       binding[bindingCount++] = gpu::textureBinding(
@@ -274,6 +253,7 @@ void SceneResources::draw(gpu::Commands& commands, const scene::Camera& camera, 
   std::vector<gpu::ColorTarget> colors;
   if (normal) colors.push_back({.view = {.texture = targets.normal}});
   if (base) colors.push_back({.view = {.texture = targets.baseColour}});
+  if (facet) colors.push_back({.view = {.texture = targets.facetNormal}});
   commands.render(
       {.colors = colors, .depth = {.view = {.texture = targets.depth}}, .draws = draws});
 }

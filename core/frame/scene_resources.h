@@ -13,11 +13,12 @@
 
 namespace grisaille::frame {
 
-// What one draw writes; normal and base colour may be null.
+// What one draw writes; all but depth may be null.
 struct SceneTargets {
-  gpu::Texture depth;       // kD32Float
-  gpu::Texture normal;      // kRgba16Float
-  gpu::Texture baseColour;  // kRgba8Srgb
+  gpu::Texture depth;        // kD32Float
+  gpu::Texture normal;       // kRgba16Float
+  gpu::Texture baseColour;   // kRgba8Srgb
+  gpu::Texture facetNormal;  // kRgba16Float
 };
 
 class SceneResources {
@@ -35,8 +36,14 @@ class SceneResources {
  private:
   // Which of the things below a draw needs.
   struct Variant {
-    bool normal = false, base = false, mask = false;
-    size_t index() const { return (normal ? 4u : 0u) + (base ? 2u : 0u) + (mask ? 1u : 0u); }
+    bool facet = false, normal = false, base = false, mask = false;
+
+    bool uv() const { return base || mask; }
+    // In the lists of shaders/geometry_variants.h.
+    size_t vertex() const { return (facet ? 4u : 0u) + (normal ? 2u : 0u) + (uv() ? 1u : 0u); }
+    size_t fragment() const {
+      return (facet ? 8u : 0u) + (normal ? 4u : 0u) + (base ? 2u : 0u) + (mask ? 1u : 0u);
+    }
   };
   // A scene texture on the device: its alpha alone, or its colour with mip levels.
   struct DeviceTexture {
@@ -52,7 +59,7 @@ class SceneResources {
   gpu::Device& device_;
   const scene::Scene& scene_;
   gpu::Buffer positions_, normals_, texCoords_, indices_;
-  std::array<gpu::GraphicsPipeline, 8> pipelines_;
+  std::array<gpu::GraphicsPipeline, 16> pipelines_;  // by Variant::fragment()
   std::vector<DeviceTexture> textures_;
   std::array<gpu::Sampler, 27> samplers_;       // wrap u, wrap v, one level | mips | anisotropic
   gpu::Texture white_;                          // for materials without a texture

@@ -128,7 +128,8 @@ class CheckingDevice final : public Device {
 
   template <typename HandleType, typename Record>
   void reportLeaks(Records<HandleType, Record>& records) {
-    for (const auto& [handle, record] : records.all()) {
+    for (const auto& entry : records.all()) {
+      const Record& record = entry.second;
       if constexpr (requires { record.transient; }) {
         if (record.transient) continue;
       }

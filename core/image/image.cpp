@@ -99,7 +99,7 @@ std::vector<Integer> quantise(const Image& image, Transfer transfer) {
   return result;
 }
 
-OIIO::ImageSpec specOf(const Image& image, OIIO::TypeDesc type) {
+OIIO::ImageSpec specOf(const Image& image, const OIIO::TypeDesc& type) {
   OIIO::ImageSpec spec(static_cast<int>(image.width), static_cast<int>(image.height),
                        static_cast<int>(image.channels), type);
   if (image.channels == 1) spec.channelnames = {"Y"};

@@ -45,7 +45,7 @@ std::vector<std::byte> leafTexture() {
       const double shade = 0.75 + 0.25 * hashUnit(static_cast<uint32_t>(row * kSide + column) / 3) -
                            (std::abs(x) < 0.012 ? 0.2 : 0.0);
       for (const double channel : {70 * shade, 118 * shade, 48 * shade, 255 * alpha}) {
-        picture.pixels.push_back(static_cast<uint8_t>(channel + 0.5));
+        picture.pixels.push_back(static_cast<uint8_t>(std::lround(channel)));
       }
     }
   }

@@ -179,4 +179,11 @@ glm::dmat4 clipFromView(const Camera& camera, double aspect) {
   return clip;
 }
 
+glm::dvec3 pixelDirection(const Camera& camera, uint32_t width, uint32_t height,
+                          const glm::dvec2& point) {
+  const double half = std::tan(glm::radians(camera.fovyDegrees) / 2);
+  const glm::dvec2 place = (2.0 * point / glm::dvec2(width, height) - 1.0) * half;
+  return worldFromView(camera) * glm::dvec3(place.x * width / height, -place.y, -1);
+}
+
 }  // namespace grisaille::scene

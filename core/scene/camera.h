@@ -41,4 +41,9 @@ glm::dmat3 worldFromView(const Camera& camera);
 // Reversed depth, infinitely far: clip z = near, clip w = -view z.
 glm::dmat4 clipFromView(const Camera& camera, double aspect);
 
+// The world direction through a point of a picture of this size, (0, 0) its top left corner, as
+// long as one unit of view depth.
+glm::dvec3 pixelDirection(const Camera& camera, uint32_t width, uint32_t height,
+                          const glm::dvec2& point);
+
 }  // namespace grisaille::scene

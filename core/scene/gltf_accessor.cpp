@@ -49,7 +49,7 @@ Elements elementsOf(const tinygltf::Model& model, int accessor, int view, uint64
 template <typename T>
 T load(const unsigned char* at) {
   T value;
-  std::memcpy(&value, at, sizeof value);
+  std::memcpy(&value, at, sizeof value);  // NOLINT(clang-analyzer-core.NonNullParamChecker)
   return value;
 }
 
@@ -97,6 +97,7 @@ std::vector<uint32_t> readIntegers(int accessor, int componentType, const Elemen
   withType(accessor, componentType, [&]<typename T>(T) {
     requireType(accessor, std::is_unsigned_v<T>);
     for (size_t i = 0; i < elements.count; ++i) {
+      // Only unsigned types come here. NOLINTNEXTLINE(bugprone-signed-char-misuse)
       result[i] = static_cast<uint32_t>(load<T>(elements.first + i * elements.stride));
     }
   });

@@ -10,8 +10,6 @@
 #include "shaders/ssao_hemisphere.h"
 #include "shaders/ssao_sphere.h"
 
-namespace plugin = grisaille::plugin;
-
 namespace grisaille::ssao {
 namespace {
 

@@ -9,4 +9,7 @@ layout(UNIFORM(0), std140) uniform DrawBlock {
   vec4 base_color;          // linear
   float alpha_cutoff;
   float front_sign;         // -1 when the transform mirrors, so that "front" is the back
+#if FACET
+  mat4 camera_from_object;  // world axes, metres from the camera
+#endif
 } draw;

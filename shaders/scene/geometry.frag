@@ -14,8 +14,16 @@ layout(TEXTURE(0)) uniform sampler2D base_texture;
 #if BASE
 layout(location = NORMAL) out vec4 out_base;
 #endif
+#if FACET
+layout(location = 2) in vec3 from_camera;  // world axes, metres
+layout(location = NORMAL + BASE) out vec4 out_facet;
+#endif
 
 void main() {
+#if FACET
+  // Before anything is cut out: the differences need all four pixels.
+  const vec3 facet = cross(dFdx(from_camera), dFdy(from_camera));
+#endif
 #if MASK
   // The mask is read at full resolution: smaller levels would thin or close the leaves. Without base
   // colour the texture holds the alpha channel alone.
@@ -34,5 +42,10 @@ void main() {
 #endif
 #if BASE
   out_base = vec4(texture(base_texture, uv).rgb * draw.base_color.rgb, 1.0);
+#endif
+#if FACET
+  const float area = dot(facet, facet);
+  const float towards = dot(facet, from_camera) > 0.0 ? -1.0 : 1.0;
+  out_facet = vec4(area > 0.0 ? facet * (towards * inversesqrt(area)) : vec3(0.0), 1.0);
 #endif
 }

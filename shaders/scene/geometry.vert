@@ -8,9 +8,12 @@ layout(location = 0) in vec3 position;
 layout(location = 1) in vec3 normal;
 layout(location = 0) out vec3 world_normal;
 #endif
-#if BASE || MASK
+#if UV
 layout(location = 2) in vec2 tex_coord;
 layout(location = 1) out vec2 uv;
+#endif
+#if FACET
+layout(location = 2) out vec3 from_camera;
 #endif
 
 void main() {
@@ -18,7 +21,10 @@ void main() {
 #if NORMAL
   world_normal = mat3(draw.normal_from_object) * normal;
 #endif
-#if BASE || MASK
+#if UV
   uv = tex_coord;
+#endif
+#if FACET
+  from_camera = (draw.camera_from_object * vec4(position, 1.0)).xyz;
 #endif
 }

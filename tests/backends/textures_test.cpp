@@ -48,7 +48,8 @@ constexpr Format kAllFormats[] = {Format::kR8Unorm,   Format::kRgba8Unorm,  Form
 TEST_P(Textures, OfEveryFormatHoldWhatIsUploaded) {
   constexpr uint32_t kSizes[][2] = {{1, 1}, {3, 5}, {257, 129}};
   for (const Format format : kAllFormats) {
-    for (const auto& [width, height] : kSizes) {
+    for (const auto& size : kSizes) {
+      const uint32_t width = size[0], height = size[1];
       const uint32_t mips =
           static_cast<uint32_t>(std::floor(std::log2(std::max(width, height)))) + 1;
       const uint32_t layers = 3;

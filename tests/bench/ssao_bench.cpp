@@ -22,8 +22,8 @@
 #include "core/frame/texture_image.h"
 #include "core/scene/camera.h"
 #include "core/scene/scene.h"
+#include "core/trace/ray_tracer.h"
 #include "tests/bench/tutorial_ssao.h"
-#include "tests/oracle/ray_tracer.h"
 
 namespace grisaille::bench {
 namespace {
@@ -98,8 +98,8 @@ Subject loadSubject() {
 
 // Ray-traced truth at every tenth pixel both ways of one camera.
 struct Truth {
-  std::vector<oracle::Hit> hits;
-  std::vector<oracle::Visibility> visibility;
+  std::vector<trace::Hit> hits;
+  std::vector<trace::Visibility> visibility;
 };
 
 Truth traceTruth(const Subject& subject, const scene::Camera& camera, const Options& options) {
@@ -107,7 +107,7 @@ Truth traceTruth(const Subject& subject, const scene::Camera& camera, const Opti
   for (uint32_t y = 5; y < options.height; y += 10) {
     for (uint32_t x = 5; x < options.width; x += 10) pixels.emplace_back(x, y);
   }
-  const oracle::RayTracer tracer(subject.scene, camera.eye);
+  const trace::RayTracer tracer(subject.scene, camera.eye);
   Truth truth;
   truth.hits = tracer.castPrimary(camera, options.width, options.height, pixels);
   truth.visibility = tracer.ambientOcclusion(truth.hits, 0.5, options.samples, 1);

@@ -1,93 +1,13 @@
 // SPDX-License-Identifier: MIT
 // Instances at work over the null device, checked.
-#include "core/effect/instance.h"
-
-#include <gtest/gtest.h>
-
 #include <algorithm>
 #include <cstring>
 
-#include "core/effect/values.h"
-#include "core/gpu/checking_device.h"
-#include "core/gpu/null_device.h"
 #include "shaders/copy.h"
+#include "tests/effect/instance_fixture.h"
 
 namespace grisaille::effect {
 namespace {
-
-constexpr uint32_t kWidth = 20, kHeight = 12;
-
-struct InstanceTest : testing::Test {
-  InstanceTest() {
-    auto made = gpu::makeNullDevice();
-    null = made.get();
-    device = gpu::makeCheckingDevice(std::move(made), [](gpu::Severity, std::string_view text) {
-      ADD_FAILURE() << text;  // a leak, at the device's end
-    });
-    registry.scan(PLUGIN_DIR "/sound");
-    registry.scan(PLUGIN_DIR "/bad");
-    viewDepth = makeTexture("view_depth", gpu::Format::kR32Float);
-    viewBlock =
-        device->createBuffer({.label = "view", .size = 256, .usage = gpu::BufferUsage::kUniform});
-    const std::vector<std::byte> zero(kWidth * kHeight * sizeof(float));
-    gpu::Commands& commands = device->begin();
-    commands.upload(viewDepth, 0, 0, zero);
-    commands.upload(viewBlock, 0, std::span(zero).first(256));
-    device->submit();
-  }
-  ~InstanceTest() override {
-    for (const gpu::Texture texture : textures) device->destroy(texture);
-    device->destroy(viewBlock);
-  }
-
-  gpu::Texture makeTexture(const char* label, gpu::Format format) {
-    textures.push_back(device->createTexture(
-        {.label = label,
-         .format = format,
-         .width = kWidth,
-         .height = kHeight,
-         .usage = gpu::TextureUsage::kSampled | gpu::TextureUsage::kStorage}));
-    return textures.back();
-  }
-
-  // Records one frame; a frame that throws is abandoned.
-  void record(Instance& instance, const Values& values, std::span<const gpu::Texture> outputs) {
-    gpu::Commands& commands = device->begin();
-    const grisaille_view view = {};
-    FrameInputs inputs;
-    inputs.commands = &commands;
-    inputs.width = kWidth;
-    inputs.height = kHeight;
-    inputs.view = &view;
-    inputs.viewBlock = {viewBlock, 0, 256};
-    inputs.attachments[GRISAILLE_VIEW_DEPTH] = viewDepth;
-    inputs.outputs = outputs;
-    inputs.values = values.all();
-    try {
-      instance.record(inputs);
-    } catch (...) {
-      device->abandon();
-      throw;
-    }
-    device->submit();
-  }
-
-  template <typename T>
-  std::vector<T> recorded() const {
-    std::vector<T> found;
-    for (const gpu::Recorded& entry : null->recorded()) {
-      if (const T* one = std::get_if<T>(&entry)) found.push_back(*one);
-    }
-    return found;
-  }
-
-  gpu::NullDevice* null = nullptr;
-  std::unique_ptr<gpu::Device> device;
-  Registry registry;
-  gpu::Texture viewDepth;
-  gpu::Buffer viewBlock;
-  std::vector<gpu::Texture> textures;
-};
 
 TEST_F(InstanceTest, SoundEffectRecordsItsPasses) {
   const Effect& effect = registry.find("copy");

@@ -2,6 +2,7 @@
 // checkTable() over in-memory tables: a valid one passes, and each fault is refused by its field.
 #include <gtest/gtest.h>
 
+#include <cstddef>
 #include <functional>
 #include <limits>
 
@@ -74,7 +75,9 @@ struct Table {
                                  .reads = readsNothing,
                                  .create = createNothing,
                                  .record = recordNothing,
-                                 .destroy = destroyNothing};
+                                 .destroy = destroyNothing,
+                                 .flags = GRISAILLE_EFFECT_TAKES_SHOTS,
+                                 .reserved2 = 0};
   grisaille_effect_desc second = [this] {
     grisaille_effect_desc desc = first;
     desc.key = "second";
@@ -95,6 +98,9 @@ struct Table {
 constexpr double kNan = std::numeric_limits<double>::quiet_NaN();
 constexpr double kInf = std::numeric_limits<double>::infinity();
 
+// Of an effect's description in version 1.0, which ended there.
+constexpr uint32_t kSizeOf10 = offsetof(grisaille_effect_desc, flags);
+
 struct Fault {
   const char* field;  // that the message begins with
   std::function<void(Table&)> make;
@@ -114,6 +120,10 @@ const std::vector<Fault>& faults() {
 
       {"effects[0].struct_size", [](Table& t) { t.first.struct_size += 8; }},
       {"effects[0].struct_size", [](Table& t) { t.first.struct_size = 4; }},
+      {"effects[0].struct_size", [](Table& t) { t.first.struct_size = kSizeOf10 - 8; }},
+      {"effects[0].struct_size", [](Table& t) { t.first.struct_size = kSizeOf10 + 4; }},
+      {"effects[0].flags", [](Table& t) { t.first.flags |= 2; }},
+      {"effects[0].reserved2", [](Table& t) { t.first.reserved2 = 1; }},
       {"effects[0].key", [](Table& t) { t.first.key = nullptr; }},
       {"effects[0].key", [](Table& t) { t.first.key = ""; }},
       {"effects[0].key", [](Table& t) { t.first.key = "1st"; }},
@@ -194,7 +204,8 @@ const std::vector<Fault>& faults() {
        [](Table& t) { t.outputs[0].format = GRISAILLE_FORMAT_R32UI; }},
       {"effects[0].outputs[1].format",
        [](Table& t) { t.outputs[1].format = GRISAILLE_FORMAT_R32F; }},
-      {"effects[0].outputs[0].role", [](Table& t) { t.outputs[0].role = 3; }},
+      {"effects[0].outputs[0].role", [](Table& t) { t.outputs[0].role = 4; }},
+      {"effects[0].outputs[0].format", [](Table& t) { t.outputs[0].role = GRISAILLE_ROLE_OWNER; }},
       {"effects[0].outputs[0].key", [](Table& t) { t.outputs[0].key = "A"; }},
       {"effects[0].outputs[1].key", [](Table& t) { t.outputs[1].key = "ao"; }},
       {"effects[0].outputs[0].tooltip", [](Table& t) { t.outputs[0].tooltip = ""; }},
@@ -216,6 +227,16 @@ TEST(Table, LimitsPass) {
   table.first.param_count = 0;
   table.first.params = nullptr;
   EXPECT_NO_THROW(checkTable(table.plugin));
+}
+
+TEST(Table, WhatVersion10LacksIsNotReadAndCountsAsZero) {
+  Table table;
+  table.second.flags = table.second.reserved2 = ~0u;
+  table.second.struct_size = kSizeOf10;
+  EXPECT_NO_THROW(checkTable(table.plugin));
+  EXPECT_EQ(whole(&table.second).flags, 0u);
+  EXPECT_STREQ(whole(&table.second).key, "second");
+  EXPECT_EQ(whole(&table.first).flags, uint32_t{GRISAILLE_EFFECT_TAKES_SHOTS});
 }
 
 TEST(Table, EveryFaultIsRefusedByItsField) {

@@ -21,6 +21,7 @@ class PlanTest : public ::testing::Test {
  protected:
   void SetUp() override {
     registry_.scan(EFFECTS_FOLDER);
+    registry_.scan(SHOOTER_FOLDER);
     auto null = gpu::makeNullDevice();
     null_ = null.get();
     device_ = gpu::makeCheckingDevice(
@@ -118,6 +119,49 @@ TEST_F(PlanTest, BaseColourIsDrawnForTheBaseSurfaceAlone) {
   const Recording recording = record({"color"}, false, frame::Surface::kBaseColour);
   ASSERT_EQ(recording.renders.size(), 1u);
   EXPECT_EQ(recording.renders[0].targets, (Labels{"base_colour", "clip depth"}));
+}
+
+TEST_F(PlanTest, FacetNormalsAreDrawnInTheSamePassWhenAskedForAlone) {
+  EXPECT_EQ(record({"facet_normal"}, false).renders.at(0).targets,
+            (Labels{"facet_normal", "clip depth"}));
+  const Recording recording =
+      record({"facet_normal", "normal", "base_colour", "depth"}, true, frame::Surface::kBaseColour);
+  EXPECT_EQ(recording.passes, (Labels{"scene/geometry", "scene/view_depth"}));
+  ASSERT_EQ(recording.renders.size(), 1u);
+  EXPECT_EQ(recording.renders[0].targets,
+            (Labels{"normal", "base_colour", "facet_normal", "clip depth"}));
+}
+
+TEST_F(PlanTest, ShotsReachTheEffectsAndWhatWaitsComesBack) {
+  const effect::Effect& shooter = registry_.find("shooter");
+  effect::Values values(shooter);
+  effect::Instance first(*device_, shooter);
+  const std::vector<grisaille_shot> shots(20);
+  const auto told = [&](size_t shotsKept, std::vector<std::string> outputs) {
+    const std::vector<frame::ActiveEffect> both = {
+        {.instance = &first, .values = &values, .shots = shots, .shotsKept = shotsKept},
+        {.instance = &*instance_, .values = &*values_}};
+    renderer_->render({.camera = camera_,
+                       .width = 16,
+                       .height = 8,
+                       .effects = both,
+                       .outputs = outputs,
+                       .patience = 0.5});
+    return outputs[0] == "told" ? renderer_->read("told").pixels : std::vector<float>();
+  };
+  values.set("waits", "4");
+  std::vector<float> texels = told(20, {"told", "ao"});
+  EXPECT_EQ(texels[0], 20);
+  EXPECT_EQ(texels[1], 0);  // its first frame
+  EXPECT_EQ(texels[2], 0.5f);
+  EXPECT_EQ(renderer_->waiting(), 4u);
+  EXPECT_EQ(told(19, {"told"})[1], 19);
+  // Frames that it has no part in, or that fail, are not its frame before.
+  told(11, {"depth"});
+  EXPECT_EQ(renderer_->waiting(), 0u);
+  EXPECT_ERROR(ErrorId::kOutputUnknown, told(12, {"nothing"}));
+  EXPECT_EQ(told(20, {"told"})[1], 11);
+  EXPECT_EQ(told(20, {"told"})[1], 20);
 }
 
 TEST_F(PlanTest, WhatIsBehindTheCameraIsNotDrawn) {

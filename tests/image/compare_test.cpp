@@ -15,7 +15,8 @@ constexpr float kNan = std::numeric_limits<float>::quiet_NaN();
 constexpr float kInfinity = std::numeric_limits<float>::infinity();
 
 Image row(std::vector<float> values) {
-  return {.width = static_cast<uint32_t>(values.size()),
+  const auto width = static_cast<uint32_t>(values.size());
+  return {.width = width,
           .height = 1,
           .channels = 1,
           .pixels = std::move(values)};

@@ -9,7 +9,7 @@
 #include <string>
 
 #include "core/error.h"
-#include "tests/oracle/ray_tracer.h"
+#include "core/trace/ray_tracer.h"
 
 namespace {
 
@@ -76,11 +76,11 @@ double secondsSince(std::chrono::steady_clock::time_point start) {
 }
 
 // Visibility in slices, so that progress can be told.
-std::vector<oracle::Visibility> occlude(const oracle::RayTracer& tracer,
-                                        std::span<const oracle::Hit> hits, const Job& job) {
+std::vector<trace::Visibility> occlude(const trace::RayTracer& tracer,
+                                       std::span<const trace::Hit> hits, const Job& job) {
   const auto start = std::chrono::steady_clock::now();
   constexpr size_t kSlice = 65536;
-  std::vector<oracle::Visibility> all;
+  std::vector<trace::Visibility> all;
   for (size_t begin = 0; begin < hits.size(); begin += kSlice) {
     const auto slice = hits.subspan(begin, std::min(kSlice, hits.size() - begin));
     const auto part = tracer.ambientOcclusion(slice, job.radius, job.samples, job.seed);
@@ -94,10 +94,10 @@ std::vector<oracle::Visibility> occlude(const oracle::RayTracer& tracer,
   return all;
 }
 
-image::Image errorImage(std::span<const oracle::Visibility> values, uint32_t width,
+image::Image errorImage(std::span<const trace::Visibility> values, uint32_t width,
                         uint32_t height) {
   image::Image image{.width = width, .height = height, .channels = 1, .pixels = {}};
-  for (const oracle::Visibility& value : values) image.pixels.push_back(value.standardError);
+  for (const trace::Visibility& value : values) image.pixels.push_back(value.standardError);
   return image;
 }
 
@@ -107,7 +107,7 @@ void run(const Job& job) {
   const scene::Camera camera = scene::loadCamera(job.camera);
   const glm::uvec2 size = job.size.x != 0 ? job.size : camera.size;
   if (size.x == 0) throw Error(ErrorId::kUsage, "neither --size nor the camera gives a size");
-  const oracle::RayTracer tracer(scene, camera.eye);
+  const trace::RayTracer tracer(scene, camera.eye);
   fmt::print(stderr, "{} triangles ready after {:.2f} s\n", scene::triangleCount(scene),
              secondsSince(start));
 
@@ -118,14 +118,14 @@ void run(const Job& job) {
   const uint32_t width = (size.x + job.stride - 1) / job.stride;
   const uint32_t height = (size.y + job.stride - 1) / job.stride;
   const auto hits = tracer.castPrimary(camera, size.x, size.y, pixels);
-  std::vector<oracle::Visibility> visibility;
+  std::vector<trace::Visibility> visibility;
   if (job.outputs.contains("ao") || job.outputs.contains("error")) {
     visibility = occlude(tracer, hits, job);
   }
   for (const auto& [name, path] : job.outputs) {
-    image::write(name == "depth"    ? oracle::depthImage(hits, width, height)
-                 : name == "normal" ? oracle::normalImage(hits, width, height)
-                 : name == "ao"     ? oracle::visibilityImage(visibility, width, height)
+    image::write(name == "depth"    ? trace::depthImage(hits, width, height)
+                 : name == "normal" ? trace::normalImage(hits, width, height)
+                 : name == "ao"     ? trace::visibilityImage(visibility, width, height)
                                     : errorImage(visibility, width, height),
                  path);
   }

@@ -73,7 +73,7 @@ TEST_F(CommandLine, RefusedPluginsAreListedAndTheRestGoesOn) {
   const auto json = nlohmann::json::parse(outcome.out);
   ASSERT_EQ(json["refused"].size(), 1u);
   EXPECT_EQ(json["refused"][0]["error"], 3101);
-  EXPECT_EQ(json["effects"].size(), 1u);
+  EXPECT_EQ(json["effects"].size(), 2u);
   const Outcome used =
       render({"--plugin-path", folder_.path(), "--effects", "broken", "--write", "color=c.png"});
   expectError(used, 3201, "broken.so");
@@ -171,7 +171,7 @@ TEST_F(CommandLine, SceneIsWrittenAndReadBack) {
 
 // A machine without one backend's driver library still runs the other.
 TEST_F(CommandLine, MissingLibraryOfOneBackendLeavesTheOther) {
-  const auto without = [&](const std::string& library, std::vector<std::string> arguments) {
+  const auto without = [&](const std::string& library, const std::vector<std::string>& arguments) {
     return runProgram(arguments, folder_.path(),
                       {"LD_PRELOAD=" HIDE_LIBRARY, "HIDE_LIBRARY=" + library});
   };

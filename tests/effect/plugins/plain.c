@@ -1,6 +1,8 @@
 /* SPDX-License-Identifier: MIT
  *
- * A sound effect in plain C, and with -DFAULT_... the same with one thing wrong. KEY is its key. */
+ * A sound effect in plain C; with -DVERSION_1_0 as the first version's header made it; with
+ * -DFAULT_... the same with one thing wrong. KEY is its key. */
+#include <stddef.h>
 #include <stdlib.h>
 
 #include "grisaille/effect.h"
@@ -88,8 +90,12 @@ static const grisaille_output_desc kOutputs[] = {{
 }};
 
 static const grisaille_effect_desc kEffect = {
-#ifdef FAULT_EFFECT_SIZE
+#if defined(FAULT_EFFECT_SIZE)
     .struct_size = sizeof(grisaille_effect_desc) + 8,
+#elif defined(VERSION_1_0)
+    .struct_size = offsetof(grisaille_effect_desc, flags),
+    .flags = ~0u, /* what lies behind that version's struct */
+    .reserved2 = ~0u,
 #else
     .struct_size = sizeof(grisaille_effect_desc),
 #endif
@@ -123,6 +129,8 @@ static const grisaille_effect_desc* const kEffects[] = {&kEffect};
 #endif
 #if defined(FAULT_MINOR)
 #define MINOR (GRISAILLE_ABI_MINOR + 1)
+#elif defined(VERSION_1_0)
+#define MINOR 0
 #else
 #define MINOR GRISAILLE_ABI_MINOR
 #endif

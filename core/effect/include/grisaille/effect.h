@@ -33,7 +33,7 @@ extern "C" {
 
 #define GRISAILLE_MAGIC 0x53495247u /* "GRIS" */
 #define GRISAILLE_ABI_MAJOR 1u
-#define GRISAILLE_ABI_MINOR 0u
+#define GRISAILLE_ABI_MINOR 1u
 
 #if defined(_WIN32)
 #define GRISAILLE_EXPORT __declspec(dllexport)
@@ -90,7 +90,9 @@ typedef enum grisaille_attachment {
   GRISAILLE_VIEW_DEPTH = 1,  /* r32f: distance along the view direction, metres; sky: 0 */
   GRISAILLE_NORMAL = 2,      /* rgba16f: unit world normal, facing the camera, in xyz; sky: 0 */
   GRISAILLE_BASE_COLOUR = 3, /* rgba8 sRGB, read as linear: base colour; sky: 0 */
-  GRISAILLE_ATTACHMENT_COUNT = 4
+  /* Since 1.1. rgba16f: unit world normal of the triangle itself, facing the camera; sky: 0 */
+  GRISAILLE_FACET_NORMAL = 4,
+  GRISAILLE_ATTACHMENT_COUNT = 5
 } grisaille_attachment;
 
 #define GRISAILLE_READS(attachment) (1u << (attachment))
@@ -110,8 +112,11 @@ typedef enum grisaille_format {
 typedef enum grisaille_role {
   GRISAILLE_ROLE_NONE = 0, /* not at all: only written to a file or shown on its own */
   GRISAILLE_ROLE_VISIBILITY =
-      1,                   /* first channel in [0,1], 1 = open: multiplies the light; no R32UI */
-  GRISAILLE_ROLE_PAINT = 2 /* rgba, straight alpha, linear: laid over the surface's colour */
+      1,                    /* first channel in [0,1], 1 = open: multiplies the light; no R32UI */
+  GRISAILLE_ROLE_PAINT = 2, /* rgba, straight alpha, linear: laid over the surface's colour */
+  /* Since 1.1; r32ui, not composed: whose the paint of a pixel is, 1 + number of the shot; 0: none
+   */
+  GRISAILLE_ROLE_OWNER = 3
 } grisaille_role;
 
 typedef struct grisaille_output_desc {
@@ -208,6 +213,45 @@ typedef struct grisaille_dispatch {
   uint32_t groups[3];
 } grisaille_dispatch;
 
+/* ---- Rays and shots, since 1.1 --------------------------------------------------------------- */
+
+typedef struct grisaille_ray {
+  double origin[3];   /* world, metres */
+  float direction[3]; /* unit */
+  float reach;        /* metres, over 0; may be infinite */
+} grisaille_ray;
+
+typedef enum grisaille_hit_kind {
+  GRISAILLE_HIT_NONE = 0,    /* nothing within reach */
+  GRISAILLE_HIT_SURFACE = 1, /* the first surface, from either side; what is cut out lets through */
+  GRISAILLE_HIT_UNKNOWN = 2  /* this host cannot tell now; it may in a later frame */
+} grisaille_hit_kind;
+
+typedef struct grisaille_hit {
+  uint32_t kind;   /* grisaille_hit_kind; the rest is 0 unless a surface is hit */
+  float distance;  /* metres along the ray */
+  float normal[3]; /* world, unit: of the triangle, towards the ray's origin */
+} grisaille_hit;
+
+/* What the user has fired, once and for good: a muzzle, a direction, a colour. The host checks that
+ * all is finite and inside its range. */
+typedef struct grisaille_shot {
+  double origin[3];   /* world, metres */
+  float direction[3]; /* unit */
+  float color[3];     /* linear, each 0 ... 1 */
+  float range;        /* metres, over 0; 0: as the effect's parameter says */
+  uint32_t reserved;  /* 0 */
+} grisaille_shot;
+
+/* The shots as a frame sees them. */
+typedef struct grisaille_shots {
+  uint32_t struct_size;
+  uint32_t stride;             /* bytes from one shot to the next */
+  const grisaille_shot* shots; /* oldest first; valid during record */
+  uint64_t count;
+  uint64_t kept; /* so many of the first are those that this instance's frame before had */
+} grisaille_shots;
+
 /* ---- The host's services --------------------------------------------------------------------- */
 
 /* Valid from create to destroy of one instance; never freed by the effect. `self` is always the
@@ -234,6 +278,11 @@ typedef struct grisaille_host {
   void (*destroy_texture)(const struct grisaille_host* self, grisaille_texture texture);
   void (*destroy_buffer)(const struct grisaille_host* self, grisaille_buffer buffer);
   void (*destroy_sampler)(const struct grisaille_host* self, grisaille_sampler sampler);
+
+  /* Since 1.1. What `count` rays hit, one an element of `hits`. GRISAILLE_UNSUPPORTED where the
+   * host casts none. Only inside record(). */
+  grisaille_result (*cast_rays)(const struct grisaille_host* self, const grisaille_ray* rays,
+                                uint64_t count, grisaille_hit* hits);
 } grisaille_host;
 
 /* The camera of a frame, in double precision. The same in single precision, for shaders, is the
@@ -278,9 +327,21 @@ typedef struct grisaille_frame {
   grisaille_result (*upload_texture)(const struct grisaille_frame* self, grisaille_texture texture,
                                      uint32_t mip, uint32_t layer, const void* data,
                                      uint64_t bytes);
+
+  /* Since 1.1. */
+  const grisaille_shots* shots; /* null unless the effect takes shots */
+  double
+      patience; /* seconds of work that can wait which this frame may still do; may be infinite */
+  /* So many things wait to be drawn: the host renders again soon. 0, as before the first call: the
+   * picture is whole. */
+  grisaille_result (*waiting)(const struct grisaille_frame* self, uint64_t count);
 } grisaille_frame;
 
 /* ---- The effect ------------------------------------------------------------------------------ */
+
+typedef enum grisaille_effect_flags {
+  GRISAILLE_EFFECT_TAKES_SHOTS = 1 /* since 1.1: frames carry the user's shots */
+} grisaille_effect_flags;
 
 typedef struct grisaille_effect_desc {
   uint32_t struct_size;
@@ -308,6 +369,10 @@ typedef struct grisaille_effect_desc {
 
   /* Ends an instance. */
   void (*destroy)(void* instance);
+
+  /* Since 1.1. */
+  uint32_t flags;     /* of grisaille_effect_flags */
+  uint32_t reserved2; /* 0 */
 } grisaille_effect_desc;
 
 typedef struct grisaille_plugin_desc {

@@ -65,6 +65,7 @@
 #include <concepts>
 #include <exception>
 #include <initializer_list>
+#include <limits>
 #include <ranges>
 #include <span>
 #include <type_traits>
@@ -156,6 +157,29 @@ class Frame {
     return frame_->outputs[static_cast<size_t>(output)];
   }
 
+  // The user's shots, oldest first; none unless the effect's spec says that it takes them. All in
+  // one array, or Failure.
+  std::span<const grisaille_shot> shots() const {
+    const grisaille_shots* list = shotList();
+    if (list == nullptr) return {};
+    if (list->stride != sizeof(grisaille_shot))
+      throw Failure("this host's shots are of another size");
+    return {list->shots, static_cast<size_t>(list->count)};
+  }
+  // So many of the first are those of the frame before.
+  size_t shotsKept() const {
+    const grisaille_shots* list = shotList();
+    return list == nullptr ? 0 : static_cast<size_t>(list->kept);
+  }
+  // Seconds of work that can wait which this frame may still do.
+  double patience() const {
+    return since11() ? frame_->patience : std::numeric_limits<double>::infinity();
+  }
+  // So many things wait to be drawn in a later frame.
+  void waiting(uint64_t count) const {
+    if (since11()) require(frame_->waiting(frame_, count), "waiting");
+  }
+
   // Calls work(), which records the pass. Passes do not nest. When work() throws, the pass is ended
   // all the same.
   template <std::invocable Work>
@@ -219,6 +243,9 @@ class Frame {
   }
 
  private:
+  bool since11() const { return frame_->struct_size >= sizeof(grisaille_frame); }
+  const grisaille_shots* shotList() const { return since11() ? frame_->shots : nullptr; }
+
   const grisaille_frame* frame_;
 };
 
@@ -240,6 +267,7 @@ struct EffectSpec {
   const char* tooltip = nullptr;
   std::span<const grisaille_param_desc> params;
   std::span<const grisaille_output_desc> outputs;
+  bool takesShots = false;
 };
 
 // The functions that cross, for one class.
@@ -297,7 +325,9 @@ constexpr grisaille_effect_desc effect(const EffectSpec& spec) {
           .reads = Boundary<E>::reads,
           .create = Boundary<E>::create,
           .record = Boundary<E>::record,
-          .destroy = Boundary<E>::destroy};
+          .destroy = Boundary<E>::destroy,
+          .flags = spec.takesShots ? uint32_t{GRISAILLE_EFFECT_TAKES_SHOTS} : 0u,
+          .reserved2 = 0};
 }
 
 }  // namespace grisaille::plugin

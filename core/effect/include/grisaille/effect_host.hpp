@@ -153,6 +153,17 @@ class Host {
     return {host_, id};
   }
 
+  // What each ray hits; false where the host casts none. Only inside record(). As many hits as
+  // rays.
+  bool castRays(std::span<const grisaille_ray> rays, std::span<grisaille_hit> hits) const {
+    if (host_->abi_minor < 1) return false;
+    const grisaille_result result =
+        host_->cast_rays(host_, rays.data(), std::min(rays.size(), hits.size()), hits.data());
+    if (result == GRISAILLE_UNSUPPORTED) return false;
+    require(result, "rays");
+    return true;
+  }
+
   Sampler sampler(const SamplerSpec& spec) const {
     const grisaille_sampler_desc desc = {.struct_size = sizeof(grisaille_sampler_desc),
                                          .linear = spec.linear ? 1u : 0u,

@@ -1,10 +1,11 @@
 // SPDX-License-Identifier: MIT
-// Ray-traced truth: what the rasteriser should have drawn, and what a screen-space occlusion
-// approximates. Embree finds the triangle; the numbers that matter are then worked out in double.
+// Rays: what effects ask of the scene, what the rasteriser should have drawn, and what a
+// screen-space occlusion approximates. Embree finds the triangle; the numbers that matter are then
+// worked out in double.
 //
 // Holes: texels of a masked material whose base colour alpha (texture, mip 0, bilinear, times the
 // factor) is under the cutoff let every ray through. Primary rays also pass through the back faces
-// of single-sided materials, as drawing does; occlusion rays are blocked from either side.
+// of single-sided materials, as drawing does; all others are blocked from either side.
 #pragma once
 
 #include <cstdint>
@@ -16,8 +17,9 @@
 #include "core/image/image.h"
 #include "core/scene/camera.h"
 #include "core/scene/scene.h"
+#include "grisaille/effect.h"
 
-namespace grisaille::oracle {
+namespace grisaille::trace {
 
 // What one pixel sees. Vectors are in world axes; both normals point to the side that is seen: they
 // are turned round where a double-sided surface shows its back.
@@ -42,8 +44,9 @@ struct Visibility {
 class RayTracer {
  public:
   // `scene` outlives the tracer. Embree works in 32 bits, so all instances are put into world space
-  // relative to `origin` in double first: give the camera's eye. Throws kSceneImage (a mask that
-  // does not decode), kSceneTooLarge.
+  // relative to `origin` in double first: give a point in the midst of what matters, as the
+  // camera's eye or the scene's centre. Throws kSceneImage (a mask that does not decode),
+  // kSceneTooLarge.
   RayTracer(const scene::Scene& scene, const glm::dvec3& origin);
   ~RayTracer();
   RayTracer(const RayTracer&) = delete;
@@ -54,6 +57,11 @@ class RayTracer {
   std::vector<Hit> castPrimary(const scene::Camera& camera, uint32_t width, uint32_t height,
                                std::span<const glm::uvec2> pixels) const;
   std::vector<Hit> castPrimary(const scene::Camera& camera, uint32_t width, uint32_t height) const;
+
+  // What each ray meets first within its reach, one an element of `hits`, which is as long: from
+  // either side, also the back of a single-sided material. Directions are unit. Rays may start far
+  // outside the scene. Never kind GRISAILLE_HIT_UNKNOWN.
+  void castRays(std::span<const grisaille_ray> rays, std::span<grisaille_hit> hits) const;
 
   // The share of `samples` cosine-weighted rays about the interpolated normal that travel `radius`
   // metres unblocked. Rays that go under the facet are left out of the count. Points are scrambled
@@ -73,4 +81,4 @@ image::Image depthImage(std::span<const Hit> hits, uint32_t width, uint32_t heig
 image::Image normalImage(std::span<const Hit> hits, uint32_t width, uint32_t height);
 image::Image visibilityImage(std::span<const Visibility> values, uint32_t width, uint32_t height);
 
-}  // namespace grisaille::oracle
+}  // namespace grisaille::trace

@@ -7,7 +7,7 @@
 
 #include "core/scene/scene.h"
 
-namespace grisaille::oracle {
+namespace grisaille::trace {
 
 // The alpha of a masked material, sampled as the GPU's linear filter does at mip 0.
 class AlphaMask {
@@ -29,4 +29,4 @@ class AlphaMask {
   float cutoff_ = 0.5f;
 };
 
-}  // namespace grisaille::oracle
+}  // namespace grisaille::trace

@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: MIT
-#include "tests/oracle/ray_tracer.h"
+#include "core/trace/ray_tracer.h"
 
-namespace grisaille::oracle {
+namespace grisaille::trace {
 namespace {
 
 image::Image emptyImage(uint32_t width, uint32_t height, uint32_t channels) {
@@ -32,4 +32,4 @@ image::Image visibilityImage(std::span<const Visibility> values, uint32_t width,
   return image;
 }
 
-}  // namespace grisaille::oracle
+}  // namespace grisaille::trace

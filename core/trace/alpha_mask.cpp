@@ -1,12 +1,12 @@
 // SPDX-License-Identifier: MIT
-#include "tests/oracle/alpha_mask.h"
+#include "core/trace/alpha_mask.h"
 
 #include <algorithm>
 #include <cmath>
 
 #include "core/image/image.h"
 
-namespace grisaille::oracle {
+namespace grisaille::trace {
 namespace {
 
 int64_t wrapped(int64_t i, int64_t size, scene::Wrap wrap) {
@@ -59,4 +59,4 @@ bool AlphaMask::isHole(const glm::vec2& texCoord) const {
   return std::lerp(above, below, y - top) * factor_ < cutoff_;
 }
 
-}  // namespace grisaille::oracle
+}  // namespace grisaille::trace

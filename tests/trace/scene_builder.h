@@ -11,7 +11,7 @@
 #include "core/scene/camera.h"
 #include "core/scene/scene.h"
 
-namespace grisaille::oracle {
+namespace grisaille::trace {
 
 class SceneBuilder {
  public:
@@ -90,4 +90,4 @@ inline scene::Camera cameraAt(const glm::dvec3& eye, const glm::dvec3& target,
   return camera;
 }
 
-}  // namespace grisaille::oracle
+}  // namespace grisaille::trace

@@ -7,7 +7,7 @@
 #include <glm/glm.hpp>
 #include <numbers>
 
-namespace grisaille::oracle {
+namespace grisaille::trace {
 
 // Every bit of the result depends on every bit of `x`. Constants: "lowbias32" of Wellons' search
 // for integer hashes.
@@ -63,4 +63,4 @@ inline glm::vec3 cosineDirection(const glm::vec2& point) {
   return {radius * std::cos(angle), radius * std::sin(angle), std::sqrt(1.0f - point.x)};
 }
 
-}  // namespace grisaille::oracle
+}  // namespace grisaille::trace

@@ -8,10 +8,10 @@
 #include <iterator>
 #include <numbers>
 
-#include "tests/oracle/ray_tracer.h"
-#include "tests/oracle/scene_builder.h"
+#include "core/trace/ray_tracer.h"
+#include "tests/trace/scene_builder.h"
 
-namespace grisaille::oracle {
+namespace grisaille::trace {
 namespace {
 
 constexpr uint32_t kWidth = 64;
@@ -185,4 +185,4 @@ TEST(RayTracer, TheNearPlaneCuts) {
 }
 
 }  // namespace
-}  // namespace grisaille::oracle
+}  // namespace grisaille::trace

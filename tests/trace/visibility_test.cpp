@@ -7,12 +7,11 @@
 #include <filesystem>
 #include <numbers>
 
-#include "tests/oracle/parallel.h"
-#include "tests/oracle/ray_tracer.h"
-#include "tests/oracle/sampling.h"
-#include "tests/oracle/scene_builder.h"
+#include "core/trace/ray_tracer.h"
+#include "core/trace/sampling.h"
+#include "tests/trace/scene_builder.h"
 
-namespace grisaille::oracle {
+namespace grisaille::trace {
 namespace {
 
 // The hit straight under a camera that looks down at (x, 0, z).
@@ -184,17 +183,6 @@ TEST(Sampling, FramesAreOrthonormal) {
   }
 }
 
-TEST(ParallelFor, VisitsEachIndexOnceOnAnyNumberOfThreads) {
-  for (const size_t threads : {0u, 1u, 2u, 7u}) {
-    for (const size_t count : {0u, 1u, 256u, 257u, 10000u}) {
-      std::vector<int> visits(count, 0);
-      parallelFor(
-          count, [&](size_t i) { ++visits[i]; }, threads);
-      EXPECT_EQ(std::count(visits.begin(), visits.end(), 1), static_cast<ptrdiff_t>(count));
-    }
-  }
-}
-
 TEST(Sponza, IsAnAtriumWithPlantsCutOut) {
   const char* named = std::getenv("GRISAILLE_SPONZA");
   const std::string path = named != nullptr ? named : GRISAILLE_SHARED_SPONZA;
@@ -225,4 +213,4 @@ TEST(Sponza, IsAnAtriumWithPlantsCutOut) {
 }
 
 }  // namespace
-}  // namespace grisaille::oracle
+}  // namespace grisaille::trace

@@ -1,0 +1,64 @@
+// SPDX-License-Identifier: MIT
+#include "core/shots/shot_file.h"
+
+#include <algorithm>
+#include <cerrno>
+#include <cstring>
+#include <filesystem>
+#include <fstream>
+
+#include "core/error.h"
+#include "core/image/write_aside.h"
+#include "core/shots/formats.h"
+#include "core/shots/shot.h"
+
+namespace grisaille::shots {
+namespace {
+
+using Writer = void (*)(std::span<const grisaille_shot>, std::ostream&);
+
+Writer writerOf(const std::string& path) {
+  std::string ending = std::filesystem::path(path).extension().string();
+  std::transform(ending.begin(), ending.end(), ending.begin(),
+                 [](char c) { return c >= 'A' && c <= 'Z' ? static_cast<char>(c + 32) : c; });
+  if (ending == ".json") return writeJson;
+  if (ending == ".shots") return writeBinary;
+  throw Error(ErrorId::kShotFileEnding, "{}: the ending \"{}\" names no format of shots", path,
+              ending);
+}
+
+}  // namespace
+
+void save(std::span<const grisaille_shot> shots, const std::string& path) {
+  const Writer write = writerOf(path);
+  const std::vector<grisaille_shot> sound = checked(shots);
+  image::writeAside(path, [&](const std::string& part) {
+    errno = 0;
+    std::ofstream file(part, std::ios::binary);
+    write(sound, file);
+    file.close();
+    if (!file) throw Error(ErrorId::kFileUnwritable, "{}: {}", path, std::strerror(errno));
+  });
+}
+
+std::vector<grisaille_shot> load(const std::string& path) {
+  std::error_code code;
+  if (!std::filesystem::is_regular_file(path, code)) {
+    throw Error(ErrorId::kShotFileUnreadable, "{}: {}", path,
+                code ? code.message() : "not a regular file");
+  }
+  errno = 0;
+  std::ifstream file(path, std::ios::binary);
+  const uintmax_t bytes = file ? std::filesystem::file_size(path, code) : 0;
+  if (!file || code) {
+    throw Error(ErrorId::kShotFileUnreadable, "{}: {}", path,
+                code ? code.message() : std::strerror(errno));
+  }
+  try {
+    return file.peek() == kBinaryMark ? readBinary(file, bytes) : readJson(file);
+  } catch (const Error& error) {
+    throw Error(error.id(), "{}:{}", path, error.detail());
+  }
+}
+
+}  // namespace grisaille::shots

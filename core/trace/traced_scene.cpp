@@ -1,0 +1,166 @@
+// SPDX-License-Identifier: MIT
+#include "core/trace/traced_scene.h"
+
+#include <cmath>
+
+#include "core/error.h"
+
+namespace grisaille::trace {
+namespace {
+
+Placement placementOf(const scene::Instance& instance, const glm::dvec3& origin) {
+  Placement p;
+  p.linear = glm::dmat3(instance.worldFromObject);
+  p.offset = glm::dvec3(instance.worldFromObject[3]) - origin;
+  p.mirrored = glm::determinant(p.linear) < 0;
+  // Cofactors: the inverse transpose up to a positive factor, and defined for flattened instances.
+  const glm::dmat3& m = p.linear;
+  p.normals = glm::dmat3(glm::cross(m[1], m[2]), glm::cross(m[2], m[0]), glm::cross(m[0], m[1]));
+  if (p.mirrored) p.normals = -p.normals;
+  return p;
+}
+
+}  // namespace
+
+double Facet::crossing(const glm::dvec3& from, const glm::dvec3& direction) const {
+  const double squared = glm::dot(direction, direction);
+  double nearest = INFINITY;
+  double farthest = -INFINITY;
+  for (const glm::dvec3& corner : corners) {
+    const double along = glm::dot(corner - from, direction) / squared;
+    nearest = std::fmin(nearest, along);
+    farthest = std::fmax(farthest, along);
+  }
+  // Not a number where the ray runs in the plane: then fmin and fmax take the other one.
+  const double plane = glm::dot(corners[0] - from, cross) / glm::dot(direction, cross);
+  return std::fmax(nearest, std::fmin(farthest, plane));
+}
+
+TracedScene::TracedScene(const scene::Scene& scene, const glm::dvec3& origin)
+    : scene_(scene), origin_(origin) {
+  place();
+  sortTriangles();
+  device_ = rtcNewDevice(nullptr);
+  try {
+    throwOnFailure("start for");
+    world_ = rtcNewScene(device_);
+    rtcSetSceneFlags(world_, static_cast<RTCSceneFlags>(RTC_SCENE_FLAG_ROBUST |
+                                                        RTC_SCENE_FLAG_CONTEXT_FILTER_FUNCTION));
+    rtcSetSceneBuildQuality(world_, RTC_BUILD_QUALITY_HIGH);
+    for (uint32_t id = 0; id < buckets_.size(); ++id) attach(id, buckets_[id]);
+    rtcCommitScene(world_);
+    throwOnFailure("hold");
+  } catch (...) {
+    if (world_ != nullptr) rtcReleaseScene(world_);
+    if (device_ != nullptr) rtcReleaseDevice(device_);
+    throw;
+  }
+}
+
+TracedScene::~TracedScene() {
+  rtcReleaseScene(world_);
+  rtcReleaseDevice(device_);
+}
+
+void TracedScene::place() {
+  for (const scene::Instance& instance : scene_.instances) {
+    placements_.push_back(placementOf(instance, origin_));
+  }
+  for (const scene::Material& material : scene_.materials) {
+    auto& mask = masks_.emplace_back();
+    if (material.masked) mask.emplace(scene_, material);
+  }
+}
+
+void TracedScene::sortTriangles() {
+  for (uint32_t i = 0; i < buckets_.size(); ++i) {
+    buckets_[i].owner = this;
+    buckets_[i].masked = (i & 1u) != 0;
+    buckets_[i].doubleSided = (i & 2u) != 0;
+  }
+  for (uint32_t i = 0; i < scene_.instances.size(); ++i) {
+    const scene::Primitive& primitive = scene_.primitives[scene_.instances[i].primitive];
+    const scene::Material& material = scene_.materials[primitive.material];
+    auto& triangles = buckets_[material.masked + 2 * material.doubleSided].triangles;
+    for (uint32_t k = 0; k < primitive.indexCount; k += 3) {
+      triangles.push_back({i, primitive.firstIndex + k});
+    }
+  }
+}
+
+void TracedScene::throwOnFailure(const char* what) const {
+  const RTCError error = rtcGetDeviceError(device_);
+  if (error == RTC_ERROR_NONE) return;
+  throw Error(ErrorId::kSceneTooLarge, "the ray tracer failed to {} {} triangles: Embree error {}",
+              what, scene::triangleCount(scene_), static_cast<int>(error));
+}
+
+void TracedScene::attach(uint32_t id, Bucket& bucket) {
+  const size_t count = bucket.triangles.size();
+  if (count == 0) return;
+  RTCGeometry geometry = rtcNewGeometry(device_, RTC_GEOMETRY_TYPE_TRIANGLE);
+  auto* vertices = static_cast<glm::vec3*>(rtcSetNewGeometryBuffer(
+      geometry, RTC_BUFFER_TYPE_VERTEX, 0, RTC_FORMAT_FLOAT3, sizeof(glm::vec3), 3 * count));
+  auto* indices = static_cast<uint32_t*>(rtcSetNewGeometryBuffer(
+      geometry, RTC_BUFFER_TYPE_INDEX, 0, RTC_FORMAT_UINT3, 3 * sizeof(uint32_t), count));
+  if (vertices != nullptr && indices != nullptr) {
+    for (size_t i = 0; i < count; ++i) {
+      const Facet f = facet(bucket.triangles[i]);
+      for (size_t k = 0; k < 3; ++k) {
+        vertices[3 * i + k] = glm::vec3(f.corners[k]);
+        indices[3 * i + k] = static_cast<uint32_t>(3 * i + k);
+      }
+    }
+    rtcSetGeometryUserData(geometry, &bucket);
+    if (bucket.masked) {
+      rtcSetGeometryIntersectFilterFunction(geometry, passHoles);
+      rtcSetGeometryOccludedFilterFunction(geometry, passHoles);
+    }
+    rtcCommitGeometry(geometry);
+    rtcAttachGeometryByID(world_, geometry, id);
+  }
+  rtcReleaseGeometry(geometry);
+}
+
+Facet TracedScene::facet(const Triangle& triangle) const {
+  const Placement& p = placements_[triangle.instance];
+  Facet result;
+  for (uint32_t k = 0; k < 3; ++k) {
+    const uint32_t vertex = scene_.indices[triangle.firstIndex + k];
+    result.corners[k] = p.linear * glm::dvec3(scene_.positions[vertex]) + p.offset;
+  }
+  result.cross =
+      glm::cross(result.corners[1] - result.corners[0], result.corners[2] - result.corners[0]);
+  return result;
+}
+
+bool TracedScene::isHole(const Triangle& triangle, float u, float v) const {
+  const uint32_t* index = &scene_.indices[triangle.firstIndex];
+  const glm::vec2 texCoord = (1.0f - u - v) * scene_.texCoords[index[0]] +
+                             u * scene_.texCoords[index[1]] + v * scene_.texCoords[index[2]];
+  return masks_[materialOf(triangle)]->isHole(texCoord);
+}
+
+bool TracedScene::isBack(const Triangle& triangle, const glm::dvec3& direction) const {
+  const double facing = glm::dot(facet(triangle).cross, direction);
+  return placements_[triangle.instance].mirrored ? facing < 0 : facing > 0;
+}
+
+// Both filters serve single rays only: N is 1.
+void TracedScene::passHoles(const RTCFilterFunctionNArguments* args) {
+  const auto& bucket = *static_cast<const Bucket*>(args->geometryUserPtr);
+  const auto& hit = *reinterpret_cast<const RTCHit*>(args->hit);
+  if (bucket.owner->isHole(bucket.triangles[hit.primID], hit.u, hit.v)) args->valid[0] = 0;
+}
+
+void TracedScene::passBackFaces(const RTCFilterFunctionNArguments* args) {
+  const auto& bucket = *static_cast<const Bucket*>(args->geometryUserPtr);
+  const auto& ray = *reinterpret_cast<const RTCRay*>(args->ray);
+  const auto& hit = *reinterpret_cast<const RTCHit*>(args->hit);
+  const glm::dvec3 direction(ray.dir_x, ray.dir_y, ray.dir_z);
+  if (!bucket.doubleSided && bucket.owner->isBack(bucket.triangles[hit.primID], direction)) {
+    args->valid[0] = 0;
+  }
+}
+
+}  // namespace grisaille::trace

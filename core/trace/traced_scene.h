@@ -1,0 +1,88 @@
+// SPDX-License-Identifier: MIT
+// A scene inside Embree, and the double precision truth about each of its triangles.
+#pragma once
+
+#include <embree3/rtcore.h>
+
+#include <array>
+#include <glm/glm.hpp>
+#include <optional>
+#include <vector>
+
+#include "core/scene/scene.h"
+#include "core/trace/alpha_mask.h"
+
+namespace grisaille::trace {
+
+struct Triangle {
+  uint32_t instance = 0;
+  uint32_t firstIndex = 0;
+};
+
+// An instance's transform, relative to the origin.
+struct Placement {
+  glm::dmat3 linear = glm::dmat3(1);
+  glm::dvec3 offset = glm::dvec3(0);
+  glm::dmat3 normals = glm::dmat3(1);
+  bool mirrored = false;
+};
+
+// A triangle relative to the origin.
+struct Facet {
+  std::array<glm::dvec3, 3> corners;
+  glm::dvec3 cross;  // of its edges: as long as twice its area
+
+  // Where a ray meets its plane, in lengths of `direction`; never beyond its corners.
+  double crossing(const glm::dvec3& from, const glm::dvec3& direction) const;
+};
+
+class TracedScene {
+ public:
+  // Throws kSceneImage, kSceneTooLarge. `scene` outlives this.
+  TracedScene(const scene::Scene& scene, const glm::dvec3& origin);
+  ~TracedScene();
+  TracedScene(const TracedScene&) = delete;
+  TracedScene& operator=(const TracedScene&) = delete;
+
+  // Holes let every ray through. Back faces block unless a query's context asks for passBackFaces.
+  RTCScene world() const { return world_; }
+  static void passBackFaces(const RTCFilterFunctionNArguments* args);
+
+  const scene::Scene& scene() const { return scene_; }
+  const glm::dvec3& origin() const { return origin_; }
+  const Placement& placement(uint32_t instance) const { return placements_[instance]; }
+  const Triangle& triangle(uint32_t geometry, uint32_t primitive) const {
+    return buckets_[geometry].triangles[primitive];
+  }
+  uint32_t materialOf(const Triangle& triangle) const {
+    return scene_.primitives[scene_.instances[triangle.instance].primitive].material;
+  }
+  Facet facet(const Triangle& triangle) const;
+
+ private:
+  // Triangles with the same rules: an Embree geometry whose filter does no more than these need.
+  struct Bucket {
+    const TracedScene* owner = nullptr;
+    bool masked = false;
+    bool doubleSided = false;
+    std::vector<Triangle> triangles;
+  };
+
+  void place();
+  void sortTriangles();
+  void attach(uint32_t id, Bucket& bucket);
+  void throwOnFailure(const char* what) const;
+  bool isHole(const Triangle& triangle, float u, float v) const;
+  bool isBack(const Triangle& triangle, const glm::dvec3& direction) const;
+  static void passHoles(const RTCFilterFunctionNArguments* args);
+
+  const scene::Scene& scene_;
+  const glm::dvec3 origin_;
+  std::vector<Placement> placements_;            // like scene.instances
+  std::vector<std::optional<AlphaMask>> masks_;  // like scene.materials
+  std::array<Bucket, 4> buckets_;                // index: masked + 2 * doubleSided; Embree's geomID
+  RTCDevice device_ = nullptr;
+  RTCScene world_ = nullptr;
+};
+
+}  // namespace grisaille::trace

@@ -1,0 +1,124 @@
+// SPDX-License-Identifier: MIT
+// The effect's tables: parameters and outputs.
+#pragma once
+
+#include "grisaille/effect.hpp"
+
+namespace grisaille::sspm {
+
+enum class Mode : uint8_t { kSurface, kPerShot };
+
+enum Parameter {
+  kMode,
+  kPaintRange,
+  kFull,
+  kShotLimit,
+  kEdgeFade,
+  kSplatScale,
+  kSplatSharpness,
+  kNoiseSeed,
+};
+
+enum Output { kPaint, kCoverage, kOwner };
+
+constexpr const char* kModeKeys[] = {"surface", "per_shot"};
+constexpr const char* kModeLabels[] = {"On surfaces", "Per shot"};
+
+constexpr grisaille_param_desc kParams[] = {
+    plugin::enumParam({.key = "mode",
+                       .label = "Mode",
+                       .tooltip = "On surfaces: any number of shots, and paint stops at what the "
+                                  "muzzle sees; per shot: the definition, a pass a shot, through "
+                                  "walls",
+                       .keys = kModeKeys,
+                       .labels = kModeLabels,
+                       .defaultValue = 0}),
+    plugin::floatParam({.key = "paint_range",
+                        .label = "Paint range",
+                        .unit = "m",
+                        .tooltip = "How far from a shot's ray paint lands, for shots without a "
+                                   "range of their own",
+                        .hardMin = 1e-6,
+                        .hardMax = 1e6,
+                        .softMin = 0.01,
+                        .softMax = 10,
+                        .defaultValue = 0.25,
+                        .log = true}),
+    plugin::floatParam({.key = "r0",
+                        .label = "Full alpha within",
+                        .unit = "m",
+                        .tooltip = "A shot's alpha is this distance divided by the distance to its "
+                                   "ray, at most 1",
+                        .hardMin = 1e-6,
+                        .hardMax = 1e6,
+                        .softMin = 0.01,
+                        .softMax = 10,
+                        .defaultValue = 1,
+                        .log = true}),
+    plugin::intParam({.key = "shot_limit",
+                      .label = "Shot limit",
+                      .tooltip = "Per shot alone: so many of the newest shots are drawn, each in a "
+                                 "pass of its own",
+                      .hardMin = 1,
+                      .hardMax = 65536,
+                      .softMin = 1,
+                      .softMax = 256,
+                      .defaultValue = 64,
+                      .log = true}),
+    plugin::floatParam({.key = "edge_fade",
+                        .label = "Edge fade",
+                        .tooltip = "Share of the range over which the coverage falls to nothing at "
+                                   "the rim, which breaks it up into splats; 0: a hard rim",
+                        .hardMin = 0,
+                        .hardMax = 1,
+                        .softMin = 0,
+                        .softMax = 1,
+                        .defaultValue = 0.5,
+                        .step = 0.01}),
+    plugin::floatParam({.key = "splat_scale",
+                        .label = "Splat scale",
+                        .unit = "m",
+                        .tooltip = "Size of the splats: the noise's largest cells",
+                        .hardMin = 1e-6,
+                        .hardMax = 1e6,
+                        .softMin = 0.005,
+                        .softMax = 1,
+                        .defaultValue = 0.06,
+                        .log = true}),
+    plugin::floatParam({.key = "splat_sharpness",
+                        .label = "Splat sharpness",
+                        .tooltip = "How hard a splat's edge is; 1: paint or nothing",
+                        .hardMin = 0,
+                        .hardMax = 1,
+                        .softMin = 0,
+                        .softMax = 1,
+                        .defaultValue = 0.9,
+                        .step = 0.01}),
+    plugin::intParam({.key = "noise_seed",
+                      .label = "Noise seed",
+                      .tooltip = "Which splats are drawn",
+                      .hardMin = 0,
+                      .hardMax = 65535,
+                      .softMin = 0,
+                      .softMax = 100,
+                      .defaultValue = 0,
+                      .advanced = true}),
+};
+
+constexpr grisaille_output_desc kOutputs[] = {
+    plugin::output({.key = "paint",
+                    .format = GRISAILLE_FORMAT_RGBA16F,
+                    .role = GRISAILLE_ROLE_PAINT,
+                    .tooltip = "Paint after the splat step: linear colour, and alpha, 0 to 1"}),
+    plugin::output({.key = "paint_coverage",
+                    .format = GRISAILLE_FORMAT_R32F,
+                    .role = GRISAILLE_ROLE_NONE,
+                    .tooltip = "Sum of the shots' alphas before the splat step, at most 1"}),
+    plugin::output({.key = "paint_owner",
+                    .format = GRISAILLE_FORMAT_R32UI,
+                    .role = GRISAILLE_ROLE_OWNER,
+                    .tooltip = "1 + the number of the shot that weighs most in the colour; 0: no "
+                               "paint"}),
+};
+
+}  // namespace grisaille::sspm

@@ -1,0 +1,17 @@
+// SPDX-License-Identifier: MIT
+// What both modes write. Outputs that nobody wants are bound to a texture of one texel and left.
+layout(constant_id = 0) const uint kWanted = 7;  // bits: paint, paint_coverage, paint_owner
+layout(IMAGE(0), rgba16f) writeonly uniform image2D paint_out;
+layout(IMAGE(1), r32f) writeonly uniform image2D coverage_out;
+layout(IMAGE(2), r32ui) writeonly uniform uimage2D owner_out;
+
+// `color` and `alphas` as blended: rgb, and the sum of alphas.
+void writePaint(ivec2 pixel, vec3 color, float alphas, uint owner, vec3 from_camera, float depth) {
+  const float coverage = min(alphas, 1.0);
+  if ((kWanted & 1u) != 0u) {
+    const float alpha = splatAlpha(coverage, from_camera, depth);
+    imageStore(paint_out, pixel, alpha > 0.0 ? vec4(color, alpha) : vec4(0.0));
+  }
+  if ((kWanted & 2u) != 0u) imageStore(coverage_out, pixel, vec4(coverage));
+  if ((kWanted & 4u) != 0u) imageStore(owner_out, pixel, uvec4(owner));
+}

@@ -1,0 +1,80 @@
+// SPDX-License-Identifier: MIT
+// The second step: where the paint's alpha is above the noise of the pixel's world position, paint
+// is drawn, elsewhere nothing. The noise is a sum of three octaves of value noise on lattices of
+// splat_scale / 2^octave metres that stand in the world; lattice points are hashed as integers.
+// effects/sspm/README.md has the definition.
+#include "common/view.glsl"
+
+const uint kOctaves = 3;
+
+layout(UNIFORM(1), std140) uniform Splat {
+  // One an octave. xyz: the camera's lattice cell, modulo 2^32; w: hash seed.
+  ivec4 noise_cell[kOctaves];
+  // xyz: the camera's place in its cell, in cells; w: cells a metre.
+  vec4 noise_fraction[kOctaves];
+  float half_width;   // of the step from nothing to paint, in alpha; 0: a hard edge
+  float pixel_slope;  // height of a pixel at 1 m view depth, metres
+} splat;
+
+uint hashBits(uint x) {
+  x ^= x >> 16;
+  x *= 0x7feb352du;
+  x ^= x >> 15;
+  x *= 0x846ca68bu;
+  x ^= x >> 16;
+  return x;
+}
+
+// Uniform in [0, 1) on the corners of a cell, in between by a quintic. `place` in cells from
+// `origin`, which may wrap round.
+float valueNoise(ivec3 origin, vec3 place, uint seed) {
+  const vec3 whole = floor(place);
+  const vec3 f = place - whole;
+  const vec3 w = f * f * f * (f * (f * 6.0 - 15.0) + 10.0);
+  const uvec3 low = uvec3(origin + ivec3(whole));
+  const uvec3 a = low * uvec3(0x9e3779b1u, 0x85ebca77u, 0xc2b2ae3du);
+  const uvec3 b = (low + 1u) * uvec3(0x9e3779b1u, 0x85ebca77u, 0xc2b2ae3du);
+  vec4 x0 = vec4(0.0), x1 = vec4(0.0);
+  for (int i = 0; i < 4; ++i) {
+    const uint yz = ((i & 1) != 0 ? b.y : a.y) ^ ((i & 2) != 0 ? b.z : a.z) ^ seed;
+    x0[i] = float(hashBits(a.x ^ yz) >> 8);
+    x1[i] = float(hashBits(b.x ^ yz) >> 8);
+  }
+  const vec4 x = mix(x0, x1, w.x);
+  const vec2 y = mix(x.xz, x.yw, w.y);
+  return mix(y.x, y.y, w.z) * (1.0 / 16777216.0);
+}
+
+// In [0, 1]; `from_camera` in world axes, metres. An octave whose cells are under four pixels wide
+// fades to its mean, under two it is gone.
+float splatNoise(vec3 from_camera, float view_depth) {
+  float sum = 0.0, weights = 0.0;
+  const float pixel = splat.pixel_slope * view_depth;
+  for (uint octave = 0; octave < kOctaves; ++octave) {
+    const float cells = splat.noise_fraction[octave].w;
+    const float weight = exp2(-float(octave));
+    const float shown = clamp(1.0 / (2.0 * pixel * cells) - 1.0, 0.0, 1.0);
+    if (shown > 0.0) {
+      const vec3 place = from_camera * cells + splat.noise_fraction[octave].xyz;
+      const float value =
+          valueNoise(splat.noise_cell[octave].xyz, place, uint(splat.noise_cell[octave].w));
+      sum += weight * shown * (value - 0.5);
+    }
+    weights += weight;
+  }
+  // The sum of octaves keeps to the middle: twice as wide it fills [0, 1].
+  return clamp(0.5 + 2.0 * sum / weights, 0.0, 1.0);
+}
+
+// The alpha that paint of this coverage is drawn with, 0 or 1 but for the step's width.
+float splatAlpha(float coverage, vec3 from_camera, float view_depth) {
+  if (coverage <= 0.0) return 0.0;
+  const float above = coverage - splatNoise(from_camera, view_depth);
+  if (splat.half_width <= 0.0) return above > 0.0 ? 1.0 : 0.0;
+  return smoothstep(-splat.half_width, splat.half_width, above) * min(coverage / splat.half_width, 1.0);
+}
+
+// A pixel's place in world axes from the camera, metres.
+vec3 fromCamera(vec2 pixel, float view_depth) {
+  return transpose(mat3(view.view_from_world)) * viewPosition(pixel, view_depth);
+}

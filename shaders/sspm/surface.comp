@@ -1,0 +1,170 @@
+#version 460
+// SPDX-License-Identifier: MIT
+// Any number of shots: each pixel walks the shots listed for its cell of the world and its facing,
+// newest first, T = prod(1 - alpha), C = sum(alpha c T), A = sum(alpha), until nothing older shows.
+// A shot paints what its muzzle sees: effects/sspm/shot_map.h says how that is held.
+#extension GL_GOOGLE_include_directive : require
+#include "splat.glsl"
+#include "outputs.glsl"
+
+layout(local_size_x = 8, local_size_y = 8) in;
+
+const uint kLevels = 16;
+layout(UNIFORM(2), std140) uniform Lists {
+  ivec4 level_cell[kLevels];      // xyz: the camera's cell; w: code of the level
+  vec4 level_fraction[kLevels];   // xyz: the camera's place in it, in cells; w: cells a metre
+  ivec4 camera_cell;              // as in View, w: number of levels
+  vec4 camera_fraction;           // w: r0, metres
+  uint slot_mask;                 // number of slots, a power of two, less 1
+  float edge_fade;
+} lists;
+
+struct Slot {
+  ivec3 cell;
+  int code;     // level and facing; -1: free
+  uint first;   // entry
+  uint count;
+  uint unused0, unused1;
+};
+struct Shot {
+  ivec3 cell;  // muzzle, world: whole metres
+  float range;
+  vec3 fraction;
+  float slope;
+  vec3 direction;
+  float bias;
+  uint color_rg, color_b;  // halves
+  uint base;               // the map's first block
+  uint root;
+};
+layout(STORAGE(0), std430) readonly buffer Slots { Slot slots[]; };
+layout(STORAGE(1), std430) readonly buffer Entries { uvec2 entries[]; };  // shot, word
+layout(STORAGE(2), std430) readonly buffer Shots { Shot shots[]; };
+layout(STORAGE(3), std430) readonly buffer Blocks { uvec4 blocks[]; };
+layout(TEXTURE(0)) uniform sampler2D view_depth;
+layout(TEXTURE(1)) uniform sampler2D facet_normal;
+
+const float kMapReach = 8.0;
+const uint kPlane = 0x40000000u, kNode = 0x80000000u, kTag = 0xC0000000u;
+
+uint pick(uvec4 block, uint i) { return (i & 2u) != 0u ? (i & 1u) != 0u ? block.w : block.z : (i & 1u) != 0u ? block.y : block.x; }
+
+// As inSight() of effects/sspm/shot_map.cpp.
+bool inSight(Shot shot, uint word, vec3 q, float along) {
+  if ((word & kNode) != 0u) {
+    const vec3 w = shot.direction;
+    const float s = w.z >= 0.0 ? 1.0 : -1.0;
+    const float a = -1.0 / (s + w.z);
+    const float b = w.x * w.y * a;
+    const vec3 right = vec3(1.0 + s * w.x * w.x * a, s * b, -s * w.x);
+    const vec3 up = vec3(b, s + w.y * w.y * a, -w.y);
+    vec2 place = vec2(dot(q, right), dot(q, up)) / (max(along, 1e-20) * shot.slope);
+    const float radius = length(place);
+    if (radius > 1.0) place *= min(1.0 + log(radius), 0.999 * kMapReach) / radius;
+    vec2 at = (place + kMapReach) * (2.0 / kMapReach);
+    while ((word & kNode) != 0u) {
+      const vec2 square = clamp(floor(at), 0.0, 3.0);
+      const uint bit = uint(square.y) * 4u + uint(square.x);
+      const uint block = shot.base + (word & ~kTag);
+      if ((word & kTag) == kNode) {
+        word = pick(blocks[block + bit / 4u], bit & 3u);
+      } else {
+        const uvec4 two = blocks[block];
+        word = (two.x >> bit & 1u) != 0u ? two.z : two.y;
+      }
+      at = (at - square) * 4.0;
+    }
+  }
+  if (word == 0u) return true;
+  const vec4 plane = uintBitsToFloat(blocks[shot.base + (word & ~kTag)]);
+  return dot(plane.xyz, q) >= plane.w - shot.bias;
+}
+
+uint hashCell(ivec3 cell, int code) {
+  const uvec3 c = uvec3(cell);
+  uint h = c.x * 0x9e3779b1u ^ c.y * 0x85ebca77u ^ c.z * 0xc2b2ae3du ^ uint(code) * 0x27d4eb2fu;
+  h ^= h >> 15;
+  h *= 0x2c1b3c6du;
+  return h ^ h >> 12;
+}
+
+// First and count of the entries of a cell.
+uvec2 find(ivec3 cell, int code) {
+  for (uint i = hashCell(cell, code);; ++i) {
+    const Slot slot = slots[i & lists.slot_mask];
+    if (slot.code == code && slot.cell == cell) return uvec2(slot.first, slot.count);
+    if (slot.code < 0) return uvec2(0u);
+  }
+}
+
+int facingOf(vec3 normal) {
+  const vec3 n = abs(normal);
+  const int axis = n.x >= n.y && n.x >= n.z ? 0 : n.y >= n.z ? 1 : 2;
+  return axis * 2 + (normal[axis] < 0.0 ? 1 : 0);
+}
+
+struct Sum {
+  vec3 color;
+  float through;  // T
+  float alphas;
+  float weight;  // of the owner
+  uint owner;
+};
+
+void add(inout Sum sum, uvec2 entry, vec3 from_camera, vec3 normal) {
+  const Shot shot = shots[entry.x];
+  const vec3 origin = vec3(shot.cell - lists.camera_cell.xyz) + (shot.fraction - lists.camera_fraction.xyz);
+  const vec3 q = from_camera - origin;
+  const float along = dot(q, shot.direction);
+  const float across = length(cross(q, shot.direction));
+  if (along < 0.0 || across >= shot.range || dot(q, normal) >= 0.0) return;
+  if (!inSight(shot, entry.y, q, along)) return;
+  const float alpha = min(1.0, lists.camera_fraction.w / max(across, 1e-6));
+  const float fade = lists.edge_fade > 0.0 ? min(1.0, (1.0 - across / shot.range) / lists.edge_fade) : 1.0;
+  const float weight = alpha * sum.through;
+  sum.color += weight * vec3(unpackHalf2x16(shot.color_rg), unpackHalf2x16(shot.color_b).x);
+  sum.alphas += alpha * fade;
+  sum.through *= 1.0 - alpha;
+  if (weight > sum.weight) {
+    sum.weight = weight;
+    sum.owner = entry.x + 1u;
+  }
+}
+
+void main() {
+  const ivec2 pixel = ivec2(gl_GlobalInvocationID.xy);
+  if (any(greaterThanEqual(pixel, ivec2(view.size.xy)))) return;
+  const vec2 at = vec2(pixel) + 0.5;
+  const vec2 uv = at * view.size.zw;
+  const float depth = textureLod(view_depth, uv, 0.0).x;
+  const vec3 from_camera = fromCamera(at, depth);
+  Sum sum = Sum(vec3(0.0), 1.0, 0.0, 0.0, 0u);
+  if (depth > 0.0) {
+    const vec3 normal = textureLod(facet_normal, uv, 0.0).xyz;
+    const int facing = facingOf(normal);
+    // Levels differ in range, not in time: their lists are merged by the shots' numbers.
+    uvec2 left[kLevels];
+    uint live = 0u;
+    for (int i = 0; i < lists.camera_cell.w; ++i) {
+      const vec3 place = from_camera * lists.level_fraction[i].w + lists.level_fraction[i].xyz;
+      const ivec3 cell = lists.level_cell[i].xyz + ivec3(floor(clamp(place, -1e9, 1e9)));
+      const uvec2 found = find(cell, lists.level_cell[i].w + facing);
+      if (found.y > 0u) left[live++] = found;
+    }
+    while (live > 0u && (sum.through >= 1.0 / 512.0 || sum.alphas < 1.0)) {
+      uint newest = 0u;
+      uvec2 entry = entries[left[0].x];
+      for (uint i = 1u; i < live; ++i) {
+        const uvec2 other = entries[left[i].x];
+        if (other.x > entry.x) {
+          entry = other;
+          newest = i;
+        }
+      }
+      add(sum, entry, from_camera, normal);
+      left[newest] = uvec2(left[newest].x + 1u, left[newest].y - 1u);
+      if (left[newest].y == 0u) left[newest] = left[--live];
+    }
+  }
+  writePaint(pixel, sum.color, sum.alphas, sum.owner, from_camera, depth);
+}

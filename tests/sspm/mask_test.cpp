@@ -1,0 +1,127 @@
+// SPDX-License-Identifier: MIT
+// Paint on surfaces against the ray-traced mask: in range, and the segment to the muzzle unblocked.
+#include <gtest/gtest.h>
+
+#include <filesystem>
+
+#include "tests/sspm/paint_frame.h"
+#include "tests/support/devices.h"
+
+namespace grisaille::tests {
+namespace {
+
+constexpr uint32_t kWidth = 1280;
+constexpr uint32_t kHeight = 720;
+
+using Mask = std::vector<uint8_t>;
+
+// Pixels within the shot's range whose segment to the muzzle nothing blocks.
+Mask tracedMask(const trace::RayTracer& tracer, const std::vector<trace::Hit>& hits,
+                const grisaille_shot& shot, double range) {
+  const glm::dvec3 muzzle(shot.origin[0], shot.origin[1], shot.origin[2]);
+  const glm::dvec3 direction(shot.direction[0], shot.direction[1], shot.direction[2]);
+  std::vector<grisaille_ray> rays;
+  std::vector<size_t> pixels;
+  for (size_t i = 0; i < hits.size(); ++i) {
+    const trace::Hit& hit = hits[i];
+    if (hit.viewDepth == 0) continue;
+    const glm::dvec3 q = hit.position - muzzle;
+    if (glm::dot(q, direction) < 0 || glm::length(glm::cross(q, direction)) >= range) continue;
+    if (glm::dot(hit.facetNormal, q) >= 0) continue;
+    const glm::dvec3 start = hit.position + 1e-4 * hit.facetNormal;
+    const glm::dvec3 back = muzzle - start;
+    const double length = glm::length(back);
+    const glm::vec3 unit(back / length);
+    rays.push_back({.origin = {start.x, start.y, start.z},
+                    .direction = {unit.x, unit.y, unit.z},
+                    .reach = static_cast<float>(length)});
+    pixels.push_back(i);
+  }
+  std::vector<grisaille_hit> blocked(rays.size());
+  tracer.castRays(rays, blocked);
+  Mask mask(hits.size(), 0);
+  for (size_t i = 0; i < rays.size(); ++i) {
+    mask[pixels[i]] = blocked[i].kind == GRISAILLE_HIT_NONE ? 1 : 0;
+  }
+  return mask;
+}
+
+struct Agreement {
+  size_t traced = 0, both = 0, either = 0;
+  size_t stray = 0;  // covered pixels more than 2 px from the mask
+  double iou() const {
+    return either > 0 ? static_cast<double>(both) / static_cast<double>(either) : 1;
+  }
+};
+
+Agreement compare(const Mask& mask, const image::Image& coverage) {
+  Agreement result;
+  const int width = static_cast<int>(coverage.width), height = static_cast<int>(coverage.height);
+  for (int y = 0; y < height; ++y) {
+    for (int x = 0; x < width; ++x) {
+      const bool truth = mask[static_cast<size_t>(y * width + x)] != 0;
+      const bool painted = coverage.at(static_cast<uint32_t>(x), static_cast<uint32_t>(y)) > 0;
+      result.traced += truth ? 1 : 0;
+      result.both += truth && painted ? 1 : 0;
+      result.either += truth || painted ? 1 : 0;
+      if (!painted || truth) continue;
+      bool near = false;
+      for (int v = std::max(y - 2, 0); v <= std::min(y + 2, height - 1); ++v) {
+        for (int u = std::max(x - 2, 0); u <= std::min(x + 2, width - 1); ++u) {
+          near = near || mask[static_cast<size_t>(v * width + u)] != 0;
+        }
+      }
+      result.stray += near ? 0 : 1;
+    }
+  }
+  return result;
+}
+
+class MaskTest : public BackendTest {};
+GRISAILLE_ON_EVERY_BACKEND(MaskTest);
+
+TEST_P(MaskTest, PaintLandsWhereTheMuzzleSees) {
+  const std::filesystem::path shared = SHARED_FOLDER;
+  if (!std::filesystem::exists(shared / "scenes/Sponza.glb")) GTEST_SKIP() << "Sponza is not here";
+  const scene::Scene scene = scene::loadGltf(shared / "scenes/Sponza.glb");
+  TracedRays rays(scene);
+  std::mt19937 random(11);
+  std::uniform_real_distribution<double> unit(0, 1);
+  Agreement sum;
+  for (const char* name : {"atrium", "arcade", "gallery", "lion"}) {
+    const scene::Camera camera =
+        scene::loadCamera(shared / "cameras" / (std::string(name) + ".json"));
+    const std::vector<trace::Hit> hits = rays.tracer().castPrimary(camera, kWidth, kHeight);
+    PaintFrame frame(device(), scene);
+    frame.setRays(&rays);
+    for (int i = 0; i < SHOTS; ++i) {
+      // Anywhere in the picture, from anywhere about the camera.
+      const auto x = static_cast<uint32_t>(kWidth * (0.05 + 0.9 * unit(random)));
+      const auto y = static_cast<uint32_t>(kHeight * (0.05 + 0.9 * unit(random)));
+      const trace::Hit& target = hits[y * kWidth + x];
+      const glm::dvec3 muzzle =
+          camera.eye +
+          glm::dvec3(3 * unit(random) - 1.5, 1.5 * unit(random) - 0.7, 3 * unit(random) - 1.5);
+      if (target.viewDepth == 0) continue;
+      const double range = 0.1 + 0.4 * unit(random);
+      const std::vector<grisaille_shot> shots = {
+          shotAt(muzzle, target.position, glm::vec3(1, 0, 0), static_cast<float>(range))};
+      frame.set({{"edge_fade", "0"}});
+      const size_t before = rays.count();
+      frame.render(camera, kWidth, kHeight, shots, 0, {"paint_coverage"});
+      const Agreement one =
+          compare(tracedMask(rays.tracer(), hits, shots[0], range), frame.read("paint_coverage"));
+      std::printf("%s %2d at %u,%u: %6zu px, IoU %.4f, stray %zu, rays %zu\n", name, i, x, y,
+                  one.traced, one.iou(), one.stray, rays.count() - before);
+      sum.traced += one.traced;
+      sum.both += one.both;
+      sum.either += one.either;
+      sum.stray += one.stray;
+    }
+  }
+  std::printf("all: %zu px, IoU %.4f, stray %zu\n", sum.traced, sum.iou(), sum.stray);
+  EXPECT_GE(sum.iou(), 0.97);
+}
+
+}  // namespace
+}  // namespace grisaille::tests

@@ -1,0 +1,65 @@
+// SPDX-License-Identifier: MIT
+// Pictures of paint for tests: one scene, one device, any shots and settings.
+#pragma once
+
+#include <memory>
+#include <random>
+#include <string>
+#include <utility>
+#include <vector>
+
+#include "core/effect/registry.h"
+#include "core/frame/renderer.h"
+#include "core/trace/ray_tracer.h"
+
+namespace grisaille::tests {
+
+using Settings = std::vector<std::pair<std::string, std::string>>;
+
+// Rays as the program casts them; counts them.
+class TracedRays : public effect::RayService {
+ public:
+  explicit TracedRays(const scene::Scene& scene)
+      : tracer_(scene, (scene.bounds.min + scene.bounds.max) / 2.0) {}
+  void cast(std::span<const grisaille_ray> rays, std::span<grisaille_hit> hits) override {
+    count_ += rays.size();
+    tracer_.castRays(rays, hits);
+  }
+  size_t count() const { return count_; }
+  const trace::RayTracer& tracer() const { return tracer_; }
+
+ private:
+  trace::RayTracer tracer_;
+  size_t count_ = 0;
+};
+
+class PaintFrame {
+ public:
+  PaintFrame(gpu::Device& device, const scene::Scene& scene);
+
+  // nullptr: this host casts none.
+  void setRays(effect::RayService* rays) { rays_ = rays; }
+  void set(const Settings& settings);
+
+  // Of the shots `kept` are as in the call before.
+  void render(const scene::Camera& camera, uint32_t width, uint32_t height,
+              std::span<const grisaille_shot> shots, size_t kept = 0,
+              std::vector<std::string> outputs = {"paint", "paint_coverage", "depth"});
+  image::Image read(const std::string& output) { return renderer_.read(output); }
+  uint64_t waiting() const { return instance_.waiting(); }
+
+ private:
+  effect::Registry registry_;
+  effect::Values values_;
+  effect::Instance instance_;
+  frame::Renderer renderer_;
+  effect::RayService* rays_ = nullptr;
+};
+
+// A shot from `origin` at `target`.
+grisaille_shot shotAt(const glm::dvec3& origin, const glm::dvec3& target, const glm::vec3& color,
+                      float range = 0);
+
+glm::vec3 randomColor(std::mt19937& random);
+
+}  // namespace grisaille::tests
