@@ -211,7 +211,7 @@ bool PaintWorld::join(uint32_t id, const ShotMap& map, const CellKey& key, const
   Cell& cell = cells_.at(key);
   auto position = std::ranges::lower_bound(cell.entries, id, std::greater<>(), &Entry::shot);
   for (auto it = cell.entries.begin(); it != position; ++it) {
-    if (it->seals && paintsAll(it->shot, cell, share.points)) {
+    if (it->seals && paintsAll(it->shot, cell, share)) {
       states_[id].lostTo = std::max(states_[id].lostTo, it->shot + 1);
       return false;
     }
@@ -258,18 +258,19 @@ bool PaintWorld::seals(const ShotMap& map, const Cell& cell, const Share& share)
     if (glm::dot(q, map.frame.direction) < 0 || across(map.frame, q) > solid) return false;
   }
   return std::ranges::all_of(cell.points, [&](uint32_t point) {
-    return inSight(map.frame, map.root, map.blocks.data(), corner + edge * unpackPoint(point));
+    return inSight(map.frame, map.root, map.blocks.data(), corner + edge * unpackPoint(point),
+                   glm::vec3(share.plane));
   });
 }
 
-bool PaintWorld::paintsAll(uint32_t id, const Cell& cell, std::span<const uint32_t> points) const {
+bool PaintWorld::paintsAll(uint32_t id, const Cell& cell, const Share& share) const {
   const ShotFrame frame = frameOf(id);
   const uint32_t root = shots_.data()[id * kRecordWords + 15];
   const uint32_t* blocks = blocks_.data() + size_t{states_[id].base} * 4;
   const float edge = static_cast<float>(edgeOf(cell.key.code));
   const glm::vec3 corner = cornerFrom(cell.key, frame.origin);
-  return std::ranges::all_of(points, [&](uint32_t point) {
-    return inSight(frame, root, blocks, corner + edge * unpackPoint(point));
+  return std::ranges::all_of(share.points, [&](uint32_t point) {
+    return inSight(frame, root, blocks, corner + edge * unpackPoint(point), glm::vec3(share.plane));
   });
 }
 

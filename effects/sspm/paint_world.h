@@ -67,7 +67,7 @@ class PaintWorld {
   void spread(const ShotMap& map, const Patch& patch, int32_t level, Shares& shares) const;
   bool join(uint32_t id, const ShotMap& map, const CellKey& key, const Share& share);
   bool seals(const ShotMap& map, const Cell& cell, const Share& share) const;
-  bool paintsAll(uint32_t id, const Cell& cell, std::span<const uint32_t> points) const;
+  bool paintsAll(uint32_t id, const Cell& cell, const Share& share) const;
   void unlist(uint32_t id, uint32_t to);
   void writeRecord(uint32_t id, const ShotMap& map, uint32_t base);
   ShotFrame frameOf(uint32_t id) const;

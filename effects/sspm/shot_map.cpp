@@ -16,8 +16,14 @@ constexpr float kFinestUnits = 1.0f / 256;
 constexpr float kInnerUnits = 1.0f / 16;  // every square within a unit of the centre is this fine
 constexpr float kMiddleUnits = 1.0f / 4;  // and within three units
 constexpr float kBiasUnits = 0.02f;       // of the range
-constexpr float kSlant = 8;               // biases
-constexpr float kBeyond = 1.02f;          // of the range: hits past it are out of the cylinder
+// As in shaders/sspm/surface.comp. Cosines between facets: below kOther another surface, which has
+// but a share of the bias, above kSame the same.
+constexpr float kSlant = 8;  // biases along the ray
+constexpr float kOther = -0.5f, kSame = 0.3f, kLeastBias = 0.05f;
+constexpr glm::vec2 kAround[] = {{1, 0}, {-1, 0}, {0, 1},  {0, -1},
+                                 {1, 1}, {1, -1}, {-1, 1}, {-1, -1}};
+constexpr float kAside = 0.6f;    // of a square, from its centre to the ones around
+constexpr float kBeyond = 1.02f;  // of the range: hits past it are out of the cylinder
 
 glm::vec2 slopeOf(const ShotFrame& frame, glm::vec2 place) {
   const float radius = glm::length(place);
@@ -211,10 +217,8 @@ class Builder {
     };
     for (const int32_t index : fresh) {
       const Square& square = squares_[static_cast<size_t>(index)];
-      for (const glm::vec2 side :
-           {glm::vec2(1, 0), glm::vec2(-1, 0), glm::vec2(0, 1), glm::vec2(0, -1), glm::vec2(1, 1),
-            glm::vec2(1, -1), glm::vec2(-1, 1), glm::vec2(-1, -1)}) {
-        const glm::vec2 place = square.centre + side * (square.size * 0.6f);
+      for (const glm::vec2 side : kAround) {
+        const glm::vec2 place = square.centre + side * (square.size * kAside);
         if (std::max(std::abs(place.x), std::abs(place.y)) >= kMapReach) continue;
         const int32_t other = leafAt(place);
         if (agree(square, squares_[static_cast<size_t>(other)])) continue;
@@ -366,7 +370,8 @@ MapState seeFrom(const grisaille_shot& shot, float range, const CastRays& cast, 
   return Builder(cast, map).run();
 }
 
-bool inSight(const ShotFrame& frame, uint32_t root, const uint32_t* blocks, const glm::vec3& q) {
+bool inSight(const ShotFrame& frame, uint32_t root, const uint32_t* blocks, const glm::vec3& q,
+             const glm::vec3& facing) {
   const glm::vec2 place = mapOf(frame, q);
   glm::vec2 at = (place + kMapReach) * (2.0f / kMapReach);  // in squares of the root's 4x4
   uint32_t word = root;
@@ -382,9 +387,11 @@ bool inSight(const ShotFrame& frame, uint32_t root, const uint32_t* blocks, cons
   const glm::vec3 normal(std::bit_cast<float>(plane[0]), std::bit_cast<float>(plane[1]),
                          std::bit_cast<float>(plane[2]));
   const float behind = std::bit_cast<float>(plane[3]) - glm::dot(normal, q);
-  // Seen at a slant, a surface a little before its plane may be far before it along the ray.
-  return behind <= frame.bias &&
-         behind * glm::length(q) <= kSlant * frame.bias * std::abs(glm::dot(normal, q));
+  // A point of the same surface may lie a little behind the plane of the facet beside it; one that
+  // faces elsewhere may not. Seen at a slant, a little is much along the ray.
+  const float bias = frame.bias * glm::clamp((glm::dot(normal, facing) - kOther) / (kSame - kOther),
+                                             kLeastBias, 1.0f);
+  return behind <= bias && behind * glm::length(q) <= kSlant * bias * std::abs(glm::dot(normal, q));
 }
 
 }  // namespace grisaille::sspm

@@ -72,7 +72,9 @@ enum class MapState : uint8_t { kSeen, kUnknown, kNoRays };
 // tell now; `map` is unusable then. `range` in metres, over 0. `direction` unit.
 MapState seeFrom(const grisaille_shot& shot, float range, const CastRays& cast, ShotMap& map);
 
-// Whether the muzzle sees the point at offset q, which lies in the cylinder and faces the muzzle.
-bool inSight(const ShotFrame& frame, uint32_t root, const uint32_t* blocks, const glm::vec3& q);
+// Whether the muzzle sees the point at offset q on a facet with this normal, which lies in the
+// cylinder and faces the muzzle.
+bool inSight(const ShotFrame& frame, uint32_t root, const uint32_t* blocks, const glm::vec3& q,
+             const glm::vec3& facing);
 
 }  // namespace grisaille::sspm

@@ -45,7 +45,7 @@ float valueNoise(ivec3 origin, vec3 place, uint seed) {
   return mix(y.x, y.y, w.z) * (1.0 / 16777216.0);
 }
 
-// In [0, 1]; `from_camera` in world axes, metres. An octave whose cells are under four pixels wide
+// In [0, 0.9], so that full coverage is always paint; `from_camera` in world axes, metres. An octave whose cells are under four pixels wide
 // fades to its mean, under two it is gone.
 float splatNoise(vec3 from_camera, float view_depth) {
   float sum = 0.0, weights = 0.0;
@@ -62,8 +62,8 @@ float splatNoise(vec3 from_camera, float view_depth) {
     }
     weights += weight;
   }
-  // The sum of octaves keeps to the middle: twice as wide it fills [0, 1].
-  return clamp(0.5 + 2.0 * sum / weights, 0.0, 1.0);
+  // The sum of octaves keeps to the middle: twice as wide it fills the range.
+  return 0.9 * clamp(0.5 + 2.0 * sum / weights, 0.0, 1.0);
 }
 
 // The alpha that paint of this coverage is drawn with, 0 or 1 but for the step's width.

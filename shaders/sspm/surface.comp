@@ -45,12 +45,13 @@ layout(TEXTURE(0)) uniform sampler2D view_depth;
 layout(TEXTURE(1)) uniform sampler2D facet_normal;
 
 const float kMapReach = 8.0;
+const float kSlant = 8.0, kOther = -0.5, kSame = 0.3, kLeastBias = 0.05;
 const uint kPlane = 0x40000000u, kNode = 0x80000000u, kTag = 0xC0000000u;
 
 uint pick(uvec4 block, uint i) { return (i & 2u) != 0u ? (i & 1u) != 0u ? block.w : block.z : (i & 1u) != 0u ? block.y : block.x; }
 
 // As inSight() of effects/sspm/shot_map.cpp.
-bool inSight(Shot shot, uint word, vec3 q, float along) {
+bool inSight(Shot shot, uint word, vec3 q, float along, vec3 facing) {
   if ((word & kNode) != 0u) {
     const vec3 w = shot.direction;
     const float s = w.z >= 0.0 ? 1.0 : -1.0;
@@ -77,7 +78,9 @@ bool inSight(Shot shot, uint word, vec3 q, float along) {
   }
   if (word == 0u) return true;
   const vec4 plane = uintBitsToFloat(blocks[shot.base + (word & ~kTag)]);
-  return dot(plane.xyz, q) >= plane.w - shot.bias;
+  const float behind = plane.w - dot(plane.xyz, q);
+  const float bias = shot.bias * clamp((dot(plane.xyz, facing) - kOther) / (kSame - kOther), kLeastBias, 1.0);
+  return behind <= bias && behind * length(q) <= kSlant * bias * abs(dot(plane.xyz, q));
 }
 
 uint hashCell(ivec3 cell, int code) {
@@ -118,7 +121,7 @@ void add(inout Sum sum, uvec2 entry, vec3 from_camera, vec3 normal) {
   const float along = dot(q, shot.direction);
   const float across = length(cross(q, shot.direction));
   if (along < 0.0 || across >= shot.range || dot(q, normal) >= 0.0) return;
-  if (!inSight(shot, entry.y, q, along)) return;
+  if (!inSight(shot, entry.y, q, along, normal)) return;
   const float alpha = min(1.0, lists.camera_fraction.w / max(across, 1e-6));
   const float fade = lists.edge_fade > 0.0 ? min(1.0, (1.0 - across / shot.range) / lists.edge_fade) : 1.0;
   const float weight = alpha * sum.through;

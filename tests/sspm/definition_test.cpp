@@ -114,7 +114,8 @@ TEST_P(DefinitionTest, SurfaceIsPerShotOnAnOpenWall) {
       const glm::dvec3 target(6 * unit(random) - 3, 5 * unit(random) - 2.5, 0);
       const glm::dvec3 origin =
           target + glm::dvec3(6 * unit(random) - 3, 6 * unit(random) - 3, 0.2 + 4 * unit(random));
-      shots.push_back(shotAt(origin, target, randomColor(random)));
+      const float range = i % 7 == 0 ? static_cast<float>(0.02 + unit(random)) : 0.0f;
+      shots.push_back(shotAt(origin, target, randomColor(random), range));
     }
     PaintFrame frame(device(), scene);
     frame.setRays(&rays);

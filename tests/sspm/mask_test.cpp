@@ -94,7 +94,7 @@ TEST_P(MaskTest, PaintLandsWhereTheMuzzleSees) {
     const std::vector<trace::Hit> hits = rays.tracer().castPrimary(camera, kWidth, kHeight);
     PaintFrame frame(device(), scene);
     frame.setRays(&rays);
-    for (int i = 0; i < SHOTS; ++i) {
+    for (int i = 0; i < 8; ++i) {
       // Anywhere in the picture, from anywhere about the camera.
       const auto x = static_cast<uint32_t>(kWidth * (0.05 + 0.9 * unit(random)));
       const auto y = static_cast<uint32_t>(kHeight * (0.05 + 0.9 * unit(random)));
@@ -107,20 +107,26 @@ TEST_P(MaskTest, PaintLandsWhereTheMuzzleSees) {
       const std::vector<grisaille_shot> shots = {
           shotAt(muzzle, target.position, glm::vec3(1, 0, 0), static_cast<float>(range))};
       frame.set({{"edge_fade", "0"}});
-      const size_t before = rays.count();
       frame.render(camera, kWidth, kHeight, shots, 0, {"paint_coverage"});
       const Agreement one =
           compare(tracedMask(rays.tracer(), hits, shots[0], range), frame.read("paint_coverage"));
-      std::printf("%s %2d at %u,%u: %6zu px, IoU %.4f, stray %zu, rays %zu\n", name, i, x, y,
-                  one.traced, one.iou(), one.stray, rays.count() - before);
+      SCOPED_TRACE(fmt::format("{}, shot {} at pixel {},{} with range {}: {} px", name, i, x, y,
+                               range, one.traced));
+      // Fewer pixels than that are mostly edge.
+      if (one.traced >= 500) {
+        EXPECT_GE(one.iou(), 0.97);
+      }
       sum.traced += one.traced;
       sum.both += one.both;
       sum.either += one.either;
       sum.stray += one.stray;
     }
   }
-  std::printf("all: %zu px, IoU %.4f, stray %zu\n", sum.traced, sum.iou(), sum.stray);
-  EXPECT_GE(sum.iou(), 0.97);
+  std::printf("%s: %zu px, intersection over union %.4f, %zu px astray\n", GetParam().c_str(),
+              sum.traced, sum.iou(), sum.stray);
+  EXPECT_GE(sum.iou(), 0.99);
+  // Edges that are thinner than a map's finest squares hide from it.
+  EXPECT_LE(sum.stray, sum.both / 50000);
 }
 
 }  // namespace

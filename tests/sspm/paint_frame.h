@@ -16,21 +16,18 @@ namespace grisaille::tests {
 
 using Settings = std::vector<std::pair<std::string, std::string>>;
 
-// Rays as the program casts them; counts them.
+// Rays as the program casts them.
 class TracedRays : public effect::RayService {
  public:
   explicit TracedRays(const scene::Scene& scene)
       : tracer_(scene, (scene.bounds.min + scene.bounds.max) / 2.0) {}
   void cast(std::span<const grisaille_ray> rays, std::span<grisaille_hit> hits) override {
-    count_ += rays.size();
     tracer_.castRays(rays, hits);
   }
-  size_t count() const { return count_; }
   const trace::RayTracer& tracer() const { return tracer_; }
 
  private:
   trace::RayTracer tracer_;
-  size_t count_ = 0;
 };
 
 class PaintFrame {

@@ -63,7 +63,7 @@ double splatNoise(const glm::dvec3& world, double viewDepth, double pixelSlope,
     sum += weight * shown * (valueNoise(world / cell, seed) - 0.5);
     weights += weight;
   }
-  return std::clamp(0.5 + 2 * sum / weights, 0.0, 1.0);
+  return 0.9 * std::clamp(0.5 + 2 * sum / weights, 0.0, 1.0);
 }
 
 PaintPixel paintOf(const glm::dvec3& world, double viewDepth, double pixelSlope,
