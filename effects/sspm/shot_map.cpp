@@ -11,7 +11,7 @@
 namespace grisaille::sspm {
 namespace {
 
-constexpr float kFinestMetres = 0.008f;  // squares are split while they are wider on the surface
+constexpr float kFinestMetres = 0.004f;  // squares are split while they are wider on the surface
 constexpr float kFinestUnits = 1.0f / 256;
 constexpr float kInnerUnits = 1.0f / 16;  // every square within a unit of the centre is this fine
 constexpr float kMiddleUnits = 1.0f / 4;  // and within three units

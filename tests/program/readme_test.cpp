@@ -54,18 +54,24 @@ TEST(Readme, SsaoCommandsRun) {
   runCommands(kSource / "effects/ssao/README.md");
 }
 
+TEST(Readme, SspmCommandsRun) {
+  runCommands(kSource / "effects/sspm/README.md");
+}
+
 TEST(Readme, TablesAreTheEffectsOwn) {
-  const Outcome outcome = runProgram({"effects", "--markdown", "ssao"}, ".");
-  ASSERT_EQ(outcome.status, 0) << outcome.err;
-  for (const char* file : {"README.md", "effects/ssao/README.md"}) {
-    EXPECT_NE(readFile(kSource / file).find(outcome.out), std::string::npos)
-        << file << " lacks this table:\n"
-        << outcome.out;
+  for (const std::string effect : {"ssao", "sspm"}) {
+    const Outcome outcome = runProgram({"effects", "--markdown", effect}, ".");
+    ASSERT_EQ(outcome.status, 0) << outcome.err;
+    for (const std::string& file : {std::string("README.md"), "effects/" + effect + "/README.md"}) {
+      EXPECT_NE(readFile(kSource / file).find(outcome.out), std::string::npos)
+          << file << " lacks this table:\n"
+          << outcome.out;
+    }
   }
 }
 
 TEST(Readme, EveryLinkedFileIsThere) {
-  for (const char* file : {"README.md", "effects/ssao/README.md"}) {
+  for (const char* file : {"README.md", "effects/ssao/README.md", "effects/sspm/README.md"}) {
     const std::string text = readFile(kSource / file);
     for (size_t at = 0; (at = text.find("](", at)) != std::string::npos; ++at) {
       const std::string target = text.substr(at + 2, text.find(')', at) - at - 2);
