@@ -89,7 +89,10 @@ Shots::File Shots::parseFile(const std::string& text, ActiveEffects& active) {
 
 Shots::Shots(const ShotOptions& options, ActiveEffects& active, const scene::Camera& camera,
              glm::uvec2 size) {
-  for (const std::string& text : options.saves) saves_.push_back(parseFile(text, active));
+  for (const std::string& text : options.saves) {
+    saves_.push_back(parseFile(text, active));
+    shots::checkEnding(saves_.back().path);
+  }
   for (const effect::Effect* effect : active.effects()) {
     if (effect->takesShots()) lists_.try_emplace(effect->desc->key);
   }

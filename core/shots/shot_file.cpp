@@ -29,6 +29,10 @@ Writer writerOf(const std::string& path) {
 
 }  // namespace
 
+void checkEnding(const std::string& path) {
+  writerOf(path);
+}
+
 void save(std::span<const grisaille_shot> shots, const std::string& path) {
   const Writer write = writerOf(path);
   const std::vector<grisaille_shot> sound = checked(shots);

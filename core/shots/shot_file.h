@@ -36,6 +36,9 @@
 
 namespace grisaille::shots {
 
+// Throws kShotFileEnding unless save() can tell the format by the ending.
+void checkEnding(const std::string& path);
+
 // The ending of `path` tells the format. Whatever fails, an older file stays as it was. Throws
 // kShotFileEnding and kFileUnwritable, and as makeShot() does.
 void save(std::span<const grisaille_shot> shots, const std::string& path);

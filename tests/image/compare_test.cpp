@@ -16,10 +16,7 @@ constexpr float kInfinity = std::numeric_limits<float>::infinity();
 
 Image row(std::vector<float> values) {
   const auto width = static_cast<uint32_t>(values.size());
-  return {.width = width,
-          .height = 1,
-          .channels = 1,
-          .pixels = std::move(values)};
+  return {.width = width, .height = 1, .channels = 1, .pixels = std::move(values)};
 }
 
 TEST(Compare, KnownNumbers) {

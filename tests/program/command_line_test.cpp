@@ -39,9 +39,9 @@ TEST_F(CommandLine, HelpNamesEverySubcommandAndOption) {
     EXPECT_EQ(grisaille({command, "--help"}).status, 0);
   }
   const std::string render = grisaille({"render", "--help"}).out;
-  for (const char* option :
-       {"--camera", "--size", "--backend", "--device", "--effects", "--set", "--config", "--write",
-        "--frames", "--timings", "--plugin-path", "--check", "--surface"}) {
+  for (const char* option : {"--camera", "--size", "--backend", "--device", "--effects", "--set",
+                             "--config", "--write", "--frames", "--timings", "--plugin-path",
+                             "--check", "--surface", "--load", "--fire", "--save", "--coverage"}) {
     EXPECT_NE(render.find(option), std::string::npos) << option;
   }
   EXPECT_EQ(grisaille({"--version"}).out, "0.1.0\n");
