@@ -56,19 +56,20 @@ struct Agreement {
 
 Agreement compare(const Mask& mask, const image::Image& coverage) {
   Agreement result;
-  const int width = static_cast<int>(coverage.width), height = static_cast<int>(coverage.height);
-  for (int y = 0; y < height; ++y) {
-    for (int x = 0; x < width; ++x) {
-      const bool truth = mask[static_cast<size_t>(y * width + x)] != 0;
-      const bool painted = coverage.at(static_cast<uint32_t>(x), static_cast<uint32_t>(y)) > 0;
+  const uint32_t width = coverage.width, height = coverage.height;
+  const auto traced = [&](uint32_t x, uint32_t y) { return mask[size_t{y} * width + x] != 0; };
+  for (uint32_t y = 0; y < height; ++y) {
+    for (uint32_t x = 0; x < width; ++x) {
+      const bool truth = traced(x, y);
+      const bool painted = coverage.at(x, y) > 0;
       result.traced += truth ? 1 : 0;
       result.both += truth && painted ? 1 : 0;
       result.either += truth || painted ? 1 : 0;
       if (!painted || truth) continue;
       bool near = false;
-      for (int v = std::max(y - 2, 0); v <= std::min(y + 2, height - 1); ++v) {
-        for (int u = std::max(x - 2, 0); u <= std::min(x + 2, width - 1); ++u) {
-          near = near || mask[static_cast<size_t>(v * width + u)] != 0;
+      for (uint32_t v = y - std::min(y, 2u); v <= std::min(y + 2, height - 1); ++v) {
+        for (uint32_t u = x - std::min(x, 2u); u <= std::min(x + 2, width - 1); ++u) {
+          near = near || traced(u, v);
         }
       }
       result.stray += near ? 0 : 1;
