@@ -8,25 +8,36 @@
 #include <array>
 #include <cmath>
 #include <limits>
+#include <optional>
 
+#include "core/trace/nearest_triangle.h"
 #include "core/trace/sampling.h"
 #include "core/trace/traced_scene.h"
 
 namespace grisaille::trace {
 namespace {
 
-// Calls work(index) for 0 ... count - 1 on all cores, in no order; a block or less stays on the
-// calling thread. `work` does not throw and writes only what belongs to its index, so that the
-// outcome is the same for any number of threads.
+// Rays that one thread takes at a time.
+constexpr size_t kBlock = 64;
+
+// Calls work(first, count) for blocks of 0 ... total - 1 on all cores, in no order; a block or less
+// stays on the calling thread. `work` does not throw and writes only what belongs to its indices,
+// so that the outcome is the same for any number of threads.
 template <typename Work>
-void forEach(size_t count, const Work& work) {
-  constexpr size_t kBlock = 64;
-  const tbb::blocked_range<size_t> all(0, count, kBlock);
-  const auto run = [&](const tbb::blocked_range<size_t>& part) {
-    for (size_t i = part.begin(); i < part.end(); ++i) work(i);
-  };
-  if (count <= kBlock) return run(all);
-  tbb::parallel_for(all, run);
+void forEachBlock(size_t total, const Work& work) {
+  if (total == 0) return;
+  if (total <= kBlock) return work(size_t{0}, total);
+  tbb::parallel_for(size_t{0}, (total + kBlock - 1) / kBlock, [&](size_t block) {
+    const size_t first = block * kBlock;
+    work(first, std::min(kBlock, total - first));
+  });
+}
+
+template <typename Work>
+void forEach(size_t total, const Work& work) {
+  forEachBlock(total, [&](size_t first, size_t count) {
+    for (size_t i = first; i < first + count; ++i) work(i);
+  });
 }
 
 RTCRayHit makeRay(const glm::vec3& origin, const glm::vec3& direction, float near, float far) {
@@ -47,11 +58,8 @@ RTCRayHit makeRay(const glm::vec3& origin, const glm::vec3& direction, float nea
 
 // A ray relative to the tracer's origin.
 struct Path {
-  glm::dvec3 from = glm::dvec3(0);
-  glm::dvec3 direction = glm::dvec3(0);  // unit
-  double enter = 0;                      // metres along it to where it meets the scene's bounds
-  double length = 0;                     // metres from there on
-  bool misses = false;                   // all of the bounds
+  glm::dvec3 from;
+  glm::dvec3 direction;  // unit
 };
 
 // Of 32-bit numbers, with some room, as a share of them.
@@ -66,6 +74,8 @@ struct RayTracer::Impl {
     least = glm::dvec3(b.lower_x, b.lower_y, b.lower_z);
     most = glm::dvec3(b.upper_x, b.upper_y, b.upper_z);
     margin = kRounding * glm::length(glm::max(glm::abs(least), glm::abs(most)));
+    const double spread = 0.01 * glm::length(most - least);
+    nearest.emplace(traced.world(), static_cast<float>(margin), static_cast<float>(spread));
     least -= margin;
     most += margin;
   }
@@ -74,11 +84,16 @@ struct RayTracer::Impl {
   void see(const Triangle& triangle, const glm::dvec3& eye, const glm::dvec3& direction,
            Hit& hit) const;
   Path pathOf(const grisaille_ray& ray) const;
-  grisaille_hit hitOf(const Path& path, float reach, const Triangle& triangle) const;
+  bool thinRay(const Path& path, double reach, ThinRay& thin) const;
+  bool passesBorder(const Path& path, const Facet& facet, const Met& met) const;
+  static grisaille_hit hitOf(const Path& path, float reach, const Facet& facet,
+                             const glm::dvec3& unit);
+  void castBlock(std::span<const grisaille_ray> rays, std::span<grisaille_hit> hits) const;
 
   TracedScene traced;
   glm::dvec3 least, most;  // of all triangles, relative to the origin, with a margin
   double margin = 0;       // metres that a 32-bit coordinate of theirs may be off, and more
+  std::optional<NearestTriangles> nearest;
 };
 
 void RayTracer::Impl::see(const Triangle& triangle, const glm::dvec3& eye,
@@ -161,56 +176,109 @@ std::vector<Hit> RayTracer::castPrimary(const scene::Camera& camera, uint32_t wi
   return castPrimary(camera, width, height, pixels);
 }
 
-// Enters the bounds first, so that a ray from far outside loses nothing in 32 bits.
 Path RayTracer::Impl::pathOf(const grisaille_ray& ray) const {
-  Path path;
-  path.from = glm::dvec3(ray.origin[0], ray.origin[1], ray.origin[2]) - traced.origin();
-  path.direction = glm::normalize(glm::dvec3(ray.direction[0], ray.direction[1], ray.direction[2]));
-  double leave = ray.reach;
-  for (int axis = 0; axis < 3; ++axis) {
-    const double below = least[axis] - path.from[axis];
-    const double above = most[axis] - path.from[axis];
-    const double slope = path.direction[axis];
-    if (slope == 0) {
-      if (below > 0 || above < 0) path.misses = true;
-      continue;
-    }
-    path.enter = std::max(path.enter, (slope > 0 ? below : above) / slope);
-    leave = std::min(leave, (slope > 0 ? above : below) / slope);
-  }
-  if (path.enter > leave) path.misses = true;
-  // Embree's distance is off by its rounding: what lies beyond the reach by that is dropped later.
-  path.length = (ray.reach - path.enter) * (1 + kRounding) + margin;
-  return path;
+  const glm::dvec3 origin(ray.origin[0], ray.origin[1], ray.origin[2]);
+  const glm::dvec3 direction(ray.direction[0], ray.direction[1], ray.direction[2]);
+  return {origin - traced.origin(), glm::normalize(direction)};
 }
 
-grisaille_hit RayTracer::Impl::hitOf(const Path& path, float reach,
-                                     const Triangle& triangle) const {
-  const Facet facet = traced.facet(triangle);
-  const double distance = std::fmax(facet.crossing(path.from, path.direction), 0.0);
+// Enters the bounds first, so that a ray from far outside loses nothing in 32 bits. False
+// where it misses them.
+bool RayTracer::Impl::thinRay(const Path& path, double reach, ThinRay& thin) const {
+  double enter = 0;
+  const glm::dvec3& p = path.from;
+  if (p.x < least.x || p.y < least.y || p.z < least.z || p.x > most.x || p.y > most.y ||
+      p.z > most.z) {
+    double leave = reach;
+    for (int axis = 0; axis < 3; ++axis) {
+      const double below = least[axis] - path.from[axis];
+      const double above = most[axis] - path.from[axis];
+      const double slope = path.direction[axis];
+      if (slope == 0) {
+        if (below > 0 || above < 0) return false;
+        continue;
+      }
+      enter = std::max(enter, (slope > 0 ? below : above) / slope);
+      leave = std::min(leave, (slope > 0 ? above : below) / slope);
+    }
+    if (enter > leave) return false;
+  }
+  // Embree's distance is off by its rounding: what lies beyond the reach by that is dropped later.
+  const double length = (reach - enter) * (1 + kRounding) + margin;
+  thin.from = glm::vec3(enter > 0 ? path.from + enter * path.direction : path.from);
+  thin.direction = glm::vec3(path.direction);
+  thin.length = static_cast<float>(length);
+  return true;
+}
+
+// Within some 32-bit digits, seen along the ray.
+bool RayTracer::Impl::passesBorder(const Path& path, const Facet& facet, const Met& met) const {
+  const std::array<double, 3> weights = {1.0 - met.u - met.v, met.u, met.v};
+  const double area = glm::dot(facet.cross, path.direction);
+  const auto& c = facet.corners;
+  bool passes = false;
+  for (size_t k = 0; k < 3; ++k) {
+    const glm::dvec3 side = c[(k + 1) % 3] - c[(k + 2) % 3];
+    const double height = weights[k] * area;  // times the side's length
+    passes |= height * height <= 4 * margin * margin * glm::dot(side, side);
+  }
+  return passes;
+}
+
+// `unit`: the facet's normal, either way, or 0 where it has no area.
+grisaille_hit RayTracer::Impl::hitOf(const Path& path, float reach, const Facet& facet,
+                                     const glm::dvec3& unit) {
+  const double distance = std::max(facet.crossing(path.from, path.direction), 0.0);
   if (distance > reach) return {};
-  const double length = glm::length(facet.cross);
-  const double side = glm::dot(facet.cross, path.direction) > 0 ? -1.0 : 1.0;
-  const glm::vec3 normal(length > 0 ? side / length * facet.cross : -path.direction);
+  const double facing = glm::dot(facet.cross, path.direction);
+  const bool flat = unit == glm::dvec3(0);
+  const glm::vec3 normal(flat || facing > 0 ? -(flat ? path.direction : unit) : unit);
   return {.kind = GRISAILLE_HIT_SURFACE,
           .distance = static_cast<float>(distance),
           .normal = {normal.x, normal.y, normal.z}};
 }
 
-void RayTracer::castRays(std::span<const grisaille_ray> rays, std::span<grisaille_hit> hits) const {
-  forEach(rays.size(), [&](size_t i) {
+// No more than kBlock rays.
+void RayTracer::Impl::castBlock(std::span<const grisaille_ray> rays,
+                                std::span<grisaille_hit> hits) const {
+  std::array<Path, kBlock> paths;
+  std::array<uint32_t, kBlock> owners;  // of the rays that meet the bounds
+  std::array<ThinRay, kBlock> thin;
+  std::array<Met, kBlock> met;
+  size_t count = 0;
+  for (uint32_t i = 0; i < rays.size(); ++i) {
     hits[i] = {};
-    const Path path = impl_->pathOf(rays[i]);
-    if (path.misses) return;
-    const glm::vec3 start(path.from + path.enter * path.direction);
-    RTCRayHit ray =
-        makeRay(start, glm::vec3(path.direction), 0.0f, static_cast<float>(path.length));
-    RTCIntersectContext context;
-    rtcInitIntersectContext(&context);
-    rtcIntersect1(impl_->traced.world(), &context, &ray);
-    if (ray.hit.geomID == RTC_INVALID_GEOMETRY_ID) return;
-    const Triangle& triangle = impl_->traced.triangle(ray.hit.geomID, ray.hit.primID);
-    hits[i] = impl_->hitOf(path, rays[i].reach, triangle);
+    paths[i] = pathOf(rays[i]);
+    if (thinRay(paths[i], rays[i].reach, thin[count])) owners[count++] = i;
+  }
+  nearest->findAll(std::span(thin).first(count), std::span(met).first(count));
+  Triangle last = {.firstIndex = UINT32_MAX};
+  Facet facet;
+  glm::dvec3 unit;
+  const auto visit = [&](const Met& m) {  // neighbours often meet the same triangle
+    const Triangle& triangle = traced.triangle(m.geometry, m.primitive);
+    if (triangle == last) return;
+    facet = traced.facet(triangle);
+    const double length = glm::length(facet.cross);
+    unit = length > 0 ? facet.cross / length : glm::dvec3(0);
+    last = triangle;
+  };
+  for (size_t k = 0; k < count; ++k) {
+    if (met[k].geometry == RTC_INVALID_GEOMETRY_ID) continue;
+    const uint32_t i = owners[k];
+    visit(met[k]);
+    if (passesBorder(paths[i], facet, met[k])) {
+      met[k] = nearest->find(thin[k]);
+      if (met[k].geometry == RTC_INVALID_GEOMETRY_ID) continue;
+      visit(met[k]);
+    }
+    hits[i] = hitOf(paths[i], rays[i].reach, facet, unit);
+  }
+}
+
+void RayTracer::castRays(std::span<const grisaille_ray> rays, std::span<grisaille_hit> hits) const {
+  forEachBlock(rays.size(), [&](size_t first, size_t count) {
+    impl_->castBlock(rays.subspan(first, count), hits.subspan(first, count));
   });
 }
 

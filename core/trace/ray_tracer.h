@@ -60,7 +60,8 @@ class RayTracer {
 
   // What each ray meets first within its reach, one an element of `hits`, which is as long: from
   // either side, also the back of a single-sided material. Directions are unit. Rays may start far
-  // outside the scene. Never kind GRISAILLE_HIT_UNKNOWN.
+  // outside the scene. Never kind GRISAILLE_HIT_UNKNOWN. A hit depends on its ray alone, to the
+  // bit; neighbours in the array that start and run close together cost far less than others.
   void castRays(std::span<const grisaille_ray> rays, std::span<grisaille_hit> hits) const;
 
   // The share of `samples` cosine-weighted rays about the interpolated normal that travel `radius`

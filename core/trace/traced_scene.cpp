@@ -23,17 +23,18 @@ Placement placementOf(const scene::Instance& instance, const glm::dvec3& origin)
 }  // namespace
 
 double Facet::crossing(const glm::dvec3& from, const glm::dvec3& direction) const {
+  const glm::dvec3 apart = corners[0] - from;
+  const double a = glm::dot(apart, direction);
+  const double b = glm::dot(corners[1] - from, direction);
+  const double c = glm::dot(corners[2] - from, direction);
+  // All in lengths of the direction times its square, so that mostly one division will do.
+  const double nearest = std::min(std::min(a, b), c);
+  const double farthest = std::max(std::max(a, b), c);
   const double squared = glm::dot(direction, direction);
-  double nearest = INFINITY;
-  double farthest = -INFINITY;
-  for (const glm::dvec3& corner : corners) {
-    const double along = glm::dot(corner - from, direction) / squared;
-    nearest = std::fmin(nearest, along);
-    farthest = std::fmax(farthest, along);
-  }
-  // Not a number where the ray runs in the plane: then fmin and fmax take the other one.
-  const double plane = glm::dot(corners[0] - from, cross) / glm::dot(direction, cross);
-  return std::fmax(nearest, std::fmin(farthest, plane));
+  const double plane = glm::dot(apart, cross) / glm::dot(direction, cross);
+  if (plane * squared < nearest) return nearest / squared;
+  // Not a number where the ray runs in the plane.
+  return plane * squared <= farthest ? plane : farthest / squared;
 }
 
 TracedScene::TracedScene(const scene::Scene& scene, const glm::dvec3& origin)
@@ -146,13 +147,19 @@ bool TracedScene::isBack(const Triangle& triangle, const glm::dvec3& direction) 
   return placements_[triangle.instance].mirrored ? facing < 0 : facing > 0;
 }
 
-// Both filters serve single rays only: N is 1.
+// Serves packets as well as single rays.
 void TracedScene::passHoles(const RTCFilterFunctionNArguments* args) {
   const auto& bucket = *static_cast<const Bucket*>(args->geometryUserPtr);
-  const auto& hit = *reinterpret_cast<const RTCHit*>(args->hit);
-  if (bucket.owner->isHole(bucket.triangles[hit.primID], hit.u, hit.v)) args->valid[0] = 0;
+  for (unsigned int i = 0; i < args->N; ++i) {
+    if (args->valid[i] == 0) continue;
+    const Triangle& triangle = bucket.triangles[RTCHitN_primID(args->hit, args->N, i)];
+    const float u = RTCHitN_u(args->hit, args->N, i);
+    const float v = RTCHitN_v(args->hit, args->N, i);
+    if (bucket.owner->isHole(triangle, u, v)) args->valid[i] = 0;
+  }
 }
 
+// Serves single rays only: N is 1.
 void TracedScene::passBackFaces(const RTCFilterFunctionNArguments* args) {
   const auto& bucket = *static_cast<const Bucket*>(args->geometryUserPtr);
   const auto& ray = *reinterpret_cast<const RTCRay*>(args->ray);

@@ -17,6 +17,8 @@ namespace grisaille::trace {
 struct Triangle {
   uint32_t instance = 0;
   uint32_t firstIndex = 0;
+
+  bool operator==(const Triangle&) const = default;
 };
 
 // An instance's transform, relative to the origin.

@@ -1,0 +1,110 @@
+// SPDX-License-Identifier: MIT
+#include "core/trace/nearest_triangle.h"
+
+#include <algorithm>
+#include <array>
+#include <tuple>
+
+namespace grisaille::trace {
+namespace {
+
+constexpr size_t kLanes = 16;
+// Cosine of the widest angle to the first ray of a packet.
+constexpr float kWidest = 0.7f;
+// Share of the distance by which Embree looks on behind the nearest triangle so far. Far more than
+// its boxes and all but the most slanting triangles round by.
+constexpr float kBehind = 0x1p-10f;
+
+// What a query's filter needs to know. Embree hands back the base.
+struct Query {
+  RTCIntersectContext base;
+  float margin = 0;
+  const ThinRay* rays = nullptr;  // by the rays' ids
+  Met* met = nullptr;
+};
+
+// Embree alone keeps one of equally near triangles by the order in which it comes to them, which
+// hangs on the rays beside. And it might skip the other's box for lack of a last digit.
+void keepNearest(const RTCFilterFunctionNArguments* args) {
+  const auto& query = *reinterpret_cast<const Query*>(args->context);
+  for (unsigned int i = 0; i < args->N; ++i) {
+    if (args->valid[i] == 0) continue;
+    const uint32_t id = RTCRayN_id(args->ray, args->N, i);
+    float& far = RTCRayN_tfar(args->ray, args->N, i);
+    const Met candidate = {far, RTCHitN_geomID(args->hit, args->N, i),
+                           RTCHitN_primID(args->hit, args->N, i), RTCHitN_u(args->hit, args->N, i),
+                           RTCHitN_v(args->hit, args->N, i)};
+    Met& met = query.met[id];
+    if (std::tie(candidate.distance, candidate.geometry, candidate.primitive) <
+        std::tie(met.distance, met.geometry, met.primitive)) {
+      met = candidate;
+      far = std::min(far * (1 + kBehind) + query.margin, query.rays[id].length);
+    } else {
+      args->valid[i] = 0;
+    }
+  }
+}
+
+// Also one ray alone: Embree's other kernels, cheaper for it, round otherwise at borders.
+void traceTogether(RTCScene world, Query& query, uint32_t firstId, size_t count) {
+  RTCRayHit16 packet = {};
+  alignas(64) std::array<int, kLanes> valid = {};
+  for (uint32_t i = 0; i < count; ++i) {
+    const ThinRay& r = query.rays[firstId + i];
+    valid[i] = -1;
+    packet.ray.org_x[i] = r.from.x;
+    packet.ray.org_y[i] = r.from.y;
+    packet.ray.org_z[i] = r.from.z;
+    packet.ray.dir_x[i] = r.direction.x;
+    packet.ray.dir_y[i] = r.direction.y;
+    packet.ray.dir_z[i] = r.direction.z;
+    packet.ray.tfar[i] = r.length;
+    packet.ray.mask[i] = ~0u;
+    packet.ray.id[i] = firstId + i;
+    packet.hit.geomID[i] = RTC_INVALID_GEOMETRY_ID;
+    packet.hit.instID[0][i] = RTC_INVALID_GEOMETRY_ID;
+  }
+  query.base.flags = RTC_INTERSECT_CONTEXT_FLAG_COHERENT;
+  rtcIntersect16(valid.data(), world, &query.base, &packet);
+}
+
+// Of the first rays, those that are worth tracing with the very first.
+size_t together(std::span<const ThinRay> rays, float spread) {
+  const size_t most = std::min(rays.size(), kLanes);
+  size_t count = 1;
+  for (; count < most; ++count) {
+    const glm::vec3 apart = rays[count].from - rays[0].from;
+    if (glm::dot(apart, apart) > spread * spread) break;
+    if (glm::dot(rays[count].direction, rays[0].direction) < kWidest) break;
+  }
+  return count;
+}
+
+Query makeQuery(float margin, const ThinRay* rays, Met* met) {
+  Query query = {.base = {}, .margin = margin, .rays = rays, .met = met};
+  rtcInitIntersectContext(&query.base);
+  query.base.filter = keepNearest;
+  return query;
+}
+
+}  // namespace
+
+void NearestTriangles::findAll(std::span<const ThinRay> rays, std::span<Met> met) const {
+  Query query = makeQuery(margin_, rays.data(), met.data());
+  std::ranges::fill(met, Met());
+  uint32_t first = 0;
+  while (first < rays.size()) {
+    const size_t count = together(rays.subspan(first), spread_);
+    traceTogether(world_, query, first, count);
+    first += static_cast<uint32_t>(count);
+  }
+}
+
+Met NearestTriangles::find(const ThinRay& ray) const {
+  Met met;
+  Query query = makeQuery(margin_, &ray, &met);
+  traceTogether(world_, query, 0, 1);
+  return met;
+}
+
+}  // namespace grisaille::trace
