@@ -16,6 +16,7 @@
 #include "app/timings.h"
 #include "backends/backends.h"
 #include "core/error.h"
+#include "core/frame/depth_rays.h"
 #include "core/image/image.h"
 #include "core/image/write_aside.h"
 
@@ -26,7 +27,7 @@ struct Options {
   std::string scene, camera, size, backend, device, config, timings;
   std::vector<std::string> effects, sets, writes, pluginPaths;
   ShotOptions shots;
-  std::string surface = "white";
+  std::string surface = "white", rays = "scene";
   uint32_t frames = 1;
   bool check = false;
   bool effectsGiven = false;
@@ -157,6 +158,20 @@ void writeCoverage(const Options& options, const Job& job, frame::Renderer& rend
   writeText(options.shots.coverage, coverageCsv(shares));
 }
 
+// What the effects' rays hit: the scene, or what a frame of it shows, drawn for that alone.
+std::unique_ptr<effect::RayService> makeRays(const Options& options, const Job& job,
+                                             frame::Renderer& renderer) {
+  if (options.rays == "scene") return std::make_unique<SceneRays>(job.scene);
+  const std::vector<std::string> outputs = {"depth", "facet_normal"};
+  renderer.render({.camera = job.camera,
+                   .width = job.size.x,
+                   .height = job.size.y,
+                   .effects = {},
+                   .outputs = outputs});
+  return std::make_unique<frame::DepthRays>(renderer.read("depth"), renderer.read("facet_normal"),
+                                            job.camera);
+}
+
 void renderFrames(const Options& options, const Job& job, gpu::Device& device) {
   const auto instances = job.active->start(device);
   std::vector<frame::ActiveEffect> effects = job.active->with(instances);
@@ -169,8 +184,8 @@ void renderFrames(const Options& options, const Job& job, gpu::Device& device) {
     outputs.insert(outputs.end(),
                    {job.painter->owner, job.painter->paint, "depth", "facet_normal"});
   }
-  SceneRays rays(job.scene);
   frame::Renderer renderer(device, job.scene);
+  const auto rays = makeRays(options, job, renderer);
   for (uint32_t i = 0; i < options.frames; ++i) {
     renderer.render({.camera = job.camera,
                      .width = job.size.x,
@@ -179,7 +194,7 @@ void renderFrames(const Options& options, const Job& job, gpu::Device& device) {
                                                           : frame::Surface::kWhite,
                      .effects = effects,
                      .outputs = outputs,
-                     .rays = &rays});
+                     .rays = rays.get()});
     for (frame::ActiveEffect& active : effects) active.shotsKept = active.shots.size();
   }
   for (const Write& write : job.writes) {
@@ -270,6 +285,12 @@ void addRender(CLI::App& program) {
       ->add_option("--timings", options->timings, "CSV of every pass's time; -: to standard output")
       ->type_name("FILE.csv|-");
   options->shots.addTo(*command);
+  command
+      ->add_option("--rays", options->rays,
+                   "What tells where shots land: the scene, or the depth of a first frame, which "
+                   "leaves waiting what it does not show")
+      ->check(CLI::IsMember({"scene", "depth"}))
+      ->capture_default_str();
   command->add_option("--plugin-path", options->pluginPaths, "A further folder of effects")
       ->type_name("DIR")
       ->allow_extra_args(false);

@@ -68,6 +68,20 @@ TEST_F(Paint, SharesAddUpToTheWhole) {
   EXPECT_NEAR(sum, 1, 1e-5);
 }
 
+// With a frame's depth for rays a shot paints the pixel that it was fired through, or it is said to
+// wait: what the frame does not show is never taken for open.
+TEST_F(Paint, ShotsLandByDepthOrAreSaidToWait) {
+  for (const std::string rays : {"scene", "depth"}) {
+    const Outcome outcome = render(
+        {"--rays", rays, "--fire", "40,45,#ff0000", "--write", "paint_coverage=k.exr", "--check"});
+    ASSERT_EQ(outcome.status, 0) << outcome.err;
+    const bool painted = image::read(folder_ / "k.exr").at(40, 45) > 0;
+    const bool waits = outcome.err.find("1 shots wait") != std::string::npos;
+    EXPECT_TRUE(painted || waits) << rays << "\n" << outcome.err;
+    EXPECT_TRUE(rays == "depth" || !waits) << outcome.err;
+  }
+}
+
 TEST_F(Paint, WhatIsWrongIsRefusedByName) {
   expectError({"--fire", "1,2"}, 5101, "X,Y,#rrggbb");
   expectError({"--fire", "1,2,red"}, 5101, "red");
@@ -85,6 +99,7 @@ TEST_F(Paint, WhatIsWrongIsRefusedByName) {
   expectError({"--load", "sspm=" + folder_.write("c.json", shot)}, 3412, "direction");
   expectError({"--fire", "1,1,#ff0000", "--save", "sspm=s.txt"}, 3414, "s.txt");
   expectError({"--timings", "-", "--coverage", "-"}, 5101);
+  expectError({"--rays", "guess"}, 5101, "guess");
   const Outcome none =
       runProgram({"render", "--size", "16x9", "--fire", "1,1,#ff0000"}, folder_.path());
   EXPECT_EQ(none.err.rfind("error E3205: ", 0), 0u) << none.err;
