@@ -7,7 +7,7 @@ namespace grisaille::sspm {
 namespace {
 
 constexpr uint32_t kFree = ~0u;
-constexpr size_t kSlotWords = 8;
+constexpr size_t kSlotWords = 6;
 constexpr size_t kFirstSlots = 1024;
 
 }  // namespace
@@ -35,14 +35,18 @@ void CellTable::clear() {
   runs_.clear();
 }
 
-Cell& CellTable::at(const CellKey& key) {
+Cell* CellTable::find(const CellKey& key) {
   for (uint32_t i = hashOf(key) & slotMask();; i = (i + 1) & slotMask()) {
     const uint32_t cell = slotCells_[i];
-    if (cell == kFree) break;
-    if (cells_[cell].key == key) return cells_[cell];
+    if (cell == kFree) return nullptr;
+    if (cells_[cell].key == key) return &cells_[cell];
   }
+}
+
+Cell& CellTable::at(const CellKey& key) {
+  if (Cell* cell = find(key)) return *cell;
   cells_.emplace_back().key = key;
-  if (cells_.size() * 2 > slotCells_.size()) {
+  if (cells_.size() * 3 > slotCells_.size() * 2) {
     grow();
   } else {
     place(static_cast<uint32_t>(cells_.size() - 1));
@@ -66,7 +70,7 @@ void CellTable::place(uint32_t cell) {
 }
 
 void CellTable::grow() {
-  const size_t count = slotCells_.size() * 4;
+  const size_t count = slotCells_.size() * 2;
   slotCells_.assign(count, kFree);
   slots_.resize(count * kSlotWords);
   slots_.fill(kFree);
@@ -84,7 +88,7 @@ void CellTable::publish(Cell& cell) {
   if (count > 0) {
     const auto words = words_.change(size_t{cell.first} * 2, size_t{count} * 2);
     for (size_t i = 0; i < count; ++i) {
-      words[2 * i] = cell.entries[i].shot;
+      words[2 * i] = cell.entries[i].record;
       words[2 * i + 1] = cell.entries[i].word;
     }
   }
@@ -95,9 +99,9 @@ void CellTable::publish(Cell& cell) {
 
 size_t CellTable::bytes() const {
   size_t sum = slots_.bytes() + words_.bytes() + slotCells_.capacity() * sizeof(uint32_t) +
-               cells_.capacity() * sizeof(Cell);
+               cells_.size() * sizeof(Cell);
   for (const Cell& cell : cells_) {
-    sum += cell.entries.capacity() * sizeof(Entry) + cell.points.capacity() * sizeof(uint32_t);
+    sum += cell.entries.capacity() * sizeof(Entry) + cell.known.capacity() * sizeof(KnownPoint);
   }
   return sum;
 }

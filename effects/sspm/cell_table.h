@@ -4,8 +4,8 @@
 #pragma once
 
 #include <cstdint>
+#include <deque>
 #include <glm/glm.hpp>
-#include <span>
 #include <vector>
 
 #include "mirror.h"
@@ -36,15 +36,29 @@ uint32_t hashOf(const CellKey& key);
 // A shot in a cell's list.
 struct Entry {
   uint32_t shot = 0;
-  uint32_t word = 0;   // of its map: a plane where the map is that plane all over the cell
-  bool seals = false;  // paints all that is known of the cell: nothing older shows there
+  uint32_t record = 0;   // on the device
+  uint32_t word = 0;     // of its map: a plane where the map is that plane all over the cell
+  uint64_t touched = 0;  // parts of the cell where it may paint
+  uint64_t solid = 0;    // of these: where it paints every known surface, as far as it reaches
+};
+
+// A place on a surface in a cell.
+struct KnownPoint {
+  uint32_t place = 0;   // in the cell, 10 bits an axis
+  uint32_t normal = 0;  // glm::packSnorm3x10_1x2
 };
 
 struct Cell {
   CellKey key;
-  std::vector<Entry> entries;    // newest first
-  std::vector<uint32_t> points;  // on surfaces, 10 bits an axis in parts of the cell
-  uint64_t parts = 0;            // which of its 4x4x4 parts have a point
+  std::vector<Entry> entries;     // newest first
+  std::vector<KnownPoint> known;  // one a part and surface
+  uint64_t crowded = 0;           // parts with too many surfaces to know them all
+  // Parts where nothing shows of shots older than `sealedBelow`, since newer ones, the newest of
+  // them `sealer`, hide it.
+  uint64_t sealed = 0;
+  uint32_t sealedBelow = 0;
+  uint32_t sealer = 0;
+  uint32_t pruneAt = 0;  // at so many entries it is worth while to look for hidden ones
   uint32_t slot = 0;
   uint32_t first = 0;     // of its run of entries on the device
   uint32_t capacity = 0;  // of that run; 0: none
@@ -58,11 +72,12 @@ class CellTable {
 
   // The cell, made where it is not there. The reference is good until the next call.
   Cell& at(const CellKey& key);
+  Cell* find(const CellKey& key);
 
   // To be called when a cell's entries have changed: renews what the device reads.
   void publish(Cell& cell);
 
-  std::span<Cell> cells() { return cells_; }
+  std::deque<Cell>& cells() { return cells_; }
   uint32_t slotMask() const { return static_cast<uint32_t>(slotCells_.size() - 1); }
   size_t bytes() const;
 
@@ -73,7 +88,7 @@ class CellTable {
   void place(uint32_t cell);
   void grow();
 
-  std::vector<Cell> cells_;
+  std::deque<Cell> cells_;           // a deque grows without moving
   std::vector<uint32_t> slotCells_;  // index of the cell; ~0: free
   Mirror slots_, words_;
   Runs runs_;

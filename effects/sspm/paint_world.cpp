@@ -7,39 +7,42 @@
 #include <bit>
 #include <chrono>
 #include <cmath>
+#include <cstring>
+#include <utility>
 
 namespace grisaille::sspm {
 namespace {
 
 constexpr size_t kRecordWords = 16;  // of a shot, as shaders/sspm/surface.comp reads it
+constexpr size_t kNumberWord = 11;
+constexpr size_t kColorWord = 12;
 constexpr size_t kMostLevels = 16;
-constexpr float kMargin = 1e-3f;   // of a cell's edge, that patches are widened by
-constexpr float kNearTie = 0.98f;  // a normal between two axes belongs to both
+constexpr size_t kMostWork = 64;    // shots surveyed side by side
+constexpr size_t kMostRays = 4096;  // of a step, but for a single shot's
+constexpr float kThrough = 1.0f / 512;
 
-double edgeOf(int32_t code) {
-  return std::ldexp(1.0, exponentOf(code));
+bool alike(const grisaille_shot& a, const grisaille_shot& b) {
+  return std::memcmp(a.origin, b.origin, sizeof a.origin) == 0 &&
+         std::memcmp(a.direction, b.direction, sizeof a.direction) == 0 && a.range == b.range;
 }
 
-// The lower corner of a cell from the muzzle, metres.
-glm::vec3 cornerFrom(const CellKey& key, const glm::dvec3& origin) {
-  return glm::vec3(glm::dvec3(key.cell) * edgeOf(key.code) - origin);
+uint64_t hashOf(const grisaille_shot& shot) {
+  uint64_t hash = 14695981039346656037ull;
+  const auto mix = [&](uint64_t word) {
+    hash = (hash ^ word) * 0x9E3779B97F4A7C15ull;
+    hash ^= hash >> 29;
+  };
+  for (const double x : shot.origin) mix(std::bit_cast<uint64_t>(x));
+  for (const float x : shot.direction) mix(std::bit_cast<uint32_t>(x));
+  mix(std::bit_cast<uint32_t>(shot.range));
+  return hash;
 }
 
-glm::vec3 unpackPoint(uint32_t point) {
-  return (glm::vec3(point & 1023u, point >> 10 & 1023u, point >> 20) + 0.5f) / 1024.0f;
-}
-
-uint32_t packPoint(const glm::vec3& inCell) {
-  const glm::uvec3 p(glm::clamp(inCell * 1024.0f, 0.0f, 1023.0f));
-  return p.x | p.y << 10 | p.z << 20;
-}
-
-uint64_t partOf(uint32_t point) {
-  return uint64_t{1} << ((point >> 8 & 3u) | (point >> 18 & 3u) << 2 | (point >> 28 & 3u) << 4);
-}
-
-float across(const ShotFrame& frame, const glm::vec3& q) {
-  return glm::length(glm::cross(q, frame.direction));
+// So many shots of this range in one place let nothing older show, wherever they reach.
+size_t layersOf(float full, float range) {
+  const float least = std::min(1.0f, full / range);
+  if (least >= 1 - kThrough) return 1;
+  return static_cast<size_t>(std::ceil(std::log(kThrough) / std::log1p(-least)));
 }
 
 }  // namespace
@@ -48,59 +51,188 @@ size_t PaintWorld::update(std::span<const grisaille_shot> shots, size_t kept,
                           const PaintRules& rules, double patience, const CastRays& cast) {
   const auto start = std::chrono::steady_clock::now();
   list_ = shots;
-  if (!(rules == rules_)) {
-    rules_ = rules;
-    kept = 0;
-  }
-  drop(std::min(kept, shots.size()));
-  for (size_t i = states_.size(); i < shots.size(); ++i)
+  const bool sameRange = rules.range == rules_.range;
+  const bool same = rules == rules_;
+  rules_ = rules;
+  // Maps depend on the range alone, what newer paint hides on the rest too.
+  forget(sameRange ? std::min({kept, shots.size(), states_.size()}) : 0, !same);
+  for (size_t i = states_.size(); i < shots.size(); ++i) {
     pending_.push_back(static_cast<uint32_t>(i));
+  }
   states_.resize(shots.size());
-  shots_.resize(std::max(shots_.size(), shots.size() * kRecordWords));
 
   std::vector<uint32_t> unknown;
-  while (!pending_.empty()) {
-    const uint32_t id = pending_.back();
-    MapState state = MapState::kSeen;
-    if (!place(id, cast, state)) {
-      if (state == MapState::kNoRays) break;
-      unknown.push_back(id);
-    }
-    pending_.pop_back();
+  askAgain(cast);
+  while (step(cast, unknown)) {
     const std::chrono::duration<double> spent = std::chrono::steady_clock::now() - start;
     if (spent.count() >= patience) break;
   }
-  pending_.insert(pending_.end(), unknown.rbegin(), unknown.rend());
-  std::ranges::sort(pending_);
-  return pending_.size();
+  if (!unknown.empty()) {
+    pending_.insert(pending_.end(), unknown.begin(), unknown.end());
+    std::ranges::sort(pending_);
+  }
+  return pending_.size() + work_.size() + partly_.size();
 }
 
-// Forgets all shots but the first `count`; those that had lost cells to them are to be placed anew.
-void PaintWorld::drop(size_t count) {
-  if (count >= states_.size()) return;
+void PaintWorld::clear() {
+  cells_.clear();
+  runs_.clear();
+  states_.clear();
+  pending_.clear();
+  work_.clear();
+  partly_.clear();
+  twins_.clear();
+  placed_.clear();
+  freeRecords_.clear();
+  levels_.clear();
+}
+
+// Forgets all shots but the first `count`; those that newer ones had hidden, of the forgotten or
+// of all, are to be placed anew.
+void PaintWorld::forget(size_t count, bool allLost) {
   if (count == 0) {
-    cells_.clear();
-    runs_.clear();
-    states_.clear();
-    pending_.clear();
-    levels_.clear();
+    clear();
     return;
   }
-  const auto gone = [&](uint32_t id) { return id >= count || states_[id].lostTo > count; };
-  for (Cell& cell : cells_.cells()) {
-    if (std::erase_if(cell.entries, [&](const Entry& entry) { return gone(entry.shot); }) > 0) {
-      cells_.publish(cell);
+  if (count >= states_.size() && !allLost) return;
+  const size_t least = allLost ? 0 : count;
+  std::vector<bool> gone(states_.size());
+  for (size_t id = 0; id < gone.size(); ++id) {
+    gone[id] = id >= count || states_[id].lostTo > least;
+  }
+  const std::vector<uint64_t> recount = forgetTwins(gone);
+  if (!recount.empty()) {
+    for (size_t id = 0; id < count; ++id) {
+      if (states_[id].record == kNone && std::ranges::binary_search(recount, hashOf(list_[id]))) {
+        gone[id] = true;
+      }
     }
   }
-  std::erase_if(pending_, [&](uint32_t id) { return gone(id); });
-  for (uint32_t id = 0; id < states_.size(); ++id) {
-    if (!gone(id)) continue;
-    if (states_[id].blocks > 0) runs_.give(states_[id].base, states_[id].blocks);
+  for (Cell& cell : cells_.cells()) {
+    const auto erased =
+        std::erase_if(cell.entries, [&](const Entry& entry) { return gone[entry.shot]; });
+    if (erased == 0 && !allLost) continue;
+    cell.sealed = 0;
+    cell.pruneAt = 0;
+    if (erased > 0) cells_.publish(cell);
+  }
+  const auto isGone = [&](const Work& work) { return static_cast<bool>(gone[work.id]); };
+  std::erase_if(work_, isGone);
+  std::erase_if(partly_, isGone);
+  std::erase_if(pending_, [&](uint32_t id) { return static_cast<bool>(gone[id]); });
+  for (uint32_t id = 0; id < gone.size(); ++id) {
+    if (!gone[id]) continue;
+    if (states_[id].record != kNone) {
+      placed_[states_[id].record].cells = 0;
+      unlist(id, 0);
+    }
     states_[id] = {};
     if (id < count) pending_.push_back(id);
   }
   std::ranges::sort(pending_);
   states_.resize(count);
+}
+
+// Takes those that are gone out of their groups; what the groups counted is to be counted anew:
+// returns those groups, ascending.
+std::vector<uint64_t> PaintWorld::forgetTwins(const std::vector<bool>& gone) {
+  std::vector<uint64_t> recount;
+  for (auto& [hash, twins] : twins_) {
+    if (std::erase_if(twins.ids, [&](uint32_t id) { return gone[id]; }) == 0) continue;
+    if (twins.counted > 0) recount.push_back(hash);
+    twins.counted = 0;
+  }
+  std::erase_if(twins_, [](const auto& entry) { return entry.second.ids.empty(); });
+  std::ranges::sort(recount);
+  return recount;
+}
+
+// One round of rays for the newest shots that are not placed yet. False when there is nothing left
+// to do, or nothing that can be done now.
+bool PaintWorld::step(const CastRays& cast, std::vector<uint32_t>& unknown) {
+  refill();
+  if (work_.empty()) return false;
+  std::vector<Work*> now;
+  size_t rays = 0;
+  for (Work& work : work_) {
+    now.push_back(&work);
+    rays += work.survey.rays().size();
+    if (rays >= kMostRays) break;
+  }
+  std::vector<bool> told;
+  if (!castFor(now, cast, told)) return false;
+  for (size_t i = 0; i < now.size(); ++i) {
+    Work& work = *now[i];
+    if (!told[i]) {
+      unknown.push_back(work.id);
+    } else if (!work.survey.rays().empty()) {
+      continue;
+    } else if (!work.survey.isRough()) {
+      place(work.id, work.survey);
+    } else if (!isHidden(work.id, work.survey,
+                         levelFor(rangeOf(work.id), work.survey.frame().origin))) {
+      work.survey.refine();
+      continue;
+    }
+    work.id = kNone;
+  }
+  std::erase_if(work_, [](const Work& work) { return work.id == kNone; });
+  return true;
+}
+
+void PaintWorld::refill() {
+  while (work_.size() < kMostWork && !pending_.empty()) {
+    const uint32_t id = pending_.back();
+    const grisaille_shot& shot = list_[id];
+    // Its twin is to be placed first.
+    if (std::ranges::any_of(work_, [&](const Work& w) { return alike(list_[w.id], shot); })) return;
+    pending_.pop_back();
+    if (!countTwin(id)) work_.push_back({id, Survey(shot, rangeOf(id))});
+  }
+}
+
+// False where the host casts no rays. `told`: each survey's take().
+bool PaintWorld::castFor(std::span<Work*> works, const CastRays& cast, std::vector<bool>& told) {
+  std::vector<grisaille_ray> rays;
+  for (const Work* work : works) {
+    const auto asked = work->survey.rays();
+    rays.insert(rays.end(), asked.begin(), asked.end());
+  }
+  std::vector<grisaille_hit> hits(rays.size());
+  if (!cast(rays, hits)) return false;
+  std::span<const grisaille_hit> left = hits;
+  for (Work* work : works) {
+    const size_t count = work->survey.rays().size();
+    told.push_back(work->survey.take(left.first(count)));
+    left = left.subspan(count);
+  }
+  return true;
+}
+
+// What the host could not tell of placed shots it may tell now.
+void PaintWorld::askAgain(const CastRays& cast) {
+  std::deque<Work> asked = std::exchange(partly_, {});
+  for (Work& work : asked) {
+    const std::vector<Share> shares =
+        sharesOf(work.survey.frame(), work.survey.patches(),
+                 levelFor(rangeOf(work.id), work.survey.frame().origin));
+    const size_t before = work.survey.unknown();
+    work.survey.askAgain();
+    bool can = true, first = true, learned = false;
+    while (can && !work.survey.rays().empty()) {
+      Work* one = &work;
+      std::vector<bool> told;
+      can = castFor(std::span(&one, 1), cast, told);
+      learned = can && (learned || !first || work.survey.unknown() < before);
+      first = false;
+    }
+    if (learned) {
+      remove(work.id, shares);
+      place(work.id, work.survey);
+    } else {
+      partly_.push_back(std::move(work));
+    }
+  }
 }
 
 // Cells about half a range wide, so that a shot lies in some twenty; wide enough for their numbers
@@ -124,202 +256,125 @@ int32_t PaintWorld::levelFor(float range, const glm::dvec3& origin) {
   return best;
 }
 
-bool PaintWorld::place(uint32_t id, const CastRays& cast, MapState& state) {
-  const grisaille_shot& shot = list_[id];
-  const float range = shot.range > 0 ? shot.range : rules_.range;
-  ShotMap map;
-  state = seeFrom(shot, range, cast, map);
-  if (state != MapState::kSeen) return false;
-
-  const int32_t level = levelFor(range, map.frame.origin);
-  Shares shares;
-  for (const Patch& patch : map.patches) spread(map, patch, level, shares);
-
-  const uint32_t blocks = static_cast<uint32_t>(map.blocks.size() / 4);
-  State& own = states_[id];
-  own = {};
-  if (blocks > 0) {
-    own.base = runs_.take(blocks);
-    own.blocks = blocks;
-    std::ranges::copy(map.blocks, blocks_.change(size_t{own.base} * 4, map.blocks.size()).begin());
+void PaintWorld::place(uint32_t id, Survey& survey) {
+  const ShotMap map = survey.map();
+  const std::vector<Share> shares = sharesOf(survey.frame(), survey.patches(),
+                                             levelFor(survey.frame().range, survey.frame().origin));
+  const bool partly = survey.unknownInside() > 0;
+  if (!shares.empty()) {
+    State& state = states_[id];
+    if (freeRecords_.empty()) {
+      freeRecords_.push_back(static_cast<uint32_t>(placed_.size()));
+      placed_.emplace_back();
+      records_.resize(std::max(records_.size(), placed_.size() * kRecordWords));
+    }
+    state.record = freeRecords_.back();
+    freeRecords_.pop_back();
+    Placed& placed = placed_[state.record];
+    placed = {.shot = id,
+              .blocks = static_cast<uint32_t>(map.blocks.size() / 4),
+              .cells = static_cast<uint32_t>(shares.size())};
+    if (placed.blocks > 0) {
+      placed.base = runs_.take(placed.blocks);
+      std::ranges::copy(map.blocks,
+                        blocks_.change(size_t{placed.base} * 4, map.blocks.size()).begin());
+    }
+    writeRecord(id, survey.frame(), map);
+    for (const Share& share : shares) {
+      if (!join(id, survey.frame(), map, share)) unlist(id, 0);
+    }
   }
-  writeRecord(id, map, own.base);
-  for (const auto& [key, share] : shares) {
-    if (join(id, map, key, share)) ++own.cells;
+  joinTwins(id, shares);
+  if (partly) partly_.push_back({id, std::move(survey)});
+}
+
+// Takes a shot out of all lists. `shares` as it was placed with.
+void PaintWorld::remove(uint32_t id, const std::vector<Share>& shares) {
+  for (const Share& share : shares) {
+    Cell* cell = cells_.find(share.key);
+    if (cell == nullptr) continue;
+    const auto listed = [&](const Entry& entry) { return entry.shot == id; };
+    if (std::erase_if(cell->entries, listed) == 0) continue;
+    cell->sealed = 0;
+    cell->pruneAt = 0;
+    cells_.publish(*cell);
+    unlist(id, 0);
   }
-  if (own.cells == 0) unlist(id, 0);
+}
+
+// Whether enough newer shots from the same place hide this one: it only counts then.
+bool PaintWorld::countTwin(uint32_t id) {
+  const auto found = twins_.find(hashOf(list_[id]));
+  if (found == twins_.end()) return false;
+  Twins& twins = found->second;
+  if (!alike(list_[twins.ids.front()], list_[id])) return false;
+  const auto newer = std::ranges::count_if(twins.ids, [&](uint32_t other) { return other > id; });
+  if (static_cast<size_t>(newer) < layersOf(rules_.full, rangeOf(id))) return false;
+  states_[id].lostTo = twins.ids.front() + 1;
+  writeCount(twins.ids.front(), ++twins.counted);
   return true;
 }
 
-// Enters a patch into the shares of the cells that it touches.
-void PaintWorld::spread(const ShotMap& map, const Patch& patch, int32_t level,
-                        Shares& shares) const {
-  const double edge = edgeOf(level);
-  const glm::vec3 normal(patch.plane);
-  glm::vec3 low = patch.hit, high = patch.hit;
-  for (const glm::vec3& corner : patch.corners) {
-    low = glm::min(low, corner);
-    high = glm::max(high, corner);
+void PaintWorld::joinTwins(uint32_t id, const std::vector<Share>& shares) {
+  Twins& twins = twins_[hashOf(list_[id])];
+  if (!twins.ids.empty()) {
+    if (!alike(list_[twins.ids.front()], list_[id])) return;
+    if (std::ranges::find(twins.ids, id) != twins.ids.end()) return;
+    writeCount(twins.ids.front(), 0);
   }
-  const float margin = static_cast<float>(edge) * kMargin + map.frame.bias;
-  const glm::ivec3 first(glm::floor((map.frame.origin + glm::dvec3(low - margin)) / edge));
-  const glm::ivec3 last(glm::floor((map.frame.origin + glm::dvec3(high + margin)) / edge));
-  const float half = static_cast<float>(edge) * 0.5f;
-  const float reach = glm::dot(glm::abs(normal), glm::vec3(half)) + margin;
-  const glm::vec3 size = glm::abs(normal);
-  const float most = std::max({size.x, size.y, size.z});
-  for (int x = first.x; x <= last.x; ++x) {
-    for (int y = first.y; y <= last.y; ++y) {
-      for (int z = first.z; z <= last.z; ++z) {
-        CellKey key{{x, y, z}, level};
-        const glm::vec3 corner = cornerFrom(key, map.frame.origin);
-        const glm::vec3 centre = corner + half;
-        if (std::abs(glm::dot(normal, centre) - patch.plane.w) > reach) continue;
-        if (across(map.frame, centre) > map.frame.range + 1.7321f * half) continue;
-        for (int axis = 0; axis < 3; ++axis) {
-          if (size[axis] < kNearTie * most) continue;
-          key.code = level + axis * 2 + (normal[axis] < 0 ? 1 : 0);
-          Share& share = shares[key];
-          if (share.plane == glm::vec4(0)) share.plane = patch.plane;
-          share.plain = share.plain &&
-                        std::abs(glm::dot(glm::vec3(share.plane), patch.hit) - share.plane.w) <=
-                            0.25f * map.frame.bias &&
-                        glm::dot(glm::vec3(share.plane), normal) > 0.98f;
-          share.ragged = share.ragged || patch.ragged;
-          for (int i = -1; i < 4; ++i) {
-            const glm::vec3 at =
-                ((i < 0 ? patch.hit : patch.corners[i] * 0.98f + patch.hit * 0.02f) - corner) /
-                static_cast<float>(edge);
-            if (glm::any(glm::lessThan(at, glm::vec3(0))) ||
-                glm::any(glm::greaterThanEqual(at, glm::vec3(1)))) {
-              continue;
-            }
-            const uint32_t point = packPoint(at);
-            if ((share.parts & partOf(point)) != 0) continue;
-            share.parts |= partOf(point);
-            share.points.push_back(point);
-          }
-        }
-      }
-    }
+  twins.ids.insert(std::ranges::lower_bound(twins.ids, id, std::greater<>()), id);
+  if (twins.ids.size() > layersOf(rules_.full, rangeOf(id))) {
+    const uint32_t last = twins.ids.back();
+    twins.ids.pop_back();
+    remove(last, shares);
+    states_[last].lostTo = std::max(states_[last].lostTo, twins.ids.front() + 1);
+    ++twins.counted;
   }
+  writeCount(twins.ids.front(), twins.counted);
 }
 
-// Enters a shot into a cell's list, and takes out what it hides there. False where newer paint
-// hides the shot itself.
-bool PaintWorld::join(uint32_t id, const ShotMap& map, const CellKey& key, const Share& share) {
-  Cell& cell = cells_.at(key);
-  auto position = std::ranges::lower_bound(cell.entries, id, std::greater<>(), &Entry::shot);
-  for (auto it = cell.entries.begin(); it != position; ++it) {
-    if (it->seals && paintsAll(it->shot, cell, share)) {
-      states_[id].lostTo = std::max(states_[id].lostTo, it->shot + 1);
-      return false;
-    }
-  }
-  for (const uint32_t point : share.points) {
-    if ((cell.parts & partOf(point)) != 0) continue;
-    cell.parts |= partOf(point);
-    cell.points.push_back(point);
-  }
-  Entry entry{.shot = id, .word = map.root, .seals = false};
-  if (share.plain && !share.ragged && (map.root & kNode) != 0) {
-    // The words of planes are found by their own bits.
-    for (size_t block = 0; block * 4 < map.blocks.size(); ++block) {
-      const uint32_t* bits = &map.blocks[block * 4];
-      if (bits[0] == std::bit_cast<uint32_t>(share.plane.x) &&
-          bits[1] == std::bit_cast<uint32_t>(share.plane.y) &&
-          bits[2] == std::bit_cast<uint32_t>(share.plane.z) &&
-          bits[3] == std::bit_cast<uint32_t>(share.plane.w)) {
-        entry.word = kPlane | static_cast<uint32_t>(block);
-        break;
-      }
-    }
-  }
-  entry.seals = seals(map, cell, share);
-  if (entry.seals) {
-    for (auto it = position; it != cell.entries.end(); ++it) unlist(it->shot, id + 1);
-    cell.entries.erase(position, cell.entries.end());
-    cell.entries.push_back(entry);
-  } else {
-    cell.entries.insert(position, entry);
-  }
-  cells_.publish(cell);
-  return true;
-}
-
-// Whether the shot paints all that is known of a cell, solidly.
-bool PaintWorld::seals(const ShotMap& map, const Cell& cell, const Share& share) const {
-  if (share.ragged) return false;
-  const float solid = rules_.solid(map.frame.range);
-  const float edge = static_cast<float>(edgeOf(cell.key.code));
-  const glm::vec3 corner = cornerFrom(cell.key, map.frame.origin);
-  for (int i = 0; i < 8; ++i) {
-    const glm::vec3 q = corner + edge * glm::vec3(i & 1, i >> 1 & 1, i >> 2);
-    if (glm::dot(q, map.frame.direction) < 0 || across(map.frame, q) > solid) return false;
-  }
-  return std::ranges::all_of(cell.points, [&](uint32_t point) {
-    return inSight(map.frame, map.root, map.blocks.data(), corner + edge * unpackPoint(point),
-                   glm::vec3(share.plane));
-  });
-}
-
-bool PaintWorld::paintsAll(uint32_t id, const Cell& cell, const Share& share) const {
-  const ShotFrame frame = frameOf(id);
-  const uint32_t root = shots_.data()[id * kRecordWords + 15];
-  const uint32_t* blocks = blocks_.data() + size_t{states_[id].base} * 4;
-  const float edge = static_cast<float>(edgeOf(cell.key.code));
-  const glm::vec3 corner = cornerFrom(cell.key, frame.origin);
-  return std::ranges::all_of(share.points, [&](uint32_t point) {
-    return inSight(frame, root, blocks, corner + edge * unpackPoint(point), glm::vec3(share.plane));
-  });
-}
-
-// A cell has dropped a shot for shot `to` - 1; its map goes with the last.
-void PaintWorld::unlist(uint32_t id, uint32_t to) {
-  State& state = states_[id];
-  state.lostTo = std::max(state.lostTo, to);
-  if (state.cells > 0) --state.cells;
-  if (state.cells > 0 || state.blocks == 0) return;
-  runs_.give(state.base, state.blocks);
-  state.blocks = 0;
-}
-
-void PaintWorld::writeRecord(uint32_t id, const ShotMap& map, uint32_t base) {
+void PaintWorld::writeRecord(uint32_t id, const ShotFrame& frame, const ShotMap& map) {
   const grisaille_shot& shot = list_[id];
-  const auto record = shots_.change(id * kRecordWords, kRecordWords);
-  const glm::dvec3 whole = glm::floor(map.frame.origin);
+  const uint32_t index = states_[id].record;
+  const auto record = records_.change(index * kRecordWords, kRecordWords);
+  const glm::dvec3 whole = glm::floor(frame.origin);
   for (int axis = 0; axis < 3; ++axis) {
     const size_t i = static_cast<size_t>(axis);
     record[i] = static_cast<uint32_t>(static_cast<int32_t>(whole[axis]));
-    record[4 + i] =
-        std::bit_cast<uint32_t>(static_cast<float>(map.frame.origin[axis] - whole[axis]));
-    record[8 + i] = std::bit_cast<uint32_t>(map.frame.direction[axis]);
+    record[4 + i] = std::bit_cast<uint32_t>(static_cast<float>(frame.origin[axis] - whole[axis]));
+    record[8 + i] = std::bit_cast<uint32_t>(frame.direction[axis]);
   }
-  record[3] = std::bit_cast<uint32_t>(map.frame.range);
-  record[7] = std::bit_cast<uint32_t>(map.frame.slope);
-  record[11] = std::bit_cast<uint32_t>(map.frame.bias);
-  record[12] = glm::packHalf2x16(glm::vec2(shot.color[0], shot.color[1]));
-  record[13] = glm::packHalf2x16(glm::vec2(shot.color[2], 0));
-  record[14] = base;
+  record[3] = std::bit_cast<uint32_t>(frame.range);
+  record[7] = std::bit_cast<uint32_t>(frame.slope);
+  record[kNumberWord] = id + 1;
+  record[kColorWord] = glm::packHalf2x16(glm::vec2(shot.color[0], shot.color[1]));
+  record[kColorWord + 1] = glm::packHalf2x16(glm::vec2(shot.color[2], 1));
+  record[14] = placed_[index].base;
   record[15] = map.root;
 }
 
+// How often the shot's alpha counts, besides once, for shots that it hides wherever they reach.
+void PaintWorld::writeCount(uint32_t id, uint32_t counted) {
+  const uint32_t index = states_[id].record;
+  if (index == kNone) return;
+  const float times = std::min(1.0f + static_cast<float>(counted), 65504.0f);
+  records_.change(index * kRecordWords + kColorWord + 1, 1)[0] =
+      glm::packHalf2x16(glm::vec2(list_[id].color[2], times));
+}
+
 ShotFrame PaintWorld::frameOf(uint32_t id) const {
-  const grisaille_shot& shot = list_[id];
-  const uint32_t* record = shots_.data() + id * kRecordWords;
-  ShotFrame frame;
-  frame.origin = glm::dvec3(shot.origin[0], shot.origin[1], shot.origin[2]);
-  frame.direction = glm::vec3(shot.direction[0], shot.direction[1], shot.direction[2]);
-  setAxes(frame);
-  frame.range = std::bit_cast<float>(record[3]);
-  frame.slope = std::bit_cast<float>(record[7]);
-  frame.bias = std::bit_cast<float>(record[11]);
+  const uint32_t* record = records_.data() + states_[id].record * kRecordWords;
+  ShotFrame frame(list_[id], std::bit_cast<float>(record[3]));
+  frame.setFarthest(frame.range / std::bit_cast<float>(record[7]));
   return frame;
 }
 
 size_t PaintWorld::bytes() const {
-  return cells_.bytes() + shots_.bytes() + blocks_.bytes() + states_.capacity() * sizeof(State) +
-         pending_.capacity() * sizeof(uint32_t);
+  return cells_.bytes() + records_.bytes() + blocks_.bytes() + states_.size() * sizeof(State) +
+         pending_.capacity() * sizeof(uint32_t) + placed_.capacity() * sizeof(Placed) +
+         freeRecords_.capacity() * sizeof(uint32_t) +
+         twins_.size() * (sizeof(uint64_t) + sizeof(Twins) + 2 * sizeof(void*)) +
+         twins_.bucket_count() * sizeof(void*);
 }
 
 }  // namespace grisaille::sspm

@@ -4,80 +4,113 @@
 #pragma once
 
 #include <cstdint>
+#include <deque>
+#include <functional>
 #include <span>
 #include <unordered_map>
 #include <vector>
 
 #include "cell_table.h"
-#include "shot_map.h"
+#include "shares.h"
+#include "survey.h"
 
 namespace grisaille::sspm {
 
-// What the paint depends on besides the shots. A change makes everything anew.
+// Rays in, hits out; false where rays cannot be cast.
+using CastRays = std::function<bool(std::span<const grisaille_ray>, std::span<grisaille_hit>)>;
+
+// What the paint depends on besides the shots.
 struct PaintRules {
   float range = 0;  // metres, of shots without one of their own
-  // Within this distance of a shot's ray, metres, nothing older shows: its alpha is 1, unfaded.
-  float solid(float shotRange) const { return glm::min(full, shotRange * (1 - fade)); }
-  float full = 0;  // r0, metres
-  float fade = 0;  // share of the range
+  float full = 0;   // r0, metres
+  float fade = 0;   // share of the range
 
   bool operator==(const PaintRules&) const = default;
 };
 
 class PaintWorld {
  public:
-  PaintWorld() : shots_("shots"), blocks_("maps"), runs_(blocks_, 4) {}
+  PaintWorld() : records_("shots"), blocks_("maps"), runs_(blocks_, 4) {}
 
   // Brings all up to `shots`, of which the first `kept` are as in the call before; the newest
-  // first, until `patience` seconds are over (at least one shot). Returns how many still wait.
+  // first, until `patience` seconds are over (one step at least). Returns how many still wait.
   size_t update(std::span<const grisaille_shot> shots, size_t kept, const PaintRules& rules,
                 double patience, const CastRays& cast);
 
   CellTable& cells() { return cells_; }
-  Mirror& shots() { return shots_; }
+  Mirror& records() { return records_; }
   Mirror& blocks() { return blocks_; }
   std::span<const int32_t> levels() const { return levels_; }  // codes in use, without facing
 
   // Of memory, on the host and on the device together.
   size_t bytes() const;
+  size_t listed() const { return placed_.size() - freeRecords_.size(); }
 
  private:
+  static constexpr uint32_t kNone = ~0u;
   struct State {
-    uint32_t lostTo = 0;  // 1 + the newest shot that took a cell of this one
+    uint32_t lostTo = 0;  // 1 + the newest shot that hides it in some cell
+    uint32_t record = kNone;
+  };
+  // A shot that some cell lists.
+  struct Placed {
+    uint32_t shot = 0;
     uint32_t base = 0;    // its map's first block
-    uint32_t blocks = 0;  // of its map; 0: none
+    uint32_t blocks = 0;  // of its map
     uint32_t cells = 0;   // that list it
   };
-  // What a shot brings to one cell.
-  struct Share {
-    std::vector<uint32_t> points;
-    uint64_t parts = 0;
-    glm::vec4 plane = glm::vec4(0);
-    bool plain = true;  // one plane all over
-    bool ragged = false;
+  struct Work {
+    uint32_t id;
+    Survey survey;
   };
-  struct KeyHash {
-    size_t operator()(const CellKey& key) const { return hashOf(key); }
+  // Shots of one origin, direction and range. As soon as nothing older shows through so many of
+  // them, the older ones only count.
+  struct Twins {
+    std::vector<uint32_t> ids;  // newest first
+    uint32_t counted = 0;       // by the newest, besides itself
   };
-  using Shares = std::unordered_map<CellKey, Share, KeyHash>;
 
-  void drop(size_t count);
-  bool place(uint32_t id, const CastRays& cast, MapState& state);
+  float rangeOf(uint32_t id) const { return list_[id].range > 0 ? list_[id].range : rules_.range; }
+
+  // paint_world.cpp
+  void clear();
+  void forget(size_t count, bool allLost);
+  std::vector<uint64_t> forgetTwins(const std::vector<bool>& gone);
+  bool step(const CastRays& cast, std::vector<uint32_t>& unknown);
+  void refill();
+  bool castFor(std::span<Work*> works, const CastRays& cast, std::vector<bool>& told);
+  void askAgain(const CastRays& cast);
+  bool countTwin(uint32_t id);
+  void joinTwins(uint32_t id, const std::vector<Share>& shares);
   int32_t levelFor(float range, const glm::dvec3& origin);
-  void spread(const ShotMap& map, const Patch& patch, int32_t level, Shares& shares) const;
-  bool join(uint32_t id, const ShotMap& map, const CellKey& key, const Share& share);
-  bool seals(const ShotMap& map, const Cell& cell, const Share& share) const;
-  bool paintsAll(uint32_t id, const Cell& cell, const Share& share) const;
-  void unlist(uint32_t id, uint32_t to);
-  void writeRecord(uint32_t id, const ShotMap& map, uint32_t base);
+  void place(uint32_t id, Survey& survey);
+  void remove(uint32_t id, const std::vector<Share>& shares);
+  void writeRecord(uint32_t id, const ShotFrame& frame, const ShotMap& map);
+  void writeCount(uint32_t id, uint32_t counted);
   ShotFrame frameOf(uint32_t id) const;
+
+  // hiding.cpp
+  bool isHidden(uint32_t id, const Survey& survey, int32_t level);
+  bool isHiddenIn(const Cell& cell, uint32_t id, const Share& share) const;
+  bool join(uint32_t id, const ShotFrame& frame, const ShotMap& map, const Share& share);
+  void learn(Cell& cell, const glm::dvec3& origin, const SurfacePoint& point);
+  bool paints(const ShotFrame& frame, uint32_t root, const uint32_t* blocks, const glm::vec3& at,
+              const glm::vec3& normal) const;
+  bool paintsPoint(const Entry& entry, const glm::dvec3& origin, const SurfacePoint& point) const;
+  void prune(Cell& cell);
+  void unlist(uint32_t id, uint32_t to);
 
   std::span<const grisaille_shot> list_;  // during update()
   PaintRules rules_;
-  std::vector<State> states_;
+  std::deque<State> states_;       // one a shot
   std::vector<uint32_t> pending_;  // ascending
+  std::deque<Work> work_;          // under way, newest first
+  std::deque<Work> partly_;        // placed as far as the host can tell
+  std::unordered_map<uint64_t, Twins> twins_;
   CellTable cells_;
-  Mirror shots_, blocks_;
+  std::vector<Placed> placed_;  // one a record
+  std::vector<uint32_t> freeRecords_;
+  Mirror records_, blocks_;
   Runs runs_;
   std::vector<int32_t> levels_;
 };

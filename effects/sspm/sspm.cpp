@@ -172,7 +172,7 @@ class Sspm {
     kept_ = shots.size();
     frame.waiting(waiting);
     for (Mirror* mirror :
-         {&world_.cells().slots(), &world_.cells().words(), &world_.shots(), &world_.blocks()}) {
+         {&world_.cells().slots(), &world_.cells().words(), &world_.records(), &world_.blocks()}) {
       mirror->upload(host_, frame);
     }
     const grisaille_pipeline pipeline = surface_.get({plugin::specialize(0, wanted(frame))});
@@ -182,7 +182,7 @@ class Sspm {
         plugin::uniform(2, frame.uniform(listsBlock(frame))),
         plugin::storage(0, plugin::whole(world_.cells().slots().buffer())),
         plugin::storage(1, plugin::whole(world_.cells().words().buffer())),
-        plugin::storage(2, plugin::whole(world_.shots().buffer())),
+        plugin::storage(2, plugin::whole(world_.records().buffer())),
         plugin::storage(3, plugin::whole(world_.blocks().buffer())),
         plugin::texture(0, frame.attachment(GRISAILLE_VIEW_DEPTH), nearest_),
         plugin::texture(1, frame.attachment(GRISAILLE_FACET_NORMAL), nearest_)};

@@ -19,32 +19,27 @@ layout(UNIFORM(2), std140) uniform Lists {
   float edge_fade;
 } lists;
 
-struct Slot {
-  ivec3 cell;
-  int code;     // level and facing; -1: free
-  uint first;   // entry
-  uint count;
-  uint unused0, unused1;
-};
 struct Shot {
   ivec3 cell;  // muzzle, world: whole metres
   float range;
   vec3 fraction;
   float slope;
   vec3 direction;
-  float bias;
-  uint color_rg, color_b;  // halves
+  uint number;             // from 1
+  uint color_rg;           // halves
+  uint color_b_times;      // halves: blue; how often its alpha counts
   uint base;               // the map's first block
   uint root;
 };
-layout(STORAGE(0), std430) readonly buffer Slots { Slot slots[]; };
-layout(STORAGE(1), std430) readonly buffer Entries { uvec2 entries[]; };  // shot, word
+layout(STORAGE(0), std430) readonly buffer Slots { int slots[]; };  // six a slot: cell, code (-1: free), first entry, count
+layout(STORAGE(1), std430) readonly buffer Entries { uvec2 entries[]; };  // of shots[], word
 layout(STORAGE(2), std430) readonly buffer Shots { Shot shots[]; };
 layout(STORAGE(3), std430) readonly buffer Blocks { uvec4 blocks[]; };
 layout(TEXTURE(0)) uniform sampler2D view_depth;
 layout(TEXTURE(1)) uniform sampler2D facet_normal;
 
 const float kMapReach = 8.0;
+const float kBiasUnits = 0.02, kBiasShare = 2e-5;
 const float kSlant = 8.0, kOther = -0.5, kSame = 0.3, kLeastBias = 0.05;
 const uint kPlane = 0x40000000u, kNode = 0x80000000u, kTag = 0xC0000000u;
 
@@ -79,7 +74,8 @@ bool inSight(Shot shot, uint word, vec3 q, float along, vec3 facing) {
   if (word == 0u) return true;
   const vec4 plane = uintBitsToFloat(blocks[shot.base + (word & ~kTag)]);
   const float behind = plane.w - dot(plane.xyz, q);
-  const float bias = shot.bias * clamp((dot(plane.xyz, facing) - kOther) / (kSame - kOther), kLeastBias, 1.0);
+  const float least = kBiasUnits * shot.range + kBiasShare * shot.range / shot.slope;
+  const float bias = least * clamp((dot(plane.xyz, facing) - kOther) / (kSame - kOther), kLeastBias, 1.0);
   return behind <= bias && behind * length(q) <= kSlant * bias * abs(dot(plane.xyz, q));
 }
 
@@ -94,9 +90,11 @@ uint hashCell(ivec3 cell, int code) {
 // First and count of the entries of a cell.
 uvec2 find(ivec3 cell, int code) {
   for (uint i = hashCell(cell, code);; ++i) {
-    const Slot slot = slots[i & lists.slot_mask];
-    if (slot.code == code && slot.cell == cell) return uvec2(slot.first, slot.count);
-    if (slot.code < 0) return uvec2(0u);
+    const uint slot = (i & lists.slot_mask) * 6u;
+    if (slots[slot + 3u] < 0) return uvec2(0u);
+    if (slots[slot + 3u] == code && ivec3(slots[slot], slots[slot + 1u], slots[slot + 2u]) == cell) {
+      return uvec2(slots[slot + 4u], slots[slot + 5u]);
+    }
   }
 }
 
@@ -125,12 +123,13 @@ void add(inout Sum sum, uvec2 entry, vec3 from_camera, vec3 normal) {
   const float alpha = min(1.0, lists.camera_fraction.w / max(across, 1e-6));
   const float fade = lists.edge_fade > 0.0 ? min(1.0, (1.0 - across / shot.range) / lists.edge_fade) : 1.0;
   const float weight = alpha * sum.through;
-  sum.color += weight * vec3(unpackHalf2x16(shot.color_rg), unpackHalf2x16(shot.color_b).x);
-  sum.alphas += alpha * fade;
+  const vec2 blue_times = unpackHalf2x16(shot.color_b_times);
+  sum.color += weight * vec3(unpackHalf2x16(shot.color_rg), blue_times.x);
+  sum.alphas += alpha * fade * blue_times.y;
   sum.through *= 1.0 - alpha;
   if (weight > sum.weight) {
     sum.weight = weight;
-    sum.owner = entry.x + 1u;
+    sum.owner = shot.number;
   }
 }
 
@@ -159,7 +158,7 @@ void main() {
       uvec2 entry = entries[left[0].x];
       for (uint i = 1u; i < live; ++i) {
         const uvec2 other = entries[left[i].x];
-        if (other.x > entry.x) {
+        if (shots[other.x].number > shots[entry.x].number) {
           entry = other;
           newest = i;
         }

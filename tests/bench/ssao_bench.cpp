@@ -9,7 +9,6 @@
 #include <array>
 #include <chrono>
 #include <cmath>
-#include <filesystem>
 #include <optional>
 #include <thread>
 
@@ -23,6 +22,7 @@
 #include "core/scene/camera.h"
 #include "core/scene/scene.h"
 #include "core/trace/ray_tracer.h"
+#include "tests/bench/subject.h"
 #include "tests/bench/tutorial_ssao.h"
 
 namespace grisaille::bench {
@@ -57,43 +57,6 @@ std::vector<Setting> settings(const std::string& only) {
   std::erase_if(
       all, [&](const Setting& setting) { return setting.name.find(only) == std::string::npos; });
   return all;
-}
-
-double median(std::vector<double> values) {
-  std::nth_element(values.begin(), values.begin() + values.size() / 2, values.end());
-  return values[values.size() / 2];
-}
-
-// The scene and the cameras that are measured: Sponza's four where it is there, else the atrium's.
-struct Subject {
-  std::string name;
-  scene::Scene scene;
-  std::vector<scene::Camera> cameras;
-  double loadSeconds = 0;
-};
-
-Subject loadSubject() {
-  const char* given = std::getenv("GRISAILLE_SPONZA");
-  const std::filesystem::path file =
-      given != nullptr ? std::filesystem::path(given)
-                       : std::filesystem::path(SOURCE_FOLDER) / "../shared/scenes/Sponza.glb";
-  Subject subject;
-  const auto start = Clock::now();
-  if (std::filesystem::exists(file)) {
-    subject.name = "Crytek Sponza";
-    subject.scene = scene::loadGltf(file);
-    for (const char* camera : {"atrium", "arcade", "gallery", "lion"}) {
-      subject.cameras.push_back(
-          scene::loadCamera((file.parent_path() / "../cameras" / camera).string() + ".json"));
-    }
-  } else {
-    fmt::print(stderr, "Sponza is not there: measuring the built-in atrium\n");
-    subject.name = "the built-in atrium";
-    subject.scene = scene::makeAtrium();
-    subject.cameras.push_back(scene::atriumCamera());
-  }
-  subject.loadSeconds = std::chrono::duration<double>(Clock::now() - start).count();
-  return subject;
 }
 
 // Ray-traced truth at every tenth pixel both ways of one camera.

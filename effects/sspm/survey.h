@@ -1,0 +1,110 @@
+// SPDX-License-Identifier: MIT
+// Finds out what a shot's muzzle sees, by rays: says which to cast next, takes the hits, and so on
+// until it knows. First the farthest surface, then a rough picture of some 140 rays, then, if asked
+// to go on, the map: 1,300 rays for a wall, 20,000 for a plant.
+#pragma once
+
+#include <span>
+#include <unordered_map>
+#include <vector>
+
+#include "shot_map.h"
+
+namespace grisaille::sspm {
+
+// A piece of a seen surface, as corners from the muzzle, cut where they leave the cylinder.
+struct Patch {
+  glm::vec3 corners[4];
+  glm::vec3 centre;
+  glm::vec4 plane;      // normal towards the muzzle; its product with offsets on the surface
+  bool ragged = false;  // beside it another surface is seen
+  bool whole = true;    // not cut
+};
+
+class Survey {
+ public:
+  // `range` in metres, over 0.
+  Survey(const grisaille_shot& shot, float range);
+
+  // To be cast next, and their hits to be taken. None: the rough picture or the map is done.
+  std::span<const grisaille_ray> rays() const { return rays_; }
+  // False where the host cannot tell now how far the shot goes: it is to be surveyed anew later.
+  bool take(std::span<const grisaille_hit> hits);
+
+  // Goes on from the rough picture to the map.
+  void refine();
+  bool isRough() const { return stage_ != Stage::kFine; }
+
+  // Squares of which the host could not tell, of all and of those within a range of the axis. The
+  // map has no paint there.
+  size_t unknown() const { return countUnknown(1e30f); }
+  size_t unknownInside() const { return countUnknown(1); }
+  // Asks for them again, once the map is done.
+  void askAgain();
+
+  // What is seen within range, when there are no rays to cast.
+  std::vector<Patch> patches() const;
+  const ShotFrame& frame() const { return frame_; }
+  // After refine(), when there are no rays to cast.
+  ShotMap map();
+
+ private:
+  enum class Stage : uint8_t { kProbing, kRough, kFine };
+  struct Sample {
+    bool hit = false;
+    bool unknown = false;            // `hit` too, by a plane that nothing lies before
+    glm::vec4 plane = glm::vec4(0);  // normal, product
+    glm::vec3 at = glm::vec3(0);     // offset of the hit
+  };
+  // A square of the map while it is made.
+  struct Square {
+    glm::vec2 centre = glm::vec2(0);
+    float size = 0;
+    int32_t children = -1;  // index of the first of 16
+    int32_t beside = -1;    // of an open square: one that sees a surface which ends between them
+    glm::ivec2 corner = glm::ivec2(0);  // the lower one, in the finest squares from the map's own
+    Sample sample = {};
+    bool ragged = false;
+  };
+  // Sizes of undivided squares within a unit of the centre, within three, and beyond.
+  struct Grain {
+    float inner, middle, outer;
+  };
+
+  Square& at(int32_t index) { return squares_[static_cast<size_t>(index)]; }
+  const Square& at(int32_t index) const { return squares_[static_cast<size_t>(index)]; }
+
+  void probe(float farthest);
+  bool probed();
+  size_t countUnknown(float within) const;
+  void ask();
+  void lay(int32_t index, const Grain& grain);
+  void addChildren(int32_t parent);
+  void gatherLeaves(int32_t index, std::vector<int32_t>& leaves) const;
+  bool inRange(const Sample& sample) const;
+  int32_t leafAt(glm::ivec2 place) const;
+  bool planePastExit(const Square& open, const glm::vec4& plane) const;
+  bool agree(const Square& a, const Square& b) const;
+  std::vector<int32_t> findEdges(const std::vector<int32_t>& among);
+  bool isFine(const Square& square) const;
+
+  void gatherPatches(int32_t index, std::vector<Patch>& patches) const;
+  void gatherPlanes(int32_t index, std::vector<const Square*>& planes) const;
+  bool extends(const Sample& sample, const Sample& other) const;
+  Patch patchOf(const Square& square, const glm::vec4& plane) const;
+  bool serves(int32_t index, const Square*& leaf, bool smooth) const;
+  bool uniform(int32_t index, const Square*& leaf, bool smooth) const;
+  uint32_t write(int32_t index, ShotMap& map);
+  uint32_t planeWord(const glm::vec4& plane, ShotMap& map);
+
+  ShotFrame frame_;
+  Stage stage_ = Stage::kProbing;
+  float farthest_ = 0;
+  int probes_ = 0;  // rounds of them
+  std::vector<Square> squares_;
+  std::vector<int32_t> asked_;  // squares that rays_ are of
+  std::vector<grisaille_ray> rays_;
+  std::unordered_map<uint64_t, uint32_t> planes_;
+};
+
+}  // namespace grisaille::sspm

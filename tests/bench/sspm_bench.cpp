@@ -1,0 +1,360 @@
+// SPDX-License-Identifier: MIT
+// What paint costs against the number of shots, as Markdown, CSV and a plot: a frame's cost for
+// every count in turn in one process (A B C A B C ...), ratios taken round by round; memory; and
+// what one more shot costs.
+#include <fmt/format.h>
+
+#include <CLI/CLI.hpp>
+#include <algorithm>
+#include <array>
+#include <chrono>
+#include <filesystem>
+#include <fstream>
+#include <memory>
+#include <random>
+#include <thread>
+
+#include "backends/backends.h"
+#include "core/effect/registry.h"
+#include "core/effect/values.h"
+#include "core/error.h"
+#include "core/frame/renderer.h"
+#include "core/trace/ray_tracer.h"
+#include "tests/bench/subject.h"
+
+namespace grisaille::bench {
+namespace {
+
+using Clock = std::chrono::steady_clock;
+using Shots = std::vector<grisaille_shot>;
+
+struct Options {
+  uint32_t rounds = 7;
+  std::vector<size_t> counts = {64, 1000, 10000, 100000, 1000000};
+  std::vector<size_t> perShotCounts = {1, 4, 16, 64, 256};
+  std::string backend, out;
+  uint32_t width = 1280;
+  uint32_t height = 720;
+};
+
+double millisecondsSince(Clock::time_point start) {
+  return std::chrono::duration<double, std::milli>(Clock::now() - start).count();
+}
+
+// Of this process, MiB: on a software driver the device's memory too.
+double residentMemory() {
+  std::ifstream status("/proc/self/status");
+  for (std::string line; std::getline(status, line);) {
+    if (line.starts_with("VmRSS:")) return std::stod(line.substr(6)) / 1024;
+  }
+  return 0;
+}
+
+class Rays : public effect::RayService {
+ public:
+  explicit Rays(const scene::Scene& scene)
+      : tracer_(scene, (scene.bounds.min + scene.bounds.max) / 2.0) {}
+  void cast(std::span<const grisaille_ray> rays, std::span<grisaille_hit> hits) override {
+    tracer_.castRays(rays, hits);
+    count_ += rays.size();
+  }
+  const trace::RayTracer& tracer() const { return tracer_; }
+  size_t count() const { return count_; }
+
+ private:
+  trace::RayTracer tracer_;
+  size_t count_ = 0;
+};
+
+// From anywhere about the cameras at anything that they see: a game's, on all that one looks at.
+Shots randomShots(const Subject& subject, const trace::RayTracer& tracer, size_t count) {
+  std::mt19937 random(1);
+  std::uniform_real_distribution<double> unit(0, 1);
+  std::uniform_real_distribution<float> channel(0, 1);
+  constexpr uint32_t kWidth = 1280, kHeight = 720;
+  std::vector<std::vector<trace::Hit>> views;
+  for (const scene::Camera& camera : subject.cameras) {
+    views.push_back(tracer.castPrimary(camera, kWidth, kHeight));
+  }
+  Shots shots;
+  shots.reserve(count + 1024);
+  while (shots.size() < count) {
+    const size_t view = random() % views.size();
+    const trace::Hit& target = views[view][random() % views[view].size()];
+    const glm::dvec3 muzzle =
+        subject.cameras[view].eye +
+        glm::dvec3(3 * unit(random) - 1.5, 1.5 * unit(random) - 0.7, 3 * unit(random) - 1.5);
+    const glm::dvec3 way = target.position - muzzle;
+    if (target.viewDepth == 0 || glm::length(way) < 0.1) continue;
+    const glm::vec3 direction(glm::normalize(way));
+    shots.push_back({.origin = {muzzle.x, muzzle.y, muzzle.z},
+                     .direction = {direction.x, direction.y, direction.z},
+                     .color = {channel(random), channel(random), channel(random)},
+                     .range = 0,
+                     .reserved = 0});
+  }
+  return shots;
+}
+
+// A renderer with so many shots' paint.
+class Painted {
+ public:
+  Painted(gpu::Device& device, const Subject& subject, const effect::Effect& effect, Rays& rays)
+      : device_(device),
+        subject_(subject),
+        rays_(rays),
+        values_(effect),
+        instance_(device, effect),
+        renderer_(device, subject.scene) {}
+
+  effect::Values& values() { return values_; }
+
+  // Milliseconds from the call to the end of the device's work.
+  double render(std::span<const grisaille_shot> shots, uint32_t width, uint32_t height) {
+    const auto start = Clock::now();
+    const std::array effects = {frame::ActiveEffect{.instance = &instance_,
+                                                    .values = &values_,
+                                                    .shots = shots,
+                                                    .shotsKept = std::min(kept_, shots.size())}};
+    renderer_.render({.camera = subject_.cameras[0],
+                      .width = width,
+                      .height = height,
+                      .effects = effects,
+                      .outputs = outputs_,
+                      .rays = &rays_});
+    kept_ = shots.size();
+    device_.wait();
+    return millisecondsSince(start);
+  }
+
+  // Milliseconds of the effect's passes in the last frame, and of all.
+  std::pair<double, double> passes() {
+    double effect = 0, all = 0;
+    const std::vector<gpu::FrameTimes> frames = device_.takeTimes();
+    for (const gpu::PassTime& pass : frames.back().passes) {
+      all += pass.milliseconds;
+      if (pass.label.starts_with("sspm/")) effect += pass.milliseconds;
+    }
+    return {effect, all};
+  }
+
+ private:
+  gpu::Device& device_;
+  const Subject& subject_;
+  Rays& rays_;
+  effect::Values values_;
+  effect::Instance instance_;
+  frame::Renderer renderer_;
+  std::vector<std::string> outputs_ = {"color"};
+  size_t kept_ = 0;
+};
+
+struct Row {
+  std::string mode;
+  size_t shots = 0;
+  std::vector<double> effect = {}, frame = {}, effectRatio = {}, frameRatio = {};
+  double placeSeconds = 0, raysAShot = 0, memory = 0, bytesAShot = 0;
+};
+
+class Bench {
+ public:
+  Bench(const std::string& backend, const Subject& subject, const effect::Effect& effect,
+        Rays& rays, const Shots& shots, const Options& options)
+      : options_(options),
+        subject_(subject),
+        effect_(effect),
+        rays_(rays),
+        shots_(shots),
+        device_(backends::create(backend, {.timed = true})) {}
+
+  const gpu::DeviceInfo& info() const { return device_->info(); }
+
+  std::vector<Row> run() {
+    for (const size_t count : options_.counts) place("surface", count);
+    for (const size_t count : options_.perShotCounts) place("per_shot", count);
+    for (uint32_t round = 0; round < options_.rounds; ++round) {
+      fmt::print(stderr, "round {} of {}\n", round + 1, options_.rounds);
+      double firstEffect = 0, firstFrame = 0;
+      for (size_t i = 0; i < rows_.size(); ++i) {
+        Row& row = rows_[i];
+        painted_[i]->render(std::span(shots_).first(row.shots), options_.width, options_.height);
+        const auto [effect, frame] = painted_[i]->passes();
+        if (i == 0) std::tie(firstEffect, firstFrame) = std::pair(effect, frame);
+        row.effect.push_back(effect);
+        row.frame.push_back(frame);
+        row.effectRatio.push_back(effect / firstEffect);
+        row.frameRatio.push_back(frame / firstFrame);
+      }
+    }
+    return rows_;
+  }
+
+  // Milliseconds that a frame of few pixels takes longer when it has one shot more than the one
+  // before, with the most shots; one at a time, each right after a frame without.
+  std::vector<double> oneMore(size_t times) {
+    const size_t which = options_.counts.size() - 1;
+    Shots shots = shots_;
+    shots.resize(options_.counts.back());
+    shots.reserve(shots.size() + times);
+    std::mt19937 random(2);
+    std::vector<double> more;
+    for (size_t i = 0; i < times; ++i) {
+      const double without = painted_[which]->render(shots, 64, 36);
+      grisaille_shot shot = shots_[random() % shots_.size()];
+      shot.origin[1] += 1e-3;  // not one that is there already
+      shots.push_back(shot);
+      more.push_back(painted_[which]->render(shots, 64, 36) - without);
+    }
+    device_->takeTimes();
+    std::ranges::sort(more);
+    return more;
+  }
+
+ private:
+  void place(const char* mode, size_t count) {
+    fmt::print(stderr, "{}: {} shots\n", mode, count);
+    painted_.push_back(std::make_unique<Painted>(*device_, subject_, effect_, rays_));
+    painted_.back()->values().set("mode", mode);
+    painted_.back()->values().set("shot_limit", "65536");
+    painted_.back()->render({}, options_.width, options_.height);
+    const double memory = residentMemory();
+    const size_t rays = rays_.count();
+    const double idle = painted_.back()->render({}, 64, 36);
+    const double took = painted_.back()->render(std::span(shots_).first(count), 64, 36) - idle;
+    painted_.back()->render(std::span(shots_).first(count), options_.width, options_.height);
+    device_->takeTimes();
+    const auto each = static_cast<double>(count);
+    const double grown = residentMemory() - memory;
+    rows_.push_back({.mode = mode,
+                     .shots = count,
+                     .placeSeconds = took / 1000,
+                     .raysAShot = static_cast<double>(rays_.count() - rays) / each,
+                     .memory = grown,
+                     .bytesAShot = grown * 1048576 / each});
+  }
+
+  Options options_;
+  const Subject& subject_;
+  const effect::Effect& effect_;
+  Rays& rays_;
+  const Shots& shots_;
+  std::unique_ptr<gpu::Device> device_;
+  std::vector<std::unique_ptr<Painted>> painted_;
+  std::vector<Row> rows_;
+};
+
+void print(const std::vector<Row>& rows) {
+  fmt::print(
+      "| mode | shots | paint, ms | paint, first row = 1 | frame, ms | frame, first row = 1 | "
+      "to place all, s | rays a shot | memory, MiB | bytes a shot |\n"
+      "|---|---|---|---|---|---|---|---|---|---|\n");
+  for (const Row& row : rows) {
+    fmt::print(
+        "| {} | {} | {:.2f} | {:.2f} | {:.2f} | {:.2f} | {:.2f} | {:.0f} | {:.0f} | {:.0f} |\n",
+        row.mode, row.shots, median(row.effect), median(row.effectRatio), median(row.frame),
+        median(row.frameRatio), row.placeSeconds, row.raysAShot, row.memory, row.bytesAShot);
+  }
+}
+
+// DIR/paint_cost.csv, and from it the plot.
+void writePlot(const std::filesystem::path& folder, const std::vector<std::string>& backends,
+               const std::vector<std::vector<Row>>& all) {
+  std::filesystem::create_directories(folder);
+  const std::filesystem::path csv = folder / "paint_cost.csv";
+  std::ofstream file(csv);
+  for (size_t i = 0; i < all.size(); ++i) {
+    std::string mode;
+    for (const Row& row : all[i]) {
+      if (row.mode != mode) file << (mode.empty() && i == 0 ? "" : "\n\n");
+      mode = row.mode;
+      const auto [least, most] = std::ranges::minmax(row.effect);
+      file << fmt::format("{},{},{},{},{},{}\n", backends[i], row.mode, row.shots,
+                          median(row.effect), least, most);
+    }
+  }
+  file.close();
+  std::string curves;
+  for (size_t i = 0; i < all.size(); ++i) {
+    for (size_t mode = 0; mode < 2; ++mode) {
+      curves += fmt::format("{}'{}' index {} using 3:4:5:6 with yerrorlines lw 2 title '{}, {}'",
+                            curves.empty() ? "" : ", ", csv.string(), 2 * i + mode,
+                            mode == 0 ? "surface" : "per shot", backends[i]);
+    }
+  }
+  const std::string script = fmt::format(
+      "set datafile separator ','; set logscale xy; set grid; set key left top; "
+      "set xlabel 'shots'; set ylabel 'paint, ms a frame'; set colorsequence podo; "
+      "set terminal svg size 800,500 background rgb 'white'; set output '{0}/paint_cost.svg'; "
+      "plot {1}; set terminal pngcairo size 800,500; set output '{0}/paint_cost.png'; replot",
+      folder.string(), curves);
+  std::ofstream(folder / "paint_cost.gp") << script << "\n";
+  const std::string command = fmt::format("gnuplot '{}'", (folder / "paint_cost.gp").string());
+  if (std::system(command.c_str()) != 0) fmt::print(stderr, "no plot: gnuplot failed\n");
+}
+
+void run(const Options& options) {
+  const Subject subject = loadSubject();
+  Rays rays(subject.scene);
+  const Shots shots = randomShots(
+      subject, rays.tracer(),
+      std::max(std::ranges::max(options.counts), std::ranges::max(options.perShotCounts)));
+  effect::Registry registry;
+  registry.scan(EFFECTS_FOLDER);
+  fmt::print(
+      "# What paint costs\n\nMade by `./dev bench sspm` on {}, {}x{}, {} hardware threads: shots "
+      "from about the cameras at\nanything that they see, parameters at their defaults, {} rounds "
+      "in turn, medians.\n\nPaint: the effect's passes on the first camera. Frame: all passes. "
+      "Memory: what the process\ngrows by with these shots; on a software driver that is the "
+      "host's and the device's share together.\n\n",
+      subject.name, options.width, options.height, std::thread::hardware_concurrency(),
+      options.rounds);
+  std::vector<std::string> names;
+  std::vector<std::vector<Row>> all;
+  for (const backends::Backend& backend : backends::all()) {
+    if (!options.backend.empty() && options.backend != backend.name) continue;
+    try {
+      Bench bench(backend.name, subject, registry.find("sspm"), rays, shots, options);
+      const gpu::DeviceInfo& info = bench.info();
+      fmt::print("## {}: {}\n\nDriver: {}{}. Clock: {}.\n\n", info.backend, info.name, info.driver,
+                 info.software ? " (software)" : "", gpu::clockName(info.clock));
+      all.push_back(bench.run());
+      names.emplace_back(backend.name);
+      print(all.back());
+      const std::vector<double> more = bench.oneMore(101);
+      fmt::print(
+          "\nOne more shot at {} takes {:.2f} ms (median of {}; 9 of 10 at most {:.2f}, all at "
+          "most "
+          "{:.2f}).\n\n",
+          options.counts.back(), more[more.size() / 2], more.size(), more[more.size() * 9 / 10],
+          more.back());
+      std::fflush(stdout);
+    } catch (const Error& error) {
+      if (error.id() != ErrorId::kBackendMissing && error.id() != ErrorId::kNoDevice) throw;
+      fmt::print("## {}\n\nNot here: {}\n\n", backend.name, error.detail());
+    }
+  }
+  if (!options.out.empty()) writePlot(options.out, names, all);
+}
+
+}  // namespace
+}  // namespace grisaille::bench
+
+int main(int argc, char** argv) {
+  grisaille::bench::Options options;
+  CLI::App program("What paint costs against the number of shots, as Markdown");
+  program.add_option("--rounds", options.rounds, "How often each count is timed")
+      ->check(CLI::Range(1u, 1000u));
+  program.add_option("--counts", options.counts, "Shots of the mode surface, ascending");
+  program.add_option("--per-shot-counts", options.perShotCounts, "Shots of the mode per_shot");
+  program.add_option("--backend", options.backend, "opengl or vulkan; default: both");
+  program.add_option("--out", options.out, "A folder for paint_cost.csv, .svg and .png");
+  program.add_option("--width", options.width, "Pixels")->check(CLI::Range(16u, 16384u));
+  program.add_option("--height", options.height, "Pixels")->check(CLI::Range(16u, 16384u));
+  CLI11_PARSE(program, argc, argv);
+  try {
+    grisaille::bench::run(options);
+  } catch (const std::exception& error) {
+    fmt::print(stderr, "{}\n", error.what());
+    return 1;
+  }
+}
