@@ -86,10 +86,13 @@ void CellTable::publish(Cell& cell) {
     cell.capacity = wanted;
   }
   if (count > 0) {
-    const auto words = words_.change(size_t{cell.first} * 2, size_t{count} * 2);
+    const auto words = words_.change(size_t{cell.first} * 4, size_t{count} * 4);
     for (size_t i = 0; i < count; ++i) {
-      words[2 * i] = cell.entries[i].record;
-      words[2 * i + 1] = cell.entries[i].word;
+      const Entry& entry = cell.entries[i];
+      words[4 * i] = entry.record;
+      words[4 * i + 1] = entry.word;
+      words[4 * i + 2] = static_cast<uint32_t>(entry.touched);
+      words[4 * i + 3] = static_cast<uint32_t>(entry.touched >> 32);
     }
   }
   const auto slot = slots_.change(cell.slot * kSlotWords + 4, 2);

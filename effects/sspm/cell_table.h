@@ -66,7 +66,7 @@ struct Cell {
 
 class CellTable {
  public:
-  CellTable() : slots_("cells"), words_("lists"), runs_(words_, 2) { clear(); }
+  CellTable() : slots_("cells"), words_("lists"), runs_(words_, 4) { clear(); }
 
   void clear();
 

@@ -16,7 +16,6 @@ namespace {
 constexpr size_t kRecordWords = 16;  // of a shot, as shaders/sspm/surface.comp reads it
 constexpr size_t kNumberWord = 11;
 constexpr size_t kColorWord = 12;
-constexpr size_t kMostLevels = 16;
 constexpr size_t kMostWork = 64;    // shots surveyed side by side
 constexpr size_t kMostRays = 4096;  // of a step, but for a single shot's
 constexpr float kThrough = 1.0f / 512;

@@ -19,6 +19,8 @@ namespace grisaille::sspm {
 // Rays in, hits out; false where rays cannot be cast.
 using CastRays = std::function<bool(std::span<const grisaille_ray>, std::span<grisaille_hit>)>;
 
+constexpr uint32_t kMostLevels = 16;  // widths of cells in use at once
+
 // What the paint depends on besides the shots.
 struct PaintRules {
   float range = 0;  // metres, of shots without one of their own

@@ -62,7 +62,7 @@ bool visitParts(const ShotFrame& frame, const Patch& patch, int32_t level, const
     low = glm::min(low, corner);
     high = glm::max(high, corner);
   }
-  const float margin = partEdge * 4e-3f + frame.bias;
+  const float margin = partEdge * 0.1f + frame.bias;
   const glm::ivec3 first(glm::floor((frame.origin + glm::dvec3(low - margin)) / edge * 4.0));
   const glm::ivec3 last(glm::floor((frame.origin + glm::dvec3(high + margin)) / edge * 4.0));
   const glm::vec3 size = glm::abs(normal);

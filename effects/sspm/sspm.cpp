@@ -18,7 +18,6 @@ namespace {
 
 constexpr uint32_t kGroup = 8;  // threads a side, in all shaders of this effect
 constexpr int kOctaves = 3;
-constexpr size_t kLevels = 16;
 
 // shaders/sspm/splat.glsl, std140.
 struct SplatBlock {
@@ -43,8 +42,8 @@ GRISAILLE_CHECK_BLOCK_sspm_per_shot_Shot(ShotBlock);
 
 // shaders/sspm/surface.comp, std140.
 struct ListsBlock {
-  glm::ivec4 level_cell[kLevels];
-  glm::vec4 level_fraction[kLevels];
+  glm::ivec4 level_cell[kMostLevels];
+  glm::vec4 level_fraction[kMostLevels];
   glm::ivec4 camera_cell;
   glm::vec4 camera_fraction;
   uint32_t slot_mask;
@@ -175,7 +174,9 @@ class Sspm {
          {&world_.cells().slots(), &world_.cells().words(), &world_.records(), &world_.blocks()}) {
       mirror->upload(host_, frame);
     }
-    const grisaille_pipeline pipeline = surface_.get({plugin::specialize(0, wanted(frame))});
+    const grisaille_pipeline pipeline = surface_.get(
+        {plugin::specialize(0, wanted(frame)),
+         plugin::specialize(1, world_.levels().size() <= 1 ? 1u : kMostLevels)});
     std::vector<grisaille_binding> bindings = {
         plugin::uniform(0, frame.viewBlock()),
         plugin::uniform(1, frame.uniform(splatBlock(frame))),

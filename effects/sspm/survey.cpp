@@ -238,13 +238,16 @@ std::vector<int32_t> Survey::findEdges(const std::vector<int32_t>& among) {
         continue;
       }
       const int32_t other = leafAt(place);
-      if (agree(at(index), at(other))) continue;
-      if (at(index).sample.hit && at(other).sample.hit) {
+      const bool same = agree(at(index), at(other));
+      const auto [open, hit] =
+          at(index).sample.hit ? std::pair(other, index) : std::pair(index, other);
+      if (at(open).sample.hit == at(hit).sample.hit) {
+        if (same) continue;
         tell(index);
         tell(other);
+      } else if (same) {
+        at(open).rim = hit;
       } else {
-        const auto [open, hit] =
-            at(index).sample.hit ? std::pair(other, index) : std::pair(index, other);
         at(open).beside = hit;
         if (at(open).size > kOpenUnits) tell(open);
         if (at(hit).size > kOpenUnits) tell(hit);
@@ -252,6 +255,11 @@ std::vector<int32_t> Survey::findEdges(const std::vector<int32_t>& among) {
     }
   }
   return edges;
+}
+
+// The square that sees what may reach into this one.
+const Survey::Square& Survey::seenBy(const Square& square) const {
+  return square.beside >= 0 ? at(square.beside) : square.rim >= 0 ? at(square.rim) : square;
 }
 
 bool Survey::isFine(const Square& square) const {
@@ -268,7 +276,7 @@ std::vector<Patch> Survey::patches() const {
 void Survey::gatherPatches(int32_t index, std::vector<Patch>& patches) const {
   const Square& square = at(index);
   if (square.children < 0 && !square.ragged) {
-    const Sample& sample = square.beside < 0 ? square.sample : at(square.beside).sample;
+    const Sample& sample = seenBy(square).sample;
     if (!inRange(sample)) return;
     patches.push_back(patchOf(square, sample.plane));
     patches.back().ragged = square.beside >= 0;
@@ -304,7 +312,7 @@ void Survey::gatherPlanes(int32_t index, std::vector<const Square*>& planes) con
     for (int32_t i = 0; i < 16; ++i) gatherPlanes(square.children + i, planes);
     return;
   }
-  const Square& seen = square.beside < 0 ? square : at(square.beside);
+  const Square& seen = seenBy(square);
   if (!inRange(seen.sample)) return;
   if (std::ranges::none_of(
           planes, [&](const Square* plane) { return extends(plane->sample, seen.sample); })) {
@@ -322,14 +330,17 @@ bool Survey::extends(const Sample& sample, const Sample& other) const {
 Patch Survey::patchOf(const Square& square, const glm::vec4& plane) const {
   Patch patch;
   patch.plane = plane;
+  // Where the cylinder ends in the slopes of the square, at the farthest.
+  const glm::vec2 nearest = glm::max(glm::abs(square.centre) - square.size / 2, 0.0f);
+  const float farthest =
+      std::min(exitOf(frame_, slopeOf(frame_, nearest)), 2 * frame_.range / frame_.slope);
   const auto put = [&](glm::vec2 offset) {
     const glm::vec2 slope = slopeOf(frame_, square.centre + square.size * offset);
     const glm::vec3 along = alongSlope(frame_, slope);
     const float facing = glm::dot(glm::vec3(plane), along);
-    const float end = std::min(exitOf(frame_, slope), 2 * frame_.range / frame_.slope);
-    const float t = facing < 0 ? plane.w / facing : 2 * end;
-    patch.whole = patch.whole && t <= end;
-    return glm::clamp(t, 0.0f, end) * along;
+    const float t = facing < 0 ? plane.w / facing : 2 * farthest;
+    patch.whole = patch.whole && t <= std::min(exitOf(frame_, slope), farthest);
+    return glm::clamp(t, 0.0f, farthest) * along;
   };
   for (int i = 0; i < 4; ++i) {
     patch.corners[i] = put({(i & 1) != 0 ? 0.5f : -0.5f, (i & 2) != 0 ? 0.5f : -0.5f});

@@ -61,7 +61,9 @@ class Survey {
     glm::vec2 centre = glm::vec2(0);
     float size = 0;
     int32_t children = -1;  // index of the first of 16
-    int32_t beside = -1;    // of an open square: one that sees a surface which ends between them
+    // Of an open square: one that sees a surface which ends between them, or which leaves the
+    // cylinder there.
+    int32_t beside = -1, rim = -1;
     glm::ivec2 corner = glm::ivec2(0);  // the lower one, in the finest squares from the map's own
     Sample sample = {};
     bool ragged = false;
@@ -86,6 +88,7 @@ class Survey {
   bool planePastExit(const Square& open, const glm::vec4& plane) const;
   bool agree(const Square& a, const Square& b) const;
   std::vector<int32_t> findEdges(const std::vector<int32_t>& among);
+  const Square& seenBy(const Square& square) const;
   bool isFine(const Square& square) const;
 
   void gatherPatches(int32_t index, std::vector<Patch>& patches) const;

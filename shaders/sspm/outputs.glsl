@@ -5,11 +5,16 @@ layout(IMAGE(0), rgba16f) writeonly uniform image2D paint_out;
 layout(IMAGE(1), r32f) writeonly uniform image2D coverage_out;
 layout(IMAGE(2), r32ui) writeonly uniform uimage2D owner_out;
 
+// A sum of alphas from which on nothing that is written changes.
+float enoughAlpha(float noise) {
+  return (kWanted & 2u) != 0u ? 1.0 : min(noise + max(splat.half_width, 1e-6), 1.0);
+}
+
 // `color` and `alphas` as blended: rgb, and the sum of alphas.
-void writePaint(ivec2 pixel, vec3 color, float alphas, uint owner, vec3 from_camera, float depth) {
+void writePaint(ivec2 pixel, vec3 color, float alphas, uint owner, float noise) {
   const float coverage = min(alphas, 1.0);
   if ((kWanted & 1u) != 0u) {
-    const float alpha = splatAlpha(coverage, from_camera, depth);
+    const float alpha = splatAlpha(coverage, noise);
     imageStore(paint_out, pixel, alpha > 0.0 ? vec4(color, alpha) : vec4(0.0));
   }
   if ((kWanted & 2u) != 0u) imageStore(coverage_out, pixel, vec4(coverage));

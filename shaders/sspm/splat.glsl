@@ -67,9 +67,9 @@ float splatNoise(vec3 from_camera, float view_depth) {
 }
 
 // The alpha that paint of this coverage is drawn with, 0 or 1 but for the step's width.
-float splatAlpha(float coverage, vec3 from_camera, float view_depth) {
+float splatAlpha(float coverage, float noise) {
   if (coverage <= 0.0) return 0.0;
-  const float above = coverage - splatNoise(from_camera, view_depth);
+  const float above = coverage - noise;
   if (splat.half_width <= 0.0) return above > 0.0 ? 1.0 : 0.0;
   return smoothstep(-splat.half_width, splat.half_width, above) * min(coverage / splat.half_width, 1.0);
 }

@@ -1,7 +1,8 @@
 #version 460
 // SPDX-License-Identifier: MIT
 // Any number of shots: each pixel walks the shots listed for its cell of the world and its facing,
-// newest first, T = prod(1 - alpha), C = sum(alpha c T), A = sum(alpha), until nothing older shows.
+// newest first, T = prod(1 - alpha), C = sum(alpha c T), A = sum(alpha), until no older one changes
+// what is written.
 // A shot paints what its muzzle sees: effects/sspm/shot_map.h says how that is held.
 #extension GL_GOOGLE_include_directive : require
 #include "splat.glsl"
@@ -10,6 +11,8 @@
 layout(local_size_x = 8, local_size_y = 8) in;
 
 const uint kLevels = 16;
+// How many are in use, or kLevels for any number: most scenes have shots of one range alone.
+layout(constant_id = 1) const uint kMost = kLevels;
 layout(UNIFORM(2), std140) uniform Lists {
   ivec4 level_cell[kLevels];      // xyz: the camera's cell; w: code of the level
   vec4 level_fraction[kLevels];   // xyz: the camera's place in it, in cells; w: cells a metre
@@ -32,9 +35,9 @@ struct Shot {
   uint root;
 };
 layout(STORAGE(0), std430) readonly buffer Slots { int slots[]; };  // six a slot: cell, code (-1: free), first entry, count
-layout(STORAGE(1), std430) readonly buffer Entries { uvec2 entries[]; };  // of shots[], word
+layout(STORAGE(1), std430) readonly buffer Entries { uint entries[]; };  // four an entry: of shots[], word, parts of the cell (2)
 layout(STORAGE(2), std430) readonly buffer Shots { Shot shots[]; };
-layout(STORAGE(3), std430) readonly buffer Blocks { uvec4 blocks[]; };
+layout(STORAGE(3), std430) readonly buffer Blocks { uint blocks[]; };  // four words a block
 layout(TEXTURE(0)) uniform sampler2D view_depth;
 layout(TEXTURE(1)) uniform sampler2D facet_normal;
 
@@ -42,8 +45,6 @@ const float kMapReach = 8.0;
 const float kBiasUnits = 0.02, kBiasShare = 2e-5;
 const float kSlant = 8.0, kOther = -0.5, kSame = 0.3, kLeastBias = 0.05;
 const uint kPlane = 0x40000000u, kNode = 0x80000000u, kTag = 0xC0000000u;
-
-uint pick(uvec4 block, uint i) { return (i & 2u) != 0u ? (i & 1u) != 0u ? block.w : block.z : (i & 1u) != 0u ? block.y : block.x; }
 
 // As inSight() of effects/sspm/shot_map.cpp.
 bool inSight(Shot shot, uint word, vec3 q, float along, vec3 facing) {
@@ -61,18 +62,16 @@ bool inSight(Shot shot, uint word, vec3 q, float along, vec3 facing) {
     while ((word & kNode) != 0u) {
       const vec2 square = clamp(floor(at), 0.0, 3.0);
       const uint bit = uint(square.y) * 4u + uint(square.x);
-      const uint block = shot.base + (word & ~kTag);
-      if ((word & kTag) == kNode) {
-        word = pick(blocks[block + bit / 4u], bit & 3u);
-      } else {
-        const uvec4 two = blocks[block];
-        word = (two.x >> bit & 1u) != 0u ? two.z : two.y;
-      }
+      const uint block = (shot.base + (word & ~kTag)) * 4u;
+      const bool node = (word & kTag) == kNode;
+      word = blocks[block + (node ? bit : 0u)];
+      if (!node) word = blocks[block + 1u + (word >> bit & 1u)];
       at = (at - square) * 4.0;
     }
   }
   if (word == 0u) return true;
-  const vec4 plane = uintBitsToFloat(blocks[shot.base + (word & ~kTag)]);
+  const uint block = (shot.base + (word & ~kTag)) * 4u;
+  const vec4 plane = uintBitsToFloat(uvec4(blocks[block], blocks[block + 1u], blocks[block + 2u], blocks[block + 3u]));
   const float behind = plane.w - dot(plane.xyz, q);
   const float least = kBiasUnits * shot.range + kBiasShare * shot.range / shot.slope;
   const float bias = least * clamp((dot(plane.xyz, facing) - kOther) / (kSame - kOther), kLeastBias, 1.0);
@@ -93,7 +92,7 @@ uvec2 find(ivec3 cell, int code) {
     const uint slot = (i & lists.slot_mask) * 6u;
     if (slots[slot + 3u] < 0) return uvec2(0u);
     if (slots[slot + 3u] == code && ivec3(slots[slot], slots[slot + 1u], slots[slot + 2u]) == cell) {
-      return uvec2(slots[slot + 4u], slots[slot + 5u]);
+      return uvec2(slots[slot + 4u], slots[slot + 4u] + slots[slot + 5u]);
     }
   }
 }
@@ -104,6 +103,17 @@ int facingOf(vec3 normal) {
   return axis * 2 + (normal[axis] < 0.0 ? 1 : 0);
 }
 
+// xy: from an entry to an end; z: part of a cell. From the first entry on that that reaches a part of the cell.
+uint seek(uint first, uint end, uint part) {
+  const uint word = 2u + part / 32u, bit = 1u << (part & 31u);
+  bool found = false;
+  while (first < end && !found) {
+    found = (entries[first * 4u + word] & bit) != 0u;
+    if (!found) ++first;
+  }
+  return first;
+}
+
 struct Sum {
   vec3 color;
   float through;  // T
@@ -112,14 +122,14 @@ struct Sum {
   uint owner;
 };
 
-void add(inout Sum sum, uvec2 entry, vec3 from_camera, vec3 normal) {
-  const Shot shot = shots[entry.x];
+void add(inout Sum sum, uint record, uint word, vec3 from_camera, vec3 normal) {
+  const Shot shot = shots[record];
   const vec3 origin = vec3(shot.cell - lists.camera_cell.xyz) + (shot.fraction - lists.camera_fraction.xyz);
   const vec3 q = from_camera - origin;
   const float along = dot(q, shot.direction);
   const float across = length(cross(q, shot.direction));
   if (along < 0.0 || across >= shot.range || dot(q, normal) >= 0.0) return;
-  if (!inSight(shot, entry.y, q, along, normal)) return;
+  if (!inSight(shot, word, q, along, normal)) return;
   const float alpha = min(1.0, lists.camera_fraction.w / max(across, 1e-6));
   const float fade = lists.edge_fade > 0.0 ? min(1.0, (1.0 - across / shot.range) / lists.edge_fade) : 1.0;
   const float weight = alpha * sum.through;
@@ -140,33 +150,38 @@ void main() {
   const vec2 uv = at * view.size.zw;
   const float depth = textureLod(view_depth, uv, 0.0).x;
   const vec3 from_camera = fromCamera(at, depth);
+  const float noise = splatNoise(from_camera, depth);
+  const float enough = enoughAlpha(noise);
   Sum sum = Sum(vec3(0.0), 1.0, 0.0, 0.0, 0u);
   if (depth > 0.0) {
     const vec3 normal = textureLod(facet_normal, uv, 0.0).xyz;
     const int facing = facingOf(normal);
     // Levels differ in range, not in time: their lists are merged by the shots' numbers.
-    uvec2 left[kLevels];
+    uvec3 left[kMost];  // first, count, part of the cell
     uint live = 0u;
-    for (int i = 0; i < lists.camera_cell.w; ++i) {
+    for (uint i = 0u; i < min(kMost, uint(lists.camera_cell.w)); ++i) {
       const vec3 place = from_camera * lists.level_fraction[i].w + lists.level_fraction[i].xyz;
-      const ivec3 cell = lists.level_cell[i].xyz + ivec3(floor(clamp(place, -1e9, 1e9)));
-      const uvec2 found = find(cell, lists.level_cell[i].w + facing);
-      if (found.y > 0u) left[live++] = found;
+      const vec3 whole = floor(clamp(place, -1e9, 1e9));
+      const uvec3 in_cell = uvec3(clamp((place - whole) * 4.0, 0.0, 3.0));
+      const uint part = in_cell.x | in_cell.y << 2 | in_cell.z << 4;
+      const ivec3 cell = lists.level_cell[i].xyz + ivec3(whole);
+      uvec3 found = uvec3(find(cell, lists.level_cell[i].w + facing), part);
+      found.x = seek(found.x, found.y, part);
+      if (found.x < found.y) left[live++] = found;
     }
-    while (live > 0u && (sum.through >= 1.0 / 512.0 || sum.alphas < 1.0)) {
-      uint newest = 0u;
-      uvec2 entry = entries[left[0].x];
-      for (uint i = 1u; i < live; ++i) {
-        const uvec2 other = entries[left[i].x];
-        if (shots[other.x].number > shots[entry.x].number) {
-          entry = other;
+    while (live > 0u && (sum.through >= 1.0 / 512.0 || sum.alphas < enough)) {
+      uint newest = 0u, record = entries[left[0].x * 4u];
+      for (uint i = 1u; i < min(kMost, live); ++i) {
+        const uint other = entries[left[i].x * 4u];
+        if (shots[other].number > shots[record].number) {
+          record = other;
           newest = i;
         }
       }
-      add(sum, entry, from_camera, normal);
-      left[newest] = uvec2(left[newest].x + 1u, left[newest].y - 1u);
-      if (left[newest].y == 0u) left[newest] = left[--live];
+      add(sum, record, entries[left[newest].x * 4u + 1u], from_camera, normal);
+      left[newest].x = seek(left[newest].x + 1u, left[newest].y, left[newest].z);
+      if (left[newest].x >= left[newest].y) left[newest] = left[--live];
     }
   }
-  writePaint(pixel, sum.color, sum.alphas, sum.owner, from_camera, depth);
+  writePaint(pixel, sum.color, sum.alphas, sum.owner, noise);
 }
