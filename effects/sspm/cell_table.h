@@ -3,6 +3,7 @@
 // first: a hash table with linear probing that shaders/sspm/surface.comp reads.
 #pragma once
 
+#include <bitset>
 #include <cstdint>
 #include <deque>
 #include <glm/glm.hpp>
@@ -33,19 +34,23 @@ int32_t facingOf(const glm::vec3& normal);
 
 uint32_t hashOf(const CellKey& key);
 
-// A shot in a cell's list.
-struct Entry {
-  uint32_t shot = 0;
-  uint32_t record = 0;   // on the device
-  uint32_t word = 0;     // of its map: a plane where the map is that plane all over the cell
-  uint64_t touched = 0;  // parts of the cell where it may paint
-  uint64_t solid = 0;    // of these: where it paints every known surface, as far as it reaches
-};
-
-// A place on a surface in a cell.
+// A piece of a surface in a cell: about as much of it as one part of the cell holds.
 struct KnownPoint {
   uint32_t place = 0;   // in the cell, 10 bits an axis
   uint32_t normal = 0;  // glm::packSnorm3x10_1x2
+};
+
+constexpr size_t kMostKnown = 128;  // in a cell
+using KnownSet = std::bitset<kMostKnown>;
+
+// A shot in a cell's list.
+struct Entry {
+  uint32_t shot = 0;
+  uint32_t record = 0;    // on the device
+  uint32_t word = 0;      // of its map: a plane where the map is that plane all over the cell
+  uint64_t touched = 0;   // parts of the cell where it may paint
+  uint64_t ragged = 0;    // of these: where it may leave gaps
+  KnownSet painted = {};  // known pieces that it may paint: all of each, but for ragged parts
 };
 
 struct Cell {
@@ -53,9 +58,9 @@ struct Cell {
   std::vector<Entry> entries;     // newest first
   std::vector<KnownPoint> known;  // one a part and surface
   uint64_t crowded = 0;           // parts with too many surfaces to know them all
-  // Parts where nothing shows of shots older than `sealedBelow`, since newer ones, the newest of
+  // Pieces where nothing shows of shots older than `sealedBelow`, since newer ones, the newest of
   // them `sealer`, hide it.
-  uint64_t sealed = 0;
+  KnownSet sealed = {};
   uint32_t sealedBelow = 0;
   uint32_t sealer = 0;
   uint32_t pruneAt = 0;  // at so many entries it is worth while to look for hidden ones

@@ -1,7 +1,8 @@
 // SPDX-License-Identifier: MIT
-// Which paint in a cell newer paint hides. A part of a cell is sealed once the paint on every known
-// surface in it lets through less than shows and its coverage is full, by the worst case over the
-// part.
+// Which paint in a cell newer paint hides. A cell knows the pieces of surfaces in it; a piece is
+// sealed once the paint on it lets through less than shows and its coverage is full, by the worst
+// case over the part of the cell that it lies in. A shot is hidden where all that it may paint is
+// sealed.
 #include <glm/gtc/packing.hpp>
 
 #include <algorithm>
@@ -15,7 +16,6 @@ namespace grisaille::sspm {
 namespace {
 
 constexpr float kThrough = 1.0f / 512;  // as in shaders/sspm/surface.comp
-constexpr size_t kMostSurfaces = 8;     // of a part that are known one by one
 constexpr float kLeastSlant = 0.02f;    // cosine
 
 glm::vec3 unpackPlace(uint32_t place) {
@@ -31,38 +31,72 @@ int partOf(uint32_t place) {
   return static_cast<int>((place >> 8 & 3u) | (place >> 18 & 3u) << 2 | (place >> 28 & 3u) << 4);
 }
 
-bool isKnown(const Cell& cell, const glm::dvec3& origin, const SurfacePoint& point) {
-  const auto edge = static_cast<float>(edgeOf(cell.key.code));
-  const glm::vec3 corner = cornerFrom(cell.key, origin);
-  return std::ranges::any_of(cell.known, [&](const KnownPoint& known) {
-    return partOf(known.place) == point.part &&
-           sameSurface(corner + edge * unpackPlace(known.place),
-                       glm::vec3(glm::unpackSnorm3x10_1x2(known.normal)), point.at, point.normal,
-                       edge);
-  });
+SurfacePoint pointOf(const KnownPoint& known, const glm::vec3& corner, float edge) {
+  return {.part = partOf(known.place),
+          .at = corner + edge * unpackPlace(known.place),
+          .normal = glm::vec3(glm::unpackSnorm3x10_1x2(known.normal))};
 }
 
-uint64_t bitOf(int part) {
-  return uint64_t{1} << part;
+constexpr size_t kUnknown = ~size_t{0};
+
+// Which of a cell's known pieces a point is of.
+size_t findKnown(const Cell& cell, const CellGrid& grid, const SurfacePoint& point) {
+  const glm::vec3 corner = grid.corner(cell.key);
+  const auto found = std::ranges::find_if(cell.known, [&](const KnownPoint& known) {
+    if (partOf(known.place) != point.part) return false;
+    const SurfacePoint other = pointOf(known, corner, grid.edge);
+    return sameSurface(other.at, other.normal, point.at, point.normal, grid.edge);
+  });
+  return found == cell.known.end() ? kUnknown : static_cast<size_t>(found - cell.known.begin());
+}
+
+bool has(uint64_t parts, int part) {
+  return (parts >> part & 1) != 0;
+}
+
+bool isHiddenIn(const Cell& cell, const Entry& entry) {
+  return entry.shot < cell.sealedBelow && (entry.touched & cell.crowded) == 0 &&
+         entry.painted.any() && (entry.painted & ~cell.sealed).none();
+}
+
+// Whether the shot paints a point from its muzzle, by the word of its map.
+bool paints(const ShotFrame& frame, uint32_t word, const uint32_t* blocks,
+            const SurfacePoint& point) {
+  return glm::dot(point.at, point.normal) < -kLeastSlant * glm::length(point.at) &&
+         inSight(frame, word, blocks, point.at, point.normal);
+}
+
+// The word of a plane of a map, which is found by its own bits.
+uint32_t wordOf(const glm::vec4& plane, const ShotMap& map) {
+  const auto words = std::bit_cast<std::array<uint32_t, 4>>(plane);
+  for (size_t at = 0; at < map.blocks.size(); at += 4) {
+    if (std::equal(words.begin(), words.end(), map.blocks.begin() + static_cast<ptrdiff_t>(at))) {
+      return kPlane | static_cast<uint32_t>(at / 4);
+    }
+  }
+  return map.root;
 }
 
 }  // namespace
 
 // By the rough picture alone: nothing that the shot reaches would show.
-bool PaintWorld::isHidden(uint32_t id, const Survey& survey, int32_t level) {
+bool PaintWorld::isHidden(uint32_t id, const Survey& survey, const CellGrid& grid) {
   if (survey.unknown() > 0) return false;
   uint32_t sealer = 0;
   for (const Patch& patch : survey.patches()) {
-    const bool hidden =
-        visitParts(survey.frame(), patch, level, [&](const CellKey& key, uint64_t parts) {
+    const bool hidden = visitParts(
+        survey.frame(), grid, patch, [&](const CellKey& key, uint64_t parts, uint64_t core) {
           const Cell* cell = cells_.find(key);
-          if (cell == nullptr || id >= cell->sealedBelow || (parts & ~cell->sealed) != 0) {
+          if (cell == nullptr || id >= cell->sealedBelow || (parts & cell->crowded) != 0) {
             return false;
           }
+          for (size_t i = 0; i < cell->known.size(); ++i) {
+            if (has(parts, partOf(cell->known[i].place)) && !cell->sealed[i]) return false;
+          }
           sealer = std::max(sealer, cell->sealer);
-          for (uint64_t left = parts; left != 0; left &= left - 1) {
-            const SurfacePoint point = pointIn(survey.frame(), patch, key, std::countr_zero(left));
-            if (!isKnown(*cell, survey.frame().origin, point)) return false;
+          for (uint64_t left = core; left != 0; left &= left - 1) {
+            const SurfacePoint point = pointIn(grid, patch, key, std::countr_zero(left));
+            if (findKnown(*cell, grid, point) == kUnknown) return false;
           }
           return true;
         });
@@ -72,45 +106,34 @@ bool PaintWorld::isHidden(uint32_t id, const Survey& survey, int32_t level) {
   return true;
 }
 
-bool PaintWorld::isHiddenIn(const Cell& cell, uint32_t id, const Share& share) const {
-  return id < cell.sealedBelow && (share.touched & ~cell.sealed) == 0;
-}
-
 // Enters a shot into a cell's list. False where newer paint hides it.
-bool PaintWorld::join(uint32_t id, const ShotFrame& frame, const ShotMap& map, const Share& share) {
+bool PaintWorld::join(uint32_t id, const ShotFrame& frame, const CellGrid& grid, const ShotMap& map,
+                      const Share& share) {
   Cell& cell = cells_.at(share.key);
-  for (const SurfacePoint& point : share.points) learn(cell, frame.origin, point);
-  if (isHiddenIn(cell, id, share)) {
-    states_[id].lostTo = std::max(states_[id].lostTo, cell.sealer + 1);
-    return false;
-  }
   Entry entry{.shot = id,
               .record = states_[id].record,
               .word = map.root,
               .touched = share.touched,
-              .solid = share.touched & ~share.ragged};
+              .ragged = share.ragged};
   if (share.plain && share.ragged == 0 && (map.root & kNode) != 0) {
-    // The words of planes are found by their own bits.
-    for (size_t block = 0; block * 4 < map.blocks.size(); ++block) {
-      const uint32_t* bits = &map.blocks[block * 4];
-      if (bits[0] == std::bit_cast<uint32_t>(share.plane.x) &&
-          bits[1] == std::bit_cast<uint32_t>(share.plane.y) &&
-          bits[2] == std::bit_cast<uint32_t>(share.plane.z) &&
-          bits[3] == std::bit_cast<uint32_t>(share.plane.w)) {
-        entry.word = kPlane | static_cast<uint32_t>(block);
-        break;
-      }
-    }
+    entry.word = wordOf(share.plane, map);
   }
-  const auto edge = static_cast<float>(edgeOf(cell.key.code));
-  const glm::vec3 corner = cornerFrom(cell.key, frame.origin);
-  for (const KnownPoint& known : cell.known) {
-    const uint64_t bit = bitOf(partOf(known.place));
-    if ((entry.solid & bit) == 0) continue;
-    if (!paints(frame, entry.word, map.blocks.data(), corner + edge * unpackPlace(known.place),
-                glm::vec3(glm::unpackSnorm3x10_1x2(known.normal)))) {
-      entry.solid &= ~bit;
-    }
+  const glm::vec3 corner = grid.corner(cell.key);
+  const auto reaches = [&](size_t known) {
+    return paints(frame, entry.word, map.blocks.data(),
+                  pointOf(cell.known[known], corner, grid.edge));
+  };
+  for (const SurfacePoint& point : share.points) {
+    const size_t known = learn(cell, frame.origin, grid, point);
+    if (known != kUnknown && !reaches(known)) entry.ragged |= uint64_t{1} << point.part;
+  }
+  for (size_t i = 0; i < cell.known.size(); ++i) {
+    const int part = partOf(cell.known[i].place);
+    entry.painted[i] = has(entry.touched, part) && (has(entry.ragged, part) || reaches(i));
+  }
+  if (isHiddenIn(cell, entry)) {
+    states_[id].lostTo = std::max(states_[id].lostTo, cell.sealer + 1);
+    return false;
   }
   const auto position = std::ranges::lower_bound(cell.entries, id, std::greater<>(), &Entry::shot);
   cell.entries.insert(position, entry);
@@ -119,92 +142,80 @@ bool PaintWorld::join(uint32_t id, const ShotFrame& frame, const ShotMap& map, c
   return true;
 }
 
-// Notes a surface that a cell did not know of: what is solid there has to paint it too.
-void PaintWorld::learn(Cell& cell, const glm::dvec3& origin, const SurfacePoint& point) {
-  if (isKnown(cell, origin, point)) return;
-  const uint64_t bit = bitOf(point.part);
-  const auto alike = std::ranges::count_if(
-      cell.known, [&](const KnownPoint& known) { return partOf(known.place) == point.part; });
-  if (static_cast<size_t>(alike) >= kMostSurfaces) {
-    cell.crowded |= bit;
-    cell.sealed &= ~bit;
-    return;
+// The known piece that a point is of; one that the cell did not know of is noted.
+size_t PaintWorld::learn(Cell& cell, const glm::dvec3& origin, const CellGrid& grid,
+                         const SurfacePoint& point) {
+  const size_t index = findKnown(cell, grid, point);
+  if (index != kUnknown) return index;
+  if (cell.known.size() >= kMostKnown) {
+    cell.crowded |= uint64_t{1} << point.part;
+    return kUnknown;
   }
-  const auto edge = static_cast<float>(edgeOf(cell.key.code));
-  const glm::vec3 inCell = (point.at - cornerFrom(cell.key, origin)) / edge;
+  const glm::vec3 inCell = (point.at - grid.corner(cell.key)) / grid.edge;
   const glm::vec3 low = middleOf(point.part) - 0.124f, high = middleOf(point.part) + 0.124f;
   cell.known.push_back({.place = packPlace(glm::clamp(inCell, low, high)),
                         .normal = glm::packSnorm3x10_1x2(glm::vec4(point.normal, 0))});
   for (Entry& entry : cell.entries) {
-    if ((entry.solid & bit) != 0 && !paintsPoint(entry, origin, point)) {
-      entry.solid &= ~bit;
-      cell.sealed &= ~bit;
-    }
+    entry.painted[cell.known.size() - 1] =
+        has(entry.touched, point.part) &&
+        (has(entry.ragged, point.part) || paintsPoint(entry, origin, point));
   }
+  return cell.known.size() - 1;
 }
 
-bool PaintWorld::paints(const ShotFrame& frame, uint32_t root, const uint32_t* blocks,
-                        const glm::vec3& at, const glm::vec3& normal) const {
-  return glm::dot(at, normal) < -kLeastSlant * glm::length(at) &&
-         inSight(frame, root, blocks, at, normal);
-}
-
+// `point` from `origin`.
 bool PaintWorld::paintsPoint(const Entry& entry, const glm::dvec3& origin,
                              const SurfacePoint& point) const {
   const ShotFrame frame = frameOf(entry.shot);
-  const glm::vec3 at = glm::vec3(origin - frame.origin) + point.at;
-  return paints(frame, entry.word, blocks_.data() + size_t{placed_[entry.record].base} * 4, at,
-                point.normal);
+  SurfacePoint own = point;
+  own.at += glm::vec3(origin - frame.origin);
+  return paints(frame, entry.word, blocks_.data() + size_t{placed_[entry.record].base} * 4, own);
 }
 
-// Finds the sealed parts and takes out what shows nowhere.
+// Finds the sealed pieces and takes out what shows nowhere.
 void PaintWorld::prune(Cell& cell) {
   const auto edge = static_cast<float>(edgeOf(cell.key.code));
-  const float half = edge / 8 * 1.7321f;
-  std::array<float, 64> through, alphas;
-  std::array<uint32_t, 64> newest;
-  uint64_t started = 0;
-  uint32_t below = kNone, sealer = 0;
-  cell.sealed = 0;
+  const float half = edge / 8 * 1.7321f * (1 + 2 * kPartMargin);
+  std::array<float, kMostKnown> through, alphas;
+  std::array<uint32_t, kMostKnown> newest;
+  through.fill(1);
+  alphas.fill(0);
+  newest.fill(kNone);
+  cell.sealed.reset();
+  cell.sealedBelow = kNone;
+  cell.sealer = 0;
   std::erase_if(cell.entries, [&](const Entry& entry) {
-    if ((entry.touched & ~cell.sealed) == 0) {
-      unlist(entry.shot, sealer + 1);
+    if (isHiddenIn(cell, entry)) {
+      unlist(entry.shot, cell.sealer + 1);
       return true;
     }
-    uint64_t left = entry.solid & ~cell.sealed & ~cell.crowded;
-    if (left == 0) return false;
     const grisaille_shot& shot = list_[entry.shot];
     const float range = rangeOf(entry.shot);
     const glm::vec3 direction(shot.direction[0], shot.direction[1], shot.direction[2]);
-    const glm::vec3 corner =
-        cornerFrom(cell.key, glm::dvec3(shot.origin[0], shot.origin[1], shot.origin[2]));
-    for (; left != 0; left &= left - 1) {
-      const auto part = static_cast<size_t>(std::countr_zero(left));
-      const glm::vec3 middle = corner + edge * middleOf(static_cast<int>(part));
+    const glm::dvec3 origin(shot.origin[0], shot.origin[1], shot.origin[2]);
+    const glm::vec3 corner(glm::dvec3(cell.key.cell) * edgeOf(cell.key.code) - origin);
+    for (size_t i = 0; i < cell.known.size(); ++i) {
+      const int part = partOf(cell.known[i].place);
+      if (!entry.painted[i] || cell.sealed[i] || has(entry.ragged, part)) continue;
+      const glm::vec3 middle = corner + edge * middleOf(part);
       const float across = glm::length(glm::cross(middle, direction)) + half;
       if (across >= range || glm::dot(middle, direction) < half) continue;
-      if ((started >> part & 1) == 0) {
-        started |= bitOf(static_cast<int>(part));
-        through[part] = 1;
-        alphas[part] = 0;
-        newest[part] = entry.shot;
-      }
+      if (newest[i] == kNone) newest[i] = entry.shot;
       const float alpha = std::min(1.0f, rules_.full / across);
       const float fade = rules_.fade > 0 ? std::min(1.0f, (1 - across / range) / rules_.fade) : 1;
-      through[part] *= 1 - alpha;
-      alphas[part] += alpha * fade;
+      through[i] *= 1 - alpha;
+      alphas[i] += alpha * fade;
       // A little over, for the device's rounding.
-      if (through[part] < 0.99f * kThrough && alphas[part] >= 1.001f) {
-        cell.sealed |= bitOf(static_cast<int>(part));
-        sealer = std::max(sealer, newest[part]);
-        below = std::min(below, entry.shot);
+      if (through[i] < 0.99f * kThrough && alphas[i] >= 1.001f) {
+        cell.sealed.set(i);
+        cell.sealer = std::max(cell.sealer, newest[i]);
+        cell.sealedBelow = std::min(cell.sealedBelow, entry.shot);
       }
     }
     return false;
   });
-  cell.sealedBelow = cell.sealed != 0 ? below : 0;
-  cell.sealer = sealer;
-  cell.pruneAt = static_cast<uint32_t>(cell.entries.size() * 5 / 4 + 4);
+  if (cell.sealed.none()) cell.sealedBelow = 0;
+  cell.pruneAt = static_cast<uint32_t>(cell.entries.size() * 5 / 4 + 1);
 }
 
 // A cell has dropped a shot for shot `to` - 1; its map goes with the last.

@@ -27,6 +27,7 @@ class Mirror {
 
   // New words are 0.
   void resize(size_t count) {
+    if (count > words_.capacity()) words_.reserve(std::max(count, words_.capacity() / 4 * 5));
     words_.resize(count);
     dirty_.resize((count + kPage - 1) / kPage, true);
   }
@@ -70,16 +71,17 @@ class Mirror {
   plugin::Buffer buffer_;
 };
 
-// Runs of a Mirror's units, in sizes of powers of two, given out and taken back.
+// Runs of a Mirror's units, given out and taken back, in sizes of 4, 5, 6 or 7 times powers of two
+// and below 4.
 class Runs {
  public:
   // `unit` words each.
   Runs(Mirror& mirror, size_t unit) : mirror_(mirror), unit_(unit) {}
 
   static uint32_t capacityFor(uint32_t count) {
-    uint32_t capacity = 1;
-    while (capacity < count) capacity *= 2;
-    return capacity;
+    if (count <= 4) return count;
+    const int shift = std::bit_width(count - 1) - 3;
+    return (((count - 1) >> shift) + 1) << shift;
   }
 
   // First unit of a run of at least `count`, which is over 0.
@@ -106,13 +108,15 @@ class Runs {
 
  private:
   static size_t classOf(uint32_t capacity) {
-    return static_cast<size_t>(std::countr_zero(capacity));
+    if (capacity <= 4) return capacity - 1;
+    const int shift = std::bit_width(capacity) - 3;
+    return static_cast<size_t>(4 * shift) + (capacity >> shift) - 1;
   }
 
   Mirror& mirror_;
   size_t unit_;
   uint32_t end_ = 0;
-  std::vector<uint32_t> free_[32];
+  std::vector<uint32_t> free_[128];
 };
 
 }  // namespace grisaille::sspm

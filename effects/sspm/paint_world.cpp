@@ -111,7 +111,7 @@ void PaintWorld::forget(size_t count, bool allLost) {
     const auto erased =
         std::erase_if(cell.entries, [&](const Entry& entry) { return gone[entry.shot]; });
     if (erased == 0 && !allLost) continue;
-    cell.sealed = 0;
+    cell.sealed.reset();
     cell.pruneAt = 0;
     if (erased > 0) cells_.publish(cell);
   }
@@ -168,8 +168,7 @@ bool PaintWorld::step(const CastRays& cast, std::vector<uint32_t>& unknown) {
       continue;
     } else if (!work.survey.isRough()) {
       place(work.id, work.survey);
-    } else if (!isHidden(work.id, work.survey,
-                         levelFor(rangeOf(work.id), work.survey.frame().origin))) {
+    } else if (!isHidden(work.id, work.survey, gridFor(work.survey.frame()))) {
       work.survey.refine();
       continue;
     }
@@ -213,8 +212,7 @@ void PaintWorld::askAgain(const CastRays& cast) {
   std::deque<Work> asked = std::exchange(partly_, {});
   for (Work& work : asked) {
     const std::vector<Share> shares =
-        sharesOf(work.survey.frame(), work.survey.patches(),
-                 levelFor(rangeOf(work.id), work.survey.frame().origin));
+        sharesOf(work.survey.frame(), gridFor(work.survey.frame()), work.survey.patches());
     const size_t before = work.survey.unknown();
     work.survey.askAgain();
     bool can = true, first = true, learned = false;
@@ -236,29 +234,29 @@ void PaintWorld::askAgain(const CastRays& cast) {
 
 // Cells about half a range wide, so that a shot lies in some twenty; wide enough for their numbers
 // to fit where the shot stands.
-int32_t PaintWorld::levelFor(float range, const glm::dvec3& origin) {
-  const glm::dvec3 far = glm::abs(origin) + 1e3 * double{range};
+CellGrid PaintWorld::gridFor(const ShotFrame& frame) {
+  const glm::dvec3 far = glm::abs(frame.origin) + 1e3 * double{frame.range};
   const double least = std::max({far.x, far.y, far.z}) * 0x1p-28;
-  const int exponent = std::max(static_cast<int>(std::lround(std::log2(range * 0.5f))),
+  const int exponent = std::max(static_cast<int>(std::lround(std::log2(frame.range * 0.5f))),
                                 static_cast<int>(std::ceil(std::log2(least))));
   const int32_t code = levelCode(std::clamp(exponent, -40, 40));
-  if (std::ranges::find(levels_, code) != levels_.end()) return code;
+  if (std::ranges::find(levels_, code) != levels_.end()) return {frame.origin, code};
   if (levels_.size() < kMostLevels) {
     levels_.push_back(code);
-    return code;
+    return {frame.origin, code};
   }
   // Any width is right, the wider the slower: the next wider, or the widest.
   int32_t best = *std::ranges::max_element(levels_);
   for (const int32_t level : levels_) {
     if (level >= code) best = std::min(best, level);
   }
-  return best;
+  return {frame.origin, best};
 }
 
 void PaintWorld::place(uint32_t id, Survey& survey) {
   const ShotMap map = survey.map();
-  const std::vector<Share> shares = sharesOf(survey.frame(), survey.patches(),
-                                             levelFor(survey.frame().range, survey.frame().origin));
+  const CellGrid grid = gridFor(survey.frame());
+  const std::vector<Share> shares = sharesOf(survey.frame(), grid, survey.patches());
   const bool partly = survey.unknownInside() > 0;
   if (!shares.empty()) {
     State& state = states_[id];
@@ -280,7 +278,7 @@ void PaintWorld::place(uint32_t id, Survey& survey) {
     }
     writeRecord(id, survey.frame(), map);
     for (const Share& share : shares) {
-      if (!join(id, survey.frame(), map, share)) unlist(id, 0);
+      if (!join(id, survey.frame(), grid, map, share)) unlist(id, 0);
     }
   }
   joinTwins(id, shares);
@@ -294,7 +292,7 @@ void PaintWorld::remove(uint32_t id, const std::vector<Share>& shares) {
     if (cell == nullptr) continue;
     const auto listed = [&](const Entry& entry) { return entry.shot == id; };
     if (std::erase_if(cell->entries, listed) == 0) continue;
-    cell->sealed = 0;
+    cell->sealed.reset();
     cell->pruneAt = 0;
     cells_.publish(*cell);
     unlist(id, 0);

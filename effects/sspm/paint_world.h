@@ -84,7 +84,7 @@ class PaintWorld {
   void askAgain(const CastRays& cast);
   bool countTwin(uint32_t id);
   void joinTwins(uint32_t id, const std::vector<Share>& shares);
-  int32_t levelFor(float range, const glm::dvec3& origin);
+  CellGrid gridFor(const ShotFrame& frame);
   void place(uint32_t id, Survey& survey);
   void remove(uint32_t id, const std::vector<Share>& shares);
   void writeRecord(uint32_t id, const ShotFrame& frame, const ShotMap& map);
@@ -92,12 +92,11 @@ class PaintWorld {
   ShotFrame frameOf(uint32_t id) const;
 
   // hiding.cpp
-  bool isHidden(uint32_t id, const Survey& survey, int32_t level);
-  bool isHiddenIn(const Cell& cell, uint32_t id, const Share& share) const;
-  bool join(uint32_t id, const ShotFrame& frame, const ShotMap& map, const Share& share);
-  void learn(Cell& cell, const glm::dvec3& origin, const SurfacePoint& point);
-  bool paints(const ShotFrame& frame, uint32_t root, const uint32_t* blocks, const glm::vec3& at,
-              const glm::vec3& normal) const;
+  bool isHidden(uint32_t id, const Survey& survey, const CellGrid& grid);
+  bool join(uint32_t id, const ShotFrame& frame, const CellGrid& grid, const ShotMap& map,
+            const Share& share);
+  size_t learn(Cell& cell, const glm::dvec3& origin, const CellGrid& grid,
+               const SurfacePoint& point);
   bool paintsPoint(const Entry& entry, const glm::dvec3& origin, const SurfacePoint& point) const;
   void prune(Cell& cell);
   void unlist(uint32_t id, uint32_t to);

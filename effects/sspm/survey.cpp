@@ -6,6 +6,7 @@
 #include <bit>
 #include <cmath>
 #include <limits>
+#include <utility>
 
 namespace grisaille::sspm {
 namespace {
@@ -16,8 +17,7 @@ constexpr float kInnerUnits = 1.0f / 16;
 constexpr float kOpenUnits = 1.0f / 63;
 constexpr float kPatchUnits = 1.0f / 4;  // the widest patch
 constexpr int kMostProbes = 6;
-constexpr glm::ivec2 kAround[] = {{1, 0}, {-1, 0}, {0, 1},  {0, -1},
-                                  {1, 1}, {1, -1}, {-1, 1}, {-1, -1}};
+constexpr glm::ivec2 kAround[] = {{1, 0}, {-1, 0}, {0, 1}, {0, -1}};
 constexpr int kFinestAcross = static_cast<int>(2 * kMapReach / kFinestUnits);
 constexpr int kFinestShift = std::countr_zero(static_cast<unsigned>(kFinestAcross));
 constexpr float kBeyond = 1.02f;  // of the range: hits past it are out of the cylinder
@@ -217,6 +217,14 @@ bool Survey::agree(const Square& a, const Square& b) const {
   return onPlane(a.sample.plane, b.sample.at) && onPlane(b.sample.plane, a.sample.at);
 }
 
+// Whether two surfaces that are seen side by side seem to meet between: each of their planes lies
+// before the other's hit, or behind it, and by a little only.
+bool Survey::meet(const Sample& a, const Sample& b) const {
+  const float over = glm::dot(glm::vec3(a.plane), b.at) - a.plane.w;
+  const float under = glm::dot(glm::vec3(b.plane), a.at) - b.plane.w;
+  return over * under >= 0 && std::max(std::abs(over), std::abs(under)) <= 2 * frame_.bias;
+}
+
 // The squares to split, after those `among` were cast: the ones between surfaces that are wider
 // than need be. Both sides of an edge are told of it. Where a surface ends before nothing there is
 // no need: it is in sight up to its end, and nothing else is there.
@@ -224,8 +232,8 @@ std::vector<int32_t> Survey::findEdges(const std::vector<int32_t>& among) {
   std::vector<int32_t> edges;
   const auto tell = [&](int32_t index) {
     Square& square = at(index);
-    if (!square.ragged && !isFine(square)) edges.push_back(index);
-    square.ragged = true;
+    if (!square.edge && !isFine(square)) edges.push_back(index);
+    square.edge = true;
   };
   for (const int32_t index : among) {
     const int size = static_cast<int>(std::lround(at(index).size / kFinestUnits));
@@ -245,6 +253,9 @@ std::vector<int32_t> Survey::findEdges(const std::vector<int32_t>& among) {
         if (same) continue;
         tell(index);
         tell(other);
+        if (!meet(at(index).sample, at(other).sample)) {
+          at(index).ragged = at(other).ragged = true;
+        }
       } else if (same) {
         at(open).rim = hit;
       } else {
@@ -275,11 +286,9 @@ std::vector<Patch> Survey::patches() const {
 
 void Survey::gatherPatches(int32_t index, std::vector<Patch>& patches) const {
   const Square& square = at(index);
-  if (square.children < 0 && !square.ragged) {
+  if (square.children < 0 && !square.edge) {
     const Sample& sample = seenBy(square).sample;
-    if (!inRange(sample)) return;
-    patches.push_back(patchOf(square, sample.plane));
-    patches.back().ragged = square.beside >= 0;
+    if (inRange(sample)) patches.push_back(patchOf(square, sample.plane));
     return;
   }
   const Square* leaf = nullptr;
@@ -296,28 +305,31 @@ void Survey::gatherPatches(int32_t index, std::vector<Patch>& patches) const {
     return;
   }
   // Where it is cut up finely, each of its planes all over it.
-  std::vector<const Square*> planes;
-  gatherPlanes(index, planes);
-  for (const Square* plane : planes) {
-    patches.push_back(patchOf(square, plane->sample.plane));
-    patches.back().centre = plane->sample.at;
-    patches.back().ragged = true;
+  std::vector<SeenPlane> planes;
+  const bool ragged = gatherPlanes(index, planes);
+  for (SeenPlane& plane : planes) {
+    Patch& patch = patches.emplace_back(patchOf(square, plane.sample->plane));
+    patch.centre = plane.sample->at;
+    patch.ragged = ragged;
+    patch.seen = std::move(plane.seen);
   }
 }
 
-// One leaf below a square of each surface that they see.
-void Survey::gatherPlanes(int32_t index, std::vector<const Square*>& planes) const {
+// The surfaces that leaves below a square see, and where. Returns whether any is ragged.
+bool Survey::gatherPlanes(int32_t index, std::vector<SeenPlane>& planes) const {
   const Square& square = at(index);
   if (square.children >= 0) {
-    for (int32_t i = 0; i < 16; ++i) gatherPlanes(square.children + i, planes);
-    return;
+    bool ragged = false;
+    for (int32_t i = 0; i < 16; ++i) ragged |= gatherPlanes(square.children + i, planes);
+    return ragged;
   }
-  const Square& seen = seenBy(square);
-  if (!inRange(seen.sample)) return;
-  if (std::ranges::none_of(
-          planes, [&](const Square* plane) { return extends(plane->sample, seen.sample); })) {
-    planes.push_back(&seen);
-  }
+  const Sample& seen = seenBy(square).sample;
+  if (!inRange(seen)) return square.ragged;
+  auto known = std::ranges::find_if(
+      planes, [&](const SeenPlane& plane) { return extends(*plane.sample, seen); });
+  if (known == planes.end()) known = planes.insert(planes.end(), {&seen, {}});
+  known->seen.push_back(seen.at);
+  return square.ragged;
 }
 
 // Whether one sample's plane serves the other too.
@@ -368,7 +380,7 @@ uint32_t Survey::planeWord(const glm::vec4& plane, ShotMap& map) {
 bool Survey::serves(int32_t index, const Square*& leaf, bool smooth) const {
   const Square& square = at(index);
   if (square.children < 0) {
-    if (smooth && (square.ragged || square.beside >= 0)) return false;
+    if (smooth && (square.edge || square.beside >= 0)) return false;
     if (!square.sample.hit) return leaf == nullptr || planePastExit(square, leaf->sample.plane);
     if (leaf == nullptr) leaf = &square;
     return extends(leaf->sample, square.sample);

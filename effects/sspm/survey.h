@@ -17,8 +17,11 @@ struct Patch {
   glm::vec3 corners[4];
   glm::vec3 centre;
   glm::vec4 plane;      // normal towards the muzzle; its product with offsets on the surface
-  bool ragged = false;  // beside it another surface is seen
+  bool ragged = false;  // it hides something beside it, or something hides it
   bool whole = true;    // not cut
+  bool flat = true;     // the plane serves all of it
+  // Of one of several planes that share a square: it may be anywhere in it, and is at these.
+  std::vector<glm::vec3> seen = {};
 };
 
 class Survey {
@@ -66,7 +69,8 @@ class Survey {
     int32_t beside = -1, rim = -1;
     glm::ivec2 corner = glm::ivec2(0);  // the lower one, in the finest squares from the map's own
     Sample sample = {};
-    bool ragged = false;
+    bool edge = false;    // another surface is seen beside it
+    bool ragged = false;  // and not one that meets it there
   };
   // Sizes of undivided squares within a unit of the centre, within three, and beyond.
   struct Grain {
@@ -87,12 +91,17 @@ class Survey {
   int32_t leafAt(glm::ivec2 place) const;
   bool planePastExit(const Square& open, const glm::vec4& plane) const;
   bool agree(const Square& a, const Square& b) const;
+  bool meet(const Sample& a, const Sample& b) const;
   std::vector<int32_t> findEdges(const std::vector<int32_t>& among);
   const Square& seenBy(const Square& square) const;
   bool isFine(const Square& square) const;
 
+  struct SeenPlane {
+    const Sample* sample;
+    std::vector<glm::vec3> seen;
+  };
   void gatherPatches(int32_t index, std::vector<Patch>& patches) const;
-  void gatherPlanes(int32_t index, std::vector<const Square*>& planes) const;
+  bool gatherPlanes(int32_t index, std::vector<SeenPlane>& planes) const;
   bool extends(const Sample& sample, const Sample& other) const;
   Patch patchOf(const Square& square, const glm::vec4& plane) const;
   bool serves(int32_t index, const Square*& leaf, bool smooth) const;
