@@ -84,17 +84,17 @@ bool PaintWorld::isHidden(uint32_t id, const Survey& survey, const CellGrid& gri
   if (survey.unknown() > 0) return false;
   uint32_t sealer = 0;
   for (const Patch& patch : survey.patches()) {
-    const bool hidden = visitParts(
-        survey.frame(), grid, patch, [&](const CellKey& key, uint64_t parts, uint64_t core) {
+    const bool hidden =
+        visitParts(survey.frame(), grid, patch, [&](const CellKey& key, const PartBits& bits) {
           const Cell* cell = cells_.find(key);
-          if (cell == nullptr || id >= cell->sealedBelow || (parts & cell->crowded) != 0) {
+          if (cell == nullptr || id >= cell->sealedBelow || (bits.touched & cell->crowded) != 0) {
             return false;
           }
           for (size_t i = 0; i < cell->known.size(); ++i) {
-            if (has(parts, partOf(cell->known[i].place)) && !cell->sealed[i]) return false;
+            if (has(bits.touched, partOf(cell->known[i].place)) && !cell->sealed[i]) return false;
           }
           sealer = std::max(sealer, cell->sealer);
-          for (uint64_t left = core; left != 0; left &= left - 1) {
+          for (uint64_t left = bits.core; left != 0; left &= left - 1) {
             const SurfacePoint point = pointIn(grid, patch, key, std::countr_zero(left));
             if (findKnown(*cell, grid, point) == kUnknown) return false;
           }

@@ -33,6 +33,60 @@ void addSeen(const CellGrid& grid, const Patch& patch, Share& share) {
 
 }  // namespace
 
+// Within its corners, and within the ellipse that the cylinder cuts out of its plane.
+PartBox partBoxOf(const ShotFrame& frame, const CellGrid& grid, const Patch& patch) {
+  const float partEdge = grid.edge / 4;
+  const float margin = partEdge * kPartMargin + frame.bias;
+  glm::vec3 low = patch.centre, high = patch.centre;
+  for (const glm::vec3& corner : patch.corners) {
+    low = glm::min(low, corner);
+    high = glm::max(high, corner);
+  }
+  const glm::vec3 normal(patch.plane);
+  const float facing = glm::dot(normal, frame.direction);
+  const glm::vec3 level = glm::cross(normal, frame.direction);
+  const float slant = glm::length(level);
+  if (std::abs(facing) > 1e-4f && slant > 1e-4f) {
+    const glm::vec3 u = level / slant, v = glm::cross(normal, u);
+    const float reach = frame.range + partEdge;
+    const glm::vec3 half = glm::sqrt(u * u + v * v / (facing * facing)) * reach;
+    const glm::vec3 middle = frame.direction * (patch.plane.w / facing);
+    low = glm::max(low, middle - half);
+    high = glm::min(high, middle + half);
+  }
+  const glm::vec3 muzzle = 4.0f * grid.place;
+  const auto partOf = [&](const glm::vec3& at) {
+    return glm::ivec3(glm::floor(glm::clamp(muzzle + at / partEdge, -1e9f, 1e9f)));
+  };
+  return {partOf(low - margin), partOf(high + margin), margin};
+}
+
+PartBits partBitsOf(const ShotFrame& frame, const CellGrid& grid, const Patch& patch,
+                    const PartBox& box, const glm::ivec3& cell) {
+  const float partEdge = grid.edge / 4;
+  const glm::vec3 normal(patch.plane);
+  const glm::vec3 size = glm::abs(normal);
+  const float core = (size.x + size.y + size.z) * 0.5f * partEdge;
+  const float reach = frame.range + 0.8661f * partEdge;
+  const glm::ivec3 from = glm::max(box.first - 4 * cell, 0), to = glm::min(box.last - 4 * cell, 3);
+  const glm::vec3 corner = (glm::vec3(cell) - grid.place) * grid.edge;
+  PartBits bits;
+  for (int k = from.z; k <= to.z; ++k) {
+    for (int j = from.y; j <= to.y; ++j) {
+      for (int i = from.x; i <= to.x; ++i) {
+        const glm::vec3 middle = corner + (glm::vec3(i, j, k) + 0.5f) * partEdge;
+        const glm::vec3 across = glm::cross(middle, frame.direction);
+        const float off = std::abs(glm::dot(normal, middle) - patch.plane.w);
+        if (off > core + box.margin || glm::dot(across, across) > reach * reach) continue;
+        const uint64_t bit = uint64_t{1} << (i | j << 2 | k << 4);
+        bits.touched |= bit;
+        if (off <= core + kCoreSlack * partEdge) bits.core |= bit;
+      }
+    }
+  }
+  return bits;
+}
+
 SurfacePoint pointIn(const CellGrid& grid, const Patch& patch, const CellKey& key, int part) {
   const glm::vec3 normal(patch.plane);
   const glm::vec3 middle = grid.corner(key) + middleOf(part) * grid.edge;
@@ -50,7 +104,7 @@ std::vector<Share> sharesOf(const ShotFrame& frame, const CellGrid& grid,
   std::vector<Share> shares;
   std::vector<CellKey> keys;  // of `shares`, in a row for the search
   for (const Patch& patch : patches) {
-    visitParts(frame, grid, patch, [&](const CellKey& key, uint64_t parts, uint64_t core) {
+    visitParts(frame, grid, patch, [&](const CellKey& key, const PartBits& bits) {
       // The patch before was most likely there too.
       const auto found = std::find(keys.rbegin(), keys.rend(), key);
       size_t index = static_cast<size_t>(keys.rend() - found) - 1;
@@ -64,10 +118,10 @@ std::vector<Share> sharesOf(const ShotFrame& frame, const CellGrid& grid,
                     std::abs(glm::dot(glm::vec3(share.plane), patch.centre) - share.plane.w) <=
                         0.25f * frame.bias &&
                     glm::dot(glm::vec3(share.plane), glm::vec3(patch.plane)) > 0.98f;
-      share.touched |= parts;
-      if (patch.ragged) share.ragged |= parts;
+      share.touched |= bits.touched;
+      if (patch.ragged) share.ragged |= bits.touched;
       if (patch.seen.empty()) {
-        for (uint64_t left = core; left != 0; left &= left - 1) {
+        for (uint64_t left = bits.core; left != 0; left &= left - 1) {
           addPoint(pointIn(grid, patch, key, std::countr_zero(left)), grid.edge, share);
         }
       } else {

@@ -65,58 +65,57 @@ inline bool sameSurface(const glm::vec3& at, const glm::vec3& normal, const glm:
          glm::dot(normal, otherNormal) > 0.9f;
 }
 
-// All that a patch touches: visit(key, parts, core) once a cell and facing, until one says false;
-// returns whether none did. `core`: the parts that its plane passes through.
+// The parts among which all lie that a patch touches, counted from the muzzle's cell.
+struct PartBox {
+  glm::ivec3 first, last;  // empty where one of `last` is less
+  float margin;            // metres that the patch may be off
+};
+PartBox partBoxOf(const ShotFrame& frame, const CellGrid& grid, const Patch& patch);
+
+// Bits of a cell's parts.
+struct PartBits {
+  uint64_t touched = 0;
+  uint64_t core = 0;  // the patch's plane passes through
+};
+PartBits partBitsOf(const ShotFrame& frame, const CellGrid& grid, const Patch& patch,
+                    const PartBox& box, const glm::ivec3& cell);
+
+// All that a patch touches: visit(key, bits) once a cell and facing, until one says false; returns
+// whether none did.
 template <typename Visit>
 bool visitParts(const ShotFrame& frame, const CellGrid& grid, const Patch& patch,
                 const Visit& visit) {
-  const float partEdge = grid.edge / 4;
+  const PartBox box = partBoxOf(frame, grid, patch);
+  if (glm::any(glm::lessThan(box.last, box.first))) return true;
   const glm::vec3 normal(patch.plane);
-  glm::vec3 low = patch.centre, high = patch.centre;
-  for (const glm::vec3& corner : patch.corners) {
-    low = glm::min(low, corner);
-    high = glm::max(high, corner);
-  }
-  const float margin = partEdge * kPartMargin + frame.bias;
-  const glm::vec3 muzzle = 4.0f * grid.place;
-  const glm::ivec3 first(glm::floor(muzzle + (low - margin) / partEdge));
-  const glm::ivec3 last(glm::floor(muzzle + (high + margin) / partEdge));
   const glm::vec3 size = glm::abs(normal);
-  const float slab = (size.x + size.y + size.z) * 0.5f * partEdge + margin;
-  const float reach = frame.range + 0.8661f * partEdge;
-  const auto partsIn = [&](const glm::ivec3& lowest, uint64_t& core) {
-    const glm::ivec3 from = glm::max(first - lowest, 0), to = glm::min(last - lowest, 3);
-    uint64_t parts = 0;
-    core = 0;
-    for (int k = from.z; k <= to.z; ++k) {
-      for (int j = from.y; j <= to.y; ++j) {
-        for (int i = from.x; i <= to.x; ++i) {
-          const glm::vec3 middle =
-              (glm::vec3(lowest + glm::ivec3(i, j, k)) + 0.5f - muzzle) * partEdge;
-          const glm::vec3 across = glm::cross(middle, frame.direction);
-          const float off = std::abs(glm::dot(normal, middle) - patch.plane.w);
-          if (off > slab || glm::dot(across, across) > reach * reach) continue;
-          const uint64_t bit = uint64_t{1} << (i | j << 2 | k << 4);
-          parts |= bit;
-          if (off <= slab - margin + kCoreSlack * partEdge) core |= bit;
-        }
-      }
-    }
-    return parts;
-  };
-  const float most = std::max({size.x, size.y, size.z});
+  const int a = size.x >= size.y && size.x >= size.z ? 0 : size.y >= size.z ? 1 : 2;
+  const int b = (a + 1) % 3, c = (a + 2) % 3;
+  // How far, along the axis that the plane faces most, it strays from where it passes the middle
+  // of a column of cells.
+  const float stray = 0.5f * (size[b] + size[c]) / size[a] + 2 * box.margin / grid.edge + 0.01f;
   constexpr float kNearTie = 0.98f;  // a normal between two axes belongs to both
-  for (int x = first.x >> 2; x <= last.x >> 2; ++x) {
-    for (int y = first.y >> 2; y <= last.y >> 2; ++y) {
-      for (int z = first.z >> 2; z <= last.z >> 2; ++z) {
-        uint64_t core = 0;
-        const uint64_t parts = partsIn(4 * glm::ivec3(x, y, z), core);
-        if (parts == 0) continue;
+  glm::ivec3 cell;
+  for (cell[b] = box.first[b] >> 2; cell[b] <= box.last[b] >> 2; ++cell[b]) {
+    for (cell[c] = box.first[c] >> 2; cell[c] <= box.last[c] >> 2; ++cell[c]) {
+      const float offB = static_cast<float>(cell[b]) + 0.5f - grid.place[b];
+      const float offC = static_cast<float>(cell[c]) + 0.5f - grid.place[c];
+      const float along =
+          (patch.plane.w / grid.edge - normal[b] * offB - normal[c] * offC) / normal[a] +
+          grid.place[a];
+      const auto cellAt = [](float at) {
+        return static_cast<int>(std::floor(glm::clamp(at, -1e9f, 1e9f)));
+      };
+      const int last = std::min(cellAt(along + stray), box.last[a] >> 2);
+      for (cell[a] = std::max(cellAt(along - stray), box.first[a] >> 2); cell[a] <= last;
+           ++cell[a]) {
+        const PartBits bits = partBitsOf(frame, grid, patch, box, cell);
+        if (bits.touched == 0) continue;
         for (int axis = 0; axis < 3; ++axis) {
-          if (size[axis] < kNearTie * most) continue;
-          const CellKey key = {grid.cell + glm::ivec3(x, y, z),
+          if (size[axis] < kNearTie * size[a]) continue;
+          const CellKey key = {grid.cell + cell,
                                grid.level + axis * 2 + (normal[axis] < 0 ? 1 : 0)};
-          if (!visit(key, parts, core)) return false;
+          if (!visit(key, bits)) return false;
         }
       }
     }

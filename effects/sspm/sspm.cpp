@@ -174,9 +174,8 @@ class Sspm {
          {&world_.cells().slots(), &world_.cells().words(), &world_.records(), &world_.blocks()}) {
       mirror->upload(host_, frame);
     }
-    const grisaille_pipeline pipeline =
-        surface_.get({plugin::specialize(0, wanted(frame)),
-                      plugin::specialize(1, world_.levels().size() <= 1 ? 1u : kMostLevels)});
+    const grisaille_pipeline pipeline = surface_.get(
+        {plugin::specialize(0, wanted(frame)), plugin::specialize(1, world_.levels().size() == 1)});
     std::vector<grisaille_binding> bindings = {
         plugin::uniform(0, frame.viewBlock()),
         plugin::uniform(1, frame.uniform(splatBlock(frame))),

@@ -100,6 +100,11 @@ void Survey::askAgain() {
 
 void Survey::refine() {
   stage_ = Stage::kFine;
+  anew_ = true;
+  for (Square& square : squares_) {
+    square.edge = square.ragged = false;
+    square.beside = square.rim = -1;
+  }
   const auto before = static_cast<int32_t>(squares_.size());
   lay(0, {.inner = kInnerUnits, .middle = 1.0f / 4, .outer = 1});
   asked_.clear();
@@ -142,8 +147,12 @@ bool Survey::take(std::span<const grisaille_hit> hits) {
   }
   rays_.clear();
   if (stage_ == Stage::kProbing) return probed();
+  if (std::exchange(anew_, false)) {
+    asked_.clear();
+    gatherLeaves(0, asked_);
+  }
+  const std::vector<int32_t> edges = findEdges(asked_);
   if (stage_ == Stage::kFine) {
-    const std::vector<int32_t> edges = findEdges(asked_);
     asked_.clear();
     for (const int32_t edge : edges) {
       addChildren(edge);
@@ -300,7 +309,7 @@ void Survey::gatherPatches(int32_t index, std::vector<Patch>& patches) const {
       return;
     }
   }
-  if (square.size > kInnerUnits * 1.01f) {
+  if (square.children >= 0 && square.size > kInnerUnits * 1.01f) {
     for (int32_t i = 0; i < 16; ++i) gatherPatches(square.children + i, patches);
     return;
   }

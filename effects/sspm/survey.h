@@ -112,7 +112,8 @@ class Survey {
   ShotFrame frame_;
   Stage stage_ = Stage::kProbing;
   float farthest_ = 0;
-  int probes_ = 0;  // rounds of them
+  int probes_ = 0;     // rounds of them
+  bool anew_ = false;  // all edges are to be found anew
   std::vector<Square> squares_;
   std::vector<int32_t> asked_;  // squares that rays_ are of
   std::vector<grisaille_ray> rays_;

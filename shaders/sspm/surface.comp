@@ -11,8 +11,8 @@
 layout(local_size_x = 8, local_size_y = 8) in;
 
 const uint kLevels = 16;
-// How many are in use, or kLevels for any number: most scenes have shots of one range alone.
-layout(constant_id = 1) const uint kMost = kLevels;
+// Most scenes have shots of one range alone.
+layout(constant_id = 1) const bool kOneLevel = false;
 layout(UNIFORM(2), std140) uniform Lists {
   ivec4 level_cell[kLevels];      // xyz: the camera's cell; w: code of the level
   vec4 level_fraction[kLevels];   // xyz: the camera's place in it, in cells; w: cells a metre
@@ -143,6 +143,49 @@ void add(inout Sum sum, uint record, uint word, vec3 from_camera, vec3 normal) {
   }
 }
 
+// The pixel's list on a level, as seek() takes it.
+uvec3 listOn(uint level, vec3 from_camera, int facing) {
+  const vec3 place = from_camera * lists.level_fraction[level].w + lists.level_fraction[level].xyz;
+  const vec3 whole = floor(clamp(place, -1e9, 1e9));
+  const uvec3 in_cell = uvec3(clamp((place - whole) * 4.0, 0.0, 3.0));
+  const uint part = in_cell.x | in_cell.y << 2 | in_cell.z << 4;
+  const uvec2 run = find(lists.level_cell[level].xyz + ivec3(whole), lists.level_cell[level].w + facing);
+  return uvec3(seek(run.x, run.y, part), run.y, part);
+}
+
+bool isOpen(Sum sum, float enough) { return sum.through >= 1.0 / 512.0 || sum.alphas < enough; }
+
+void walkOne(inout Sum sum, float enough, vec3 from_camera, vec3 normal) {
+  uvec3 left = listOn(0u, from_camera, facingOf(normal));
+  while (left.x < left.y && isOpen(sum, enough)) {
+    add(sum, entries[left.x * 4u], entries[left.x * 4u + 1u], from_camera, normal);
+    left.x = seek(left.x + 1u, left.y, left.z);
+  }
+}
+
+// Levels differ in range, not in time: their lists are merged by the shots' numbers.
+void walkAll(inout Sum sum, float enough, vec3 from_camera, vec3 normal) {
+  uvec3 left[kLevels];
+  uint live = 0u;
+  for (uint i = 0u; i < uint(lists.camera_cell.w); ++i) {
+    const uvec3 list = listOn(i, from_camera, facingOf(normal));
+    if (list.x < list.y) left[live++] = list;
+  }
+  while (live > 0u && isOpen(sum, enough)) {
+    uint newest = 0u, record = entries[left[0].x * 4u];
+    for (uint i = 1u; i < live; ++i) {
+      const uint other = entries[left[i].x * 4u];
+      if (shots[other].number > shots[record].number) {
+        record = other;
+        newest = i;
+      }
+    }
+    add(sum, record, entries[left[newest].x * 4u + 1u], from_camera, normal);
+    left[newest].x = seek(left[newest].x + 1u, left[newest].y, left[newest].z);
+    if (left[newest].x >= left[newest].y) left[newest] = left[--live];
+  }
+}
+
 void main() {
   const ivec2 pixel = ivec2(gl_GlobalInvocationID.xy);
   if (any(greaterThanEqual(pixel, ivec2(view.size.xy)))) return;
@@ -155,32 +198,10 @@ void main() {
   Sum sum = Sum(vec3(0.0), 1.0, 0.0, 0.0, 0u);
   if (depth > 0.0) {
     const vec3 normal = textureLod(facet_normal, uv, 0.0).xyz;
-    const int facing = facingOf(normal);
-    // Levels differ in range, not in time: their lists are merged by the shots' numbers.
-    uvec3 left[kMost];  // first, count, part of the cell
-    uint live = 0u;
-    for (uint i = 0u; i < min(kMost, uint(lists.camera_cell.w)); ++i) {
-      const vec3 place = from_camera * lists.level_fraction[i].w + lists.level_fraction[i].xyz;
-      const vec3 whole = floor(clamp(place, -1e9, 1e9));
-      const uvec3 in_cell = uvec3(clamp((place - whole) * 4.0, 0.0, 3.0));
-      const uint part = in_cell.x | in_cell.y << 2 | in_cell.z << 4;
-      const ivec3 cell = lists.level_cell[i].xyz + ivec3(whole);
-      uvec3 found = uvec3(find(cell, lists.level_cell[i].w + facing), part);
-      found.x = seek(found.x, found.y, part);
-      if (found.x < found.y) left[live++] = found;
-    }
-    while (live > 0u && (sum.through >= 1.0 / 512.0 || sum.alphas < enough)) {
-      uint newest = 0u, record = entries[left[0].x * 4u];
-      for (uint i = 1u; i < min(kMost, live); ++i) {
-        const uint other = entries[left[i].x * 4u];
-        if (shots[other].number > shots[record].number) {
-          record = other;
-          newest = i;
-        }
-      }
-      add(sum, record, entries[left[newest].x * 4u + 1u], from_camera, normal);
-      left[newest].x = seek(left[newest].x + 1u, left[newest].y, left[newest].z);
-      if (left[newest].x >= left[newest].y) left[newest] = left[--live];
+    if (kOneLevel) {
+      walkOne(sum, enough, from_camera, normal);
+    } else {
+      walkAll(sum, enough, from_camera, normal);
     }
   }
   writePaint(pixel, sum.color, sum.alphas, sum.owner, noise);

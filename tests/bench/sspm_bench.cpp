@@ -1,7 +1,8 @@
 // SPDX-License-Identifier: MIT
 // What paint costs against the number of shots, as Markdown, CSV and a plot: a frame's cost for
 // every count in turn in one process (A B C A B C ...), ratios taken round by round; memory; and
-// what one more shot costs.
+// what one more shot costs. On Sponza, where shots see all sorts of things, and up to a million on
+// a wall.
 #include <fmt/format.h>
 
 #include <CLI/CLI.hpp>
@@ -30,7 +31,8 @@ using Shots = std::vector<grisaille_shot>;
 
 struct Options {
   uint32_t rounds = 7;
-  std::vector<size_t> counts = {64, 1000, 10000, 100000, 1000000};
+  std::vector<size_t> counts = {64, 1000, 10000};
+  std::vector<size_t> wallCounts = {64, 1000, 10000, 100000, 1000000};
   std::vector<size_t> perShotCounts = {1, 4, 16, 64, 256};
   std::string backend, out;
   uint32_t width = 1280;
@@ -96,6 +98,25 @@ Shots randomShots(const Subject& subject, const trace::RayTracer& tracer, size_t
   return shots;
 }
 
+// Where shots are fired, and how many.
+struct Place {
+  Place(Subject theSubject, std::vector<size_t> theCounts, std::vector<size_t> thePerShotCounts)
+      : subject(std::move(theSubject)),
+        counts(std::move(theCounts)),
+        perShotCounts(std::move(thePerShotCounts)),
+        rays(std::make_unique<Rays>(subject.scene)) {
+    size_t most = 0;
+    for (const size_t count : counts) most = std::max(most, count);
+    for (const size_t count : perShotCounts) most = std::max(most, count);
+    shots = randomShots(subject, rays->tracer(), most);
+  }
+
+  Subject subject;
+  std::vector<size_t> counts, perShotCounts;  // of either mode
+  std::unique_ptr<Rays> rays;
+  Shots shots;
+};
+
 // A renderer with so many shots' paint.
 class Painted {
  public:
@@ -158,26 +179,25 @@ struct Row {
 
 class Bench {
  public:
-  Bench(const std::string& backend, const Subject& subject, const effect::Effect& effect,
-        Rays& rays, const Shots& shots, const Options& options)
+  Bench(const std::string& backend, const Place& place, const effect::Effect& effect,
+        const Options& options)
       : options_(options),
-        subject_(subject),
+        place_(place),
         effect_(effect),
-        rays_(rays),
-        shots_(shots),
         device_(backends::create(backend, {.timed = true})) {}
 
   const gpu::DeviceInfo& info() const { return device_->info(); }
 
   std::vector<Row> run() {
-    for (const size_t count : options_.counts) place("surface", count);
-    for (const size_t count : options_.perShotCounts) place("per_shot", count);
+    for (const size_t count : place_.counts) place("surface", count);
+    for (const size_t count : place_.perShotCounts) place("per_shot", count);
     for (uint32_t round = 0; round < options_.rounds; ++round) {
       fmt::print(stderr, "round {} of {}\n", round + 1, options_.rounds);
       double firstEffect = 0, firstFrame = 0;
       for (size_t i = 0; i < rows_.size(); ++i) {
         Row& row = rows_[i];
-        painted_[i]->render(std::span(shots_).first(row.shots), options_.width, options_.height);
+        painted_[i]->render(std::span(place_.shots).first(row.shots), options_.width,
+                            options_.height);
         const auto [effect, frame] = painted_[i]->passes();
         if (i == 0) std::tie(firstEffect, firstFrame) = std::pair(effect, frame);
         row.effect.push_back(effect);
@@ -192,15 +212,15 @@ class Bench {
   // Milliseconds that a frame of few pixels takes longer when it has one shot more than the one
   // before, with the most shots; one at a time, each right after a frame without.
   std::vector<double> oneMore(size_t times) {
-    const size_t which = options_.counts.size() - 1;
-    Shots shots = shots_;
-    shots.resize(options_.counts.back());
+    const size_t which = place_.counts.size() - 1;
+    Shots shots = place_.shots;
+    shots.resize(place_.counts.back());
     shots.reserve(shots.size() + times);
     std::mt19937 random(2);
     std::vector<double> more;
     for (size_t i = 0; i < times; ++i) {
       const double without = painted_[which]->render(shots, 64, 36);
-      grisaille_shot shot = shots_[random() % shots_.size()];
+      grisaille_shot shot = place_.shots[random() % place_.shots.size()];
       shot.origin[1] += 1e-3;  // not one that is there already
       shots.push_back(shot);
       more.push_back(painted_[which]->render(shots, 64, 36) - without);
@@ -213,31 +233,30 @@ class Bench {
  private:
   void place(const char* mode, size_t count) {
     fmt::print(stderr, "{}: {} shots\n", mode, count);
-    painted_.push_back(std::make_unique<Painted>(*device_, subject_, effect_, rays_));
+    painted_.push_back(std::make_unique<Painted>(*device_, place_.subject, effect_, *place_.rays));
     painted_.back()->values().set("mode", mode);
     painted_.back()->values().set("shot_limit", "65536");
     painted_.back()->render({}, options_.width, options_.height);
     const double memory = residentMemory();
-    const size_t rays = rays_.count();
+    const size_t rays = place_.rays->count();
     const double idle = painted_.back()->render({}, 64, 36);
-    const double took = painted_.back()->render(std::span(shots_).first(count), 64, 36) - idle;
-    painted_.back()->render(std::span(shots_).first(count), options_.width, options_.height);
+    const double took =
+        painted_.back()->render(std::span(place_.shots).first(count), 64, 36) - idle;
+    painted_.back()->render(std::span(place_.shots).first(count), options_.width, options_.height);
     device_->takeTimes();
     const auto each = static_cast<double>(count);
     const double grown = residentMemory() - memory;
     rows_.push_back({.mode = mode,
                      .shots = count,
                      .placeSeconds = took / 1000,
-                     .raysAShot = static_cast<double>(rays_.count() - rays) / each,
+                     .raysAShot = static_cast<double>(place_.rays->count() - rays) / each,
                      .memory = grown,
                      .bytesAShot = grown * 1048576 / each});
   }
 
   Options options_;
-  const Subject& subject_;
+  const Place& place_;
   const effect::Effect& effect_;
-  Rays& rays_;
-  const Shots& shots_;
   std::unique_ptr<gpu::Device> device_;
   std::vector<std::unique_ptr<Painted>> painted_;
   std::vector<Row> rows_;
@@ -256,84 +275,96 @@ void print(const std::vector<Row>& rows) {
   }
 }
 
+// A curve of the plot.
+struct Curve {
+  std::string title;
+  std::vector<Row> rows;
+};
+
 // DIR/paint_cost.csv, and from it the plot.
-void writePlot(const std::filesystem::path& folder, const std::vector<std::string>& backends,
-               const std::vector<std::vector<Row>>& all) {
+void writePlot(const std::filesystem::path& folder, const std::vector<Curve>& curves) {
   std::filesystem::create_directories(folder);
   const std::filesystem::path csv = folder / "paint_cost.csv";
   std::ofstream file(csv);
-  for (size_t i = 0; i < all.size(); ++i) {
-    std::string mode;
-    for (const Row& row : all[i]) {
-      if (row.mode != mode) file << (mode.empty() && i == 0 ? "" : "\n\n");
-      mode = row.mode;
+  std::string plots;
+  for (size_t i = 0; i < curves.size(); ++i) {
+    if (i > 0) file << "\n\n";
+    for (const Row& row : curves[i].rows) {
       const auto [least, most] = std::ranges::minmax(row.effect);
-      file << fmt::format("{},{},{},{},{},{}\n", backends[i], row.mode, row.shots,
-                          median(row.effect), least, most);
+      file << fmt::format("{},{},{},{},{}\n", curves[i].title, row.shots, median(row.effect), least,
+                          most);
     }
+    plots += fmt::format("{}'{}' index {} using 2:3:4:5 with yerrorlines lw 2 title '{}'",
+                         plots.empty() ? "" : ", ", csv.string(), i, curves[i].title);
   }
   file.close();
-  std::string curves;
-  for (size_t i = 0; i < all.size(); ++i) {
-    for (size_t mode = 0; mode < 2; ++mode) {
-      curves += fmt::format("{}'{}' index {} using 3:4:5:6 with yerrorlines lw 2 title '{}, {}'",
-                            curves.empty() ? "" : ", ", csv.string(), 2 * i + mode,
-                            mode == 0 ? "surface" : "per shot", backends[i]);
-    }
-  }
   const std::string script = fmt::format(
-      "set datafile separator ','; set logscale xy; set grid; set key left top; "
+      "set datafile separator ','; set logscale xy; set grid; set key outside right; "
       "set xlabel 'shots'; set ylabel 'paint, ms a frame'; set colorsequence podo; "
-      "set terminal svg size 800,500 background rgb 'white'; set output '{0}/paint_cost.svg'; "
-      "plot {1}; set terminal pngcairo size 800,500; set output '{0}/paint_cost.png'; replot",
-      folder.string(), curves);
+      "set terminal svg size 900,450 background rgb 'white'; set output '{0}/paint_cost.svg'; "
+      "plot {1}; set terminal pngcairo size 900,450; set output '{0}/paint_cost.png'; replot",
+      folder.string(), plots);
   std::ofstream(folder / "paint_cost.gp") << script << "\n";
   const std::string command = fmt::format("gnuplot '{}'", (folder / "paint_cost.gp").string());
   if (std::system(command.c_str()) != 0) fmt::print(stderr, "no plot: gnuplot failed\n");
 }
 
+// Measures one place on one backend, prints it, and adds its curves.
+void measure(const std::string& backend, const Place& place, const effect::Effect& effect,
+             const Options& options, std::vector<Curve>& curves) {
+  if (place.counts.empty()) return;
+  Bench bench(backend, place, effect, options);
+  const gpu::DeviceInfo& info = bench.info();
+  fmt::print("## {}, {}: {}\n\nDriver: {}{}. Clock: {}.\n\n", place.subject.name, info.backend,
+             info.name, info.driver, info.software ? " (software)" : "",
+             gpu::clockName(info.clock));
+  const std::vector<Row> rows = bench.run();
+  print(rows);
+  for (const char* mode : {"surface", "per_shot"}) {
+    Curve curve{
+        .title = fmt::format("{}, {}, {}", mode == std::string("surface") ? mode : "per shot",
+                             place.subject.name, backend),
+        .rows = {}};
+    std::ranges::copy_if(rows, std::back_inserter(curve.rows),
+                         [&](const Row& row) { return row.mode == mode; });
+    if (!curve.rows.empty()) curves.push_back(std::move(curve));
+  }
+  const std::vector<double> more = bench.oneMore(101);
+  fmt::print(
+      "\nOne more shot at {} takes {:.2f} ms (median of {}; 9 of 10 at most {:.2f}, all at most "
+      "{:.2f}).\n\n",
+      place.counts.back(), more[more.size() / 2], more.size(), more[more.size() * 9 / 10],
+      more.back());
+  std::fflush(stdout);
+}
+
 void run(const Options& options) {
-  const Subject subject = loadSubject();
-  Rays rays(subject.scene);
-  const Shots shots = randomShots(
-      subject, rays.tracer(),
-      std::max(std::ranges::max(options.counts), std::ranges::max(options.perShotCounts)));
+  std::vector<Place> places;
+  places.emplace_back(loadSubject(), options.counts, options.perShotCounts);
+  places.emplace_back(wallSubject(), options.wallCounts, std::vector<size_t>{});
   effect::Registry registry;
   registry.scan(EFFECTS_FOLDER);
   fmt::print(
-      "# What paint costs\n\nMade by `./dev bench sspm` on {}, {}x{}, {} hardware threads: shots "
-      "from about the cameras at\nanything that they see, parameters at their defaults, {} rounds "
-      "in turn, medians.\n\nPaint: the effect's passes on the first camera. Frame: all passes. "
-      "Memory: what the process\ngrows by with these shots; on a software driver that is the "
-      "host's and the device's share together.\n\n",
-      subject.name, options.width, options.height, std::thread::hardware_concurrency(),
-      options.rounds);
-  std::vector<std::string> names;
-  std::vector<std::vector<Row>> all;
+      "# What paint costs\n\nMade by `./dev bench sspm`: {}x{}, {} hardware threads, shots from "
+      "about the cameras at\nanything that they see, parameters at their defaults, {} rounds in "
+      "turn, medians.\n\nPaint: the effect's passes on the first camera. Frame: all passes. Rays "
+      "a shot: cast to place it.\nMemory: what the process grows by with these shots; on a "
+      "software "
+      "driver that is the host's and\nthe device's share together.\n\n",
+      options.width, options.height, std::thread::hardware_concurrency(), options.rounds);
+  std::vector<Curve> curves;
   for (const backends::Backend& backend : backends::all()) {
     if (!options.backend.empty() && options.backend != backend.name) continue;
     try {
-      Bench bench(backend.name, subject, registry.find("sspm"), rays, shots, options);
-      const gpu::DeviceInfo& info = bench.info();
-      fmt::print("## {}: {}\n\nDriver: {}{}. Clock: {}.\n\n", info.backend, info.name, info.driver,
-                 info.software ? " (software)" : "", gpu::clockName(info.clock));
-      all.push_back(bench.run());
-      names.emplace_back(backend.name);
-      print(all.back());
-      const std::vector<double> more = bench.oneMore(101);
-      fmt::print(
-          "\nOne more shot at {} takes {:.2f} ms (median of {}; 9 of 10 at most {:.2f}, all at "
-          "most "
-          "{:.2f}).\n\n",
-          options.counts.back(), more[more.size() / 2], more.size(), more[more.size() * 9 / 10],
-          more.back());
-      std::fflush(stdout);
+      for (const Place& place : places) {
+        measure(backend.name, place, registry.find("sspm"), options, curves);
+      }
     } catch (const Error& error) {
       if (error.id() != ErrorId::kBackendMissing && error.id() != ErrorId::kNoDevice) throw;
       fmt::print("## {}\n\nNot here: {}\n\n", backend.name, error.detail());
     }
   }
-  if (!options.out.empty()) writePlot(options.out, names, all);
+  if (!options.out.empty()) writePlot(options.out, curves);
 }
 
 }  // namespace
@@ -344,8 +375,11 @@ int main(int argc, char** argv) {
   CLI::App program("What paint costs against the number of shots, as Markdown");
   program.add_option("--rounds", options.rounds, "How often each count is timed")
       ->check(CLI::Range(1u, 1000u));
-  program.add_option("--counts", options.counts, "Shots of the mode surface, ascending");
-  program.add_option("--per-shot-counts", options.perShotCounts, "Shots of the mode per_shot");
+  program.add_option("--counts", options.counts, "Shots on Sponza, ascending")->expected(0, -1);
+  program.add_option("--wall-counts", options.wallCounts, "Shots on the wall, ascending")
+      ->expected(0, -1);
+  program.add_option("--per-shot-counts", options.perShotCounts,
+                     "Shots on Sponza in the mode per_shot");
   program.add_option("--backend", options.backend, "opengl or vulkan; default: both");
   program.add_option("--out", options.out, "A folder for paint_cost.csv, .svg and .png");
   program.add_option("--width", options.width, "Pixels")->check(CLI::Range(16u, 16384u));

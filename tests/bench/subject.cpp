@@ -9,6 +9,8 @@
 #include <cstdlib>
 #include <filesystem>
 
+#include "tests/support/scenes.h"
+
 namespace grisaille::bench {
 
 Subject loadSubject() {
@@ -33,6 +35,19 @@ Subject loadSubject() {
     subject.cameras.push_back(scene::atriumCamera());
   }
   subject.loadSeconds = std::chrono::duration<double>(Clock::now() - start).count();
+  return subject;
+}
+
+Subject wallSubject() {
+  Subject subject;
+  subject.name = "a bare wall";
+  subject.scene.materials.emplace_back();
+  const float w = 8, h = 4.5f;
+  tests::addQuad(
+      subject.scene,
+      {glm::vec3(-w, -h, 0), glm::vec3(w, -h, 0), glm::vec3(w, h, 0), glm::vec3(-w, h, 0)},
+      glm::vec3(0, 0, 1));
+  subject.cameras.push_back({.eye = glm::dvec3(0, 0, 7.5), .target = glm::dvec3(0, 0, 0)});
   return subject;
 }
 

@@ -21,6 +21,9 @@ struct Subject {
 // The file that GRISAILLE_SPONZA names, or where the project keeps it.
 Subject loadSubject();
 
+// A bare wall of 16 x 9 m that fills its camera's picture.
+Subject wallSubject();
+
 // Not of an empty list.
 double median(std::vector<double> values);
 
