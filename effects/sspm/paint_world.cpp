@@ -7,7 +7,6 @@
 #include <bit>
 #include <chrono>
 #include <cmath>
-#include <cstring>
 #include <utility>
 
 namespace grisaille::sspm {
@@ -21,8 +20,8 @@ constexpr size_t kMostRays = 4096;  // of a step, but for a single shot's
 constexpr float kThrough = 1.0f / 512;
 
 bool alike(const grisaille_shot& a, const grisaille_shot& b) {
-  return std::memcmp(a.origin, b.origin, sizeof a.origin) == 0 &&
-         std::memcmp(a.direction, b.direction, sizeof a.direction) == 0 && a.range == b.range;
+  return std::ranges::equal(a.origin, b.origin) && std::ranges::equal(a.direction, b.direction) &&
+         a.range == b.range;
 }
 
 uint64_t hashOf(const grisaille_shot& shot) {

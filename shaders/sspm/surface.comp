@@ -137,7 +137,7 @@ void add(inout Sum sum, uint record, uint word, vec3 from_camera, vec3 normal) {
   sum.color += weight * vec3(unpackHalf2x16(shot.color_rg), blue_times.x);
   sum.alphas += alpha * fade * blue_times.y;
   sum.through *= 1.0 - alpha;
-  if (weight > sum.weight) {
+  if ((kWanted & 4u) != 0u && weight > sum.weight) {
     sum.weight = weight;
     sum.owner = shot.number;
   }

@@ -4,11 +4,13 @@
 // what one more shot costs. On Sponza, where shots see all sorts of things, and up to a million on
 // a wall.
 #include <fmt/format.h>
+#include <malloc.h>
 
 #include <CLI/CLI.hpp>
 #include <algorithm>
 #include <array>
 #include <chrono>
+#include <deque>
 #include <filesystem>
 #include <fstream>
 #include <memory>
@@ -120,12 +122,14 @@ struct Place {
 // A renderer with so many shots' paint.
 class Painted {
  public:
-  Painted(gpu::Device& device, const Subject& subject, const effect::Effect& effect, Rays& rays)
+  Painted(gpu::Device& device, const Subject& subject, const effect::Registry& registry, Rays& rays)
       : device_(device),
         subject_(subject),
         rays_(rays),
-        values_(effect),
-        instance_(device, effect),
+        values_(registry.find("sspm")),
+        ssaoValues_(registry.find("ssao")),
+        instance_(device, registry.find("sspm")),
+        ssao_(device, registry.find("ssao")),
         renderer_(device, subject.scene) {}
 
   effect::Values& values() { return values_; }
@@ -133,7 +137,8 @@ class Painted {
   // Milliseconds from the call to the end of the device's work.
   double render(std::span<const grisaille_shot> shots, uint32_t width, uint32_t height) {
     const auto start = Clock::now();
-    const std::array effects = {frame::ActiveEffect{.instance = &instance_,
+    const std::array effects = {frame::ActiveEffect{.instance = &ssao_, .values = &ssaoValues_},
+                                frame::ActiveEffect{.instance = &instance_,
                                                     .values = &values_,
                                                     .shots = shots,
                                                     .shotsKept = std::min(kept_, shots.size())}};
@@ -163,8 +168,8 @@ class Painted {
   gpu::Device& device_;
   const Subject& subject_;
   Rays& rays_;
-  effect::Values values_;
-  effect::Instance instance_;
+  effect::Values values_, ssaoValues_;
+  effect::Instance instance_, ssao_;
   frame::Renderer renderer_;
   std::vector<std::string> outputs_ = {"color"};
   size_t kept_ = 0;
@@ -179,11 +184,11 @@ struct Row {
 
 class Bench {
  public:
-  Bench(const std::string& backend, const Place& place, const effect::Effect& effect,
+  Bench(const std::string& backend, const Place& place, const effect::Registry& registry,
         const Options& options)
       : options_(options),
         place_(place),
-        effect_(effect),
+        registry_(registry),
         device_(backends::create(backend, {.timed = true})) {}
 
   const gpu::DeviceInfo& info() const { return device_->info(); }
@@ -233,10 +238,12 @@ class Bench {
  private:
   void place(const char* mode, size_t count) {
     fmt::print(stderr, "{}: {} shots\n", mode, count);
-    painted_.push_back(std::make_unique<Painted>(*device_, place_.subject, effect_, *place_.rays));
+    painted_.push_back(
+        std::make_unique<Painted>(*device_, place_.subject, registry_, *place_.rays));
     painted_.back()->values().set("mode", mode);
     painted_.back()->values().set("shot_limit", "65536");
     painted_.back()->render({}, options_.width, options_.height);
+    malloc_trim(0);  // or what earlier runs have freed would be used again unseen
     const double memory = residentMemory();
     const size_t rays = place_.rays->count();
     const double idle = painted_.back()->render({}, 64, 36);
@@ -248,7 +255,7 @@ class Bench {
     const double grown = residentMemory() - memory;
     rows_.push_back({.mode = mode,
                      .shots = count,
-                     .placeSeconds = took / 1000,
+                     .placeSeconds = std::max(took, 0.0) / 1000,
                      .raysAShot = static_cast<double>(place_.rays->count() - rays) / each,
                      .memory = grown,
                      .bytesAShot = grown * 1048576 / each});
@@ -256,7 +263,7 @@ class Bench {
 
   Options options_;
   const Place& place_;
-  const effect::Effect& effect_;
+  const effect::Registry& registry_;
   std::unique_ptr<gpu::Device> device_;
   std::vector<std::unique_ptr<Painted>> painted_;
   std::vector<Row> rows_;
@@ -310,10 +317,10 @@ void writePlot(const std::filesystem::path& folder, const std::vector<Curve>& cu
 }
 
 // Measures one place on one backend, prints it, and adds its curves.
-void measure(const std::string& backend, const Place& place, const effect::Effect& effect,
+void measure(const std::string& backend, const Place& place, const effect::Registry& registry,
              const Options& options, std::vector<Curve>& curves) {
   if (place.counts.empty()) return;
-  Bench bench(backend, place, effect, options);
+  Bench bench(backend, place, registry, options);
   const gpu::DeviceInfo& info = bench.info();
   fmt::print("## {}, {}: {}\n\nDriver: {}{}. Clock: {}.\n\n", place.subject.name, info.backend,
              info.name, info.driver, info.software ? " (software)" : "",
@@ -322,7 +329,7 @@ void measure(const std::string& backend, const Place& place, const effect::Effec
   print(rows);
   for (const char* mode : {"surface", "per_shot"}) {
     Curve curve{
-        .title = fmt::format("{}, {}, {}", mode == std::string("surface") ? mode : "per shot",
+        .title = fmt::format("{} on {} ({})", mode == std::string("surface") ? mode : "per shot",
                              place.subject.name, backend),
         .rows = {}};
     std::ranges::copy_if(rows, std::back_inserter(curve.rows),
@@ -339,7 +346,7 @@ void measure(const std::string& backend, const Place& place, const effect::Effec
 }
 
 void run(const Options& options) {
-  std::vector<Place> places;
+  std::deque<Place> places;  // rays refer to their scene where it stands
   places.emplace_back(loadSubject(), options.counts, options.perShotCounts);
   places.emplace_back(wallSubject(), options.wallCounts, std::vector<size_t>{});
   effect::Registry registry;
@@ -347,7 +354,8 @@ void run(const Options& options) {
   fmt::print(
       "# What paint costs\n\nMade by `./dev bench sspm`: {}x{}, {} hardware threads, shots from "
       "about the cameras at\nanything that they see, parameters at their defaults, {} rounds in "
-      "turn, medians.\n\nPaint: the effect's passes on the first camera. Frame: all passes. Rays "
+      "turn, medians.\n\nPaint: the effect's passes on the first camera. Frame: all passes, with "
+      "SSAO. Rays "
       "a shot: cast to place it.\nMemory: what the process grows by with these shots; on a "
       "software "
       "driver that is the host's and\nthe device's share together.\n\n",
@@ -357,7 +365,7 @@ void run(const Options& options) {
     if (!options.backend.empty() && options.backend != backend.name) continue;
     try {
       for (const Place& place : places) {
-        measure(backend.name, place, registry.find("sspm"), options, curves);
+        measure(backend.name, place, registry, options, curves);
       }
     } catch (const Error& error) {
       if (error.id() != ErrorId::kBackendMissing && error.id() != ErrorId::kNoDevice) throw;
