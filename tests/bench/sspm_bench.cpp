@@ -306,7 +306,7 @@ void writePlot(const std::filesystem::path& folder, const std::vector<Curve>& cu
   }
   file.close();
   const std::string script = fmt::format(
-      "set datafile separator ','; set logscale xy; set grid; set key outside right; "
+      "set datafile separator ','; set logscale xy; set grid; set key below; "
       "set xlabel 'shots'; set ylabel 'paint, ms a frame'; set colorsequence podo; "
       "set terminal svg size 900,450 background rgb 'white'; set output '{0}/paint_cost.svg'; "
       "plot {1}; set terminal pngcairo size 900,450; set output '{0}/paint_cost.png'; replot",
