@@ -125,9 +125,9 @@ class Reflection {
       const spvc_type type =
           spvc_compiler_get_type_handle(compiler_, spvc_constant_get_type(constant));
       const char* label = spvc_compiler_get_name(compiler_, list[i].id);
-      constants_ += fmt::format("    {{{}u, {}u, {:#x}u, \"{}\"}},\n", list[i].constant_id,
-                                scalarOf(type, label),
-                                spvc_constant_get_scalar_u32(constant, 0, 0), label);
+      constants_ +=
+          fmt::format("    {{{}u, {}u, {:#x}u, \"{}\"}},\n", list[i].constant_id,
+                      scalarOf(type, label), spvc_constant_get_scalar_u32(constant, 0, 0), label);
       ++constantCount_;
     }
   }
@@ -213,12 +213,12 @@ class Reflection {
       format = imageFormatName(spvc_type_get_image_storage_format(type));
       if (format == nullptr) fail("{}: {} has an image format the layer lacks", name_, label);
     }
-    slots_ += fmt::format("    {{{}u, {}u, {}u, {}u, {}u, {}u, \"{}\", \"{}\"}},\n", slotClass, number,
-                          reads, writes, blockSize, arrayed, format, label);
+    slots_ += fmt::format("    {{{}u, {}u, {}u, {}u, {}u, {}u, \"{}\", \"{}\"}},\n", slotClass,
+                          number, reads, writes, blockSize, arrayed, format, label);
   }
 
-  // readonly and writeonly stand on the variable of an image, and on the variable or on every member
-  // of a storage block.
+  // readonly and writeonly stand on the variable of an image, and on the variable or on every
+  // member of a storage block.
   bool decorated(const spvc_reflected_resource& resource, spvc_type type,
                  SpvDecoration decoration) {
     if (spvc_compiler_has_decoration(compiler_, resource.id, decoration)) return true;
@@ -233,16 +233,17 @@ class Reflection {
   }
 
   void blockCheck(const spvc_reflected_resource& resource, spvc_type block, size_t size) {
-    checks_ += fmt::format("#define GRISAILLE_CHECK_BLOCK_{}_{}(Struct) \\\n", name_, resource.name);
+    checks_ +=
+        fmt::format("#define GRISAILLE_CHECK_BLOCK_{}_{}(Struct) \\\n", name_, resource.name);
     for (unsigned i = 0; i < spvc_type_get_num_member_types(block); ++i) {
       unsigned offset = 0;
       check(context_, spvc_compiler_type_struct_member_offset(compiler_, block, i, &offset));
       const char* member = spvc_compiler_get_member_name(compiler_, resource.base_type_id, i);
-      checks_ += fmt::format("  static_assert(offsetof(Struct, {0}) == {1}, \"{0} is at {1}\"); \\\n",
-                             member, offset);
+      checks_ += fmt::format(
+          "  static_assert(offsetof(Struct, {0}) == {1}, \"{0} is at {1}\"); \\\n", member, offset);
     }
-    checks_ += fmt::format("  static_assert(sizeof(Struct) >= {0}, \"the block has {0} bytes\")\n\n",
-                           size);
+    checks_ += fmt::format(
+        "  static_assert(sizeof(Struct) >= {0}, \"the block has {0} bytes\")\n\n", size);
   }
 
   spvc_context context_;
@@ -318,8 +319,8 @@ int main(int argc, char** argv) {
     case SpvExecutionModelGLCompute:
       stage = 2;
       for (unsigned i = 0; i < 3; ++i) {
-        local[i] = spvc_compiler_get_execution_mode_argument_by_index(
-            compiler, SpvExecutionModeLocalSize, i);
+        local[i] = spvc_compiler_get_execution_mode_argument_by_index(compiler,
+                                                                      SpvExecutionModeLocalSize, i);
       }
       break;
     default:
@@ -355,9 +356,10 @@ int main(int argc, char** argv) {
       orNull(outputCount, "outputs"), outputCount, local[0], local[1], local[2]);
   write(stem + ".c", source);
   write(stem + ".h",
-        fmt::format("/* Made by the shader compiler. */\n#pragma once\n#include \"grisaille/shader.h\"\n\n"
-                    "#ifdef __cplusplus\nextern \"C\" {{\n#endif\nextern const grisaille_shader {};\n"
-                    "#ifdef __cplusplus\n}}\n#endif\n\n{}",
-                    symbol, reflection.blockChecks()));
+        fmt::format(
+            "/* Made by the shader compiler. */\n#pragma once\n#include \"grisaille/shader.h\"\n\n"
+            "#ifdef __cplusplus\nextern \"C\" {{\n#endif\nextern const grisaille_shader {};\n"
+            "#ifdef __cplusplus\n}}\n#endif\n\n{}",
+            symbol, reflection.blockChecks()));
   spvc_context_destroy(context);
 }

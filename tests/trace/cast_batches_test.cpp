@@ -3,8 +3,9 @@
 #include <gtest/gtest.h>
 
 #include <algorithm>
+#include <array>
+#include <bit>
 #include <cmath>
-#include <cstring>
 #include <random>
 
 #include "core/trace/ray_tracer.h"
@@ -70,7 +71,8 @@ std::vector<grisaille_hit> cast(const RayTracer& tracer, std::span<const grisail
 }
 
 bool sameBits(const grisaille_hit& a, const grisaille_hit& b) {
-  return std::memcmp(&a, &b, sizeof a) == 0;
+  using Bits = std::array<uint32_t, sizeof(grisaille_hit) / 4>;
+  return std::bit_cast<Bits>(a) == std::bit_cast<Bits>(b);
 }
 
 // All at once, in batches of random sizes, shuffled, and each alone.
