@@ -82,8 +82,10 @@ uint32_t wordOf(const glm::vec4& plane, const ShotMap& map) {
 // By the rough picture alone: nothing that the shot reaches would show.
 bool PaintWorld::isHidden(uint32_t id, const Survey& survey, const CellGrid& grid) {
   if (survey.unknown() > 0) return false;
+  const std::vector<Patch> patches = survey.patches();
+  if (patches.empty()) return false;  // what it reaches is too thin for the rough picture
   uint32_t sealer = 0;
-  for (const Patch& patch : survey.patches()) {
+  for (const Patch& patch : patches) {
     const bool hidden =
         visitParts(survey.frame(), grid, patch, [&](const CellKey& key, const PartBits& bits) {
           const Cell* cell = cells_.find(key);

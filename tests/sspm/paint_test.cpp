@@ -148,6 +148,24 @@ TEST_P(PaintTest, WithoutRaysShotsWait) {
   EXPECT_GT(*std::max_element(coverage.pixels.begin(), coverage.pixels.end()), 0.5f);
 }
 
+// A pole that stands free and is narrower than the rough picture's squares.
+TEST_P(PaintTest, ThinThingsThatStandFreeArePainted) {
+  scene::Scene scene;
+  scene.materials.emplace_back();
+  const float half = 0.02f;
+  addQuad(scene,
+          {glm::vec3(-half, 0, 0), glm::vec3(half, 0, 0), glm::vec3(half, 2, 0),
+           glm::vec3(-half, 2, 0)},
+          glm::vec3(0, 0, 1));
+  TracedRays rays(scene);
+  PaintFrame frame(device(), scene);
+  frame.setRays(&rays);
+  const std::vector<grisaille_shot> shots = {
+      shotAt(glm::dvec3(0, 1, 2), glm::dvec3(0, 1, 0), glm::vec3(1, 0, 0))};
+  frame.render({.eye = glm::dvec3(0, 1, 1), .target = glm::dvec3(0, 1, 0)}, kWidth, kHeight, shots);
+  EXPECT_EQ(frame.read("paint_coverage").at(kWidth / 2, kHeight / 2), 1.0f);
+}
+
 // A wall between: nothing behind it, nothing on its far side.
 TEST_P(PaintTest, PaintStopsAtTheFirstSurface) {
   scene::Scene scene = cornerScene();
