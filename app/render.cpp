@@ -15,6 +15,7 @@
 #include "app/shot_options.h"
 #include "app/timings.h"
 #include "backends/backends.h"
+#include "core/effect/rays_in_turn.h"
 #include "core/error.h"
 #include "core/frame/depth_rays.h"
 #include "core/image/image.h"
@@ -161,15 +162,18 @@ void writeCoverage(const Options& options, const Job& job, frame::Renderer& rend
 // What the effects' rays hit: the scene, or what a frame of it shows, drawn for that alone.
 std::unique_ptr<effect::RayService> makeRays(const Options& options, const Job& job,
                                              frame::Renderer& renderer) {
-  if (options.rays == "scene") return std::make_unique<SceneRays>(job.scene);
+  auto scene = std::make_unique<SceneRays>(job.scene);
+  if (options.rays == "scene") return scene;
   const std::vector<std::string> outputs = {"depth", "facet_normal"};
   renderer.render({.camera = job.camera,
                    .width = job.size.x,
                    .height = job.size.y,
                    .effects = {},
                    .outputs = outputs});
-  return std::make_unique<frame::DepthRays>(renderer.read("depth"), renderer.read("facet_normal"),
-                                            job.camera);
+  auto depth = std::make_unique<frame::DepthRays>(renderer.read("depth"),
+                                                  renderer.read("facet_normal"), job.camera);
+  if (options.rays == "depth") return depth;
+  return std::make_unique<effect::RaysInTurn>(std::move(depth), std::move(scene));
 }
 
 void renderFrames(const Options& options, const Job& job, gpu::Device& device) {
@@ -286,10 +290,11 @@ void addRender(CLI::App& program) {
       ->type_name("FILE.csv|-");
   options->shots.addTo(*command);
   command
-      ->add_option("--rays", options->rays,
-                   "What tells where shots land: the scene, or the depth of a first frame, which "
-                   "leaves waiting what it does not show")
-      ->check(CLI::IsMember({"scene", "depth"}))
+      ->add_option(
+          "--rays", options->rays,
+          "What tells where shots land: the scene; the depth of a first frame, which "
+          "leaves waiting what it does not show; or that depth, and the scene for the rest")
+      ->check(CLI::IsMember({"scene", "depth", "both"}))
       ->capture_default_str();
   command->add_option("--plugin-path", options->pluginPaths, "A further folder of effects")
       ->type_name("DIR")

@@ -100,13 +100,4 @@ void CellTable::publish(Cell& cell) {
   slot[1] = count;
 }
 
-size_t CellTable::bytes() const {
-  size_t sum = slots_.bytes() + words_.bytes() + slotCells_.capacity() * sizeof(uint32_t) +
-               cells_.size() * sizeof(Cell);
-  for (const Cell& cell : cells_) {
-    sum += cell.entries.capacity() * sizeof(Entry) + cell.known.capacity() * sizeof(KnownPoint);
-  }
-  return sum;
-}
-
 }  // namespace grisaille::sspm

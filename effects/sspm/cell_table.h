@@ -84,7 +84,6 @@ class CellTable {
 
   std::deque<Cell>& cells() { return cells_; }
   uint32_t slotMask() const { return static_cast<uint32_t>(slotCells_.size() - 1); }
-  size_t bytes() const;
 
   Mirror& slots() { return slots_; }
   Mirror& words() { return words_; }

@@ -15,8 +15,7 @@
 namespace grisaille::sspm {
 namespace {
 
-constexpr float kThrough = 1.0f / 512;  // as in shaders/sspm/surface.comp
-constexpr float kLeastSlant = 0.02f;    // cosine
+constexpr float kLeastSlant = 0.02f;  // cosine
 
 glm::vec3 unpackPlace(uint32_t place) {
   return (glm::vec3(place & 1023u, place >> 10 & 1023u, place >> 20) + 0.5f) / 1024.0f;

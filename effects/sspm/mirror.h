@@ -17,7 +17,6 @@ class Mirror {
 
   size_t size() const { return words_.size(); }
   const uint32_t* data() const { return words_.data(); }
-  size_t bytes() const { return words_.capacity() * sizeof(uint32_t) + deviceWords_ * 4; }
 
   // Words [first, first + count), to be changed now.
   std::span<uint32_t> change(size_t first, size_t count) {

@@ -17,7 +17,6 @@ constexpr size_t kNumberWord = 11;
 constexpr size_t kColorWord = 12;
 constexpr size_t kMostWork = 64;    // shots surveyed side by side
 constexpr size_t kMostRays = 4096;  // of a step, but for a single shot's
-constexpr float kThrough = 1.0f / 512;
 
 bool alike(const grisaille_shot& a, const grisaille_shot& b) {
   return std::ranges::equal(a.origin, b.origin) && std::ranges::equal(a.direction, b.direction) &&
@@ -184,7 +183,7 @@ void PaintWorld::refill() {
     // Its twin is to be placed first.
     if (std::ranges::any_of(work_, [&](const Work& w) { return alike(list_[w.id], shot); })) return;
     pending_.pop_back();
-    if (!countTwin(id)) work_.push_back({id, Survey(shot, rangeOf(id))});
+    if (!countTwin(id)) work_.push_back({id, Survey(shot, rangeOf(id)), {}});
   }
 }
 
@@ -210,8 +209,6 @@ bool PaintWorld::castFor(std::span<Work*> works, const CastRays& cast, std::vect
 void PaintWorld::askAgain(const CastRays& cast) {
   std::deque<Work> asked = std::exchange(partly_, {});
   for (Work& work : asked) {
-    const std::vector<Share> shares =
-        sharesOf(work.survey.frame(), gridFor(work.survey.frame()), work.survey.patches());
     const size_t before = work.survey.unknown();
     work.survey.askAgain();
     bool can = true, first = true, learned = false;
@@ -223,7 +220,7 @@ void PaintWorld::askAgain(const CastRays& cast) {
       first = false;
     }
     if (learned) {
-      remove(work.id, shares);
+      remove(work.id, work.cells);
       place(work.id, work.survey);
     } else {
       partly_.push_back(std::move(work));
@@ -281,14 +278,16 @@ void PaintWorld::place(uint32_t id, Survey& survey) {
       if (!join(id, survey.frame(), grid, map, share)) unlist(id, 0);
     }
   }
-  joinTwins(id, shares);
-  if (partly) partly_.push_back({id, std::move(survey)});
+  std::vector<CellKey> cells(shares.size());
+  std::ranges::transform(shares, cells.begin(), &Share::key);
+  joinTwins(id, cells);
+  if (partly) partly_.push_back({id, std::move(survey), std::move(cells)});
 }
 
-// Takes a shot out of all lists. `shares` as it was placed with.
-void PaintWorld::remove(uint32_t id, const std::vector<Share>& shares) {
-  for (const Share& share : shares) {
-    Cell* cell = cells_.find(share.key);
+// Takes a shot out of all lists. `cells` as it was placed in.
+void PaintWorld::remove(uint32_t id, std::span<const CellKey> cells) {
+  for (const CellKey& key : cells) {
+    Cell* cell = cells_.find(key);
     if (cell == nullptr) continue;
     const auto listed = [&](const Entry& entry) { return entry.shot == id; };
     if (std::erase_if(cell->entries, listed) == 0) continue;
@@ -312,7 +311,7 @@ bool PaintWorld::countTwin(uint32_t id) {
   return true;
 }
 
-void PaintWorld::joinTwins(uint32_t id, const std::vector<Share>& shares) {
+void PaintWorld::joinTwins(uint32_t id, std::span<const CellKey> cells) {
   Twins& twins = twins_[hashOf(list_[id])];
   if (!twins.ids.empty()) {
     if (!alike(list_[twins.ids.front()], list_[id])) return;
@@ -323,7 +322,7 @@ void PaintWorld::joinTwins(uint32_t id, const std::vector<Share>& shares) {
   if (twins.ids.size() > layersOf(rules_.full, rangeOf(id))) {
     const uint32_t last = twins.ids.back();
     twins.ids.pop_back();
-    remove(last, shares);
+    remove(last, cells);
     states_[last].lostTo = std::max(states_[last].lostTo, twins.ids.front() + 1);
     ++twins.counted;
   }
@@ -364,14 +363,6 @@ ShotFrame PaintWorld::frameOf(uint32_t id) const {
   ShotFrame frame(list_[id], std::bit_cast<float>(record[3]));
   frame.setFarthest(frame.range / std::bit_cast<float>(record[7]));
   return frame;
-}
-
-size_t PaintWorld::bytes() const {
-  return cells_.bytes() + records_.bytes() + blocks_.bytes() + states_.size() * sizeof(State) +
-         pending_.capacity() * sizeof(uint32_t) + placed_.capacity() * sizeof(Placed) +
-         freeRecords_.capacity() * sizeof(uint32_t) +
-         twins_.size() * (sizeof(uint64_t) + sizeof(Twins) + 2 * sizeof(void*)) +
-         twins_.bucket_count() * sizeof(void*);
 }
 
 }  // namespace grisaille::sspm

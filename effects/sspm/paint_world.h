@@ -19,7 +19,8 @@ namespace grisaille::sspm {
 // Rays in, hits out; false where rays cannot be cast.
 using CastRays = std::function<bool(std::span<const grisaille_ray>, std::span<grisaille_hit>)>;
 
-constexpr uint32_t kMostLevels = 16;  // widths of cells in use at once
+constexpr float kThrough = 1.0f / 512;  // shows no more; as in shaders/sspm/surface.comp
+constexpr uint32_t kMostLevels = 16;    // widths of cells in use at once
 
 // What the paint depends on besides the shots.
 struct PaintRules {
@@ -44,10 +45,6 @@ class PaintWorld {
   Mirror& blocks() { return blocks_; }
   std::span<const int32_t> levels() const { return levels_; }  // codes in use, without facing
 
-  // Of memory, on the host and on the device together.
-  size_t bytes() const;
-  size_t listed() const { return placed_.size() - freeRecords_.size(); }
-
  private:
   static constexpr uint32_t kNone = ~0u;
   struct State {
@@ -64,6 +61,7 @@ class PaintWorld {
   struct Work {
     uint32_t id;
     Survey survey;
+    std::vector<CellKey> cells;  // that it was placed in
   };
   // Shots of one origin, direction and range. As soon as nothing older shows through so many of
   // them, the older ones only count.
@@ -83,10 +81,10 @@ class PaintWorld {
   bool castFor(std::span<Work*> works, const CastRays& cast, std::vector<bool>& told);
   void askAgain(const CastRays& cast);
   bool countTwin(uint32_t id);
-  void joinTwins(uint32_t id, const std::vector<Share>& shares);
+  void joinTwins(uint32_t id, std::span<const CellKey> cells);
   CellGrid gridFor(const ShotFrame& frame);
   void place(uint32_t id, Survey& survey);
-  void remove(uint32_t id, const std::vector<Share>& shares);
+  void remove(uint32_t id, std::span<const CellKey> cells);
   void writeRecord(uint32_t id, const ShotFrame& frame, const ShotMap& map);
   void writeCount(uint32_t id, uint32_t counted);
   ShotFrame frameOf(uint32_t id) const;

@@ -114,10 +114,7 @@ std::vector<Share> sharesOf(const ShotFrame& frame, const CellGrid& grid,
         shares.push_back({.key = key, .plane = patch.plane, .points = {}});
       }
       Share& share = shares[index];
-      share.plain = share.plain && patch.flat &&
-                    std::abs(glm::dot(glm::vec3(share.plane), patch.centre) - share.plane.w) <=
-                        0.25f * frame.bias &&
-                    glm::dot(glm::vec3(share.plane), glm::vec3(patch.plane)) > 0.98f;
+      share.plain = share.plain && serves(share.plane, patch.centre, patch.plane, frame.bias);
       share.touched |= bits.touched;
       if (patch.ragged) share.ragged |= bits.touched;
       if (patch.seen.empty()) {

@@ -334,18 +334,12 @@ bool Survey::gatherPlanes(int32_t index, std::vector<SeenPlane>& planes) const {
   }
   const Sample& seen = seenBy(square).sample;
   if (!inRange(seen)) return square.ragged;
-  auto known = std::ranges::find_if(
-      planes, [&](const SeenPlane& plane) { return extends(*plane.sample, seen); });
+  auto known = std::ranges::find_if(planes, [&](const SeenPlane& plane) {
+    return sspm::serves(plane.sample->plane, seen.at, seen.plane, frame_.bias);
+  });
   if (known == planes.end()) known = planes.insert(planes.end(), {&seen, {}});
   known->seen.push_back(seen.at);
   return square.ragged;
-}
-
-// Whether one sample's plane serves the other too.
-bool Survey::extends(const Sample& sample, const Sample& other) const {
-  return std::abs(glm::dot(glm::vec3(sample.plane), other.at) - sample.plane.w) <=
-             0.25f * frame_.bias &&
-         glm::dot(glm::vec3(sample.plane), glm::vec3(other.plane)) > 0.98f;
 }
 
 Patch Survey::patchOf(const Square& square, const glm::vec4& plane) const {
@@ -392,7 +386,7 @@ bool Survey::serves(int32_t index, const Square*& leaf, bool smooth) const {
     if (smooth && (square.edge || square.beside >= 0)) return false;
     if (!square.sample.hit) return leaf == nullptr || planePastExit(square, leaf->sample.plane);
     if (leaf == nullptr) leaf = &square;
-    return extends(leaf->sample, square.sample);
+    return sspm::serves(leaf->sample.plane, square.sample.at, square.sample.plane, frame_.bias);
   }
   for (int32_t i = 0; i < 16; ++i) {
     if (!serves(square.children + i, leaf, smooth)) return false;

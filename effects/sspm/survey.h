@@ -1,9 +1,10 @@
 // SPDX-License-Identifier: MIT
 // Finds out what a shot's muzzle sees, by rays: says which to cast next, takes the hits, and so on
-// until it knows. First the farthest surface, then a rough picture of some 140 rays, then, if asked
-// to go on, the map: 1,300 rays for a wall, 20,000 for a plant.
+// until it knows. First the farthest surface and a rough picture, then, if asked to go on, the map.
+// `./dev bench sspm` prints the rays a shot.
 #pragma once
 
+#include <cmath>
 #include <span>
 #include <unordered_map>
 #include <vector>
@@ -19,10 +20,16 @@ struct Patch {
   glm::vec4 plane;      // normal towards the muzzle; its product with offsets on the surface
   bool ragged = false;  // it hides something beside it, or something hides it
   bool whole = true;    // not cut
-  bool flat = true;     // the plane serves all of it
   // Of one of several planes that share a square: it may be anywhere in it, and is at these.
   std::vector<glm::vec3> seen = {};
 };
+
+// Whether one plane serves a place on another too. `bias` of the shot's frame.
+inline bool serves(const glm::vec4& plane, const glm::vec3& at, const glm::vec4& other,
+                   float bias) {
+  return std::abs(glm::dot(glm::vec3(plane), at) - plane.w) <= 0.25f * bias &&
+         glm::dot(glm::vec3(plane), glm::vec3(other)) > 0.98f;
+}
 
 class Survey {
  public:
@@ -102,7 +109,6 @@ class Survey {
   };
   void gatherPatches(int32_t index, std::vector<Patch>& patches) const;
   bool gatherPlanes(int32_t index, std::vector<SeenPlane>& planes) const;
-  bool extends(const Sample& sample, const Sample& other) const;
   Patch patchOf(const Square& square, const glm::vec4& plane) const;
   bool serves(int32_t index, const Square*& leaf, bool smooth) const;
   bool uniform(int32_t index, const Square*& leaf, bool smooth) const;

@@ -22,6 +22,7 @@
 #include "core/scene/camera.h"
 #include "core/scene/scene.h"
 #include "core/trace/ray_tracer.h"
+#include "tests/bench/command.h"
 #include "tests/bench/subject.h"
 #include "tests/bench/tutorial_ssao.h"
 
@@ -30,12 +31,10 @@ namespace {
 
 using Clock = std::chrono::steady_clock;
 
-struct Options {
-  uint32_t rounds = 9;
+struct Options : CommonOptions {
+  Options() { rounds = 9; }
   uint32_t samples = 256;
-  std::string backend, only;
-  uint32_t width = 1280;
-  uint32_t height = 720;
+  std::string only;
 };
 
 struct Setting {
@@ -293,19 +292,9 @@ void run(const Options& options) {
 int main(int argc, char** argv) {
   grisaille::bench::Options options;
   CLI::App program("What SSAO costs and how wrong it is, as Markdown");
-  program.add_option("--rounds", options.rounds, "How often each setting is timed")
-      ->check(CLI::Range(1u, 1000u));
   program.add_option("--samples", options.samples, "Rays a pixel of the truth")
       ->check(CLI::Range(1u, 65536u));
   program.add_option("--only", options.only, "Settings whose name holds this");
-  program.add_option("--backend", options.backend, "opengl or vulkan; default: both");
-  program.add_option("--width", options.width, "Pixels")->check(CLI::Range(16u, 16384u));
-  program.add_option("--height", options.height, "Pixels")->check(CLI::Range(16u, 16384u));
-  CLI11_PARSE(program, argc, argv);
-  try {
-    grisaille::bench::run(options);
-  } catch (const std::exception& error) {
-    fmt::print(stderr, "{}\n", error.what());
-    return 1;
-  }
+  return grisaille::bench::runCommand(program, options, argc, argv,
+                                      [&] { grisaille::bench::run(options); });
 }

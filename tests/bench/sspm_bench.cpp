@@ -22,8 +22,9 @@
 #include "core/effect/values.h"
 #include "core/error.h"
 #include "core/frame/renderer.h"
-#include "core/trace/ray_tracer.h"
+#include "tests/bench/command.h"
 #include "tests/bench/subject.h"
+#include "tests/support/traced_rays.h"
 
 namespace grisaille::bench {
 namespace {
@@ -31,14 +32,11 @@ namespace {
 using Clock = std::chrono::steady_clock;
 using Shots = std::vector<grisaille_shot>;
 
-struct Options {
-  uint32_t rounds = 7;
+struct Options : CommonOptions {
   std::vector<size_t> counts = {64, 1000, 10000};
   std::vector<size_t> wallCounts = {64, 1000, 10000, 100000, 1000000};
   std::vector<size_t> perShotCounts = {1, 4, 16, 64, 256};
-  std::string backend, out;
-  uint32_t width = 1280;
-  uint32_t height = 720;
+  std::string out;
 };
 
 double millisecondsSince(Clock::time_point start) {
@@ -54,19 +52,17 @@ double residentMemory() {
   return 0;
 }
 
-class Rays : public effect::RayService {
+// Counts what it casts.
+class Rays : public tests::TracedRays {
  public:
-  explicit Rays(const scene::Scene& scene)
-      : tracer_(scene, (scene.bounds.min + scene.bounds.max) / 2.0) {}
+  using TracedRays::TracedRays;
   void cast(std::span<const grisaille_ray> rays, std::span<grisaille_hit> hits) override {
-    tracer_.castRays(rays, hits);
+    TracedRays::cast(rays, hits);
     count_ += rays.size();
   }
-  const trace::RayTracer& tracer() const { return tracer_; }
   size_t count() const { return count_; }
 
  private:
-  trace::RayTracer tracer_;
   size_t count_ = 0;
 };
 
@@ -381,22 +377,12 @@ void run(const Options& options) {
 int main(int argc, char** argv) {
   grisaille::bench::Options options;
   CLI::App program("What paint costs against the number of shots, as Markdown");
-  program.add_option("--rounds", options.rounds, "How often each count is timed")
-      ->check(CLI::Range(1u, 1000u));
   program.add_option("--counts", options.counts, "Shots on Sponza, ascending")->expected(0, -1);
   program.add_option("--wall-counts", options.wallCounts, "Shots on the wall, ascending")
       ->expected(0, -1);
   program.add_option("--per-shot-counts", options.perShotCounts,
                      "Shots on Sponza in the mode per_shot");
-  program.add_option("--backend", options.backend, "opengl or vulkan; default: both");
   program.add_option("--out", options.out, "A folder for paint_cost.csv, .svg and .png");
-  program.add_option("--width", options.width, "Pixels")->check(CLI::Range(16u, 16384u));
-  program.add_option("--height", options.height, "Pixels")->check(CLI::Range(16u, 16384u));
-  CLI11_PARSE(program, argc, argv);
-  try {
-    grisaille::bench::run(options);
-  } catch (const std::exception& error) {
-    fmt::print(stderr, "{}\n", error.what());
-    return 1;
-  }
+  return grisaille::bench::runCommand(program, options, argc, argv,
+                                      [&] { grisaille::bench::run(options); });
 }

@@ -41,12 +41,7 @@ Subject loadSubject() {
 Subject wallSubject() {
   Subject subject;
   subject.name = "a bare wall";
-  subject.scene.materials.emplace_back();
-  const float w = 8, h = 4.5f;
-  tests::addQuad(
-      subject.scene,
-      {glm::vec3(-w, -h, 0), glm::vec3(w, -h, 0), glm::vec3(w, h, 0), glm::vec3(-w, h, 0)},
-      glm::vec3(0, 0, 1));
+  subject.scene = tests::wallScene(16, 9);
   subject.cameras.push_back({.eye = glm::dvec3(0, 0, 7.5), .target = glm::dvec3(0, 0, 0)});
   return subject;
 }

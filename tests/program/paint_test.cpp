@@ -71,7 +71,7 @@ TEST_F(Paint, SharesAddUpToTheWhole) {
 // With a frame's depth for rays too a shot paints the pixel that it was fired through; what the
 // frame does not show may wait, and is never taken for open.
 TEST_F(Paint, ShotsLandByTheSceneAndByDepth) {
-  for (const std::string rays : {"scene", "depth"}) {
+  for (const std::string rays : {"scene", "depth", "both"}) {
     const Outcome outcome = render(
         {"--rays", rays, "--fire", "40,45,#ff0000", "--write", "paint_coverage=k.exr", "--check"});
     ASSERT_EQ(outcome.status, 0) << outcome.err;

@@ -20,16 +20,6 @@ constexpr uint32_t kHeight = 72;
 const scene::Camera kCrease = {.eye = glm::dvec3(0.3, 1.5, 2.5), .target = glm::dvec3(0, 0.5, 0)};
 const scene::Camera kWall = {.eye = glm::dvec3(0, 0, 3), .target = glm::dvec3(0, 0, 0)};
 
-scene::Scene wallScene() {
-  scene::Scene scene;
-  scene.materials.emplace_back();
-  addQuad(
-      scene,
-      {glm::vec3(-20, -20, 0), glm::vec3(20, -20, 0), glm::vec3(20, 20, 0), glm::vec3(-20, 20, 0)},
-      glm::vec3(0, 0, 1));
-  return scene;
-}
-
 class CrowdTest : public BackendTest {};
 GRISAILLE_ON_EVERY_BACKEND(CrowdTest);
 

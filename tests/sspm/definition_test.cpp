@@ -91,13 +91,7 @@ TEST_P(DefinitionTest, PerShotIsTheDefinition) {
 
 // On a wall that every muzzle sees whole, both modes are one.
 TEST_P(DefinitionTest, SurfaceIsPerShotOnAnOpenWall) {
-  scene::Scene scene;
-  scene.materials.emplace_back();
-  addQuad(
-      scene,
-      {glm::vec3(-20, -20, 0), glm::vec3(20, -20, 0), glm::vec3(20, 20, 0), glm::vec3(-20, 20, 0)},
-      glm::vec3(0, 0, 1));
-  computeBounds(scene);
+  const scene::Scene scene = wallScene();
   const scene::Camera camera = {.eye = glm::dvec3(0.4, 0.2, 3), .target = glm::dvec3(0, 0, 0)};
   TracedRays rays(scene);
   for (uint32_t seed = 0; seed < 3; ++seed) {

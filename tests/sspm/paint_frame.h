@@ -10,25 +10,11 @@
 
 #include "core/effect/registry.h"
 #include "core/frame/renderer.h"
-#include "core/trace/ray_tracer.h"
+#include "tests/support/traced_rays.h"
 
 namespace grisaille::tests {
 
 using Settings = std::vector<std::pair<std::string, std::string>>;
-
-// Rays as the program casts them.
-class TracedRays : public effect::RayService {
- public:
-  explicit TracedRays(const scene::Scene& scene)
-      : tracer_(scene, (scene.bounds.min + scene.bounds.max) / 2.0) {}
-  void cast(std::span<const grisaille_ray> rays, std::span<grisaille_hit> hits) override {
-    tracer_.castRays(rays, hits);
-  }
-  const trace::RayTracer& tracer() const { return tracer_; }
-
- private:
-  trace::RayTracer tracer_;
-};
 
 class PaintFrame {
  public:

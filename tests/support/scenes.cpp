@@ -39,4 +39,13 @@ scene::Scene cornerScene(float size) {
   return scene;
 }
 
+scene::Scene wallScene(float width, float height) {
+  scene::Scene scene;
+  scene.name = "wall";
+  scene.materials.push_back({.name = "white"});
+  const float w = width / 2, h = height / 2;
+  addQuad(scene, {glm::vec3(-w, -h, 0), {w, -h, 0}, {w, h, 0}, {-w, h, 0}}, {0, 0, 1});
+  return scene;
+}
+
 }  // namespace grisaille::tests

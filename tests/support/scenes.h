@@ -19,4 +19,7 @@ scene::Scene floorScene(float size = 100);
 // The same with a wall at z = 0 that rises from it, facing +z.
 scene::Scene cornerScene(float size = 100);
 
+// A wall at z = 0 about the origin, metres, facing +z, one white material.
+scene::Scene wallScene(float width = 40, float height = 40);
+
 }  // namespace grisaille::tests
