@@ -8,6 +8,7 @@
 namespace grisaille::app {
 
 void addRender(CLI::App& program);
+void addView(CLI::App& program);
 void addEffects(CLI::App& program);
 void addBackends(CLI::App& program);
 void addScene(CLI::App& program);

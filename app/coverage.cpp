@@ -7,8 +7,6 @@
 #include <glm/gtc/color_space.hpp>
 #include <map>
 
-#include "core/error.h"
-
 namespace grisaille::app {
 namespace {
 
@@ -22,8 +20,8 @@ std::string hexOf(const grisaille_shot& shot) {
 
 }  // namespace
 
-Painter findPainter(const ActiveEffects& active) {
-  for (const effect::Effect* effect : active.effects()) {
+std::optional<Painter> findPainter(std::span<const effect::Effect* const> effects) {
+  for (const effect::Effect* effect : effects) {
     Painter painter{.effect = effect->desc->key, .paint = {}, .owner = {}};
     for (const grisaille_output_desc& output : effect->outputs()) {
       const std::string name = painter.effect + "." + output.key;
@@ -32,8 +30,7 @@ Painter findPainter(const ActiveEffects& active) {
     }
     if (!painter.paint.empty() && !painter.owner.empty()) return painter;
   }
-  throw Error(ErrorId::kEffectTakesNoShots,
-              "--coverage is given, but no active effect tells whose its paint is");
+  return std::nullopt;
 }
 
 std::vector<ColorShare> colorShares(const image::Image& owner, const image::Image& paint,

@@ -2,11 +2,12 @@
 // Which colour holds how much of what the picture shows.
 #pragma once
 
+#include <optional>
 #include <span>
 #include <string>
 #include <vector>
 
-#include "app/active_effects.h"
+#include "core/effect/registry.h"
 #include "core/image/image.h"
 #include "core/scene/camera.h"
 #include "grisaille/effect.h"
@@ -18,8 +19,8 @@ struct Painter {
   std::string effect, paint, owner;
 };
 
-// The first active effect that has both. Throws kEffectTakesNoShots.
-Painter findPainter(const ActiveEffects& active);
+// The first effect that has both; none: there is none.
+std::optional<Painter> findPainter(std::span<const effect::Effect* const> effects);
 
 struct ColorShare {
   std::string color;  // "#rrggbb", sRGB; "none": unpainted

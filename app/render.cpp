@@ -2,7 +2,6 @@
 // grisaille render: one scene, one camera, pictures into files.
 #include <fmt/format.h>
 
-#include <charconv>
 #include <cstdio>
 #include <memory>
 #include <optional>
@@ -10,9 +9,11 @@
 #include "app/active_effects.h"
 #include "app/command.h"
 #include "app/coverage.h"
+#include "app/driver_messages.h"
 #include "app/scene_rays.h"
 #include "app/settings.h"
 #include "app/shot_options.h"
+#include "app/size.h"
 #include "app/timings.h"
 #include "backends/backends.h"
 #include "core/effect/rays_in_turn.h"
@@ -31,28 +32,12 @@ struct Options {
   std::string surface = "white", rays = "scene";
   uint32_t frames = 1;
   bool check = false;
-  bool effectsGiven = false;
+  bool effectsGiven = false, surfaceGiven = false;
 };
 
 struct Write {
   std::string output, file;
 };
-
-constexpr uint32_t kLargestSide = 16384;
-
-glm::uvec2 parseSize(const std::string& text) {
-  glm::uvec2 size(0);
-  const char* end = text.data() + text.size();
-  const auto width = std::from_chars(text.data(), end, size.x);
-  const bool cross = width.ec == std::errc() && width.ptr != end && *width.ptr == 'x';
-  const auto height = cross ? std::from_chars(width.ptr + 1, end, size.y) : width;
-  if (!cross || height.ec != std::errc() || height.ptr != end || size.x < 1 || size.y < 1 ||
-      size.x > kLargestSide || size.y > kLargestSide) {
-    throw Error(ErrorId::kUsage, "size '{}' is not WIDTHxHEIGHT with sides from 1 to {}", text,
-                kLargestSide);
-  }
-  return size;
-}
 
 std::vector<Write> parseWrites(const std::vector<std::string>& texts) {
   std::vector<Write> writes;
@@ -81,14 +66,9 @@ std::unique_ptr<gpu::Device> makeDevice(const Options& options, const gpu::Devic
   throw Error(ErrorId::kNoDevice, "no backend starts: {}", reasons);
 }
 
-void applySettings(const Settings& settings, ActiveEffects& active) {
-  for (const Settings::Value& value : settings.values) {
-    try {
-      active.values(value.effect).set(value.key, value.text);
-    } catch (const Error& error) {
-      throw Error(error.id(), "{}: {}", value.place, error.detail());
-    }
-  }
+// A camera file or, beginning with '{', what would be in one.
+scene::Camera cameraOf(const std::string& text) {
+  return text.starts_with('{') ? scene::parseCamera(text, "--camera") : scene::loadCamera(text);
 }
 
 // What the command line asks for, checked before anything slow is done.
@@ -97,6 +77,7 @@ struct Job {
   std::unique_ptr<effect::Registry> registry;
   std::optional<ActiveEffects> active;
   std::optional<Shots> shots;
+  frame::Surface surface = frame::Surface::kWhite;
   scene::Scene scene;
   scene::Camera camera;
   glm::uvec2 size = glm::uvec2(1280, 720);
@@ -116,10 +97,13 @@ struct Job {
     active.emplace(*registry,
                    options.effectsGiven || !settings.effects ? options.effects : *settings.effects);
     applySettings(settings, *active);
+    const std::string& ground =
+        options.surfaceGiven || !settings.surface ? options.surface : *settings.surface;
+    surface = ground == "base" ? frame::Surface::kBaseColour : frame::Surface::kWhite;
     for (const std::string& assignment : options.sets) active->set(assignment);
     for (const Write& write : writes) frame::checkOutput(write.output, active->effects());
 
-    if (!options.camera.empty()) camera = scene::loadCamera(options.camera);
+    if (!options.camera.empty()) camera = cameraOf(options.camera);
     scene = options.scene.empty() ? scene::makeAtrium() : scene::loadGltf(options.scene);
     if (options.camera.empty()) {
       camera = options.scene.empty() ? scene::atriumCamera() : scene::overviewCamera(scene.bounds);
@@ -127,7 +111,12 @@ struct Job {
     if (camera.size.x > 0) size = camera.size;
     if (given.x > 0) size = given;
     shots.emplace(options.shots, *active, camera, size);
-    if (!options.shots.coverage.empty()) painter = findPainter(*active);
+    if (options.shots.coverage.empty()) return;
+    painter = findPainter(active->effects());
+    if (!painter) {
+      throw Error(ErrorId::kEffectTakesNoShots,
+                  "--coverage is given, but no active effect tells whose its paint is");
+    }
   }
 };
 
@@ -194,8 +183,7 @@ void renderFrames(const Options& options, const Job& job, gpu::Device& device) {
     renderer.render({.camera = job.camera,
                      .width = job.size.x,
                      .height = job.size.y,
-                     .surface = options.surface == "base" ? frame::Surface::kBaseColour
-                                                          : frame::Surface::kWhite,
+                     .surface = job.surface,
                      .effects = effects,
                      .outputs = outputs,
                      .rays = rays.get()});
@@ -216,40 +204,33 @@ void renderFrames(const Options& options, const Job& job, gpu::Device& device) {
 
 void render(const Options& options) {
   const Job job(options);
-  size_t messages = 0;
-  const auto count = [&](gpu::Severity severity, std::string_view text) {
-    const bool info = severity == gpu::Severity::kInfo;
-    if (!info) ++messages;
-    fmt::print(stderr, "{}: {}\n", info ? "note" : "driver", text);
-  };
+  DriverMessages messages;
   {
     const auto device = makeDevice(options, {.device = options.device,
                                              .check = options.check,
                                              .timed = !options.timings.empty(),
-                                             .message = count});
+                                             .message = messages.sink()});
     const gpu::DeviceInfo& info = device->info();
     fmt::print(notesOf(options), "{}: {} ({}){}\n", info.backend, info.name, info.driver,
                info.software ? ", software" : "");
     renderFrames(options, job, *device);
     if (!options.timings.empty()) writeTimings(options, *device);
   }
-  if (options.check && messages > 0) {
-    throw Error(ErrorId::kDriverMessages, "{} messages of the driver or its validation", messages);
-  }
+  if (options.check) messages.throwIfAny();
 }
 
 }  // namespace
 
 void addRender(CLI::App& program) {
   auto options = std::make_shared<Options>();
-  options->effects = {"ssao"};
+  options->effects = kDefaultEffects;
   CLI::App* command = program.add_subcommand("render", "Render a scene to files");
   command->add_option("scene", options->scene,
                       "A .gltf or .glb file; without one, the built-in atrium");
   command
       ->add_option("--camera", options->camera,
-                   "A camera file: JSON with eye, target, fovy_degrees")
-      ->type_name("FILE");
+                   "A camera file: JSON with eye, target, fovy_degrees; or that JSON itself")
+      ->type_name("FILE|{...}");
   command->add_option("--size", options->size, "Pixels; default: the camera's size, else 1280x720")
       ->type_name("WxH");
   command
@@ -270,7 +251,8 @@ void addRender(CLI::App& program) {
       ->type_name("EFFECT.PARAMETER=VALUE")
       ->allow_extra_args(false);
   command
-      ->add_option("--config", options->config, "Settings: effects and values; --set goes over it")
+      ->add_option("--config", options->config,
+                   "Settings: effects, surface and values; options go over it")
       ->type_name("FILE.toml");
   command
       ->add_option(
@@ -279,9 +261,10 @@ void addRender(CLI::App& program) {
           "effect's output, as .exr or .png; default: color=grisaille.png")
       ->type_name("NAME=FILE")
       ->allow_extra_args(false);
-  command->add_option("--surface", options->surface, "What the light falls on in color")
-      ->check(CLI::IsMember({"white", "base"}))
-      ->capture_default_str();
+  CLI::Option* surface =
+      command->add_option("--surface", options->surface, "What the light falls on in color")
+          ->check(CLI::IsMember({"white", "base"}))
+          ->capture_default_str();
   command->add_option("--frames", options->frames, "How often to render; the last one is written")
       ->check(CLI::Range(1u, 1000000u))
       ->capture_default_str();
@@ -301,8 +284,9 @@ void addRender(CLI::App& program) {
       ->allow_extra_args(false);
   command->add_flag("--check", options->check,
                     "Validate every call, in the layer and in the driver");
-  command->callback([options, effects] {
+  command->callback([options, effects, surface] {
     options->effectsGiven = effects->count() > 0;
+    options->surfaceGiven = surface->count() > 0;
     std::erase(options->effects, "");
     render(*options);
   });

@@ -3,10 +3,17 @@
 
 #include <toml++/toml.h>
 
+#include <algorithm>
+#include <array>
+#include <charconv>
+#include <cmath>
 #include <filesystem>
 #include <fstream>
+#include <sstream>
 
+#include "app/active_effects.h"
 #include "core/error.h"
+#include "core/image/write_aside.h"
 
 namespace grisaille::app {
 namespace {
@@ -15,9 +22,15 @@ std::string placeOf(const std::string& path, const toml::node& node) {
   return fmt::format("{}:{}", path, node.source().begin.line);
 }
 
+// As effect::Values::text() gives it: the shortest that reads back to the same number.
+std::string numberText(double value) {
+  std::array<char, 32> text;
+  return {text.data(), std::to_chars(text.data(), text.data() + text.size(), value).ptr};
+}
+
 std::string textOf(const std::string& path, std::string_view key, const toml::node& node) {
   if (const auto* value = node.as_integer()) return fmt::format("{}", value->get());
-  if (const auto* value = node.as_floating_point()) return fmt::format("{}", value->get());
+  if (const auto* value = node.as_floating_point()) return numberText(value->get());
   if (const auto* value = node.as_boolean()) return value->get() ? "true" : "false";
   if (const auto* value = node.as_string()) return value->get();
   throw Error(ErrorId::kSettingsInvalid, "{}: '{}' is not a number, a boolean or a string",
@@ -42,6 +55,64 @@ std::vector<std::string> effectKeys(const std::string& path, const toml::node& n
   return keys;
 }
 
+std::string surfaceOf(const std::string& path, const toml::node& node) {
+  const toml::value<std::string>* surface = node.as_string();
+  if (surface == nullptr || (surface->get() != "white" && surface->get() != "base")) {
+    throw Error(ErrorId::kSettingsInvalid, "{}: 'surface' is neither \"white\" nor \"base\"",
+                placeOf(path, node));
+  }
+  return surface->get();
+}
+
+std::string quoted(const std::string& text) {
+  std::ostringstream out;
+  out << toml::toml_formatter(toml::value<std::string>(text), toml::format_flags::none);
+  return out.str();
+}
+
+std::string keyToml(const std::string& key) {
+  const auto bare = [](char c) {
+    return (c >= 'a' && c <= 'z') || (c >= 'A' && c <= 'Z') || (c >= '0' && c <= '9') || c == '_' ||
+           c == '-';
+  };
+  return !key.empty() && std::ranges::all_of(key, bare) ? key : quoted(key);
+}
+
+// A number or a boolean where that reads back to the same text, else a string.
+std::string valueToml(const std::string& text) {
+  if (text == "true" || text == "false") return text;
+  double value = 0;
+  const auto [end, status] = std::from_chars(text.data(), text.data() + text.size(), value);
+  const bool whole = status == std::errc() && end == text.data() + text.size();
+  if (!whole || !std::isfinite(value) || numberText(value) != text) return quoted(text);
+  // TOML's whole numbers have 64 bits and no -0.
+  const bool floating = text.find_first_of(".e") != std::string::npos;
+  const bool integer = !floating && std::abs(value) < 9e18 && text != "-0";
+  return floating || integer ? text : text + ".0";
+}
+
+// The values of one effect, each once.
+std::string tableToml(const Settings& settings, const std::string& effect) {
+  if (effect == "effects" || effect == "surface") {
+    throw Error(ErrorId::kSettingsInvalid, "effect '{}' cannot have a table of its own", effect);
+  }
+  std::vector<const Settings::Value*> values;
+  for (const Settings::Value& value : settings.values) {
+    if (value.effect != effect) continue;
+    const auto same = std::ranges::find(values, value.key, &Settings::Value::key);
+    if (same == values.end()) {
+      values.push_back(&value);
+    } else {
+      *same = &value;
+    }
+  }
+  std::string text = fmt::format("\n[{}]\n", keyToml(effect));
+  for (const Settings::Value* value : values) {
+    text += fmt::format("{} = {}\n", keyToml(value->key), valueToml(value->text));
+  }
+  return text;
+}
+
 }  // namespace
 
 Settings readSettings(const std::string& path) {
@@ -61,6 +132,8 @@ Settings readSettings(const std::string& path) {
   for (const auto& [key, node] : table) {
     if (key.str() == "effects") {
       settings.effects = effectKeys(path, node);
+    } else if (key.str() == "surface") {
+      settings.surface = surfaceOf(path, node);
     } else if (const toml::table* values = node.as_table()) {
       for (const auto& [parameter, value] : *values) {
         settings.values.push_back({.effect = std::string(key.str()),
@@ -69,11 +142,45 @@ Settings readSettings(const std::string& path) {
                                    .place = placeOf(path, value)});
       }
     } else {
-      throw Error(ErrorId::kSettingsInvalid, "{}: '{}' is neither 'effects' nor an effect's table",
+      throw Error(ErrorId::kSettingsInvalid,
+                  "{}: '{}' is neither 'effects', 'surface' nor an effect's table",
                   placeOf(path, node), key.str());
     }
   }
   return settings;
+}
+
+std::string settingsToml(const Settings& settings) {
+  std::string text;
+  if (settings.effects) {
+    std::string keys;
+    for (const std::string& key : *settings.effects) {
+      keys += (keys.empty() ? "" : ", ") + quoted(key);
+    }
+    text += fmt::format("effects = [{}]\n", keys);
+  }
+  if (settings.surface) text += fmt::format("surface = {}\n", quoted(*settings.surface));
+  std::vector<std::string> effects;
+  for (const Settings::Value& value : settings.values) {
+    if (std::ranges::find(effects, value.effect) == effects.end()) effects.push_back(value.effect);
+  }
+  for (const std::string& effect : effects) text += tableToml(settings, effect);
+  return text;
+}
+
+void writeSettings(const Settings& settings, const std::string& path) {
+  image::writeFileAside(path, settingsToml(settings));
+}
+
+void applySettings(const Settings& settings, ActiveEffects& active) {
+  for (const Settings::Value& value : settings.values) {
+    try {
+      active.values(value.effect).set(value.key, value.text);
+    } catch (const Error& error) {
+      if (value.place.empty()) throw;
+      throw Error(error.id(), "{}: {}", value.place, error.detail());
+    }
+  }
 }
 
 }  // namespace grisaille::app

@@ -1,8 +1,9 @@
 // SPDX-License-Identifier: MIT
-// Settings files: TOML with `effects`, an array of keys in the order they run, and a table of
-// parameter values for each effect:
+// Settings files: TOML with `effects`, an array of keys in the order they run, `surface`, what the
+// light falls on, and a table of parameter values for each effect:
 //
 //   effects = ["ssao"]
+//   surface = "white"
 //   [ssao]
 //   radius = 0.5
 //   range_check = "linear"
@@ -14,17 +15,34 @@
 
 namespace grisaille::app {
 
+class ActiveEffects;
+
+// What runs where nothing names the effects.
+inline const std::vector<std::string> kDefaultEffects = {"ssao"};
+
 struct Settings {
   struct Value {
     std::string effect, key;
     std::string text;   // as on the command line
-    std::string place;  // "file:line", for messages
+    std::string place;  // "file:line", for messages; "": of no file
   };
   std::optional<std::vector<std::string>> effects;
+  std::optional<std::string> surface;  // "white" or "base"
   std::vector<Value> values;
 };
 
 // Throws kSettingsUnreadable, kSettingsInvalid with the line.
 Settings readSettings(const std::string& path);
+
+// A file that reads back to the same effects, surface and texts, to the last character; of an
+// effect's values of one key the last one. The tables are in the order of the values. Throws
+// kSettingsInvalid for an effect whose key is `effects` or `surface`.
+std::string settingsToml(const Settings& settings);
+
+// Writes the file aside and renames it. Throws kFileUnwritable, and as settingsToml() does.
+void writeSettings(const Settings& settings, const std::string& path);
+
+// Sets the values. Throws as ActiveEffects does, with the place.
+void applySettings(const Settings& settings, ActiveEffects& active);
 
 }  // namespace grisaille::app

@@ -9,8 +9,9 @@
 namespace grisaille::backends {
 namespace {
 
-constexpr Backend kBackends[] = {{"opengl", opengl::listDevices, opengl::createDevice},
-                                 {"vulkan", vulkan::listDevices, vulkan::createDevice}};
+constexpr Backend kBackends[] = {
+    {"opengl", "OpenGL", opengl::listDevices, opengl::createDevice, opengl::hintWindow},
+    {"vulkan", "Vulkan", vulkan::listDevices, vulkan::createDevice, vulkan::hintWindow}};
 
 #ifdef NDEBUG
 constexpr bool kAlwaysCheck = false;

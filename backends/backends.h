@@ -13,10 +13,15 @@
 namespace grisaille::backends {
 
 struct Backend {
-  const char* name;  // "opengl", "vulkan"
+  const char* name;   // "opengl", "vulkan"
+  const char* label;  // "OpenGL", "Vulkan": for titles
   // Both throw kBackendMissing where the driver library is not there.
   std::vector<gpu::ListedDevice> (*list)();
   std::unique_ptr<gpu::Device> (*create)(const gpu::DeviceOptions& options);
+  // Sets all of GLFW's hints to what the window of a device of this backend needs. `check` as in
+  // DeviceOptions. The caller adds its own hints, makes the window and destroys it after the
+  // device.
+  void (*hintWindow)(bool check);
 };
 
 std::span<const Backend> all();

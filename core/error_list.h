@@ -15,6 +15,7 @@ GRISAILLE_ERROR(kOutOfDeviceMemory, 1007, "use a smaller --size or close other p
 GRISAILLE_ERROR(kShaderRefused, 1008,
                 "report it with the driver's name, or try the other --backend")
 GRISAILLE_ERROR(kDriverMessages, 1009, "report them; the program should cause none")
+GRISAILLE_ERROR(kNoWindow, 1010, "make the device with a window")
 // --- 11xx: descriptors
 GRISAILLE_ERROR(kStaleHandle, 1101, "do not use a resource after destroying it")
 GRISAILLE_ERROR(kTooManyResources, 1102, "destroy resources that are no longer used")
@@ -49,6 +50,7 @@ GRISAILLE_ERROR(kReadbackRange, 1217, "read a subresource or range that exists")
 GRISAILLE_ERROR(kLeaked, 1218, "destroy every resource before its device")
 GRISAILLE_ERROR(kUniformSize, 1219, "give 1 to 65536 bytes")
 GRISAILLE_ERROR(kDestroyedInUse, 1220, "destroy before the frame uses it or after submit()")
+GRISAILLE_ERROR(kScissor, 1221, "give a rectangle inside the targets, or none for all of them")
 // --- 21xx: scenes
 GRISAILLE_ERROR(kSceneUnreadable, 2101, "check the path and that the file is a whole glTF 2.0 file")
 GRISAILLE_ERROR(kSceneInvalid, 2102, "repair the file, for example by exporting it again")
@@ -59,6 +61,8 @@ GRISAILLE_ERROR(kSceneImage, 2106, "replace the image by a PNG or JPEG that open
 // --- 22xx: cameras
 GRISAILLE_ERROR(kCameraUnreadable, 2201, "check the path and that the file is JSON")
 GRISAILLE_ERROR(kCameraInvalid, 2202, "write eye, target, fovy_degrees and optionally up and size")
+GRISAILLE_ERROR(kBookmarkName, 2203,
+                "give 1 to 200 bytes without slashes, not beginning with a dot")
 // --- 31xx: plugins
 GRISAILLE_ERROR(kPluginUnloadable, 3101, "give a shared library built for this machine")
 GRISAILLE_ERROR(kPluginSymbol, 3102, "export the data symbol `grisaille_plugin`")
@@ -97,6 +101,11 @@ GRISAILLE_ERROR(kUsage, 5101, "see --help")
 GRISAILLE_ERROR(kOutputUnknown, 5102, "name an output of the frame or of an active effect")
 GRISAILLE_ERROR(kSettingsUnreadable, 5103, "check the path and that the file is TOML")
 GRISAILLE_ERROR(kSettingsInvalid, 5104, "correct the line that the message names")
+GRISAILLE_ERROR(kViewerState, 5105, "nothing needs doing; the viewer starts with its defaults")
+// --- 52xx: the viewer
+GRISAILLE_ERROR(kNoDisplay, 5201, "start it on a desktop, or use `grisaille render`")
+GRISAILLE_ERROR(kWindowFailed, 5202, "update the driver or choose another --backend")
+GRISAILLE_ERROR(kFileUnknown, 5203, "give a .glb, .gltf, .toml, .json or .shots file")
 // --- 90xx: the program itself
 GRISAILLE_ERROR(kUnexpected, 9001, "report it with the command that led here")
 GRISAILLE_ERROR(kOutOfMemory, 9002, "use a smaller --size or scene, or close other programs")

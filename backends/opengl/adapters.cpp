@@ -106,12 +106,8 @@ std::optional<Adapter> probe(EGLDisplay display, ContextKind kind) {
   try {
     Context context(display, kind);
     context.makeCurrent();
-    Adapter adapter;
-    adapter.listed.name = glString(GL_RENDERER);
-    adapter.listed.driver = glString(GL_VENDOR) + ", " + glString(GL_VERSION);
-    adapter.listed.software = isSoftware(adapter.listed.name);
+    Adapter adapter = currentAdapter();
     adapter.display = display;
-    adapter.version = epoxy_gl_version();
     return adapter;
   } catch (const Error&) {
     return std::nullopt;  // a display without OpenGL is no device
@@ -149,7 +145,35 @@ std::string listing(const std::vector<Adapter>& found) {
   return text;
 }
 
+// What `wanted` is as a number.
+std::optional<size_t> numberOf(std::string_view wanted) {
+  size_t number = 0;
+  const char* end = wanted.data() + wanted.size();
+  const auto [stop, error] = std::from_chars(wanted.data(), end, number);
+  if (stop != end) return std::nullopt;
+  return error == std::errc() ? number : SIZE_MAX;
+}
+
 }  // namespace
+
+Adapter currentAdapter() {
+  Adapter adapter;
+  adapter.listed.name = glString(GL_RENDERER);
+  adapter.listed.driver = glString(GL_VENDOR) + ", " + glString(GL_VERSION);
+  adapter.listed.software = isSoftware(adapter.listed.name);
+  adapter.version = epoxy_gl_version();
+  return adapter;
+}
+
+void requireAdapter(const gpu::ListedDevice& there, std::string_view wanted) {
+  if (wanted.empty()) return;
+  const bool fits = numberOf(wanted)
+                        ? chooseAdapter(wanted).listed.name == there.name
+                        : lowered(there.name).find(lowered(wanted)) != std::string::npos;
+  if (fits) return;
+  throw Error(ErrorId::kNoDevice, "OpenGL draws in the window with '{}', not with '{}'", there.name,
+              wanted);
+}
 
 const std::vector<Adapter>& adapters() {
   static const std::vector<Adapter> found = probeAll();
@@ -165,11 +189,9 @@ const Adapter& chooseAdapter(std::string_view wanted) {
     return *std::max_element(found.begin(), found.end(),
                              [](const Adapter& a, const Adapter& b) { return rank(a) < rank(b); });
   }
-  size_t number = 0;
-  const char* end = wanted.data() + wanted.size();
-  const auto [stop, error] = std::from_chars(wanted.data(), end, number);
-  if (error == std::errc() && stop == end && number < found.size()) return found[number];
-  if (stop != end) {
+  if (const std::optional<size_t> number = numberOf(wanted)) {
+    if (*number < found.size()) return found[*number];
+  } else {
     const std::string part = lowered(wanted);
     for (const Adapter& adapter : found) {
       if (lowered(adapter.listed.name).find(part) != std::string::npos) return adapter;

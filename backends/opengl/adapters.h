@@ -22,4 +22,10 @@ const std::vector<Adapter>& adapters();
 // either case. Throws kBackendMissing, kNoDevice.
 const Adapter& chooseAdapter(std::string_view wanted);
 
+// The current context's device, which has no display here.
+Adapter currentAdapter();
+
+// Throws kNoDevice when `there`, a window's device, is not the wanted one, as above.
+void requireAdapter(const gpu::ListedDevice& there, std::string_view wanted);
+
 }  // namespace grisaille::opengl

@@ -43,6 +43,30 @@ void setCull(gpu::Cull cull) {
   glCullFace(cull == gpu::Cull::kBack ? GL_BACK : GL_FRONT);
 }
 
+void setBlend(gpu::Blend blend) {
+  (blend == gpu::Blend::kNone ? glDisable : glEnable)(GL_BLEND);
+}
+
+// In force while it lives, so that clears and copies see none. OpenGL counts rows from the first
+// one of the framebuffer, which is the top.
+class ScissorGuard {
+ public:
+  explicit ScissorGuard(const gpu::Scissor& scissor) : on_(scissor.width != 0) {
+    if (!on_) return;
+    glEnable(GL_SCISSOR_TEST);
+    glScissor(static_cast<GLint>(scissor.x), static_cast<GLint>(scissor.y),
+              static_cast<GLsizei>(scissor.width), static_cast<GLsizei>(scissor.height));
+  }
+  ~ScissorGuard() {
+    if (on_) glDisable(GL_SCISSOR_TEST);
+  }
+  ScissorGuard(const ScissorGuard&) = delete;
+  ScissorGuard& operator=(const ScissorGuard&) = delete;
+
+ private:
+  bool on_;
+};
+
 }  // namespace
 
 GlCommands::GlCommands(Context& context, Resources& resources, PassTimer& timer,
@@ -156,6 +180,8 @@ void GlCommands::draw(const gpu::Draw& draw) {
   glUseProgram(pipeline.program.name());
   glBindVertexArray(vertexArray);
   setCull(draw.cull);
+  setBlend(pipeline.blend);
+  const ScissorGuard scissor(draw.scissor);
   const auto count = static_cast<GLsizei>(draw.count);
   if (!draw.indices.buffer) {
     glDrawArrays(GL_TRIANGLES, static_cast<GLint>(draw.first), count);

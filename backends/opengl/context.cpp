@@ -3,6 +3,11 @@
 
 #include <epoxy/egl.h>
 
+#define GLFW_EXPOSE_NATIVE_EGL
+#define GLFW_INCLUDE_NONE
+#include <GLFW/glfw3.h>
+#include <GLFW/glfw3native.h>
+
 #include <vector>
 
 #include "core/error.h"
@@ -30,7 +35,7 @@ EGLContext createContext(EGLDisplay display, ContextKind kind, bool resetNotific
 
 }  // namespace
 
-Context::Context(void* display, ContextKind kind) : display_(display), context_(nullptr) {
+Context::Context(void* display, ContextKind kind) : display_(display) {
   for (const char* needed :
        {"EGL_KHR_create_context", "EGL_KHR_no_config_context", "EGL_KHR_surfaceless_context"}) {
     if (!epoxy_has_egl_extension(display, needed)) {
@@ -50,21 +55,42 @@ Context::Context(void* display, ContextKind kind) : display_(display), context_(
   }
 }
 
+Context::Context(GLFWwindow* window)
+    : display_(glfwGetEGLDisplay()),
+      context_(glfwGetEGLContext(window)),
+      surface_(glfwGetEGLSurface(window)) {
+  if (display_ == EGL_NO_DISPLAY || context_ == EGL_NO_CONTEXT || surface_ == EGL_NO_SURFACE) {
+    throw Error(ErrorId::kDeviceFailed, "the window has no OpenGL context of EGL");
+  }
+  // Not by EGL alone, since GLFW has to know it for the swap interval.
+  glfwMakeContextCurrent(window);
+  makeCurrent();
+  glfwSwapInterval(1);
+}
+
 Context::~Context() {
   if (eglGetCurrentContext() == context_) {
     eglMakeCurrent(display_, EGL_NO_SURFACE, EGL_NO_SURFACE, EGL_NO_CONTEXT);
   }
+  if (surface_ != nullptr) return;  // the window's owner destroys it
   eglDestroyContext(display_, context_);
 }
 
 void Context::makeCurrent() {
   if (eglGetCurrentContext() == context_) return;
   eglBindAPI(EGL_OPENGL_API);
-  if (eglMakeCurrent(display_, EGL_NO_SURFACE, EGL_NO_SURFACE, context_)) return;
+  if (eglMakeCurrent(display_, surface_, surface_, context_)) return;
   const EGLint error = eglGetError();
   throw Error(
       ErrorId::kDeviceFailed, "EGL cannot make the context current on this thread: {}",
       error == EGL_BAD_ACCESS ? "another thread uses it" : fmt::format("error {:#x}", error));
+}
+
+bool Context::swap() {
+  if (eglSwapBuffers(display_, surface_)) return true;
+  const EGLint error = eglGetError();
+  if (error != EGL_CONTEXT_LOST) return false;
+  throw Error(ErrorId::kDeviceLost, "EGL lost the window's context");
 }
 
 CurrentContextGuard::CurrentContextGuard()

@@ -1,7 +1,9 @@
 // SPDX-License-Identifier: MIT
-// An OpenGL context of EGL without a window. No header of this folder sees an API header: EGL's
-// handles are pointers and OpenGL's names 32-bit numbers.
+// An OpenGL context of EGL, without a window or a window's own. No header of this folder sees an
+// API header: EGL's handles are pointers and OpenGL's names 32-bit numbers.
 #pragma once
+
+struct GLFWwindow;
 
 namespace grisaille::opengl {
 
@@ -15,6 +17,8 @@ class Context {
  public:
   // Throws kDeviceFailed. `display` is an initialised EGLDisplay.
   Context(void* display, ContextKind kind);
+  // Borrows the window's own, of EGL, and makes it current. Throws kDeviceFailed.
+  explicit Context(GLFWwindow* window);
   ~Context();
   Context(const Context&) = delete;
   Context& operator=(const Context&) = delete;
@@ -23,9 +27,14 @@ class Context {
   // holds it.
   void makeCurrent();
 
+  // Shows what is drawn in the window. Waits for the display when it is a picture ahead. False: the
+  // window refuses. Throws kDeviceLost.
+  bool swap();
+
  private:
   void* display_;
-  void* context_;
+  void* context_ = nullptr;
+  void* surface_ = nullptr;  // null: no window
 };
 
 // Puts the calling thread's current context back.

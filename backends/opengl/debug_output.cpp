@@ -43,6 +43,11 @@ void startDebugOutput(const gpu::MessageSink& sink, bool check) {
   glEnable(GL_DEBUG_OUTPUT_SYNCHRONOUS);  // on the thread that made the call
 }
 
+void stopDebugOutput() {
+  glDisable(GL_DEBUG_OUTPUT);
+  glDebugMessageCallback(nullptr, nullptr);
+}
+
 QuietDebugOutput::QuietDebugOutput() : wasOn_(glIsEnabled(GL_DEBUG_OUTPUT) == GL_TRUE) {
   if (wasOn_) glDisable(GL_DEBUG_OUTPUT);
 }

@@ -10,6 +10,9 @@ namespace grisaille::opengl {
 // when `check`, else errors alone. The sink must outlive the context.
 void startDebugOutput(const gpu::MessageSink& sink, bool check);
 
+// Takes the sink out of the current context.
+void stopDebugOutput();
+
 // Mutes the messages of calls whose failure is thrown as an Error.
 class QuietDebugOutput {
  public:

@@ -13,6 +13,7 @@
 #include "backends/opengl/opengl.h"
 #include "backends/opengl/pipelines.h"
 #include "backends/opengl/readback.h"
+#include "backends/opengl/window.h"
 #include "core/error.h"
 
 namespace grisaille::opengl {
@@ -22,6 +23,7 @@ namespace {
 void setFixedState() {
   glClipControl(GL_UPPER_LEFT, GL_ZERO_TO_ONE);  // y up, row 0 on top, depth from 0
   glDepthFunc(GL_GREATER);
+  glBlendFuncSeparate(GL_SRC_ALPHA, GL_ONE_MINUS_SRC_ALPHA, GL_ONE, GL_ONE_MINUS_SRC_ALPHA);
   glEnable(GL_FRAMEBUFFER_SRGB);  // of sRGB formats alone
   glPixelStorei(GL_PACK_ALIGNMENT, 1);
   glPixelStorei(GL_UNPACK_ALIGNMENT, 1);
@@ -32,9 +34,16 @@ gpu::MessageSink orStandardError(const gpu::MessageSink& sink) {
   return [](gpu::Severity, std::string_view line) { fmt::print(stderr, "opengl: {}\n", line); };
 }
 
+void requireVersion(const Adapter& adapter) {
+  if (adapter.version >= 45) return;
+  throw Error(ErrorId::kDeviceTooOld, "{} has OpenGL {}.{}, and 4.5 is needed", adapter.listed.name,
+              adapter.version / 10, adapter.version % 10);
+}
+
 class GlDevice final : public gpu::Device {
  public:
   GlDevice(const Adapter& adapter, const gpu::DeviceOptions& options);
+  explicit GlDevice(const gpu::DeviceOptions& options);  // of options.window
   ~GlDevice() override;
 
   const gpu::DeviceInfo& info() const override { return info_; }
@@ -56,6 +65,7 @@ class GlDevice final : public gpu::Device {
   void wait() override;
   std::vector<std::byte> read(gpu::Texture texture, uint32_t mip, uint32_t layer) override;
   std::vector<std::byte> read(gpu::BufferRange range) override;
+  bool present(gpu::Texture texture) override;
   std::vector<gpu::FrameTimes> takeTimes() override;
 
  private:
@@ -68,6 +78,7 @@ class GlDevice final : public gpu::Device {
     GlCommands commands;
   };
 
+  void start(const gpu::ListedDevice& device, const gpu::DeviceOptions& options);
   uint32_t slot() const { return static_cast<uint32_t>(frame_ % kFramesInFlight); }
   void endFrame();
   void waitForFence(GLsync& fence);
@@ -77,6 +88,7 @@ class GlDevice final : public gpu::Device {
   gpu::MessageSink sink_;
   bool check_;
   Context context_;
+  std::optional<Window> window_;
   gpu::DeviceInfo info_;
   std::optional<Contents> contents_;
   std::array<GLsync, kFramesInFlight> fences_ = {};
@@ -89,8 +101,24 @@ GlDevice::GlDevice(const Adapter& adapter, const gpu::DeviceOptions& options)
       check_(options.check),
       context_(adapter.display, options.check ? ContextKind::kDebug : ContextKind::kCore) {
   context_.makeCurrent();
+  start(adapter.listed, options);
+}
+
+GlDevice::GlDevice(const gpu::DeviceOptions& options)
+    : sink_(orStandardError(options.message)),
+      check_(options.check),
+      context_(options.window),
+      window_(options.window) {
+  const Adapter adapter = currentAdapter();
+  requireVersion(adapter);
+  requireAdapter(adapter.listed, options.device);
+  start(adapter.listed, options);
+}
+
+// The context is current.
+void GlDevice::start(const gpu::ListedDevice& device, const gpu::DeviceOptions& options) {
   startDebugOutput(sink_, options.check);
-  info_ = readInfo(adapter.listed);
+  info_ = readInfo(device);
   setFixedState();
   contents_.emplace(context_, info_, options.timed ? info_.clock : gpu::Clock::kNone);
 }
@@ -106,6 +134,7 @@ GlDevice::~GlDevice() {
   glFinish();
   for (const GLsync fence : fences_) glDeleteSync(fence);  // ignores none
   contents_.reset();
+  if (window_) stopDebugOutput();  // the window's context outlives the sink
 }
 
 gpu::Buffer GlDevice::createBuffer(const gpu::BufferDesc& desc) {
@@ -218,6 +247,17 @@ std::vector<std::byte> GlDevice::read(gpu::BufferRange range) {
   return bytes;
 }
 
+bool GlDevice::present(gpu::Texture texture) {
+  if (!window_) {
+    throw Error(ErrorId::kNoWindow, "OpenGL has no window to show a picture in");
+  }
+  context_.makeCurrent();
+  const bool shown = window_->show(context_, contents_->resources, texture);
+  throwIfLost();
+  reportErrors();
+  return shown;
+}
+
 std::vector<gpu::FrameTimes> GlDevice::takeTimes() {
   context_.makeCurrent();
   return contents_->timer.take();
@@ -265,11 +305,9 @@ std::vector<gpu::ListedDevice> listDevices() {
 }
 
 std::unique_ptr<gpu::Device> createDevice(const gpu::DeviceOptions& options) {
+  if (options.window != nullptr) return std::make_unique<GlDevice>(options);
   const Adapter& adapter = chooseAdapter(options.device);
-  if (adapter.version < 45) {
-    throw Error(ErrorId::kDeviceTooOld, "{} has OpenGL {}.{}, and 4.5 is needed",
-                adapter.listed.name, adapter.version / 10, adapter.version % 10);
-  }
+  requireVersion(adapter);
   return std::make_unique<GlDevice>(adapter, options);
 }
 

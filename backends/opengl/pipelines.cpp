@@ -97,9 +97,11 @@ Object buildVertexArray(const gpu::GraphicsPipelineDesc& desc) {
   Object object(ObjectKind::kVertexArray);
   const GLuint name = object.name();
   for (const gpu::VertexAttribute& attribute : desc.attributes) {
-    const auto components = static_cast<GLint>(gpu::attributeBytes(attribute.format) / 4);
+    const auto components = static_cast<GLint>(gpu::attributeComponents(attribute.format));
+    const bool bytes = attribute.format == gpu::AttributeFormat::kUnorm8x4;
     glEnableVertexArrayAttrib(name, attribute.location);
-    glVertexArrayAttribFormat(name, attribute.location, components, GL_FLOAT, GL_FALSE,
+    glVertexArrayAttribFormat(name, attribute.location, components,
+                              bytes ? GL_UNSIGNED_BYTE : GL_FLOAT, bytes ? GL_TRUE : GL_FALSE,
                               attribute.offset);
     glVertexArrayAttribBinding(name, attribute.location, attribute.stream);
   }
@@ -124,7 +126,8 @@ GraphicsPipelineResource buildGraphics(const gpu::GraphicsPipelineDesc& desc) {
       .vertexArray = {},
       .vertex = desc.vertex,
       .fragment = desc.fragment,
-      .strides = {desc.streamStrides.begin(), desc.streamStrides.end()}};
+      .strides = {desc.streamStrides.begin(), desc.streamStrides.end()},
+      .blend = desc.blend};
   const GLuint program = pipeline.program.name();
   attachStage(program, desc.vertex, GL_VERTEX_SHADER, desc.label, desc.constants);
   if (desc.fragment != nullptr) {

@@ -47,10 +47,9 @@ uint64_t bytesOf(const gpu::TextureDesc& desc) {
 // What a shader's writes must become visible to: every use that the texture may be put to, since a
 // later read of another kind will find the state read already and ask for no barrier.
 GLbitfield textureBits(gpu::TextureUsage usage) {
-  GLbitfield bits = GL_TEXTURE_UPDATE_BARRIER_BIT;
+  GLbitfield bits = GL_TEXTURE_UPDATE_BARRIER_BIT | GL_FRAMEBUFFER_BARRIER_BIT;  // for windows too
   if (has(usage, gpu::TextureUsage::kSampled)) bits |= GL_TEXTURE_FETCH_BARRIER_BIT;
   if (has(usage, gpu::TextureUsage::kStorage)) bits |= GL_SHADER_IMAGE_ACCESS_BARRIER_BIT;
-  if (has(usage, gpu::TextureUsage::kTarget)) bits |= GL_FRAMEBUFFER_BARRIER_BIT;
   return bits;
 }
 

@@ -48,6 +48,7 @@ struct GraphicsPipelineResource {
   const gpu::Shader* vertex = nullptr;
   const gpu::Shader* fragment = nullptr;
   std::vector<uint32_t> strides;
+  gpu::Blend blend = gpu::Blend::kNone;
 };
 
 // One attachment, or none: texture name 0.

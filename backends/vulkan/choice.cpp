@@ -15,7 +15,25 @@ std::string versionName(uint32_t version) {
                      VK_API_VERSION_PATCH(version));
 }
 
-bool findQueue(Candidate& candidate) {
+bool shows(const Instance& instance, VkPhysicalDevice device, uint32_t family,
+           VkSurfaceKHR surface) {
+  if (surface == VK_NULL_HANDLE) return true;
+  VkBool32 can = VK_FALSE;
+  return instance.surface().support(device, family, surface, &can) == VK_SUCCESS && can == VK_TRUE;
+}
+
+bool hasSwapchains(VkPhysicalDevice device) {
+  uint32_t count = 0;
+  vkEnumerateDeviceExtensionProperties(device, nullptr, &count, nullptr);
+  std::vector<VkExtensionProperties> list(count);
+  vkEnumerateDeviceExtensionProperties(device, nullptr, &count, list.data());
+  return std::any_of(list.begin(), list.end(), [](const VkExtensionProperties& one) {
+    return std::string_view(one.extensionName) == VK_KHR_SWAPCHAIN_EXTENSION_NAME;
+  });
+}
+
+// Of those that draw and compute, and show pictures on the surface if there is one.
+bool findQueue(const Instance& instance, VkSurfaceKHR surface, Candidate& candidate) {
   uint32_t count = 0;
   vkGetPhysicalDeviceQueueFamilyProperties(candidate.device, &count, nullptr);
   std::vector<VkQueueFamilyProperties> families(count);
@@ -23,6 +41,7 @@ bool findQueue(Candidate& candidate) {
   constexpr VkQueueFlags kNeeded = VK_QUEUE_GRAPHICS_BIT | VK_QUEUE_COMPUTE_BIT;
   for (uint32_t i = 0; i < count; ++i) {
     if ((families[i].queueFlags & kNeeded) != kNeeded) continue;
+    if (!shows(instance, candidate.device, i, surface)) continue;
     candidate.queueFamily = i;
     candidate.timestampBits = families[i].timestampValidBits;
     return true;
@@ -36,6 +55,7 @@ VkFormatFeatureFlags neededOf(const gpu::FormatInfo& info, Format format) {
                                 VK_FORMAT_FEATURE_TRANSFER_DST_BIT;
   needed |= info.depth ? VK_FORMAT_FEATURE_DEPTH_STENCIL_ATTACHMENT_BIT
                        : VK_FORMAT_FEATURE_COLOR_ATTACHMENT_BIT;
+  if (info.blends) needed |= VK_FORMAT_FEATURE_COLOR_ATTACHMENT_BLEND_BIT;
   if (info.storage) needed |= VK_FORMAT_FEATURE_STORAGE_IMAGE_BIT;
   if (!info.depth && format != Format::kR32Uint) {
     needed |= VK_FORMAT_FEATURE_SAMPLED_IMAGE_FILTER_LINEAR_BIT;
@@ -58,7 +78,7 @@ std::string lackingFormat(VkPhysicalDevice device) {
   return "";
 }
 
-Candidate candidateOf(VkPhysicalDevice device) {
+Candidate candidateOf(const Instance& instance, VkPhysicalDevice device, VkSurfaceKHR surface) {
   Candidate candidate;
   candidate.device = device;
   VkPhysicalDeviceProperties old{};
@@ -81,8 +101,13 @@ Candidate candidateOf(VkPhysicalDevice device) {
   if (candidate.lacks.empty() && old.limits.maxUniformBufferRange < 65536) {
     candidate.lacks = "uniform ranges of 65536 bytes";
   }
-  if (candidate.lacks.empty() && !findQueue(candidate)) {
-    candidate.lacks = "a queue that draws and computes";
+  if (candidate.lacks.empty() && surface != VK_NULL_HANDLE && !hasSwapchains(device)) {
+    candidate.lacks = "swapchains, which show pictures in a window";
+  }
+  if (candidate.lacks.empty() && !findQueue(instance, surface, candidate)) {
+    candidate.lacks = surface == VK_NULL_HANDLE
+                          ? "a queue that draws and computes"
+                          : "a queue that draws, computes and shows pictures in the window";
   }
   if (candidate.lacks.empty()) candidate.lacks = lackingFormat(device);
   return candidate;
@@ -131,9 +156,11 @@ const Candidate* find(const std::vector<Candidate>& candidates, const std::strin
 
 }  // namespace
 
-std::vector<Candidate> candidates(const Instance& instance) {
+std::vector<Candidate> candidates(const Instance& instance, VkSurfaceKHR surface) {
   std::vector<Candidate> list;
-  for (const VkPhysicalDevice device : instance.devices()) list.push_back(candidateOf(device));
+  for (const VkPhysicalDevice device : instance.devices()) {
+    list.push_back(candidateOf(instance, device, surface));
+  }
   return list;
 }
 

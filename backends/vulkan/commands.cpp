@@ -32,6 +32,12 @@ VkCullModeFlags cullMode(gpu::Cull cull) {
   }
 }
 
+VkRect2D scissorOf(const gpu::Scissor& scissor, VkExtent2D whole) {
+  if (scissor.width == 0) return {{0, 0}, whole};
+  return {{static_cast<int32_t>(scissor.x), static_cast<int32_t>(scissor.y)},
+          {scissor.width, scissor.height}};
+}
+
 VkClearColorValue clearColor(const std::array<float, 4>& clear, gpu::Format format) {
   VkClearColorValue value{};
   for (size_t i = 0; i < clear.size(); ++i) {
@@ -198,7 +204,7 @@ void Recorder::render(const gpu::Render& render) {
   declareRender(render, general);
   resources_.recordBarriers(commands());
   beginRendering(targets);
-  drawAll(render, sets);
+  drawAll(render, targets, sets);
   context_.vk.vkCmdEndRendering(commands());
   pending_ = true;
 }
@@ -217,7 +223,6 @@ void Recorder::beginRendering(const Targets& targets) {
   const float height = static_cast<float>(targets.extent.height);
   const VkViewport viewport{0, height, width, -height, 0, 1};
   vk.vkCmdSetViewport(commands(), 0, 1, &viewport);
-  vk.vkCmdSetScissor(commands(), 0, 1, &info.renderArea);
 }
 
 void Recorder::bindVertices(const gpu::Draw& draw) {
@@ -234,7 +239,8 @@ void Recorder::bindVertices(const gpu::Draw& draw) {
   }
 }
 
-void Recorder::drawAll(const gpu::Render& render, std::span<const VkDescriptorSet> sets) {
+void Recorder::drawAll(const gpu::Render& render, const Targets& targets,
+                       std::span<const VkDescriptorSet> sets) {
   const VolkDeviceTable& vk = context_.vk;
   for (size_t i = 0; i < render.draws.size(); ++i) {
     const gpu::Draw& draw = render.draws[i];
@@ -245,6 +251,8 @@ void Recorder::drawAll(const gpu::Render& render, std::span<const VkDescriptorSe
     vk.vkCmdBindDescriptorSets(commands(), VK_PIPELINE_BIND_POINT_GRAPHICS, pipeline.layout, 0, 1,
                                &sets[i], 0, nullptr);
     vk.vkCmdSetCullMode(commands(), cullMode(draw.cull));
+    const VkRect2D scissor = scissorOf(draw.scissor, targets.extent);
+    vk.vkCmdSetScissor(commands(), 0, 1, &scissor);
     bindVertices(draw);
     if (draw.indices.buffer) {
       vk.vkCmdBindIndexBuffer(commands(), resources_.get(draw.indices.buffer).buffer,

@@ -47,7 +47,8 @@ class Recorder : public gpu::Commands {
   void declareRender(const gpu::Render& render, std::span<const gpu::Texture> general);
   void beginRendering(const Targets& targets);
   void bindVertices(const gpu::Draw& draw);
-  void drawAll(const gpu::Render& render, std::span<const VkDescriptorSet> sets);
+  void drawAll(const gpu::Render& render, const Targets& targets,
+               std::span<const VkDescriptorSet> sets);
 
   Context& context_;
   Resources& resources_;

@@ -7,10 +7,16 @@
 
 namespace grisaille::vulkan {
 
-Context::Context(bool check, const gpu::MessageSink& message) : instance_(check, message) {}
+Context::Context(bool check, const gpu::MessageSink& message, GLFWwindow* window)
+    : instance_(check, message,
+                window == nullptr ? std::span<const char* const>() : surfaceExtensions()) {
+  if (window != nullptr) surface_.emplace(instance_, window);
+}
 
-Context::Context(const gpu::DeviceOptions& options) : Context(options.check, options.message) {
-  const std::vector<Candidate> list = candidates(instance_);
+Context::Context(const gpu::DeviceOptions& options)
+    : Context(options.check, options.message, options.window) {
+  const std::vector<Candidate> list =
+      candidates(instance_, surface_ ? surface_->handle() : VK_NULL_HANDLE);
   const Candidate& chosen = choose(list, options.device);
   open(chosen);
   describe(chosen);
@@ -34,6 +40,9 @@ void Context::open(const Candidate& chosen) {
   VkDeviceCreateInfo create{VK_STRUCTURE_TYPE_DEVICE_CREATE_INFO, &features.v10};
   create.queueCreateInfoCount = 1;
   create.pQueueCreateInfos = &queues;
+  const char* const extensions[] = {VK_KHR_SWAPCHAIN_EXTENSION_NAME};
+  create.enabledExtensionCount = surface_ ? 1 : 0;
+  create.ppEnabledExtensionNames = extensions;
   check(vkCreateDevice(physical, &create, nullptr, &device), "vkCreateDevice");
   volkLoadDeviceTable(&vk, device);
   vk.vkGetDeviceQueue(device, queueFamily, 0, &queue);

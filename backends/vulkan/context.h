@@ -3,10 +3,12 @@
 // reference to the one Context.
 #pragma once
 
+#include <optional>
 #include <string>
 #include <string_view>
 
 #include "backends/vulkan/instance.h"
+#include "backends/vulkan/surface.h"
 
 namespace grisaille::vulkan {
 
@@ -37,6 +39,9 @@ class Context {
   }
   const DebugFunctions& debug() const { return instance_.debug(); }
 
+  // Null without a window.
+  Surface* surface() { return surface_ ? &*surface_ : nullptr; }
+
   VolkDeviceTable vk{};
   VkDevice device = VK_NULL_HANDLE;
   VkPhysicalDevice physical = VK_NULL_HANDLE;
@@ -47,12 +52,14 @@ class Context {
   gpu::DeviceInfo info;
 
  private:
-  Context(bool check, const gpu::MessageSink& message);
+  // Delegated to, so that the destructor runs when the public constructor throws.
+  Context(bool check, const gpu::MessageSink& message, GLFWwindow* window);
   void open(const Candidate& chosen);
   void describe(const Candidate& chosen);
   void setName(VkObjectType type, uint64_t object, std::string_view label) const;
 
   Instance instance_;
+  std::optional<Surface> surface_;
   VkPhysicalDeviceMemoryProperties memory_{};
   uint64_t maxAllocationBytes_ = 0;
   uint32_t allocations_ = 0;

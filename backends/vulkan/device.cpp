@@ -5,6 +5,7 @@
 
 #include "backends/vulkan/commands.h"
 #include "backends/vulkan/pipeline_cache.h"
+#include "backends/vulkan/swapchain.h"
 #include "backends/vulkan/vulkan.h"
 
 namespace grisaille::vulkan {
@@ -22,7 +23,9 @@ class VulkanDevice : public gpu::Device {
         readback_(context_),
         frames_{Frame(context_, resources_, clockOf(options)),
                 Frame(context_, resources_, clockOf(options))},
-        recorder_(context_, resources_, timeline_) {}
+        recorder_(context_, resources_, timeline_) {
+    if (context_.surface() != nullptr) swapchain_.emplace(context_, resources_, timeline_);
+  }
 
   // The device is idle before anything is released. A lost device is, too.
   ~VulkanDevice() override {
@@ -58,6 +61,11 @@ class VulkanDevice : public gpu::Device {
   std::vector<std::byte> read(gpu::Texture texture, uint32_t mip, uint32_t layer) override;
   std::vector<std::byte> read(gpu::BufferRange range) override;
 
+  bool present(gpu::Texture texture) override {
+    if (swapchain_) return swapchain_->show(texture);
+    throw Error(ErrorId::kNoWindow, "Vulkan has no window to show a picture in");
+  }
+
   std::vector<gpu::FrameTimes> takeTimes() override;
 
  private:
@@ -85,7 +93,8 @@ class VulkanDevice : public gpu::Device {
   BufferObject readbackMemory_;
   std::array<Frame, kFramesInFlight> frames_;
   Recorder recorder_;
-  uint64_t begun_ = 0;  // frames
+  std::optional<Swapchain> swapchain_;  // none without a window
+  uint64_t begun_ = 0;                  // frames
   std::vector<gpu::FrameTimes> times_;
 };
 

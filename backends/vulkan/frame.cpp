@@ -29,9 +29,9 @@ void CommandBuffer::begin() {
   check(context_.vk.vkBeginCommandBuffer(commands_, &info), "vkBeginCommandBuffer");
 }
 
-uint64_t CommandBuffer::submit(Timeline& timeline) {
+uint64_t CommandBuffer::submit(Timeline& timeline, const ImageSemaphores& image) {
   check(context_.vk.vkEndCommandBuffer(commands_), "vkEndCommandBuffer");
-  return timeline.submit(commands_);
+  return timeline.submit(commands_, image);
 }
 
 }  // namespace grisaille::vulkan

@@ -19,7 +19,7 @@ class CommandBuffer {
 
   // Drops what was recorded; the device has finished with it.
   void begin();
-  uint64_t submit(Timeline& timeline);
+  uint64_t submit(Timeline& timeline, const ImageSemaphores& image = {});
 
   VkCommandBuffer handle() const { return commands_; }
 

@@ -84,27 +84,36 @@ void printMessage(gpu::Severity severity, std::string_view text) {
 Instance::Instance(gpu::MessageSink message)
     : message_(message ? std::move(message) : printMessage) {}
 
-Instance::Instance(bool check, gpu::MessageSink message) : Instance(std::move(message)) {
+Instance::Instance(bool check, gpu::MessageSink message, std::span<const char* const> extensions)
+    : Instance(std::move(message)) {
   loadLibrary();
   const bool debugUtils = hasExtension(nullptr, VK_EXT_DEBUG_UTILS_EXTENSION_NAME);
   const bool validate = check && debugUtils && hasLayer(kLayer);
   if (check && !validate) {
     message_(gpu::Severity::kInfo, "the Vulkan validation layer is not installed");
   }
-  create(debugUtils, validate);
+  create(debugUtils, validate, extensions);
+  load(debugUtils);
+  if (validate) createMessenger();
+}
+
+void Instance::load(bool debugUtils) {
   // The loader's own entry points serve every instance, so volk's globals are set once.
   static std::once_flag once;
   std::call_once(once, [this] { volkLoadInstanceOnly(instance_); });
+  const auto find = [this](auto& function, const char* name) {
+    function =
+        reinterpret_cast<std::decay_t<decltype(function)>>(vkGetInstanceProcAddr(instance_, name));
+  };
   if (debugUtils) {
-    const auto load = [this](const char* name) { return vkGetInstanceProcAddr(instance_, name); };
-    debug_.setName =
-        reinterpret_cast<PFN_vkSetDebugUtilsObjectNameEXT>(load("vkSetDebugUtilsObjectNameEXT"));
-    debug_.beginLabel =
-        reinterpret_cast<PFN_vkCmdBeginDebugUtilsLabelEXT>(load("vkCmdBeginDebugUtilsLabelEXT"));
-    debug_.endLabel =
-        reinterpret_cast<PFN_vkCmdEndDebugUtilsLabelEXT>(load("vkCmdEndDebugUtilsLabelEXT"));
+    find(debug_.setName, "vkSetDebugUtilsObjectNameEXT");
+    find(debug_.beginLabel, "vkCmdBeginDebugUtilsLabelEXT");
+    find(debug_.endLabel, "vkCmdEndDebugUtilsLabelEXT");
   }
-  if (validate) createMessenger();
+  find(surface_.destroy, "vkDestroySurfaceKHR");
+  find(surface_.support, "vkGetPhysicalDeviceSurfaceSupportKHR");
+  find(surface_.capabilities, "vkGetPhysicalDeviceSurfaceCapabilitiesKHR");
+  find(surface_.formats, "vkGetPhysicalDeviceSurfaceFormatsKHR");
 }
 
 Instance::~Instance() {
@@ -112,13 +121,13 @@ Instance::~Instance() {
   if (instance_ != VK_NULL_HANDLE) vkDestroyInstance(instance_, nullptr);
 }
 
-void Instance::create(bool debugUtils, bool validate) {
+void Instance::create(bool debugUtils, bool validate, std::span<const char* const> others) {
   VkApplicationInfo application{VK_STRUCTURE_TYPE_APPLICATION_INFO};
   application.pApplicationName = "grisaille";
   application.apiVersion = VK_API_VERSION_1_3;
   VkInstanceCreateInfo info{VK_STRUCTURE_TYPE_INSTANCE_CREATE_INFO};
   info.pApplicationInfo = &application;
-  std::vector<const char*> extensions;
+  std::vector<const char*> extensions(others.begin(), others.end());
   if (debugUtils) extensions.push_back(VK_EXT_DEBUG_UTILS_EXTENSION_NAME);
 
   VkDebugUtilsMessengerCreateInfoEXT messenger = messengerInfo(message_);

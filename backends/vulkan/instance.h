@@ -2,6 +2,7 @@
 // The Vulkan loader, an instance, its messages, and the choice of a physical device.
 #pragma once
 
+#include <span>
 #include <string>
 #include <vector>
 
@@ -17,16 +18,27 @@ struct DebugFunctions {
   PFN_vkCmdEndDebugUtilsLabelEXT endLabel = nullptr;
 };
 
+// VK_KHR_surface; null unless it is one of the instance's extensions. Not volk's globals, which are
+// of the process's first instance.
+struct SurfaceFunctions {
+  PFN_vkDestroySurfaceKHR destroy = nullptr;
+  PFN_vkGetPhysicalDeviceSurfaceSupportKHR support = nullptr;
+  PFN_vkGetPhysicalDeviceSurfaceCapabilitiesKHR capabilities = nullptr;
+  PFN_vkGetPhysicalDeviceSurfaceFormatsKHR formats = nullptr;
+};
+
 class Instance {
  public:
-  // With `check`, the validation layer's messages go to `message`. Throws kBackendMissing,
-  // kDeviceTooOld.
-  Instance(bool check, gpu::MessageSink message);
+  // With `check`, the validation layer's messages go to `message`. `extensions` are enabled besides
+  // the instance's own. Throws kBackendMissing, kDeviceTooOld.
+  Instance(bool check, gpu::MessageSink message, std::span<const char* const> extensions = {});
   ~Instance();
   Instance(const Instance&) = delete;
   Instance& operator=(const Instance&) = delete;
 
+  VkInstance handle() const { return instance_; }
   const DebugFunctions& debug() const { return debug_; }
+  const SurfaceFunctions& surface() const { return surface_; }
 
   // In the loader's order.
   std::vector<VkPhysicalDevice> devices() const;
@@ -34,12 +46,14 @@ class Instance {
  private:
   // Delegated to, so that the destructor runs when the public constructor throws.
   explicit Instance(gpu::MessageSink message);
-  void create(bool debugUtils, bool validate);
+  void create(bool debugUtils, bool validate, std::span<const char* const> others);
+  void load(bool debugUtils);
   void createMessenger();
 
   gpu::MessageSink message_;
   VkInstance instance_ = VK_NULL_HANDLE;
   DebugFunctions debug_;
+  SurfaceFunctions surface_;
   PFN_vkDestroyDebugUtilsMessengerEXT destroyMessenger_ = nullptr;
   VkDebugUtilsMessengerEXT messenger_ = VK_NULL_HANDLE;
 };
@@ -54,7 +68,8 @@ struct Candidate {
   uint32_t timestampBits = 0;
 };
 
-std::vector<Candidate> candidates(const Instance& instance);
+// With a surface, the queue must show pictures there.
+std::vector<Candidate> candidates(const Instance& instance, VkSurfaceKHR surface = VK_NULL_HANDLE);
 
 // `wanted` as DeviceOptions::device. Throws kNoDevice, kDeviceTooOld.
 const Candidate& choose(const std::vector<Candidate>& candidates, const std::string& wanted);

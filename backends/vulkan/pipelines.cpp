@@ -97,8 +97,8 @@ void makeLayouts(Context& context, PipelineObject& object) {
 
 VkFormat attributeFormat(gpu::AttributeFormat format) {
   static constexpr VkFormat kFormats[] = {VK_FORMAT_R32_SFLOAT, VK_FORMAT_R32G32_SFLOAT,
-                                          VK_FORMAT_R32G32B32_SFLOAT,
-                                          VK_FORMAT_R32G32B32A32_SFLOAT};
+                                          VK_FORMAT_R32G32B32_SFLOAT, VK_FORMAT_R32G32B32A32_SFLOAT,
+                                          VK_FORMAT_R8G8B8A8_UNORM};
   return kFormats[static_cast<size_t>(format)];
 }
 
@@ -124,10 +124,24 @@ struct VertexInput {
       VK_STRUCTURE_TYPE_PIPELINE_VERTEX_INPUT_STATE_CREATE_INFO};
 };
 
+// Straight alpha.
+VkPipelineColorBlendAttachmentState blendState(gpu::Blend blend) {
+  VkPipelineColorBlendAttachmentState state{};
+  state.blendEnable = blend == gpu::Blend::kNone ? VK_FALSE : VK_TRUE;
+  state.srcColorBlendFactor = VK_BLEND_FACTOR_SRC_ALPHA;
+  state.srcAlphaBlendFactor = VK_BLEND_FACTOR_ONE;
+  state.dstColorBlendFactor = state.dstAlphaBlendFactor = VK_BLEND_FACTOR_ONE_MINUS_SRC_ALPHA;
+  state.colorBlendOp = state.alphaBlendOp = VK_BLEND_OP_ADD;
+  state.colorWriteMask = VK_COLOR_COMPONENT_R_BIT | VK_COLOR_COMPONENT_G_BIT |
+                         VK_COLOR_COMPONENT_B_BIT | VK_COLOR_COMPONENT_A_BIT;
+  return state;
+}
+
 // Everything between vertex input and targets, which is the same for every pipeline but for the
-// number of colour targets and whether there is depth.
+// number of colour targets, their blending and whether there is depth.
 struct FixedState {
-  FixedState(size_t colorTargets, bool withDepth) {
+  explicit FixedState(const gpu::GraphicsPipelineDesc& desc) {
+    const bool withDepth = desc.depthFormat != gpu::Format::kNone;
     assembly.topology = VK_PRIMITIVE_TOPOLOGY_TRIANGLE_LIST;
     viewport.viewportCount = viewport.scissorCount = 1;
     raster.polygonMode = VK_POLYGON_MODE_FILL;
@@ -136,10 +150,7 @@ struct FixedState {
     samples.rasterizationSamples = VK_SAMPLE_COUNT_1_BIT;
     depth.depthTestEnable = depth.depthWriteEnable = withDepth ? VK_TRUE : VK_FALSE;
     depth.depthCompareOp = VK_COMPARE_OP_GREATER;
-    VkPipelineColorBlendAttachmentState all{};
-    all.colorWriteMask = VK_COLOR_COMPONENT_R_BIT | VK_COLOR_COMPONENT_G_BIT |
-                         VK_COLOR_COMPONENT_B_BIT | VK_COLOR_COMPONENT_A_BIT;
-    targets.assign(colorTargets, all);
+    targets.assign(desc.colorFormats.size(), blendState(desc.blend));
     blend.attachmentCount = static_cast<uint32_t>(targets.size());
     blend.pAttachments = targets.data();
     dynamic.dynamicStateCount = static_cast<uint32_t>(std::size(kDynamic));
@@ -196,7 +207,7 @@ void makeGraphics(Context& context, VkPipelineCache cache, const gpu::GraphicsPi
   targets.depthAttachmentFormat = vulkanFormat(desc.depthFormat);
 
   const VertexInput input(desc);
-  const FixedState fixed(colors.size(), desc.depthFormat != gpu::Format::kNone);
+  const FixedState fixed(desc);
   VkGraphicsPipelineCreateInfo info{VK_STRUCTURE_TYPE_GRAPHICS_PIPELINE_CREATE_INFO, &targets};
   info.stageCount = static_cast<uint32_t>(stages.size());
   info.pStages = stages.data();

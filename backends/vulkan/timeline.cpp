@@ -15,18 +15,25 @@ Timeline::~Timeline() {
   context_.vk.vkDestroySemaphore(context_.device, semaphore_, nullptr);
 }
 
-uint64_t Timeline::submit(VkCommandBuffer commands) {
+uint64_t Timeline::submit(VkCommandBuffer commands, const ImageSemaphores& image) {
   VkCommandBufferSubmitInfo buffer{VK_STRUCTURE_TYPE_COMMAND_BUFFER_SUBMIT_INFO};
   buffer.commandBuffer = commands;
-  VkSemaphoreSubmitInfo signal{VK_STRUCTURE_TYPE_SEMAPHORE_SUBMIT_INFO};
-  signal.semaphore = semaphore_;
-  signal.value = submitted_ + 1;
-  signal.stageMask = VK_PIPELINE_STAGE_2_ALL_COMMANDS_BIT;
+  VkSemaphoreSubmitInfo wait{VK_STRUCTURE_TYPE_SEMAPHORE_SUBMIT_INFO};
+  wait.semaphore = image.acquired;
+  wait.stageMask = VK_PIPELINE_STAGE_2_CLEAR_BIT | VK_PIPELINE_STAGE_2_BLIT_BIT;
+  VkSemaphoreSubmitInfo signals[2] = {{VK_STRUCTURE_TYPE_SEMAPHORE_SUBMIT_INFO},
+                                      {VK_STRUCTURE_TYPE_SEMAPHORE_SUBMIT_INFO}};
+  signals[0].semaphore = semaphore_;
+  signals[0].value = submitted_ + 1;
+  signals[1].semaphore = image.drawn;
+  signals[0].stageMask = signals[1].stageMask = VK_PIPELINE_STAGE_2_ALL_COMMANDS_BIT;
   VkSubmitInfo2 submit{VK_STRUCTURE_TYPE_SUBMIT_INFO_2};
+  submit.waitSemaphoreInfoCount = image.acquired == VK_NULL_HANDLE ? 0 : 1;
+  submit.pWaitSemaphoreInfos = &wait;
   submit.commandBufferInfoCount = 1;
   submit.pCommandBufferInfos = &buffer;
-  submit.signalSemaphoreInfoCount = 1;
-  submit.pSignalSemaphoreInfos = &signal;
+  submit.signalSemaphoreInfoCount = image.drawn == VK_NULL_HANDLE ? 1 : 2;
+  submit.pSignalSemaphoreInfos = signals;
   check(context_.vk.vkQueueSubmit2(context_.queue, 1, &submit, VK_NULL_HANDLE), "vkQueueSubmit2");
   return ++submitted_;
 }

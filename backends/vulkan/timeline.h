@@ -6,6 +6,12 @@
 
 namespace grisaille::vulkan {
 
+// Semaphores of one image of a window; null for work that shows nothing.
+struct ImageSemaphores {
+  VkSemaphore acquired = VK_NULL_HANDLE;  // clears and blits wait for it
+  VkSemaphore drawn = VK_NULL_HANDLE;     // signalled at the end
+};
+
 class Timeline {
  public:
   explicit Timeline(Context& context);
@@ -14,7 +20,7 @@ class Timeline {
   Timeline& operator=(const Timeline&) = delete;
 
   // Returns the count that stands for this submission.
-  uint64_t submit(VkCommandBuffer commands);
+  uint64_t submit(VkCommandBuffer commands, const ImageSemaphores& image = {});
 
   uint64_t submitted() const { return submitted_; }
   uint64_t completed() const;

@@ -15,4 +15,7 @@ std::vector<gpu::ListedDevice> listDevices();
 // Throws kBackendMissing, kNoDevice, kDeviceTooOld, kDeviceFailed.
 std::unique_ptr<gpu::Device> createDevice(const gpu::DeviceOptions& options);
 
+// Sets GLFW's hints for the window of such a device.
+void hintWindow(bool check);
+
 }  // namespace grisaille::vulkan

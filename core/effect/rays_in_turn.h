@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: MIT
-// Rays that one service cannot tell are asked of another: of a frame's depth first, say, and then of
-// the scene.
+// Rays that one service cannot tell are asked of another: of a frame's depth first, say, and then
+// of the scene.
 #pragma once
 
 #include <memory>

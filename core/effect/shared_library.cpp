@@ -4,6 +4,7 @@
 #include <dlfcn.h>
 #include <link.h>
 
+#include <atomic>
 #include <cstring>
 #include <filesystem>
 #include <fstream>
@@ -44,6 +45,18 @@ bool isCutShort(const std::string& path, uint64_t bytes) {
   return false;
 }
 
+// The same file by a name that no library of this process has: by a name that it knows, the loader
+// gives what it has, though the file may be another by now. Files that have not changed it knows
+// by their number all the same.
+std::string freshName(const std::string& path) {
+  static std::atomic<size_t> opened = 0;
+  constexpr size_t kNames = 256;
+  const std::filesystem::path whole(path);
+  std::string folder = whole.parent_path().string() + "/";
+  for (size_t i = opened++ % kNames; i > 0; --i) folder += "./";
+  return folder + whole.filename().string();
+}
+
 }  // namespace
 
 void CloseLibrary::operator()(void* library) const {
@@ -62,7 +75,7 @@ Library openLibrary(const std::string& path) {
     throw Error(ErrorId::kPluginUnloadable, "it ends after {} bytes, before its last segment",
                 bytes);
   }
-  Library library(dlopen(path.c_str(), RTLD_NOW | RTLD_LOCAL));
+  Library library(dlopen(freshName(path).c_str(), RTLD_NOW | RTLD_LOCAL));
   if (!library) throw Error(ErrorId::kPluginUnloadable, "{}", loaderWords());
   return library;
 }

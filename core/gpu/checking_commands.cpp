@@ -44,7 +44,8 @@ void addTarget(Account& account, CallUses& uses, TargetSize& size, const Texture
   uses.addTarget(one, load == Load::kLoad, what);
 }
 
-void addTargets(Account& account, CallUses& uses, const Render& render) {
+// Returns the targets' size.
+TargetSize addTargets(Account& account, CallUses& uses, const Render& render) {
   if (render.colors.size() > kMaxColorTargets ||
       (render.colors.empty() && !render.depth.view.texture)) {
     throw Error(ErrorId::kTargetMismatch, "a render call has {} colour targets and {} depth target",
@@ -57,6 +58,18 @@ void addTargets(Account& account, CallUses& uses, const Render& render) {
   if (render.depth.view.texture) {
     addTarget(account, uses, size, render.depth.view, render.depth.load, true);
   }
+  return size;
+}
+
+void checkScissor(const Scissor& scissor, const TargetSize& size, const PipelineRecord& pipeline) {
+  if (scissor.width == 0) return;
+  const bool inside = scissor.height != 0 && scissor.x < size.width && scissor.y < size.height &&
+                      scissor.width <= size.width - scissor.x &&
+                      scissor.height <= size.height - scissor.y;
+  if (inside) return;
+  throw Error(ErrorId::kScissor, "pipeline '{}' draws in {}x{} pixels from {}, {} of targets {}x{}",
+              pipeline.label, scissor.width, scissor.height, scissor.x, scissor.y, size.width,
+              size.height);
 }
 
 void checkFormats(Account& account, const Render& render, const PipelineRecord& pipeline) {
@@ -103,9 +116,11 @@ BufferRange drawRange(Account& account, const BufferRange& range, BufferUsage us
   return result;
 }
 
-void addDraw(Account& account, CallUses& uses, const Render& render, const Draw& draw) {
+void addDraw(Account& account, CallUses& uses, const Render& render, const TargetSize& size,
+             const Draw& draw) {
   PipelineRecord& pipeline = account.graphicsPipelines.get(draw.pipeline);
   checkFormats(account, render, pipeline);
+  checkScissor(draw.scissor, size, pipeline);
   uses.addBindings(pipeline, draw.bindings);
   if (draw.count == 0 || draw.vertexStreams.size() < pipeline.streamStrides.size()) {
     throw Error(ErrorId::kDrawRange,
@@ -180,8 +195,8 @@ void CheckingCommands::endPass() {
 void CheckingCommands::render(const Render& render) {
   requirePass("render()");
   CallUses uses(account_);
-  addTargets(account_, uses, render);
-  for (const Draw& draw : render.draws) addDraw(account_, uses, render, draw);
+  const TargetSize size = addTargets(account_, uses, render);
+  for (const Draw& draw : render.draws) addDraw(account_, uses, render, size, draw);
   uses.check();
   commands_->render(render);
   uses.commit();

@@ -73,7 +73,7 @@ void checkAttributes(const GraphicsPipelineDesc& desc) {
   }
   for (size_t i = 0; i < desc.attributes.size(); ++i) {
     const VertexAttribute& attribute = desc.attributes[i];
-    const bool format = attribute.format <= AttributeFormat::kFloat4;
+    const bool format = attribute.format <= AttributeFormat::kUnorm8x4;
     if (!format || attribute.stream >= desc.streamStrides.size()) {
       throw Error(ErrorId::kVertexLayout,
                   "attribute {} of pipeline '{}' is of stream {} of {} or of an unknown format",
@@ -104,12 +104,24 @@ void checkVertexInputs(const GraphicsPipelineDesc& desc) {
       throw Error(ErrorId::kVertexLayout, "no attribute of pipeline '{}' feeds input {} ({})",
                   desc.label, input.location, input.name);
     }
-    const uint32_t components = attributeBytes(fed->format) / 4;
+    const uint32_t components = attributeComponents(fed->format);
     if (input.type != GRISAILLE_SCALAR_FLOAT || components != input.components) {
       throw Error(ErrorId::kVertexLayout,
                   "input {} ({}) of pipeline '{}' has {} components, its attribute {} floats",
                   input.location, input.name, desc.label, input.components, components);
     }
+  }
+}
+
+void checkBlend(const GraphicsPipelineDesc& desc) {
+  if (desc.blend > Blend::kOver) {
+    throw Error(ErrorId::kPipelineTargets, "pipeline '{}' has an unknown blend", desc.label);
+  }
+  if (desc.blend == Blend::kNone) return;
+  for (const Format format : desc.colorFormats) {
+    if (formatInfo(format).blends) continue;
+    throw Error(ErrorId::kPipelineTargets, "pipeline '{}' blends a target of format {}", desc.label,
+                formatInfo(format).name);
   }
 }
 
@@ -136,6 +148,7 @@ void checkOutputs(const GraphicsPipelineDesc& desc) {
                   output.location, output.name, output.components, desc.label, i, info.name);
     }
   }
+  checkBlend(desc);
   const bool depth = desc.depthFormat != Format::kNone;
   if (depth && (!known(desc.depthFormat) || !formatInfo(desc.depthFormat).depth)) {
     throw Error(ErrorId::kPipelineTargets, "pipeline '{}' has a depth format without depth",

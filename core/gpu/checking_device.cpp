@@ -106,6 +106,7 @@ class CheckingDevice final : public Device {
 
   std::vector<std::byte> read(Texture handle, uint32_t mip, uint32_t layer) override;
   std::vector<std::byte> read(BufferRange range) override;
+  bool present(Texture handle) override;
   std::vector<FrameTimes> takeTimes() override { return device_->takeTimes(); }
 
  private:
@@ -178,6 +179,21 @@ std::vector<std::byte> CheckingDevice::read(BufferRange range) {
                 buffer.label);
   }
   return device_->read(range);
+}
+
+bool CheckingDevice::present(Texture handle) {
+  requireIdle("present()");
+  const TextureRecord& texture = account_.usable(handle);
+  if (texture.desc.format != Format::kRgba8Unorm) {
+    throw Error(ErrorId::kTextureFormat, "texture '{}' of format {} is presented, not {}",
+                texture.label, formatInfo(texture.desc.format).name,
+                formatInfo(Format::kRgba8Unorm).name);
+  }
+  if (!texture.written[0]) {
+    throw Error(ErrorId::kUninitialised, "texture '{}' is presented and was never written",
+                texture.label);
+  }
+  return device_->present(handle);
 }
 
 }  // namespace

@@ -15,6 +15,8 @@
 
 #include "core/gpu/types.h"
 
+struct GLFWwindow;
+
 namespace grisaille::gpu {
 
 // A message of a driver or its validation. One line, without a newline.
@@ -33,6 +35,8 @@ struct DeviceOptions {
   bool check = false;        // the API's own validation, where it is installed
   bool timed = false;        // time every pass; on software drivers this waits for each
   MessageSink message = {};  // none: standard error
+  // Made after the backend's hintWindow(); outlives the device, which then is of the main thread.
+  GLFWwindow* window = nullptr;  // null: a device that needs no display
 };
 
 class Commands {
@@ -95,6 +99,13 @@ class Device {
   // Both wait for everything submitted and are not allowed while recording.
   virtual std::vector<std::byte> read(Texture texture, uint32_t mip = 0, uint32_t layer = 0) = 0;
   virtual std::vector<std::byte> read(BufferRange range) = 0;
+
+  // Copies a kRgba8Unorm texture's first level and layer, texel for pixel, to the window's top left
+  // corner, and shows it; the rest is black. Not while recording. False: nothing was shown, since
+  // the window has no area or is iconified, or its surface has changed under it: the caller draws
+  // again at the window's new size. Waits for the display where it shows pictures slower than they
+  // come, but never for ever.
+  virtual bool present(Texture texture) = 0;
 
   // The frames timed and finished since the last call, oldest first; empty unless
   // DeviceOptions::timed. On hardware a frame appears a few frames after its submit(), or after

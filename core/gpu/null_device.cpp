@@ -120,6 +120,9 @@ class NullDeviceImpl final : public NullDevice, private Commands {
     const auto first = bytes.begin() + static_cast<ptrdiff_t>(range.offset);
     return {first, first + static_cast<ptrdiff_t>(size)};
   }
+  bool present(Texture) override {
+    throw Error(ErrorId::kNoWindow, "the null device has no window to show a picture in");
+  }
   std::vector<FrameTimes> takeTimes() override { return {}; }
 
  private:

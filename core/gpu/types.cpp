@@ -5,12 +5,12 @@ namespace grisaille::gpu {
 
 const FormatInfo& formatInfo(Format format) {
   static constexpr FormatInfo kInfos[] = {
-      {"none", 0, 0, false, false},    {"r8", 1, 1, false, true},
-      {"rgba8", 4, 4, false, true},    {"srgb8_alpha8", 4, 4, false, false},
-      {"r16f", 2, 1, false, true},     {"rgba16f", 8, 4, false, true},
-      {"r32f", 4, 1, false, true},     {"rg32f", 8, 2, false, true},
-      {"rgba32f", 16, 4, false, true}, {"r32ui", 4, 1, false, true},
-      {"d32f", 4, 1, true, false},
+      {"none", 0, 0, false, false, false},    {"r8", 1, 1, false, true, true},
+      {"rgba8", 4, 4, false, true, true},     {"srgb8_alpha8", 4, 4, false, false, true},
+      {"r16f", 2, 1, false, true, true},      {"rgba16f", 8, 4, false, true, true},
+      {"r32f", 4, 1, false, true, false},     {"rg32f", 8, 2, false, true, false},
+      {"rgba32f", 16, 4, false, true, false}, {"r32ui", 4, 1, false, true, false},
+      {"d32f", 4, 1, true, false, false},
   };
   return kInfos[static_cast<size_t>(format)];
 }

@@ -60,6 +60,7 @@ struct FormatInfo {
   uint32_t channels;    // 1 ... 4
   bool depth;           // a depth target rather than a colour target
   bool storage;         // may be bound as an image
+  bool blends;          // as a target: Blend::kOver, which not every device has for 32-bit floats
 };
 
 // Valid for every format but kNone.
@@ -147,11 +148,17 @@ struct ComputePipelineDesc {
   std::span<const Specialization> constants = {};  // others keep their defaults
 };
 
-enum class AttributeFormat : uint8_t { kFloat1, kFloat2, kFloat3, kFloat4 };
+// kUnorm8x4: four bytes, which the shader sees as a vec4 of 0 ... 1.
+enum class AttributeFormat : uint8_t { kFloat1, kFloat2, kFloat3, kFloat4, kUnorm8x4 };
+
+// What the shader sees of one attribute: 1 ... 4 floats.
+constexpr uint32_t attributeComponents(AttributeFormat format) {
+  return format == AttributeFormat::kUnorm8x4 ? 4u : static_cast<uint32_t>(format) + 1u;
+}
 
 // Bytes of one attribute.
 constexpr uint32_t attributeBytes(AttributeFormat format) {
-  return 4u * (static_cast<uint32_t>(format) + 1u);
+  return format == AttributeFormat::kUnorm8x4 ? 4u : 4u * attributeComponents(format);
 }
 
 struct VertexAttribute {
@@ -164,8 +171,12 @@ struct VertexAttribute {
 constexpr uint32_t kMaxVertexStreams = 4;
 constexpr uint32_t kMaxColorTargets = 4;
 
-// Triangle lists, counter-clockwise is front, no blending. Depth, where there is a depth target, is
-// tested with GREATER (reversed depth) and written.
+// How fragments join what a target holds. kOver: by the fragment's straight alpha a, as
+// colour * a + held * (1 - a), and for alpha a + held * (1 - a).
+enum class Blend : uint8_t { kNone, kOver };
+
+// Triangle lists, counter-clockwise is front. Depth, where there is a depth target, is tested with
+// GREATER (reversed depth) and written.
 struct GraphicsPipelineDesc {
   std::string_view label = {};
   const Shader* vertex = nullptr;
@@ -175,6 +186,7 @@ struct GraphicsPipelineDesc {
   std::span<const VertexAttribute> attributes = {};
   std::span<const Format> colorFormats = {};
   Format depthFormat = Format::kNone;
+  Blend blend = Blend::kNone;  // of all colour targets, whose formats must then blend
 };
 
 // --- Work ----------------------------------------------------------------------------------------
@@ -225,6 +237,14 @@ struct Dispatch {
 
 enum class Cull : uint8_t { kNone, kBack, kFront };
 
+// Pixels of the targets, from the top left. width 0: all of them.
+struct Scissor {
+  uint32_t x = 0;
+  uint32_t y = 0;
+  uint32_t width = 0;
+  uint32_t height = 0;
+};
+
 struct Draw {
   GraphicsPipeline pipeline = {};
   std::span<const Binding> bindings = {};
@@ -233,6 +253,7 @@ struct Draw {
   uint32_t count = 0;        // indices, or vertices
   uint32_t first = 0;        // first index, or first vertex
   Cull cull = Cull::kNone;
+  Scissor scissor = {};  // nothing is drawn outside; inside the targets
 };
 
 // What a target holds when drawing begins. kLoad: what it held before.

@@ -45,7 +45,7 @@ glm::uvec2 sizeOf(const json& value) {
   return size;
 }
 
-json parse(const std::string& path) {
+std::string contentOf(const std::string& path) {
   std::error_code code;
   if (!std::filesystem::is_regular_file(path, code)) {
     throw Error(ErrorId::kCameraUnreadable, "{}: {}", path,
@@ -56,10 +56,14 @@ json parse(const std::string& path) {
   }
   std::ifstream file(path, std::ios::binary);
   if (!file) throw Error(ErrorId::kCameraUnreadable, "{}: cannot be opened", path);
+  return {std::istreambuf_iterator<char>(file), {}};
+}
+
+json parse(std::string_view text, const std::string& name) {
   try {
-    return json::parse(file);
+    return json::parse(text);
   } catch (const json::exception& error) {
-    throw Error(ErrorId::kCameraUnreadable, "{}: {}", path, error.what());
+    throw Error(ErrorId::kCameraUnreadable, "{}: {}", name, error.what());
   }
 }
 
@@ -122,8 +126,8 @@ void validate(const Camera& camera) {
   }
 }
 
-Camera loadCamera(const std::string& path) {
-  const json document = parse(path);
+Camera parseCamera(std::string_view text, const std::string& name) {
+  const json document = parse(text, name);
   try {
     if (!document.is_object()) refuse("the file", "holds no object");
     Camera camera;
@@ -134,11 +138,15 @@ Camera loadCamera(const std::string& path) {
     validate(camera);
     return camera;
   } catch (const Error& error) {
-    throw Error(error.id(), "{}: {}", path, error.detail());
+    throw Error(error.id(), "{}: {}", name, error.detail());
   }
 }
 
-void saveCamera(const Camera& camera, const std::string& path) {
+Camera loadCamera(const std::string& path) {
+  return parseCamera(contentOf(path), path);
+}
+
+std::string cameraJson(const Camera& camera) {
   const auto array = [](const glm::dvec3& v) { return json::array({v.x, v.y, v.z}); };
   nlohmann::ordered_json document{{"eye", array(camera.eye)},
                                   {"target", array(camera.target)},
@@ -146,7 +154,11 @@ void saveCamera(const Camera& camera, const std::string& path) {
                                   {"fovy_degrees", camera.fovyDegrees}};
   if (camera.size.x != 0) document["size"] = {camera.size.x, camera.size.y};
   document["near"] = camera.nearPlane;
-  image::writeFileAside(path, document.dump() + "\n");
+  return document.dump();
+}
+
+void saveCamera(const Camera& camera, const std::string& path) {
+  image::writeFileAside(path, cameraJson(camera) + "\n");
 }
 
 Camera overviewCamera(const Bounds& bounds) {

@@ -5,6 +5,7 @@
 
 #include <glm/glm.hpp>
 #include <string>
+#include <string_view>
 
 #include "core/scene/scene.h"
 
@@ -23,8 +24,14 @@ struct Camera {
 // direction, an angle out of range.
 void validate(const Camera& camera);
 
-// Throws kCameraUnreadable, kCameraInvalid.
+// A camera file's text. Throws kCameraUnreadable, kCameraInvalid, with `name` before the message.
+Camera parseCamera(std::string_view text, const std::string& name);
+
+// Throws as parseCamera() does, with the path.
 Camera loadCamera(const std::string& path);
+
+// One line that parseCamera() reads back to the same camera, bit by bit.
+std::string cameraJson(const Camera& camera);
 
 // Writes the file aside and renames it. Throws kFileUnwritable.
 void saveCamera(const Camera& camera, const std::string& path);

@@ -15,6 +15,10 @@
 namespace grisaille::scene {
 namespace {
 
+using Progress = std::function<void(double)>;
+
+constexpr double kParsedShare = 0.5;  // of the time, roughly
+
 [[noreturn]] void refuseNode(int node, std::string_view why) {
   throw Error(ErrorId::kSceneInvalid, "node {} {}", node, why);
 }
@@ -116,12 +120,17 @@ std::vector<PlacedMesh> placeMeshes(const tinygltf::Model& model) {
   return placed;
 }
 
-void addInstances(const tinygltf::Model& model, MeshLoader& meshes, Scene& scene) {
+void addInstances(const tinygltf::Model& model, MeshLoader& meshes, Scene& scene,
+                  const Progress& progress) {
   const std::vector<PlacedMesh> placed = placeMeshes(model);
   // Meshes that are shown, in the order of the file.
   std::set<int> shown;
   for (const PlacedMesh& one : placed) shown.insert(one.mesh);
-  for (const int mesh : shown) meshes.primitivesOf(mesh);
+  double done = 0;
+  for (const int mesh : shown) {
+    meshes.primitivesOf(mesh);
+    progress(kParsedShare + (1 - kParsedShare) * ++done / static_cast<double>(shown.size()));
+  }
   for (const PlacedMesh& one : placed) {
     for (const uint32_t primitive : meshes.primitivesOf(one.mesh)) {
       if (scene.instances.size() >= kMaxInstances) {
@@ -132,13 +141,14 @@ void addInstances(const tinygltf::Model& model, MeshLoader& meshes, Scene& scene
   }
 }
 
-Scene load(const std::string& path) {
+Scene load(const std::string& path, const Progress& progress) {
   tinygltf::Model model;
   readModel(path, model);
+  progress(kParsedShare);
   Scene scene;
   scene.name = std::filesystem::path(path).stem().string();
   MeshLoader meshes(model, loadMaterials(path, model, scene), scene);
-  addInstances(model, meshes, scene);
+  addInstances(model, meshes, scene, progress);
   if (scene.instances.empty()) throw Error(ErrorId::kSceneEmpty, "no triangle in the scene");
   // Vertices that no triangle uses have had no face to take a normal from.
   for (glm::vec3& normal : scene.normals) {
@@ -155,9 +165,10 @@ Scene load(const std::string& path) {
 
 }  // namespace
 
-Scene loadGltf(const std::string& path) {
+Scene loadGltf(const std::string& path, const Progress& progress) {
   try {
-    return load(path);
+    return load(
+        path, progress ? progress : [](double) {});
   } catch (const Error& error) {
     throw Error(error.id(), "{}: {}", path, error.detail());
   } catch (const std::bad_alloc&) {

@@ -5,6 +5,7 @@
 
 #include <cstddef>
 #include <cstdint>
+#include <functional>
 #include <glm/glm.hpp>
 #include <string>
 #include <string_view>
@@ -71,9 +72,9 @@ uint64_t triangleCount(const Scene& scene);
 
 // Reads glTF 2.0, .gltf or .glb: the default scene, else the first, else all nodes. Blended
 // materials become masks with a cutoff of 0.5; points and lines are left out; skins, morph targets
-// and animations are not applied. Only base colour images are read. Throws kScene* errors; never
-// partial results.
-Scene loadGltf(const std::string& path);
+// and animations are not applied. Only base colour images are read. `progress` is told the share
+// that is done, 0 to 1, ascending. Throws kScene* errors; never partial results.
+Scene loadGltf(const std::string& path, const std::function<void(double)>& progress = {});
 
 // Writes the scene as one .glb, aside and then renamed. Throws kFileUnwritable, kSceneEmpty,
 // kSceneTooLarge.

@@ -100,6 +100,15 @@ TEST_P(Devices, TwoLiveSideBySide) {
   }
 }
 
+TEST_P(Devices, WithoutAWindowShowNothing) {
+  const gpu::Texture picture = makeTexture({.format = gpu::Format::kRgba8Unorm,
+                                            .width = 2,
+                                            .height = 2,
+                                            .usage = gpu::TextureUsage::kSampled});
+  fill(picture, std::vector<uint32_t>(4));
+  EXPECT_ERROR(ErrorId::kNoWindow, (void)device().present(picture));
+}
+
 TEST_P(Devices, RefuseABrokenShader) {
   gpu::Shader broken = grisaille_shader_fill_comp;
   broken.glsl = "#version 450\nthis is no shader\n";

@@ -192,6 +192,50 @@ TEST_F(CheckedDescriptors, PipelineTargets) {
   EXPECT_ERROR(ErrorId::kPipelineTargets, device_->createGraphicsPipeline(depthOnly));
 }
 
+TEST_F(CheckedDescriptors, BlendsOfFormatsThatBlend) {
+  using gpu::Blend;
+  for (int i = 1; i < static_cast<int>(Format::kD32Float); ++i) {
+    const Format formats[] = {static_cast<Format>(i)};
+    if (formats[0] == Format::kR32Uint) continue;  // the shader's output is no integer
+    gpu::GraphicsPipelineDesc desc = valid();
+    desc.colorFormats = formats;
+    desc.blend = Blend::kOver;
+    if (gpu::formatInfo(formats[0]).blends) {
+      device_->destroy(device_->createGraphicsPipeline(desc));
+    } else {
+      EXPECT_ERROR(ErrorId::kPipelineTargets, device_->createGraphicsPipeline(desc));
+    }
+    desc.blend = Blend::kNone;
+    device_->destroy(device_->createGraphicsPipeline(desc));
+  }
+  EXPECT_TRUE(gpu::formatInfo(Format::kRgba8Unorm).blends);
+  EXPECT_FALSE(gpu::formatInfo(Format::kR32Uint).blends);
+  refused(ErrorId::kPipelineTargets, [](auto& desc) { desc.blend = static_cast<Blend>(2); });
+}
+
+// One that is fed by bytes is a vec4 of 4 bytes.
+TEST_F(CheckedDescriptors, AttributesOfBytes) {
+  using gpu::AttributeFormat;
+  EXPECT_EQ(gpu::attributeBytes(AttributeFormat::kFloat1), 4u);
+  EXPECT_EQ(gpu::attributeBytes(AttributeFormat::kFloat4), 16u);
+  EXPECT_EQ(gpu::attributeBytes(AttributeFormat::kUnorm8x4), 4u);
+  constexpr grisaille_shader_location kColor[] = {{0, GRISAILLE_SCALAR_FLOAT, 4, "color"}};
+  gpu::Shader vertex = kVertex;
+  vertex.inputs = kColor;
+  vertex.input_count = 1;
+  const uint32_t strides[] = {4};
+  gpu::VertexAttribute attributes[] = {{.location = 0, .format = AttributeFormat::kUnorm8x4}};
+  gpu::GraphicsPipelineDesc desc = valid();
+  desc.vertex = &vertex;
+  desc.streamStrides = strides;
+  desc.attributes = attributes;
+  device_->destroy(device_->createGraphicsPipeline(desc));
+  attributes[0].format = AttributeFormat::kFloat4;  // 16 bytes
+  EXPECT_ERROR(ErrorId::kVertexLayout, device_->createGraphicsPipeline(desc));
+  attributes[0].format = AttributeFormat::kFloat1;  // one component
+  EXPECT_ERROR(ErrorId::kVertexLayout, device_->createGraphicsPipeline(desc));
+}
+
 TEST_F(CheckedDescriptors, LeaksAreReported) {
   device_->createBuffer({.label = "b", .size = 4, .usage = BufferUsage::kVertex});
   texture(TextureUsage::kSampled);

@@ -153,6 +153,20 @@ TEST_F(CheckedDraws, VerticesAndIndicesThatAreThere) {
   });
 }
 
+TEST_F(CheckedDraws, ScissorsInsideTheTargets) {
+  const std::vector<gpu::Scissor> inside = {
+      {}, {0, 0, 16, 16}, {15, 15, 1, 1}, {3, 5, 13, 11}, {99, 99, 0, 0}};
+  for (const gpu::Scissor& scissor : inside) {
+    accepted([&](Call& call) { call.draw.scissor = scissor; });
+  }
+  const std::vector<gpu::Scissor> outside = {{0, 0, 17, 16}, {0, 0, 16, 17}, {16, 0, 1, 1},
+                                             {0, 16, 1, 1},  {3, 5, 14, 11}, {3, 5, 13, 12},
+                                             {0, 0, 16, 0},  {1, 1, ~0u, 1}, {~0u, 0, 16, 1}};
+  for (const gpu::Scissor& scissor : outside) {
+    refused(ErrorId::kScissor, [&](Call& call) { call.draw.scissor = scissor; });
+  }
+}
+
 TEST_F(CheckedDraws, BuffersOfTheRightUsage) {
   refused(ErrorId::kBufferUsage, [&](Call& call) { call.streams[0] = {indices_}; });
   refused(ErrorId::kBufferUsage, [&](Call& call) { call.draw.indices = {uvs_}; });

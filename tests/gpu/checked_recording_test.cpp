@@ -44,6 +44,27 @@ TEST_F(CheckedRecording, NothingElseMeanwhile) {
   EXPECT_EQ(device_->read(gpu::BufferRange{.buffer = data}).size(), 64u);
 }
 
+// What is valid reaches the null device, which has no window.
+TEST_F(CheckedRecording, PresentsAPictureBetweenFrames) {
+  const gpu::TextureDesc picture{.format = Format::kRgba8Unorm, .width = 4, .height = 4};
+  const gpu::Texture valid = texture(TextureUsage::kSampled, picture);
+  EXPECT_ERROR(ErrorId::kNoWindow, (void)device_->present(valid));
+  EXPECT_ERROR(ErrorId::kUninitialised,
+               (void)device_->present(texture(TextureUsage::kSampled, picture, false)));
+  EXPECT_ERROR(ErrorId::kStaleHandle, (void)device_->present({}));
+  for (const Format format : {Format::kR32Float, Format::kRgba8Srgb, Format::kD32Float}) {
+    const gpu::Texture other = texture(TextureUsage::kSampled, {.format = format});
+    EXPECT_ERROR(ErrorId::kTextureFormat, (void)device_->present(other));
+  }
+  gpu::Commands& commands = device_->begin();
+  EXPECT_ERROR(ErrorId::kAlreadyRecording, (void)device_->present(valid));
+  const gpu::Texture transient = commands.transient(transientDesc());
+  device_->submit();
+  EXPECT_ERROR(ErrorId::kTransientStale, (void)device_->present(transient));
+  device_->destroy(valid);
+  EXPECT_ERROR(ErrorId::kStaleHandle, (void)device_->present(valid));
+}
+
 TEST_F(CheckedRecording, PassesDoNotNest) {
   gpu::Commands& commands = inPass();
   EXPECT_ERROR(ErrorId::kPassNesting, commands.beginPass("inner"));

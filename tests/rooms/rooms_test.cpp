@@ -37,11 +37,12 @@ const std::vector<Room>& rooms() {
       {"backends/vulkan", {"core/gpu/"}},
       {"effects", {"grisaille/", "shaders/"}},
       {"app", {"backends/backends.h", "core/", "grisaille/"}},
+      {"app/viewer", {"backends/backends.h", "core/", "grisaille/", "app/", "shaders/"}},
   };
   return kRooms;
 }
 
-// Headers of a graphics API, and the rooms that may see them.
+// Headers of a graphics API, which backends alone see.
 const std::regex& apiHeader() {
   static const std::regex kHeader("^(epoxy|GL|GLES[0-9]*|EGL|KHR|vulkan)/.*|^volk\\.h");
   return kHeader;
@@ -49,6 +50,13 @@ const std::regex& apiHeader() {
 
 bool startsWith(const std::string& text, const std::string& prefix) {
   return text.rfind(prefix, 0) == 0;
+}
+
+// GLFW's own header shows no API; its header of native handles does.
+bool mayOpenWindows(const std::string& folder, const std::string& header) {
+  const bool backend = folder == "backends" || startsWith(folder, "backends/");
+  const bool app = folder == "app" || startsWith(folder, "app/");
+  return backend || (app && header == "GLFW/glfw3.h");
 }
 
 const Room* roomOf(const std::string& folder) {
@@ -61,6 +69,7 @@ const Room* roomOf(const std::string& folder) {
 }
 
 bool allowed(const std::string& folder, const std::string& header, bool quoted) {
+  if (startsWith(header, "GLFW/")) return mayOpenWindows(folder, header);
   if (std::regex_match(header, apiHeader())) return startsWith(folder, "backends/");
   // A library's header, or one that lies beside the file.
   if (!quoted || header.find('/') == std::string::npos) return true;
@@ -108,6 +117,11 @@ TEST(Rooms, ForbiddenArrowsAreSeen) {
   EXPECT_FALSE(allowed("backends/opengl", "backends/vulkan/vulkan.h", true));
   EXPECT_FALSE(allowed("effects/ssao", "core/error.h", true));
   EXPECT_FALSE(allowed("effects/ssao", "effects/sspm/sspm.h", true));
+  EXPECT_FALSE(allowed("core/gpu", "GLFW/glfw3.h", false));
+  EXPECT_FALSE(allowed("effects/ssao", "GLFW/glfw3.h", false));
+  EXPECT_FALSE(allowed("app/viewer", "GLFW/glfw3native.h", false));
+  EXPECT_TRUE(allowed("app/viewer", "GLFW/glfw3.h", false));
+  EXPECT_TRUE(allowed("backends/opengl", "GLFW/glfw3native.h", false));
   EXPECT_TRUE(allowed("effects/ssao", "grisaille/effect.hpp", true));
   EXPECT_TRUE(allowed("backends/vulkan", "volk.h", false));
 }

@@ -1,8 +1,10 @@
 // SPDX-License-Identifier: MIT
 #include "core/scene/camera.h"
 
+#include <bit>
 #include <cmath>
 #include <limits>
+#include <random>
 
 #include "tests/scene/gltf_builder.h"
 #include "tests/support/expect_error.h"
@@ -48,6 +50,57 @@ TEST_F(CameraFiles, SavingLosesNothing) {
     EXPECT_EQ(back.nearPlane, camera.nearPlane);
   }
   EXPECT_ERROR(ErrorId::kFileUnwritable, saveCamera(atriumCamera(), file("missing/a.json")));
+}
+
+TEST(CameraText, ComesBackBitByBit) {
+  std::mt19937_64 random(1);
+  const auto any = [&](double largest) {
+    for (;;) {
+      const double value = std::bit_cast<double>(random());
+      if (std::abs(value) <= largest) return random() % 16 == 0 ? std::copysign(0.0, value) : value;
+    }
+  };
+  const auto bits = [](const Camera& c) {
+    std::vector<uint64_t> all = {c.size.x, c.size.y};
+    for (const double value : {c.eye.x, c.eye.y, c.eye.z, c.target.x, c.target.y, c.target.z,
+                               c.up.x, c.up.y, c.up.z, c.fovyDegrees, c.nearPlane}) {
+      all.push_back(std::bit_cast<uint64_t>(value));
+    }
+    return all;
+  };
+  size_t sound = 0;
+  while (sound < 5000) {
+    Camera camera{.eye = {any(1e15), any(1e15), any(1e15)},
+                  .target = {any(1e15), any(1e15), any(1e15)},
+                  .up = {any(1e15), any(1e15), any(1e15)},
+                  .fovyDegrees = 1 + std::abs(any(169)),
+                  .size = random() % 2 ? glm::uvec2(0) : glm::uvec2(1 + random() % 16384, 7),
+                  .nearPlane = std::abs(any(1e6))};
+    try {
+      validate(camera);
+    } catch (const Error&) {
+      continue;
+    }
+    ++sound;
+    const std::string text = cameraJson(camera);
+    EXPECT_EQ(text.find('\n'), std::string::npos);
+    ASSERT_EQ(bits(parseCamera(text, "text")), bits(camera)) << text;
+  }
+}
+
+TEST(CameraText, ErrorsBeginWithItsName) {
+  for (const auto& [text, id] : {std::pair{"", ErrorId::kCameraUnreadable},
+                                 {"{", ErrorId::kCameraUnreadable},
+                                 {"{}", ErrorId::kCameraInvalid},
+                                 {"[]", ErrorId::kCameraInvalid}}) {
+    try {
+      parseCamera(text, "--camera");
+      ADD_FAILURE() << text;
+    } catch (const Error& error) {
+      EXPECT_EQ(error.id(), id) << error.what();
+      EXPECT_EQ(error.detail().rfind("--camera: ", 0), 0u) << error.what();
+    }
+  }
 }
 
 TEST_F(CameraFiles, BadFieldsAreRefusedByName) {

@@ -33,7 +33,7 @@ VkPipelineStageFlags2 stagesThatMay(VkAccessFlags2 access) {
              VK_PIPELINE_STAGE_2_LATE_FRAGMENT_TESTS_BIT;
     case VK_ACCESS_2_TRANSFER_READ_BIT:
     case VK_ACCESS_2_TRANSFER_WRITE_BIT:
-      return VK_PIPELINE_STAGE_2_COPY_BIT;
+      return VK_PIPELINE_STAGE_2_COPY_BIT | VK_PIPELINE_STAGE_2_BLIT_BIT;
     default:
       return kShaders;
   }
@@ -81,6 +81,13 @@ TEST(Barriers, EveryScopeIsOfItsUsesAndLegal) {
       ASSERT_NE(scope.stages & stagesThatMay(access), 0u) << set << " " << access;
     }
   }
+}
+
+// Readbacks copy, and windows are blitted to; uploads copy alone.
+TEST(Barriers, CopiesAreReadByBothCommands) {
+  EXPECT_EQ(scopeOf(Access::kCopyRead).stages,
+            VK_PIPELINE_STAGE_2_COPY_BIT | VK_PIPELINE_STAGE_2_BLIT_BIT);
+  EXPECT_EQ(scopeOf(Access::kCopyWrite).stages, VK_PIPELINE_STAGE_2_COPY_BIT);
 }
 
 TEST(Barriers, EveryLayoutAllowsItsUses) {

@@ -1,0 +1,15 @@
+// SPDX-License-Identifier: MIT
+#pragma once
+
+#include <cstdint>
+#include <glm/glm.hpp>
+#include <string>
+
+namespace grisaille::app {
+
+constexpr uint32_t kLargestSide = 16384;  // of a picture, pixels
+
+// "1280x720". Throws kUsage.
+glm::uvec2 parseSize(const std::string& text);
+
+}  // namespace grisaille::app

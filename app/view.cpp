@@ -1,0 +1,68 @@
+// SPDX-License-Identifier: MIT
+// grisaille view: a window to look, tune and shoot.
+#include <charconv>
+#include <memory>
+
+#include "app/command.h"
+#include "app/driver_messages.h"
+#include "app/size.h"
+#include "app/viewer/viewer.h"
+
+namespace grisaille::app {
+namespace {
+
+struct Options : viewer::ViewerOptions {
+  std::string windowSize;
+};
+
+}  // namespace
+
+void addView(CLI::App& program) {
+  auto options = std::make_shared<Options>();
+  viewer::SessionOptions& session = options->session;
+  CLI::App* command =
+      program.add_subcommand("view", "Open a window on a scene: look, tune, shoot paint");
+  command->add_option("scene", session.scene, "A .gltf or .glb file; default: the built-in atrium");
+  command->add_option("--camera", session.camera,
+                      "A camera file or its JSON; default: one that sees the scene");
+  command->add_option("--size", options->windowSize, "Of the window; default: as it was left")
+      ->type_name("WxH");
+  command->add_option("--backend", options->backend,
+                      "opengl or vulkan; default: the first that opens a window");
+  command->add_option("--device", options->device, "Number or part of a device's name");
+  CLI::Option* effects =
+      command->add_option("--effects", session.effects, "Effects, in the order they run")
+          ->delimiter(',');
+  command->add_option("--set", session.sets, "A parameter's value")
+      ->type_name("EFFECT.PARAMETER=VALUE")
+      ->allow_extra_args(false);
+  command->add_option("--config", session.config, "Settings, as TOML");
+  command->add_option("--surface", session.surface, "What the light falls on")
+      ->check(CLI::IsMember({"white", "base"}));
+  command->add_option("--view", session.view, "The output to look at; default: color");
+  command->add_option("--load", session.loads, "Shots for an effect that takes them")
+      ->type_name("EFFECT=FILE")
+      ->allow_extra_args(false);
+  command->add_option("--plugin-path", session.pluginPaths, "A further folder of effects")
+      ->type_name("DIR")
+      ->allow_extra_args(false);
+  command->add_option("--bookmarks", options->bookmarks, "A folder of camera files")
+      ->type_name("DIR");
+  command
+      ->add_option("--layout", options->layoutFile,
+                   "Write where each control lies, as JSON, for programs that drive the window")
+      ->type_name("FILE");
+  command->add_option("--frames", options->frames, "End after so many drawn frames");
+  command->add_flag("--check", options->check,
+                    "Validate every call, in the layer and in the driver");
+  command->callback([options, effects] {
+    options->session.effectsGiven = effects->count() > 0;
+    if (!options->windowSize.empty()) options->size = parseSize(options->windowSize);
+    DriverMessages messages;
+    options->message = messages.sink();
+    viewer::Viewer(*options).run();
+    if (options->check) messages.throwIfAny();
+  });
+}
+
+}  // namespace grisaille::app

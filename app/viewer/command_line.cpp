@@ -1,0 +1,85 @@
+// SPDX-License-Identifier: MIT
+#include "app/viewer/command_line.h"
+
+#include <fmt/format.h>
+
+#include <algorithm>
+
+namespace grisaille::app::viewer {
+namespace {
+
+// A path that no command line takes for an option.
+std::string pathOf(const std::string& path) {
+  return path.starts_with('-') ? "./" + path : path;
+}
+
+void addEffects(const EffectList& effects, std::vector<std::string>& arguments) {
+  std::string keys;
+  std::vector<std::string> sets;
+  for (const EffectList::Entry& entry : effects.entries()) {
+    if (!entry.on) continue;
+    keys += (keys.empty() ? "" : ",") + std::string(entry.key());
+    const effect::Values defaults(entry.values.effect());
+    for (const grisaille_param_desc& param : entry.values.effect().params()) {
+      const std::string text = entry.values.text(param.key);
+      if (text == defaults.text(param.key)) continue;
+      sets.push_back(fmt::format("{}.{}={}", entry.key(), param.key, text));
+    }
+  }
+  arguments.insert(arguments.end(), {"--effects", keys});
+  for (const std::string& set : sets) arguments.insert(arguments.end(), {"--set", set});
+}
+
+}  // namespace
+
+std::vector<std::string> renderArguments(const RenderCommand& command) {
+  std::vector<std::string> arguments = {"grisaille", "render"};
+  const auto add = [&](const char* option, const std::string& value) {
+    arguments.insert(arguments.end(), {option, value});
+  };
+  // Before --effects, which would take it for one more.
+  if (!command.scene.empty()) arguments.push_back(pathOf(command.scene));
+  scene::Camera camera = command.camera;
+  camera.size = glm::uvec2(0);  // --size says it
+  add("--camera", scene::cameraJson(camera));
+  add("--size", fmt::format("{}x{}", command.size.x, command.size.y));
+  if (!command.backend.empty()) add("--backend", command.backend);
+  if (!command.device.empty()) add("--device", command.device);
+  for (const std::string& path : command.pluginPaths) add("--plugin-path", pathOf(path));
+  if (command.effects != nullptr) {
+    addEffects(*command.effects, arguments);
+  } else {
+    add("--effects", "");
+  }
+  add("--surface", command.surface);
+  for (const auto& [effect, file] : command.loads) add("--load", effect + "=" + file);
+  for (const auto& [output, file] : command.writes) add("--write", output + "=" + file);
+  return arguments;
+}
+
+std::string renderCommand(const RenderCommand& command) {
+  std::string line;
+  for (const std::string& argument : renderArguments(command)) {
+    line += (line.empty() ? "" : " ") + shellQuoted(argument);
+  }
+  return line;
+}
+
+std::string shellQuoted(std::string_view text) {
+  const auto plain = [](char c) {
+    return (c >= 'a' && c <= 'z') || (c >= 'A' && c <= 'Z') || (c >= '0' && c <= '9') ||
+           std::string_view("_@%+=:,./-").find(c) != std::string_view::npos;
+  };
+  if (!text.empty() && std::ranges::all_of(text, plain)) return std::string(text);
+  std::string quoted = "'";
+  for (const char c : text) {
+    if (c == '\'') {
+      quoted += "'\\''";
+    } else {
+      quoted += c;
+    }
+  }
+  return quoted + "'";
+}
+
+}  // namespace grisaille::app::viewer

@@ -1,0 +1,36 @@
+// SPDX-License-Identifier: MIT
+// The `grisaille render` command that makes the viewer's picture.
+#pragma once
+
+#include <string>
+#include <string_view>
+#include <utility>
+#include <vector>
+
+#include "app/viewer/effect_list.h"
+#include "core/scene/camera.h"
+
+namespace grisaille::app::viewer {
+
+struct RenderCommand {
+  std::string scene = {};  // a file; "": the built-in scene
+  scene::Camera camera = {};
+  glm::uvec2 size = glm::uvec2(1280, 720);  // pixels
+  std::string backend = {}, device = {};    // "": left out
+  const EffectList* effects = nullptr;      // those that are on; null: none
+  std::string surface = "white";
+  // Effect and file, output and file.
+  std::vector<std::pair<std::string, std::string>> loads = {}, writes = {};
+  std::vector<std::string> pluginPaths = {};
+};
+
+// The program's name and its arguments, unquoted. Only values that differ from their defaults.
+std::vector<std::string> renderArguments(const RenderCommand& command);
+
+// The same as one line for a shell.
+std::string renderCommand(const RenderCommand& command);
+
+// A word that a POSIX shell takes as `text`, in single quotes where that is needed.
+std::string shellQuoted(std::string_view text);
+
+}  // namespace grisaille::app::viewer

@@ -1,0 +1,248 @@
+// SPDX-License-Identifier: MIT
+#include "app/viewer/controls.h"
+
+#define GLFW_INCLUDE_NONE
+#include <GLFW/glfw3.h>
+
+#include <algorithm>
+#include <cmath>
+
+#include "app/viewer/camera_control.h"
+
+namespace grisaille::app::viewer {
+namespace {
+
+constexpr double kSprayInterval = 1.0 / 20;  // seconds
+constexpr int kMostSprayed = 8;              // a frame
+constexpr double kSprayRadius = 12;          // pixels
+constexpr double kLineReach = 6;             // pixels on either side, to take hold of the line
+constexpr double kArrowStep = 24;            // pixels of a drag
+
+bool pressed(int key, bool repeats = false) {
+  return ImGui::IsKeyPressed(key, repeats);
+}
+
+bool held(int key) {
+  return ImGui::IsKeyDown(key);
+}
+
+}  // namespace
+
+glm::dvec2 Controls::pointAt(const Place& place, glm::dvec2 at) const {
+  const glm::dvec2 size(place.size);
+  return glm::dvec2(session_.centre) * size +
+         (at - glm::dvec2(place.corner) + 0.5 - 0.5 * size) / static_cast<double>(session_.zoom);
+}
+
+std::optional<glm::ivec2> Controls::texel(const Place& place) const {
+  if (ImGui::GetIO().WantCaptureMouse) return std::nullopt;
+  const glm::dvec2 inside = cursor_ - glm::dvec2(place.corner);
+  if (inside.x < 0 || inside.y < 0 || inside.x >= place.size.x || inside.y >= place.size.y) {
+    return std::nullopt;
+  }
+  const glm::ivec2 at(glm::floor(pointAt(place, cursor_)));
+  const bool outside = at.x < 0 || at.y < 0 || at.x >= static_cast<int>(place.size.x) ||
+                       at.y >= static_cast<int>(place.size.y);
+  return outside ? std::nullopt : std::optional(at);
+}
+
+bool Controls::rightSide(const Place& place) const {
+  return session_.split && cursor_.x - place.corner.x + 0.5 > double{session_.line} * place.size.x;
+}
+
+bool Controls::update(const Place& place, double seconds, float pixelsAUnit, Requests& requests) {
+  const ImGuiIO& io = ImGui::GetIO();
+  const glm::dvec2 now = glm::dvec2(io.MousePos.x, io.MousePos.y) * double{pixelsAUnit};
+  moved_ = cursor_.x < 0 ? glm::dvec2(0) : now - cursor_;
+  cursor_ = now;
+  updateKeysAnywhere(requests);
+  if (!io.WantTextInput) updateKeys(place, requests);
+  if (place.size.x == 0 || place.size.y == 0) return false;
+  bool moves = updateMouse(place, seconds);
+  if (!io.WantTextInput && !io.KeyCtrl && updateFlight(seconds)) moves = true;
+  return moves;
+}
+
+bool Controls::updateMouse(const Place& place, double seconds) {
+  const ImGuiIO& io = ImGui::GetIO();
+  if (drag_ == Drag::kNone) {
+    if (!io.WantCaptureMouse) beginDrag(place);
+  } else {
+    drag(place, seconds);
+  }
+  if (!io.WantCaptureMouse && io.MouseWheel != 0) scroll(place);
+  return drag_ == Drag::kFire;
+}
+
+void Controls::beginDrag(const Place& place) {
+  const double line = place.corner.x + double{session_.line} * place.size.x;
+  if (ImGui::IsMouseClicked(ImGuiMouseButton_Left)) {
+    if (session_.split && std::abs(cursor_.x - line) <= kLineReach) {
+      drag_ = Drag::kLine;
+    } else if (session_.painting && !ImGui::GetIO().KeyAlt) {
+      drag_ = Drag::kFire;
+      sinceShot_ = 0;
+      fire(place, glm::dvec2(0), false);
+    } else {
+      drag_ = Drag::kOrbit;
+    }
+  } else if (ImGui::IsMouseClicked(ImGuiMouseButton_Middle)) {
+    drag_ = Drag::kPan;
+  } else if (ImGui::IsMouseClicked(ImGuiMouseButton_Right)) {
+    drag_ = Drag::kLook;
+  }
+}
+
+void Controls::drag(const Place& place, double seconds) {
+  constexpr ImGuiMouseButton kButtons[] = {0, 0, ImGuiMouseButton_Middle, ImGuiMouseButton_Right,
+                                           0, 0};
+  const double height = place.size.y;
+  const glm::dvec2 moved = moved_ / static_cast<double>(session_.zoom);
+  switch (drag_) {
+    case Drag::kOrbit:
+      if (moved_ != glm::dvec2(0)) orbit(session_.camera, moved, height);
+      break;
+    case Drag::kPan:
+      if (moved_ != glm::dvec2(0)) pan(session_.camera, moved, height);
+      break;
+    case Drag::kLook:
+      if (moved_ != glm::dvec2(0)) look(session_.camera, moved, height);
+      break;
+    case Drag::kLine:
+      session_.line = std::clamp(
+          static_cast<float>((cursor_.x - place.corner.x + 0.5) / place.size.x), 0.0f, 1.0f);
+      break;
+    default: {
+      sinceShot_ += seconds;
+      std::normal_distribution<double> off(0, kSprayRadius / 2);
+      for (int i = 0; i < kMostSprayed && sinceShot_ >= kSprayInterval &&
+                      ImGui::IsMouseDown(ImGuiMouseButton_Left);
+           ++i, sinceShot_ -= kSprayInterval) {
+        fire(place, {off(random_), off(random_)}, true);
+      }
+      sinceShot_ = std::min(sinceShot_, kSprayInterval);
+      break;
+    }
+  }
+  if (!ImGui::IsMouseDown(kButtons[static_cast<size_t>(drag_)])) drag_ = Drag::kNone;
+}
+
+void Controls::scroll(const Place& place) {
+  const ImGuiIO& io = ImGui::GetIO();
+  const double notches = io.MouseWheel;
+  if (io.KeyCtrl) {
+    const glm::dvec2 point = pointAt(place, cursor_);
+    session_.zoom =
+        std::clamp(session_.zoom * static_cast<float>(std::pow(1.25, notches)), 1.0f, 64.0f);
+    const glm::dvec2 size(place.size);
+    const glm::dvec2 centre = point - (cursor_ - glm::dvec2(place.corner) + 0.5 - 0.5 * size) /
+                                          static_cast<double>(session_.zoom);
+    session_.centre = glm::clamp(glm::vec2(centre / size), 0.0f, 1.0f);
+    if (session_.zoom == 1) session_.centre = glm::vec2(0.5f);
+  } else if (drag_ == Drag::kLook) {
+    session_.speed = steppedSpeed(session_.speed, notches);
+  } else {
+    dolly(session_.camera, notches);
+  }
+}
+
+bool Controls::updateFlight(double seconds) {
+  const auto axis = [](int plus, int minus) {
+    return (held(plus) ? 1.0 : 0.0) - (held(minus) ? 1.0 : 0.0);
+  };
+  const glm::dvec3 axes(axis(GLFW_KEY_D, GLFW_KEY_A), axis(GLFW_KEY_E, GLFW_KEY_Q),
+                        axis(GLFW_KEY_W, GLFW_KEY_S));
+  if (axes == glm::dvec3(0)) return false;
+  fly(session_.camera, axes, std::min(seconds, 0.1),
+      session_.speed * (ImGui::GetIO().KeyShift ? 4 : 1));
+  return true;
+}
+
+// Those that mean nothing in a text field.
+void Controls::updateKeysAnywhere(Requests& requests) {
+  const bool ctrl = ImGui::GetIO().KeyCtrl;
+  if (pressed(GLFW_KEY_F1)) panel_.help = !panel_.help;
+  if (pressed(GLFW_KEY_F2)) panel_.shown = !panel_.shown;
+  if (pressed(GLFW_KEY_F5)) requests.rescan = true;
+  if (pressed(GLFW_KEY_F11)) wantsFullScreen = true;
+  if (pressed(GLFW_KEY_F12)) requests.picture = true;
+  if (ctrl && pressed(GLFW_KEY_Q)) requests.quit = true;
+  if (ctrl && pressed(GLFW_KEY_S)) panel_.saveSettings();
+  if (ctrl && (pressed(GLFW_KEY_EQUAL) || pressed(GLFW_KEY_KP_ADD))) state_.textScale *= 1.1;
+  if (ctrl && (pressed(GLFW_KEY_MINUS) || pressed(GLFW_KEY_KP_SUBTRACT))) state_.textScale /= 1.1;
+  if (ctrl && pressed(GLFW_KEY_0)) state_.textScale = 1;
+  state_.textScale = std::clamp(state_.textScale, 0.5, 4.0);
+}
+
+void Controls::updateKeys(const Place& place, Requests& requests) {
+  const ImGuiIO& io = ImGui::GetIO();
+  if (pressed(GLFW_KEY_ESCAPE)) {
+    panel_.help = false;
+    ImGui::SetWindowFocus(nullptr);
+  }
+  updateBookmarkKeys();
+  if (io.KeyCtrl) {
+    if (pressed(GLFW_KEY_Z, true)) io.KeyShift ? session_.redo() : session_.undo();
+    if (pressed(GLFW_KEY_Y, true)) session_.redo();
+    if (pressed(GLFW_KEY_C)) requests.copyCommand = true;
+    return;
+  }
+  updateViewKeys();
+  if (io.WantCaptureKeyboard) return;  // the panel has them
+  if (pressed(GLFW_KEY_TAB) && panel_.shown) ImGui::SetWindowFocus("Grisaille");
+  if (pressed(GLFW_KEY_SPACE)) {
+    session_.attempt([&] { session_.fire(0.5 * glm::dvec2(place.size), place.size, false); });
+  }
+  const double x = (pressed(GLFW_KEY_RIGHT, true) ? 1 : 0) - (pressed(GLFW_KEY_LEFT, true) ? 1 : 0);
+  const double y = (pressed(GLFW_KEY_DOWN, true) ? 1 : 0) - (pressed(GLFW_KEY_UP, true) ? 1 : 0);
+  if (x != 0 || y != 0) orbit(session_.camera, kArrowStep * glm::dvec2(x, y), place.size.y);
+}
+
+void Controls::updateViewKeys() {
+  if (pressed(GLFW_KEY_B)) session_.painting = !session_.painting;
+  if (pressed(GLFW_KEY_X)) session_.split = !session_.split;
+  if (pressed(GLFW_KEY_I)) session_.inspecting = !session_.inspecting;
+  if (pressed(GLFW_KEY_P)) session_.paused = !session_.paused;
+  if (pressed(GLFW_KEY_N)) session_.step = true;
+  if (pressed(GLFW_KEY_HOME)) session_.camera = session_.homeCamera;
+  if (pressed(GLFW_KEY_KP_ADD, true) || pressed(GLFW_KEY_EQUAL, true)) {
+    session_.zoom = std::min(session_.zoom * 1.25f, 64.0f);
+  }
+  if (pressed(GLFW_KEY_KP_SUBTRACT, true) || pressed(GLFW_KEY_MINUS, true)) {
+    session_.zoom = std::max(session_.zoom / 1.25f, 1.0f);
+    if (session_.zoom == 1) session_.centre = glm::vec2(0.5f);
+  }
+  if (pressed(GLFW_KEY_V)) {
+    const std::vector<Viewable> all = viewables(session_.effects);
+    const auto now = std::ranges::find(all, session_.left, &Viewable::output);
+    const size_t index = now == all.end() ? 0 : static_cast<size_t>(now - all.begin());
+    const size_t step = ImGui::GetIO().KeyShift ? all.size() - 1 : 1;
+    session_.left = all[(index + step) % all.size()].output;
+  }
+}
+
+void Controls::updateBookmarkKeys() {
+  for (int digit = 1; digit <= 9; ++digit) {
+    if (!pressed(GLFW_KEY_0 + digit)) continue;
+    const std::string name = std::to_string(digit);
+    session_.attempt([&] {
+      if (ImGui::GetIO().KeyCtrl) {
+        bookmarks_.save(name, session_.camera);
+        panel_.refreshLists();
+        session_.say("bookmark " + name + " set");
+        return;
+      }
+      for (const Bookmarks::Entry& entry : bookmarks_.list()) {
+        if (entry.name == name && entry.camera) session_.camera = *entry.camera;
+      }
+    });
+  }
+}
+
+void Controls::fire(const Place& place, glm::dvec2 offset, bool joins) {
+  const glm::dvec2 point = pointAt(place, cursor_ + offset);
+  if (point.x < 0 || point.y < 0 || point.x >= place.size.x || point.y >= place.size.y) return;
+  session_.attempt([&] { session_.fire(point, place.size, joins); });
+}
+
+}  // namespace grisaille::app::viewer

@@ -1,0 +1,60 @@
+// SPDX-License-Identifier: MIT
+// What mouse and keys do outside the panel: move, shoot, look closer.
+#pragma once
+
+#include <glm/glm.hpp>
+#include <random>
+
+#include "app/viewer/panel.h"
+#include "app/viewer/session.h"
+
+namespace grisaille::app::viewer {
+
+// Where the picture lies in the window, pixels.
+struct Place {
+  glm::ivec2 corner = glm::ivec2(0);
+  glm::uvec2 size = glm::uvec2(0);
+};
+
+class Controls {
+ public:
+  Controls(Session& session, Panel& panel, Bookmarks& bookmarks, ViewerState& state)
+      : session_(session), panel_(panel), bookmarks_(bookmarks), state_(state) {}
+
+  // Between ImGui::NewFrame() and ImGui::Render(), after the panel. `pixelsAUnit`: of the window.
+  // Adds to `requests`. True while something moves or fires by itself: the next frame is due.
+  bool update(const Place& place, double seconds, float pixelsAUnit, Requests& requests);
+
+  // The texel under the cursor, and on which side; none while the cursor is elsewhere.
+  std::optional<glm::ivec2> texel(const Place& place) const;
+  bool rightSide(const Place& place) const;
+
+  bool wantsFullScreen = false;
+
+ private:
+  enum class Drag : uint8_t { kNone, kOrbit, kPan, kLook, kLine, kFire };
+
+  bool updateMouse(const Place& place, double seconds);
+  void beginDrag(const Place& place);
+  void drag(const Place& place, double seconds);
+  void scroll(const Place& place);
+  bool updateFlight(double seconds);
+  void updateKeysAnywhere(Requests& requests);
+  void updateKeys(const Place& place, Requests& requests);
+  void updateViewKeys();
+  void updateBookmarkKeys();
+  void fire(const Place& place, glm::dvec2 offset, bool joins);
+  // In texels of the picture, from its top left corner; `at` in pixels of the window.
+  glm::dvec2 pointAt(const Place& place, glm::dvec2 at) const;
+
+  Session& session_;
+  Panel& panel_;
+  Bookmarks& bookmarks_;
+  ViewerState& state_;
+  Drag drag_ = Drag::kNone;
+  glm::dvec2 cursor_ = glm::dvec2(-1), moved_ = glm::dvec2(0);  // pixels of the window
+  double sinceShot_ = 0;                                        // seconds
+  std::mt19937 random_{1};
+};
+
+}  // namespace grisaille::app::viewer

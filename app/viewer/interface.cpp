@@ -1,0 +1,204 @@
+// SPDX-License-Identifier: MIT
+#include "app/viewer/interface.h"
+
+#include <imgui/imgui.h>
+
+#include <algorithm>
+#include <array>
+#include <cmath>
+#include <filesystem>
+
+#include "shaders/interface_frag.h"
+#include "shaders/interface_vert.h"
+
+namespace grisaille::app::viewer {
+namespace {
+
+constexpr float kTextPixels = 16;
+
+// As shaders/viewer/interface.vert has it.
+struct InterfaceBlock {
+  float clip_from_unit[2];
+  float origin[2];
+};
+GRISAILLE_CHECK_BLOCK_interface_vert_Interface(InterfaceBlock);
+
+// Any of these scales; ImGui's built-in font is a bitmap.
+constexpr const char* kFonts[] = {"/usr/share/fonts/truetype/dejavu/DejaVuSans.ttf",
+                                  "/usr/share/fonts/TTF/DejaVuSans.ttf",
+                                  "/usr/share/fonts/dejavu-sans-fonts/DejaVuSans.ttf"};
+
+void setStyle(float scale) {
+  ImGuiStyle style;
+  ImGui::StyleColorsDark(&style);
+  style.WindowRounding = style.FrameRounding = style.GrabRounding = 3;
+  style.WindowBorderSize = 0;
+  style.Colors[ImGuiCol_WindowBg].w = 1;
+  style.ScaleAllSizes(scale);
+  ImGui::GetStyle() = style;
+}
+
+}  // namespace
+
+InterfaceContext::InterfaceContext() {
+  IMGUI_CHECKVERSION();
+  ImGui::CreateContext();
+  ImGuiIO& io = ImGui::GetIO();
+  io.IniFilename = nullptr;  // the panel's place is no setting
+  io.ConfigFlags |= ImGuiConfigFlags_NavEnableKeyboard;
+  io.BackendFlags |= ImGuiBackendFlags_RendererHasVtxOffset;
+  io.ConfigInputTextCursorBlink = false;  // nothing is drawn while nothing changes
+  io.ConfigDragClickToInputText = true;   // a click on a slider types a value
+}
+
+InterfaceContext::~InterfaceContext() {
+  ImGui::DestroyContext();
+}
+
+bool InterfaceContext::setScale(float scale) {
+  scale = std::clamp(scale, kSmallestText, 2 * kLargestText);
+  if (scale == scale_) return false;
+  scale_ = scale;
+  setStyle(scale);
+  ImFontAtlas& fonts = *ImGui::GetIO().Fonts;
+  fonts.Clear();
+  const float pixels = std::round(kTextPixels * scale);
+  const ImWchar ranges[] = {0x20, 0xff, 0x2000, 0x206f, 0x2190, 0x21ff, 0x2200, 0x22ff, 0};
+  const auto file = std::ranges::find_if(kFonts, [](const char* path) {
+    std::error_code failed;
+    return std::filesystem::exists(path, failed);
+  });
+  if (file == std::end(kFonts) ||
+      fonts.AddFontFromFileTTF(*file, pixels, nullptr, ranges) == nullptr) {
+    ImFontConfig config;
+    config.SizePixels = pixels;
+    fonts.AddFontDefault(&config);
+  }
+  fonts.Build();
+  return true;
+}
+
+InterfaceRenderer::~InterfaceRenderer() {
+  device_.destroy(pipeline_);
+  device_.destroy(sampler_);
+  device_.destroy(font_);
+  device_.destroy(vertices_);
+  device_.destroy(indices_);
+}
+
+void InterfaceRenderer::fontChanged() {
+  device_.destroy(font_);
+  font_ = {};
+}
+
+void InterfaceRenderer::uploadFont(gpu::Commands& commands) {
+  if (font_) return;
+  unsigned char* pixels = nullptr;
+  int width = 0, height = 0;
+  ImGui::GetIO().Fonts->GetTexDataAsAlpha8(&pixels, &width, &height);
+  font_ = device_.createTexture({.label = "font",
+                                 .format = gpu::Format::kR8Unorm,
+                                 .width = static_cast<uint32_t>(width),
+                                 .height = static_cast<uint32_t>(height),
+                                 .usage = gpu::TextureUsage::kSampled});
+  const size_t bytes = static_cast<size_t>(width) * static_cast<size_t>(height);
+  commands.upload(font_, 0, 0, std::as_bytes(std::span(pixels, bytes)));
+}
+
+// All lists in one buffer of vertices and one of indices, 32 bits each and counted from its start.
+void InterfaceRenderer::gather(const ImDrawData& data) {
+  vertexData_.clear();
+  indexData_.clear();
+  for (int i = 0; i < data.CmdListsCount; ++i) {
+    const ImDrawList& list = *data.CmdLists[i];
+    const auto base = static_cast<uint32_t>(vertexData_.size() / sizeof(ImDrawVert));
+    const auto bytes = std::as_bytes(std::span(list.VtxBuffer.Data, list.VtxBuffer.size()));
+    vertexData_.insert(vertexData_.end(), bytes.begin(), bytes.end());
+    for (const ImDrawCmd& command : list.CmdBuffer) {
+      for (uint32_t k = 0; k < command.ElemCount; ++k) {
+        const ImDrawIdx index = list.IdxBuffer[static_cast<int>(command.IdxOffset + k)];
+        indexData_.push_back(base + command.VtxOffset + index);
+      }
+    }
+  }
+}
+
+gpu::Buffer InterfaceRenderer::buffer(gpu::Commands& commands, gpu::Buffer& buffer,
+                                      uint64_t& capacity, const char* label,
+                                      std::span<const std::byte> bytes, gpu::BufferUsage usage) {
+  if (capacity < bytes.size()) {
+    device_.destroy(buffer);
+    capacity = bytes.size() + bytes.size() / 2;
+    buffer = device_.createBuffer({.label = label, .size = capacity, .usage = usage});
+  }
+  commands.upload(buffer, 0, bytes);
+  return buffer;
+}
+
+void InterfaceRenderer::draw(gpu::Commands& commands, const ImDrawData& data, gpu::Texture target,
+                             uint32_t width, uint32_t height) {
+  gather(data);
+  if (indexData_.empty()) return;
+  if (!pipeline_) {
+    sampler_ = device_.createSampler({.label = "interface", .filter = gpu::Filter::kLinear});
+    constexpr uint32_t kStride[] = {sizeof(ImDrawVert)};
+    constexpr gpu::VertexAttribute kAttributes[] = {
+        {0, 0, gpu::AttributeFormat::kFloat2, offsetof(ImDrawVert, pos)},
+        {1, 0, gpu::AttributeFormat::kFloat2, offsetof(ImDrawVert, uv)},
+        {2, 0, gpu::AttributeFormat::kUnorm8x4, offsetof(ImDrawVert, col)}};
+    constexpr gpu::Format kFormat[] = {gpu::Format::kRgba8Unorm};
+    gpu::GraphicsPipelineDesc desc;
+    desc.label = "interface";
+    desc.vertex = &grisaille_shader_interface_vert;
+    desc.fragment = &grisaille_shader_interface_frag;
+    desc.streamStrides = kStride;
+    desc.attributes = kAttributes;
+    desc.colorFormats = kFormat;
+    desc.blend = gpu::Blend::kOver;
+    pipeline_ = device_.createGraphicsPipeline(desc);
+  }
+  uploadFont(commands);
+  const gpu::BufferRange vertexRange = {buffer(commands, vertices_, vertexBytes_,
+                                               "interface vertices", vertexData_,
+                                               gpu::BufferUsage::kVertex)};
+  const gpu::BufferRange indexRange = {buffer(commands, indices_, indexBytes_, "interface indices",
+                                              std::as_bytes(std::span(indexData_)),
+                                              gpu::BufferUsage::kIndex)};
+  const InterfaceBlock block = {{2 / data.DisplaySize.x, 2 / data.DisplaySize.y},
+                                {data.DisplayPos.x, data.DisplayPos.y}};
+  const std::array bindings = {
+      gpu::uniformBinding(0, commands.uniform(std::as_bytes(std::span(&block, 1)))),
+      gpu::textureBinding(0, {.texture = font_}, sampler_)};
+  std::vector<gpu::Draw> draws;
+  uint32_t first = 0;
+  const ImVec2 scale = data.FramebufferScale;
+  const auto clip = [](float value, uint32_t most) {
+    return static_cast<uint32_t>(std::clamp(value, 0.0f, static_cast<float>(most)));
+  };
+  for (int i = 0; i < data.CmdListsCount; ++i) {
+    for (const ImDrawCmd& command : data.CmdLists[i]->CmdBuffer) {
+      const uint32_t left = clip((command.ClipRect.x - data.DisplayPos.x) * scale.x, width);
+      const uint32_t top = clip((command.ClipRect.y - data.DisplayPos.y) * scale.y, height);
+      const uint32_t right = clip((command.ClipRect.z - data.DisplayPos.x) * scale.x, width);
+      const uint32_t bottom = clip((command.ClipRect.w - data.DisplayPos.y) * scale.y, height);
+      if (right > left && bottom > top && command.ElemCount > 0) {
+        gpu::Draw draw;
+        draw.pipeline = pipeline_;
+        draw.bindings = bindings;
+        draw.vertexStreams = {&vertexRange, 1};
+        draw.indices = indexRange;
+        draw.count = command.ElemCount;
+        draw.first = first;
+        draw.scissor = {left, top, right - left, bottom - top};
+        draws.push_back(draw);
+      }
+      first += command.ElemCount;
+    }
+  }
+  gpu::ColorTarget color;
+  color.view = {.texture = target};
+  color.load = gpu::Load::kLoad;
+  commands.render({.colors = {&color, 1}, .draws = draws});
+}
+
+}  // namespace grisaille::app::viewer

@@ -1,0 +1,264 @@
+// SPDX-License-Identifier: MIT
+#include "app/viewer/panel.h"
+
+#include <fmt/format.h>
+#include <imgui/imgui_stdlib.h>
+
+#include <algorithm>
+#include <filesystem>
+
+namespace grisaille::app::viewer {
+namespace {
+
+constexpr float kWidth = 26;  // of the panel, heights of a line of text
+const ImVec4 kErrorColour(0.90f, 0.62f, 0.00f, 1);
+
+constexpr struct {
+  const char *keys, *what;
+} kHelp[] = {
+    {"F1", "this help"},
+    {"F2", "hide or show the panel"},
+    {"Tab, arrows, Space, Enter", "move in the panel and use it; Esc leaves it"},
+    {"Ctrl + + / - / 0", "larger, smaller, usual text"},
+    {"", ""},
+    {"left drag", "orbit"},
+    {"middle drag", "pan"},
+    {"right drag", "look about"},
+    {"scroll", "nearer, farther; with the right button: faster, slower"},
+    {"W A S D, E Q", "fly ahead, left, back, right, up, down; Shift: four times as fast"},
+    {"arrows", "orbit"},
+    {"Home", "the scene's own camera"},
+    {"1 ... 9", "a bookmark; with Ctrl: sets it"},
+    {"", ""},
+    {"B", "left button fires paint, or turns"},
+    {"Space", "fire through the picture's middle"},
+    {"Ctrl + Z, Ctrl + Shift + Z", "undo, redo"},
+    {"", ""},
+    {"V, Shift + V", "next view, the one before"},
+    {"X", "split"},
+    {"I", "the value under the cursor"},
+    {"Ctrl + scroll, + / -", "zoom into pixels"},
+    {"P, N", "pause, one step"},
+    {"", ""},
+    {"Ctrl + C", "copy as command line"},
+    {"Ctrl + S", "save the settings"},
+    {"F5", "rescan plugins"},
+    {"F11", "fill the screen"},
+    {"F12", "save the picture"},
+    {"Ctrl + Q", "quit"},
+};
+
+}  // namespace
+
+bool Panel::button(const char* label, const char* id, const char* tooltip) {
+  const bool pressed = ImGui::Button(label);
+  if (*tooltip != '\0' && ImGui::IsItemHovered()) ImGui::SetTooltip("%s", tooltip);
+  layout.note(id);
+  return pressed;
+}
+
+bool Panel::toggle(const char* label, const char* id, bool& value, const char* tooltip) {
+  const bool changed = ImGui::Checkbox(label, &value);
+  if (*tooltip != '\0' && ImGui::IsItemHovered()) ImGui::SetTooltip("%s", tooltip);
+  layout.note(id, value ? "true" : "false");
+  return changed;
+}
+
+// True where Enter was pressed.
+bool Panel::path(const char* label, const char* id, std::string& text) {
+  ImGui::SetNextItemWidth(ImGui::GetContentRegionAvail().x * 0.58f);
+  const bool entered = ImGui::InputText(label, &text, ImGuiInputTextFlags_EnterReturnsTrue);
+  layout.note(id, text);
+  return entered;
+}
+
+float Panel::width(glm::vec2 window) const {
+  if (!shown) return 0;
+  return std::min(kWidth * ImGui::GetFontSize(), window.x);
+}
+
+Requests Panel::draw(const Status& status, glm::vec2 window) {
+  Requests requests;
+  layout.begin();
+  if (!listsFresh_) {
+    bookmarkList_ = bookmarks_.list();
+    presetList_ = presets();
+    listsFresh_ = true;
+  }
+  if (shown) {
+    ImGui::SetNextWindowPos(ImVec2(0, 0));
+    ImGui::SetNextWindowSize(ImVec2(width(window), window.y));
+    ImGui::Begin("Grisaille", nullptr,
+                 ImGuiWindowFlags_NoDecoration | ImGuiWindowFlags_NoMove |
+                     ImGuiWindowFlags_NoBringToFrontOnFocus | ImGuiWindowFlags_NoFocusOnAppearing);
+    ImGui::TextWrapped("%s: %s%s", status.device.backend.c_str(), status.device.name.c_str(),
+                       status.device.software ? ", software" : "");
+    const float messages = 5 * ImGui::GetTextLineHeightWithSpacing();
+    ImGui::BeginChild("controls", ImVec2(0, -messages));
+    const auto section = [&](const char* label, bool open) {
+      const bool is = ImGui::CollapsingHeader(label, open ? ImGuiTreeNodeFlags_DefaultOpen : 0);
+      layout.note(std::string("section ") + label, is ? "open" : "closed");
+      return is;
+    };
+    if (section("Effects", true)) drawEffects(status, requests);
+    if (section("View", true)) drawViews(status, requests);
+    if (section("Paint", !session_.painter().empty()))
+      drawPaint(status);
+    else
+      wantsCoverage = false;
+    if (section("Settings", false)) drawSettings(requests);
+    if (section("Cost", false)) drawCost(status);
+    if (section("Camera", false)) drawCamera();
+    if (section("Scene", false)) drawScene(status, requests);
+    ImGui::EndChild();
+    drawMessages();
+    ImGui::End();
+  }
+  if (status.loading) {
+    ImGui::SetNextWindowPos(ImVec2((width(window) + window.x) / 2, window.y / 2), ImGuiCond_Always,
+                            ImVec2(0.5f, 0.5f));
+    ImGui::Begin("Loading", nullptr,
+                 ImGuiWindowFlags_NoDecoration | ImGuiWindowFlags_NoInputs |
+                     ImGuiWindowFlags_AlwaysAutoResize);
+    ImGui::TextUnformatted(status.loadingPath.c_str());
+    ImGui::ProgressBar(static_cast<float>(*status.loading), ImVec2(20 * ImGui::GetFontSize(), 0));
+    ImGui::End();
+  }
+  if (help) drawHelp(window);
+  return requests;
+}
+
+void Panel::drawMessages() {
+  ImGui::Separator();
+  ImGui::BeginChild("messages");
+  for (const Message& message : session_.messages) {
+    if (message.error) ImGui::PushStyleColor(ImGuiCol_Text, kErrorColour);
+    ImGui::TextWrapped("%s", message.text.c_str());
+    if (message.error) ImGui::PopStyleColor();
+  }
+  if (messagesSeen_ != session_.messages.size()) ImGui::SetScrollHereY(1);
+  messagesSeen_ = session_.messages.size();
+  if (!session_.messages.empty()) layout.note("message", session_.messages.back().text);
+  ImGui::EndChild();
+}
+
+void Panel::drawSettings(Requests& requests) {
+  ImGui::BeginDisabled(!session_.history.canUndo());
+  if (button("Undo", "undo", session_.history.undoName().c_str())) session_.undo();
+  ImGui::EndDisabled();
+  ImGui::SameLine();
+  ImGui::BeginDisabled(!session_.history.canRedo());
+  if (button("Redo", "redo", session_.history.redoName().c_str())) session_.redo();
+  ImGui::EndDisabled();
+  path("##settings", "settings path", settingsPath_);
+  ImGui::SameLine();
+  if (button("Load", "load settings")) {
+    session_.attempt([&] { session_.loadSettings(settingsPath_); });
+  }
+  ImGui::SameLine();
+  if (button("Save", "save settings", "(Ctrl+S)")) saveSettings();
+  for (const Preset& preset : presetList_) {
+    if (ImGui::Selectable(preset.name.c_str())) {
+      session_.attempt([&] { session_.loadSettings(preset.path.string()); });
+    }
+    layout.note("preset." + preset.name);
+  }
+  path("##preset", "preset name", presetName_);
+  ImGui::SameLine();
+  if (button("Save as preset", "save preset")) {
+    session_.attempt([&] {
+      Bookmarks::checkName(presetName_);
+      std::filesystem::create_directories(configFolder() / "presets");
+      session_.saveSettings((configFolder() / "presets" / (presetName_ + ".toml")).string());
+    });
+    listsFresh_ = false;
+  }
+  if (button("Copy as command line", "copy command",
+             "The `grisaille render` that makes this picture (Ctrl+C)")) {
+    requests.copyCommand = true;
+  }
+}
+
+void Panel::drawCamera() {
+  scene::Camera edited = session_.camera;
+  bool changed = false;
+  const auto field = [&](const char* label, glm::dvec3& value) {
+    ImGui::SetNextItemWidth(ImGui::GetContentRegionAvail().x * 0.75f);
+    changed |= ImGui::InputScalarN(label, ImGuiDataType_Double, &value.x, 3, nullptr, nullptr,
+                                   "%.4f", ImGuiInputTextFlags_EnterReturnsTrue);
+    layout.note(std::string("camera.") + label);
+  };
+  field("Eye", edited.eye);
+  field("Target", edited.target);
+  const double least = 5, most = 120;
+  ImGui::SetNextItemWidth(ImGui::GetContentRegionAvail().x * 0.58f);
+  changed |= ImGui::SliderScalar("Field of view", ImGuiDataType_Double, &edited.fovyDegrees, &least,
+                                 &most, "%.1f degrees");
+  layout.note("camera.fov", fmt::format("{}", edited.fovyDegrees));
+  if (changed) {
+    session_.attempt([&] {
+      scene::validate(edited);
+      session_.camera = edited;
+    });
+  }
+  ImGui::Text("Speed %.3g m/s", session_.speed);
+  for (const Bookmarks::Entry& entry : bookmarkList_) {
+    ImGui::PushID(entry.name.c_str());
+    if (ImGui::SmallButton("x")) {
+      session_.attempt([&] { bookmarks_.remove(entry.name); });
+      listsFresh_ = false;
+    }
+    ImGui::SameLine();
+    if (!entry.camera) {
+      ImGui::TextColored(kErrorColour, "%s: %s", entry.name.c_str(), entry.error.c_str());
+    } else if (ImGui::Selectable(entry.name.c_str())) {
+      session_.camera = *entry.camera;
+    }
+    layout.note("bookmark." + entry.name);
+    ImGui::PopID();
+  }
+  path("##bookmark", "bookmark name", bookmarkName_);
+  ImGui::SameLine();
+  if (button("Bookmark", "save bookmark")) {
+    session_.attempt([&] { bookmarks_.save(bookmarkName_, session_.camera); });
+    listsFresh_ = false;
+  }
+}
+
+void Panel::drawScene(const Status& status, Requests& requests) {
+  ImGui::TextWrapped("%s",
+                     session_.scenePath.empty() ? "built-in atrium" : session_.scenePath.c_str());
+  ImGui::BeginDisabled(status.loading.has_value());
+  bool open = path("##scene", "scene path", scenePath_);
+  ImGui::SameLine();
+  open |= button("Open", "open scene", "A .glb or .gltf; or drop one on the window");
+  if (open && !scenePath_.empty()) requests.scene = scenePath_;
+  if (ImGui::Selectable("built-in atrium")) requests.scene = "";
+  layout.note("scene.builtin");
+  for (const std::string& recent : state_.recent) {
+    if (ImGui::Selectable(recent.c_str())) requests.scene = recent;
+    layout.note("recent." + recent);
+  }
+  ImGui::EndDisabled();
+}
+
+void Panel::drawHelp(glm::vec2 window) {
+  ImGui::SetNextWindowPos(ImVec2((width(window) + window.x) / 2, window.y / 2), ImGuiCond_Always,
+                          ImVec2(0.5f, 0.5f));
+  ImGui::SetNextWindowSizeConstraints(ImVec2(0, 0), ImVec2(window.x, window.y));
+  ImGui::Begin("Keys (F1)", &help, ImGuiWindowFlags_AlwaysAutoResize | ImGuiWindowFlags_NoCollapse);
+  if (ImGui::BeginTable("keys", 2)) {
+    for (const auto& line : kHelp) {
+      ImGui::TableNextRow();
+      ImGui::TableNextColumn();
+      ImGui::TextUnformatted(line.keys);
+      ImGui::TableNextColumn();
+      ImGui::TextUnformatted(line.what);
+    }
+    ImGui::EndTable();
+  }
+  layout.note("help");
+  ImGui::End();
+}
+
+}  // namespace grisaille::app::viewer

@@ -1,0 +1,102 @@
+// SPDX-License-Identifier: MIT
+// The panel: every effect's parameters from its own table, views, paint, cost, files. It edits the
+// session and asks the viewer for what a session cannot do.
+#pragma once
+
+#include <imgui/imgui.h>
+
+#include <array>
+#include <optional>
+#include <string>
+#include <vector>
+
+#include "app/coverage.h"
+#include "app/viewer/bookmarks.h"
+#include "app/viewer/layout.h"
+#include "app/viewer/pass_stats.h"
+#include "app/viewer/session.h"
+#include "app/viewer/state_file.h"
+
+namespace grisaille::app::viewer {
+
+// What the panel shows besides the session.
+struct Status {
+  gpu::DeviceInfo device;
+  std::vector<PassStats> passes;
+  PassStats whole;
+  std::vector<ColorShare> coverage;
+  std::vector<float> cursorValue;  // of the texel under the cursor; empty: none
+  glm::ivec2 cursorTexel = glm::ivec2(0);
+  glm::uvec2 picture = glm::uvec2(0);  // pixels
+  uint64_t waiting = 0;                // shots
+  std::optional<double> loading;       // share of a scene that is read
+  std::string loadingPath;
+  std::string rebuilding;    // the effect whose plugin is being built; "": none
+  std::string buildMessage;  // why the last build failed; "": it did not
+};
+
+// What the panel asks for.
+struct Requests {
+  std::optional<std::string> scene;  // to open; "": the built-in one
+  bool rescan = false, picture = false, copyCommand = false, help = false, quit = false;
+};
+
+class Panel {
+ public:
+  Panel(Session& session, ViewerState& state, Bookmarks& bookmarks)
+      : session_(session), state_(state), bookmarks_(bookmarks) {}
+
+  // Between ImGui::NewFrame() and ImGui::Render(); the units of the window.
+  Requests draw(const Status& status, glm::vec2 window);
+
+  // Units of the window that it takes from the left; 0 when it is hidden.
+  float width(glm::vec2 window) const;
+
+  void refreshLists() { listsFresh_ = false; }
+  void saveSettings() {
+    session_.attempt([&] { session_.saveSettings(settingsPath_); });
+  }
+
+  bool shown = true, help = false, wantsCoverage = false;
+  glm::uvec2 pictureSize = glm::uvec2(1920, 1080);  // of pictures that are saved
+  bool pictureAsShown = true;                       // with the size on the screen
+  Layout layout;
+
+ private:
+  // panel.cpp
+  void drawMessages();
+  void drawScene(const Status& status, Requests& requests);
+  void drawCamera();
+  void drawSettings(Requests& requests);
+  void drawHelp(glm::vec2 window);
+  // panel_effects.cpp
+  void drawEffects(const Status& status, Requests& requests);
+  void drawEffect(EffectList::Entry& entry, size_t index);
+  void drawParameters(EffectList::Entry& entry);
+  void drawParameter(EffectList::Entry& entry, const grisaille_param_desc& param);
+  bool editParameter(const EffectList::Entry& entry, const grisaille_param_desc& param,
+                     double& value);
+  void drawCost(const Status& status);
+  // panel_views.cpp
+  void drawViews(const Status& status, Requests& requests);
+  void drawViewChoice(const char* label, const char* id, std::string& output,
+                      const EffectList& effects);
+  void drawPaint(const Status& status);
+  void drawCoverage(const Status& status);
+
+  bool button(const char* label, const char* id, const char* tooltip = "");
+  bool toggle(const char* label, const char* id, bool& value, const char* tooltip = "");
+  bool path(const char* label, const char* id, std::string& text);
+
+  Session& session_;
+  ViewerState& state_;
+  Bookmarks& bookmarks_;
+  std::string scenePath_, settingsPath_ = "settings.toml", presetName_, shotsPath_ = "shots.json";
+  std::string bookmarkName_;
+  std::vector<Bookmarks::Entry> bookmarkList_;
+  std::vector<Preset> presetList_;
+  bool listsFresh_ = false;
+  size_t messagesSeen_ = 0;
+};
+
+}  // namespace grisaille::app::viewer

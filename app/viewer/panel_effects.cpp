@@ -1,0 +1,258 @@
+// SPDX-License-Identifier: MIT
+// The panel's effects: all of it made from their tables.
+#include <fmt/format.h>
+
+#include <algorithm>
+#include <cmath>
+
+#include "app/viewer/panel.h"
+
+namespace grisaille::app::viewer {
+namespace {
+
+// Okabe and Ito's colours, told apart with any colour vision; black left out, as the ground is
+// dark.
+const std::array<ImVec4, 7> kColours = {{{0.90f, 0.62f, 0.00f, 1},
+                                         {0.34f, 0.71f, 0.91f, 1},
+                                         {0.00f, 0.62f, 0.45f, 1},
+                                         {0.94f, 0.89f, 0.26f, 1},
+                                         {0.00f, 0.45f, 0.70f, 1},
+                                         {0.84f, 0.37f, 0.00f, 1},
+                                         {0.80f, 0.47f, 0.65f, 1}}};
+constexpr size_t kFrameColour = 6;
+
+// printf's format of a value with its unit, in which '%' stands for itself.
+std::string formatOf(const grisaille_param_desc& param, const char* number) {
+  std::string text = number;
+  if (*param.unit == '\0') return text;
+  text += ' ';
+  for (const char* c = param.unit; *c != '\0'; ++c) text += *c == '%' ? "%%" : std::string(1, *c);
+  return text;
+}
+
+std::string tooltipOf(const EffectList::Entry& entry, const grisaille_param_desc& param) {
+  const char* unit = *param.unit != '\0' ? " " : "";
+  std::string text = fmt::format("{}\n{}.{}", param.tooltip, entry.key(), param.key);
+  if (param.type == GRISAILLE_PARAM_FLOAT || param.type == GRISAILLE_PARAM_INT) {
+    text += fmt::format(": {:g} to {:g}{}{}, usually {:g} to {:g}", param.hard_min, param.hard_max,
+                        unit, param.unit, param.soft_min, param.soft_max);
+  }
+  return text + fmt::format("\nCtrl+click: type a value. Right click: back to {}.",
+                            effect::Values(entry.values.effect()).text(param.key));
+}
+
+std::string readsOf(const EffectList::Entry& entry) {
+  constexpr const char* kNames[GRISAILLE_ATTACHMENT_COUNT] = {"depth", "view_depth", "normal",
+                                                              "base_colour", "facet_normal"};
+  const uint32_t reads = entry.values.effect().desc->reads(entry.values.all().data());
+  std::string text;
+  for (uint32_t i = 0; i < GRISAILLE_ATTACHMENT_COUNT; ++i) {
+    if ((reads & GRISAILLE_READS(i)) != 0)
+      text += (text.empty() ? "" : ", ") + std::string(kNames[i]);
+  }
+  return text.empty() ? "nothing" : text;
+}
+
+std::string writesOf(const EffectList::Entry& entry) {
+  std::string text;
+  for (const grisaille_output_desc& output : entry.values.effect().outputs()) {
+    text += (text.empty() ? "" : ", ") + std::string(output.key);
+  }
+  return text;
+}
+
+}  // namespace
+
+void Panel::drawEffects(const Status& status, Requests& requests) {
+  for (size_t i = 0; i < session_.effects.entries().size(); ++i) {
+    ImGui::PushID(static_cast<int>(i));
+    drawEffect(session_.effects.entries()[i], i);
+    ImGui::PopID();
+  }
+  if (button("Rescan plugins", "rescan", "Loads plugins that are new or have changed")) {
+    requests.rescan = true;
+  }
+  if (!status.rebuilding.empty()) ImGui::TextWrapped("building %s ...", status.rebuilding.c_str());
+  if (!status.buildMessage.empty()) {
+    ImGui::PushStyleColor(ImGuiCol_Text, kColours[0]);
+    ImGui::TextWrapped("%s", status.buildMessage.c_str());
+    ImGui::PopStyleColor();
+    layout.note("build message", status.buildMessage);
+  }
+  for (const effect::Refused& refused : session_.registry().refused()) {
+    ImGui::PushStyleColor(ImGuiCol_Text, kColours[0]);
+    ImGui::TextWrapped("%s", refused.reason.what());
+    ImGui::PopStyleColor();
+    layout.note("refused", refused.reason.what());
+  }
+}
+
+void Panel::drawEffect(EffectList::Entry& entry, size_t index) {
+  const grisaille_effect_desc& desc = *entry.values.effect().desc;
+  const std::string key = desc.key;
+  bool on = entry.on;
+  if (ImGui::Checkbox("##on", &on)) {
+    entry.on = on;
+    session_.changed(key + (on ? " on" : " off"));
+    session_.checkViews();
+  }
+  layout.note(key + ".on", on ? "true" : "false");
+  ImGui::SameLine();
+  const float arrows = 2 * ImGui::GetFrameHeight() + 2 * ImGui::GetStyle().ItemSpacing.x;
+  ImGui::SetNextItemWidth(ImGui::GetContentRegionAvail().x - arrows);
+  ImGui::SetNextItemOpen(entry.on, ImGuiCond_Once);
+  const bool open =
+      ImGui::TreeNodeEx(key.c_str(),
+                        ImGuiTreeNodeFlags_AllowItemOverlap | ImGuiTreeNodeFlags_SpanAvailWidth |
+                            ImGuiTreeNodeFlags_NoTreePushOnOpen,
+                        "%s (%s)", desc.label, desc.key);
+  if (ImGui::IsItemHovered()) {
+    ImGui::SetTooltip("%s\nversion %s, %s\nreads %s\nwrites %s", desc.tooltip, desc.version,
+                      entry.values.effect().path.c_str(), readsOf(entry).c_str(),
+                      writesOf(entry).c_str());
+  }
+  layout.note(key + ".tree", open ? "open" : "closed");
+  ImGui::SameLine(ImGui::GetContentRegionMax().x - arrows);
+  std::optional<size_t> target;
+  if (ImGui::ArrowButton("##up", ImGuiDir_Up) && index > 0) target = index - 1;
+  layout.note(key + ".up");
+  if (ImGui::IsItemHovered()) ImGui::SetTooltip("Runs earlier");
+  ImGui::SameLine();
+  if (ImGui::ArrowButton("##down", ImGuiDir_Down)) target = index + 1;
+  layout.note(key + ".down");
+  if (ImGui::IsItemHovered()) ImGui::SetTooltip("Runs later");
+  if (open) drawParameters(entry);
+  // Last: `entry` is another one then.
+  if (target && *target < session_.effects.entries().size()) {
+    session_.effects.move(index, *target);
+    session_.changed("order of effects");
+  }
+}
+
+void Panel::drawParameters(EffectList::Entry& entry) {
+  ImGui::Indent();
+  ImGui::PushStyleColor(ImGuiCol_Text, ImGui::GetStyleColorVec4(ImGuiCol_TextDisabled));
+  ImGui::TextWrapped("reads %s; writes %s", readsOf(entry).c_str(), writesOf(entry).c_str());
+  ImGui::PopStyleColor();
+  bool anyAdvanced = false;
+  for (const grisaille_param_desc& param : entry.values.effect().params()) {
+    if ((param.flags & GRISAILLE_PARAM_ADVANCED) != 0) {
+      anyAdvanced = true;
+    } else {
+      drawParameter(entry, param);
+    }
+  }
+  if (anyAdvanced) {
+    const bool open =
+        ImGui::TreeNodeEx("advanced", ImGuiTreeNodeFlags_NoTreePushOnOpen, "Advanced");
+    layout.note(std::string(entry.key()) + ".advanced", open ? "open" : "closed");
+    if (open) {
+      for (const grisaille_param_desc& param : entry.values.effect().params()) {
+        if ((param.flags & GRISAILLE_PARAM_ADVANCED) != 0) drawParameter(entry, param);
+      }
+    }
+  }
+  ImGui::Unindent();
+}
+
+void Panel::drawParameter(EffectList::Entry& entry, const grisaille_param_desc& param) {
+  const std::string name = std::string(entry.key()) + "." + param.key;
+  double value = entry.values.get(param.key);
+  ImGui::SetNextItemWidth(ImGui::GetContentRegionAvail().x * 0.58f);
+  bool edited = editParameter(entry, param, value);
+  if (ImGui::IsItemHovered()) {
+    ImGui::SetTooltip("%s", tooltipOf(entry, param).c_str());
+    if (ImGui::IsMouseClicked(ImGuiMouseButton_Right)) {
+      value = param.default_value;
+      edited = true;
+    }
+  }
+  if (edited && value != entry.values.get(param.key)) {
+    session_.attempt([&] {
+      entry.values.set(param.key, value);
+      session_.changed(name);
+    });
+  }
+  layout.note(name, entry.values.text(param.key));
+}
+
+// Draws the control; true where `value` is another now.
+bool Panel::editParameter(const EffectList::Entry& entry, const grisaille_param_desc& param,
+                          double& value) {
+  const std::string label = fmt::format("{}##{}.{}", param.label, entry.key(), param.key);
+  const ImGuiSliderFlags scale =
+      (param.flags & GRISAILLE_PARAM_LOG) != 0 ? ImGuiSliderFlags_Logarithmic : 0;
+  switch (param.type) {
+    case GRISAILLE_PARAM_BOOL: {
+      bool on = value != 0;
+      const bool edited = ImGui::Checkbox(label.c_str(), &on);
+      value = on ? 1 : 0;
+      return edited;
+    }
+    case GRISAILLE_PARAM_ENUM: {
+      int index = static_cast<int>(value);
+      const bool edited = ImGui::Combo(label.c_str(), &index, param.enum_labels,
+                                       static_cast<int>(param.enum_count));
+      value = index;
+      return edited;
+    }
+    case GRISAILLE_PARAM_INT: {
+      auto whole = static_cast<int64_t>(value);
+      const auto least = static_cast<int64_t>(param.soft_min);
+      const auto most = static_cast<int64_t>(param.soft_max);
+      const bool edited = ImGui::SliderScalar(label.c_str(), ImGuiDataType_S64, &whole, &least,
+                                              &most, formatOf(param, "%lld").c_str(), scale);
+      value = static_cast<double>(whole);
+      return edited;
+    }
+    default: {
+      const bool edited =
+          ImGui::SliderScalar(label.c_str(), ImGuiDataType_Double, &value, &param.soft_min,
+                              &param.soft_max, formatOf(param, "%.5g").c_str(), scale);
+      // A dragged slider moves by whole steps; what is typed stays as it is.
+      if (edited && scale == 0 && ImGui::IsMouseDown(ImGuiMouseButton_Left) && param.step > 0) {
+        const double steps = std::round((value - param.soft_min) / param.step);
+        value = std::clamp(param.soft_min + steps * param.step, param.soft_min, param.soft_max);
+      }
+      return edited;
+    }
+  }
+}
+
+void Panel::drawCost(const Status& status) {
+  const char* clock = gpu::clockName(status.device.clock);
+  ImGui::TextDisabled("%s clock, last %zu frames", clock, status.whole.recent.size());
+  toggle("Render all the time", "continuous", session_.continuous,
+         "Else a frame is rendered when something has changed");
+  std::vector<PassStats> rows = status.passes;
+  rows.push_back(status.whole);
+  float most = 0;
+  for (const float ms : status.whole.recent) most = std::max(most, ms);
+  if (!ImGui::BeginTable("cost", 4, ImGuiTableFlags_SizingStretchProp)) return;
+  ImGui::TableSetupColumn("pass", ImGuiTableColumnFlags_WidthFixed);
+  ImGui::TableSetupColumn("mean, ms", ImGuiTableColumnFlags_WidthFixed);
+  ImGui::TableSetupColumn("p95, ms", ImGuiTableColumnFlags_WidthFixed);
+  ImGui::TableSetupColumn("", ImGuiTableColumnFlags_WidthStretch);
+  ImGui::TableHeadersRow();
+  for (size_t i = 0; i < rows.size(); ++i) {
+    const PassStats& row = rows[i];
+    ImGui::TableNextRow();
+    ImGui::TableNextColumn();
+    const size_t colour = i + 1 == rows.size() ? kFrameColour : i % kFrameColour;
+    ImGui::TextColored(kColours[colour], "%s", row.label.c_str());
+    ImGui::TableNextColumn();
+    ImGui::Text("%.2f", row.mean);
+    layout.note("cost." + row.label, fmt::format("{:.3f}", row.mean));
+    ImGui::TableNextColumn();
+    ImGui::Text("%.2f", row.p95);
+    ImGui::TableNextColumn();
+    ImGui::PushStyleColor(ImGuiCol_PlotLines, kColours[colour]);
+    ImGui::PlotLines(("##" + row.label).c_str(), row.recent.data(),
+                     static_cast<int>(row.recent.size()), 0, nullptr, 0, most,
+                     ImVec2(-1, ImGui::GetFrameHeight()));
+    ImGui::PopStyleColor();
+  }
+  ImGui::EndTable();
+}
+
+}  // namespace grisaille::app::viewer

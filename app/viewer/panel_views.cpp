@@ -1,0 +1,127 @@
+// SPDX-License-Identifier: MIT
+// The panel's views and paint.
+#include <fmt/format.h>
+
+#include <algorithm>
+#include <glm/gtc/color_space.hpp>
+
+#include "app/viewer/panel.h"
+
+namespace grisaille::app::viewer {
+
+void Panel::drawViewChoice(const char* label, const char* id, std::string& output,
+                           const EffectList& effects) {
+  const std::vector<Viewable> all = viewables(effects);
+  const auto now = std::ranges::find(all, output, &Viewable::output);
+  ImGui::SetNextItemWidth(ImGui::GetContentRegionAvail().x * 0.58f);
+  if (ImGui::BeginCombo(label, now != all.end() ? now->label.c_str() : output.c_str())) {
+    for (const Viewable& one : all) {
+      if (ImGui::Selectable(one.label.c_str(), one.output == output)) output = one.output;
+      layout.note(std::string(id) + "." + one.output);
+    }
+    ImGui::EndCombo();
+  }
+  layout.note(id, output);
+}
+
+void Panel::drawViews(const Status& status, Requests& requests) {
+  drawViewChoice("View", "view", session_.left, session_.effects);
+  toggle("Split", "split", session_.split, "A line to drag between two sides (X)");
+  if (session_.split) {
+    drawViewChoice("Right side", "view right", session_.right,
+                   session_.held ? *session_.held : session_.effects);
+    if (button("Hold", "hold", "Keeps these settings for the right side, to compare with")) {
+      session_.hold();
+    }
+    if (session_.held) {
+      ImGui::SameLine();
+      if (button("Swap", "swap", "Exchanges the settings of both sides")) session_.swapHeld();
+      ImGui::SameLine();
+      if (button("Let go", "let go", "The right side has the live settings again")) {
+        session_.held.reset();
+        session_.checkViews();
+      }
+    }
+  }
+  bool base = session_.surface == frame::Surface::kBaseColour;
+  if (toggle("Base colour under the light", "base", base, "Else all is white")) {
+    session_.surface = base ? frame::Surface::kBaseColour : frame::Surface::kWhite;
+  }
+  ImGui::SetNextItemWidth(ImGui::GetContentRegionAvail().x * 0.58f);
+  ImGui::SliderFloat("Zoom", &session_.zoom, 1, 64, "%.3g px a texel",
+                     ImGuiSliderFlags_Logarithmic);
+  layout.note("zoom", fmt::format("{}", session_.zoom));
+  toggle("Value under the cursor", "inspect", session_.inspecting, "(I)");
+  if (session_.inspecting && !status.cursorValue.empty()) {
+    std::string text = fmt::format("{}, {}:", status.cursorTexel.x, status.cursorTexel.y);
+    for (const float value : status.cursorValue) text += fmt::format(" {:.6g}", value);
+    ImGui::TextUnformatted(text.c_str());
+    layout.note("value", text);
+  }
+  toggle("Pause", "pause", session_.paused, "The picture stays as it is (P)");
+  ImGui::SameLine();
+  if (button("Step", "step", "Renders one frame (N)")) session_.step = true;
+
+  ImGui::Separator();
+  toggle("Picture as large as on the screen", "as shown", pictureAsShown);
+  if (!pictureAsShown) {
+    int size[2] = {static_cast<int>(pictureSize.x), static_cast<int>(pictureSize.y)};
+    ImGui::SetNextItemWidth(ImGui::GetContentRegionAvail().x * 0.58f);
+    if (ImGui::InputInt2("Size, px", size)) {
+      pictureSize = glm::uvec2(glm::clamp(glm::ivec2(size[0], size[1]), 1, 16384));
+    }
+    layout.note("picture size");
+  }
+  if (button("Save picture", "save picture", "A PNG and an EXR in the current folder (F12)")) {
+    requests.picture = true;
+  }
+}
+
+void Panel::drawPaint(const Status& status) {
+  const std::string painter = session_.painter();
+  if (painter.empty()) {
+    ImGui::TextDisabled("No effect that is on takes shots.");
+    return;
+  }
+  toggle("Left button fires", "painting", session_.painting,
+         "Click through a pixel, hold to spray; else it turns the camera (B)");
+  glm::vec3 encoded = glm::convertLinearToSRGB(session_.color);
+  ImGui::SetNextItemWidth(ImGui::GetContentRegionAvail().x * 0.58f);
+  if (ImGui::ColorEdit3("Colour", &encoded.x,
+                        ImGuiColorEditFlags_PickerHueWheel | ImGuiColorEditFlags_DisplayHex)) {
+    session_.color = glm::convertSRGBToLinear(glm::clamp(encoded, 0.0f, 1.0f));
+  }
+  layout.note("colour");
+  const size_t count = session_.shots.find(painter)->second.shots().size();
+  ImGui::Text("%zu shots", count);
+  layout.note("shots", fmt::format("{}", count));
+  if (status.waiting > 0) {
+    ImGui::SameLine();
+    ImGui::TextDisabled("%llu wait", static_cast<unsigned long long>(status.waiting));
+  }
+  if (button("Clear shots", "clear shots")) session_.clearShots();
+  path("##shots", "shots path", shotsPath_);
+  ImGui::SameLine();
+  if (button("Load", "load shots")) session_.attempt([&] { session_.loadShots(shotsPath_); });
+  ImGui::SameLine();
+  if (button("Save", "save shots")) session_.attempt([&] { session_.saveShots(shotsPath_); });
+  wantsCoverage = ImGui::TreeNodeEx("Coverage", ImGuiTreeNodeFlags_NoTreePushOnOpen);
+  layout.note("coverage", wantsCoverage ? "open" : "closed");
+  if (wantsCoverage) drawCoverage(status);
+}
+
+void Panel::drawCoverage(const Status& status) {
+  for (const ColorShare& share : status.coverage) {
+    unsigned bits = 0x808080;
+    if (share.color.size() == 7)
+      bits = static_cast<unsigned>(std::stoul(share.color.substr(1), nullptr, 16));
+    const auto channel = [&](int shift) { return static_cast<float>(bits >> shift & 255u) / 255; };
+    ImGui::ColorButton(share.color.c_str(), ImVec4(channel(16), channel(8), channel(0), 1),
+                       ImGuiColorEditFlags_NoTooltip);
+    ImGui::SameLine();
+    ImGui::Text("%s  %.2f %%", share.color.c_str(), 100 * share.share);
+    layout.note("coverage." + share.color, fmt::format("{:.6f}", share.share));
+  }
+}
+
+}  // namespace grisaille::app::viewer

@@ -1,0 +1,144 @@
+// SPDX-License-Identifier: MIT
+#include "app/viewer/rebuild.h"
+
+#include <sys/wait.h>
+
+#include <algorithm>
+#include <array>
+#include <chrono>
+#include <cstdio>
+#include <fstream>
+#include <memory>
+#include <nlohmann/json.hpp>
+#include <regex>
+#include <set>
+
+#include "app/viewer/command_line.h"
+
+namespace grisaille::app::viewer {
+namespace fs = std::filesystem;
+namespace {
+
+// What matters of a build's words: the lines that tell of errors, else the last ones.
+std::string gist(const std::string& words) {
+  constexpr size_t kLines = 8;
+  static const std::regex kTelling("error|Error|FAILED:|undefined");
+  std::vector<std::string> telling, all;
+  for (size_t from = 0; from < words.size();) {
+    const size_t end = std::min(words.find('\n', from), words.size());
+    const std::string line = words.substr(from, end - from);
+    if (!line.empty()) all.push_back(line);
+    if (std::regex_search(line, kTelling) && line.find("FAILED:") == std::string::npos) {
+      telling.push_back(line);
+    }
+    from = end + 1;
+  }
+  std::vector<std::string>& chosen = telling.empty() ? all : telling;
+  const size_t first = telling.empty() && chosen.size() > kLines ? chosen.size() - kLines : 0;
+  std::string text;
+  for (size_t i = first; i < std::min(chosen.size(), first + kLines); ++i) {
+    text += (text.empty() ? "" : "\n") + chosen[i];
+  }
+  return text.empty() ? "the build failed without a word" : text;
+}
+
+Rebuild::Outcome build(const std::string& folder, const std::string& target) {
+  const std::string command = "cmake --build " + shellQuoted(folder) + " --target " +
+                              shellQuoted(target) + " 2>&1 </dev/null";
+  std::FILE* pipe = popen(command.c_str(), "re");
+  if (pipe == nullptr) return {false, "no shell to build with"};
+  std::string words;
+  std::array<char, 4096> buffer;
+  while (const size_t count = std::fread(buffer.data(), 1, buffer.size(), pipe)) {
+    words.append(buffer.data(), count);
+  }
+  const int status = pclose(pipe);
+  if (status != -1 && WIFEXITED(status) && WEXITSTATUS(status) == 0) return {true, ""};
+  return {false, gist(words)};
+}
+
+}  // namespace
+
+Rebuild::~Rebuild() {
+  if (outcome_.valid()) outcome_.wait();
+}
+
+std::optional<Rebuild::Plugin> Rebuild::read(const fs::path& description) {
+  std::ifstream file(description);
+  const nlohmann::json json = nlohmann::json::parse(file, nullptr, false);
+  if (!json.is_object() || !json.contains("build") || !json.contains("target") ||
+      !json.contains("watch") || !json["watch"].is_array()) {
+    return std::nullopt;
+  }
+  Plugin plugin;
+  plugin.folder = json.value("build", "");
+  plugin.target = json.value("target", "");
+  for (const nlohmann::json& path : json["watch"]) {
+    if (path.is_string()) plugin.watched.emplace_back(path.get<std::string>());
+  }
+  std::error_code failed;
+  if (!fs::is_directory(plugin.folder, failed)) return std::nullopt;
+  plugin.times = timesOf(plugin);
+  return plugin;
+}
+
+Rebuild::Times Rebuild::timesOf(const Plugin& plugin) {
+  Times times;
+  std::error_code failed;
+  const auto note = [&](const fs::path& path) {
+    const auto time = fs::last_write_time(path, failed);
+    if (!failed) times[path] = time;
+  };
+  for (const fs::path& path : plugin.watched) {
+    if (!fs::is_directory(path, failed)) {
+      note(path);
+      continue;
+    }
+    for (fs::directory_iterator file(path, failed); !failed && file != fs::directory_iterator();
+         file.increment(failed)) {
+      if (file->is_regular_file(failed)) note(file->path());
+    }
+  }
+  return times;
+}
+
+void Rebuild::watch(const effect::Registry& registry) {
+  std::set<fs::path> descriptions;
+  for (const effect::Effect& effect : registry.effects()) {
+    descriptions.insert(fs::path(effect.path).replace_extension(".build.json"));
+  }
+  const std::vector<Plugin> before = std::exchange(plugins_, {});
+  for (const fs::path& description : descriptions) {
+    std::error_code failed;
+    if (!fs::exists(description, failed)) continue;
+    auto plugin = read(description);
+    if (!plugin) continue;
+    // What was edited while it was being built is seen at the next look.
+    const auto known = std::ranges::find(before, plugin->target, &Plugin::target);
+    if (known != before.end()) plugin->times = known->times;
+    plugins_.push_back(std::move(*plugin));
+  }
+}
+
+void Rebuild::look() {
+  if (outcome_.valid()) return;
+  for (Plugin& plugin : plugins_) {
+    Times times = timesOf(plugin);
+    if (times == plugin.times) continue;
+    plugin.times = std::move(times);
+    building_ = plugin.target;
+    outcome_ = std::async(std::launch::async, build, plugin.folder, plugin.target);
+    return;
+  }
+}
+
+std::optional<Rebuild::Outcome> Rebuild::take() {
+  if (!outcome_.valid() ||
+      outcome_.wait_for(std::chrono::seconds(0)) != std::future_status::ready) {
+    return std::nullopt;
+  }
+  building_.clear();
+  return outcome_.get();
+}
+
+}  // namespace grisaille::app::viewer

@@ -1,0 +1,29 @@
+// SPDX-License-Identifier: MIT
+#include "app/viewer/scene_loading.h"
+
+#include <chrono>
+
+namespace grisaille::app::viewer {
+
+SceneLoading::~SceneLoading() {
+  if (result_.valid()) result_.wait();
+}
+
+void SceneLoading::start(const std::string& path) {
+  path_ = path;
+  *progress_ = 0;
+  result_ = std::async(std::launch::async, [path, progress = progress_] {
+    const auto report = [&](double share) { *progress = share; };
+    return std::make_shared<const scene::Scene>(path.empty() ? scene::makeAtrium()
+                                                             : scene::loadGltf(path, report));
+  });
+}
+
+std::shared_ptr<const scene::Scene> SceneLoading::take() {
+  if (!result_.valid() || result_.wait_for(std::chrono::seconds(0)) != std::future_status::ready) {
+    return nullptr;
+  }
+  return result_.get();
+}
+
+}  // namespace grisaille::app::viewer

@@ -1,0 +1,79 @@
+// SPDX-License-Identifier: MIT
+// What the window holds: the stage's picture, in its place, with the interface over it.
+#pragma once
+
+#include <array>
+#include <map>
+#include <optional>
+#include <utility>
+
+#include "app/viewer/controls.h"
+#include "app/viewer/interface.h"
+
+struct ImDrawData;
+
+namespace grisaille::app::viewer {
+
+// How the picture is to be seen.
+struct ScreenDesc {
+  glm::uvec2 pixels = glm::uvec2(0);  // of the window, over 0
+  Place place;
+  const Stage* stage = nullptr;  // null: none yet
+  bool split = false;
+  float line = 0.5f;  // of the picture's width
+  float zoom = 1;     // pixels a texel
+  glm::vec2 centre = glm::vec2(0.5f);
+  float farDepth = 1;   // metres, drawn as mid grey
+  float lineWidth = 1;  // pixels
+};
+
+class Screen {
+ public:
+  // The device outlives this.
+  explicit Screen(gpu::Device& device) : device_(device), interface_(device) {}
+  ~Screen();
+  Screen(const Screen&) = delete;
+  Screen& operator=(const Screen&) = delete;
+
+  void fontChanged() { interface_.fontChanged(); }
+
+  // One frame of the device: the picture, where it has changed, and the interface. The result is
+  // valid until the next call.
+  gpu::Texture draw(const ScreenDesc& desc, const ImDrawData& interfaceData);
+
+ private:
+  // As shaders/viewer/show.comp has it.
+  struct ShowBlock {
+    glm::ivec2 place, size;
+    glm::vec2 centre;
+    float zoom, line, far_depth, line_width;
+
+    bool operator==(const ShowBlock&) const = default;
+  };
+  // All that the shown picture depends on.
+  struct Shown {
+    ShowBlock block;
+    std::array<gpu::Texture, 2> sides;
+    std::array<Kind, 2> kinds;
+    uint64_t revision;  // of the stage's picture
+
+    bool operator==(const Shown&) const = default;
+  };
+
+  Shown wanted(const ScreenDesc& desc) const;
+  void prepare(gpu::Commands& commands, const ScreenDesc& desc);
+  void show(gpu::Commands& commands, const Shown& wanted);
+  gpu::ComputePipeline showPipeline(const std::array<Kind, 2>& kinds);
+
+  gpu::Device& device_;
+  InterfaceRenderer interface_;
+  gpu::Texture picture_, window_;  // of the window's size: without and with the interface
+  gpu::Texture blank_;             // a texel for where there is no picture
+  glm::uvec2 size_ = glm::uvec2(0);
+  std::map<std::array<Kind, 2>, gpu::ComputePipeline> show_;
+  gpu::ComputePipeline copy_;
+  gpu::Sampler nearest_;
+  std::optional<Shown> shown_;
+};
+
+}  // namespace grisaille::app::viewer

@@ -1,0 +1,124 @@
+// SPDX-License-Identifier: MIT
+// What is looked at and how: scene, camera, effects with their settings, shots, views. No window,
+// no device; every change of it goes through here or through the members that the panel edits.
+#pragma once
+
+#include <deque>
+#include <functional>
+#include <memory>
+#include <optional>
+#include <string>
+#include <vector>
+
+#include "app/viewer/effect_list.h"
+#include "app/viewer/history.h"
+#include "app/viewer/stage.h"
+#include "core/error.h"
+#include "core/scene/camera.h"
+
+namespace grisaille::app::viewer {
+
+// As the command line has them.
+struct SessionOptions {
+  std::string scene, camera, config, surface, view;
+  std::vector<std::string> effects, sets, loads, pluginPaths;
+  bool effectsGiven = false;
+};
+
+// One line for the user to read.
+struct Message {
+  std::string text;
+  bool error = false;
+};
+
+class Session {
+  std::unique_ptr<effect::Registry> registry_;  // before the effects that it holds
+
+ public:
+  static constexpr size_t kMessagesKept = 50;
+
+  // Reads what the options name but for the scene. Throws Error.
+  explicit Session(SessionOptions options);
+  Session(const Session&) = delete;
+  Session& operator=(const Session&) = delete;
+
+  // --- The scene
+  // With its own camera: the file of the command line for the first scene, else an overview.
+  void setScene(std::shared_ptr<const scene::Scene> loaded, const std::string& path);
+  std::string scenePath;  // "": the built-in scene
+  std::shared_ptr<const scene::Scene> scene;
+  scene::Camera camera, homeCamera;
+  double speed = 1;  // metres a second, of flying
+
+  // --- Effects
+  EffectList effects;
+  uint64_t revision = 1;  // of them; to be raised with every change
+  void changed(std::string what) {
+    ++revision;
+    lastChange_ = std::move(what);
+  }
+  // Makes what has changed since the last call one step of undo. When no control is being dragged.
+  void noteChanges();
+  History history;
+  void undo();
+  void redo();
+  const effect::Registry& registry() const { return *registry_; }
+  // Loads plugins that are new or have changed. `before` is called when all is ready, to let go of
+  // the old plugins' instances.
+  void rescan(const std::function<void()>& before);
+
+  // The settings that the picture is compared with.
+  std::optional<EffectList> held;
+  uint64_t heldRevision = 0;
+  void hold();
+  void swapHeld();
+
+  // --- Views
+  std::string left = "color", right = "normal";  // outputs
+  bool split = false;
+  float line = 0.5f;  // of the picture's width
+  frame::Surface surface = frame::Surface::kWhite;
+  float zoom = 1;                      // pixels a texel
+  glm::vec2 centre = glm::vec2(0.5f);  // of what is seen, in parts of the picture
+  bool inspecting = false;             // the value under the cursor
+  bool paused = false, step = false, continuous = false;
+  // Outputs that are gone become the final picture.
+  void checkViews();
+
+  // --- Shots
+  ShotLists shots;
+  glm::vec3 color = glm::vec3(1, 0.08f, 0.004f);  // linear
+  bool painting = false;                          // the left button fires
+  // The first effect on that takes shots; "": none is.
+  std::string painter() const;
+  // Through a point of a picture of this size, from its top left corner; `joins` the step of undo
+  // before.
+  void fire(glm::dvec2 point, glm::uvec2 size, bool joins);
+  void clearShots();
+  void loadShots(const std::string& path);
+  void saveShots(const std::string& path);
+
+  // --- Files
+  // A settings, shots or camera file, by its ending and content. Throws Error.
+  void openFile(const std::string& path);
+  void loadSettings(const std::string& path);
+  void saveSettings(const std::string& path);
+
+  // The command that makes the picture on the screen; shots that no file holds are written to one.
+  std::string commandLine(glm::uvec2 size, const std::string& backend, const std::string& device);
+
+  // --- What there is to say
+  std::deque<Message> messages;  // oldest first
+  void say(std::string text, bool error = false);
+  // Does it, and says why it failed where it did.
+  void attempt(const std::function<void()>& action);
+
+ private:
+  void addLists();
+
+  SessionOptions options_;
+  std::string lastChange_;
+  bool firstScene_ = true;
+};
+
+}  // namespace grisaille::app::viewer

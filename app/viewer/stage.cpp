@@ -1,0 +1,216 @@
+// SPDX-License-Identifier: MIT
+#include "app/viewer/stage.h"
+
+#include <algorithm>
+
+#include "core/error.h"
+#include "core/frame/texture_image.h"
+#include "shaders/keep_output.h"
+
+namespace grisaille::app::viewer {
+namespace {
+
+constexpr uint32_t kGroup = 8;
+
+Kind kindOf(const grisaille_output_desc& output) {
+  if (output.role == GRISAILLE_ROLE_PAINT) return Kind::kPaint;
+  const gpu::Format format = effect::formatOf(output.format);
+  return gpu::formatInfo(format).channels == 1 ? Kind::kNumber : Kind::kEncoded;
+}
+
+Kind kindOf(const EffectList& effects, const std::string& output) {
+  for (const Viewable& viewable : viewables(effects)) {
+    if (viewable.output == output) return viewable.kind;
+  }
+  return Kind::kEncoded;
+}
+
+}  // namespace
+
+std::vector<Viewable> viewables(const EffectList& effects) {
+  std::vector<Viewable> all = {{"color", "Final", Kind::kLight}};
+  for (const EffectList::Entry& entry : effects.entries()) {
+    if (!entry.on) continue;
+    for (const grisaille_output_desc& output : entry.values.effect().outputs()) {
+      if (effect::formatOf(output.format) == gpu::Format::kR32Uint) continue;
+      const std::string name = std::string(entry.key()) + "." + output.key;
+      all.push_back({name, name, kindOf(output)});
+    }
+  }
+  all.push_back({"normal", "Normals", Kind::kSigned});
+  all.push_back({"facet_normal", "Facet normals", Kind::kSigned});
+  all.push_back({"depth", "Depth", Kind::kDepth});
+  all.push_back({"base_colour", "Base colour", Kind::kLight});
+  return all;
+}
+
+bool Stage::Wanted::operator==(const Wanted& o) const {
+  return camera.eye == o.camera.eye && camera.target == o.camera.target &&
+         camera.up == o.camera.up && camera.fovyDegrees == o.camera.fovyDegrees &&
+         camera.nearPlane == o.camera.nearPlane && size == o.size && surface == o.surface &&
+         revision == o.revision && left == o.left && right == o.right && extra == o.extra &&
+         shots == o.shots;
+}
+
+Stage::Stage(gpu::Device& device, const scene::Scene& scene)
+    : device_(device), rays_(scene), renderer_(device, scene) {}
+
+Stage::~Stage() {
+  device_.destroy(held_);
+  device_.destroy(keep_);
+  device_.destroy(nearest_);
+}
+
+Stage::Wanted Stage::wanted(const StageDesc& desc, bool held) {
+  Wanted all = {.camera = desc.camera,
+                .size = desc.size,
+                .surface = desc.surface,
+                .revision = held ? desc.heldRevision : desc.liveRevision,
+                .left = held ? "" : desc.left,
+                .right = held || desc.held == nullptr ? desc.right : "",
+                .extra = held ? std::vector<std::string>() : desc.extra,
+                .shots = {}};
+  for (const auto& [effect, list] : *desc.shots) all.shots.push_back(list.revision());
+  return all;
+}
+
+bool Stage::isStale(const StageDesc& desc) const {
+  if (desc.size.x == 0 || desc.size.y == 0) return false;
+  if (!done_ || waiting_ + heldWaiting_ > 0 || !(*done_ == wanted(desc, false))) return true;
+  return desc.held != nullptr && !(heldDone_ && *heldDone_ == wanted(desc, true));
+}
+
+void Stage::render(const StageDesc& desc, const EffectList& effects, glm::uvec2 size,
+                   std::span<const std::string> outputs) {
+  std::vector<frame::ActiveEffect> active;
+  std::vector<std::pair<Running*, uint64_t>> revisions;
+  for (const EffectList::Entry& entry : effects.entries()) {
+    if (!entry.on) continue;
+    Running& running = running_[entry.key()];
+    if (!running.instance) {
+      running = {std::make_unique<effect::Instance>(device_, entry.values.effect()), 0};
+    }
+    frame::ActiveEffect one{.instance = running.instance.get(), .values = &entry.values};
+    const auto list = desc.shots->find(entry.key());
+    if (list != desc.shots->end()) {
+      one.shots = list->second.shots();
+      one.shotsKept = list->second.keptSince(running.shotsRevision);
+      revisions.emplace_back(&running, list->second.revision());
+    }
+    active.push_back(one);
+  }
+  for (const auto& [running, revision] : revisions) running->shotsRevision = revision;
+  renderer_.render({.camera = desc.camera,
+                    .width = size.x,
+                    .height = size.y,
+                    .surface = desc.surface,
+                    .effects = active,
+                    .outputs = outputs,
+                    .patience = desc.patience,
+                    .rays = &rays_});
+}
+
+// The held settings' picture, copied, since the next frame takes its targets.
+void Stage::updateHeld(const StageDesc& desc) {
+  heldDone_ = wanted(desc, true);
+  heldWaiting_ = 0;
+  const std::vector<std::string> outputs = {desc.right};
+  render(desc, *desc.held, desc.size, outputs);
+  heldWaiting_ = renderer_.waiting();
+  if (heldSize_ != desc.size) {
+    device_.destroy(held_);
+    held_ = {};
+    held_ =
+        device_.createTexture({.label = "held",
+                               .format = gpu::Format::kRgba32Float,
+                               .width = desc.size.x,
+                               .height = desc.size.y,
+                               .usage = gpu::TextureUsage::kSampled | gpu::TextureUsage::kStorage});
+    heldSize_ = desc.size;
+  }
+  if (!keep_) {
+    keep_ = device_.createComputePipeline(
+        {.label = "keep", .shader = &grisaille_shader_keep_output, .constants = {}});
+    nearest_ = device_.createSampler({.label = "nearest"});
+  }
+  gpu::Commands& commands = device_.begin();
+  try {
+    const std::array bindings = {
+        gpu::textureBinding(0, {.texture = renderer_.texture(desc.right)}, nearest_),
+        gpu::imageBinding(0, held_)};
+    commands.beginPass("viewer/keep");
+    commands.dispatch(
+        {.pipeline = keep_,
+         .bindings = bindings,
+         .groups = {(desc.size.x + kGroup - 1) / kGroup, (desc.size.y + kGroup - 1) / kGroup, 1}});
+    commands.endPass();
+  } catch (...) {
+    device_.abandon();
+    throw;
+  }
+  device_.submit();
+  right_ = {held_, desc.right, kindOf(*desc.held, desc.right), {}};
+}
+
+void Stage::update(const StageDesc& desc) {
+  if (!isStale(desc)) return;
+  const bool held = desc.held != nullptr && !desc.right.empty();
+  if (held && (heldWaiting_ > 0 || !heldDone_ || !(*heldDone_ == wanted(desc, true)))) {
+    updateHeld(desc);
+    done_.reset();  // the live side's targets are gone
+  }
+  if (!held) heldWaiting_ = 0;
+  done_ = wanted(desc, false);
+  waiting_ = 0;
+  ++revision_;
+  std::vector<std::string> outputs = {desc.left};
+  if (!held && !desc.right.empty() && desc.right != desc.left) outputs.push_back(desc.right);
+  outputs.insert(outputs.end(), desc.extra.begin(), desc.extra.end());
+  left_ = {};
+  if (!held) right_ = {};
+  render(desc, *desc.live, desc.size, outputs);
+  waiting_ = renderer_.waiting();
+  size_ = desc.size;
+  left_ = {renderer_.texture(desc.left), desc.left, kindOf(*desc.live, desc.left), {}};
+  if (!held && !desc.right.empty()) {
+    right_ = {renderer_.texture(desc.right), desc.right, kindOf(*desc.live, desc.right), {}};
+  }
+}
+
+gpu::Texture Stage::texture(bool right) const {
+  return right && right_.texture ? right_.texture : left_.texture;
+}
+
+std::vector<float> Stage::valueAt(bool right, glm::uvec2 texel) {
+  Side& side = right && right_.texture ? right_ : left_;
+  if (!side.texture || texel.x >= size_.x || texel.y >= size_.y) return {};
+  if (!side.values) {
+    side.values =
+        side.texture == held_
+            ? frame::toImage(device_.read(held_), gpu::Format::kRgba32Float, size_.x, size_.y)
+            : renderer_.read(side.output);
+  }
+  const image::Image& image = *side.values;
+  const float* first = &image.pixels[(size_t{texel.y} * image.width + texel.x) * image.channels];
+  return {first, first + image.channels};
+}
+
+image::Image Stage::picture(const StageDesc& desc, const std::string& output) {
+  StageDesc whole = desc;
+  whole.patience = std::numeric_limits<double>::infinity();
+  const std::vector<std::string> outputs = {output};
+  done_.reset();
+  ++revision_;
+  left_ = {};
+  if (right_.texture != held_) right_ = {};
+  render(whole, *desc.live, desc.size, outputs);
+  return renderer_.read(output);
+}
+
+void Stage::forgetEffects() {
+  running_.clear();
+  done_.reset();
+  heldDone_.reset();
+}
+
+}  // namespace grisaille::app::viewer

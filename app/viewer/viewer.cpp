@@ -1,0 +1,237 @@
+// SPDX-License-Identifier: MIT
+#include "app/viewer/viewer.h"
+
+#include <algorithm>
+#include <filesystem>
+#include <thread>
+
+#include "core/image/write_aside.h"
+
+namespace grisaille::app::viewer {
+namespace fs = std::filesystem;
+namespace {
+
+constexpr int kSettleFrames = 3;           // ImGui shows what hovers a frame or two late
+constexpr double kLookInterval = 0.5;      // seconds between two looks at files
+constexpr double kWaitInterval = 0.05;     // seconds between two looks at what runs beside
+constexpr double kLeastFrame = 1.0 / 120;  // seconds, where the display does not hold back
+
+fs::path stateFile() {
+  return stateFolder() / "viewer.json";
+}
+
+}  // namespace
+
+Viewer::Viewer(const ViewerOptions& options)
+    : options_(options),
+      state_(loadState(stateFile(), stateMessage_)),
+      session_(options.session),
+      bookmarks_(options.bookmarks.empty() ? configFolder() / "bookmarks"
+                                           : fs::path(options.bookmarks)),
+      panel_(session_, state_, bookmarks_),
+      controls_(session_, panel_, bookmarks_, state_) {
+  if (!stateMessage_.empty()) session_.say(stateMessage_, true);
+  if (options_.size.x > 0) {
+    state_.width = options_.size.x;
+    state_.height = options_.size.y;
+  }
+  openWindow();
+  screen_ = std::make_unique<Screen>(*device_);
+  rebuild_.watch(session_.registry());
+  openScene(options_.session.scene);
+}
+
+Viewer::~Viewer() {
+  stage_.reset();
+  screen_.reset();
+  device_.reset();
+  window_.reset();
+}
+
+// The backend asked for, or the first that starts.
+void Viewer::openWindow() {
+  if (!options_.backend.empty()) {
+    tryBackend(backends::find(options_.backend));
+    return;
+  }
+  std::string reasons;
+  for (const backends::Backend& backend : backends::all()) {
+    try {
+      tryBackend(backend);
+      if (!reasons.empty()) session_.say(reasons, true);
+      return;
+    } catch (const Error& error) {
+      reasons += fmt::format("{}{}: {}", reasons.empty() ? "" : "; ", backend.name, error.detail());
+    }
+  }
+  throw Error(ErrorId::kNoDevice, "no backend opens a window: {}", reasons);
+}
+
+void Viewer::tryBackend(const backends::Backend& backend) {
+  auto window =
+      std::make_unique<Window>(backend, options_.check, glm::uvec2(state_.width, state_.height));
+  gpu::DeviceOptions device;
+  device.device = options_.device;
+  device.check = options_.check;
+  device.timed = true;
+  device.message = options_.message;
+  device.window = window->handle();
+  device_ = backends::create(backend.name, device);
+  window_ = std::move(window);
+  backend_ = backend.name;
+  const gpu::DeviceInfo& info = device_->info();
+  fmt::print("{}: {} ({}){}\n", info.backend, info.name, info.driver,
+             info.software ? ", software" : "");
+  std::fflush(stdout);
+}
+
+void Viewer::nameWindow() {
+  const std::string scene =
+      session_.scenePath.empty() ? "atrium" : fs::path(session_.scenePath).filename().string();
+  const gpu::DeviceInfo& info = device_->info();
+  window_->setTitle(fmt::format("{} - Grisaille - {} on {}{}", scene,
+                                backends::find(backend_).label, info.name,
+                                info.software ? " (software)" : ""));
+}
+
+void Viewer::run() {
+  while (!window_->closing() && (options_.frames == 0 || drawn_ < options_.frames)) {
+    if (window_->wait(patience())) settle_ = kSettleFrames;
+    if (lookAround()) settle_ = std::max(settle_, 1);
+    const bool stale = stage_ && !session_.paused && stage_->isStale(stageDesc());
+    const bool due = settle_ > 0 || moving_ || stale || session_.continuous || session_.step;
+    const glm::uvec2 pixels = window_->pixels();
+    if (!due || pixels.x == 0 || pixels.y == 0) continue;
+    const Clock::time_point now = Clock::now();
+    const std::chrono::duration<double> since = now - lastFrame_;
+    lastFrame_ = now;
+    settle_ = std::max(settle_ - 1, 0);
+    frame(since.count());
+    ++drawn_;
+    const std::chrono::duration<double> took = Clock::now() - now;
+    if (took.count() < kLeastFrame) {
+      std::this_thread::sleep_for(std::chrono::duration<double>(kLeastFrame) - took);
+    }
+  }
+  keepState();
+}
+
+// How long to wait for something to happen, seconds.
+double Viewer::patience() const {
+  const bool visible = window_->pixels().x > 0;
+  const bool stale = stage_ && !session_.paused && stage_->isStale(stageDesc());
+  if (visible && (settle_ > 0 || moving_ || stale || session_.continuous)) return 0;
+  if (loading_.running() || !rebuild_.building().empty()) return kWaitInterval;
+  return rebuild_.watches() ? kLookInterval : 60;
+}
+
+// At what runs beside the window. True where there is news.
+bool Viewer::lookAround() {
+  bool news = loading_.running();  // its progress
+  if (loading_.running()) takeScene();
+  const Clock::time_point now = Clock::now();
+  const std::string before = rebuild_.building();
+  if (std::chrono::duration<double>(now - lastLook_).count() >= kLookInterval) {
+    lastLook_ = now;
+    rebuild_.look();
+  }
+  if (const auto outcome = rebuild_.take()) {
+    buildMessage_ = outcome->message;
+    news = true;
+    if (outcome->good) perform({.scene = {}, .rescan = true});
+  }
+  return news || before != rebuild_.building();
+}
+
+void Viewer::frame(double seconds) {
+  const float scale = window_->scale() * static_cast<float>(state_.textScale);
+  if (context_.setScale(scale)) screen_->fontChanged();
+  takeDropped();
+  window_->feedInterface();
+  ImGui::NewFrame();
+  const ImGuiIO& io = ImGui::GetIO();
+  Requests requests = panel_.draw(status(), {io.DisplaySize.x, io.DisplaySize.y});
+  moving_ = controls_.update(place(), seconds, io.DisplayFramebufferScale.x, requests);
+  if (!ImGui::IsAnyItemActive()) session_.noteChanges();
+  ImGui::Render();
+  if (window_->hasMoreEvents()) settle_ = kSettleFrames;
+  perform(requests);
+  writeLayout();  // what is about to be drawn is told to be stale
+  updateStage();
+  drawWindow();
+  writeLayout();
+}
+
+void Viewer::perform(const Requests& requests) {
+  if (requests.rescan) {
+    session_.attempt([&] {
+      session_.rescan([&] {
+        if (stage_) stage_->forgetEffects();
+        device_->wait();
+      });
+      rebuild_.watch(session_.registry());
+    });
+    settle_ = kSettleFrames;
+  }
+  if (requests.scene) openScene(*requests.scene);
+  if (requests.picture) savePicture();
+  if (requests.copyCommand) {
+    session_.attempt([&] {
+      const std::string command = session_.commandLine(place().size, backend_, options_.device);
+      window_->setClipboard(command);
+      session_.say(command);
+    });
+  }
+  if (std::exchange(controls_.wantsFullScreen, false)) window_->toggleFullScreen();
+  if (requests.quit) window_->close();
+}
+
+void Viewer::openScene(const std::string& path) {
+  if (loading_.running()) {
+    session_.say("a scene is being read already: " + loading_.path());
+    return;
+  }
+  std::error_code failed;
+  loading_.start(path.empty() ? path : fs::absolute(path, failed).string());
+}
+
+void Viewer::takeScene() {
+  session_.attempt([&] {
+    const auto scene = loading_.take();
+    if (!scene) return;
+    const std::string path = loading_.path();
+    // Uploads and rays are of the old scene.
+    stage_.reset();
+    session_.setScene(scene, path);
+    stage_ = std::make_unique<Stage>(*device_, *session_.scene);
+    times_.clear();
+    state_.noteRecent(path);
+    keepState();
+    nameWindow();
+    settle_ = kSettleFrames;
+  });
+}
+
+void Viewer::takeDropped() {
+  for (const std::string& path : window_->takeDropped()) {
+    const std::string ending = fs::path(path).extension().string();
+    if (ending == ".glb" || ending == ".gltf") {
+      openScene(path);
+    } else {
+      session_.attempt([&] { session_.openFile(path); });
+    }
+  }
+}
+
+void Viewer::keepState() {
+  if (!window_->isFullScreen()) {
+    const glm::uvec2 size = window_->size();
+    if (size.x > 0 && size.y > 0) {
+      state_.width = std::min(size.x, 16384u);
+      state_.height = std::min(size.y, 16384u);
+    }
+  }
+  session_.attempt([&] { saveState(state_, stateFile()); });
+}
+
+}  // namespace grisaille::app::viewer

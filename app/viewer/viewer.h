@@ -1,0 +1,91 @@
+// SPDX-License-Identifier: MIT
+// The viewer: a window, what it shows, and the loop that draws when there is something to draw.
+#pragma once
+
+#include <chrono>
+#include <memory>
+#include <optional>
+#include <string>
+
+#include "app/viewer/controls.h"
+#include "app/viewer/rebuild.h"
+#include "app/viewer/scene_loading.h"
+#include "app/viewer/screen.h"
+#include "app/viewer/window.h"
+
+namespace grisaille::app::viewer {
+
+struct ViewerOptions {
+  SessionOptions session;
+  std::string backend, device;      // "": whatever starts
+  std::string bookmarks;            // a folder; "": configFolder()/bookmarks
+  std::string layoutFile;           // where the controls' places are written; "": nowhere
+  glm::uvec2 size = glm::uvec2(0);  // of the window; 0: as it was left
+  uint32_t frames = 0;              // ends after so many that were drawn; 0: when it is closed
+  bool check = false;
+  gpu::MessageSink message = {};  // what the driver says; none: standard error
+};
+
+class Viewer {
+ public:
+  // Opens the window. Throws Error.
+  explicit Viewer(const ViewerOptions& options);
+  ~Viewer();
+  Viewer(const Viewer&) = delete;
+  Viewer& operator=(const Viewer&) = delete;
+
+  // Until the window is closed.
+  void run();
+
+ private:
+  using Clock = std::chrono::steady_clock;
+
+  // viewer.cpp
+  void openWindow();
+  void tryBackend(const backends::Backend& backend);
+  double patience() const;
+  bool lookAround();
+  void frame(double seconds);
+  void perform(const Requests& requests);
+  void openScene(const std::string& path);
+  void takeScene();
+  void takeDropped();
+  void nameWindow();
+  void keepState();
+  // viewer_picture.cpp
+  StageDesc stageDesc() const;
+  Place place() const;
+  void updateStage();
+  void updateCoverage();
+  void drawWindow();
+  void savePicture();
+  Status status();
+  void writeLayout();
+
+  ViewerOptions options_;
+  std::string stateMessage_;
+  ViewerState state_;
+  Session session_;
+  Bookmarks bookmarks_;
+  WindowLibrary library_;
+  InterfaceContext context_;
+  std::unique_ptr<Window> window_;
+  std::unique_ptr<gpu::Device> device_;
+  std::unique_ptr<Screen> screen_;
+  std::unique_ptr<Stage> stage_;  // of the session's scene
+  Panel panel_;
+  Controls controls_;
+  SceneLoading loading_;
+  Rebuild rebuild_;
+  std::string buildMessage_;
+  PassTimes times_;
+  std::vector<ColorShare> coverage_;
+
+  std::string backend_, layoutWritten_;
+  int settle_ = 0;       // frames still to be drawn, for what hovers and follows
+  bool moving_ = false;  // something moves by itself
+  uint64_t drawn_ = 0;   // frames
+  Clock::time_point lastFrame_ = Clock::now(), lastLook_ = Clock::now();
+};
+
+}  // namespace grisaille::app::viewer

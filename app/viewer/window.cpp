@@ -1,0 +1,226 @@
+// SPDX-License-Identifier: MIT
+#include "app/viewer/window.h"
+
+#define GLFW_INCLUDE_NONE
+#include <GLFW/glfw3.h>
+#include <imgui/backends/imgui_impl_glfw.h>
+#include <imgui/imgui.h>
+
+#include <algorithm>
+#include <utility>
+
+#include "core/error.h"
+
+namespace grisaille::app::viewer {
+namespace {
+
+std::string lastError() {
+  const char* text = nullptr;
+  glfwGetError(&text);
+  return text != nullptr ? text : "the window library does not say why";
+}
+
+Window& windowOf(GLFWwindow* window) {
+  return *static_cast<Window*>(glfwGetWindowUserPointer(window));
+}
+
+}  // namespace
+
+WindowLibrary::WindowLibrary() {
+  if (glfwInit() != GLFW_TRUE) throw Error(ErrorId::kNoDisplay, "no window opens: {}", lastError());
+}
+
+WindowLibrary::~WindowLibrary() {
+  glfwTerminate();
+}
+
+Window::Window(const backends::Backend& backend, bool check, glm::uvec2 size) {
+  backend.hintWindow(check);
+  glfwWindowHint(GLFW_SCALE_TO_MONITOR, GLFW_TRUE);
+  window_ = glfwCreateWindow(static_cast<int>(size.x), static_cast<int>(size.y), "Grisaille",
+                             nullptr, nullptr);
+  if (window_ == nullptr) {
+    throw Error(ErrorId::kWindowFailed, "no window for {}: {}", backend.label, lastError());
+  }
+  glfwSetWindowUserPointer(window_, this);
+  setCallbacks();
+}
+
+Window::~Window() {
+  if (ImGui::GetCurrentContext() != nullptr && ImGui::GetIO().BackendPlatformUserData != nullptr) {
+    ImGui_ImplGlfw_Shutdown();
+  }
+  glfwDestroyWindow(window_);
+}
+
+void Window::setCallbacks() {
+  glfwSetCursorPosCallback(window_, [](GLFWwindow* w, double x, double y) {
+    Window& self = windowOf(w);
+    const Event event{.type = Event::Type::kMove, .place = {x, y}};
+    if (!self.events_.empty() && self.events_.back().type == Event::Type::kMove) {
+      self.events_.back() = event;
+    } else {
+      self.events_.push_back(event);
+    }
+  });
+  glfwSetMouseButtonCallback(window_, [](GLFWwindow* w, int button, int action, int) {
+    windowOf(w).events_.push_back(
+        {.type = Event::Type::kButton, .code = button, .down = action == GLFW_PRESS});
+  });
+  glfwSetScrollCallback(window_, [](GLFWwindow* w, double x, double y) {
+    windowOf(w).events_.push_back({.type = Event::Type::kWheel, .place = {x, y}});
+  });
+  glfwSetKeyCallback(window_, [](GLFWwindow* w, int key, int, int action, int) {
+    if (action == GLFW_REPEAT || key < 0) return;  // ImGui repeats by itself
+    windowOf(w).events_.push_back(
+        {.type = Event::Type::kKey, .code = key, .down = action == GLFW_PRESS});
+  });
+  glfwSetCharCallback(window_, [](GLFWwindow* w, unsigned text) {
+    windowOf(w).events_.push_back({.type = Event::Type::kText, .text = text});
+  });
+  glfwSetDropCallback(window_, [](GLFWwindow* w, int count, const char** paths) {
+    Window& self = windowOf(w);
+    for (int i = 0; i < count; ++i) self.dropped_.emplace_back(paths[i]);
+    self.woken_ = true;
+  });
+  const auto wake = [](GLFWwindow* w, auto...) { windowOf(w).woken_ = true; };
+  glfwSetFramebufferSizeCallback(window_,
+                                 [](GLFWwindow* w, int, int) { windowOf(w).woken_ = true; });
+  glfwSetWindowRefreshCallback(window_, wake);
+  glfwSetWindowContentScaleCallback(window_,
+                                    [](GLFWwindow* w, float, float) { windowOf(w).woken_ = true; });
+  glfwSetWindowIconifyCallback(window_, [](GLFWwindow* w, int) { windowOf(w).woken_ = true; });
+  glfwSetWindowCloseCallback(window_, wake);
+  glfwSetWindowFocusCallback(window_, [](GLFWwindow* w, int focused) {
+    Window& self = windowOf(w);
+    self.woken_ = true;
+    if (focused != GLFW_FALSE) return;
+    // What is let go elsewhere is not told.
+    for (int key = 0; key <= GLFW_KEY_LAST; ++key) {
+      if (ImGui::GetCurrentContext() != nullptr && ImGui::GetIO().KeysDown[key]) {
+        self.events_.push_back({.type = Event::Type::kKey, .code = key, .down = false});
+      }
+    }
+  });
+}
+
+glm::uvec2 Window::pixels() const {
+  int width = 0, height = 0;
+  if (glfwGetWindowAttrib(window_, GLFW_ICONIFIED) != 0) return glm::uvec2(0);
+  glfwGetFramebufferSize(window_, &width, &height);
+  return {static_cast<uint32_t>(std::max(width, 0)), static_cast<uint32_t>(std::max(height, 0))};
+}
+
+glm::uvec2 Window::size() const {
+  int width = 0, height = 0;
+  glfwGetWindowSize(window_, &width, &height);
+  return {static_cast<uint32_t>(std::max(width, 0)), static_cast<uint32_t>(std::max(height, 0))};
+}
+
+float Window::scale() const {
+  float x = 1, y = 1;
+  glfwGetWindowContentScale(window_, &x, &y);
+  return std::clamp(std::max(x, y), 0.5f, 4.0f);
+}
+
+bool Window::closing() const {
+  return glfwWindowShouldClose(window_) != 0;
+}
+
+void Window::close() {
+  glfwSetWindowShouldClose(window_, GLFW_TRUE);
+}
+
+void Window::setTitle(const std::string& title) {
+  glfwSetWindowTitle(window_, title.c_str());
+}
+
+bool Window::isFullScreen() const {
+  return glfwGetWindowMonitor(window_) != nullptr;
+}
+
+void Window::toggleFullScreen() {
+  if (isFullScreen()) {
+    glfwSetWindowMonitor(window_, nullptr, place_.x, place_.y, place_.z, place_.w, GLFW_DONT_CARE);
+    return;
+  }
+  GLFWmonitor* monitor = glfwGetPrimaryMonitor();
+  const GLFWvidmode* mode = monitor != nullptr ? glfwGetVideoMode(monitor) : nullptr;
+  if (mode == nullptr) return;
+  glfwGetWindowPos(window_, &place_.x, &place_.y);
+  glfwGetWindowSize(window_, &place_.z, &place_.w);
+  glfwSetWindowMonitor(window_, monitor, 0, 0, mode->width, mode->height, mode->refreshRate);
+}
+
+void Window::setClipboard(const std::string& text) {
+  glfwSetClipboardString(window_, text.c_str());
+}
+
+bool Window::wait(double seconds) {
+  if (!events_.empty() || seconds <= 0) {
+    glfwPollEvents();
+  } else {
+    glfwWaitEventsTimeout(seconds);
+  }
+  return std::exchange(woken_, false) || !events_.empty();
+}
+
+// False where this event would hide one that this frame has already taken.
+bool Window::feed(const Event& event, std::vector<int>& touched) {
+  ImGuiIO& io = ImGui::GetIO();
+  constexpr int kButtons = 1 << 16;  // beside the keys in `touched`
+  const int name = event.type == Event::Type::kKey ? event.code : kButtons + event.code;
+  const bool again = std::ranges::find(touched, name) != touched.end();
+  const bool pressed = std::ranges::any_of(touched, [](int one) { return one >= kButtons; });
+  const bool isPress = event.type == Event::Type::kKey || event.type == Event::Type::kButton;
+  // A key that is let go may have been Ctrl, without which the press before means another thing.
+  if (isPress && !event.down && pressedNow_) return false;
+  pressedNow_ = pressedNow_ || (isPress && event.down);
+  switch (event.type) {
+    case Event::Type::kMove:
+      if (pressed) return false;  // a button went where the cursor was
+      cursor_ = event.place;
+      return true;
+    case Event::Type::kButton:
+      if (again) return false;
+      touched.push_back(name);
+      if (event.code < 5) buttons_[static_cast<size_t>(event.code)] = event.down;
+      return true;
+    case Event::Type::kWheel:
+      io.MouseWheel += static_cast<float>(event.place.y);
+      io.MouseWheelH += static_cast<float>(event.place.x);
+      return true;
+    case Event::Type::kKey:
+      if (again) return false;
+      touched.push_back(name);
+      if (event.code <= GLFW_KEY_LAST) io.KeysDown[event.code] = event.down;
+      return true;
+    case Event::Type::kText:
+      io.AddInputCharacter(event.text);
+      return true;
+  }
+  return true;
+}
+
+void Window::feedInterface() {
+  ImGuiIO& io = ImGui::GetIO();
+  if (io.BackendPlatformUserData == nullptr) ImGui_ImplGlfw_InitForOther(window_, false);
+  ImGui_ImplGlfw_NewFrame();
+  io.DeltaTime = std::min(io.DeltaTime, 0.05f);  // no slow frame makes a key repeat
+  std::vector<int> touched;
+  pressedNow_ = false;
+  while (!events_.empty() && feed(events_.front(), touched)) events_.pop_front();
+  io.MousePos = ImVec2(static_cast<float>(cursor_.x), static_cast<float>(cursor_.y));
+  std::ranges::copy(buttons_, io.MouseDown);
+  const auto down = [&](int left, int right) { return io.KeysDown[left] || io.KeysDown[right]; };
+  io.KeyCtrl = down(GLFW_KEY_LEFT_CONTROL, GLFW_KEY_RIGHT_CONTROL);
+  io.KeyShift = down(GLFW_KEY_LEFT_SHIFT, GLFW_KEY_RIGHT_SHIFT);
+  io.KeyAlt = down(GLFW_KEY_LEFT_ALT, GLFW_KEY_RIGHT_ALT);
+  io.KeySuper = down(GLFW_KEY_LEFT_SUPER, GLFW_KEY_RIGHT_SUPER);
+}
+
+std::vector<std::string> Window::takeDropped() {
+  return std::exchange(dropped_, {});
+}
+
+}  // namespace grisaille::app::viewer

@@ -1,0 +1,61 @@
+// SPDX-License-Identifier: MIT
+// The images of a window, and the copies of pictures to them.
+#pragma once
+
+#include <array>
+#include <vector>
+
+#include "backends/vulkan/frame.h"
+
+namespace grisaille::vulkan {
+
+class Swapchain {
+ public:
+  // For a context with a surface. Makes the images when they are first needed.
+  Swapchain(Context& context, Resources& resources, Timeline& timeline);
+  ~Swapchain();  // the device is idle
+  Swapchain(const Swapchain&) = delete;
+  Swapchain& operator=(const Swapchain&) = delete;
+
+  // Device::present().
+  bool show(gpu::Texture picture);
+
+ private:
+  static constexpr uint32_t kInFlight = 2;  // copies that the device may not have finished
+
+  struct Image {
+    VkImage image = VK_NULL_HANDLE;
+    VkSemaphore drawn = VK_NULL_HANDLE;  // until the window shows it
+  };
+  struct Copy {
+    explicit Copy(Context& context) : commands(context) {}
+    CommandBuffer commands;
+    VkSemaphore acquired = VK_NULL_HANDLE;
+    uint64_t done = 0;  // the timeline's count when the device has finished with it
+  };
+
+  bool make(VkExtent2D window);
+  VkResult create(VkExtent2D window, VkSwapchainKHR& made);
+  void fill();
+  void clear();
+  void loseSurface();
+  VkSurfaceFormatKHR chooseFormat() const;
+  VkSemaphore makeSemaphore(const char* label);
+  void record(VkCommandBuffer commands, gpu::Texture picture, VkImage image);
+  void barrier(VkCommandBuffer commands, VkImageMemoryBarrier2 barrier, VkImage image);
+  bool queue(uint32_t index);
+
+  Context& context_;
+  Resources& resources_;
+  Timeline& timeline_;
+  Surface& surface_;
+  std::array<Copy, kInFlight> copies_;
+  uint64_t shown_ = 0;  // copies begun
+  VkSwapchainKHR swapchain_ = VK_NULL_HANDLE;
+  std::vector<Image> images_;
+  VkExtent2D window_{};  // what the images were made for
+  VkExtent2D extent_{};  // of the images: as large, where the surface can choose
+  bool stale_ = true;    // the images must be made anew
+};
+
+}  // namespace grisaille::vulkan

@@ -1,0 +1,106 @@
+// SPDX-License-Identifier: MIT
+// What windows go through: any size, any input, nothing to do, a backend or a display that is
+// missing.
+#include <random>
+#include <thread>
+
+#include "tests/view/window_test.h"
+
+namespace grisaille::tests {
+namespace {
+
+using HardshipTest = WindowTest;
+GRISAILLE_IN_WINDOWS(HardshipTest);
+
+TEST_P(HardshipTest, EverySize) {
+  DrivenViewer viewer(folder_, {"--backend", GetParam(), "--size", "900x1000", "--set",
+                                "ssao.kernel_size=1", "--set", "ssao.blur_size=0"});
+  const std::string before = viewer.savePicture();
+  const auto resize = [&](int width, int height) {
+    viewer.send("search --name Grisaille windowsize " + std::to_string(width) + " " +
+                std::to_string(height));
+  };
+  for (const auto& [width, height] : {std::pair{1, 1}, {4096, 4096}, {37, 4000}, {900, 1000}}) {
+    resize(width, height);
+    viewer.until("a frame", [&](const nlohmann::json& now) {
+      const auto rect = now["picture"]["rect"].get<std::vector<int>>();
+      return rect[2] == width && rect[3] == height;
+    });
+    if (width > 500) viewer.untilDrawn();
+  }
+  expectSame(viewer.savePicture(), before);
+  expectQuits(viewer);
+}
+
+TEST_P(HardshipTest, AnyInput) {
+  DrivenViewer viewer(folder_, {"--backend", GetParam(), "--size", "640x700", "--effects",
+                                "ssao,sspm", "--set", "ssao.kernel_size=2"});
+  std::mt19937 random(GetParam() == "opengl" ? 1 : 2);
+  const auto below = [&](int count) {
+    return std::to_string(std::uniform_int_distribution<int>(0, count - 1)(random));
+  };
+  const std::vector<std::string> keys = {
+      "a",       "b",      "d",      "e",         "i",          "n",      "p",
+      "q",       "s",      "v",      "w",         "x",          "1",      "ctrl+1",
+      "Home",    "Tab",    "space",  "Return",    "Escape",     "Up",     "Down",
+      "Left",    "Right",  "F1",     "F2",        "F5",         "F11",    "ctrl+z",
+      "ctrl+y",  "ctrl+c", "ctrl+s", "ctrl+plus", "ctrl+minus", "ctrl+0", "BackSpace",
+      "shift+v", "plus",   "minus",  "7",         "period",     "Delete"};
+  for (int batch = 0; batch < 10; ++batch) {
+    std::string words;
+    for (int i = 0; i < 50; ++i) {
+      const int kind = std::uniform_int_distribution<int>(0, 5)(random);
+      if (kind < 2) {
+        words += "mousemove " + below(640) + " " + below(700) + " ";
+      } else if (kind == 2) {
+        words += "click " + std::to_string(1 + std::stoi(below(5))) + " ";
+      } else if (kind == 3) {
+        words += (random() % 2 == 0 ? "mousedown " : "mouseup ") +
+                 std::to_string(1 + std::stoi(below(3))) + " ";
+      } else {
+        words += "key " + keys[random() % keys.size()] + " ";
+      }
+    }
+    viewer.send(words);
+  }
+  viewer.send("mouseup 1 mouseup 2 mouseup 3 key Escape key Escape");
+  const Outcome outcome = viewer.quit();
+  EXPECT_EQ(outcome.status, 0) << outcome.err;
+  EXPECT_EQ(outcome.err, "");
+}
+
+TEST_P(HardshipTest, NothingIsDrawnWhileNothingChanges) {
+  DrivenViewer viewer(folder_, arguments());
+  const std::string drawn = viewer.value("drawn");
+  std::this_thread::sleep_for(std::chrono::seconds(2));
+  EXPECT_EQ(viewer.value("drawn"), drawn);
+  viewer.send("mousemove_relative 3 3");
+  viewer.untilChanged("drawn", drawn);
+  expectQuits(viewer);
+}
+
+TEST_P(HardshipTest, ABackendThatIsMissingIsNamedOrReplaced) {
+  const std::string library = GetParam() == "opengl" ? "libEGL.so" : "libvulkan.so";
+  const std::vector<std::string> hidden = {"LD_PRELOAD=" HIDE_LIBRARY, "HIDE_LIBRARY=" + library};
+  const Outcome refused = runProgram({"view", "--backend", GetParam()}, folder_.path(), hidden);
+  EXPECT_EQ(refused.status, 1);
+  EXPECT_NE(refused.err.find(GetParam() == "opengl" ? "5202" : "1001"), std::string::npos)
+      << refused.err;
+  DrivenViewer viewer(folder_, {"--size", "640x700", "--set", "ssao.kernel_size=2"}, hidden);
+  if (GetParam() == "opengl") {
+    EXPECT_NE(viewer.value("message").find("opengl:"), std::string::npos);
+  }
+  const Outcome outcome = viewer.quit();
+  EXPECT_EQ(outcome.status, 0) << outcome.err;
+}
+
+TEST(NoDisplay, IsNamed) {
+  const TemporaryFolder folder;
+  const Outcome outcome = runProgram({"view"}, folder.path(),
+                                     {"DISPLAY=", "WAYLAND_DISPLAY=", "HOME=" + (folder / "h")});
+  EXPECT_EQ(outcome.status, 1);
+  EXPECT_NE(outcome.err.find("5201"), std::string::npos) << outcome.err;
+}
+
+}  // namespace
+}  // namespace grisaille::tests

@@ -1,0 +1,254 @@
+// SPDX-License-Identifier: MIT
+#include "app/viewer/camera_control.h"
+
+#include <gtest/gtest.h>
+
+#include <cmath>
+#include <glm/gtc/constants.hpp>
+#include <limits>
+#include <random>
+
+#include "core/error.h"
+
+namespace grisaille::app::viewer {
+namespace {
+
+using scene::Camera;
+
+constexpr double kHeight = 720;
+constexpr double kWidth = 1280;
+
+// Where a point of the world is in the picture, pixels.
+glm::dvec2 pixelOf(const Camera& camera, const glm::dvec3& point) {
+  const glm::dvec3 view = glm::transpose(scene::worldFromView(camera)) * (point - camera.eye);
+  const glm::dvec4 clip = scene::clipFromView(camera, kWidth / kHeight) * glm::dvec4(view, 1);
+  return {(clip.x / clip.w + 1) / 2 * kWidth, (1 - clip.y / clip.w) / 2 * kHeight};
+}
+
+double distanceOf(const Camera& camera) {
+  return glm::length(camera.target - camera.eye);
+}
+
+// Radians of the view direction over the plane across `up`.
+double elevationOf(const Camera& camera) {
+  return std::asin(glm::dot(glm::normalize(camera.target - camera.eye), glm::normalize(camera.up)));
+}
+
+double randomIn(std::mt19937_64& random, double least, double most) {
+  return std::uniform_real_distribution<double>(least, most)(random);
+}
+
+glm::dvec3 randomDirection(std::mt19937_64& random) {
+  for (;;) {
+    const glm::dvec3 v(randomIn(random, -1, 1), randomIn(random, -1, 1), randomIn(random, -1, 1));
+    if (glm::length(v) > 0.1 && glm::length(v) < 1) return glm::normalize(v);
+  }
+}
+
+Camera randomCamera(std::mt19937_64& random, double farthest, double leastLog, double mostLog) {
+  for (;;) {
+    Camera camera;
+    camera.eye = farthest * randomIn(random, 0, 1) * randomDirection(random);
+    camera.target =
+        camera.eye + std::pow(10, randomIn(random, leastLog, mostLog)) * randomDirection(random);
+    if (random() % 2 == 0) camera.up = randomDirection(random) * randomIn(random, 0.1, 10);
+    camera.fovyDegrees = randomIn(random, 1, 170);
+    try {
+      scene::validate(camera);
+      return camera;
+    } catch (const Error&) {
+      // Too near for its coordinates, or straight up: another one.
+    }
+  }
+}
+
+TEST(CameraControl, DraggingTurnsTheSceneWithTheCursor) {
+  const Camera camera{.eye = {0, 0, 5}, .target = {0, 0, 0}, .fovyDegrees = 50};
+  // A point on the near side of what is looked at.
+  const glm::dvec3 front(0, 0, 1);
+  const glm::dvec2 before = pixelOf(camera, front);
+  for (const glm::dvec2 drag : {glm::dvec2(30, 0), {-30, 0}, {0, 30}, {0, -30}, {20, -10}}) {
+    Camera turned = camera;
+    orbit(turned, drag, kHeight);
+    const glm::dvec2 moved = pixelOf(turned, front) - before;
+    EXPECT_GT(glm::dot(glm::normalize(moved), glm::normalize(drag)), 0.98);
+    EXPECT_EQ(turned.target, camera.target);
+  }
+  Camera half = camera;
+  orbit(half, {kHeight, 0}, kHeight);
+  EXPECT_LT(glm::length(half.eye - glm::dvec3(0, 0, -5)), 1e-12);
+}
+
+TEST(CameraControl, OrbitKeepsTheDistanceAndGoesBack) {
+  std::mt19937_64 random(1);
+  for (int i = 0; i < 2000; ++i) {
+    const Camera camera = randomCamera(random, 100, -2, 3);
+    Camera turned = camera;
+    const glm::dvec2 drag(randomIn(random, -500, 500), 0);
+    orbit(turned, drag, kHeight);
+    EXPECT_NEAR(distanceOf(turned) / distanceOf(camera), 1, 1e-9);
+    EXPECT_NEAR(elevationOf(turned), elevationOf(camera), 1e-7);
+    orbit(turned, -drag, kHeight);
+    EXPECT_LT(glm::length(turned.eye - camera.eye), 1e-9 * (distanceOf(camera) + 100));
+  }
+}
+
+TEST(CameraControl, PolesAreReachedAndNeverPassed) {
+  std::mt19937_64 random(2);
+  for (const double way : {1.0, -1.0}) {
+    for (int i = 0; i < 200; ++i) {
+      Camera orbiting = randomCamera(random, 10, -1, 2), looking = orbiting;
+      const glm::dvec3 right = scene::worldFromView(orbiting)[0];
+      for (int step = 0; step < 50; ++step) {
+        orbit(orbiting, {0, way * 100}, kHeight);
+        look(looking, {0, way * 3000 / looking.fovyDegrees}, kHeight);
+        ASSERT_GT(glm::dot(scene::worldFromView(orbiting)[0], right), 0.99);
+        ASSERT_GT(glm::dot(scene::worldFromView(looking)[0], right), 0.99);
+      }
+      EXPECT_NEAR(elevationOf(orbiting), -way * (glm::half_pi<double>() - 0.01), 1e-6);
+      EXPECT_NEAR(elevationOf(looking), -way * (glm::half_pi<double>() - 0.01), 1e-6);
+    }
+  }
+}
+
+TEST(CameraControl, PanKeepsThePointUnderTheCursor) {
+  std::mt19937_64 random(3);
+  for (int i = 0; i < 2000; ++i) {
+    const Camera camera = randomCamera(random, 100, -1, 3);
+    const glm::dvec2 drag(randomIn(random, -800, 800), randomIn(random, -800, 800));
+    Camera moved = camera;
+    pan(moved, drag, kHeight);
+    // Any point as deep as the target.
+    const glm::dmat3 axes = scene::worldFromView(camera);
+    const glm::dvec3 point =
+        camera.target + distanceOf(camera) *
+                            (randomIn(random, -1, 1) * axes[0] + randomIn(random, -1, 1) * axes[1]);
+    const glm::dvec2 expected = pixelOf(camera, point) + drag;
+    EXPECT_LT(glm::length(pixelOf(moved, point) - expected), 1e-6 * (1 + glm::length(expected)));
+    EXPECT_NEAR(distanceOf(moved) / distanceOf(camera), 1, 1e-9);
+  }
+}
+
+TEST(CameraControl, DollyScalesTheDistanceAndNeverArrives) {
+  Camera camera{.eye = {3, 4, 12}, .target = {0, 0, 0}};
+  const glm::dvec3 direction = glm::normalize(camera.eye);
+  dolly(camera, 1);
+  EXPECT_NEAR(distanceOf(camera), 13 * 0.9, 1e-12);
+  dolly(camera, -3);
+  EXPECT_NEAR(distanceOf(camera), 13 / 0.81, 1e-12);
+  for (int i = 0; i < 1000; ++i) dolly(camera, 1);
+  dolly(camera, 1e9);
+  EXPECT_GT(distanceOf(camera), 0);
+  EXPECT_LT(distanceOf(camera), 1e-5);
+  EXPECT_GT(glm::dot(glm::normalize(camera.eye - camera.target), direction), 1 - 1e-12);
+  dolly(camera, -100);
+  EXPECT_GT(distanceOf(camera), 1e-3);
+}
+
+TEST(CameraControl, LookingTurnsTheViewWithTheDrag) {
+  Camera camera{.eye = {1, 2, 3}, .target = {1, 2, -1}, .fovyDegrees = 60};
+  look(camera, {kHeight / 4, 0}, kHeight);
+  EXPECT_EQ(camera.eye, glm::dvec3(1, 2, 3));
+  // To the right, by half the field of view.
+  EXPECT_NEAR(camera.target.x, 1 + 4 * 0.5, 1e-12);
+  EXPECT_NEAR(camera.target.z, 3 - 4 * std::sqrt(0.75), 1e-12);
+  look(camera, {0, -kHeight / 4}, kHeight);
+  EXPECT_NEAR(elevationOf(camera), glm::radians(30.0), 1e-12);
+  EXPECT_NEAR(distanceOf(camera), 4, 1e-12);
+}
+
+TEST(CameraControl, FlyingMovesAlongTheAxes) {
+  const Camera camera{.eye = {1, 2, 3}, .target = {1, 1, 2}};
+  const struct {
+    glm::dvec3 axes, way;
+  } cases[] = {{{1, 0, 0}, {6, 0, 0}},
+               {{0, 1, 0}, {0, 6, 0}},
+               {{0, 0, 1}, {0, -std::sqrt(18), -std::sqrt(18)}},
+               {{-0.5, 0, 0}, {-3, 0, 0}},
+               {{1, 1, 0}, {std::sqrt(18), std::sqrt(18), 0}},
+               {{0, 0, 0}, {0, 0, 0}}};
+  for (const auto& c : cases) {
+    Camera moved = camera;
+    fly(moved, c.axes, 1.5, 4);
+    EXPECT_LT(glm::length(moved.eye - camera.eye - c.way), 1e-12);
+    EXPECT_LT(glm::length(moved.target - camera.target - c.way), 1e-12);
+  }
+}
+
+// Coordinates that grow swallow a near target: it goes farther away instead.
+TEST(CameraControl, FlyingFarAwayIsNotStoppedByANearTarget) {
+  Camera camera{.eye = {0, 0, 0}, .target = {0, 0, -1e-3}};
+  fly(camera, {0, 0, 1}, 1e6, 1e6);
+  EXPECT_EQ(camera.eye.z, -1e12);
+  look(camera, {100, 100}, kHeight);
+  fly(camera, {0, 0, -1}, 1e6, 1e6);
+  EXPECT_GT(camera.eye.z, -1e12);
+}
+
+TEST(CameraControl, SpeedFitsTheSceneAndSteps) {
+  EXPECT_NEAR(flySpeed({.min = {0, 0, 0}, .max = {30, 40, 0}}), 5, 1e-12);
+  EXPECT_EQ(flySpeed({}), 1);
+  EXPECT_EQ(flySpeed({.min = {0, 0, 0}, .max = glm::dvec3(1e300)}), 1);
+  EXPECT_NEAR(steppedSpeed(4, 1), 5, 1e-12);
+  EXPECT_NEAR(steppedSpeed(steppedSpeed(4, 7), -7), 4, 1e-12);
+  EXPECT_EQ(steppedSpeed(4, 1e6), 1e6);
+  EXPECT_EQ(steppedSpeed(4, -1e6), 1e-4);
+}
+
+// Now and then a number that no one should send.
+double wild(std::mt19937_64& random, double usual) {
+  const double odd[] = {0,
+                        1e9,
+                        -1e9,
+                        1e300,
+                        std::numeric_limits<double>::quiet_NaN(),
+                        1e-300,
+                        std::numeric_limits<double>::infinity()};
+  return random() % 50 == 0 ? odd[random() % std::size(odd)] : randomIn(random, -usual, usual);
+}
+
+void actByChance(std::mt19937_64& random, Camera& camera) {
+  const glm::dvec2 drag(wild(random, 600), wild(random, 600));
+  const double height = random() % 200 == 0 ? wild(random, 1) : kHeight;
+  switch (random() % 5) {
+    case 0:
+      return orbit(camera, drag, height);
+    case 1:
+      return pan(camera, drag, height);
+    case 2:
+      return dolly(camera, wild(random, 20));
+    case 3:
+      return look(camera, drag, height);
+    default:
+      return fly(camera, {wild(random, 1), wild(random, 1), wild(random, 1)}, wild(random, 0.1),
+                 std::pow(10, randomIn(random, -4, 9)));
+  }
+}
+
+// From near and far, at the target and a world away: sound after every action, and never stuck.
+TEST(CameraControl, StaysSoundWhateverIsDone) {
+  std::mt19937_64 random(4);
+  const struct {
+    double farthest, leastLog, mostLog;
+  } places[] = {{1, -9, -6}, {10, -1, 2}, {1e6, -2, 3}, {1e12, 4, 6}, {1e9, 10, 14}};
+  for (const auto& place : places) {
+    for (int start = 0; start < 5; ++start) {
+      Camera camera = randomCamera(random, place.farthest, place.leastLog, place.mostLog);
+      const Camera first = camera;
+      size_t moved = 0;
+      for (int i = 0; i < 10000; ++i) {
+        const Camera before = camera;
+        actByChance(random, camera);
+        ASSERT_NO_THROW(scene::validate(camera)) << i;
+        if (camera.eye != before.eye || camera.target != before.target) ++moved;
+      }
+      EXPECT_GT(moved, 3000u) << place.farthest;
+      EXPECT_EQ(camera.up, first.up);
+      EXPECT_EQ(camera.fovyDegrees, first.fovyDegrees);
+      EXPECT_EQ(camera.nearPlane, first.nearPlane);
+    }
+  }
+}
+
+}  // namespace
+}  // namespace grisaille::app::viewer
