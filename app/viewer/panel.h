@@ -97,6 +97,7 @@ class Panel {
   std::vector<Preset> presetList_;
   bool listsFresh_ = false;
   size_t messagesSeen_ = 0;
+  std::optional<std::pair<std::string, double>> typed_;  // parameter and value, not yet taken
 };
 
 }  // namespace grisaille::app::viewer

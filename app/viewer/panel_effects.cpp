@@ -1,6 +1,9 @@
 // SPDX-License-Identifier: MIT
 // The panel's effects: all of it made from their tables.
+#define GLFW_INCLUDE_NONE
+#include <GLFW/glfw3.h>
 #include <fmt/format.h>
+#include <imgui/imgui_internal.h>
 
 #include <algorithm>
 #include <cmath>
@@ -160,6 +163,15 @@ void Panel::drawParameter(EffectList::Entry& entry, const grisaille_param_desc& 
   double value = entry.values.get(param.key);
   ImGui::SetNextItemWidth(ImGui::GetContentRegionAvail().x * 0.58f);
   bool edited = editParameter(entry, param, value);
+  // What is being typed counts when it is whole.
+  if (ImGui::TempInputIsActive(ImGui::GetItemID())) {
+    if (edited) typed_ = {name, value};
+    edited = false;
+  } else if (typed_ && typed_->first == name) {
+    edited = !ImGui::IsKeyPressed(GLFW_KEY_ESCAPE);
+    value = typed_->second;
+    typed_.reset();
+  }
   if (ImGui::IsItemHovered()) {
     ImGui::SetTooltip("%s", tooltipOf(entry, param).c_str());
     if (ImGui::IsMouseClicked(ImGuiMouseButton_Right)) {

@@ -149,6 +149,7 @@ void Viewer::frame(double seconds) {
   takeDropped();
   window_->feedInterface();
   ImGui::NewFrame();
+  if (drawn_ <= 1) ImGui::SetWindowFocus(nullptr);  // keys begin with the picture
   const ImGuiIO& io = ImGui::GetIO();
   Requests requests = panel_.draw(status(), {io.DisplaySize.x, io.DisplaySize.y});
   moving_ = controls_.update(place(), seconds, io.DisplayFramebufferScale.x, requests);

@@ -32,7 +32,14 @@ TEST_P(HardshipTest, EverySize) {
   expectQuits(viewer);
 }
 
-TEST_P(HardshipTest, AnyInput) {
+// On a small screen, which a window may fill.
+class InputTest : public WindowTest {
+ protected:
+  InputTest() : WindowTest(800) {}
+};
+GRISAILLE_IN_WINDOWS(InputTest);
+
+TEST_P(InputTest, AnyInput) {
   DrivenViewer viewer(folder_, {"--backend", GetParam(), "--size", "640x700", "--effects",
                                 "ssao,sspm", "--set", "ssao.kernel_size=2"});
   std::mt19937 random(GetParam() == "opengl" ? 1 : 2);

@@ -35,7 +35,7 @@ TEST_P(PluginTest, AnEditedSourceIsBuiltAndLoaded) {
   folder_.write("source/CMakeLists.txt",
                 "cmake_minimum_required(VERSION 3.25)\nproject(P LANGUAGES NONE)\n"
                 "add_custom_target(effect_tables COMMAND sh ${CMAKE_SOURCE_DIR}/make.sh)\n");
-  const std::string good = "cp '" PLUGINS "/later/tables.so' '" + plugin.string() +
+  const std::string good = "cp '" PLUGINS "/later/tables_later.so' '" + plugin.string() +
                            ".new' && mv '" + plugin.string() + ".new' '" + plugin.string() + "'\n";
   folder_.write("source/make.sh", good);
   folder_.write("source/a.comp", "first");

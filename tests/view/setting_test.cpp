@@ -97,7 +97,7 @@ TEST_P(SettingTest, WhatIsSavedComesBack) {
     viewer.click("sspm.down");
     viewer.click("base");
     viewer.untilValue("base", "true");
-    viewer.key("space");
+    viewer.key("Escape space");
     viewer.untilValue("shots", "1");
     before = viewer.savePicture();
     viewer.key("ctrl+s");
@@ -111,7 +111,7 @@ TEST_P(SettingTest, WhatIsSavedComesBack) {
     expectQuits(viewer);
   }
   DrivenViewer viewer(folder_,
-                      {"--backend", GetParam(), "--size", "900x1000", "--config", "settings.toml"});
+                      {"--backend", GetParam(), "--size", "900x1300", "--config", "settings.toml"});
   EXPECT_EQ(viewer.value("base"), "true");
   viewer.click("load shots");
   viewer.untilValue("shots", "1");

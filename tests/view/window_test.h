@@ -12,9 +12,11 @@ namespace grisaille::tests {
 
 class WindowTest : public testing::TestWithParam<std::string> {
  protected:
+  explicit WindowTest(uint32_t side = 4096) : display_(side, side) {}
+
   // Cheap settings: the panel's words are what is tested, and software draws.
   std::vector<std::string> arguments(std::vector<std::string> more = {}) const {
-    std::vector<std::string> all = {"--backend", GetParam(), "--size", "900x1000"};
+    std::vector<std::string> all = {"--backend", GetParam(), "--size", "900x1300"};
     all.insert(all.end(), more.begin(), more.end());
     all.insert(all.end(), {"--set", "ssao.kernel_size=8"});
     return all;
@@ -44,7 +46,7 @@ class WindowTest : public testing::TestWithParam<std::string> {
     EXPECT_GT(most - least, 0.1f) << "an empty picture";
   }
 
-  Display display_{4096, 4096};
+  Display display_;
   TemporaryFolder folder_;
 };
 
