@@ -7,6 +7,7 @@
 #include "app/driver_messages.h"
 #include "app/size.h"
 #include "app/viewer/viewer.h"
+#include "core/image/image.h"
 
 namespace grisaille::app {
 namespace {
@@ -40,6 +41,8 @@ void addView(CLI::App& program) {
   command->add_option("--surface", session.surface, "What the light falls on")
       ->check(CLI::IsMember({"white", "base"}));
   command->add_option("--view", session.view, "The output to look at; default: color");
+  command->add_option("--split", session.split,
+                      "A second output, right of a line that can be dragged");
   command->add_option("--load", session.loads, "Shots for an effect that takes them")
       ->type_name("EFFECT=FILE")
       ->allow_extra_args(false);
@@ -52,12 +55,16 @@ void addView(CLI::App& program) {
       ->add_option("--layout", options->layoutFile,
                    "Write where each control lies, as JSON, for programs that drive the window")
       ->type_name("FILE");
-  command->add_option("--frames", options->frames, "End after so many drawn frames");
+  command->add_option("--frames", options->frames,
+                      "End after so many frames; default: when the window is closed");
+  command->add_option("--screenshot", options->screenshot, "Write what the window holds at the end")
+      ->type_name("FILE.png");
   command->add_flag("--check", options->check,
                     "Validate every call, in the layer and in the driver");
   command->callback([options, effects] {
     options->session.effectsGiven = effects->count() > 0;
     if (!options->windowSize.empty()) options->size = parseSize(options->windowSize);
+    if (!options->screenshot.empty()) image::checkWritable(options->screenshot);
     DriverMessages messages;
     options->message = messages.sink();
     viewer::Viewer(*options).run();

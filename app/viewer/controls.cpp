@@ -201,6 +201,8 @@ void Controls::updateKeys(const Place& place, Requests& requests) {
 void Controls::updateViewKeys() {
   if (pressed(GLFW_KEY_B)) session_.painting = !session_.painting;
   if (pressed(GLFW_KEY_X)) session_.split = !session_.split;
+  if (pressed(GLFW_KEY_LEFT_BRACKET)) session_.line = std::max(session_.line - 0.05f, 0.0f);
+  if (pressed(GLFW_KEY_RIGHT_BRACKET)) session_.line = std::min(session_.line + 0.05f, 1.0f);
   if (pressed(GLFW_KEY_I)) session_.inspecting = !session_.inspecting;
   if (pressed(GLFW_KEY_P)) session_.paused = !session_.paused;
   if (pressed(GLFW_KEY_N)) session_.step = true;

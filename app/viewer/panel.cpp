@@ -35,7 +35,7 @@ constexpr struct {
     {"Ctrl + Z, Ctrl + Shift + Z", "undo, redo"},
     {"", ""},
     {"V, Shift + V", "next view, the one before"},
-    {"X", "split"},
+    {"X, [ ]", "split; its line to the left, to the right"},
     {"I", "the value under the cursor"},
     {"Ctrl + scroll, + / -", "zoom into pixels"},
     {"P, N", "pause, one step"},

@@ -73,11 +73,13 @@ Session::Session(SessionOptions options)
   surface =
       surfaceOf(!options_.surface.empty() ? options_.surface : settings.surface.value_or("white"));
   if (!options_.camera.empty()) camera = scene::loadCamera(options_.camera);
-  if (!options_.view.empty()) {
-    left = options_.view;
+  split = !options_.split.empty();
+  for (auto [wanted, view] : {std::pair{&options_.view, &left}, {&options_.split, &right}}) {
+    if (wanted->empty()) continue;
+    *view = *wanted;
     checkViews();
-    if (left != options_.view) {
-      throw Error(ErrorId::kOutputUnknown, "there is no output '{}' to look at", options_.view);
+    if (*view != *wanted) {
+      throw Error(ErrorId::kOutputUnknown, "there is no output '{}' to look at", *wanted);
     }
   }
   addLists();

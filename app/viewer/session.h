@@ -20,7 +20,7 @@ namespace grisaille::app::viewer {
 
 // As the command line has them.
 struct SessionOptions {
-  std::string scene, camera, config, surface, view;
+  std::string scene, camera, config, surface, view, split;
   std::vector<std::string> effects, sets, loads, pluginPaths;
   bool effectsGiven = false;
 };

@@ -95,9 +95,9 @@ void Viewer::nameWindow() {
 }
 
 void Viewer::run() {
-  while (!window_->closing() && (options_.frames == 0 || drawn_ < options_.frames)) {
+  while (!window_->closing() && (options_.frames == 0 || complete_ < options_.frames)) {
     if (window_->wait(patience())) settle_ = kSettleFrames;
-    if (lookAround()) settle_ = std::max(settle_, 1);
+    if (lookAround() || options_.frames > 0) settle_ = std::max(settle_, 1);
     const bool stale = stage_ && !session_.paused && stage_->isStale(stageDesc());
     const bool due = settle_ > 0 || moving_ || stale || session_.continuous || session_.step;
     const glm::uvec2 pixels = window_->pixels();
@@ -108,11 +108,13 @@ void Viewer::run() {
     settle_ = std::max(settle_ - 1, 0);
     frame(since.count());
     ++drawn_;
+    if (stage_ && !stage_->isStale(stageDesc())) ++complete_;
     const std::chrono::duration<double> took = Clock::now() - now;
     if (took.count() < kLeastFrame) {
       std::this_thread::sleep_for(std::chrono::duration<double>(kLeastFrame) - took);
     }
   }
+  if (!options_.screenshot.empty()) saveScreenshot();
   keepState();
 }
 

@@ -21,7 +21,9 @@ struct ViewerOptions {
   std::string bookmarks;            // a folder; "": configFolder()/bookmarks
   std::string layoutFile;           // where the controls' places are written; "": nowhere
   glm::uvec2 size = glm::uvec2(0);  // of the window; 0: as it was left
-  uint32_t frames = 0;              // ends after so many that were drawn; 0: when it is closed
+  // Ends after so many frames with the scene's picture; 0: when it is closed.
+  uint32_t frames = 0;
+  std::string screenshot;  // what the window holds at the end, .png or .exr; "": nowhere
   bool check = false;
   gpu::MessageSink message = {};  // what the driver says; none: standard error
 };
@@ -59,6 +61,7 @@ class Viewer {
   void updateCoverage();
   void drawWindow();
   void savePicture();
+  void saveScreenshot();
   Status status();
   void writeLayout();
 
@@ -82,9 +85,11 @@ class Viewer {
   std::vector<ColorShare> coverage_;
 
   std::string backend_, layoutWritten_;
-  int settle_ = 0;       // frames still to be drawn, for what hovers and follows
-  bool moving_ = false;  // something moves by itself
-  uint64_t drawn_ = 0;   // frames
+  int settle_ = 0;         // frames still to be drawn, for what hovers and follows
+  bool moving_ = false;    // something moves by itself
+  uint64_t drawn_ = 0;     // frames
+  uint32_t complete_ = 0;  // frames with the scene's picture
+  gpu::Texture shown_;     // of the last frame
   Clock::time_point lastFrame_ = Clock::now(), lastLook_ = Clock::now();
 };
 

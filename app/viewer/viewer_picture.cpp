@@ -6,6 +6,7 @@
 #include <ctime>
 
 #include "app/viewer/viewer.h"
+#include "core/frame/texture_image.h"
 #include "core/image/write_aside.h"
 
 namespace grisaille::app::viewer {
@@ -134,8 +135,8 @@ void Viewer::drawWindow() {
   const scene::Bounds bounds = session_.scene ? session_.scene->bounds : scene::Bounds{};
   desc.farDepth = std::max(1e-6f, static_cast<float>(glm::length(bounds.max - bounds.min)) / 8);
   desc.lineWidth = std::max(1.0f, window_->scale());
-  const gpu::Texture picture = screen_->draw(desc, *ImGui::GetDrawData());
-  if (!device_->present(picture)) settle_ = std::max(settle_, 1);
+  shown_ = screen_->draw(desc, *ImGui::GetDrawData());
+  if (!device_->present(shown_)) settle_ = std::max(settle_, 1);
 }
 
 void Viewer::savePicture() {
@@ -151,6 +152,13 @@ void Viewer::savePicture() {
     session_.say(fmt::format("{0}.png and {0}.exr, {1}x{2} px", name, desc.size.x, desc.size.y));
   });
   settle_ = std::max(settle_, 1);
+}
+
+void Viewer::saveScreenshot() {
+  const glm::uvec2 pixels = window_->pixels();
+  const image::Image window =
+      frame::toImage(device_->read(shown_), gpu::Format::kRgba8Unorm, pixels.x, pixels.y);
+  image::write(frame::firstChannels(window, 3), options_.screenshot);
 }
 
 void Viewer::writeLayout() {

@@ -5,6 +5,7 @@
 #include <sstream>
 
 #include "tests/program/run.h"
+#include "tests/support/display.h"
 
 namespace grisaille::tests {
 namespace {
@@ -30,6 +31,7 @@ std::vector<std::string> commandsOf(const std::filesystem::path& file) {
 // which is what is being done here: only its subcommand is looked up.
 void runCommands(const std::filesystem::path& file) {
   const TemporaryFolder folder;
+  const Display display(1600, 1200);
   const std::string help = runShell("./dev help", kSource).out;
   size_t ran = 0;
   for (const std::string& command : commandsOf(file)) {
@@ -40,7 +42,10 @@ void runCommands(const std::filesystem::path& file) {
       EXPECT_TRUE(name == "help" || help.find("\n  " + name + " ") != std::string::npos);
       continue;
     }
-    const Outcome outcome = runShell(command, folder.path());
+    // A window stays until its reader closes it.
+    const bool window =
+        command.find("grisaille view") == 0 && command.find("--frames") == std::string::npos;
+    const Outcome outcome = runShell(command + (window ? " --frames 2" : ""), folder.path());
     EXPECT_EQ(outcome.status, 0) << outcome.err;
     ++ran;
   }

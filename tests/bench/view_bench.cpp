@@ -1,0 +1,166 @@
+// SPDX-License-Identifier: MIT
+// What the viewer costs besides the scene: its panel, in CPU time, and a window in which nothing
+// happens, on a display (Xvfb) that it starts itself.
+#include <fcntl.h>
+#include <fmt/format.h>
+#include <imgui/imgui.h>
+#include <signal.h>
+#include <sys/wait.h>
+#include <unistd.h>
+
+#include <algorithm>
+#include <ctime>
+#include <fstream>
+#include <string>
+#include <thread>
+#include <vector>
+
+#include "app/viewer/interface.h"
+#include "app/viewer/panel.h"
+#include "core/gpu/null_device.h"
+#include "tests/bench/command.h"
+#include "tests/support/display.h"
+
+namespace grisaille::bench {
+namespace {
+
+namespace viewer = app::viewer;
+
+constexpr glm::uvec2 kWindow(1600, 1400);
+constexpr int kFramesARound = 300;
+constexpr int kIdleSeconds = 10;
+
+double cpuMilliseconds() {
+  std::timespec now{};
+  clock_gettime(CLOCK_PROCESS_CPUTIME_ID, &now);
+  return static_cast<double>(now.tv_sec) * 1e3 + static_cast<double>(now.tv_nsec) * 1e-6;
+}
+
+// The panel with both effects and the help, and as many passes as a frame has.
+struct Subject {
+  viewer::Session session;
+  viewer::ViewerState state;
+  viewer::Bookmarks bookmarks{"/nonexistent"};
+  viewer::InterfaceContext context;
+  viewer::Panel panel{session, state, bookmarks};
+  viewer::Status status;
+
+  static viewer::SessionOptions options() {
+    viewer::SessionOptions options;
+    options.effects = {"ssao", "sspm"};
+    options.effectsGiven = true;
+    options.pluginPaths = {EFFECTS_FOLDER};
+    return options;
+  }
+
+  Subject() : session(options()) {
+    context.setScale(1);
+    ImGuiIO& io = ImGui::GetIO();
+    io.DisplaySize = ImVec2(static_cast<float>(kWindow.x), static_cast<float>(kWindow.y));
+    io.DeltaTime = 1.0f / 60;
+    for (int key = 0; key < ImGuiKey_COUNT; ++key) io.KeyMap[key] = key;
+    for (int i = 0; i < 8; ++i) {
+      status.passes.push_back(
+          {fmt::format("effect/pass {}", i), std::vector<float>(240, 1.0f), 1, 1});
+    }
+    status.whole = status.passes[0];
+    panel.help = true;
+  }
+
+  void build() {
+    ImGui::NewFrame();
+    panel.draw(status, glm::vec2(kWindow));
+    ImGui::Render();
+  }
+};
+
+void printRow(const char* what, std::vector<double> times) {
+  std::ranges::sort(times);
+  fmt::print("| {} | {:.3f} | {:.3f} |\n", what, times[times.size() / 2],
+             times[times.size() * 95 / 100]);
+}
+
+void panelCost(uint32_t rounds) {
+  Subject subject;
+  const auto device = gpu::makeNullDevice();
+  viewer::InterfaceRenderer renderer(*device);
+  const gpu::Texture window = device->createTexture({.label = "window",
+                                                     .format = gpu::Format::kRgba8Unorm,
+                                                     .width = kWindow.x,
+                                                     .height = kWindow.y,
+                                                     .usage = gpu::TextureUsage::kTarget});
+  std::vector<double> building, recording;
+  for (uint32_t i = 0; i < rounds * kFramesARound; ++i) {
+    const double start = cpuMilliseconds();
+    subject.build();
+    const double built = cpuMilliseconds();
+    gpu::Commands& commands = device->begin();
+    commands.beginPass("interface");
+    renderer.draw(commands, *ImGui::GetDrawData(), window, kWindow.x, kWindow.y);
+    commands.endPass();
+    device->submit();
+    const double end = cpuMilliseconds();
+    if (i < 10) continue;  // fonts and first layouts
+    building.push_back(built - start);
+    recording.push_back(end - built);
+  }
+  device->destroy(window);
+  fmt::print("| part of the panel's frame | CPU, ms, median | 95th percentile |\n|---|---|---|\n");
+  printRow("building it", building);
+  printRow("recording it", recording);
+  std::vector<double> sums;
+  for (size_t i = 0; i < building.size(); ++i) sums.push_back(building[i] + recording[i]);
+  printRow("both", sums);
+}
+
+// Clock ticks that a process has used.
+double ticksOf(pid_t process) {
+  std::ifstream file(fmt::format("/proc/{}/stat", process));
+  std::string text((std::istreambuf_iterator<char>(file)), {});
+  std::istringstream fields(text.substr(text.rfind(')') + 2));
+  std::string skipped;
+  for (int i = 0; i < 11; ++i) fields >> skipped;
+  double user = 0, kernel = 0;
+  fields >> user >> kernel;
+  return user + kernel;
+}
+
+void idleCost(const std::string& backend) {
+  const tests::Display display(1600, 1000);
+  const pid_t child = fork();
+  if (child == 0) {
+    const int nowhere = open("/dev/null", O_WRONLY);
+    dup2(nowhere, 1);
+    execl(PROGRAM, "grisaille", "view", "--backend", backend.c_str(), "--size", "1280x900",
+          nullptr);
+    _exit(127);
+  }
+  std::this_thread::sleep_for(std::chrono::seconds(8));
+  const double before = ticksOf(child);
+  std::this_thread::sleep_for(std::chrono::seconds(kIdleSeconds));
+  const double used = (ticksOf(child) - before) / static_cast<double>(sysconf(_SC_CLK_TCK));
+  kill(child, SIGKILL);
+  waitpid(child, nullptr, 0);
+  fmt::print("| {} | {:.2f} % |\n", backend, 100 * used / kIdleSeconds);
+}
+
+void run(const CommonOptions& options) {
+  fmt::print("The panel at {}x{}, both effects unfolded, with the help; no device.\n\n", kWindow.x,
+             kWindow.y);
+  panelCost(options.rounds);
+  fmt::print("\nA window in which nothing happens, {} s, share of one core:\n\n", kIdleSeconds);
+  fmt::print("| backend | CPU |\n|---|---|\n");
+  for (const char* backend : {"opengl", "vulkan"}) {
+    if (options.backend.empty() || options.backend == backend) idleCost(backend);
+  }
+}
+
+}  // namespace
+}  // namespace grisaille::bench
+
+int main(int argc, char** argv) {
+  grisaille::bench::CommonOptions options;
+  CLI::App program("What the viewer costs besides the scene, as Markdown");
+  return grisaille::bench::runCommand(program, options, argc, argv,
+                                      [&] { grisaille::bench::run(options); });
+}
