@@ -195,6 +195,7 @@ void Session::clearShots() {
   const std::string effect = painter();
   if (effect.empty() || shots.find(effect)->second.shots().empty()) return;
   shots.find(effect)->second.clear();
+  noteChanges();
   history.noteShots(effect, 1, "clear");
 }
 
@@ -207,6 +208,7 @@ void Session::loadShots(const std::string& path) {
   shots::ShotList& list = shots.find(effect)->second;
   if (loaded.empty() && list.shots().empty()) return;
   list.replace(loaded);
+  noteChanges();
   history.noteShots(effect, 1, "load shots");
   say(fmt::format("{} shots from {}", loaded.size(), path));
 }

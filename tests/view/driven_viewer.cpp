@@ -94,7 +94,7 @@ void DrivenViewer::untilThere(const std::string& control) {
 }
 
 void DrivenViewer::untilDrawn() {
-  constexpr int kStill = 6;  // looks
+  constexpr int kStill = 4;  // looks
   std::string last;
   int still = 0;
   until("a picture", [&](const nlohmann::json& now) {

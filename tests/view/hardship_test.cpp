@@ -76,6 +76,24 @@ TEST_P(InputTest, AnyInput) {
   EXPECT_EQ(outcome.err, "");
 }
 
+TEST_P(HardshipTest, ABookmarkBringsTheCameraBack) {
+  DrivenViewer viewer(folder_, arguments({"--bookmarks", folder_ / "marks"}));
+  const std::string camera = viewer.value("camera");
+  viewer.key("ctrl+3");
+  viewer.until("a bookmark", [](const nlohmann::json& now) {
+    return now.contains("message") && now["message"]["value"] == "bookmark 3 set";
+  });
+  viewer.drag(viewer.at("picture", 0.5, 0.5), viewer.at("picture", 0.7, 0.4));
+  viewer.untilChanged("camera", camera);
+  viewer.key("3");
+  viewer.untilValue("camera", camera);
+  // A file as every camera file.
+  const Outcome outcome = runProgram(
+      {"render", "--size", "16x16", "--camera", folder_ / "marks/3.json"}, folder_.path());
+  EXPECT_EQ(outcome.status, 0) << outcome.err;
+  expectQuits(viewer);
+}
+
 TEST_P(HardshipTest, NothingIsDrawnWhileNothingChanges) {
   DrivenViewer viewer(folder_, arguments());
   const std::string drawn = viewer.value("drawn");

@@ -39,8 +39,8 @@ TEST_P(WindowPaintTest, LandsOnThePixelClicked) {
 }
 
 TEST_P(WindowPaintTest, SprayIsOneStepAndColoursAreCounted) {
-  DrivenViewer viewer(folder_,
-                      arguments({"--effects", "ssao,sspm", "--set", "sspm.paint_range=0.5"}));
+  DrivenViewer viewer(folder_, {"--backend", GetParam(), "--size", "720x1300", "--effects", "sspm",
+                                "--set", "sspm.paint_range=0.3"});
   viewer.key("b");
   viewer.untilValue("painting", "true");
   viewer.click(viewer.at("picture", 0.3, 0.5));

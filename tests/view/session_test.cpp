@@ -1,0 +1,88 @@
+// SPDX-License-Identifier: MIT
+// Files that are opened or dropped, and files that are not what they say: nothing is lost.
+#include <gtest/gtest.h>
+
+#include "app/viewer/session.h"
+#include "core/shots/shot_file.h"
+#include "tests/program/run.h"
+#include "tests/support/expect_error.h"
+
+namespace grisaille::app::viewer {
+namespace {
+
+class SessionTest : public testing::Test {
+ protected:
+  static SessionOptions options() {
+    SessionOptions options;
+    options.effects = {"ssao", "sspm"};
+    options.effectsGiven = true;
+    options.pluginPaths = {EFFECTS_FOLDER};
+    return options;
+  }
+  size_t shots() { return session_.shots.find("sspm")->second.shots().size(); }
+
+  tests::TemporaryFolder folder_;
+  Session session_{options()};
+};
+
+constexpr const char* kShots =
+    R"({"version": 1, "shots": [{"origin": [0, 1, 2], "direction": [0, 0, -1], "color": [1, 0, 0]}]})";
+
+TEST_F(SessionTest, OpensWhatAFileHolds) {
+  session_.openFile(
+      folder_.write("a.toml", "effects = [\"ssao\", \"sspm\"]\n[ssao]\nradius = 2\n"));
+  EXPECT_EQ(session_.effects.find("ssao")->values.get("radius"), 2);
+  session_.openFile(folder_.write("b.json", kShots));
+  EXPECT_EQ(shots(), 1u);
+  session_.openFile(folder_.write("c.json", R"({"eye": [1, 2, 3], "target": [0, 0, 0], "fovy_degrees": 60})"));
+  EXPECT_EQ(session_.camera.eye, glm::dvec3(1, 2, 3));
+  const auto list = session_.shots.find("sspm")->second.shots();
+  shots::save(std::vector(3, list[0]), folder_ / "d.shots");
+  session_.openFile(folder_ / "d.shots");
+  EXPECT_EQ(shots(), 3u);
+  // One line of undo over it all.
+  session_.undo();
+  EXPECT_EQ(shots(), 1u);
+  session_.undo();
+  EXPECT_EQ(shots(), 0u);
+  session_.undo();
+  EXPECT_EQ(session_.effects.find("ssao")->values.get("radius"), 0.5);
+  session_.redo();
+  session_.redo();
+  session_.redo();
+  EXPECT_EQ(shots(), 3u);
+  EXPECT_EQ(session_.effects.find("ssao")->values.get("radius"), 2);
+}
+
+TEST_F(SessionTest, WhatIsBrokenChangesNothing) {
+  session_.openFile(folder_.write("b.json", kShots));
+  const EffectList::State before = session_.effects.state();
+  const auto refused = [&](const std::string& name, const std::string& text, ErrorId id) {
+    const std::string file = folder_.write(name, text);
+    SCOPED_TRACE(name);
+    EXPECT_ERROR(id, session_.openFile(file));
+    EXPECT_EQ(shots(), 1u);
+    EXPECT_EQ(session_.effects.state(), before);
+  };
+  refused("a.toml", "effects = [", ErrorId::kSettingsUnreadable);
+  refused("a.toml", "[ssao]\nradius = -1\n", ErrorId::kParameterRange);
+  refused("a.toml", "effects = [\"none\"]\n", ErrorId::kEffectUnknown);
+  refused("b2.json", R"({"version": 1, "shots": [{}]})", ErrorId::kShotFileInvalid);
+  refused("c.json", R"({"eye": [0, 0, 0], "target": [0, 0, 0]})", ErrorId::kCameraInvalid);
+  refused("d.txt", "text", ErrorId::kFileUnknown);
+  EXPECT_ERROR(ErrorId::kSettingsUnreadable, session_.openFile(folder_ / "missing.toml"));
+}
+
+TEST_F(SessionTest, HeldSettingsStayWhatTheyWere) {
+  session_.hold();
+  session_.effects.find("ssao")->values.set("radius", 3.0);
+  session_.changed("ssao.radius");
+  session_.noteChanges();
+  EXPECT_EQ(session_.held->find("ssao")->values.get("radius"), 0.5);
+  session_.swapHeld();
+  EXPECT_EQ(session_.held->find("ssao")->values.get("radius"), 3);
+  EXPECT_EQ(session_.effects.find("ssao")->values.get("radius"), 0.5);
+}
+
+}  // namespace
+}  // namespace grisaille::app::viewer
