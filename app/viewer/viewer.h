@@ -85,11 +85,12 @@ class Viewer {
   std::vector<ColorShare> coverage_;
 
   std::string backend_, layoutWritten_;
-  int settle_ = 0;         // frames still to be drawn, for what hovers and follows
-  bool moving_ = false;    // something moves by itself
-  uint64_t drawn_ = 0;     // frames
-  uint32_t complete_ = 0;  // frames with the scene's picture
-  gpu::Texture shown_;     // of the last frame
+  int settle_ = 0;            // frames still to be drawn, for what hovers and follows
+  bool moving_ = false;       // something moves by itself
+  double updateSeconds_ = 0;  // of the stage's last update
+  uint64_t drawn_ = 0;        // frames
+  uint32_t complete_ = 0;     // frames with the scene's picture
+  gpu::Texture shown_;        // of the last frame
   Clock::time_point lastFrame_ = Clock::now(), lastLook_ = Clock::now();
 };
 

@@ -62,6 +62,8 @@ StageDesc Viewer::stageDesc() const {
     }
   }
   desc.shots = &session_.shots;
+  // Where a frame takes long anyway, paint may take as long: it is whole sooner.
+  desc.patience = std::clamp(updateSeconds_, 0.03, 0.3);
   if (panel_.wantsCoverage) {
     if (const auto painter = painterOf(session_.effects)) {
       desc.extra = {painter->owner, painter->paint, "depth", "facet_normal"};
@@ -79,7 +81,9 @@ void Viewer::updateStage() {
   if (session_.continuous) stage_->touch();
   if (!stage_->isStale(desc)) return;
   session_.attempt([&] {
+    const Clock::time_point start = Clock::now();
     stage_->update(desc);
+    updateSeconds_ = std::chrono::duration<double>(Clock::now() - start).count();
     if (panel_.wantsCoverage) updateCoverage();
   });
   settle_ = std::max(settle_, 1);  // what is said of it
