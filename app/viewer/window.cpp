@@ -36,7 +36,6 @@ WindowLibrary::~WindowLibrary() {
 
 Window::Window(const backends::Backend& backend, bool check, glm::uvec2 size) {
   backend.hintWindow(check);
-  glfwWindowHint(GLFW_SCALE_TO_MONITOR, GLFW_TRUE);
   window_ = glfwCreateWindow(static_cast<int>(size.x), static_cast<int>(size.y), "Grisaille",
                              nullptr, nullptr);
   if (window_ == nullptr) {
