@@ -10,7 +10,6 @@
 #include <fstream>
 #include <memory>
 #include <nlohmann/json.hpp>
-#include <regex>
 #include <set>
 
 #include "app/viewer/command_line.h"
@@ -22,13 +21,14 @@ namespace {
 // What matters of a build's words: the lines that tell of errors, else the last ones.
 std::string gist(const std::string& words) {
   constexpr size_t kLines = 8;
-  static const std::regex kTelling("error|Error|FAILED:|undefined");
+  constexpr const char* kTelling[] = {"error", "Error", "undefined"};
   std::vector<std::string> telling, all;
   for (size_t from = 0; from < words.size();) {
     const size_t end = std::min(words.find('\n', from), words.size());
     const std::string line = words.substr(from, end - from);
     if (!line.empty()) all.push_back(line);
-    if (std::regex_search(line, kTelling) && line.find("FAILED:") == std::string::npos) {
+    if (std::ranges::any_of(
+            kTelling, [&](const char* word) { return line.find(word) != std::string::npos; })) {
       telling.push_back(line);
     }
     from = end + 1;
