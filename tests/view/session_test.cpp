@@ -34,7 +34,8 @@ TEST_F(SessionTest, OpensWhatAFileHolds) {
   EXPECT_EQ(session_.effects.find("ssao")->values.get("radius"), 2);
   session_.openFile(folder_.write("b.json", kShots));
   EXPECT_EQ(shots(), 1u);
-  session_.openFile(folder_.write("c.json", R"({"eye": [1, 2, 3], "target": [0, 0, 0], "fovy_degrees": 60})"));
+  session_.openFile(
+      folder_.write("c.json", R"({"eye": [1, 2, 3], "target": [0, 0, 0], "fovy_degrees": 60})"));
   EXPECT_EQ(session_.camera.eye, glm::dvec3(1, 2, 3));
   const auto list = session_.shots.find("sspm")->second.shots();
   shots::save(std::vector(3, list[0]), folder_ / "d.shots");
