@@ -23,7 +23,7 @@ namespace {
 
 namespace fs = std::filesystem;
 
-constexpr std::chrono::seconds kLimit(120);
+constexpr std::chrono::seconds kLimit(600);
 
 std::vector<char*> pointers(std::vector<std::string>& strings) {
   std::vector<char*> list;

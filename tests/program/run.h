@@ -32,7 +32,7 @@ class TemporaryFolder {
 };
 
 // `grisaille ARGUMENTS` in `folder`, with variables ("NAME=value") added to the environment; killed
-// after 120 seconds.
+// after 600 seconds.
 Outcome runProgram(const std::vector<std::string>& arguments, const std::filesystem::path& folder,
                    const std::vector<std::string>& environment = {});
 

@@ -28,7 +28,7 @@ class DrivenViewer {
   nlohmann::json layout() const;
   std::string value(const std::string& control) const;  // "": it cannot be seen
 
-  // Waits; throws std::runtime_error with `what` after a minute.
+  // Waits; throws std::runtime_error with `what` after 200 seconds.
   void until(const std::string& what, const std::function<bool(const nlohmann::json&)>& holds);
   void untilValue(const std::string& control, const std::string& value);
   void untilChanged(const std::string& control, const std::string& from);
