@@ -11,6 +11,8 @@ void addRender(CLI::App& program);
 void addView(CLI::App& program);
 void addEffects(CLI::App& program);
 void addBackends(CLI::App& program);
+void addMeasure(CLI::App& program);
+void addTruth(CLI::App& program);
 void addScene(CLI::App& program);
 void addCompletion(CLI::App& program);
 

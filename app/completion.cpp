@@ -38,9 +38,9 @@ _grisaille() {{
       compopt -o nospace
       words=$("${{COMP_WORDS[0]}}" completion --parameters 2>/dev/null) ;;
     --load|--save) compopt -o nospace; words="sspm=" ;;
-    --write) compopt -o nospace; words="color= depth= normal= facet_normal= base_colour= ao= paint= paint_coverage=" ;;
-    --camera|--config|--timings|--coverage|--write-camera) COMPREPLY=($(compgen -f -- "$current")); return ;;
-    --plugin-path) COMPREPLY=($(compgen -d -- "$current")); return ;;
+    --write) compopt -o nospace; words="color= depth= normal= facet_normal= base_colour= ao= paint= paint_coverage= ao_error= ceiling= ceiling_error= mask=" ;;
+    --camera|--config|--paint|--timings|--coverage|--write-camera) COMPREPLY=($(compgen -f -- "$current")); return ;;
+    --plugin-path|--out|--bookmarks) COMPREPLY=($(compgen -d -- "$current")); return ;;
   esac
   if [[ -z $words ]]; then
     case ${{COMP_WORDS[1]}} in

@@ -5,6 +5,7 @@
 #include <new>
 
 #include "app/command.h"
+#include "app/truth/interruption.h"
 #include "core/error.h"
 
 int main(int argc, char** argv) {
@@ -18,6 +19,8 @@ int main(int argc, char** argv) {
   grisaille::app::addView(program);
   grisaille::app::addEffects(program);
   grisaille::app::addBackends(program);
+  grisaille::app::addTruth(program);
+  grisaille::app::addMeasure(program);
   grisaille::app::addScene(program);
   grisaille::app::addCompletion(program);
   try {
@@ -26,6 +29,8 @@ int main(int argc, char** argv) {
   } catch (const CLI::ParseError& error) {
     // Help and version come this way too, with status 0.
     return program.exit(error) == 0 ? 0 : 2;
+  } catch (const grisaille::app::truth::Interrupted&) {
+    return grisaille::app::truth::Interrupted::kStatus;
   } catch (const grisaille::Error& error) {
     std::fprintf(stderr, "%s\n", error.what());
   } catch (const std::bad_alloc&) {

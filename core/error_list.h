@@ -102,10 +102,14 @@ GRISAILLE_ERROR(kOutputUnknown, 5102, "name an output of the frame or of an acti
 GRISAILLE_ERROR(kSettingsUnreadable, 5103, "check the path and that the file is TOML")
 GRISAILLE_ERROR(kSettingsInvalid, 5104, "correct the line that the message names")
 GRISAILLE_ERROR(kViewerState, 5105, "nothing needs doing; the viewer starts with its defaults")
+GRISAILLE_ERROR(kTruthUnknown, 5106,
+                "name ao, ao_error, ceiling, ceiling_error, depth, normal or mask")
 // --- 52xx: the viewer
 GRISAILLE_ERROR(kNoDisplay, 5201, "start it on a desktop, or use `grisaille render`")
 GRISAILLE_ERROR(kWindowFailed, 5202, "update the driver or choose another --backend")
 GRISAILLE_ERROR(kFileUnknown, 5203, "give a .glb, .gltf, .toml, .json or .shots file")
+// --- 53xx: studies
+GRISAILLE_ERROR(kStudyRecord, 5301, "remove the file; it is measured again")
 // --- 90xx: the program itself
 GRISAILLE_ERROR(kUnexpected, 9001, "report it with the command that led here")
 GRISAILLE_ERROR(kOutOfMemory, 9002, "use a smaller --size or scene, or close other programs")

@@ -77,4 +77,17 @@ Difference compare(const Image& a, const Image& b);
 // but its like. Throws kImageMismatch.
 double shareOver(const Image& a, const Image& b, double threshold);
 
+struct Similarity {
+  double mean = 1;       // -1 ... 1; 1: equal, and where no window is left
+  uint64_t windows = 0;  // that the mean is over
+  uint64_t leftOut = 0;  // windows that hold a pixel which is not finite
+};
+
+// Mean structural similarity of pictures of one channel and the range 0 ... 1: Wang, Bovik, Sheikh
+// and Simoncelli, "Image Quality Assessment: From Error Visibility to Structural Similarity", IEEE
+// Transactions on Image Processing 13(4), 2004. A Gaussian window of 11 x 11 pixels, sigma 1.5,
+// K1 = 0.01, K2 = 0.03. As in the authors' ssim_index.m, only windows that lie whole in the picture
+// count, and the picture is not made smaller first. Throws kImageMismatch.
+Similarity ssim(const Image& a, const Image& b);
+
 }  // namespace grisaille::image

@@ -32,4 +32,11 @@ image::Image visibilityImage(std::span<const Visibility> values, uint32_t width,
   return image;
 }
 
+image::Image standardErrorImage(std::span<const Visibility> values, uint32_t width,
+                                uint32_t height) {
+  image::Image image = emptyImage(width, height, 1);
+  for (const Visibility& value : values) image.pixels.push_back(value.standardError);
+  return image;
+}
+
 }  // namespace grisaille::trace

@@ -2,7 +2,6 @@
 #include "core/trace/ray_tracer.h"
 
 #include <embree3/rtcore.h>
-#include <tbb/parallel_for.h>
 
 #include <algorithm>
 #include <array>
@@ -11,34 +10,12 @@
 #include <optional>
 
 #include "core/trace/nearest_triangle.h"
-#include "core/trace/sampling.h"
+#include "core/trace/occlusion_rays.h"
+#include "core/trace/parallel.h"
 #include "core/trace/traced_scene.h"
 
 namespace grisaille::trace {
 namespace {
-
-// Rays that one thread takes at a time.
-constexpr size_t kBlock = 64;
-
-// Calls work(first, count) for blocks of 0 ... total - 1 on all cores, in no order; a block or less
-// stays on the calling thread. `work` does not throw and writes only what belongs to its indices,
-// so that the outcome is the same for any number of threads.
-template <typename Work>
-void forEachBlock(size_t total, const Work& work) {
-  if (total == 0) return;
-  if (total <= kBlock) return work(size_t{0}, total);
-  tbb::parallel_for(size_t{0}, (total + kBlock - 1) / kBlock, [&](size_t block) {
-    const size_t first = block * kBlock;
-    work(first, std::min(kBlock, total - first));
-  });
-}
-
-template <typename Work>
-void forEach(size_t total, const Work& work) {
-  forEachBlock(total, [&](size_t first, size_t count) {
-    for (size_t i = first; i < first + count; ++i) work(i);
-  });
-}
 
 RTCRayHit makeRay(const glm::vec3& origin, const glm::vec3& direction, float near, float far) {
   RTCRayHit ray = {};
@@ -282,9 +259,8 @@ void RayTracer::castRays(std::span<const grisaille_ray> rays, std::span<grisaill
   });
 }
 
-std::vector<Visibility> RayTracer::ambientOcclusion(std::span<const Hit> hits, double radius,
-                                                    uint32_t samples, uint32_t seed) const {
-  std::vector<Visibility> result(hits.size());
+void RayTracer::addOcclusion(std::span<const Hit> hits, double radius, uint32_t seed, uint32_t from,
+                             uint32_t to, std::span<OcclusionCounts> counts) const {
   forEach(hits.size(), [&](size_t i) {
     const Hit& hit = hits[i];
     if (hit.viewDepth == 0) return;
@@ -292,25 +268,21 @@ std::vector<Visibility> RayTracer::ambientOcclusion(std::span<const Hit> hits, d
     const double reach = glm::max(glm::max(std::abs(position.x), std::abs(position.y)),
                                   glm::max(std::abs(position.z), double{hit.facetReach}));
     const glm::vec3 start(position + 2e-6 * reach * hit.facetNormal);
-    const glm::vec3 facetNormal(hit.facetNormal);
-    const glm::mat3 frame = frameAbout(hit.normal);
-    const uint32_t scramble = hashBits(hit.pixel.x + hashBits(hit.pixel.y + hashBits(seed)));
     RTCIntersectContext context;
     rtcInitIntersectContext(&context);
-    uint32_t counted = 0;
-    uint32_t open = 0;
-    for (uint32_t s = 0; s < samples; ++s) {
-      const glm::vec3 direction = frame * cosineDirection(sobolPoint(s, scramble));
-      if (glm::dot(direction, facetNormal) <= 0) continue;
+    countRays(hit, seed, from, to, counts[i], [&](const glm::vec3& direction) {
       RTCRayHit ray = makeRay(start, direction, 0.0f, static_cast<float>(radius));
       rtcOccluded1(impl_->traced.world(), &context, &ray.ray);
-      ++counted;
-      open += ray.ray.tfar >= 0 ? 1 : 0;  // Embree makes it minus infinity when blocked
-    }
-    const float mean = static_cast<float>(open) / static_cast<float>(counted);
-    result[i] = {mean, std::sqrt(mean * (1.0f - mean) / static_cast<float>(counted))};
+      return ray.ray.tfar >= 0;  // Embree makes it minus infinity when blocked
+    });
   });
-  return result;
+}
+
+std::vector<Visibility> RayTracer::ambientOcclusion(std::span<const Hit> hits, double radius,
+                                                    uint32_t samples, uint32_t seed) const {
+  std::vector<OcclusionCounts> counts(hits.size());
+  addOcclusion(hits, radius, seed, 0, samples, counts);
+  return visibilityOf(hits, counts);
 }
 
 }  // namespace grisaille::trace

@@ -17,6 +17,7 @@
 #include "core/image/image.h"
 #include "core/scene/camera.h"
 #include "core/scene/scene.h"
+#include "core/trace/occlusion.h"
 #include "grisaille/effect.h"
 
 namespace grisaille::trace {
@@ -33,12 +34,6 @@ struct Hit {
   uint32_t instance = 0;
   uint32_t primitive = 0;
   uint32_t material = 0;
-};
-
-// NaN where every ray went under the facet, 1 for the sky.
-struct Visibility {
-  float mean = 1;
-  float standardError = 0;
 };
 
 class RayTracer {
@@ -64,11 +59,15 @@ class RayTracer {
   // bit; neighbours in the array that start and run close together cost far less than others.
   void castRays(std::span<const grisaille_ray> rays, std::span<grisaille_hit> hits) const;
 
-  // The share of `samples` cosine-weighted rays about the interpolated normal that travel `radius`
-  // metres unblocked. Rays that go under the facet are left out of the count. Points are scrambled
-  // Sobol, seeded by pixel and `seed`; the error is the binomial one, an upper bound for them.
-  // Rays start off the facet by 2e-6 of the largest coordinate involved: some ten times the
-  // rounding of the 32-bit triangle.
+  // Casts the rays `from` ... `to` - 1 of each pixel, cosine-weighted about the interpolated
+  // normal, and counts which travel `radius` metres unblocked; those under the facet are left out.
+  // Points are seeded by pixel and `seed`. Adding rays in one go or in several comes to the same,
+  // to the bit; `to` is kMostOcclusionRays at most. Rays start off the facet by 2e-6 of the largest
+  // coordinate involved: some ten times the rounding of the 32-bit triangle.
+  void addOcclusion(std::span<const Hit> hits, double radius, uint32_t seed, uint32_t from,
+                    uint32_t to, std::span<OcclusionCounts> counts) const;
+
+  // All of `samples` rays at once.
   std::vector<Visibility> ambientOcclusion(std::span<const Hit> hits, double radius,
                                            uint32_t samples, uint32_t seed) const;
 
@@ -81,5 +80,7 @@ class RayTracer {
 image::Image depthImage(std::span<const Hit> hits, uint32_t width, uint32_t height);
 image::Image normalImage(std::span<const Hit> hits, uint32_t width, uint32_t height);
 image::Image visibilityImage(std::span<const Visibility> values, uint32_t width, uint32_t height);
+image::Image standardErrorImage(std::span<const Visibility> values, uint32_t width,
+                                uint32_t height);
 
 }  // namespace grisaille::trace

@@ -4,6 +4,7 @@
 
 #include <filesystem>
 
+#include "core/trace/paint_mask.h"
 #include "tests/sspm/paint_frame.h"
 #include "tests/support/devices.h"
 
@@ -14,37 +15,6 @@ constexpr uint32_t kWidth = 1280;
 constexpr uint32_t kHeight = 720;
 
 using Mask = std::vector<uint8_t>;
-
-// Pixels within the shot's range whose segment to the muzzle nothing blocks.
-Mask tracedMask(const trace::RayTracer& tracer, const std::vector<trace::Hit>& hits,
-                const grisaille_shot& shot, double range) {
-  const glm::dvec3 muzzle(shot.origin[0], shot.origin[1], shot.origin[2]);
-  const glm::dvec3 direction(shot.direction[0], shot.direction[1], shot.direction[2]);
-  std::vector<grisaille_ray> rays;
-  std::vector<size_t> pixels;
-  for (size_t i = 0; i < hits.size(); ++i) {
-    const trace::Hit& hit = hits[i];
-    if (hit.viewDepth == 0) continue;
-    const glm::dvec3 q = hit.position - muzzle;
-    if (glm::dot(q, direction) < 0 || glm::length(glm::cross(q, direction)) >= range) continue;
-    if (glm::dot(hit.facetNormal, q) >= 0) continue;
-    const glm::dvec3 start = hit.position + 1e-4 * hit.facetNormal;
-    const glm::dvec3 back = muzzle - start;
-    const double length = glm::length(back);
-    const glm::vec3 unit(back / length);
-    rays.push_back({.origin = {start.x, start.y, start.z},
-                    .direction = {unit.x, unit.y, unit.z},
-                    .reach = static_cast<float>(length)});
-    pixels.push_back(i);
-  }
-  std::vector<grisaille_hit> blocked(rays.size());
-  tracer.castRays(rays, blocked);
-  Mask mask(hits.size(), 0);
-  for (size_t i = 0; i < rays.size(); ++i) {
-    mask[pixels[i]] = blocked[i].kind == GRISAILLE_HIT_NONE ? 1 : 0;
-  }
-  return mask;
-}
 
 struct Agreement {
   size_t traced = 0, both = 0, either = 0;
@@ -109,8 +79,8 @@ TEST_P(MaskTest, PaintLandsWhereTheMuzzleSees) {
           shotAt(muzzle, target.position, glm::vec3(1, 0, 0), static_cast<float>(range))};
       frame.set({{"edge_fade", "0"}});
       frame.render(camera, kWidth, kHeight, shots, 0, {"paint_coverage"});
-      const Agreement one =
-          compare(tracedMask(rays.tracer(), hits, shots[0], range), frame.read("paint_coverage"));
+      const Agreement one = compare(trace::paintMask(rays.tracer(), hits, shots, range),
+                                    frame.read("paint_coverage"));
       SCOPED_TRACE(fmt::format("{}, shot {} at pixel {},{} with range {}: {} px", name, i, x, y,
                                range, one.traced));
       // Fewer pixels than that are mostly edge.

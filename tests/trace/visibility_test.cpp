@@ -112,28 +112,6 @@ TEST(Visibility, RaysUnderTheFacetAreLeftOut) {
   EXPECT_TRUE(std::isnan(tracer.ambientOcclusion(lookDown(tracer, 0, 0), 0.5, 256, 1)[0].mean));
 }
 
-TEST(Visibility, TheErrorEstimateCoversTheErrorAndPointsConverge) {
-  SceneBuilder builder;
-  const uint32_t material = builder.material({});
-  builder.place(builder.floor(glm::vec3(0), 100, material));
-  builder.place(
-      builder.quad({glm::vec3(0, 0, -100), {0, 0, 100}, {0, 100, 100}, {0, 100, -100}}, material));
-  const RayTracer tracer(builder.scene, glm::dvec3(1, 1, 0));
-  const auto hits = lookDown(tracer, 0.1, 0);
-  const double truth = 1 - (std::acos(0.2) - 0.2 * std::sqrt(0.96)) / std::numbers::pi;
-  for (const uint32_t samples : {64u, 256u, 1024u}) {
-    double squares = 0, estimate = 0;
-    constexpr uint32_t kSeeds = 200;
-    for (uint32_t seed = 0; seed < kSeeds; ++seed) {
-      const Visibility value = tracer.ambientOcclusion(hits, 0.5, samples, seed)[0];
-      squares += (value.mean - truth) * (value.mean - truth) / kSeeds;
-      estimate += value.standardError / kSeeds;
-    }
-    EXPECT_GT(std::sqrt(squares), 0);
-    EXPECT_LT(std::sqrt(squares), 0.5 * estimate) << samples << " samples";
-  }
-}
-
 TEST(Visibility, TheSameForAnySplitOfThePixels) {
   SceneBuilder builder;
   const uint32_t material = builder.material({});

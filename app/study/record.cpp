@@ -1,0 +1,128 @@
+// SPDX-License-Identifier: MIT
+#include "app/study/record.h"
+
+#include <fmt/format.h>
+
+#include <algorithm>
+#include <fstream>
+#include <nlohmann/json.hpp>
+
+#include "core/error.h"
+#include "core/image/write_aside.h"
+
+namespace grisaille::app::study {
+namespace fs = std::filesystem;
+using nlohmann::json;
+namespace {
+
+constexpr int kVersion = 1;
+
+double quantile(std::vector<double> values, double share) {
+  if (values.empty()) return 0;
+  std::ranges::sort(values);
+  const double at = share * static_cast<double>(values.size() - 1);
+  const auto below = static_cast<size_t>(at);
+  const size_t above = std::min(below + 1, values.size() - 1);
+  return values[below] + (at - static_cast<double>(below)) * (values[above] - values[below]);
+}
+
+json toJson(const CameraErrors& e) {
+  return {{"camera", e.camera},
+          {"rmse", e.rmse},
+          {"mean_absolute", e.meanAbsolute},
+          {"bias", e.bias},
+          {"percentile_99", e.percentile99},
+          {"ssim", e.ssim}};
+}
+
+CameraErrors errorsFrom(const json& j) {
+  return {j.at("camera"), j.at("rmse"),          j.at("mean_absolute"),
+          j.at("bias"),   j.at("percentile_99"), j.at("ssim")};
+}
+
+uint64_t hashOf(std::string_view text) {
+  uint64_t value = 0xcbf29ce484222325u;  // FNV-1a
+  for (const char c : text) value = (value ^ static_cast<unsigned char>(c)) * 0x100000001b3u;
+  return value;
+}
+
+}  // namespace
+
+double Record::rmse() const {
+  double sum = 0;
+  for (const CameraErrors& one : errors) sum += one.rmse;
+  return errors.empty() ? 0 : sum / static_cast<double>(errors.size());
+}
+
+double Record::cost() const {
+  return quantile(milliseconds, 0.5);
+}
+
+double Record::spread() const {
+  return quantile(milliseconds, 0.75) - quantile(milliseconds, 0.25);
+}
+
+fs::path fileOf(const fs::path& folder, const Record& record) {
+  std::string key = record.study + "\n" + record.backend;
+  for (const auto& [name, value] : record.setting) key += "\n" + name + "=" + value;
+  return folder / "records" / fmt::format("{:016x}.json", hashOf(key));
+}
+
+void save(const fs::path& folder, const Record& r) {
+  json setting = json::array(), errors = json::array();
+  for (const auto& [name, value] : r.setting) setting.push_back({name, value});
+  for (const CameraErrors& one : r.errors) errors.push_back(toJson(one));
+  const json all = {
+      {"version", kVersion},  {"study", r.study},     {"setting", setting},
+      {"backend", r.backend}, {"device", r.device},   {"driver", r.driver},
+      {"clock", r.clock},     {"machine", r.machine}, {"commit", r.commit},
+      {"command", r.command}, {"errors", errors},     {"milliseconds", r.milliseconds}};
+  const fs::path file = fileOf(folder, r);
+  std::error_code failed;
+  fs::create_directories(file.parent_path(), failed);
+  image::writeFileAside(file.string(), all.dump(1) + "\n");
+}
+
+std::optional<Record> load(const fs::path& file) {
+  std::ifstream stream(file, std::ios::binary);
+  if (!stream) return std::nullopt;
+  try {
+    const json j = json::parse(stream);
+    if (j.at("version") != kVersion) {
+      throw Error(ErrorId::kStudyRecord, "{} is of version {}, not {}", file.string(),
+                  j.at("version").dump(), kVersion);
+    }
+    Record r;
+    r.study = j.at("study");
+    for (const json& one : j.at("setting")) r.setting.emplace_back(one.at(0), one.at(1));
+    r.backend = j.at("backend");
+    r.device = j.at("device");
+    r.driver = j.at("driver");
+    r.clock = j.at("clock");
+    r.machine = j.at("machine");
+    r.commit = j.at("commit");
+    r.command = j.at("command");
+    for (const json& one : j.at("errors")) r.errors.push_back(errorsFrom(one));
+    r.milliseconds = j.at("milliseconds").get<std::vector<double>>();
+    return r;
+  } catch (const json::exception& error) {
+    throw Error(ErrorId::kStudyRecord, "{}: {}", file.string(), error.what());
+  }
+}
+
+std::vector<Record> loadAll(const fs::path& folder) {
+  std::vector<fs::path> files;
+  std::error_code failed;
+  for (fs::directory_iterator file(folder / "records", failed);
+       !failed && file != fs::directory_iterator(); file.increment(failed)) {
+    if (file->path().extension() == ".json") files.push_back(file->path());
+  }
+  std::ranges::sort(files);
+  std::vector<Record> records;
+  for (const fs::path& file : files) {
+    if (auto record = load(file)) records.push_back(std::move(*record));
+  }
+  return records;
+}
+
+}  // namespace grisaille::app::study

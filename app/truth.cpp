@@ -1,0 +1,259 @@
+// SPDX-License-Identifier: MIT
+// grisaille truth: what effects are measured against, by rays.
+#include <fmt/format.h>
+#include <unistd.h>
+
+#include <algorithm>
+#include <array>
+#include <cstdio>
+#include <memory>
+#include <optional>
+
+#include "app/command.h"
+#include "app/size.h"
+#include "app/truth/occlusion_truth.h"
+#include "app/truth/refine.h"
+#include "core/error.h"
+#include "core/image/image.h"
+#include "core/scene/camera.h"
+#include "core/shots/shot_file.h"
+#include "core/trace/depth_field.h"
+#include "core/trace/paint_mask.h"
+
+namespace grisaille::app {
+namespace {
+
+// Metres: as far as a shot's range goes.
+constexpr double kFarthest = 1e6;
+
+struct Options {
+  std::string scene, camera, size, paint;
+  std::vector<std::string> writes;
+  double radius = 0.5, error = 0;
+  double thickness = 0, paintRange = 0;  // 0: not given
+  uint32_t samples = 1024, seed = 1;
+  bool noCache = false, progress = false;
+};
+
+struct Write {
+  std::string output, file;
+};
+
+Write parseWrite(const std::string& text) {
+  constexpr std::array kOutputs = {"ao",    "ao_error", "ceiling", "ceiling_error",
+                                   "depth", "normal",   "mask"};
+  const size_t equals = text.find('=');
+  if (equals == std::string::npos || equals == 0 || equals + 1 == text.size()) {
+    throw Error(ErrorId::kUsage, "'{}' is not of the form NAME=FILE", text);
+  }
+  Write write{.output = text.substr(0, equals), .file = text.substr(equals + 1)};
+  if (std::ranges::find(kOutputs, write.output) == kOutputs.end()) {
+    throw Error(ErrorId::kTruthUnknown, "'{}' is nothing that truth writes", write.output);
+  }
+  image::checkWritable(write.file);
+  return write;
+}
+
+void requireLength(const char* option, double metres) {
+  if (!(metres > 0 && metres <= kFarthest)) {
+    throw Error(ErrorId::kUsage, "{} is {}, not metres over 0 and up to {}", option, metres,
+                kFarthest);
+  }
+}
+
+// What the command line asks for, checked before anything slow is done.
+struct Job {
+  std::vector<Write> writes;
+  std::vector<grisaille_shot> shots;
+  double thickness;
+  scene::Scene scene;
+  scene::Camera camera;
+  glm::uvec2 size = glm::uvec2(1280, 720);
+
+  explicit Job(const Options& options)
+      : thickness(options.thickness > 0 ? options.thickness : options.radius / 5) {
+    for (const std::string& text : options.writes) writes.push_back(parseWrite(text));
+    requireLength("--radius", options.radius);
+    if (!(options.error >= 0)) {
+      throw Error(ErrorId::kUsage, "--error is {}, not 0 or more", options.error);
+    }
+    checkUse("--thickness", options.thickness != 0, "ceiling");
+    checkUse("--paint", !options.paint.empty(), "mask");
+    checkUse("--paint-range", options.paintRange != 0, "mask");
+    if (options.thickness != 0) requireLength("--thickness", options.thickness);
+    if (options.paintRange != 0) requireLength("--paint-range", options.paintRange);
+    if (wants("mask")) loadShots(options);
+    glm::uvec2 given(0);
+    if (!options.size.empty()) given = parseSize(options.size);
+    const bool text = options.camera.starts_with('{');
+    if (!options.camera.empty()) {
+      camera =
+          text ? scene::parseCamera(options.camera, "--camera") : scene::loadCamera(options.camera);
+    }
+    scene = options.scene.empty() ? scene::makeAtrium() : scene::loadGltf(options.scene);
+    if (options.camera.empty()) {
+      camera = options.scene.empty() ? scene::atriumCamera() : scene::overviewCamera(scene.bounds);
+    }
+    if (camera.size.x > 0) size = camera.size;
+    if (given.x > 0) size = given;
+  }
+
+  bool wants(std::string_view output) const {
+    return std::ranges::any_of(writes, [&](const Write& w) { return w.output == output; });
+  }
+
+ private:
+  void checkUse(const char* option, bool given, std::string_view output) const {
+    if (given && !wants(output) && !wants(fmt::format("{}_error", output))) {
+      throw Error(ErrorId::kUsage, "{} is given, but no {} is written", option, output);
+    }
+  }
+
+  void loadShots(const Options& options) {
+    if (options.paint.empty()) {
+      throw Error(ErrorId::kUsage, "a mask is to be written, but --paint names no shots");
+    }
+    shots = shots::load(options.paint);
+    if (options.paintRange != 0) return;
+    for (size_t i = 0; i < shots.size(); ++i) {
+      if (shots[i].range > 0) continue;
+      throw Error(ErrorId::kUsage, "shot {} of {} has no range, and --paint-range gives none", i,
+                  options.paint);
+    }
+  }
+};
+
+class Truth {
+ public:
+  Truth(const Options& options, const Job& job)
+      : options_(options), job_(job), tracer_(job.scene, job.camera.eye) {
+    hits_ = tracer_.castPrimary(job.camera, job.size.x, job.size.y);
+  }
+
+  // All that takes long; nothing is written before.
+  void trace() {
+    if (job_.wants("ao") || job_.wants("ao_error")) {
+      ao_ = refine("ao", "", [this](auto hits, uint32_t from, uint32_t to, auto counts) {
+        tracer_.addOcclusion(hits, options_.radius, options_.seed, from, to, counts);
+      });
+    }
+    if (job_.wants("ceiling") || job_.wants("ceiling_error")) {
+      const trace::DepthField field(hits_, job_.camera, job_.size.x, job_.size.y);
+      const std::string more = fmt::format("thickness {}\n", job_.thickness);
+      ceiling_ = refine("ceiling", more, [&](auto hits, uint32_t from, uint32_t to, auto counts) {
+        field.addOcclusion(hits, options_.radius, job_.thickness, options_.seed, from, to, counts);
+      });
+    }
+  }
+
+  image::Image image(std::string_view output) const {
+    const auto [width, height] = std::pair(job_.size.x, job_.size.y);
+    if (output == "depth") return trace::depthImage(hits_, width, height);
+    if (output == "normal") return trace::normalImage(hits_, width, height);
+    if (output == "ao") return trace::visibilityImage(ao_->values, width, height);
+    if (output == "ao_error") return trace::standardErrorImage(ao_->values, width, height);
+    if (output == "ceiling") return trace::visibilityImage(ceiling_->values, width, height);
+    if (output == "ceiling_error") {
+      return trace::standardErrorImage(ceiling_->values, width, height);
+    }
+    const std::vector<uint8_t> mask =
+        trace::paintMask(tracer_, hits_, job_.shots, options_.paintRange);
+    return {.width = width,
+            .height = height,
+            .channels = 1,
+            .pixels = std::vector<float>(mask.begin(), mask.end())};
+  }
+
+  void summarise() const {
+    if (ao_) fmt::print("{}\n", truth::summaryOf("ao", *ao_));
+    if (ceiling_) fmt::print("{}\n", truth::summaryOf("ceiling", *ceiling_));
+  }
+
+ private:
+  truth::Estimate refine(const std::string& name, const std::string& more,
+                         const truth::AddRays& addRays) {
+    scene::Camera camera = job_.camera;
+    camera.size = job_.size;
+    const std::string key =
+        truth::keyOf(name, job_.scene, camera, options_.radius, options_.seed) + more;
+    truth::Cache cache(options_.noCache ? std::filesystem::path() : truth::cacheFolder(), key);
+    return truth::refine(name, hits_, addRays,
+                         {.samples = options_.samples, .error = options_.error}, cache,
+                         options_.progress || isatty(STDERR_FILENO) == 1);
+  }
+
+  const Options& options_;
+  const Job& job_;
+  trace::RayTracer tracer_;
+  std::vector<trace::Hit> hits_;
+  std::optional<truth::Estimate> ao_, ceiling_;
+};
+
+void writeTruth(const Options& options) {
+  const Job job(options);
+  Truth truth(options, job);
+  truth.trace();
+  for (const Write& write : job.writes) {
+    const auto transfer =
+        write.output == "normal" ? image::Transfer::kSigned : image::Transfer::kData;
+    image::write(truth.image(write.output), write.file, {.transfer = transfer});
+    fmt::print("wrote {}\n", write.file);
+  }
+  truth.summarise();
+}
+
+void addOutputs(CLI::App& command, Options& options) {
+  command
+      .add_option("--write", options.writes,
+                  "ao, ao_error (the standard error), ceiling (of what a depth buffer allows), "
+                  "ceiling_error, depth (metres, 0 = sky), normal (world) or mask (of --paint), as "
+                  ".exr or .png")
+      ->type_name("NAME=FILE")
+      ->required()
+      ->allow_extra_args(false);
+  command
+      .add_option("--thickness", options.thickness,
+                  "Metres of matter that the ceiling takes to be behind what the picture shows; "
+                  "default: a fifth of the radius")
+      ->type_name("T");
+  command.add_option("--paint", options.paint, "Shots, as .json or .shots, for the mask")
+      ->type_name("FILE");
+  command.add_option("--paint-range", options.paintRange, "Metres, for shots without a range")
+      ->type_name("R");
+}
+
+}  // namespace
+
+void addTruth(CLI::App& program) {
+  auto options = std::make_shared<Options>();
+  CLI::App* command =
+      program.add_subcommand("truth", "Trace what effects are measured against, by rays");
+  command->add_option("scene", options->scene,
+                      "A .gltf or .glb file; without one, the built-in atrium");
+  command
+      ->add_option("--camera", options->camera,
+                   "A camera file: JSON with eye, target, fovy_degrees; or that JSON itself")
+      ->type_name("FILE|{...}");
+  command->add_option("--size", options->size, "Pixels; default: the camera's size, else 1280x720")
+      ->type_name("WxH");
+  command->add_option("--radius", options->radius, "Length of occlusion rays, metres")
+      ->type_name("R")
+      ->capture_default_str();
+  command->add_option("--samples", options->samples, "Occlusion rays a pixel, at most")
+      ->check(CLI::Range(16u, trace::kMostOcclusionRays))
+      ->capture_default_str();
+  command
+      ->add_option("--error", options->error,
+                   "End earlier, once the picture's rms standard error is no more than this")
+      ->type_name("E")
+      ->capture_default_str();
+  command->add_option("--seed", options->seed, "Of the sample points")->capture_default_str();
+  addOutputs(*command, *options);
+  command->add_flag("--no-cache", options->noCache,
+                    "Neither take up what an earlier run kept nor keep anything");
+  command->add_flag("--progress", options->progress,
+                    "Draw the progress bar though standard error is no terminal");
+  command->callback([options] { writeTruth(*options); });
+}
+
+}  // namespace grisaille::app

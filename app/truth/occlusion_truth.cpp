@@ -1,0 +1,42 @@
+// SPDX-License-Identifier: MIT
+#include "app/truth/occlusion_truth.h"
+
+#include <fmt/format.h>
+
+#include "app/truth/content_hash.h"
+#include "app/truth/refine.h"
+
+namespace grisaille::app::truth {
+namespace {
+
+// Part of every key: a number that changes with whatever changes the counts.
+constexpr int kTracing = 1;
+constexpr uint32_t kSeed = 1;
+
+}  // namespace
+
+std::string keyOf(const std::string& estimate, const scene::Scene& scene,
+                  const scene::Camera& camera, double radius, uint32_t seed) {
+  return fmt::format("grisaille {} {}\nscene {:016x}\ncamera {}\nradius {}\nseed {}\n", estimate,
+                     kTracing, hashOf(scene), scene::cameraJson(camera), radius, seed);
+}
+
+OcclusionTruth traceOcclusion(const scene::Scene& scene, const scene::Camera& camera,
+                              glm::uvec2 size, double radius, uint32_t samples, bool progress) {
+  scene::Camera sized = camera;
+  sized.size = size;
+  const trace::RayTracer tracer(scene, camera.eye);
+  OcclusionTruth truth;
+  truth.hits = tracer.castPrimary(camera, size.x, size.y);
+  Cache cache(cacheFolder(), keyOf("ao", scene, sized, radius, kSeed));
+  const Estimate estimate = refine(
+      "truth", truth.hits,
+      [&](auto hits, uint32_t from, uint32_t to, auto counts) {
+        tracer.addOcclusion(hits, radius, kSeed, from, to, counts);
+      },
+      {.samples = samples, .error = 0}, cache, progress);
+  truth.visibility = trace::visibilityImage(estimate.values, size.x, size.y);
+  return truth;
+}
+
+}  // namespace grisaille::app::truth

@@ -1,0 +1,27 @@
+// SPDX-License-Identifier: MIT
+// The truth of one picture's ambient occlusion, traced or taken from the cache.
+#pragma once
+
+#include <string>
+#include <vector>
+
+#include "core/image/image.h"
+#include "core/scene/camera.h"
+#include "core/trace/ray_tracer.h"
+
+namespace grisaille::app::truth {
+
+// All that the counts of an estimate depend on; `camera` with the picture's size.
+std::string keyOf(const std::string& estimate, const scene::Scene& scene,
+                  const scene::Camera& camera, double radius, uint32_t seed);
+
+struct OcclusionTruth {
+  image::Image visibility;       // one channel
+  std::vector<trace::Hit> hits;  // by rows; of the sky with a view depth of 0
+};
+
+// As `grisaille truth --write ao=...` has it, with its cache and the same seed. Throws Interrupted.
+OcclusionTruth traceOcclusion(const scene::Scene& scene, const scene::Camera& camera,
+                              glm::uvec2 size, double radius, uint32_t samples, bool progress);
+
+}  // namespace grisaille::app::truth

@@ -1,0 +1,69 @@
+// SPDX-License-Identifier: MIT
+#include "core/trace/flicker.h"
+
+#include <cmath>
+#include <optional>
+
+#include "core/error.h"
+#include "core/trace/projection.h"
+
+namespace grisaille::trace {
+namespace {
+
+void requireShape(const FlickerFrame& frame, const image::Image& first) {
+  for (const image::Image* image : {&frame.ao, &frame.truth}) {
+    const bool fits = image->width == first.width && image->height == first.height &&
+                      image->channels == 1 && image->pixels.size() == first.pixels.size();
+    if (!fits || frame.hits.size() != first.pixels.size()) {
+      throw Error(ErrorId::kImageMismatch,
+                  "flicker of {} x {} with {} channels and {} hits against {} x {} with 1",
+                  image->width, image->height, image->channels, frame.hits.size(), first.width,
+                  first.height);
+    }
+  }
+}
+
+// The pixel of `frame` that shows the point.
+std::optional<size_t> pixelOf(const glm::dvec3& world, const FlickerFrame& frame,
+                              const Projection& projection, double tolerance) {
+  const glm::dvec3 p = projection.place(world);
+  if (!(p.z > frame.camera.nearPlane)) return {};
+  const glm::dvec2 drawn = glm::floor(projection.draw(p));
+  if (!(drawn.x >= 0 && drawn.y >= 0 && drawn.x < frame.ao.width && drawn.y < frame.ao.height)) {
+    return {};
+  }
+  const size_t q = static_cast<size_t>(drawn.y) * frame.ao.width + static_cast<size_t>(drawn.x);
+  const FacetPlane plane(frame.hits[q], projection);
+  if (plane.offset == 0) return {};
+  // The plane's view depth there, by the point's.
+  const double share = plane.offset / glm::dot(plane.normal, p);
+  if (!(std::abs(share - 1) <= tolerance)) return {};
+  return q;
+}
+
+}  // namespace
+
+Flicker flicker(std::span<const FlickerFrame> frames, double tolerance) {
+  Flicker result;
+  double squares = 0;
+  for (const FlickerFrame& frame : frames) requireShape(frame, frames[0].ao);
+  for (size_t i = 0; i + 1 < frames.size(); ++i) {
+    const FlickerFrame& now = frames[i];
+    const FlickerFrame& then = frames[i + 1];
+    const Projection projection(then.camera, then.ao.width, then.ao.height);
+    for (size_t p = 0; p < now.hits.size(); ++p) {
+      if (now.hits[p].viewDepth == 0) continue;
+      const auto q = pixelOf(now.hits[p].position, then, projection, tolerance);
+      if (!q) continue;
+      const double change = double{then.ao.pixels[*q]} - double{now.ao.pixels[p]};
+      const double due = double{then.truth.pixels[*q]} - double{now.truth.pixels[p]};
+      if (!std::isfinite(change - due)) continue;
+      squares += (change - due) * (change - due);
+      ++result.points;
+    }
+  }
+  if (result.points > 0) result.rms = std::sqrt(squares / static_cast<double>(result.points));
+  return result;
+}
+
+}  // namespace grisaille::trace

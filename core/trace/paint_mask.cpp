@@ -1,0 +1,64 @@
+// SPDX-License-Identifier: MIT
+#include "core/trace/paint_mask.h"
+
+#include <array>
+#include <optional>
+
+#include "core/trace/parallel.h"
+
+namespace grisaille::trace {
+namespace {
+
+constexpr double kOff = 1e-4;  // metres
+
+// From the surface to the muzzle, where the shot could paint it.
+std::optional<grisaille_ray> segment(const Hit& hit, const grisaille_shot& shot, double range) {
+  const glm::dvec3 muzzle(shot.origin[0], shot.origin[1], shot.origin[2]);
+  const glm::dvec3 direction(shot.direction[0], shot.direction[1], shot.direction[2]);
+  const glm::dvec3 q = hit.position - muzzle;
+  if (glm::dot(q, direction) < 0 || glm::length(glm::cross(q, direction)) >= range) return {};
+  if (glm::dot(hit.facetNormal, q) >= 0) return {};
+  const glm::dvec3 start = hit.position + kOff * hit.facetNormal;
+  const glm::dvec3 back = muzzle - start;
+  const double length = glm::length(back);
+  const glm::vec3 unit(back / length);
+  return grisaille_ray{.origin = {start.x, start.y, start.z},
+                       .direction = {unit.x, unit.y, unit.z},
+                       .reach = static_cast<float>(length)};
+}
+
+// No more than kBlock pixels.
+void paintBlock(const RayTracer& tracer, std::span<const Hit> hits,
+                std::span<const grisaille_shot> shots, double range, std::span<uint8_t> mask) {
+  std::array<grisaille_ray, kBlock> rays;
+  std::array<grisaille_hit, kBlock> blocked;
+  std::array<size_t, kBlock> owners;
+  for (const grisaille_shot& shot : shots) {
+    size_t count = 0;
+    for (size_t i = 0; i < hits.size(); ++i) {
+      if (mask[i] != 0 || hits[i].viewDepth == 0) continue;
+      const auto ray = segment(hits[i], shot, shot.range > 0 ? double{shot.range} : range);
+      if (!ray) continue;
+      rays[count] = *ray;
+      owners[count++] = i;
+    }
+    tracer.castRays(std::span(rays).first(count), std::span(blocked).first(count));
+    for (size_t k = 0; k < count; ++k) {
+      if (blocked[k].kind == GRISAILLE_HIT_NONE) mask[owners[k]] = 1;
+    }
+  }
+}
+
+}  // namespace
+
+std::vector<uint8_t> paintMask(const RayTracer& tracer, std::span<const Hit> hits,
+                               std::span<const grisaille_shot> shots, double range) {
+  std::vector<uint8_t> mask(hits.size(), 0);
+  forEachBlock(hits.size(), [&](size_t first, size_t count) {
+    paintBlock(tracer, hits.subspan(first, count), shots, range,
+               std::span(mask).subspan(first, count));
+  });
+  return mask;
+}
+
+}  // namespace grisaille::trace

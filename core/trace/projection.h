@@ -1,0 +1,55 @@
+// SPDX-License-Identifier: MIT
+// From the world to a picture's pixels, in double.
+#pragma once
+
+#include <cmath>
+#include <glm/glm.hpp>
+
+#include "core/scene/camera.h"
+#include "core/trace/ray_tracer.h"
+
+namespace grisaille::trace {
+
+// View space here: x right, y down, z along the view direction, so that z is view depth, metres.
+class Projection {
+ public:
+  Projection(const scene::Camera& camera, uint32_t width, uint32_t height)
+      : viewFromWorld_(glm::transpose(scene::worldFromView(camera))),
+        eye_(camera.eye),
+        centre_(0.5 * width, 0.5 * height),
+        scale_(0.5 * height / std::tan(glm::radians(camera.fovyDegrees) / 2)) {}
+
+  glm::dvec3 turn(const glm::dvec3& direction) const {
+    const glm::dvec3 v = viewFromWorld_ * direction;
+    return {v.x, -v.y, -v.z};
+  }
+  glm::dvec3 place(const glm::dvec3& position) const { return turn(position - eye_); }
+
+  // Where a point of view space with z over 0 is drawn: pixels from the top left corner.
+  glm::dvec2 draw(const glm::dvec3& p) const { return centre_ + scale_ / p.z * glm::dvec2(p); }
+
+  const glm::dvec2& centre() const { return centre_; }
+  double scale() const { return scale_; }  // pixels that 1 m at 1 m of view depth takes
+
+ private:
+  glm::dmat3 viewFromWorld_;
+  glm::dvec3 eye_;
+  glm::dvec2 centre_;
+  double scale_;
+};
+
+// The plane of the facet that a pixel sees, in its view space.
+struct FacetPlane {
+  glm::dvec3 normal = glm::dvec3(0);
+  double offset = 0;  // dot(normal, point of the plane): under 0, since it faces the eye; 0: sky
+
+  FacetPlane() = default;
+  FacetPlane(const Hit& hit, const Projection& projection)
+      : normal(projection.turn(hit.facetNormal)),
+        offset(hit.viewDepth > 0 ? glm::dot(normal, projection.place(hit.position)) : 0) {}
+
+  // Metres before the plane; under 0: behind.
+  double height(const glm::dvec3& p) const { return glm::dot(normal, p) - offset; }
+};
+
+}  // namespace grisaille::trace

@@ -1,0 +1,102 @@
+// SPDX-License-Identifier: MIT
+// `grisaille measure` as its users run it.
+#include <gtest/gtest.h>
+
+#include <filesystem>
+#include <nlohmann/json.hpp>
+
+#include "app/study/record.h"
+#include "tests/program/run.h"
+
+namespace grisaille::tests {
+namespace {
+
+namespace fs = std::filesystem;
+
+class MeasureTest : public testing::Test {
+ protected:
+  Outcome measure(std::vector<std::string> more) const {
+    std::vector<std::string> all = {"measure",
+                                    "--size",
+                                    "96x54",
+                                    "--samples",
+                                    "32",
+                                    "--rounds",
+                                    "2",
+                                    "--sweep",
+                                    "ssao.kernel_size=2,8",
+                                    "--sweep",
+                                    "ssao.radius=0.25,0.5",
+                                    "--backend",
+                                    "opengl"};
+    all.insert(all.end(), more.begin(), more.end());
+    return runProgram(all, folder_.path(), {"XDG_CACHE_HOME=" + (folder_ / "cache")});
+  }
+  static std::map<std::string, double> errorsOf(const fs::path& study) {
+    std::map<std::string, double> errors;
+    for (const auto& record : app::study::loadAll(study)) {
+      errors[app::study::nameOf(record.setting)] = record.rmse();
+    }
+    return errors;
+  }
+  TemporaryFolder folder_;
+};
+
+TEST_F(MeasureTest, GoesOnFromWhatThereIsAndIsTheSameTwice) {
+  const Outcome first = measure({"--out", "a"});
+  ASSERT_EQ(first.status, 0) << first.err;
+  const auto errors = errorsOf(folder_.path() / "a");
+  EXPECT_EQ(errors.size(), 4u);
+  EXPECT_LT(errors.at("kernel_size=8 radius=0.5"), errors.at("kernel_size=2 radius=0.5"));
+  const std::string results = readFile(folder_ / "a/results.json");
+  // All is there: nothing is measured anew.
+  ASSERT_EQ(measure({"--out", "a"}).status, 0);
+  EXPECT_EQ(readFile(folder_ / "a/results.json"), results);
+  // A record that is gone is measured again, and errs as before.
+  fs::remove(fs::directory_iterator(folder_.path() / "a/records")->path());
+  ASSERT_EQ(measure({"--out", "a"}).status, 0);
+  EXPECT_EQ(errorsOf(folder_.path() / "a"), errors);
+  // The page holds pictures and needs nothing else.
+  const std::string page = readFile(folder_ / "a/index.html");
+  EXPECT_NE(page.find("data:image/png;base64,iVBORw0KGgo"), std::string::npos);
+  EXPECT_EQ(page.find("src=\"http"), std::string::npos);
+  // Its commands make the pictures that were measured.
+  const auto record = app::study::loadAll(folder_.path() / "a").front();
+  const Outcome render = runShell(record.command, folder_.path());
+  EXPECT_EQ(render.status, 0) << record.command << "\n" << render.err;
+}
+
+TEST_F(MeasureTest, PartsMakeTheWhole) {
+  ASSERT_EQ(measure({"--out", "whole"}).status, 0);
+  for (const char* part : {"1/3", "2/3", "3/3"}) {
+    const Outcome outcome = measure({"--out", "parts", "--shard", part});
+    ASSERT_EQ(outcome.status, 0) << outcome.err;
+  }
+  EXPECT_EQ(errorsOf(folder_.path() / "parts"), errorsOf(folder_.path() / "whole"));
+  // Put together by hand.
+  fs::create_directories(folder_.path() / "copied");
+  fs::copy(folder_.path() / "parts/records", folder_.path() / "copied/records");
+  ASSERT_EQ(runProgram({"measure", "--report", "--out", "copied"}, folder_.path()).status, 0);
+  EXPECT_EQ(readFile(folder_ / "copied/results.csv"), readFile(folder_ / "parts/results.csv"));
+}
+
+TEST_F(MeasureTest, MistakesAreNamed) {
+  const auto refused = [&](const std::vector<std::string>& more, const std::string& number) {
+    std::vector<std::string> all = {"measure", "--out", "x", "--size", "16x16"};
+    all.insert(all.end(), more.begin(), more.end());
+    const Outcome outcome = runProgram(all, folder_.path());
+    EXPECT_EQ(outcome.status, number == "5101" ? outcome.status : 1);
+    EXPECT_NE(outcome.err.find("E" + number), std::string::npos) << outcome.err;
+    EXPECT_FALSE(fs::exists(folder_.path() / "x"));
+  };
+  refused({"--sweep", "ssao.kernel_size=0"}, "3302");
+  refused({"--sweep", "ssao.radius"}, "5101");
+  refused({"--shard", "3/2"}, "5101");
+  refused({"--backend", "metal"}, "1002");
+  refused({"--output", "none"}, "5102");
+  refused({"--camera", "missing.json"}, "2201");
+  refused({"--effects", "sspm"}, "5101");
+}
+
+}  // namespace
+}  // namespace grisaille::tests

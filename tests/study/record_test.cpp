@@ -1,0 +1,80 @@
+// SPDX-License-Identifier: MIT
+#include "app/study/record.h"
+
+#include <gtest/gtest.h>
+
+#include <algorithm>
+#include <random>
+
+#include "app/study/report.h"
+#include "tests/program/run.h"
+#include "tests/support/expect_error.h"
+
+namespace grisaille::app::study {
+namespace {
+
+Record record(double cost, double error, const std::string& value = "1") {
+  Record r;
+  r.study = "study";
+  r.backend = "null";
+  r.setting = {{"ssao.radius", value}};
+  r.errors = {{"one", error, 0.25, -0.125, 1.0 / 3, 0.9}};
+  r.milliseconds = {cost};
+  return r;
+}
+
+TEST(RecordTest, ComesBackBitForBit) {
+  const tests::TemporaryFolder folder;
+  Record r = record(0.1, 1.0 / 3, "0.3");
+  r.device = "a \"device\"";
+  r.command = "grisaille render 'x'";
+  r.milliseconds = {0.1, 1e-300, 3};
+  save(folder.path(), r);
+  EXPECT_EQ(load(fileOf(folder.path(), r)), r);
+  save(folder.path(), record(2, 0.2, "0.4"));
+  EXPECT_EQ(loadAll(folder.path()).size(), 2u);
+  EXPECT_EQ(load(folder.path() / "records/none.json"), std::nullopt);
+  folder.write("records/bad.json", "{");
+  EXPECT_ERROR(ErrorId::kStudyRecord, load(folder.path() / "records/bad.json"));
+}
+
+TEST(RecordTest, CostIsTheMedianAndItsSpreadTheQuartiles) {
+  Record r = record(0, 0.5);
+  r.milliseconds = {5, 1, 100, 2, 3};
+  EXPECT_EQ(r.cost(), 3);
+  EXPECT_EQ(r.spread(), 3);
+  r.milliseconds = {1, 2};
+  EXPECT_EQ(r.cost(), 1.5);
+  r.errors.push_back(r.errors[0]);
+  r.errors[1].rmse = 0.25;
+  EXPECT_EQ(r.rmse(), 0.375);
+}
+
+TEST(ParetoFront, HoldsAllThatNothingBeats) {
+  std::mt19937 random(5);
+  std::uniform_int_distribution<int> small(1, 12);
+  for (int trial = 0; trial < 200; ++trial) {
+    std::vector<Record> records;
+    for (int i = 0; i < 30; ++i) records.push_back(record(small(random), small(random) / 16.0));
+    const std::vector<size_t> front = paretoFront(records);
+    const auto beats = [&](const Record& a, const Record& b) {
+      return a.cost() <= b.cost() && a.rmse() <= b.rmse() &&
+             (a.cost() < b.cost() || a.rmse() < b.rmse());
+    };
+    for (const size_t i : front) {
+      for (const Record& other : records) EXPECT_FALSE(beats(other, records[i]));
+    }
+    // Each that is left out is beaten, or equals one that is on it.
+    for (size_t i = 0; i < records.size(); ++i) {
+      const bool on = std::ranges::find(front, i) != front.end();
+      const bool covered = std::ranges::any_of(front, [&](size_t f) {
+        return records[f].cost() <= records[i].cost() && records[f].rmse() <= records[i].rmse();
+      });
+      EXPECT_TRUE(on || covered);
+    }
+  }
+  EXPECT_TRUE(paretoFront({}).empty());
+}
+
+}  // namespace
+}  // namespace grisaille::app::study

@@ -1,0 +1,66 @@
+// SPDX-License-Identifier: MIT
+#include "app/study/sweep.h"
+
+#include <gtest/gtest.h>
+
+#include <set>
+
+#include "tests/support/expect_error.h"
+
+namespace grisaille::app::study {
+namespace {
+
+struct Effects : testing::Test {
+  Effects() { registry.scan(EFFECTS_FOLDER); }
+  effect::Registry registry;
+};
+using SweepTest = Effects;
+
+TEST_F(SweepTest, ValuesAreTheEffectsOwnText) {
+  const Sweep sweep = parseSweep(registry, "ssao.radius=0.50,1e0,2");
+  EXPECT_EQ(sweep.effect, "ssao");
+  EXPECT_EQ(sweep.key, "radius");
+  EXPECT_EQ(sweep.values, (std::vector<std::string>{"0.5", "1", "2"}));
+  EXPECT_EQ(parseSweep(registry, "ssao.blur=box,edge_aware").values.size(), 2u);
+}
+
+TEST_F(SweepTest, MistakesAreNamed) {
+  for (const char* text : {"", "ssao", "ssao.radius", "ssao.radius=", "=1", "ssao.radius=1,1.0"}) {
+    SCOPED_TRACE(text);
+    EXPECT_ERROR(ErrorId::kUsage, parseSweep(registry, text));
+  }
+  EXPECT_ERROR(ErrorId::kEffectUnknown, parseSweep(registry, "none.radius=1"));
+  EXPECT_ERROR(ErrorId::kParameterUnknown, parseSweep(registry, "ssao.raduis=1"));
+  EXPECT_ERROR(ErrorId::kParameterRange, parseSweep(registry, "ssao.kernel_size=8,1000"));
+  EXPECT_ERROR(ErrorId::kParameterType, parseSweep(registry, "ssao.radius=1,,2"));
+  const Sweep one = parseSweep(registry, "ssao.radius=1");
+  EXPECT_ERROR(ErrorId::kUsage, gridOf({one, one}));
+}
+
+TEST_F(SweepTest, TheGridHasEveryCombinationOnce) {
+  const auto grid = gridOf({parseSweep(registry, "ssao.kernel_size=4,8,16"),
+                            parseSweep(registry, "ssao.radius=0.3,0.5")});
+  EXPECT_EQ(grid.size(), 6u);
+  EXPECT_EQ(std::set(grid.begin(), grid.end()).size(), 6u);
+  EXPECT_EQ(nameOf(grid[1]), "kernel_size=4 radius=0.5");
+  EXPECT_EQ(gridOf({}).size(), 1u);
+  EXPECT_EQ(nameOf({}), "defaults");
+}
+
+TEST(ShardTest, PartsMakeTheWhole) {
+  for (uint32_t count = 1; count < 9; ++count) {
+    std::vector<int> held(50, 0);
+    for (uint32_t index = 1; index <= count; ++index) {
+      const Shard shard = parseShard(std::to_string(index) + "/" + std::to_string(count));
+      for (size_t i = 0; i < held.size(); ++i) held[i] += shard.holds(i) ? 1 : 0;
+    }
+    EXPECT_EQ(held, std::vector<int>(50, 1));
+  }
+  for (const char* text : {"", "1", "0/2", "3/2", "1/0", "a/b", "1/2x"}) {
+    SCOPED_TRACE(text);
+    EXPECT_ERROR(ErrorId::kUsage, parseShard(text));
+  }
+}
+
+}  // namespace
+}  // namespace grisaille::app::study
