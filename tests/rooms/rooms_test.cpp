@@ -36,7 +36,9 @@ const std::vector<Room>& rooms() {
       {"backends/opengl", {"core/gpu/"}},
       {"backends/vulkan", {"core/gpu/"}},
       {"effects", {"grisaille/", "shaders/"}},
-      {"app", {"backends/backends.h", "core/", "grisaille/"}},
+      {"app", {"backends/backends.h", "core/", "grisaille/", "app/"}},
+      {"app/truth", {"core/"}},
+      {"app/study", {"core/", "grisaille/", "app/", "backends/backends.h"}},
       {"app/viewer", {"backends/backends.h", "core/", "grisaille/", "app/", "shaders/"}},
   };
   return kRooms;
