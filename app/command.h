@@ -13,6 +13,7 @@ void addEffects(CLI::App& program);
 void addBackends(CLI::App& program);
 void addMeasure(CLI::App& program);
 void addTruth(CLI::App& program);
+void addTune(CLI::App& program);
 void addScene(CLI::App& program);
 void addCompletion(CLI::App& program);
 

@@ -6,6 +6,9 @@
 #include <nlohmann/json.hpp>
 #include <vector>
 
+#include "app/presets.h"
+#include "core/error.h"
+
 namespace grisaille::app {
 namespace {
 
@@ -65,6 +68,47 @@ nlohmann::ordered_json jsonOf(const grisaille_param_desc& param) {
   return json;
 }
 
+std::string valuesText(const Preset& preset) {
+  std::string text;
+  for (const auto& [key, value] : preset.values) {
+    text += fmt::format("{}{}={}", text.empty() ? "" : " ", key, value);
+  }
+  return text;
+}
+
+// A line each; where the file cannot be read, why not.
+std::string presetsText(const effect::Effect& effect) {
+  std::string text;
+  try {
+    const Presets presets = loadPresets(effect);
+    for (const Preset& preset : presets.all) {
+      text += fmt::format("  preset {:<10} error {:.4f}, cost {:.2f} of balanced: {}\n",
+                          preset.name, preset.error, preset.cost, valuesText(preset));
+    }
+    if (!presets.all.empty()) text += fmt::format("  presets by {}\n", presets.study);
+  } catch (const Error& error) {
+    text = fmt::format("  no presets: {}\n", error.what());
+  }
+  return text;
+}
+
+nlohmann::ordered_json presetsJson(const effect::Effect& effect) {
+  auto json = nlohmann::ordered_json::array();
+  try {
+    for (const Preset& preset : loadPresets(effect).all) {
+      nlohmann::ordered_json values = nlohmann::json::object();
+      for (const auto& [key, value] : preset.values) values[key] = value;
+      json.push_back({{"name", preset.name},
+                      {"error", preset.error},
+                      {"cost", preset.cost},
+                      {"values", values}});
+    }
+  } catch (const Error& error) {
+    json = error.what();
+  }
+  return json;
+}
+
 }  // namespace
 
 std::string effectsText(const effect::Registry& registry) {
@@ -79,6 +123,7 @@ std::string effectsText(const effect::Registry& registry) {
     for (const grisaille_output_desc& output : effect.outputs()) {
       text += fmt::format("  writes {}: {}\n", output.key, output.tooltip);
     }
+    text += presetsText(effect);
   }
   for (const effect::Refused& refused : registry.refused()) {
     text += fmt::format("refused {}\n  {}\n", refused.path, refused.reason.what());
@@ -96,7 +141,8 @@ std::string effectsJson(const effect::Registry& registry) {
                                     {"tooltip", effect.desc->tooltip},
                                     {"path", effect.path},
                                     {"parameters", nlohmann::json::array()},
-                                    {"outputs", nlohmann::json::array()}};
+                                    {"outputs", nlohmann::json::array()},
+                                    {"presets", presetsJson(effect)}};
     for (const grisaille_param_desc& param : effect.params()) {
       entry["parameters"].push_back(jsonOf(param));
     }
@@ -132,6 +178,13 @@ std::string effectMarkdown(const effect::Effect& effect) {
   text += "\n| output | what it holds |\n|---|---|\n";
   for (const grisaille_output_desc& output : effect.outputs()) {
     text += fmt::format("| `{}` | {} |\n", output.key, cell(output.tooltip));
+  }
+  const Presets presets = loadPresets(effect);
+  if (presets.all.empty()) return text;
+  text += "\n| preset | error (RMSE) | cost | values |\n|---|---|---|---|\n";
+  for (const Preset& preset : presets.all) {
+    text += fmt::format("| `{}` | {:.4f} | {:.2f} | {} |\n", preset.name, preset.error, preset.cost,
+                        cell(valuesText(preset)));
   }
   return text;
 }

@@ -10,6 +10,7 @@
 #include "app/command.h"
 #include "app/coverage.h"
 #include "app/driver_messages.h"
+#include "app/presets.h"
 #include "app/scene_rays.h"
 #include "app/settings.h"
 #include "app/shot_options.h"
@@ -27,7 +28,7 @@ namespace {
 
 struct Options {
   std::string scene, camera, size, backend, device, config, timings;
-  std::vector<std::string> effects, sets, writes, pluginPaths;
+  std::vector<std::string> effects, presets, sets, writes, pluginPaths;
   ShotOptions shots;
   std::string surface = "white", rays = "scene";
   uint32_t frames = 1;
@@ -96,6 +97,7 @@ struct Job {
     registry = loadEffects(options.pluginPaths);
     active.emplace(*registry,
                    options.effectsGiven || !settings.effects ? options.effects : *settings.effects);
+    applyPresets(options.presets, *active);
     applySettings(settings, *active);
     const std::string& ground =
         options.surfaceGiven || !settings.surface ? options.surface : *settings.surface;
@@ -247,6 +249,11 @@ void addRender(CLI::App& program) {
                              ->type_name("KEY,...")
                              ->delimiter(',')
                              ->expected(0, 64);
+  command
+      ->add_option("--preset", options->presets,
+                   "fast, balanced, fine or reference; --config and --set go over it")
+      ->type_name("EFFECT=NAME")
+      ->allow_extra_args(false);
   command->add_option("--set", options->sets, "A parameter's value, see `grisaille effects`")
       ->type_name("EFFECT.PARAMETER=VALUE")
       ->allow_extra_args(false);

@@ -1,17 +1,12 @@
 // SPDX-License-Identifier: MIT
 #include "app/settings.h"
 
-#include <toml++/toml.h>
-
 #include <algorithm>
-#include <array>
-#include <charconv>
-#include <cmath>
 #include <filesystem>
 #include <fstream>
-#include <sstream>
 
 #include "app/active_effects.h"
+#include "app/toml_values.h"
 #include "core/error.h"
 #include "core/image/write_aside.h"
 
@@ -20,21 +15,6 @@ namespace {
 
 std::string placeOf(const std::string& path, const toml::node& node) {
   return fmt::format("{}:{}", path, node.source().begin.line);
-}
-
-// As effect::Values::text() gives it: the shortest that reads back to the same number.
-std::string numberText(double value) {
-  std::array<char, 32> text;
-  return {text.data(), std::to_chars(text.data(), text.data() + text.size(), value).ptr};
-}
-
-std::string textOf(const std::string& path, std::string_view key, const toml::node& node) {
-  if (const auto* value = node.as_integer()) return fmt::format("{}", value->get());
-  if (const auto* value = node.as_floating_point()) return numberText(value->get());
-  if (const auto* value = node.as_boolean()) return value->get() ? "true" : "false";
-  if (const auto* value = node.as_string()) return value->get();
-  throw Error(ErrorId::kSettingsInvalid, "{}: '{}' is not a number, a boolean or a string",
-              placeOf(path, node), key);
 }
 
 std::vector<std::string> effectKeys(const std::string& path, const toml::node& node) {
@@ -64,31 +44,12 @@ std::string surfaceOf(const std::string& path, const toml::node& node) {
   return surface->get();
 }
 
-std::string quoted(const std::string& text) {
-  std::ostringstream out;
-  out << toml::toml_formatter(toml::value<std::string>(text), toml::format_flags::none);
-  return out.str();
-}
-
 std::string keyToml(const std::string& key) {
   const auto bare = [](char c) {
     return (c >= 'a' && c <= 'z') || (c >= 'A' && c <= 'Z') || (c >= '0' && c <= '9') || c == '_' ||
            c == '-';
   };
-  return !key.empty() && std::ranges::all_of(key, bare) ? key : quoted(key);
-}
-
-// A number or a boolean where that reads back to the same text, else a string.
-std::string valueToml(const std::string& text) {
-  if (text == "true" || text == "false") return text;
-  double value = 0;
-  const auto [end, status] = std::from_chars(text.data(), text.data() + text.size(), value);
-  const bool whole = status == std::errc() && end == text.data() + text.size();
-  if (!whole || !std::isfinite(value) || numberText(value) != text) return quoted(text);
-  // TOML's whole numbers have 64 bits and no -0.
-  const bool floating = text.find_first_of(".e") != std::string::npos;
-  const bool integer = !floating && std::abs(value) < 9e18 && text != "-0";
-  return floating || integer ? text : text + ".0";
+  return !key.empty() && std::ranges::all_of(key, bare) ? key : tomlText(key);
 }
 
 // The values of one effect, each once.
@@ -108,7 +69,7 @@ std::string tableToml(const Settings& settings, const std::string& effect) {
   }
   std::string text = fmt::format("\n[{}]\n", keyToml(effect));
   for (const Settings::Value* value : values) {
-    text += fmt::format("{} = {}\n", keyToml(value->key), valueToml(value->text));
+    text += fmt::format("{} = {}\n", keyToml(value->key), tomlValue(value->text));
   }
   return text;
 }
@@ -136,10 +97,11 @@ Settings readSettings(const std::string& path) {
       settings.surface = surfaceOf(path, node);
     } else if (const toml::table* values = node.as_table()) {
       for (const auto& [parameter, value] : *values) {
-        settings.values.push_back({.effect = std::string(key.str()),
-                                   .key = std::string(parameter.str()),
-                                   .text = textOf(path, parameter.str(), value),
-                                   .place = placeOf(path, value)});
+        settings.values.push_back(
+            {.effect = std::string(key.str()),
+             .key = std::string(parameter.str()),
+             .text = tomlNodeText(value, parameter.str(), placeOf(path, value)),
+             .place = placeOf(path, value)});
       }
     } else {
       throw Error(ErrorId::kSettingsInvalid,
@@ -155,11 +117,11 @@ std::string settingsToml(const Settings& settings) {
   if (settings.effects) {
     std::string keys;
     for (const std::string& key : *settings.effects) {
-      keys += (keys.empty() ? "" : ", ") + quoted(key);
+      keys += (keys.empty() ? "" : ", ") + tomlText(key);
     }
     text += fmt::format("effects = [{}]\n", keys);
   }
-  if (settings.surface) text += fmt::format("surface = {}\n", quoted(*settings.surface));
+  if (settings.surface) text += fmt::format("surface = {}\n", tomlText(*settings.surface));
   std::vector<std::string> effects;
   for (const Settings::Value& value : settings.values) {
     if (std::ranges::find(effects, value.effect) == effects.end()) effects.push_back(value.effect);

@@ -1,6 +1,6 @@
 # SPDX-License-Identifier: MIT
 # grisaille_add_effect(<name> SOURCES <file>... [SHADERS <shader>=<file>...] [DEFINES <NAME[=VALUE]>...]
-#                      [OUTPUT_DIR <folder>])
+#                      [PRESETS <file>] [OUTPUT_DIR <folder>])
 #
 # Builds the plugin <name>.so as the target effect_<name>. It sees the installed effect headers and
 # its own shaders (`#include "shaders/<shader>.h"`), nothing else of the project; what more it needs
@@ -9,7 +9,7 @@
 # anywhere. OUTPUT_DIR is lib/grisaille/effects of the build folder, where the program looks.
 
 function(grisaille_add_effect name)
-  cmake_parse_arguments(ARG "" "OUTPUT_DIR" "SOURCES;SHADERS;DEFINES" ${ARGN})
+  cmake_parse_arguments(ARG "" "OUTPUT_DIR;PRESETS" "SOURCES;SHADERS;DEFINES" ${ARGN})
   if(ARG_UNPARSED_ARGUMENTS OR NOT ARG_SOURCES)
     message(FATAL_ERROR "grisaille_add_effect(${name}): give SOURCES; unknown: ${ARG_UNPARSED_ARGUMENTS}")
   endif()
@@ -30,6 +30,9 @@ function(grisaille_add_effect name)
   if(NOT GRISAILLE_SANITIZE)
     # The sanitizers' functions are the program's, found when the plugin is loaded.
     target_link_options(${target} PRIVATE LINKER:-z,defs)
+  endif()
+  if(ARG_PRESETS)
+    configure_file(${ARG_PRESETS} ${ARG_OUTPUT_DIR}/${name}.presets.toml COPYONLY)
   endif()
   set(watched ${GRISAILLE_SHADER_INCLUDE}/common)
   foreach(shader ${ARG_SHADERS})

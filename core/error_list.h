@@ -81,6 +81,8 @@ GRISAILLE_ERROR(kEffectTakesNoShots, 3205, "name an active effect that takes sho
 GRISAILLE_ERROR(kParameterUnknown, 3301, "see `grisaille effects` for the keys")
 GRISAILLE_ERROR(kParameterRange, 3302, "give a value inside the range")
 GRISAILLE_ERROR(kParameterType, 3303, "give a value of the parameter's type")
+GRISAILLE_ERROR(kPresetUnknown, 3311, "see `grisaille effects` for an effect's presets")
+GRISAILLE_ERROR(kPresetFile, 3312, "make the file anew with `grisaille measure --presets`")
 // --- 34xx: shots
 GRISAILLE_ERROR(kShotOrigin, 3401, "give finite metres, on each axis within 1e9 of 0")
 GRISAILLE_ERROR(kShotDirection, 3402, "give three finite numbers that are not all 0")
@@ -110,6 +112,8 @@ GRISAILLE_ERROR(kWindowFailed, 5202, "update the driver or choose another --back
 GRISAILLE_ERROR(kFileUnknown, 5203, "give a .glb, .gltf, .toml, .json or .shots file")
 // --- 53xx: studies
 GRISAILLE_ERROR(kStudyRecord, 5301, "remove the file; it is measured again")
+GRISAILLE_ERROR(kFrontSmall, 5302, "measure a grid whose settings differ in cost and in error")
+GRISAILLE_ERROR(kTuneImpossible, 5303, "allow more, --vary more parameters or a larger --evaluations")
 // --- 90xx: the program itself
 GRISAILLE_ERROR(kUnexpected, 9001, "report it with the command that led here")
 GRISAILLE_ERROR(kOutOfMemory, 9002, "use a smaller --size or scene, or close other programs")

@@ -24,22 +24,6 @@ std::string rows(std::span<const Record> records, const std::vector<size_t>& cho
   return text + "e\n";
 }
 
-std::vector<std::string> backendsOf(std::span<const Record> records) {
-  std::vector<std::string> names;
-  for (const Record& record : records) {
-    if (std::ranges::find(names, record.backend) == names.end()) names.push_back(record.backend);
-  }
-  std::ranges::sort(names);
-  return names;
-}
-
-std::vector<Record> ofBackend(std::span<const Record> records, const std::string& backend) {
-  std::vector<Record> chosen;
-  std::ranges::copy_if(records, std::back_inserter(chosen),
-                       [&](const Record& r) { return r.backend == backend; });
-  return chosen;
-}
-
 // A script that draws both pictures.
 std::string plotScript(const fs::path& folder, std::span<const Record> records) {
   constexpr const char* kColours[] = {"#0072B2", "#D55E00"};
@@ -49,10 +33,10 @@ std::string plotScript(const fs::path& folder, std::span<const Record> records) 
   std::string plot = "plot ", data;
   size_t number = 0;
   for (const std::string& backend : backendsOf(records)) {
-    const std::vector<Record> own = ofBackend(records, backend);
     std::vector<size_t> all;
-    for (size_t i = 0; i < own.size(); ++i) {
-      if (own[i].cost() > 0 && !own[i].errors.empty()) all.push_back(i);
+    for (size_t i = 0; i < records.size(); ++i) {
+      const Record& r = records[i];
+      if (r.backend == backend && r.cost() > 0 && !r.errors.empty()) all.push_back(i);
     }
     if (all.empty()) continue;
     const char* colour = kColours[number++ % std::size(kColours)];
@@ -60,7 +44,7 @@ std::string plotScript(const fs::path& folder, std::span<const Record> records) 
         "{}'-' with points pt 7 ps 0.5 lc rgb '{}' title '{}', "
         "'-' with linespoints pt 7 lw 2 lc rgb '{}' title '{}: front'",
         number > 1 ? ", " : "", colour, backend, colour, backend);
-    data += rows(own, all) + rows(own, paretoFront(own));
+    data += rows(records, all) + rows(records, paretoFront(records, backend));
   }
   if (number == 0) return "";
   for (const auto& [terminal, file] :
@@ -71,57 +55,107 @@ std::string plotScript(const fs::path& folder, std::span<const Record> records) 
   return script;
 }
 
-std::string csvOf(std::span<const Record> records) {
-  std::string names;
-  if (!records.empty()) {
-    for (const auto& [name, value] : records[0].setting) names += "," + name;
+// The mean of a record's cameras.
+CameraErrors meanOf(const Record& r) {
+  CameraErrors mean;
+  for (const CameraErrors& e : r.errors) {
+    const double share = 1 / static_cast<double>(r.errors.size());
+    mean.rmse += share * e.rmse;
+    mean.meanAbsolute += share * e.meanAbsolute;
+    mean.bias += share * e.bias;
+    mean.percentile99 += share * e.percentile99;
+    mean.ssim += share * e.ssim;
   }
-  std::string csv =
-      "backend,device,clock" + names +
-      ",milliseconds,spread,rounds,rmse,mean_absolute,bias,percentile_99,ssim,commit\n";
+  return mean;
+}
+
+// Every parameter that a setting names, in the order they first come.
+std::vector<std::string> parametersOf(std::span<const Record> records) {
+  std::vector<std::string> names;
   for (const Record& r : records) {
-    CameraErrors mean;
-    for (const CameraErrors& e : r.errors) {
-      const double share = 1 / static_cast<double>(r.errors.size());
-      mean.rmse += share * e.rmse;
-      mean.meanAbsolute += share * e.meanAbsolute;
-      mean.bias += share * e.bias;
-      mean.percentile99 += share * e.percentile99;
-      mean.ssim += share * e.ssim;
+    for (const auto& [name, value] : r.setting) {
+      if (std::ranges::find(names, name) == names.end()) names.push_back(name);
     }
+  }
+  return names;
+}
+
+std::vector<std::string> camerasOf(std::span<const Record> records) {
+  std::vector<std::string> names;
+  for (const Record& r : records) {
+    for (const CameraErrors& e : r.errors) {
+      if (std::ranges::find(names, e.camera) == names.end()) names.push_back(e.camera);
+    }
+  }
+  return names;
+}
+
+std::string csvOf(std::span<const Record> records) {
+  const std::vector<std::string> parameters = parametersOf(records);
+  std::string csv = "backend,device,clock";
+  for (const std::string& name : parameters) csv += "," + name;
+  csv += ",milliseconds,spread,rounds,rmse,mean_absolute,bias,percentile_99,ssim";
+  const std::vector<std::string> cameras = camerasOf(records);
+  for (const std::string& camera : cameras) csv += ",rmse of " + camera;
+  csv += ",commit\n";
+  for (const Record& r : records) {
     csv += fmt::format("{},\"{}\",{}", r.backend, r.device, r.clock);
-    for (const auto& [name, value] : r.setting) csv += "," + value;
-    csv += fmt::format(",{:.4f},{:.4f},{},{},{},{},{},{},{}\n", r.cost(), r.spread(),
-                       r.milliseconds.size(), mean.rmse, mean.meanAbsolute, mean.bias,
-                       mean.percentile99, mean.ssim, r.commit);
+    for (const std::string& name : parameters) {
+      const auto own = std::ranges::find(r.setting, name, &Setting::value_type::first);
+      csv += "," + (own == r.setting.end() ? std::string() : own->second);
+    }
+    const CameraErrors mean = meanOf(r);
+    csv +=
+        fmt::format(",{:.4f},{:.4f},{},{},{},{},{},{}", r.cost(), r.spread(), r.milliseconds.size(),
+                    mean.rmse, mean.meanAbsolute, mean.bias, mean.percentile99, mean.ssim);
+    for (const std::string& camera : cameras) {
+      const auto own = std::ranges::find(r.errors, camera, &CameraErrors::camera);
+      csv += "," + (own == r.errors.end() ? std::string() : fmt::format("{}", own->rmse));
+    }
+    csv += "," + r.commit + "\n";
   }
   return csv;
 }
 
 }  // namespace
 
-std::vector<size_t> paretoFront(std::span<const Record> records) {
-  std::vector<size_t> order;
-  for (size_t i = 0; i < records.size(); ++i) {
-    if (!records[i].errors.empty() && !records[i].milliseconds.empty()) order.push_back(i);
+std::vector<std::string> backendsOf(std::span<const Record> records) {
+  std::vector<std::string> names;
+  for (const Record& record : records) {
+    if (std::ranges::find(names, record.backend) == names.end()) names.push_back(record.backend);
   }
-  std::ranges::sort(order, [&](size_t a, size_t b) {
-    return std::pair(records[a].cost(), records[a].rmse()) <
-           std::pair(records[b].cost(), records[b].rmse());
-  });
+  std::ranges::sort(names);
+  return names;
+}
+
+std::vector<size_t> frontOf(std::span<const Price> prices) {
+  std::vector<size_t> order;
+  for (size_t i = 0; i < prices.size(); ++i) {
+    if (prices[i].cost > 0) order.push_back(i);
+  }
+  std::ranges::sort(order, {},
+                    [&](size_t i) { return std::pair(prices[i].cost, prices[i].error); });
   std::vector<size_t> front;
   for (const size_t i : order) {
-    if (front.empty() || records[i].rmse() < records[front.back()].rmse()) front.push_back(i);
+    if (front.empty() || prices[i].error < prices[front.back()].error) front.push_back(i);
   }
   return front;
+}
+
+std::vector<size_t> paretoFront(std::span<const Record> records, const std::string& backend) {
+  std::vector<Price> prices;
+  for (const Record& r : records) {
+    const bool known = r.backend == backend && !r.errors.empty();
+    prices.push_back({.cost = known ? r.cost() : 0, .error = r.rmse()});
+  }
+  return frontOf(prices);
 }
 
 void writeReport(const fs::path& folder) {
   const std::vector<Record> records = loadAll(folder);
   image::writeFileAside((folder / "results.csv").string(), csvOf(records));
-  const std::string page = pageOf(folder, records);
-  image::writeFileAside((folder / "results.json").string(), pageData(folder, records, false));
-  image::writeFileAside((folder / "index.html").string(), page);
+  image::writeFileAside((folder / "results.json").string(), resultsOf(records));
+  image::writeFileAside((folder / "index.html").string(), pageOf(folder, records));
   const std::string script = plotScript(folder, records);
   if (script.empty()) return;
   const fs::path file = folder / "front.gp";

@@ -4,7 +4,7 @@
 #include <algorithm>
 #include <cmath>
 
-#include "core/error.h"
+#include "core/gpu/device.h"
 
 namespace grisaille::app::study {
 namespace fs = std::filesystem;
@@ -27,15 +27,6 @@ image::Image errorMap(const image::Image& shown, const image::Image& truth) {
   return map;
 }
 
-// Where there is a surface; elsewhere a copy of what it is compared with.
-image::Image onSurfaces(const image::Image& picture, const image::Image& truth, float elsewhere) {
-  image::Image result = picture;
-  for (size_t i = 0; i < result.pixels.size(); ++i) {
-    if (!std::isfinite(truth.pixels[i])) result.pixels[i] = elsewhere;
-  }
-  return result;
-}
-
 }  // namespace
 
 fs::path pictureOf(const fs::path& folder, const Record& record) {
@@ -46,8 +37,12 @@ fs::path errorMapOf(const fs::path& folder, const Record& record) {
   return folder / "pictures" / (fileOf(folder, record).stem().string() + "-error.png");
 }
 
+fs::path truthPictureOf(const fs::path& folder) {
+  return folder / "pictures" / "truth.png";
+}
+
 Study::Study(const StudyDesc& desc, gpu::Device& device, std::vector<Setting> settings)
-    : desc_(desc), device_(device), rays_(*desc.scene), renderer_(device, *desc.scene) {
+    : desc_(desc), measurer_(desc.subject, device) {
   const gpu::DeviceInfo& info = device.info();
   for (Setting& setting : settings) {
     Job job;
@@ -69,65 +64,31 @@ Study::Study(const StudyDesc& desc, gpu::Device& device, std::vector<Setting> se
   }
 }
 
-void Study::start(Job& job) {
-  if (job.active) return;
-  job.active = std::make_unique<ActiveEffects>(*desc_.registry, desc_.effects);
-  for (const std::string& set : desc_.sets) job.active->set(set);
-  for (const auto& [name, value] : job.record.setting) job.active->set(name + "=" + value);
-  job.instances = job.active->start(device_);
-}
-
-void Study::render(Job& job, const View& view) {
-  const std::vector<std::string> outputs = {desc_.output};
-  const std::vector<frame::ActiveEffect> effects = job.active->with(job.instances);
-  renderer_.render({.camera = view.camera,
-                    .width = desc_.size.x,
-                    .height = desc_.size.y,
-                    .effects = effects,
-                    .outputs = outputs,
-                    .rays = &rays_});
+void Study::writePictures(const Record& record, const View& view, const image::Image& shown) {
+  if (&view != &desc_.subject.views.front()) return;
+  std::error_code failed;
+  fs::create_directories(desc_.folder / "pictures", failed);
+  image::write(shown, pictureOf(desc_.folder, record).string());
+  image::write(errorMap(shown, view.truth), errorMapOf(desc_.folder, record).string());
+  if (!fs::exists(truthPictureOf(desc_.folder))) {
+    image::write(view.truth, truthPictureOf(desc_.folder).string());
+  }
 }
 
 void Study::measureErrors(Job& job) {
-  std::vector<CameraErrors> errors;
-  for (const View& view : desc_.views) {
-    render(job, view);
-    const image::Image shown = renderer_.read(desc_.output);
-    if (shown.channels != 1) {
-      throw Error(ErrorId::kUsage, "output '{}' has {} channels; truth has one", desc_.output,
-                  shown.channels);
-    }
-    const image::Difference d = image::compare(shown, view.truth);
-    errors.push_back(
-        {view.name, d.rmse, d.meanAbsolute, d.bias, d.percentile99,
-         image::ssim(onSurfaces(shown, view.truth, 1), onSurfaces(view.truth, view.truth, 1))
-             .mean});
-    if (&view != &desc_.views.front()) continue;
-    std::error_code failed;
-    fs::create_directories(desc_.folder / "pictures", failed);
-    image::write(shown, pictureOf(desc_.folder, job.record).string());
-    image::write(errorMap(shown, view.truth), errorMapOf(desc_.folder, job.record).string());
-  }
-  job.record.errors = std::move(errors);
+  job.running = measurer_.start(job.record.setting);
+  job.record.errors = measurer_.errors(
+      *job.running,
+      [&](const View& view, const image::Image& shown) { writePictures(job.record, view, shown); });
   save(desc_.folder, job.record);
 }
 
-// The passes of all effects that run, as their own labels name them.
 void Study::measureCost(Job& job) {
-  device_.wait();
-  device_.takeTimes();
-  for (const View& view : desc_.views) render(job, view);
-  device_.wait();
-  double sum = 0;
-  size_t frames = 0;
-  for (const gpu::FrameTimes& frame : device_.takeTimes()) {
-    ++frames;
-    for (const gpu::PassTime& pass : frame.passes) {
-      const std::string effect = pass.label.substr(0, pass.label.find('/'));
-      if (std::ranges::find(desc_.effects, effect) != desc_.effects.end()) sum += pass.milliseconds;
-    }
+  if (!job.running) {
+    job.running = measurer_.start(job.record.setting);
+    measurer_.cost(*job.running);  // pipelines are made outside the clock
   }
-  if (frames > 0) job.record.milliseconds.push_back(sum / static_cast<double>(frames));
+  job.record.milliseconds.push_back(measurer_.cost(*job.running));
   save(desc_.folder, job.record);
 }
 
@@ -143,19 +104,12 @@ bool Study::run(const Told& told, const std::function<bool()>& stop) {
     return true;
   };
   for (Job& job : jobs_) {
-    const bool needed = job.record.errors.empty();
-    if (!step(needed, [&] { start(job), measureErrors(job); })) return false;
+    if (!step(job.record.errors.empty(), [&] { measureErrors(job); })) return false;
   }
   for (uint32_t round = 0; round < desc_.rounds; ++round) {
     for (Job& job : jobs_) {
       const bool needed = job.record.milliseconds.size() <= round;
-      const auto work = [&] {
-        const bool fresh = !job.active;
-        start(job);
-        if (fresh) render(job, desc_.views.front());  // pipelines are made outside the clock
-        measureCost(job);
-      };
-      if (!step(needed, work)) return false;
+      if (!step(needed, [&] { measureCost(job); })) return false;
     }
   }
   return true;

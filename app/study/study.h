@@ -3,37 +3,20 @@
 // round by round over all settings (A B C A B C ...), so that what disturbs the machine is shared.
 #pragma once
 
+#include <filesystem>
 #include <functional>
-#include <map>
 #include <memory>
 #include <string>
 #include <vector>
 
-#include "app/active_effects.h"
-#include "app/scene_rays.h"
+#include "app/study/measurer.h"
 #include "app/study/record.h"
-#include "core/frame/renderer.h"
-#include "core/image/image.h"
-#include "core/scene/camera.h"
 
 namespace grisaille::app::study {
 
-// One camera with what is right there.
-struct View {
-  std::string name;  // as it was given
-  scene::Camera camera;
-  image::Image truth;  // one channel; NaN where there is no surface
-};
-
 struct StudyDesc {
+  Subject subject;
   std::string key;  // all that results depend on but setting and backend
-  const scene::Scene* scene = nullptr;
-  std::vector<View> views;
-  glm::uvec2 size = glm::uvec2(640, 360);
-  const effect::Registry* registry = nullptr;
-  std::vector<std::string> effects;  // that run, in order
-  std::vector<std::string> sets;     // beneath the swept values
-  std::string output;                // that is compared with the truth
   std::string machine, commit;
   uint32_t rounds = 5;
   std::filesystem::path folder;
@@ -49,25 +32,22 @@ class Study {
   // All outlive this.
   Study(const StudyDesc& desc, gpu::Device& device, std::vector<Setting> settings);
 
-  // Begins where the folder's records end; `stop` is asked after each step. False where it stopped.
+  // Begins where the folder's records end; `stop` is asked before each step. False where it
+  // stopped.
   bool run(const Told& told, const std::function<bool()>& stop);
 
  private:
   struct Job {
     Record record;
-    std::unique_ptr<ActiveEffects> active;
-    std::vector<std::unique_ptr<effect::Instance>> instances;
+    std::unique_ptr<Measurer::Running> running;
   };
 
-  void start(Job& job);
-  void render(Job& job, const View& view);
   void measureErrors(Job& job);
   void measureCost(Job& job);
+  void writePictures(const Record& record, const View& view, const image::Image& shown);
 
   const StudyDesc& desc_;
-  gpu::Device& device_;
-  SceneRays rays_;
-  frame::Renderer renderer_;
+  Measurer measurer_;
   std::vector<Job> jobs_;
 };
 
@@ -75,5 +55,7 @@ class Study {
 // where it is too dark, orange where it is too bright, full at 0.25.
 std::filesystem::path pictureOf(const std::filesystem::path& folder, const Record& record);
 std::filesystem::path errorMapOf(const std::filesystem::path& folder, const Record& record);
+// The truth of the first view.
+std::filesystem::path truthPictureOf(const std::filesystem::path& folder);
 
 }  // namespace grisaille::app::study

@@ -36,6 +36,7 @@ OcclusionTruth traceOcclusion(const scene::Scene& scene, const scene::Camera& ca
       },
       {.samples = samples, .error = 0}, cache, progress);
   truth.visibility = trace::visibilityImage(estimate.values, size.x, size.y);
+  truth.error = estimate.error;
   return truth;
 }
 

@@ -18,6 +18,7 @@ std::string keyOf(const std::string& estimate, const scene::Scene& scene,
 struct OcclusionTruth {
   image::Image visibility;       // one channel
   std::vector<trace::Hit> hits;  // by rows; of the sky with a view depth of 0
+  double error = 0;              // rms standard error of the visibility
 };
 
 // As `grisaille truth --write ao=...` has it, with its cache and the same seed. Throws Interrupted.

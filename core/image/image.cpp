@@ -280,4 +280,13 @@ std::vector<std::byte> encodePng(const Image8& image) {
   return {view.begin(), view.end()};
 }
 
+std::vector<std::byte> encodeJpeg(const Image& image, int quality) {
+  OIIO::ImageSpec spec = specOf(image, OIIO::TypeDesc::UINT8);
+  spec.attribute("Compression", "jpeg:" + std::to_string(quality));
+  const std::vector<unsigned char> bytes =
+      encode("jpeg", spec, quantise<uint8_t>(image, Transfer::kData).data());
+  const auto view = std::as_bytes(std::span(bytes));
+  return {view.begin(), view.end()};
+}
+
 }  // namespace grisaille::image

@@ -58,6 +58,9 @@ Image8 decode(std::span<const std::byte> encoded, const std::string& name);
 // A PNG of 8 bits a channel, RGBA, in memory.
 std::vector<std::byte> encodePng(const Image8& image);
 
+// A JPEG in memory of one or three channels of numbers, as write() rounds them; quality 1 ... 100.
+std::vector<std::byte> encodeJpeg(const Image& image, int quality);
+
 // The number that holds for two images of one size and channel count. Pixels where either is not
 // finite count apart.
 struct Difference {

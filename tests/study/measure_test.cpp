@@ -58,7 +58,7 @@ TEST_F(MeasureTest, GoesOnFromWhatThereIsAndIsTheSameTwice) {
   EXPECT_EQ(errorsOf(folder_.path() / "a"), errors);
   // The page holds pictures and needs nothing else.
   const std::string page = readFile(folder_ / "a/index.html");
-  EXPECT_NE(page.find("data:image/png;base64,iVBORw0KGgo"), std::string::npos);
+  EXPECT_NE(page.find("data:image/jpeg;base64,/9j/"), std::string::npos);
   EXPECT_EQ(page.find("src=\"http"), std::string::npos);
   // Its commands make the pictures that were measured.
   const auto record = app::study::loadAll(folder_.path() / "a").front();

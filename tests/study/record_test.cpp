@@ -56,7 +56,7 @@ TEST(ParetoFront, HoldsAllThatNothingBeats) {
   for (int trial = 0; trial < 200; ++trial) {
     std::vector<Record> records;
     for (int i = 0; i < 30; ++i) records.push_back(record(small(random), small(random) / 16.0));
-    const std::vector<size_t> front = paretoFront(records);
+    const std::vector<size_t> front = paretoFront(records, "null");
     const auto beats = [&](const Record& a, const Record& b) {
       return a.cost() <= b.cost() && a.rmse() <= b.rmse() &&
              (a.cost() < b.cost() || a.rmse() < b.rmse());
@@ -73,7 +73,7 @@ TEST(ParetoFront, HoldsAllThatNothingBeats) {
       EXPECT_TRUE(on || covered);
     }
   }
-  EXPECT_TRUE(paretoFront({}).empty());
+  EXPECT_TRUE(paretoFront({}, "null").empty());
 }
 
 }  // namespace

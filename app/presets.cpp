@@ -1,0 +1,113 @@
+// SPDX-License-Identifier: MIT
+#include "app/presets.h"
+
+#include <fmt/format.h>
+#include <algorithm>
+#include <fstream>
+
+#include "app/active_effects.h"
+#include "app/toml_values.h"
+#include "core/error.h"
+
+namespace grisaille::app {
+namespace {
+
+double numberOf(const toml::table& table, const char* key, const std::string& place) {
+  const auto value = table[key].value<double>();
+  if (!value || !(*value >= 0)) {
+    throw Error(ErrorId::kPresetFile, "{}: '{}' is not a number of 0 or more", place, key);
+  }
+  return *value;
+}
+
+Preset presetFrom(const effect::Effect& effect, const std::string& name, const toml::table& table,
+                  const std::string& place) {
+  Preset preset{.name = name,
+                .error = numberOf(table, "error", place),
+                .cost = numberOf(table, "cost", place),
+                .values = {}};
+  const toml::table* values = table["values"].as_table();
+  if (values == nullptr) throw Error(ErrorId::kPresetFile, "{}: no values", place);
+  effect::Values checked(effect);
+  for (const auto& [key, node] : *values) {
+    try {
+      checked.set(key.str(), tomlNodeText(node, key.str(), place));
+    } catch (const Error& error) {
+      throw Error(ErrorId::kPresetFile, "{}: {}", place, error.detail());
+    }
+    preset.values.emplace_back(key.str(), checked.text(key.str()));
+  }
+  return preset;
+}
+
+}  // namespace
+
+const Preset& Presets::find(const std::string& effect, const std::string& name) const {
+  const auto found = std::ranges::find(all, name, &Preset::name);
+  if (found != all.end()) return *found;
+  if (all.empty()) throw Error(ErrorId::kPresetUnknown, "effect '{}' has no presets", effect);
+  throw Error(ErrorId::kPresetUnknown, "effect '{}' has no preset '{}', but {}", effect, name,
+              fmt::join(kPresetNames, ", "));
+}
+
+std::filesystem::path presetsFile(const effect::Effect& effect) {
+  return std::filesystem::path(effect.path).parent_path() /
+         (std::string(effect.desc->key) + ".presets.toml");
+}
+
+Presets loadPresets(const effect::Effect& effect) {
+  Presets presets;
+  const std::string path = presetsFile(effect);
+  if (!std::filesystem::exists(path)) return presets;
+  std::ifstream file(path, std::ios::binary);
+  toml::table table;
+  try {
+    table = toml::parse(file, path);
+  } catch (const toml::parse_error& error) {
+    throw Error(ErrorId::kPresetFile, "{}:{}: {}", path, error.source().begin.line,
+                error.description());
+  }
+  presets.study = table["study"].value_or(std::string());
+  for (const char* name : kPresetNames) {
+    const toml::table* own = table[name].as_table();
+    if (own == nullptr) throw Error(ErrorId::kPresetFile, "{} lacks '{}'", path, name);
+    presets.all.push_back(
+        presetFrom(effect, name, *own, fmt::format("{}:{}", path, own->source().begin.line)));
+  }
+  return presets;
+}
+
+std::string presetsToml(const Presets& presets) {
+  std::string text = fmt::format("study = {}\n", tomlText(presets.study));
+  for (const Preset& preset : presets.all) {
+    std::string values;
+    for (const auto& [key, value] : preset.values) {
+      values += fmt::format("{}{} = {}", values.empty() ? "" : ", ", key, tomlValue(value));
+    }
+    text += fmt::format("\n[{}]\nerror = {:.5f}\ncost = {:.4f}\nvalues = {{{}}}\n", preset.name,
+                        preset.error, preset.cost, values);
+  }
+  return text;
+}
+
+void applyPreset(effect::Values& values, const Presets& presets, const std::string& name) {
+  const Preset& chosen = presets.find(values.effect().desc->key, name);
+  const effect::Values defaults(values.effect());
+  for (const Preset& preset : presets.all) {
+    for (const auto& [key, text] : preset.values) values.set(key, defaults.text(key));
+  }
+  for (const auto& [key, text] : chosen.values) values.set(key, text);
+}
+
+void applyPresets(const std::vector<std::string>& assignments, ActiveEffects& active) {
+  for (const std::string& text : assignments) {
+    const size_t equals = text.find('=');
+    if (equals == std::string::npos) {
+      throw Error(ErrorId::kUsage, "--preset '{}' is not of the form EFFECT=NAME", text);
+    }
+    effect::Values& values = active.values(text.substr(0, equals));
+    applyPreset(values, loadPresets(values.effect()), text.substr(equals + 1));
+  }
+}
+
+}  // namespace grisaille::app

@@ -1,0 +1,147 @@
+// SPDX-License-Identifier: MIT
+#include "app/study/choose.h"
+
+#include <fmt/format.h>
+
+#include <algorithm>
+#include <cmath>
+#include <map>
+#include <set>
+
+#include "core/error.h"
+#include "core/image/write_aside.h"
+
+namespace grisaille::app::study {
+namespace {
+
+bool isWhole(const Record& r) {
+  return !r.errors.empty() && r.cost() > 0;
+}
+
+std::map<std::string, double> medianCosts(std::span<const Record> records) {
+  std::map<std::string, std::vector<double>> costs;
+  for (const Record& r : records) {
+    if (isWhole(r)) costs[r.backend].push_back(r.cost());
+  }
+  std::map<std::string, double> medians;
+  for (auto& [backend, all] : costs) {
+    const auto middle = all.begin() + static_cast<std::ptrdiff_t>(all.size() / 2);
+    std::ranges::nth_element(all, middle);
+    medians[backend] = *middle;
+  }
+  return medians;
+}
+
+// The index strictly between two, farthest under their chord; `none` where nothing lies between.
+size_t kneeOf(std::span<const Price> front, size_t first, size_t last, size_t none) {
+  const auto x = [&](size_t i) { return std::log(front[i].cost); };
+  size_t knee = none;
+  double farthest = -1e300;
+  for (size_t i = first + 1; i < last; ++i) {
+    const double share = (x(i) - x(first)) / (x(last) - x(first));
+    const double chord = front[first].error + share * (front[last].error - front[first].error);
+    if (chord - front[i].error <= farthest) continue;
+    farthest = chord - front[i].error;
+    knee = i;
+  }
+  return knee;
+}
+
+// "ssao" of "ssao.radius", the same in all.
+std::string effectOf(std::span<const Choice> choices) {
+  std::set<std::string> effects;
+  for (const Choice& choice : choices) {
+    for (const auto& [name, value] : choice.setting) effects.insert(name.substr(0, name.find('.')));
+  }
+  if (effects.size() != 1) {
+    throw Error(ErrorId::kUsage, "--presets: the settings are of {} effects, not of one",
+                effects.size());
+  }
+  return *effects.begin();
+}
+
+std::string sentenceOf(std::span<const Record> records) {
+  const Record& r = records.front();
+  std::vector<std::string> backends, cameras;
+  for (const std::string& backend : backendsOf(records)) {
+    const auto own = std::ranges::find(records, backend, &Record::backend);
+    backends.push_back(fmt::format("{} on {}, {} clock", backend, own->device, own->clock));
+  }
+  for (const CameraErrors& e : r.errors) cameras.push_back(e.camera);
+  const size_t from = r.study.find("size ") + 5;
+  return fmt::format(
+      "{}; {} pixels; cameras {}; {} settings; {}; commit {}", fmt::join(backends, "; "),
+      r.study.substr(from, r.study.find('\n', from) - from), fmt::join(cameras, ", "),
+      records.size() / backends.size(), r.machine, r.commit);
+}
+
+}  // namespace
+
+std::vector<Choice> choicesOf(std::span<const Record> records) {
+  const std::map<std::string, double> medians = medianCosts(records);
+  std::vector<Choice> choices;
+  std::map<Setting, std::vector<const Record*>> settings;
+  for (const Record& r : records) {
+    if (isWhole(r)) settings[r.setting].push_back(&r);
+  }
+  for (const Record& r : records) {
+    const auto own = settings.find(r.setting);
+    if (own == settings.end() || own->second.size() != medians.size()) continue;
+    Choice choice{.setting = r.setting, .price = {.cost = 0, .error = 0}};
+    for (const Record* one : own->second) {
+      choice.price.error += one->rmse() / static_cast<double>(medians.size());
+      choice.price.cost += std::log(one->cost() / medians.at(one->backend));
+    }
+    choice.price.cost = std::exp(choice.price.cost / static_cast<double>(medians.size()));
+    choices.push_back(std::move(choice));
+    settings.erase(own);
+  }
+  return choices;
+}
+
+std::vector<size_t> presetsOn(std::span<const Price> front) {
+  if (front.size() < std::size(kPresetNames)) {
+    throw Error(ErrorId::kFrontSmall, "the front has {} settings; presets take at least {}",
+                front.size(), std::size(kPresetNames));
+  }
+  const size_t reference = front.size() - 1;
+  const size_t balanced = std::clamp<size_t>(kneeOf(front, 0, reference, 1), 1, reference - 2);
+  return {kneeOf(front, 0, balanced, balanced - 1), balanced,
+          kneeOf(front, balanced, reference, balanced + 1), reference};
+}
+
+std::vector<size_t> distinct(std::span<const Price> prices, std::span<const size_t> front) {
+  std::vector<size_t> kept;
+  for (size_t i = 0; i < front.size(); ++i) {
+    const bool last = i + 1 == front.size();
+    if (last || prices[front[i + 1]].cost > kDistinct * prices[front[i]].cost) {
+      kept.push_back(front[i]);
+    }
+  }
+  return kept;
+}
+
+void writePresets(std::span<const Record> records, const std::string& file) {
+  const std::vector<Choice> choices = choicesOf(records);
+  const std::string effect = effectOf(choices);
+  std::vector<Price> prices, front;
+  for (const Choice& choice : choices) prices.push_back(choice.price);
+  const std::vector<size_t> order = distinct(prices, frontOf(prices));
+  for (const size_t i : order) front.push_back(prices[i]);
+  const std::vector<size_t> chosen = presetsOn(front);
+  Presets presets{.study = sentenceOf(records), .all = {}};
+  for (size_t i = 0; i < chosen.size(); ++i) {
+    const Choice& choice = choices[order[chosen[i]]];
+    Preset preset{.name = kPresetNames[i],
+                  .error = choice.price.error,
+                  .cost = choice.price.cost / front[chosen[1]].cost,
+                  .values = {}};
+    for (const auto& [name, value] : choice.setting) {
+      preset.values.emplace_back(name.substr(effect.size() + 1), value);
+    }
+    presets.all.push_back(std::move(preset));
+  }
+  image::writeFileAside(file, presetsToml(presets));
+}
+
+}  // namespace grisaille::app::study

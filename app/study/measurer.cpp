@@ -1,0 +1,95 @@
+// SPDX-License-Identifier: MIT
+#include "app/study/measurer.h"
+
+#include <algorithm>
+#include <cmath>
+
+#include "core/error.h"
+
+namespace grisaille::app::study {
+namespace {
+
+// Where there is a surface; elsewhere a copy of what it is compared with.
+image::Image onSurfaces(const image::Image& picture, const image::Image& truth, float elsewhere) {
+  image::Image result = picture;
+  for (size_t i = 0; i < result.pixels.size(); ++i) {
+    if (!std::isfinite(truth.pixels[i])) result.pixels[i] = elsewhere;
+  }
+  return result;
+}
+
+}  // namespace
+
+Measurer::Measurer(const Subject& subject, gpu::Device& device)
+    : subject_(subject),
+      device_(device),
+      rays_(*subject.scene),
+      renderer_(device, *subject.scene) {}
+
+std::unique_ptr<Measurer::Running> Measurer::start(const Setting& setting) {
+  auto running = std::make_unique<Running>();
+  running->active_ = std::make_unique<ActiveEffects>(*subject_.registry, subject_.effects);
+  for (const std::string& set : subject_.sets) running->active_->set(set);
+  for (const auto& [name, value] : setting) running->active_->set(name + "=" + value);
+  running->instances_ = running->active_->start(device_);
+  return running;
+}
+
+void Measurer::render(Running& running, const View& view) {
+  const std::vector<std::string> outputs = {subject_.output};
+  std::vector<frame::ActiveEffect> effects = running.active_->with(running.instances_);
+  for (frame::ActiveEffect& active : effects) {
+    const auto own = subject_.shots.find(active.effect().desc->key);
+    if (own == subject_.shots.end()) continue;
+    active.shots = own->second;
+    active.shotsKept = std::exchange(running.shotsKept_[own->first], own->second.size());
+  }
+  renderer_.render({.camera = view.camera,
+                    .width = subject_.size.x,
+                    .height = subject_.size.y,
+                    .effects = effects,
+                    .outputs = outputs,
+                    .rays = &rays_});
+}
+
+std::vector<CameraErrors> Measurer::errors(Running& running, const Seen& seen) {
+  std::vector<CameraErrors> errors;
+  for (const View& view : subject_.views) {
+    render(running, view);
+    const image::Image shown = renderer_.read(subject_.output);
+    if (shown.channels != 1) {
+      throw Error(ErrorId::kUsage, "output '{}' has {} channels; truth has one", subject_.output,
+                  shown.channels);
+    }
+    const image::Difference d = image::compare(shown, view.truth);
+    const double square = d.rmse * d.rmse - view.noise * view.noise;
+    const image::Similarity similarity =
+        image::ssim(onSurfaces(shown, view.truth, 1), onSurfaces(view.truth, view.truth, 1));
+    errors.push_back({view.name, std::sqrt(std::max(square, 0.0)), d.meanAbsolute, d.bias,
+                      d.percentile99, similarity.mean});
+    if (seen) seen(view, shown);
+  }
+  return errors;
+}
+
+// The passes of all effects that run, as their own labels name them.
+double Measurer::cost(Running& running) {
+  device_.wait();
+  device_.takeTimes();
+  for (const View& view : subject_.views) render(running, view);
+  device_.wait();
+  double sum = 0;
+  size_t frames = 0;
+  for (const gpu::FrameTimes& frame : device_.takeTimes()) {
+    ++frames;
+    for (const gpu::PassTime& pass : frame.passes) {
+      const std::string effect = pass.label.substr(0, pass.label.find('/'));
+      if (std::ranges::find(subject_.effects, effect) != subject_.effects.end()) {
+        sum += pass.milliseconds;
+      }
+    }
+  }
+  return frames > 0 ? sum / static_cast<double>(frames) : 0;
+}
+
+}  // namespace grisaille::app::study

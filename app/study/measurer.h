@@ -1,0 +1,74 @@
+// SPDX-License-Identifier: MIT
+// Renders settings of effects and tells how far each is from the truth and what it costs.
+#pragma once
+
+#include <functional>
+#include <memory>
+#include <string>
+#include <vector>
+
+#include "app/active_effects.h"
+#include "app/scene_rays.h"
+#include "app/study/record.h"
+#include "core/frame/renderer.h"
+#include "core/image/image.h"
+#include "core/scene/camera.h"
+
+namespace grisaille::app::study {
+
+// One camera with what is right there.
+struct View {
+  std::string name;  // as it was given
+  scene::Camera camera;
+  image::Image truth;  // one channel; NaN where there is no surface
+  double noise = 0;    // the truth's own rms standard error
+};
+
+struct Subject {
+  const scene::Scene* scene = nullptr;
+  std::vector<View> views;
+  glm::uvec2 size = glm::uvec2(640, 360);
+  const effect::Registry* registry = nullptr;
+  std::vector<std::string> effects;                          // that run, in order
+  std::vector<std::string> sets;                             // beneath a setting's values
+  std::string output;                                        // that is compared with the truth
+  std::map<std::string, std::vector<grisaille_shot>> shots;  // by effect
+};
+
+class Measurer {
+ public:
+  // Both outlive this. The device measures times.
+  Measurer(const Subject& subject, gpu::Device& device);
+
+  // The effects with a setting's values, ready to run: pipelines are made with the first frame.
+  class Running {
+   private:
+    friend class Measurer;
+    std::unique_ptr<ActiveEffects> active_;
+    std::vector<std::unique_ptr<effect::Instance>> instances_;
+    std::map<std::string, size_t> shotsKept_;
+  };
+  // Throws as ActiveEffects does.
+  std::unique_ptr<Running> start(const Setting& setting);
+
+  // Of each view, what is shown there.
+  using Seen = std::function<void(const View& view, const image::Image& shown)>;
+
+  // One a view. The truth's noise is taken out of rmse: its square is less the truth's squared
+  // standard error, which is what independent errors add. Throws kUsage where the output has more
+  // than one channel.
+  std::vector<CameraErrors> errors(Running& running, const Seen& seen = {});
+
+  // Of the effects' passes, the mean of the views, milliseconds.
+  double cost(Running& running);
+
+ private:
+  void render(Running& running, const View& view);
+
+  const Subject& subject_;
+  gpu::Device& device_;
+  SceneRays rays_;
+  frame::Renderer renderer_;
+};
+
+}  // namespace grisaille::app::study

@@ -1,0 +1,220 @@
+// SPDX-License-Identifier: MIT
+#include "app/study/search.h"
+
+#include <algorithm>
+#include <cmath>
+#include <optional>
+
+namespace grisaille::app::study {
+namespace {
+
+// Shares of a parameter's usual range.
+constexpr double kFirstStep = 0.25;
+constexpr double kLastStep = 0.03;
+// Costs that differ by less are the same.
+constexpr double kSameCost = 0.02;
+// Until it is known: an error of 0.01 is worth a fifth of the cost.
+constexpr double kFirstRate = 20;
+constexpr int kMostRounds = 8;
+
+bool meets(const Evaluated& e, const Wish& wish) {
+  return wish.maxError > 0 ? e.error <= wish.maxError : e.cost <= wish.budget;
+}
+
+bool isOneOfFew(const grisaille_param_desc& param) {
+  return param.type == GRISAILLE_PARAM_ENUM || param.type == GRISAILLE_PARAM_BOOL;
+}
+
+class Search {
+ public:
+  Search(const std::vector<Axis>& axes, const Wish& wish, const Oracle& oracle, size_t most)
+      : axes_(axes), wish_(wish), oracle_(oracle), most_(most), effects_(axes.size()) {}
+
+  Found run(const std::vector<Point>& starts) {
+    for (const Point& start : starts) tryStart(start);
+    at_ = found_.best;
+    screen();
+    for (double step = kFirstStep; step >= kLastStep && goesOn(); step /= 2) {
+      // Rates change from place to place, so that steps could go round in circles.
+      for (int round = 0; round < kMostRounds && goesOn(); ++round) {
+        settle(step);
+        if (!exchange(step)) break;
+      }
+    }
+    settle(kLastStep);
+    found_.meetsWish = meets(found_.best, wish_);
+    return found_;
+  }
+
+ private:
+  // What the steps along an axis have changed so far, at most.
+  struct Effect {
+    double error = 0;
+    double cost = 0;     // of its logarithm
+    int direction = -1;  // that paid last
+  };
+
+  bool goesOn() {
+    if (!found_.stopped) found_.stopped = oracle_.stop();
+    return !found_.stopped && found_.starts + found_.steps < most_;
+  }
+
+  void tryStart(const Point& point) {
+    if (found_.starts > 0 && (seen_.contains(point) || !goesOn())) return;
+    Evaluated start{point, oracle_.error(point), 0};
+    start.cost = found_.starts == 0 ? oracle_.cost(point) : oracle_.costBeside(point, found_.best);
+    seen_[point] = start;
+    if (found_.starts++ == 0 || isBetter(start, found_.best, wish_)) found_.best = start;
+  }
+
+  // The neighbour of where the search stands, with its cost unless `ruledOut(error)`; none where it
+  // is ruled out, is no other point, or the search is to end.
+  template <typename RuledOut>
+  std::optional<Evaluated> look(size_t axis, double step, int direction, const RuledOut& ruledOut) {
+    Point point = at_.point;
+    point[axis] = stepped(*axes_[axis].param, point[axis], step, direction);
+    if (point == at_.point) return std::nullopt;
+    if (const auto known = seen_.find(point); known != seen_.end()) {
+      return known->second.cost > 0 ? std::optional(known->second) : std::nullopt;
+    }
+    if (!goesOn()) return std::nullopt;
+    ++found_.steps;
+    Evaluated next{point, oracle_.error(point), 0};
+    Effect& effect = effects_[axis];
+    effect.error = std::max(effect.error, std::abs(next.error - at_.error));
+    if (ruledOut(next.error)) {
+      ++found_.costsSaved;
+      seen_[point] = next;
+      return std::nullopt;
+    }
+    next.cost = oracle_.costBeside(point, at_);
+    seen_[point] = next;
+    effect.cost = std::max(effect.cost, std::abs(std::log(next.cost / at_.cost)));
+    if (isBetter(next, found_.best, wish_)) found_.best = next;
+    return next;
+  }
+
+  // One large step along each axis either way, to learn what each does; the one that moves the cost
+  // most is the axis that the others are paid for with.
+  void screen() {
+    for (size_t axis = 0; axis < axes_.size(); ++axis) {
+      for (const int direction : {-1, 1}) {
+        const auto next = look(axis, kFirstStep, direction, [](double) { return false; });
+        if (next) learn(axis, *next);
+        if (!next || !isBetter(*next, at_, wish_)) continue;
+        at_ = *next;
+        effects_[axis].direction = direction;
+        break;
+      }
+    }
+    for (size_t axis = 0; axis < axes_.size(); ++axis) {
+      if (!isOneOfFew(*axes_[axis].param) && effects_[axis].cost > effects_[payer_].cost) {
+        payer_ = axis;
+      }
+    }
+  }
+
+  // The rate at which the paying axis trades cost for error, where a step along it does.
+  void learn(size_t axis, const Evaluated& next) {
+    if (axis != payer_) return;
+    const double rate = -std::log(next.cost / at_.cost) / (next.error - at_.error);
+    if (std::isfinite(rate) && rate > 0) rate_ = rate;
+  }
+
+  // Along the paying axis to the best place that the wish allows.
+  void settle(double step) {
+    for (const int direction : {-1, 1}) {
+      while (const auto next = look(payer_, step, direction, [](double) { return false; })) {
+        learn(payer_, *next);
+        if (!isBetter(*next, at_, wish_)) break;
+        at_ = *next;
+      }
+    }
+    if (meets(found_.best, wish_) && !meets(at_, wish_)) at_ = found_.best;
+  }
+
+  // Steps along the other axes that the paying axis can more than pay for; whether there was one.
+  bool exchange(double step) {
+    bool paid = false;
+    for (size_t axis = 0; axis < axes_.size() && goesOn(); ++axis) {
+      const Effect& effect = effects_[axis];
+      if (axis == payer_ || effect.error == 0) continue;
+      if (step < kFirstStep && isOneOfFew(*axes_[axis].param)) continue;
+      const int first = effect.direction;
+      for (const int direction : {first, -first}) {
+        if (!follow(axis, step, direction)) continue;
+        effects_[axis].direction = direction;
+        paid = true;
+        break;
+      }
+    }
+    return paid;
+  }
+
+  bool follow(size_t axis, double step, int direction) {
+    bool paid = false;
+    const auto ruledOut = [&](double error) {
+      return error >= at_.error && effects_[axis].cost < kSameCost;
+    };
+    while (const auto next = look(axis, step, direction, ruledOut)) {
+      // An axis that leaves the cost alone is not charged for the clock's noise.
+      const double ratio = effects_[axis].cost < kSameCost ? 0 : std::log(next->cost / at_.cost);
+      if (ratio + rate_ * (next->error - at_.error) >= 0) break;
+      at_ = *next;
+      paid = true;
+    }
+    return paid;
+  }
+
+  const std::vector<Axis>& axes_;
+  const Wish& wish_;
+  const Oracle& oracle_;
+  size_t most_;
+  Found found_;
+  Evaluated at_;
+  std::map<Point, Evaluated> seen_;
+  std::vector<Effect> effects_;
+  size_t payer_ = 0;
+  double rate_ = kFirstRate;
+};
+
+}  // namespace
+
+bool isBetter(const Evaluated& a, const Evaluated& b, const Wish& wish) {
+  const bool good = meets(a, wish);
+  if (good != meets(b, wish)) return good;
+  if (wish.maxError > 0) {
+    if (!good) return a.error < b.error;
+    if (a.cost < b.cost * (1 - kSameCost)) return true;
+    return a.cost <= b.cost * (1 + kSameCost) && a.error < b.error;
+  }
+  return good ? a.error < b.error : a.cost < b.cost;
+}
+
+double stepped(const grisaille_param_desc& param, double value, double step, int direction) {
+  if (param.type == GRISAILLE_PARAM_BOOL) return 1 - value;
+  if (param.type == GRISAILLE_PARAM_ENUM) {
+    const auto count = static_cast<double>(param.enum_count);
+    return std::fmod(value + direction + count, count);
+  }
+  // The usual range, but from where the value is if that is outside.
+  const double low = std::min(param.soft_min, value), high = std::max(param.soft_max, value);
+  double next = 0;
+  if ((param.flags & GRISAILLE_PARAM_LOG) != 0 && low > 0) {
+    next = value * std::pow(high / low, step * direction);
+  } else {
+    next = value + (high - low) * step * direction;
+  }
+  if (param.type == GRISAILLE_PARAM_INT) {
+    next = std::round(next);
+    if (next == value) next += direction;
+  }
+  return std::clamp(next, low, high);
+}
+
+Found search(const std::vector<Axis>& axes, const std::vector<Point>& starts, const Wish& wish,
+             const Oracle& oracle, size_t mostEvaluations) {
+  return Search(axes, wish, oracle, mostEvaluations).run(starts);
+}
+
+}  // namespace grisaille::app::study

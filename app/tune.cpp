@@ -1,0 +1,377 @@
+// SPDX-License-Identifier: MIT
+// grisaille tune: the cheapest setting that is good enough, or the best within a budget.
+#include <fmt/format.h>
+#include <unistd.h>
+
+#include <algorithm>
+#include <cmath>
+#include <memory>
+
+#include "app/command.h"
+#include "app/driver_messages.h"
+#include "app/presets.h"
+#include "app/settings.h"
+#include "app/study/random_cameras.h"
+#include "app/study/search.h"
+#include "app/subject_options.h"
+#include "app/truth/interruption.h"
+#include "app/truth/progress.h"
+#include "backends/backends.h"
+#include "core/error.h"
+#include "core/image/write_aside.h"
+
+namespace grisaille::app {
+namespace {
+
+struct Options {
+  SubjectOptions subject;
+  std::vector<std::string> vary, validate;
+  std::string backend = "opengl", device, out;
+  double maxError = 0, budget = 0;
+  uint32_t random = 3, seed = 1, evaluations = 80;
+  bool progress = false;
+};
+
+// The parameters that may change: those of --vary, else those of the effects' presets and the
+// others that the panel does not fold away.
+std::vector<study::Axis> axesOf(const Options& options, const study::Subject& subject) {
+  std::vector<study::Axis> axes;
+  const auto add = [&](const effect::Effect& effect, const grisaille_param_desc& param) {
+    axes.push_back({fmt::format("{}.{}", effect.desc->key, param.key), &param});
+  };
+  for (const std::string& name : options.vary) {
+    const size_t dot = std::min(name.find('.'), name.size());
+    const effect::Effect& effect = subject.registry->find(name.substr(0, dot));
+    const effect::Values values(effect);
+    add(effect, effect.params()[values.indexOf(dot < name.size() ? name.substr(dot + 1) : "")]);
+  }
+  if (!options.vary.empty()) return axes;
+  for (const std::string& key : subject.effects) {
+    const effect::Effect& effect = subject.registry->find(key);
+    std::vector<std::string> named;
+    for (const Preset& preset : loadPresets(effect).all) {
+      for (const auto& [parameter, value] : preset.values) named.push_back(parameter);
+    }
+    for (const grisaille_param_desc& param : effect.params()) {
+      const bool folded = (param.flags & GRISAILLE_PARAM_ADVANCED) != 0;
+      if (!folded || std::ranges::find(named, param.key) != named.end()) add(effect, param);
+    }
+  }
+  return axes;
+}
+
+// Effects with their values: beneath, --set; over it, a preset of every effect that has it.
+class Starts {
+ public:
+  Starts(const study::Subject& subject, const std::vector<study::Axis>& axes)
+      : subject_(subject), axes_(axes) {
+    for (const char* name : kPresetNames) add(name);
+    add("");
+  }
+  const std::vector<study::Point>& points() const { return points_; }
+
+ private:
+  void add(const std::string& preset) {
+    ActiveEffects active(*subject_.registry, subject_.effects);
+    bool any = preset.empty();
+    for (const effect::Effect* effect : active.effects()) {
+      const Presets presets = loadPresets(*effect);
+      if (preset.empty() || presets.all.empty()) continue;
+      applyPreset(active.values(effect->desc->key), presets, preset);
+      any = true;
+    }
+    if (!any) return;
+    for (const std::string& set : subject_.sets) active.set(set);
+    study::Point point;
+    for (const study::Axis& axis : axes_) {
+      const size_t dot = axis.name.find('.');
+      point.push_back(active.values(axis.name.substr(0, dot)).get(axis.name.substr(dot + 1)));
+    }
+    points_.push_back(std::move(point));
+  }
+
+  const study::Subject& subject_;
+  const std::vector<study::Axis>& axes_;
+  std::vector<study::Point> points_;
+};
+
+// A device's errors and costs of points.
+class Bench {
+ public:
+  Bench(const study::Subject& subject, const std::vector<study::Axis>& axes, gpu::Device& device)
+      : subject_(subject), axes_(axes), measurer_(subject, device) {}
+
+  study::Setting settingOf(const study::Point& point) const {
+    study::Setting setting;
+    for (size_t i = 0; i < axes_.size(); ++i) {
+      const std::string& name = axes_[i].name;
+      const size_t dot = name.find('.');
+      effect::Values values(subject_.registry->find(name.substr(0, dot)));
+      values.set(name.substr(dot + 1), point[i]);
+      setting.emplace_back(name, values.text(name.substr(dot + 1)));
+    }
+    return setting;
+  }
+
+  double error(const study::Point& point) {
+    double sum = 0;
+    for (const study::CameraErrors& e : measurer_.errors(running(point))) sum += e.rmse;
+    return sum / static_cast<double>(subject_.views.size());
+  }
+
+  // The median of a few rounds, milliseconds.
+  double cost(const study::Point& point) {
+    study::Measurer::Running& own = running(point);
+    std::vector<double> all;
+    for (int i = 0; i < kRounds; ++i) all.push_back(measurer_.cost(own));
+    return median(all);
+  }
+
+  // In turns with what is known.
+  double costBeside(const study::Point& point, const study::Evaluated& known) {
+    study::Measurer::Running& a = running(known.point);
+    study::Measurer::Running& b = running(point);
+    std::vector<double> ratios;
+    for (int i = 0; i < kRounds; ++i) {
+      const double first = measurer_.cost(a);
+      ratios.push_back(measurer_.cost(b) / first);
+    }
+    return known.cost * median(ratios);
+  }
+
+ private:
+  static constexpr int kRounds = 3;
+  static constexpr size_t kKept = 4;
+
+  static double median(std::vector<double> values) {
+    std::ranges::sort(values);
+    return values[values.size() / 2];
+  }
+
+  // The last few stay: the one that others are measured beside is among them.
+  study::Measurer::Running& running(const study::Point& point) {
+    auto found = std::ranges::find(running_, point, &Kept::point);
+    if (found == running_.end()) {
+      if (running_.size() == kKept) running_.erase(running_.begin());
+      running_.push_back({point, measurer_.start(settingOf(point))});
+      measurer_.cost(*running_.back().running);  // pipelines are made outside the clock
+    } else {
+      std::rotate(found, found + 1, running_.end());
+    }
+    return *running_.back().running;
+  }
+
+  struct Kept {
+    study::Point point;
+    std::unique_ptr<study::Measurer::Running> running;
+  };
+  const study::Subject& subject_;
+  const std::vector<study::Axis>& axes_;
+  study::Measurer measurer_;
+  std::vector<Kept> running_;
+};
+
+// Cameras that were not tuned on.
+std::vector<study::View> unseenViews(const Options& options, const LoadedSubject& subject) {
+  std::vector<study::View> views;
+  for (const std::string& text : options.validate) {
+    views.push_back(subject.viewOf(text, text.starts_with('{')
+                                             ? scene::parseCamera(text, "--validate")
+                                             : scene::loadCamera(text)));
+  }
+  if (!views.empty() || options.random == 0) return views;
+  const study::Subject& known = subject.subject();
+  const auto cameras =
+      study::randomCameras(*known.scene, known.views.front().camera, options.random, options.seed);
+  for (size_t i = 0; i < cameras.size(); ++i) {
+    views.push_back(subject.viewOf(fmt::format("random {}", i + 1), cameras[i]));
+  }
+  if (cameras.size() < options.random) {
+    fmt::print(stderr, "warning: only {} of {} random cameras inside the scene have a free view\n",
+               cameras.size(), options.random);
+  }
+  return views;
+}
+
+std::string wishText(const study::Wish& wish) {
+  return wish.maxError > 0 ? fmt::format("RMSE {} or less", wish.maxError)
+                           : fmt::format("{} ms or less", wish.budget);
+}
+
+// How many settings a grid of the search's smallest steps would have.
+double gridSize(const std::vector<study::Axis>& axes) {
+  double all = 1;
+  for (const study::Axis& axis : axes) {
+    const bool few =
+        axis.param->type == GRISAILLE_PARAM_ENUM || axis.param->type == GRISAILLE_PARAM_BOOL;
+    constexpr double kValues = 33;
+    double values = few ? axis.param->hard_max + 1 : kValues;
+    if (axis.param->type == GRISAILLE_PARAM_INT) {
+      values = std::min(values, axis.param->soft_max - axis.param->soft_min + 1);
+    }
+    all *= values;
+  }
+  return all;
+}
+
+study::Found find(const Options& options, const LoadedSubject& subject,
+                  const std::vector<study::Axis>& axes, const study::Wish& wish, Bench& bench) {
+  const Starts starts(subject.subject(), axes);
+  truth::Progress progress("tune", options.progress || isatty(STDERR_FILENO) == 1);
+  double done = 0;
+  const auto told = [&](double error) {
+    progress.show({++done, static_cast<double>(options.evaluations),
+                   fmt::format("{:.0f} evaluations, RMSE {:.4f}", done, error)});
+  };
+  const study::Oracle oracle{
+      .error =
+          [&](const study::Point& point) {
+            const double error = bench.error(point);
+            told(error);
+            return error;
+          },
+      .cost = [&](const study::Point& point) { return bench.cost(point); },
+      .costBeside = [&](const study::Point& point,
+                        const study::Evaluated& known) { return bench.costBeside(point, known); },
+      .stop = truth::Interruption::asked};
+  return study::search(axes, starts.points(), wish, oracle, options.evaluations);
+}
+
+// A settings file that says where it comes from.
+void writeSetting(const Options& options, const LoadedSubject& subject,
+                  const study::Setting& setting, const std::string& story) {
+  Settings settings{.effects = subject.subject().effects, .surface = {}, .values = {}};
+  const auto add = [&](const std::string& name, const std::string& value) {
+    const size_t dot = name.find('.');
+    settings.values.push_back({name.substr(0, dot), name.substr(dot + 1), value, ""});
+  };
+  for (const std::string& set : subject.subject().sets) {
+    const size_t equals = set.find('=');
+    add(set.substr(0, equals), set.substr(equals + 1));
+  }
+  for (const auto& [name, value] : setting) add(name, value);
+  image::writeFileAside(options.out, story + settingsToml(settings));
+}
+
+// The mean RMSE of cameras that were not tuned on; 0: there are none.
+double validate(const Options& options, LoadedSubject& subject, const study::Setting& setting,
+                gpu::Device& device) {
+  study::Subject unseen = subject.subject();
+  unseen.views = unseenViews(options, subject);
+  if (unseen.views.empty()) return 0;
+  study::Measurer measurer(unseen, device);
+  double sum = 0;
+  const std::vector<study::CameraErrors> errors = measurer.errors(*measurer.start(setting));
+  for (size_t i = 0; i < errors.size(); ++i) {
+    fmt::print("  {}: RMSE {:.4f}  {}\n", errors[i].camera, errors[i].rmse,
+               scene::cameraJson(unseen.views[i].camera));
+    sum += errors[i].rmse;
+  }
+  return sum / static_cast<double>(unseen.views.size());
+}
+
+void tune(const Options& options) {
+  const study::Wish wish{options.maxError, options.budget};
+  LoadedSubject subject(options.subject, {});
+  const std::vector<study::Axis> axes = axesOf(options, subject.subject());
+  if (axes.empty()) throw Error(ErrorId::kUsage, "there is no parameter to vary");
+  subject.loadScene();
+  const truth::Interruption interruption;
+  subject.trace();
+  DriverMessages messages;
+  const auto device = backends::create(
+      options.backend, {.device = options.device, .timed = true, .message = messages.sink()});
+  const gpu::DeviceInfo& info = device->info();
+  fmt::print("{}: {} ({}){}\n", info.backend, info.name, info.driver,
+             info.software ? ", software" : "");
+  std::fflush(stdout);
+  Bench bench(subject.subject(), axes, *device);
+  const study::Found found = find(options, subject, axes, wish, bench);
+  if (found.stopped) throw truth::Interrupted();
+  const study::Evaluated& best = found.best;
+  if (!found.meetsWish) {
+    throw Error(ErrorId::kTuneImpossible, "{} was not found; nearest: RMSE {:.4f} at {:.3f} ms",
+                wishText(wish), best.error, best.cost);
+  }
+  const study::Setting setting = bench.settingOf(best.point);
+  const std::string result =
+      fmt::format("RMSE {:.4f} at {:.3f} ms ({} clock), {}x{} pixels, {} cameras", best.error,
+                  best.cost, gpu::clockName(info.clock), subject.subject().size.x,
+                  subject.subject().size.y, subject.subject().views.size());
+  const std::string effort = fmt::format(
+      "{} evaluations: {} starts, {} steps ({} of them without a clock); a grid of such steps over "
+      "{} parameters has {:.2g}",
+      found.starts + found.steps, found.starts, found.steps, found.costsSaved, axes.size(),
+      gridSize(axes));
+  fmt::print("{}\n  {}\n{}\n", result, study::nameOf(setting), effort);
+  const double unseen = validate(options, subject, setting, *device);
+  std::string story = fmt::format("# grisaille tune: {}; {}\n# {}: {}\n", wishText(wish), result,
+                                  info.backend, info.name);
+  if (unseen > 0) {
+    fmt::print("validated on cameras not tuned on: RMSE {:.4f}\n", unseen);
+    story += fmt::format("# on cameras not tuned on: RMSE {:.4f}\n", unseen);
+    const double promised = wish.maxError > 0 ? wish.maxError : best.error;
+    if (unseen > promised) {
+      fmt::print(stderr, "warning: that is {:.4f} more than {:.4f}: tune on cameras like them\n",
+                 unseen - promised, promised);
+    }
+  }
+  writeSetting(options, subject, setting, story);
+  fmt::print("wrote {}\n", options.out);
+}
+
+void checkWish(const Options& options) {
+  if ((options.maxError > 0) == (options.budget > 0)) {
+    throw Error(ErrorId::kUsage, "give either --max-error or --budget-ms");
+  }
+}
+
+}  // namespace
+
+void addTune(CLI::App& program) {
+  auto options = std::make_shared<Options>();
+  CLI::App* command = program.add_subcommand(
+      "tune", "Find the cheapest setting that is good enough for a scene, or the best in a budget");
+  command->add_option("scene", options->subject.scene,
+                      "A .gltf or .glb file; without one, the built-in atrium");
+  command
+      ->add_option("--max-error", options->maxError,
+                   "The cheapest setting with this RMSE against the truth or less")
+      ->check(CLI::PositiveNumber);
+  command
+      ->add_option("--budget-ms", options->budget,
+                   "The most accurate setting whose effects take so many milliseconds or less")
+      ->check(CLI::PositiveNumber);
+  options->subject.addTo(*command);
+  command
+      ->add_option("--vary", options->vary,
+                   "Parameters that may change; default: those of the presets and all that are "
+                   "not advanced")
+      ->type_name("EFFECT.PARAMETER,...")
+      ->delimiter(',');
+  command->add_option("--validate", options->validate, "Cameras to validate on, not tuned on")
+      ->type_name("FILE|{...}")
+      ->allow_extra_args(false);
+  command
+      ->add_option("--random", options->random,
+                   "Without --validate: so many random cameras inside the scene")
+      ->check(CLI::Range(0u, 64u))
+      ->capture_default_str();
+  command->add_option("--seed", options->seed, "Of the random cameras")->capture_default_str();
+  command->add_option("--evaluations", options->evaluations, "Settings that are tried at most")
+      ->check(CLI::Range(1u, 100000u))
+      ->capture_default_str();
+  command->add_option("--backend", options->backend, "opengl or vulkan")->capture_default_str();
+  command->add_option("--device", options->device, "Number or part of a device's name");
+  command->add_option("--out", options->out, "The settings file")
+      ->type_name("FILE.toml")
+      ->required();
+  command->add_flag("--progress", options->progress,
+                    "Draw the progress bar though standard error is no terminal");
+  command->callback([options] {
+    checkWish(*options);
+    tune(*options);
+  });
+}
+
+}  // namespace grisaille::app

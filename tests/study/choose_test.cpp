@@ -1,0 +1,89 @@
+// SPDX-License-Identifier: MIT
+#include "app/study/choose.h"
+
+#include <gtest/gtest.h>
+
+#include <algorithm>
+#include <cmath>
+#include <random>
+
+#include "tests/program/run.h"
+#include "tests/support/expect_error.h"
+
+namespace grisaille::app::study {
+namespace {
+
+Record record(const std::string& backend, double cost, double error, const std::string& value) {
+  Record r;
+  r.study = "scene 1\nsize 8x8\n";
+  r.backend = backend;
+  r.setting = {{"ssao.kernel_size", value}};
+  r.errors = {{"one", error, 0, 0, 0, 1}};
+  r.milliseconds = {cost};
+  return r;
+}
+
+TEST(Presets, AreOnTheFrontAndInOrder) {
+  std::mt19937 random(2);
+  const auto unit = [&] { return static_cast<double>(random()) / 4294967296.0; };
+  for (int trial = 0; trial < 300; ++trial) {
+    std::vector<Price> front;
+    double cost = 1, error = 1;
+    for (size_t i = 0; i < 4 + random() % 12; ++i) {
+      front.push_back({cost *= 1.01 + unit(), error *= 0.5 + 0.49 * unit()});
+    }
+    const std::vector<size_t> chosen = presetsOn(front);
+    ASSERT_EQ(chosen.size(), 4u);
+    EXPECT_TRUE(std::ranges::is_sorted(chosen, std::ranges::less_equal()));
+    EXPECT_EQ(std::ranges::adjacent_find(chosen), chosen.end()) << "two presets are one setting";
+    EXPECT_EQ(chosen[3], front.size() - 1);
+  }
+  EXPECT_ERROR(ErrorId::kFrontSmall, presetsOn(std::vector<Price>(3, {1, 1})));
+}
+
+TEST(Presets, BalancedIsTheKnee) {
+  // Error falls fast to 0.1 at cost 16, then hardly.
+  std::vector<Price> front;
+  for (int i = 0; i <= 4; ++i) front.push_back({std::exp2(i), 0.5 - 0.1 * i});
+  for (int i = 1; i <= 6; ++i) front.push_back({std::exp2(4 + i), 0.1 - 0.002 * i});
+  EXPECT_EQ(presetsOn(front)[1], 4u);
+}
+
+TEST(Presets, SettingsThatClocksDoNotTellApartAreOne) {
+  const std::vector<Price> prices = {{1, 0.9},    {1.05, 0.8}, {2, 0.7},
+                                     {2.1, 0.69}, {2.2, 0.68}, {4, 0.5}};
+  EXPECT_EQ(distinct(prices, frontOf(prices)), (std::vector<size_t>{1, 4, 5}));
+}
+
+TEST(Presets, CostsOfTwoBackendsAreShares) {
+  // One backend is ten times as slow; a setting that it did not measure is no choice.
+  const std::vector<Record> records = {
+      record("opengl", 1, 0.4, "1"), record("opengl", 2, 0.2, "2"), record("opengl", 4, 0.1, "4"),
+      record("vulkan", 40, 0.1, "4"), record("vulkan", 20, 0.2, "2")};
+  const std::vector<Choice> choices = choicesOf(records);
+  ASSERT_EQ(choices.size(), 2u);
+  EXPECT_NEAR(choices[1].price.cost / choices[0].price.cost, 2, 1e-12);
+  EXPECT_DOUBLE_EQ(choices[1].price.error, 0.1);
+}
+
+TEST(Presets, FileHoldsWhatWasChosen) {
+  const tests::TemporaryFolder folder;
+  std::vector<Record> records;
+  for (int i = 1; i <= 32; i *= 2) {
+    records.push_back(record("opengl", i, 0.5 / i, std::to_string(i)));
+  }
+  records.push_back(record("opengl", 100, 0.4, "3"));  // beaten
+  writePresets(records, folder / "p.toml");
+  const std::string text = tests::readFile(folder / "p.toml");
+  for (const char* name : kPresetNames) {
+    EXPECT_NE(text.find(fmt::format("[{}]", name)), std::string::npos) << text;
+  }
+  EXPECT_NE(text.find("values = {kernel_size = 32}"), std::string::npos) << text;
+  EXPECT_EQ(text.find("kernel_size = 3}"), std::string::npos) << text;
+  EXPECT_NE(text.find("cost = 1.0000"), std::string::npos) << text;
+  records[0].setting = {{"other.size", "1"}};
+  EXPECT_ERROR(ErrorId::kUsage, writePresets(records, folder / "q.toml"));
+}
+
+}  // namespace
+}  // namespace grisaille::app::study

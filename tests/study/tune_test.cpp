@@ -1,0 +1,136 @@
+// SPDX-License-Identifier: MIT
+// `grisaille tune` and presets as their users run them.
+#include <gtest/gtest.h>
+
+#include <nlohmann/json.hpp>
+
+#include "tests/program/run.h"
+
+namespace grisaille::tests {
+namespace {
+
+using nlohmann::json;
+
+class TuneTest : public testing::TestWithParam<const char*> {
+ protected:
+  Outcome tune(std::vector<std::string> more) const {
+    std::vector<std::string> all = {"tune",       "--backend", GetParam(), "--size",
+                                    "128x72",     "--samples", "64",       "--out",
+                                    "tuned.toml", "--random",  "2"};
+    all.insert(all.end(), more.begin(), more.end());
+    return runProgram(all, folder_.path(), {"XDG_CACHE_HOME=" + (folder_ / "cache")});
+  }
+  // The number after a word of the output.
+  static double numberAfter(const std::string& text, const std::string& word) {
+    const size_t at = text.find(word);
+    EXPECT_NE(at, std::string::npos) << word << " is not in " << text;
+    return at == std::string::npos ? 0 : std::stod(text.substr(at + word.size()));
+  }
+  TemporaryFolder folder_;
+};
+
+TEST_P(TuneTest, FindsASettingThatErrsNoMoreThanAsked) {
+  const Outcome outcome = tune({"--max-error", "0.16", "--evaluations", "40"});
+  ASSERT_EQ(outcome.status, 0) << outcome.err;
+  EXPECT_LE(numberAfter(outcome.out, "\nRMSE "), 0.16);
+  EXPECT_NE(outcome.out.find("random 2: RMSE"), std::string::npos) << outcome.out;
+  EXPECT_GT(numberAfter(outcome.out, "not tuned on: RMSE "), 0);
+  // The file says where it comes from and does what was promised.
+  const std::string file = readFile(folder_ / "tuned.toml");
+  EXPECT_EQ(file.rfind("# grisaille tune: RMSE 0.16 or less", 0), 0u) << file;
+  const std::vector<std::string> again = {"--config", "tuned.toml"};
+  ASSERT_EQ(runShell("grisaille render --size 128x72 --backend " + std::string(GetParam()) +
+                         " --config tuned.toml --write ao=ao.exr",
+                     folder_.path())
+                .status,
+            0);
+}
+
+TEST_P(TuneTest, KeepsToABudget) {
+  const Outcome outcome = tune({"--budget-ms", "1000", "--vary", "ssao.kernel_size,ssao.intensity",
+                                "--evaluations", "20", "--random", "0"});
+  ASSERT_EQ(outcome.status, 0) << outcome.err;
+  EXPECT_LE(numberAfter(outcome.out, " at "), 1000);
+  // With all the time that it could want it takes what errs least, not what is there already.
+  EXPECT_GT(numberAfter(outcome.out, "kernel_size="), 64);
+  EXPECT_EQ(outcome.out.find("validated"), std::string::npos);
+}
+
+TEST_P(TuneTest, SaysWhatCannotBeHad) {
+  const Outcome outcome = tune({"--max-error", "0.0001", "--evaluations", "6"});
+  EXPECT_EQ(outcome.status, 1);
+  EXPECT_NE(outcome.err.find("E5303"), std::string::npos) << outcome.err;
+  EXPECT_NE(outcome.err.find("nearest: RMSE"), std::string::npos) << outcome.err;
+  EXPECT_FALSE(std::filesystem::exists(folder_ / "tuned.toml"));
+}
+
+INSTANTIATE_TEST_SUITE_P(Backends, TuneTest, testing::Values("opengl", "vulkan"),
+                         [](const auto& info) { return std::string(info.param); });
+
+TEST(Tune, MistakesAreNamed) {
+  const TemporaryFolder folder;
+  const auto refused = [&](const std::string& more, const std::string& number) {
+    const Outcome outcome = runShell("grisaille tune --out x.toml " + more, folder.path());
+    EXPECT_NE(outcome.status, 0);
+    EXPECT_NE(outcome.err.find(number), std::string::npos) << more << "\n" << outcome.err;
+    EXPECT_FALSE(std::filesystem::exists(folder / "x.toml"));
+  };
+  refused("", "E5101");
+  refused("--max-error 0.1 --budget-ms 4", "E5101");
+  refused("--max-error -1", "E5101");
+  refused("--max-error 0.1 --vary ssao.none", "E3301");
+  refused("--max-error 0.1 --vary none.radius", "E3201");
+  refused("--max-error 0.1 --camera none.json", "E2201");
+  refused("--max-error 0.1 --validate none.json --size 16x16 --samples 16 --evaluations 1",
+          "E2201");
+  refused("--max-error 0.1 --backend metal", "E1002");
+}
+
+class PresetTest : public testing::Test {
+ protected:
+  Outcome render(const std::string& more) const {
+    return runShell("grisaille render --size 64x36 --write ao=" + more, folder_.path());
+  }
+  TemporaryFolder folder_;
+};
+
+TEST_F(PresetTest, GivesItsValuesUnderConfigAndSet) {
+  const json effects = json::parse(runProgram({"effects", "--json"}, ".").out);
+  size_t presets = 0;
+  for (const json& effect : effects.at("effects")) {
+    const std::string key = effect.at("key");
+    for (const json& preset : effect.at("presets")) {
+      ++presets;
+      EXPECT_GT(preset.at("error").get<double>(), 0);
+      std::string sets;
+      for (const auto& [name, value] : preset.at("values").items()) {
+        sets += " --set " + key + "." + name + "=" + value.get<std::string>();
+      }
+      if (key != "ssao") continue;
+      const std::string name = preset.at("name");
+      ASSERT_EQ(render("a.exr --preset ssao=" + name).status, 0);
+      ASSERT_EQ(render("b.exr" + sets).status, 0);
+      EXPECT_EQ(readFile(folder_ / "a.exr"), readFile(folder_ / "b.exr")) << name;
+      // What --set says goes over it, wherever it stands.
+      ASSERT_EQ(render("c.exr --set ssao.kernel_size=3 --preset ssao=" + name).status, 0);
+      ASSERT_EQ(render("d.exr" + sets + " --set ssao.kernel_size=3").status, 0);
+      EXPECT_EQ(readFile(folder_ / "c.exr"), readFile(folder_ / "d.exr")) << name;
+    }
+  }
+  EXPECT_GE(presets, 4u);
+}
+
+TEST_F(PresetTest, MistakesAreNamed) {
+  const auto refused = [&](const std::string& more, const std::string& number) {
+    const Outcome outcome = render("x.exr " + more);
+    EXPECT_NE(outcome.status, 0);
+    EXPECT_NE(outcome.err.find(number), std::string::npos) << outcome.err;
+  };
+  refused("--preset ssao", "E5101");
+  refused("--preset ssao=best", "E3311");
+  refused("--preset none=fast", "E3201");
+  refused("--preset sspm=fast", "E3201");  // there, but not active
+}
+
+}  // namespace
+}  // namespace grisaille::tests
