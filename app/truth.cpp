@@ -11,6 +11,7 @@
 
 #include "app/command.h"
 #include "app/size.h"
+#include "app/truth/content_hash.h"
 #include "app/truth/occlusion_truth.h"
 #include "app/truth/refine.h"
 #include "core/error.h"
@@ -31,7 +32,7 @@ struct Options {
   std::vector<std::string> writes;
   double radius = 0.5, error = 0;
   double thickness = 0, paintRange = 0;  // 0: not given
-  uint32_t samples = 1024, seed = 1;
+  uint32_t samples = 1024, seed = truth::kSeed;
   bool noCache = false, progress = false;
 };
 
@@ -175,7 +176,8 @@ class Truth {
     scene::Camera camera = job_.camera;
     camera.size = job_.size;
     const std::string key =
-        truth::keyOf(name, job_.scene, camera, options_.radius, options_.seed) + more;
+        truth::keyOf(name, truth::hashOf(job_.scene), camera, options_.radius, options_.seed) +
+        more;
     truth::Cache cache(options_.noCache ? std::filesystem::path() : truth::cacheFolder(), key);
     return truth::refine(name, hits_, addRays,
                          {.samples = options_.samples, .error = options_.error}, cache,

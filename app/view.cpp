@@ -43,6 +43,14 @@ void addView(CLI::App& program) {
   command->add_option("--view", session.view, "The output to look at; default: color");
   command->add_option("--split", session.split,
                       "A second output, right of a line that can be dragged");
+  command->add_flag("--compare-truth", session.compareTruth,
+                    "Trace the view and show how far the first effect's visibility is from it");
+  command
+      ->add_option("--truth-radius", session.truthRadius,
+                   "Length of its rays, metres; default: the effect's own radius")
+      ->type_name("R");
+  command->add_option("--truth-rays", session.truthRays, "Rays a pixel in the end; default: 256")
+      ->check(CLI::Range(viewer::TruthSettings::kLeastRays, viewer::TruthSettings::kMostRays));
   command->add_option("--load", session.loads, "Shots for an effect that takes them")
       ->type_name("EFFECT=FILE")
       ->allow_extra_args(false);
@@ -56,7 +64,7 @@ void addView(CLI::App& program) {
                    "Write where each control lies, as JSON, for programs that drive the window")
       ->type_name("FILE");
   command->add_option("--frames", options->frames,
-                      "End after so many frames; default: when the window is closed");
+                      "End after so many whole frames; default: when the window is closed");
   command->add_option("--screenshot", options->screenshot, "Write what the window holds at the end")
       ->type_name("FILE.png");
   command->add_flag("--check", options->check,

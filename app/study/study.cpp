@@ -1,33 +1,11 @@
 // SPDX-License-Identifier: MIT
 #include "app/study/study.h"
 
-#include <algorithm>
-#include <cmath>
-
+#include "app/truth/error_map.h"
 #include "core/gpu/device.h"
 
 namespace grisaille::app::study {
 namespace fs = std::filesystem;
-namespace {
-
-constexpr float kFullError = 0.25f;
-
-image::Image errorMap(const image::Image& shown, const image::Image& truth) {
-  image::Image map{shown.width, shown.height, 3, {}};
-  map.pixels.resize(shown.pixels.size() * 3);
-  const glm::vec3 dark(0.0f, 0.45f, 0.70f), bright(0.90f, 0.62f, 0.0f);  // Okabe and Ito
-  for (size_t i = 0; i < shown.pixels.size(); ++i) {
-    glm::vec3 color(0.5f);
-    if (std::isfinite(truth.pixels[i])) {
-      const float error = (shown.pixels[i] - truth.pixels[i]) / kFullError;
-      color = glm::mix(glm::vec3(1), error < 0 ? dark : bright, std::min(std::abs(error), 1.0f));
-    }
-    for (int c = 0; c < 3; ++c) map.pixels[i * 3 + static_cast<size_t>(c)] = color[c];
-  }
-  return map;
-}
-
-}  // namespace
 
 fs::path pictureOf(const fs::path& folder, const Record& record) {
   return folder / "pictures" / (fileOf(folder, record).stem().string() + ".png");
@@ -69,7 +47,8 @@ void Study::writePictures(const Record& record, const View& view, const image::I
   std::error_code failed;
   fs::create_directories(desc_.folder / "pictures", failed);
   image::write(shown, pictureOf(desc_.folder, record).string());
-  image::write(errorMap(shown, view.truth), errorMapOf(desc_.folder, record).string());
+  image::write(truth::errorMap(truth::errorsOf(shown, view.truth)),
+               errorMapOf(desc_.folder, record).string());
   if (!fs::exists(truthPictureOf(desc_.folder))) {
     image::write(view.truth, truthPictureOf(desc_.folder).string());
   }

@@ -11,14 +11,13 @@ namespace {
 
 // Part of every key: a number that changes with whatever changes the counts.
 constexpr int kTracing = 1;
-constexpr uint32_t kSeed = 1;
 
 }  // namespace
 
-std::string keyOf(const std::string& estimate, const scene::Scene& scene,
-                  const scene::Camera& camera, double radius, uint32_t seed) {
+std::string keyOf(const std::string& estimate, uint64_t scene, const scene::Camera& camera,
+                  double radius, uint32_t seed) {
   return fmt::format("grisaille {} {}\nscene {:016x}\ncamera {}\nradius {}\nseed {}\n", estimate,
-                     kTracing, hashOf(scene), scene::cameraJson(camera), radius, seed);
+                     kTracing, scene, scene::cameraJson(camera), radius, seed);
 }
 
 OcclusionTruth traceOcclusion(const scene::Scene& scene, const scene::Camera& camera,
@@ -28,7 +27,7 @@ OcclusionTruth traceOcclusion(const scene::Scene& scene, const scene::Camera& ca
   const trace::RayTracer tracer(scene, camera.eye);
   OcclusionTruth truth;
   truth.hits = tracer.castPrimary(camera, size.x, size.y);
-  Cache cache(cacheFolder(), keyOf("ao", scene, sized, radius, kSeed));
+  Cache cache(cacheFolder(), keyOf("ao", hashOf(scene), sized, radius, kSeed));
   const Estimate estimate = refine(
       "truth", truth.hits,
       [&](auto hits, uint32_t from, uint32_t to, auto counts) {

@@ -11,9 +11,13 @@
 
 namespace grisaille::app::truth {
 
-// All that the counts of an estimate depend on; `camera` with the picture's size.
-std::string keyOf(const std::string& estimate, const scene::Scene& scene,
-                  const scene::Camera& camera, double radius, uint32_t seed);
+// Of the sample points, unless the user gives another.
+constexpr uint32_t kSeed = 1;
+
+// All that the counts of an estimate depend on; `camera` with the picture's size. `scene`: its
+// hashOf().
+std::string keyOf(const std::string& estimate, uint64_t scene, const scene::Camera& camera,
+                  double radius, uint32_t seed);
 
 struct OcclusionTruth {
   image::Image visibility;       // one channel

@@ -203,6 +203,7 @@ void Controls::updateViewKeys() {
   if (pressed(GLFW_KEY_X)) session_.split = !session_.split;
   if (pressed(GLFW_KEY_LEFT_BRACKET)) session_.line = std::max(session_.line - 0.05f, 0.0f);
   if (pressed(GLFW_KEY_RIGHT_BRACKET)) session_.line = std::min(session_.line + 0.05f, 1.0f);
+  if (pressed(GLFW_KEY_T)) session_.compareWithTruth(!session_.comparing.on);
   if (pressed(GLFW_KEY_I)) session_.inspecting = !session_.inspecting;
   if (pressed(GLFW_KEY_P)) session_.paused = !session_.paused;
   if (pressed(GLFW_KEY_N)) session_.step = true;
@@ -215,7 +216,7 @@ void Controls::updateViewKeys() {
     if (session_.zoom == 1) session_.centre = glm::vec2(0.5f);
   }
   if (pressed(GLFW_KEY_V)) {
-    const std::vector<Viewable> all = viewables(session_.effects);
+    const std::vector<Viewable> all = session_.views(false);
     const auto now = std::ranges::find(all, session_.left, &Viewable::output);
     const size_t index = now == all.end() ? 0 : static_cast<size_t>(now - all.begin());
     const size_t step = ImGui::GetIO().KeyShift ? all.size() - 1 : 1;

@@ -36,6 +36,7 @@ constexpr struct {
     {"", ""},
     {"V, Shift + V", "next view, the one before"},
     {"X, [ ]", "split; its line to the left, to the right"},
+    {"T", "compare with truth, traced meanwhile"},
     {"I", "the value under the cursor"},
     {"Ctrl + scroll, + / -", "zoom into pixels"},
     {"P, N", "pause, one step"},

@@ -11,6 +11,7 @@
 #include <vector>
 
 #include "app/coverage.h"
+#include "app/truth/comparison.h"
 #include "app/viewer/bookmarks.h"
 #include "app/viewer/layout.h"
 #include "app/viewer/pass_stats.h"
@@ -18,6 +19,15 @@
 #include "app/viewer/state_file.h"
 
 namespace grisaille::app::viewer {
+
+// Of the comparing with truth.
+struct TruthStatus {
+  bool running = false;
+  truth::Comparison comparison;
+  double rays = 0;                          // a traced pixel, on average
+  double share = 0;                         // of the picture's pixels
+  std::optional<truth::Point> cursor = {};  // of the texel under it
+};
 
 // What the panel shows besides the session.
 struct Status {
@@ -29,7 +39,8 @@ struct Status {
   glm::ivec2 cursorTexel = glm::ivec2(0);
   glm::uvec2 picture = glm::uvec2(0);  // pixels
   uint64_t waiting = 0;                // shots
-  std::optional<double> loading;       // share of a scene that is read
+  TruthStatus truth;
+  std::optional<double> loading;  // share of a scene that is read
   std::string loadingPath;
   std::string rebuilding;    // the effect whose plugin is being built; "": none
   std::string buildMessage;  // why the last build failed; "": it did not
@@ -80,9 +91,12 @@ class Panel {
   // panel_views.cpp
   void drawViews(const Status& status, Requests& requests);
   void drawViewChoice(const char* label, const char* id, std::string& output,
-                      const EffectList& effects);
+                      const std::vector<Viewable>& all);
   void drawPaint(const Status& status);
   void drawCoverage(const Status& status);
+  // panel_truth.cpp
+  void drawTruth(const TruthStatus& status);
+  void drawTruthSettings();
 
   bool button(const char* label, const char* id, const char* tooltip = "");
   bool toggle(const char* label, const char* id, bool& value, const char* tooltip = "");

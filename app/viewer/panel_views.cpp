@@ -10,8 +10,7 @@
 namespace grisaille::app::viewer {
 
 void Panel::drawViewChoice(const char* label, const char* id, std::string& output,
-                           const EffectList& effects) {
-  const std::vector<Viewable> all = viewables(effects);
+                           const std::vector<Viewable>& all) {
   const auto now = std::ranges::find(all, output, &Viewable::output);
   ImGui::SetNextItemWidth(ImGui::GetContentRegionAvail().x * 0.58f);
   if (ImGui::BeginCombo(label, now != all.end() ? now->label.c_str() : output.c_str())) {
@@ -25,11 +24,10 @@ void Panel::drawViewChoice(const char* label, const char* id, std::string& outpu
 }
 
 void Panel::drawViews(const Status& status, Requests& requests) {
-  drawViewChoice("View", "view", session_.left, session_.effects);
+  drawViewChoice("View", "view", session_.left, session_.views(false));
   toggle("Split", "split", session_.split, "A line to drag between two sides (X)");
   if (session_.split) {
-    drawViewChoice("Right side", "view right", session_.right,
-                   session_.held ? *session_.held : session_.effects);
+    drawViewChoice("Right side", "view right", session_.right, session_.views(true));
     if (button("Hold", "hold", "Keeps these settings for the right side, to compare with")) {
       session_.hold();
     }
@@ -43,6 +41,7 @@ void Panel::drawViews(const Status& status, Requests& requests) {
       }
     }
   }
+  drawTruth(status.truth);
   bool base = session_.surface == frame::Surface::kBaseColour;
   if (toggle("Base colour under the light", "base", base, "Else all is white")) {
     session_.surface = base ? frame::Surface::kBaseColour : frame::Surface::kWhite;

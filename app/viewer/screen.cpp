@@ -24,7 +24,7 @@ Screen::~Screen() {
 }
 
 Screen::Shown Screen::wanted(const ScreenDesc& desc) const {
-  const bool empty = desc.stage == nullptr || !desc.stage->texture(false);
+  const bool empty = !desc.sides[0].texture || !desc.sides[1].texture;
   const auto width = static_cast<float>(desc.place.size.x);
   Shown all{};
   all.block.place = desc.place.corner;
@@ -34,14 +34,13 @@ Screen::Shown Screen::wanted(const ScreenDesc& desc) const {
   all.block.far_depth = desc.farDepth;
   all.block.line_width = desc.lineWidth;
   if (empty) {
-    all.sides = {blank_, blank_};
+    all.sides[0].texture = all.sides[1].texture = blank_;
     return all;
   }
-  // The outputs may be of another size until the stage's next frame.
-  all.block.centre = desc.centre * glm::vec2(desc.stage->size());
-  all.sides = {desc.stage->texture(false), desc.stage->texture(desc.split)};
-  all.kinds = {desc.stage->kind(false), desc.stage->kind(desc.split)};
-  all.revision = desc.stage->revision();
+  // The sides may be of another size than the place until the next frame.
+  all.block.centre = desc.centre * glm::vec2(desc.texels);
+  all.sides = desc.sides;
+  all.revision = desc.revision;
   return all;
 }
 
@@ -90,12 +89,13 @@ void Screen::show(gpu::Commands& commands, const Shown& wanted) {
   GRISAILLE_CHECK_BLOCK_show_Show(ShowBlock);
   const std::array bindings = {
       gpu::uniformBinding(0, commands.uniform(std::as_bytes(std::span(&wanted.block, 1)))),
-      gpu::textureBinding(0, {.texture = wanted.sides[0]}, nearest_),
-      gpu::textureBinding(1, {.texture = wanted.sides[1]}, nearest_),
+      gpu::textureBinding(0, {.texture = wanted.sides[0].texture}, nearest_),
+      gpu::textureBinding(1, {.texture = wanted.sides[1].texture}, nearest_),
       gpu::imageBinding(0, picture_)};
   commands.beginPass("viewer/show");
-  commands.dispatch(
-      {.pipeline = showPipeline(wanted.kinds), .bindings = bindings, .groups = groupsFor(size_)});
+  commands.dispatch({.pipeline = showPipeline({wanted.sides[0].kind, wanted.sides[1].kind}),
+                     .bindings = bindings,
+                     .groups = groupsFor(size_)});
   commands.endPass();
 }
 

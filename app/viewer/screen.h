@@ -14,11 +14,21 @@ struct ImDrawData;
 
 namespace grisaille::app::viewer {
 
+// What one side of the picture shows.
+struct Side {
+  gpu::Texture texture = {};
+  Kind kind = Kind::kLight;
+
+  bool operator==(const Side&) const = default;
+};
+
 // How the picture is to be seen.
 struct ScreenDesc {
   glm::uvec2 pixels = glm::uvec2(0);  // of the window, over 0
   Place place;
-  const Stage* stage = nullptr;  // null: none yet
+  std::array<Side, 2> sides = {};     // without textures: there is nothing yet
+  glm::uvec2 texels = glm::uvec2(0);  // of the sides
+  uint64_t revision = 0;              // changes with what the sides hold
   bool split = false;
   float line = 0.5f;  // of the picture's width
   float zoom = 1;     // pixels a texel
@@ -53,9 +63,8 @@ class Screen {
   // All that the shown picture depends on.
   struct Shown {
     ShowBlock block;
-    std::array<gpu::Texture, 2> sides;
-    std::array<Kind, 2> kinds;
-    uint64_t revision;  // of the stage's picture
+    std::array<Side, 2> sides;
+    uint64_t revision;
 
     bool operator==(const Shown&) const = default;
   };

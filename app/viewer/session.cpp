@@ -72,8 +72,13 @@ Session::Session(SessionOptions options)
   history.noteSettings(effects.state(), "command line");
   surface =
       surfaceOf(!options_.surface.empty() ? options_.surface : settings.surface.value_or("white"));
-  if (!options_.camera.empty()) camera = scene::loadCamera(options_.camera);
+  if (options_.camera.starts_with('{')) {
+    camera = scene::parseCamera(options_.camera, "--camera");
+  } else if (!options_.camera.empty()) {
+    camera = scene::loadCamera(options_.camera);
+  }
   split = !options_.split.empty();
+  beginComparing();
   for (auto [wanted, view] : {std::pair{&options_.view, &left}, {&options_.split, &right}}) {
     if (wanted->empty()) continue;
     *view = *wanted;
@@ -161,12 +166,20 @@ void Session::swapHeld() {
   checkViews();
 }
 
+std::vector<Viewable> Session::views(bool rightSide) const {
+  std::vector<Viewable> all = viewables(rightSide && held ? *held : effects);
+  if (!comparedOutput().empty()) {
+    all.push_back({std::string(kErrorView), "Error against truth", Kind::kEncoded});
+    all.push_back({std::string(kTruthView), "Truth", Kind::kNumber});
+  }
+  return all;
+}
+
 void Session::checkViews() {
-  const auto isThere = [](const EffectList& list, const std::string& output) {
-    return std::ranges::any_of(viewables(list), [&](const auto& v) { return v.output == output; });
-  };
-  if (!isThere(effects, left)) left = "color";
-  if (!isThere(held ? *held : effects, right)) right = "color";
+  for (auto [view, rightSide] : {std::pair{&left, false}, {&right, true}}) {
+    const std::vector<Viewable> all = views(rightSide);
+    if (std::ranges::find(all, *view, &Viewable::output) == all.end()) *view = "color";
+  }
 }
 
 std::string Session::painter() const {
@@ -270,7 +283,7 @@ std::string Session::commandLine(glm::uvec2 size, const std::string& backend,
     shots::save(shots.find(effect)->second.shots(), file.string());
     command.loads.emplace_back(effect, file.string());
   }
-  command.writes.emplace_back(left, "grisaille.png");
+  command.writes.emplace_back(isTruthView(left) ? comparedOutput() : left, "grisaille.png");
   return renderCommand(command);
 }
 

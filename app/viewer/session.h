@@ -23,7 +23,28 @@ struct SessionOptions {
   std::string scene, camera, config, surface, view, split;
   std::vector<std::string> effects, sets, loads, pluginPaths;
   bool effectsGiven = false;
+  bool compareTruth = false;
+  double truthRadius = 0;  // metres; 0: the effect's own
+  uint32_t truthRays = 0;  // 0: as many as usual
 };
+
+// What the picture is compared with while it is looked at.
+struct TruthSettings {
+  static constexpr uint32_t kLeastRays = 16, kMostRays = 4096;
+  static constexpr double kFarthest = 1e6;  // metres
+
+  bool on = false;
+  std::string output = "";            // that is compared; "": the first there is
+  std::optional<double> radius = {};  // metres, over 0 to kFarthest; none: the effect's own
+  uint32_t rays = 256;                // a pixel, kLeastRays ... kMostRays
+};
+
+// Views that no frame has: of the truth that is traced, and how far the picture is from it.
+constexpr std::string_view kTruthView = "truth", kErrorView = "error";
+
+inline bool isTruthView(std::string_view output) {
+  return output == kTruthView || output == kErrorView;
+}
 
 // One line for the user to read.
 struct Message {
@@ -82,8 +103,19 @@ class Session {
   glm::vec2 centre = glm::vec2(0.5f);  // of what is seen, in parts of the picture
   bool inspecting = false;             // the value under the cursor
   bool paused = false, step = false, continuous = false;
+  // What a side can show.
+  std::vector<Viewable> views(bool rightSide) const;
   // Outputs that are gone become the final picture.
   void checkViews();
+
+  // --- Comparing with truth
+  TruthSettings comparing;
+  // The left side shows the error, or again what it showed before.
+  void compareWithTruth(bool on);
+  std::vector<std::string> comparable() const;  // outputs of one channel: each effect's visibility
+  std::string comparedOutput() const;           // "": there is none, or nothing is compared
+  double truthRadius() const;                   // metres
+  void setTruthRadius(double metres);           // throws kUsage
 
   // --- Shots
   ShotLists shots;
@@ -115,9 +147,11 @@ class Session {
 
  private:
   void addLists();
+  void beginComparing();
 
   SessionOptions options_;
   std::string lastChange_;
+  std::string leftBefore_ = "color";  // comparing
   bool firstScene_ = true;
 };
 

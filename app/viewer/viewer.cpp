@@ -37,12 +37,14 @@ Viewer::Viewer(const ViewerOptions& options)
   }
   openWindow();
   screen_ = std::make_unique<Screen>(*device_);
+  truth_ = std::make_unique<TruthView>(*device_);
   rebuild_.watch(session_.registry());
   openScene(options_.session.scene);
 }
 
 Viewer::~Viewer() {
   stage_.reset();
+  truth_.reset();
   screen_.reset();
   device_.reset();
   window_.reset();
@@ -97,7 +99,9 @@ void Viewer::nameWindow() {
 void Viewer::run() {
   while (!window_->closing() && (options_.frames == 0 || complete_ < options_.frames)) {
     if (window_->wait(patience())) settle_ = kSettleFrames;
-    if (lookAround() || options_.frames > 0) settle_ = std::max(settle_, 1);
+    // Frames that wait for the truth are no use.
+    const bool hurry = options_.frames > 0 && !truth_->running();
+    if (lookAround() || hurry) settle_ = std::max(settle_, 1);
     const bool stale = stage_ && !session_.paused && stage_->isStale(stageDesc());
     const bool due = settle_ > 0 || moving_ || stale || session_.continuous || session_.step;
     const glm::uvec2 pixels = window_->pixels();
@@ -108,7 +112,7 @@ void Viewer::run() {
     settle_ = std::max(settle_ - 1, 0);
     frame(since.count());
     ++drawn_;
-    if (stage_ && !stage_->isStale(stageDesc())) ++complete_;
+    if (stage_ && !stage_->isStale(stageDesc()) && !truth_->running()) ++complete_;
     const std::chrono::duration<double> took = Clock::now() - now;
     if (took.count() < kLeastFrame) {
       std::this_thread::sleep_for(std::chrono::duration<double>(kLeastFrame) - took);
@@ -123,7 +127,7 @@ double Viewer::patience() const {
   const bool visible = window_->pixels().x > 0;
   const bool stale = stage_ && !session_.paused && stage_->isStale(stageDesc());
   if (visible && (settle_ > 0 || moving_ || stale || session_.continuous)) return 0;
-  if (loading_.running() || !rebuild_.building().empty()) return kWaitInterval;
+  if (loading_.running() || !rebuild_.building().empty() || truth_->running()) return kWaitInterval;
   return rebuild_.watches() ? kLookInterval : 60;
 }
 
@@ -142,6 +146,7 @@ bool Viewer::lookAround() {
     news = true;
     if (outcome->good) perform({.scene = {}, .rescan = true});
   }
+  session_.attempt([&] { news |= truth_->look(); });
   return news || before != rebuild_.building();
 }
 
@@ -204,6 +209,7 @@ void Viewer::takeScene() {
     if (!scene) return;
     const std::string path = loading_.path();
     // Uploads and rays are of the old scene.
+    truth_->stop();
     stage_.reset();
     session_.setScene(scene, path);
     stage_ = std::make_unique<Stage>(*device_, *session_.scene);

@@ -11,6 +11,7 @@
 #include "app/viewer/rebuild.h"
 #include "app/viewer/scene_loading.h"
 #include "app/viewer/screen.h"
+#include "app/viewer/truth_view.h"
 #include "app/viewer/window.h"
 
 namespace grisaille::app::viewer {
@@ -21,7 +22,8 @@ struct ViewerOptions {
   std::string bookmarks;            // a folder; "": configFolder()/bookmarks
   std::string layoutFile;           // where the controls' places are written; "": nowhere
   glm::uvec2 size = glm::uvec2(0);  // of the window; 0: as it was left
-  // Ends after so many frames with the scene's picture; 0: when it is closed.
+  // Ends after so many frames with the scene's picture and, where it is compared with the truth,
+  // the whole of that; 0: when it is closed.
   uint32_t frames = 0;
   std::string screenshot;  // what the window holds at the end, .png or .exr; "": nowhere
   bool check = false;
@@ -59,6 +61,11 @@ class Viewer {
   Place place() const;
   void updateStage();
   void updateCoverage();
+  void compareWithTruth();
+  TruthStatus truthStatus();
+  Side side(bool right);
+  std::vector<float> cursorValue(bool right, glm::uvec2 texel);
+  image::Image pictureOf(const std::string& view);
   void drawWindow();
   void savePicture();
   void saveScreenshot();
@@ -76,6 +83,7 @@ class Viewer {
   std::unique_ptr<gpu::Device> device_;
   std::unique_ptr<Screen> screen_;
   std::unique_ptr<Stage> stage_;  // of the session's scene
+  std::unique_ptr<TruthView> truth_;
   Panel panel_;
   Controls controls_;
   SceneLoading loading_;

@@ -5,6 +5,7 @@
 #include <cmath>
 #include <ctime>
 
+#include "app/truth/error_map.h"
 #include "app/viewer/viewer.h"
 #include "core/frame/texture_image.h"
 #include "core/image/write_aside.h"
@@ -53,10 +54,12 @@ StageDesc Viewer::stageDesc() const {
   desc.surface = session_.surface;
   desc.live = &session_.effects;
   desc.liveRevision = session_.revision;
-  desc.left = session_.left;
+  // What is compared stands for the truth and the error until these are there.
+  const std::string compared = session_.comparedOutput();
+  desc.left = isTruthView(session_.left) ? compared : session_.left;
   if (session_.split) {
-    desc.right = session_.right;
-    if (session_.held) {
+    desc.right = isTruthView(session_.right) ? compared : session_.right;
+    if (session_.held && !isTruthView(session_.right)) {
       desc.held = &*session_.held;
       desc.heldRevision = session_.heldRevision;
     }
@@ -64,9 +67,11 @@ StageDesc Viewer::stageDesc() const {
   desc.shots = &session_.shots;
   // Where a frame takes long anyway, paint may take as long: it is whole sooner.
   desc.patience = std::clamp(updateSeconds_, 0.03, 0.3);
+  if (!compared.empty()) desc.extra.push_back(compared);
   if (panel_.wantsCoverage) {
     if (const auto painter = painterOf(session_.effects)) {
-      desc.extra = {painter->owner, painter->paint, "depth", "facet_normal"};
+      desc.extra.insert(desc.extra.end(),
+                        {painter->owner, painter->paint, "depth", "facet_normal"});
     }
   }
   return desc;
@@ -74,6 +79,7 @@ StageDesc Viewer::stageDesc() const {
 
 void Viewer::updateStage() {
   if (!stage_) return;
+  compareWithTruth();
   const StageDesc desc = stageDesc();
   if (session_.paused && !session_.step) return;
   session_.step = false;
@@ -85,8 +91,52 @@ void Viewer::updateStage() {
     stage_->update(desc);
     updateSeconds_ = std::chrono::duration<double>(Clock::now() - start).count();
     if (panel_.wantsCoverage) updateCoverage();
+    const std::string compared = session_.comparedOutput();
+    if (compared.empty()) return;
+    truth_->show({.scene = session_.scene,
+                  .camera = desc.camera,
+                  .size = desc.size,
+                  .radius = session_.truthRadius(),
+                  .samples = session_.comparing.rays},
+                 stage_->read(compared));
   });
   settle_ = std::max(settle_, 1);  // what is said of it
+}
+
+// Where the picture stays and what it is compared with does not.
+void Viewer::compareWithTruth() {
+  if (session_.comparedOutput().empty()) {
+    truth_->stop();
+  } else {
+    truth_->follow(session_.truthRadius(), session_.comparing.rays);
+  }
+}
+
+TruthStatus Viewer::truthStatus() {
+  TruthStatus status;
+  status.running = truth_->running();
+  status.comparison = truth_->comparison();
+  status.rays = truth_->rays();
+  status.share = truth_->share();
+  if (const auto texel = controls_.texel(place())) status.cursor = truth_->at(glm::uvec2(*texel));
+  return status;
+}
+
+Side Viewer::side(bool right) {
+  if (!stage_ || !stage_->texture(false)) return {};
+  const std::string& view = right ? session_.right : session_.left;
+  if (isTruthView(view)) {
+    if (const auto side = truth_->side(view)) return *side;
+  }
+  return {stage_->texture(right), stage_->kind(right)};
+}
+
+std::vector<float> Viewer::cursorValue(bool right, glm::uvec2 texel) {
+  const std::string& view = right ? session_.right : session_.left;
+  if (!isTruthView(view)) return stage_->valueAt(right, texel);
+  const auto point = truth_->at(texel);
+  if (!point) return {};
+  return {view == kTruthView ? point->truth : point->shown - point->truth};
 }
 
 void Viewer::updateCoverage() {
@@ -114,13 +164,14 @@ Status Viewer::status() {
     status.loading = loading_.progress();
     status.loadingPath = loading_.path().empty() ? "built-in atrium" : loading_.path();
   }
+  status.truth = truthStatus();
   status.rebuilding = rebuild_.building();
   status.buildMessage = buildMessage_;
   const auto texel = controls_.texel(place());
   if (session_.inspecting && stage_ && texel) {
     session_.attempt([&] {
       status.cursorTexel = *texel;
-      status.cursorValue = stage_->valueAt(controls_.rightSide(place()), glm::uvec2(*texel));
+      status.cursorValue = cursorValue(controls_.rightSide(place()), glm::uvec2(*texel));
     });
   }
   return status;
@@ -131,7 +182,11 @@ void Viewer::drawWindow() {
   desc.pixels = window_->pixels();
   if (desc.pixels.x == 0 || desc.pixels.y == 0) return;
   desc.place = place();
-  desc.stage = stage_.get();
+  session_.attempt([&] { desc.sides = {side(false), side(session_.split)}; });
+  if (stage_) {
+    desc.texels = stage_->size();
+    desc.revision = stage_->revision() + truth_->revision();  // of a scene, neither falls
+  }
   desc.split = session_.split;
   desc.line = session_.line;
   desc.zoom = session_.zoom;
@@ -143,17 +198,31 @@ void Viewer::drawWindow() {
   if (!device_->present(shown_)) settle_ = std::max(settle_, 1);
 }
 
+image::Image Viewer::pictureOf(const std::string& view) {
+  if (isTruthView(view)) {
+    if (!panel_.pictureAsShown) {
+      throw Error(ErrorId::kUsage, "the truth is only there as large as on the screen");
+    }
+    if (truth_->share() == 0) throw Error(ErrorId::kUsage, "nothing is traced yet");
+    return truth_->numbers(view);
+  }
+  StageDesc desc = stageDesc();
+  if (!panel_.pictureAsShown) desc.size = panel_.pictureSize;
+  return stage_->picture(desc, desc.left);
+}
+
 void Viewer::savePicture() {
   if (!stage_) return;
   session_.attempt([&] {
-    StageDesc desc = stageDesc();
-    if (!panel_.pictureAsShown) desc.size = panel_.pictureSize;
-    const image::Image picture = stage_->picture(desc, desc.left);
-    const std::string name = fileName(desc.left);
-    for (const char* ending : {".png", ".exr"}) {
-      image::write(picture, name + ending, {.transfer = frame::transferOf(desc.left)});
+    const std::string name = fileName(session_.left);
+    const image::Image picture = pictureOf(session_.left);
+    for (const std::string ending : {".png", ".exr"}) {
+      const bool colors = session_.left == kErrorView && ending == ".png";
+      image::write(colors ? truth::errorMap(picture) : picture, name + ending,
+                   {.transfer = frame::transferOf(session_.left)});
     }
-    session_.say(fmt::format("{0}.png and {0}.exr, {1}x{2} px", name, desc.size.x, desc.size.y));
+    session_.say(
+        fmt::format("{0}.png and {0}.exr, {1}x{2} px", name, picture.width, picture.height));
   });
   settle_ = std::max(settle_, 1);
 }
@@ -173,6 +242,14 @@ void Viewer::writeLayout() {
                      stage_ && !stage_->isStale(stageDesc()) ? "done" : "stale");
   panel_.layout.note("camera", 0, 0, 0, 0, scene::cameraJson(session_.camera));
   panel_.layout.note("drawn", 0, 0, 0, 0, fmt::format("{}", drawn_));
+  if (session_.comparing.on) {
+    panel_.layout.note("truths", 0, 0, 0, 0, fmt::format("{}", truth_->started()));
+    panel_.layout.note("rmse", 0, 0, 0, 0, fmt::format("{:.7f}", truth_->comparison().rmse));
+    panel_.layout.note("truth", 0, 0, 0, 0,
+                       truth_->running()      ? "traced"
+                       : truth_->share() == 1 ? "done"
+                                              : "none");
+  }
   std::string text = panel_.layout.json();
   if (text == layoutWritten_) return;
   session_.attempt([&] { image::writeFileAside(options_.layoutFile, text); });

@@ -2,6 +2,8 @@
 // Files that are opened or dropped, and files that are not what they say: nothing is lost.
 #include <gtest/gtest.h>
 
+#include <cmath>
+
 #include "app/viewer/session.h"
 #include "core/shots/shot_file.h"
 #include "tests/program/run.h"
@@ -55,6 +57,14 @@ TEST_F(SessionTest, OpensWhatAFileHolds) {
   EXPECT_EQ(session_.effects.find("ssao")->values.get("radius"), 2);
 }
 
+TEST_F(SessionTest, TakesACameraAsText) {
+  SessionOptions text = options();
+  text.camera = R"({"eye": [1, 2, 3], "target": [0, 0, 0], "fovy_degrees": 60})";
+  EXPECT_EQ(Session(text).camera.eye, glm::dvec3(1, 2, 3));
+  text.camera = "{}";
+  EXPECT_ERROR(ErrorId::kCameraInvalid, Session{text});
+}
+
 TEST_F(SessionTest, WhatIsBrokenChangesNothing) {
   session_.openFile(folder_.write("b.json", kShots));
   const EffectList::State before = session_.effects.state();
@@ -83,6 +93,37 @@ TEST_F(SessionTest, HeldSettingsStayWhatTheyWere) {
   session_.swapHeld();
   EXPECT_EQ(session_.held->find("ssao")->values.get("radius"), 3);
   EXPECT_EQ(session_.effects.find("ssao")->values.get("radius"), 0.5);
+}
+
+TEST_F(SessionTest, ComparesTheFirstVisibilityWithItsOwnRadius) {
+  session_.left = "depth";
+  session_.compareWithTruth(true);
+  EXPECT_EQ(session_.comparedOutput(), "ssao.ao");
+  EXPECT_EQ(session_.left, kErrorView);
+  session_.effects.find("ssao")->values.set("radius", 3.0);
+  EXPECT_EQ(session_.truthRadius(), 3);
+  session_.setTruthRadius(2);
+  EXPECT_EQ(session_.truthRadius(), 2);
+  for (const double radius : {0.0, -1.0, 1e9, std::nan("")}) {
+    EXPECT_ERROR(ErrorId::kUsage, session_.setTruthRadius(radius));
+  }
+  EXPECT_EQ(session_.truthRadius(), 2);
+  // The command makes what is compared: no frame has an error.
+  EXPECT_NE(session_.commandLine({64, 36}, "", "").find("ssao.ao=grisaille.png"),
+            std::string::npos);
+  session_.compareWithTruth(false);
+  EXPECT_EQ(session_.left, "depth");
+  EXPECT_EQ(session_.comparedOutput(), "");
+
+  session_.compareWithTruth(true);
+  session_.effects.find("ssao")->on = false;
+  session_.checkViews();
+  EXPECT_EQ(session_.comparedOutput(), "");
+  EXPECT_EQ(session_.left, "color");
+  session_.compareWithTruth(false);
+  session_.compareWithTruth(true);
+  EXPECT_FALSE(session_.comparing.on);
+  EXPECT_NE(session_.messages.back().text.find("visibility"), std::string::npos);
 }
 
 }  // namespace
