@@ -91,7 +91,7 @@ TEST_P(Front, PresetsAreOnIt) {
 }
 
 INSTANTIATE_TEST_SUITE_P(Effects, Front, testing::Values("ssao"),
-                         [](const auto& info) { return std::string(info.param); });
+                         [](const auto& test) { return std::string(test.param); });
 
 // RMSE over surfaces, the truth's own noise taken out.
 double errorOf(const image::Image& shown, const image::Image& truth, const image::Image& noise,

@@ -65,7 +65,7 @@ TEST_P(TuneTest, SaysWhatCannotBeHad) {
 }
 
 INSTANTIATE_TEST_SUITE_P(Backends, TuneTest, testing::Values("opengl", "vulkan"),
-                         [](const auto& info) { return std::string(info.param); });
+                         [](const auto& test) { return std::string(test.param); });
 
 TEST(Tune, MistakesAreNamed) {
   const TemporaryFolder folder;
