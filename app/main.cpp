@@ -21,6 +21,7 @@ int main(int argc, char** argv) {
   grisaille::app::addBackends(program);
   grisaille::app::addTruth(program);
   grisaille::app::addMeasure(program);
+  grisaille::app::addClaims(program);
   grisaille::app::addScene(program);
   grisaille::app::addCompletion(program);
   try {

@@ -1,19 +1,18 @@
 // SPDX-License-Identifier: MIT
 // grisaille measure: what settings cost, and how wrong they are.
 #include <fmt/format.h>
-#include <sys/utsname.h>
 #include <unistd.h>
 
 #include <algorithm>
 #include <filesystem>
-#include <fstream>
 #include <limits>
 #include <memory>
-#include <thread>
 
 #include "app/command.h"
 #include "app/driver_messages.h"
+#include "app/machine.h"
 #include "app/size.h"
+#include "app/study/flicker_run.h"
 #include "app/study/report.h"
 #include "app/study/study.h"
 #include "app/truth/content_hash.h"
@@ -29,27 +28,12 @@ namespace {
 namespace fs = std::filesystem;
 
 struct Options {
-  std::string scene, size = "640x360", backend = "both", device, output, out, shard = "1/1";
+  std::string scene, size = "640x360", backend = "both", device, output, out, shard = "1/1", path;
   std::vector<std::string> cameras, sweeps, sets, effects, pluginPaths;
   double radius = 0.5;
   uint32_t samples = 256, rounds = 5;
   bool check = false, reportOnly = false;
 };
-
-// The processor and how many of it, as the system tells.
-std::string machineName() {
-  std::string processor = "unknown processor";
-  std::ifstream file("/proc/cpuinfo");
-  for (std::string line; std::getline(file, line);) {
-    if (line.rfind("model name", 0) != 0) continue;
-    processor = line.substr(line.find(':') + 2);
-    break;
-  }
-  utsname system{};
-  uname(&system);
-  return fmt::format("{} x{}, {} {}", processor, std::thread::hardware_concurrency(),
-                     system.sysname, system.release);
-}
 
 // The first active effect's visibility, or its first output of one channel.
 std::string defaultOutput(const ActiveEffects& active) {
@@ -69,10 +53,13 @@ struct Job {
   std::vector<study::Setting> settings;
   std::vector<std::string> backendNames;
   scene::Scene scene;
+  std::vector<scene::Camera> path;             // of the flicker; none: it is not measured
+  std::vector<trace::FlickerFrame> pathTruth;  // one a camera of the path
   study::StudyDesc desc;
 
   explicit Job(const Options& options);
   void addViews(const Options& options);
+  void addPath(const Options& options);
 };
 
 Job::Job(const Options& options) : registry(loadEffects(options.pluginPaths)) {
@@ -98,6 +85,10 @@ Job::Job(const Options& options) : registry(loadEffects(options.pluginPaths)) {
   desc.output = options.output.empty() ? defaultOutput(active) : options.output;
   frame::checkOutput(desc.output, active.effects());
   desc.size = parseSize(options.size);
+  if (!options.path.empty()) {
+    path = scene::camerasOf(scene::loadCameraPath(options.path));
+    study::checkPathSize(options.path, path.size(), desc.size);
+  }
   desc.rounds = options.rounds;
   desc.registry = registry.get();
   desc.sets = options.sets;
@@ -150,11 +141,22 @@ void Job::addViews(const Options& options) {
   };
 }
 
+void Job::addPath(const Options& options) {
+  if (options.path.empty()) return;
+  for (const scene::Camera& camera : path) {
+    desc.key += "path " + scene::cameraJson(camera) + "\n";
+    pathTruth.push_back(study::traceFrame(scene, camera, desc.size, options.radius, options.samples,
+                                          isatty(STDERR_FILENO) == 1));
+  }
+  desc.path = &pathTruth;
+}
+
 void measure(const Options& options) {
   if (options.reportOnly) return study::writeReport(options.out);
   Job job(options);
   const truth::Interruption interruption;
   job.addViews(options);
+  job.addPath(options);
   std::error_code failed;
   fs::create_directories(options.out, failed);
   DriverMessages messages;
@@ -198,6 +200,11 @@ void addMeasure(CLI::App& program) {
   command->add_option("--camera", options->cameras, "Camera files; errors are averaged over them")
       ->type_name("FILE")
       ->allow_extra_args(false);
+  command
+      ->add_option("--path", options->path,
+                   "A camera path: JSON with cameras, and frames from the first to the last; adds "
+                   "the flicker along it")
+      ->type_name("FILE");
   command->add_option("--sweep", options->sweeps, "A parameter and its values; several make a grid")
       ->type_name("EFFECT.PARAMETER=VALUE,...")
       ->allow_extra_args(false);

@@ -178,6 +178,7 @@ std::string pageData(const fs::path& folder, std::span<const Record> records, bo
                 {"rmse", r.rmse()},          {"cost", r.cost()},
                 {"spread", r.spread()},      {"milliseconds", r.milliseconds},
                 {"front", front[i] ? 1 : 0}};
+    if (r.flicker) one["flicker"] = *r.flicker;
     if (pictures) {
       one["picture"] = dataUrl(pictureOf(folder, r));
       one["error_map"] = dataUrl(errorMapOf(folder, r));

@@ -78,7 +78,7 @@ std::string csvOf(std::span<const Record> records) {
   }
   std::string csv =
       "backend,device,clock" + names +
-      ",milliseconds,spread,rounds,rmse,mean_absolute,bias,percentile_99,ssim,commit\n";
+      ",milliseconds,spread,rounds,rmse,mean_absolute,bias,percentile_99,ssim,flicker,commit\n";
   for (const Record& r : records) {
     CameraErrors mean;
     for (const CameraErrors& e : r.errors) {
@@ -91,9 +91,10 @@ std::string csvOf(std::span<const Record> records) {
     }
     csv += fmt::format("{},\"{}\",{}", r.backend, r.device, r.clock);
     for (const auto& [name, value] : r.setting) csv += "," + value;
-    csv += fmt::format(",{:.4f},{:.4f},{},{},{},{},{},{},{}\n", r.cost(), r.spread(),
+    csv += fmt::format(",{:.4f},{:.4f},{},{},{},{},{},{},{},{}\n", r.cost(), r.spread(),
                        r.milliseconds.size(), mean.rmse, mean.meanAbsolute, mean.bias,
-                       mean.percentile99, mean.ssim, r.commit);
+                       mean.percentile99, mean.ssim, r.flicker ? fmt::format("{}", *r.flicker) : "",
+                       r.commit);
   }
   return csv;
 }

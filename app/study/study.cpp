@@ -10,23 +10,6 @@ namespace grisaille::app::study {
 namespace fs = std::filesystem;
 namespace {
 
-constexpr float kFullError = 0.25f;
-
-image::Image errorMap(const image::Image& shown, const image::Image& truth) {
-  image::Image map{shown.width, shown.height, 3, {}};
-  map.pixels.resize(shown.pixels.size() * 3);
-  const glm::vec3 dark(0.0f, 0.45f, 0.70f), bright(0.90f, 0.62f, 0.0f);  // Okabe and Ito
-  for (size_t i = 0; i < shown.pixels.size(); ++i) {
-    glm::vec3 color(0.5f);
-    if (std::isfinite(truth.pixels[i])) {
-      const float error = (shown.pixels[i] - truth.pixels[i]) / kFullError;
-      color = glm::mix(glm::vec3(1), error < 0 ? dark : bright, std::min(std::abs(error), 1.0f));
-    }
-    for (int c = 0; c < 3; ++c) map.pixels[i * 3 + static_cast<size_t>(c)] = color[c];
-  }
-  return map;
-}
-
 // Where there is a surface; elsewhere a copy of what it is compared with.
 image::Image onSurfaces(const image::Image& picture, const image::Image& truth, float elsewhere) {
   image::Image result = picture;
@@ -37,6 +20,32 @@ image::Image onSurfaces(const image::Image& picture, const image::Image& truth, 
 }
 
 }  // namespace
+
+image::Image errorMap(const image::Image& shown, const image::Image& truth, float full) {
+  image::Image map{shown.width, shown.height, 3, {}};
+  map.pixels.resize(shown.pixels.size() * 3);
+  const glm::vec3 dark(0.0f, 0.45f, 0.70f), bright(0.90f, 0.62f, 0.0f);  // Okabe and Ito
+  for (size_t i = 0; i < shown.pixels.size(); ++i) {
+    glm::vec3 color(0.5f);
+    if (std::isfinite(truth.pixels[i])) {
+      const float error = (shown.pixels[i] - truth.pixels[i]) / full;
+      color = glm::mix(glm::vec3(1), error < 0 ? dark : bright, std::min(std::abs(error), 1.0f));
+    }
+    for (int c = 0; c < 3; ++c) map.pixels[i * 3 + static_cast<size_t>(c)] = color[c];
+  }
+  return map;
+}
+
+double costOf(const std::vector<gpu::FrameTimes>& frames, const std::vector<std::string>& effects) {
+  double sum = 0;
+  for (const gpu::FrameTimes& frame : frames) {
+    for (const gpu::PassTime& pass : frame.passes) {
+      const std::string effect = pass.label.substr(0, pass.label.find('/'));
+      if (std::ranges::find(effects, effect) != effects.end()) sum += pass.milliseconds;
+    }
+  }
+  return frames.empty() ? 0 : sum / static_cast<double>(frames.size());
+}
 
 fs::path pictureOf(const fs::path& folder, const Record& record) {
   return folder / "pictures" / (fileOf(folder, record).stem().string() + ".png");
@@ -77,10 +86,10 @@ void Study::start(Job& job) {
   job.instances = job.active->start(device_);
 }
 
-void Study::render(Job& job, const View& view) {
+void Study::render(Job& job, const scene::Camera& camera) {
   const std::vector<std::string> outputs = {desc_.output};
   const std::vector<frame::ActiveEffect> effects = job.active->with(job.instances);
-  renderer_.render({.camera = view.camera,
+  renderer_.render({.camera = camera,
                     .width = desc_.size.x,
                     .height = desc_.size.y,
                     .effects = effects,
@@ -91,7 +100,7 @@ void Study::render(Job& job, const View& view) {
 void Study::measureErrors(Job& job) {
   std::vector<CameraErrors> errors;
   for (const View& view : desc_.views) {
-    render(job, view);
+    render(job, view.camera);
     const image::Image shown = renderer_.read(desc_.output);
     if (shown.channels != 1) {
       throw Error(ErrorId::kUsage, "output '{}' has {} channels; truth has one", desc_.output,
@@ -112,27 +121,26 @@ void Study::measureErrors(Job& job) {
   save(desc_.folder, job.record);
 }
 
-// The passes of all effects that run, as their own labels name them.
+void Study::measureFlicker(Job& job) {
+  job.record.flicker = flickerAlong(*desc_.path, [&](const scene::Camera& camera) {
+                         render(job, camera);
+                         return renderer_.read(desc_.output);
+                       }).rms;
+  save(desc_.folder, job.record);
+}
+
 void Study::measureCost(Job& job) {
   device_.wait();
   device_.takeTimes();
-  for (const View& view : desc_.views) render(job, view);
+  for (const View& view : desc_.views) render(job, view.camera);
   device_.wait();
-  double sum = 0;
-  size_t frames = 0;
-  for (const gpu::FrameTimes& frame : device_.takeTimes()) {
-    ++frames;
-    for (const gpu::PassTime& pass : frame.passes) {
-      const std::string effect = pass.label.substr(0, pass.label.find('/'));
-      if (std::ranges::find(desc_.effects, effect) != desc_.effects.end()) sum += pass.milliseconds;
-    }
-  }
-  if (frames > 0) job.record.milliseconds.push_back(sum / static_cast<double>(frames));
+  const std::vector<gpu::FrameTimes> frames = device_.takeTimes();
+  if (!frames.empty()) job.record.milliseconds.push_back(costOf(frames, desc_.effects));
   save(desc_.folder, job.record);
 }
 
 bool Study::run(const Told& told, const std::function<bool()>& stop) {
-  const size_t all = jobs_.size() * (desc_.rounds + 1);
+  const size_t all = jobs_.size() * (desc_.rounds + (desc_.path == nullptr ? 1 : 2));
   size_t done = 0;
   const auto step = [&](bool needed, const std::function<void()>& work) {
     if (needed) {
@@ -145,6 +153,8 @@ bool Study::run(const Told& told, const std::function<bool()>& stop) {
   for (Job& job : jobs_) {
     const bool needed = job.record.errors.empty();
     if (!step(needed, [&] { start(job), measureErrors(job); })) return false;
+    if (desc_.path == nullptr) continue;
+    if (!step(!job.record.flicker, [&] { start(job), measureFlicker(job); })) return false;
   }
   for (uint32_t round = 0; round < desc_.rounds; ++round) {
     for (Job& job : jobs_) {
@@ -152,7 +162,7 @@ bool Study::run(const Told& told, const std::function<bool()>& stop) {
       const auto work = [&] {
         const bool fresh = !job.active;
         start(job);
-        if (fresh) render(job, desc_.views.front());  // pipelines are made outside the clock
+        if (fresh) render(job, desc_.views.front().camera);  // pipelines are made outside the clock
         measureCost(job);
       };
       if (!step(needed, work)) return false;

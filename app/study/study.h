@@ -11,6 +11,7 @@
 
 #include "app/active_effects.h"
 #include "app/scene_rays.h"
+#include "app/study/flicker_run.h"
 #include "app/study/record.h"
 #include "core/frame/renderer.h"
 #include "core/image/image.h"
@@ -29,6 +30,8 @@ struct StudyDesc {
   std::string key;  // all that results depend on but setting and backend
   const scene::Scene* scene = nullptr;
   std::vector<View> views;
+  // A camera path's frames, whose pictures the study fills in; null: no flicker is measured.
+  std::vector<trace::FlickerFrame>* path = nullptr;
   glm::uvec2 size = glm::uvec2(640, 360);
   const effect::Registry* registry = nullptr;
   std::vector<std::string> effects;  // that run, in order
@@ -60,8 +63,9 @@ class Study {
   };
 
   void start(Job& job);
-  void render(Job& job, const View& view);
+  void render(Job& job, const scene::Camera& camera);
   void measureErrors(Job& job);
+  void measureFlicker(Job& job);
   void measureCost(Job& job);
 
   const StudyDesc& desc_;
@@ -70,6 +74,14 @@ class Study {
   frame::Renderer renderer_;
   std::vector<Job> jobs_;
 };
+
+// Milliseconds a frame that the passes of these effects took, as their own labels name them; 0: no
+// frames.
+double costOf(const std::vector<gpu::FrameTimes>& frames, const std::vector<std::string>& effects);
+
+// How a picture of one channel differs from the truth: blue where it is too dark, orange where it
+// is too bright, full at `full`; grey where the truth is NaN.
+image::Image errorMap(const image::Image& shown, const image::Image& truth, float full = 0.25f);
 
 // Pictures of a record: what it shows of the first view, and how that differs from the truth: blue
 // where it is too dark, orange where it is too bright, full at 0.25.
