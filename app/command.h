@@ -12,6 +12,7 @@ void addView(CLI::App& program);
 void addEffects(CLI::App& program);
 void addBackends(CLI::App& program);
 void addMeasure(CLI::App& program);
+void addClaims(CLI::App& program);
 void addTruth(CLI::App& program);
 void addTune(CLI::App& program);
 void addScene(CLI::App& program);

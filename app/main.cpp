@@ -22,6 +22,7 @@ int main(int argc, char** argv) {
   grisaille::app::addTruth(program);
   grisaille::app::addMeasure(program);
   grisaille::app::addTune(program);
+  grisaille::app::addClaims(program);
   grisaille::app::addScene(program);
   grisaille::app::addCompletion(program);
   try {

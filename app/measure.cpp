@@ -1,17 +1,16 @@
 // SPDX-License-Identifier: MIT
 // grisaille measure: what settings cost, and how wrong they are.
 #include <fmt/format.h>
-#include <sys/utsname.h>
 #include <unistd.h>
 
 #include <filesystem>
-#include <fstream>
 #include <memory>
-#include <thread>
 
 #include "app/command.h"
 #include "app/driver_messages.h"
+#include "app/machine.h"
 #include "app/study/choose.h"
+#include "app/study/flicker_run.h"
 #include "app/study/report.h"
 #include "app/study/study.h"
 #include "app/subject_options.h"
@@ -26,32 +25,19 @@ namespace fs = std::filesystem;
 
 struct Options {
   SubjectOptions subject;
-  std::string backend = "both", device, out, shard = "1/1", presets;
+  std::string backend = "both", device, out, shard = "1/1", presets, path;
   std::vector<std::string> sweeps;
   uint32_t rounds = 5;
   bool check = false, reportOnly = false;
 };
-
-// The processor and how many of it, as the system tells.
-std::string machineName() {
-  std::string processor = "unknown processor";
-  std::ifstream file("/proc/cpuinfo");
-  for (std::string line; std::getline(file, line);) {
-    if (line.rfind("model name", 0) != 0) continue;
-    processor = line.substr(line.find(':') + 2);
-    break;
-  }
-  utsname system{};
-  uname(&system);
-  return fmt::format("{} x{}, {} {}", processor, std::thread::hardware_concurrency(),
-                     system.sysname, system.release);
-}
 
 // What the command line asks for, checked before anything slow is done.
 struct Job {
   std::unique_ptr<LoadedSubject> subject;
   std::vector<study::Setting> settings;
   std::vector<std::string> backendNames;
+  std::vector<scene::Camera> path;             // of the flicker; none: it is not measured
+  std::vector<trace::FlickerFrame> pathTruth;  // one a camera of the path
 
   explicit Job(const Options& options);
 };
@@ -73,6 +59,22 @@ Job::Job(const Options& options) {
                                            : std::vector<std::string>{options.backend};
   for (const std::string& name : backendNames) backends::find(name);
   subject = std::make_unique<LoadedSubject>(options.subject, swept);
+  if (options.path.empty()) return;
+  path = scene::camerasOf(scene::loadCameraPath(options.path));
+  study::checkPathSize(options.path, path.size(), subject->subject().size);
+}
+
+// Traces the path's truth; what results depend on, as text.
+std::string tracePath(const Options& options, Job& job) {
+  std::string key;
+  const study::Subject& subject = job.subject->subject();
+  for (const scene::Camera& camera : job.path) {
+    key += "path " + scene::cameraJson(camera) + "\n";
+    job.pathTruth.push_back(study::traceFrame(*subject.scene, camera, subject.size,
+                                              options.subject.radius, options.subject.samples,
+                                              isatty(STDERR_FILENO) == 1));
+  }
+  return key;
 }
 
 // False where a signal ended it.
@@ -110,8 +112,10 @@ void measure(const Options& options) {
   job.subject->loadScene();
   const truth::Interruption interruption;
   job.subject->trace();
+  const std::string pathKey = tracePath(options, job);
   const study::StudyDesc desc{.subject = job.subject->subject(),
-                              .key = job.subject->key(),
+                              .path = job.path.empty() ? nullptr : &job.pathTruth,
+                              .key = job.subject->key() + pathKey,
                               .machine = machineName(),
                               .commit = GRISAILLE_COMMIT,
                               .rounds = options.rounds,
@@ -154,6 +158,11 @@ void addMeasure(CLI::App& program) {
   command->add_option("--backend", options->backend, "opengl, vulkan or both")
       ->capture_default_str();
   command->add_option("--device", options->device, "Number or part of a device's name");
+  command
+      ->add_option("--path", options->path,
+                   "A camera path: JSON with cameras, and frames from the first to the last; adds "
+                   "the flicker along it")
+      ->type_name("FILE");
   command
       ->add_option("--shard", options->shard,
                    "Part I of N of the settings; parts of one study may share --out")

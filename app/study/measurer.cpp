@@ -20,6 +20,17 @@ image::Image onSurfaces(const image::Image& picture, const image::Image& truth, 
 
 }  // namespace
 
+double costOf(const std::vector<gpu::FrameTimes>& frames, const std::vector<std::string>& effects) {
+  double sum = 0;
+  for (const gpu::FrameTimes& frame : frames) {
+    for (const gpu::PassTime& pass : frame.passes) {
+      const std::string effect = pass.label.substr(0, pass.label.find('/'));
+      if (std::ranges::find(effects, effect) != effects.end()) sum += pass.milliseconds;
+    }
+  }
+  return frames.empty() ? 0 : sum / static_cast<double>(frames.size());
+}
+
 Measurer::Measurer(const Subject& subject, gpu::Device& device)
     : subject_(subject),
       device_(device),
@@ -35,7 +46,7 @@ std::unique_ptr<Measurer::Running> Measurer::start(const Setting& setting) {
   return running;
 }
 
-void Measurer::render(Running& running, const View& view) {
+void Measurer::render(Running& running, const scene::Camera& camera) {
   const std::vector<std::string> outputs = {subject_.output};
   std::vector<frame::ActiveEffect> effects = running.active_->with(running.instances_);
   for (frame::ActiveEffect& active : effects) {
@@ -44,7 +55,7 @@ void Measurer::render(Running& running, const View& view) {
     active.shots = own->second;
     active.shotsKept = std::exchange(running.shotsKept_[own->first], own->second.size());
   }
-  renderer_.render({.camera = view.camera,
+  renderer_.render({.camera = camera,
                     .width = subject_.size.x,
                     .height = subject_.size.y,
                     .effects = effects,
@@ -52,15 +63,20 @@ void Measurer::render(Running& running, const View& view) {
                     .rays = &rays_});
 }
 
+image::Image Measurer::show(Running& running, const scene::Camera& camera) {
+  render(running, camera);
+  image::Image shown = renderer_.read(subject_.output);
+  if (shown.channels != 1) {
+    throw Error(ErrorId::kUsage, "output '{}' has {} channels; truth has one", subject_.output,
+                shown.channels);
+  }
+  return shown;
+}
+
 std::vector<CameraErrors> Measurer::errors(Running& running, const Seen& seen) {
   std::vector<CameraErrors> errors;
   for (const View& view : subject_.views) {
-    render(running, view);
-    const image::Image shown = renderer_.read(subject_.output);
-    if (shown.channels != 1) {
-      throw Error(ErrorId::kUsage, "output '{}' has {} channels; truth has one", subject_.output,
-                  shown.channels);
-    }
+    const image::Image shown = show(running, view.camera);
     const image::Difference d = image::compare(shown, view.truth);
     const double square = d.rmse * d.rmse - view.noise * view.noise;
     const image::Similarity similarity =
@@ -72,24 +88,12 @@ std::vector<CameraErrors> Measurer::errors(Running& running, const Seen& seen) {
   return errors;
 }
 
-// The passes of all effects that run, as their own labels name them.
 double Measurer::cost(Running& running) {
   device_.wait();
   device_.takeTimes();
-  for (const View& view : subject_.views) render(running, view);
+  for (const View& view : subject_.views) render(running, view.camera);
   device_.wait();
-  double sum = 0;
-  size_t frames = 0;
-  for (const gpu::FrameTimes& frame : device_.takeTimes()) {
-    ++frames;
-    for (const gpu::PassTime& pass : frame.passes) {
-      const std::string effect = pass.label.substr(0, pass.label.find('/'));
-      if (std::ranges::find(subject_.effects, effect) != subject_.effects.end()) {
-        sum += pass.milliseconds;
-      }
-    }
-  }
-  return frames > 0 ? sum / static_cast<double>(frames) : 0;
+  return costOf(device_.takeTimes(), subject_.effects);
 }
 
 }  // namespace grisaille::app::study

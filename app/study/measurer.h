@@ -35,6 +35,10 @@ struct Subject {
   std::map<std::string, std::vector<grisaille_shot>> shots;  // by effect
 };
 
+// Milliseconds a frame that the passes of these effects took, as their own labels name them; 0: no
+// frames.
+double costOf(const std::vector<gpu::FrameTimes>& frames, const std::vector<std::string>& effects);
+
 class Measurer {
  public:
   // Both outlive this. The device measures times.
@@ -51,19 +55,21 @@ class Measurer {
   // Throws as ActiveEffects does.
   std::unique_ptr<Running> start(const Setting& setting);
 
+  // The output as a camera sees it. Throws kUsage where it has more than one channel.
+  image::Image show(Running& running, const scene::Camera& camera);
+
   // Of each view, what is shown there.
   using Seen = std::function<void(const View& view, const image::Image& shown)>;
 
   // One a view. The truth's noise is taken out of rmse: its square is less the truth's squared
-  // standard error, which is what independent errors add. Throws kUsage where the output has more
-  // than one channel.
+  // standard error, which is what independent errors add. Throws as show() does.
   std::vector<CameraErrors> errors(Running& running, const Seen& seen = {});
 
   // Of the effects' passes, the mean of the views, milliseconds.
   double cost(Running& running);
 
  private:
-  void render(Running& running, const View& view);
+  void render(Running& running, const scene::Camera& camera);
 
   const Subject& subject_;
   gpu::Device& device_;

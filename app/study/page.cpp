@@ -4,6 +4,7 @@
 #include <algorithm>
 #include <nlohmann/json.hpp>
 
+#include "app/study/data_url.h"
 #include "app/study/page_html.h"
 #include "app/study/report.h"
 #include "app/study/study.h"
@@ -14,25 +15,9 @@ namespace fs = std::filesystem;
 using nlohmann::json;
 namespace {
 
-std::string base64(std::span<const std::byte> bytes) {
-  constexpr const char* kDigits =
-      "ABCDEFGHIJKLMNOPQRSTUVWXYZabcdefghijklmnopqrstuvwxyz0123456789+/";
-  std::string text;
-  for (size_t i = 0; i < bytes.size(); i += 3) {
-    uint32_t word = 0;
-    for (size_t k = 0; k < 3; ++k) {
-      word = word << 8 | (i + k < bytes.size() ? std::to_integer<uint32_t>(bytes[i + k]) : 0u);
-    }
-    for (size_t k = 0; k < 4; ++k) {
-      text += i + k > bytes.size() ? '=' : kDigits[word >> (18 - 6 * k) & 63u];
-    }
-  }
-  return text;
-}
-
 // A study's pictures as the page holds them, hundreds: small, and good enough to be looked at. ""
 // where there is no such file.
-std::string dataUrl(const fs::path& file) {
+std::string pictureUrl(const fs::path& file) {
   constexpr int kQuality = 85;
   if (!fs::exists(file)) return "";
   return "data:image/jpeg;base64," +
@@ -50,13 +35,15 @@ json jsonOf(const Record& r) {
                       {"percentile_99", e.percentile99},
                       {"ssim", e.ssim}});
   }
-  return {{"name", nameOf(r.setting)}, {"setting", setting},
-          {"backend", r.backend},      {"device", r.device},
-          {"driver", r.driver},        {"clock", r.clock},
-          {"machine", r.machine},      {"commit", r.commit},
-          {"command", r.command},      {"errors", errors},
-          {"rmse", r.rmse()},          {"cost", r.cost()},
-          {"spread", r.spread()},      {"milliseconds", r.milliseconds}};
+  json all = {{"name", nameOf(r.setting)}, {"setting", setting},
+              {"backend", r.backend},      {"device", r.device},
+              {"driver", r.driver},        {"clock", r.clock},
+              {"machine", r.machine},      {"commit", r.commit},
+              {"command", r.command},      {"errors", errors},
+              {"rmse", r.rmse()},          {"cost", r.cost()},
+              {"spread", r.spread()},      {"milliseconds", r.milliseconds}};
+  if (r.flicker) all["flicker"] = *r.flicker;
+  return all;
 }
 
 }  // namespace
@@ -74,11 +61,11 @@ std::string pageOf(const fs::path& folder, std::span<const Record> records) {
   json all = json::array();
   for (const Record& r : records) {
     json one = jsonOf(r);
-    one["picture"] = dataUrl(pictureOf(folder, r));
-    one["error_map"] = dataUrl(errorMapOf(folder, r));
+    one["picture"] = pictureUrl(pictureOf(folder, r));
+    one["error_map"] = pictureUrl(errorMapOf(folder, r));
     all.push_back(std::move(one));
   }
-  std::string data = json{{"records", all}, {"truth", dataUrl(truthPictureOf(folder))}}.dump();
+  std::string data = json{{"records", all}, {"truth", pictureUrl(truthPictureOf(folder))}}.dump();
   // Nothing in it may end the script element.
   for (size_t at = 0; (at = data.find("</", at)) != std::string::npos; at += 3) {
     data.replace(at, 2, "<\\/");

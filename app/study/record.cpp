@@ -48,6 +48,10 @@ uint64_t hashOf(std::string_view text) {
 
 }  // namespace
 
+double medianOf(const std::vector<double>& values) {
+  return quantile(values, 0.5);
+}
+
 double Record::rmse() const {
   double sum = 0;
   for (const CameraErrors& one : errors) sum += one.rmse;
@@ -55,7 +59,7 @@ double Record::rmse() const {
 }
 
 double Record::cost() const {
-  return quantile(milliseconds, 0.5);
+  return medianOf(milliseconds);
 }
 
 double Record::spread() const {
@@ -72,11 +76,11 @@ void save(const fs::path& folder, const Record& r) {
   json setting = json::array(), errors = json::array();
   for (const auto& [name, value] : r.setting) setting.push_back({name, value});
   for (const CameraErrors& one : r.errors) errors.push_back(toJson(one));
-  const json all = {
-      {"version", kVersion},  {"study", r.study},     {"setting", setting},
-      {"backend", r.backend}, {"device", r.device},   {"driver", r.driver},
-      {"clock", r.clock},     {"machine", r.machine}, {"commit", r.commit},
-      {"command", r.command}, {"errors", errors},     {"milliseconds", r.milliseconds}};
+  json all = {{"version", kVersion},  {"study", r.study},     {"setting", setting},
+              {"backend", r.backend}, {"device", r.device},   {"driver", r.driver},
+              {"clock", r.clock},     {"machine", r.machine}, {"commit", r.commit},
+              {"command", r.command}, {"errors", errors},     {"milliseconds", r.milliseconds}};
+  if (r.flicker) all["flicker"] = *r.flicker;
   const fs::path file = fileOf(folder, r);
   std::error_code failed;
   fs::create_directories(file.parent_path(), failed);
@@ -104,6 +108,7 @@ std::optional<Record> load(const fs::path& file) {
     r.command = j.at("command");
     for (const json& one : j.at("errors")) r.errors.push_back(errorsFrom(one));
     r.milliseconds = j.at("milliseconds").get<std::vector<double>>();
+    if (j.contains("flicker")) r.flicker = j["flicker"].get<double>();
     return r;
   } catch (const json::exception& error) {
     throw Error(ErrorId::kStudyRecord, "{}: {}", file.string(), error.what());

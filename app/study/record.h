@@ -21,6 +21,9 @@ struct CameraErrors {
   bool operator==(const CameraErrors&) const = default;
 };
 
+// 0: there are none.
+double medianOf(const std::vector<double>& values);
+
 struct Record {
   std::string study;  // all that results depend on but setting and backend
   Setting setting;
@@ -29,6 +32,7 @@ struct Record {
   std::string command;               // that makes its picture of the first camera
   std::vector<CameraErrors> errors;  // one a camera, once they are known
   std::vector<double> milliseconds;  // the effects' passes, mean of the cameras, one a round
+  std::optional<double> flicker;     // rms along the study's camera path, where it has one
 
   bool operator==(const Record&) const = default;
 

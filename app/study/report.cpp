@@ -94,7 +94,7 @@ std::string csvOf(std::span<const Record> records) {
   const std::vector<std::string> parameters = parametersOf(records);
   std::string csv = "backend,device,clock";
   for (const std::string& name : parameters) csv += "," + name;
-  csv += ",milliseconds,spread,rounds,rmse,mean_absolute,bias,percentile_99,ssim";
+  csv += ",milliseconds,spread,rounds,rmse,mean_absolute,bias,percentile_99,ssim,flicker";
   const std::vector<std::string> cameras = camerasOf(records);
   for (const std::string& camera : cameras) csv += ",rmse of " + camera;
   csv += ",commit\n";

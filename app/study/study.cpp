@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: MIT
 #include "app/study/study.h"
 
+#include "app/study/flicker_run.h"
 #include "app/truth/error_map.h"
 #include "core/gpu/device.h"
 
@@ -62,6 +63,14 @@ void Study::measureErrors(Job& job) {
   save(desc_.folder, job.record);
 }
 
+void Study::measureFlicker(Job& job) {
+  if (!job.running) job.running = measurer_.start(job.record.setting);
+  job.record.flicker = flickerAlong(*desc_.path, [&](const scene::Camera& camera) {
+                         return measurer_.show(*job.running, camera);
+                       }).rms;
+  save(desc_.folder, job.record);
+}
+
 void Study::measureCost(Job& job) {
   if (!job.running) {
     job.running = measurer_.start(job.record.setting);
@@ -72,7 +81,7 @@ void Study::measureCost(Job& job) {
 }
 
 bool Study::run(const Told& told, const std::function<bool()>& stop) {
-  const size_t all = jobs_.size() * (desc_.rounds + 1);
+  const size_t all = jobs_.size() * (desc_.rounds + (desc_.path == nullptr ? 1 : 2));
   size_t done = 0;
   const auto step = [&](bool needed, const std::function<void()>& work) {
     if (needed) {
@@ -84,6 +93,8 @@ bool Study::run(const Told& told, const std::function<bool()>& stop) {
   };
   for (Job& job : jobs_) {
     if (!step(job.record.errors.empty(), [&] { measureErrors(job); })) return false;
+    if (desc_.path == nullptr) continue;
+    if (!step(!job.record.flicker, [&] { measureFlicker(job); })) return false;
   }
   for (uint32_t round = 0; round < desc_.rounds; ++round) {
     for (Job& job : jobs_) {

@@ -11,11 +11,14 @@
 
 #include "app/study/measurer.h"
 #include "app/study/record.h"
+#include "core/trace/flicker.h"
 
 namespace grisaille::app::study {
 
 struct StudyDesc {
   Subject subject;
+  // A camera path's frames, whose pictures the study fills in; null: no flicker is measured.
+  std::vector<trace::FlickerFrame>* path = nullptr;
   std::string key;  // all that results depend on but setting and backend
   std::string machine, commit;
   uint32_t rounds = 5;
@@ -43,6 +46,7 @@ class Study {
   };
 
   void measureErrors(Job& job);
+  void measureFlicker(Job& job);
   void measureCost(Job& job);
   void writePictures(const Record& record, const View& view, const image::Image& shown);
 

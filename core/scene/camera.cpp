@@ -45,20 +45,6 @@ glm::uvec2 sizeOf(const json& value) {
   return size;
 }
 
-std::string contentOf(const std::string& path) {
-  std::error_code code;
-  if (!std::filesystem::is_regular_file(path, code)) {
-    throw Error(ErrorId::kCameraUnreadable, "{}: {}", path,
-                code ? code.message() : "not a regular file");
-  }
-  if (std::filesystem::file_size(path, code) > kLargestFile || code) {
-    throw Error(ErrorId::kCameraUnreadable, "{}: larger than a camera file can be", path);
-  }
-  std::ifstream file(path, std::ios::binary);
-  if (!file) throw Error(ErrorId::kCameraUnreadable, "{}: cannot be opened", path);
-  return {std::istreambuf_iterator<char>(file), {}};
-}
-
 json parse(std::string_view text, const std::string& name) {
   try {
     return json::parse(text);
@@ -126,6 +112,20 @@ void validate(const Camera& camera) {
   }
 }
 
+std::string readCameraText(const std::string& path) {
+  std::error_code code;
+  if (!std::filesystem::is_regular_file(path, code)) {
+    throw Error(ErrorId::kCameraUnreadable, "{}: {}", path,
+                code ? code.message() : "not a regular file");
+  }
+  if (std::filesystem::file_size(path, code) > kLargestFile || code) {
+    throw Error(ErrorId::kCameraUnreadable, "{}: larger than a camera file can be", path);
+  }
+  std::ifstream file(path, std::ios::binary);
+  if (!file) throw Error(ErrorId::kCameraUnreadable, "{}: cannot be opened", path);
+  return {std::istreambuf_iterator<char>(file), {}};
+}
+
 Camera parseCamera(std::string_view text, const std::string& name) {
   const json document = parse(text, name);
   try {
@@ -143,7 +143,7 @@ Camera parseCamera(std::string_view text, const std::string& name) {
 }
 
 Camera loadCamera(const std::string& path) {
-  return parseCamera(contentOf(path), path);
+  return parseCamera(readCameraText(path), path);
 }
 
 std::string cameraJson(const Camera& camera) {

@@ -24,6 +24,9 @@ struct Camera {
 // direction, an angle out of range.
 void validate(const Camera& camera);
 
+// What a file of cameras holds. Throws kCameraUnreadable where it is no regular file or over 1 MiB.
+std::string readCameraText(const std::string& path);
+
 // A camera file's text. Throws kCameraUnreadable, kCameraInvalid, with `name` before the message.
 Camera parseCamera(std::string_view text, const std::string& name);
 

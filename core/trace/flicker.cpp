@@ -1,7 +1,9 @@
 // SPDX-License-Identifier: MIT
 #include "core/trace/flicker.h"
 
+#include <algorithm>
 #include <cmath>
+#include <limits>
 #include <optional>
 
 #include "core/error.h"
@@ -41,6 +43,21 @@ std::optional<size_t> pixelOf(const glm::dvec3& world, const FlickerFrame& frame
   return q;
 }
 
+// Calls visit(p, change) for each pixel of `now` whose point is visible in `then`.
+template <typename Visit>
+void eachChange(const FlickerFrame& now, const FlickerFrame& then, double tolerance,
+                const Visit& visit) {
+  const Projection projection(then.camera, then.ao.width, then.ao.height);
+  for (size_t p = 0; p < now.hits.size(); ++p) {
+    if (now.hits[p].viewDepth == 0) continue;
+    const auto q = pixelOf(now.hits[p].position, then, projection, tolerance);
+    if (!q) continue;
+    const double change = double{then.ao.pixels[*q]} - double{now.ao.pixels[p]};
+    const double due = double{then.truth.pixels[*q]} - double{now.truth.pixels[p]};
+    if (std::isfinite(change - due)) visit(p, change - due);
+  }
+}
+
 }  // namespace
 
 Flicker flicker(std::span<const FlickerFrame> frames, double tolerance) {
@@ -48,22 +65,22 @@ Flicker flicker(std::span<const FlickerFrame> frames, double tolerance) {
   double squares = 0;
   for (const FlickerFrame& frame : frames) requireShape(frame, frames[0].ao);
   for (size_t i = 0; i + 1 < frames.size(); ++i) {
-    const FlickerFrame& now = frames[i];
-    const FlickerFrame& then = frames[i + 1];
-    const Projection projection(then.camera, then.ao.width, then.ao.height);
-    for (size_t p = 0; p < now.hits.size(); ++p) {
-      if (now.hits[p].viewDepth == 0) continue;
-      const auto q = pixelOf(now.hits[p].position, then, projection, tolerance);
-      if (!q) continue;
-      const double change = double{then.ao.pixels[*q]} - double{now.ao.pixels[p]};
-      const double due = double{then.truth.pixels[*q]} - double{now.truth.pixels[p]};
-      if (!std::isfinite(change - due)) continue;
-      squares += (change - due) * (change - due);
+    eachChange(frames[i], frames[i + 1], tolerance, [&](size_t, double change) {
+      squares += change * change;
       ++result.points;
-    }
+    });
   }
   if (result.points > 0) result.rms = std::sqrt(squares / static_cast<double>(result.points));
   return result;
+}
+
+image::Image changeBetween(const FlickerFrame& now, const FlickerFrame& then, double tolerance) {
+  for (const FlickerFrame* frame : {&now, &then}) requireShape(*frame, now.ao);
+  image::Image map = now.ao;
+  std::ranges::fill(map.pixels, std::numeric_limits<float>::quiet_NaN());
+  eachChange(now, then, tolerance,
+             [&](size_t p, double change) { map.pixels[p] = static_cast<float>(change); });
+  return map;
 }
 
 }  // namespace grisaille::trace

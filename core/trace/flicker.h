@@ -39,4 +39,10 @@ struct Flicker {
 // that are not of one size or have other than one channel.
 Flicker flicker(std::span<const FlickerFrame> frames, double tolerance = 0.01);
 
+// What flicker() takes the mean square of, from one frame to the next: one channel, at each pixel
+// of `now`; NaN where its point is not visible in `then` or a value is not finite. Throws as it
+// does.
+image::Image changeBetween(const FlickerFrame& now, const FlickerFrame& then,
+                           double tolerance = 0.01);
+
 }  // namespace grisaille::trace

@@ -114,6 +114,26 @@ TEST(Flicker, ValuesThatAreNotFiniteAreLeftOut) {
   EXPECT_EQ(flicker(frames).rms, 0);
 }
 
+// The map holds what the rms is over, point by point.
+TEST(Flicker, TheMapOfChangesIsWhatTheRmsIsOver) {
+  const auto alternating = [](size_t frame, const Hit& hit) {
+    return shade(frame, hit) + (frame % 2 == 0 ? 0.1 * hit.position.x : 0);
+  };
+  const auto frames = walk(2, 0.05, alternating, shade);
+  const Flicker f = flicker(frames);
+  const image::Image map = changeBetween(frames[0], frames[1]);
+  double squares = 0;
+  uint64_t points = 0;
+  for (size_t i = 0; i < map.pixels.size(); ++i) {
+    if (std::isnan(map.pixels[i])) continue;
+    ++points;
+    squares += double{map.pixels[i]} * double{map.pixels[i]};
+    EXPECT_NEAR(map.pixels[i], -0.1 * frames[0].hits[i].position.x, 1e-6);
+  }
+  EXPECT_EQ(points, f.points);
+  EXPECT_NEAR(std::sqrt(squares / static_cast<double>(points)), f.rms, 1e-6);
+}
+
 TEST(Flicker, FewerThanTwoFramesAndOtherShapes) {
   auto frames = walk(2, 0, plain, plain);
   EXPECT_EQ(flicker({}).points, 0u);

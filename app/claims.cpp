@@ -1,0 +1,144 @@
+// SPDX-License-Identifier: MIT
+// grisaille claims: what is said of effects, measured.
+#include <fmt/format.h>
+#include <unistd.h>
+
+#include <algorithm>
+#include <cstdio>
+#include <memory>
+
+#include "app/active_effects.h"
+#include "app/command.h"
+#include "app/driver_messages.h"
+#include "app/machine.h"
+#include "app/study/claims_report.h"
+#include "app/truth/interruption.h"
+#include "app/viewer/command_line.h"
+#include "backends/backends.h"
+#include "core/error.h"
+
+namespace grisaille::app {
+namespace {
+
+struct Options {
+  std::string file, out, backend = "both", device;
+  std::vector<std::string> only, pluginPaths;
+  double scale = 1;
+  uint32_t samples = 256, rounds = 5;
+  bool check = false;
+};
+
+// Those named by --only, in the file's order.
+void choose(study::ClaimsFile& file, const std::vector<std::string>& only) {
+  for (const std::string& key : only) {
+    if (std::ranges::find(file.claims, key, &study::Claim::key) == file.claims.end()) {
+      throw Error(ErrorId::kUsage, "--only names '{}', which is no claim of the file", key);
+    }
+  }
+  if (only.empty()) return;
+  std::erase_if(file.claims, [&](const study::Claim& claim) {
+    return std::ranges::find(only, claim.key) == only.end();
+  });
+}
+
+std::string commandOf(const Options& options) {
+  std::string command = "grisaille claims " + viewer::shellQuoted(options.file);
+  const Options usual;
+  if (options.backend != usual.backend) command += " --backend " + options.backend;
+  if (!options.only.empty()) command += fmt::format(" --only {}", fmt::join(options.only, ","));
+  if (options.scale != usual.scale) command += fmt::format(" --scale {}", options.scale);
+  if (options.samples != usual.samples) command += fmt::format(" --samples {}", options.samples);
+  if (options.rounds != usual.rounds) command += fmt::format(" --rounds {}", options.rounds);
+  return command + " --out " + viewer::shellQuoted(options.out);
+}
+
+study::ClaimsOfBackend runOn(const std::string& backend, const Options& options,
+                             const study::ClaimsDesc& desc, const study::ClaimsFile& file,
+                             DriverMessages& messages) {
+  const auto device = backends::create(backend, {.device = options.device,
+                                                 .check = options.check,
+                                                 .timed = true,
+                                                 .message = messages.sink()});
+  const gpu::DeviceInfo& info = device->info();
+  fmt::print("{}: {} ({}){}\n", info.backend, info.name, info.driver,
+             info.software ? ", software" : "");
+  study::ClaimsOfBackend result{.backend = info.backend,
+                                .device = info.name,
+                                .driver = info.driver,
+                                .clock = gpu::clockName(info.clock),
+                                .results = {}};
+  study::ClaimsRunner runner(desc, *device);
+  for (const study::Claim& claim : file.claims) {
+    result.results.push_back(runner.run(claim));
+    fmt::print("{}: {} {}\n", info.backend, claim.key, study::verdictOf(result.results.back()));
+    std::fflush(stdout);
+    if (truth::Interruption::asked()) throw truth::Interrupted();
+  }
+  return result;
+}
+
+void claims(const Options& options) {
+  const auto registry = loadEffects(options.pluginPaths);
+  study::ClaimsReport report{.file = study::loadClaims(options.file, *registry),
+                             .command = commandOf(options),
+                             .machine = machineName(),
+                             .commit = GRISAILLE_COMMIT,
+                             .backends = {}};
+  choose(report.file, options.only);
+  for (study::Claim& claim : report.file.claims) claim = study::scaled(claim, options.scale);
+  const std::vector<std::string> names = options.backend == "both"
+                                             ? std::vector<std::string>{"opengl", "vulkan"}
+                                             : std::vector<std::string>{options.backend};
+  for (const std::string& name : names) backends::find(name);
+  const study::ClaimsDesc desc{.registry = registry.get(),
+                               .samples = options.samples,
+                               .rounds = options.rounds,
+                               .progress = isatty(STDERR_FILENO) == 1};
+  const truth::Interruption interruption;
+  DriverMessages messages;
+  for (const std::string& name : names) {
+    report.backends.push_back(runOn(name, options, desc, report.file, messages));
+  }
+  study::writeClaims(options.out, report);
+  fmt::print("wrote {}\n", options.out + "/claims.html");
+  if (options.check) messages.throwIfAny();
+}
+
+}  // namespace
+
+void addClaims(CLI::App& program) {
+  auto options = std::make_shared<Options>();
+  CLI::App* command =
+      program.add_subcommand("claims", "Measure what is said of effects, and tell what holds");
+  command->add_option("file", options->file, "A study file, such as studies/claims.toml")
+      ->type_name("FILE.toml")
+      ->required();
+  command->add_option("--out", options->out, "The folder of the report")
+      ->type_name("DIR")
+      ->required();
+  command->add_option("--only", options->only, "These claims of the file alone")
+      ->type_name("KEY,...")
+      ->delimiter(',');
+  command->add_option("--backend", options->backend, "opengl, vulkan or both")
+      ->capture_default_str();
+  command->add_option("--device", options->device, "Number or part of a device's name");
+  command
+      ->add_option("--scale", options->scale,
+                   "Multiplies the pictures' sizes, to no less than 16 pixels")
+      ->check(CLI::Range(0.05, 4.0))
+      ->capture_default_str();
+  command->add_option("--samples", options->samples, "The truth's rays a pixel")
+      ->check(CLI::Range(16u, 65536u))
+      ->capture_default_str();
+  command->add_option("--rounds", options->rounds, "How often each run's cost is measured")
+      ->check(CLI::Range(1u, 1000u))
+      ->capture_default_str();
+  command->add_option("--plugin-path", options->pluginPaths, "A further folder of effects")
+      ->type_name("DIR")
+      ->allow_extra_args(false);
+  command->add_flag("--check", options->check,
+                    "Validate every call, in the layer and in the driver");
+  command->callback([options] { claims(*options); });
+}
+
+}  // namespace grisaille::app

@@ -1,0 +1,91 @@
+// SPDX-License-Identifier: MIT
+#include "core/scene/camera_path.h"
+
+#include <algorithm>
+#include <cmath>
+#include <nlohmann/json.hpp>
+
+#include "core/error.h"
+
+namespace grisaille::scene {
+namespace {
+
+using nlohmann::json;
+
+[[noreturn]] void refuse(const std::string& why) {
+  throw Error(ErrorId::kCameraInvalid, "{}", why);
+}
+
+uint32_t framesOf(const json& value) {
+  const double frames = value.is_number() ? value.get<double>() : 0;
+  if (!(frames >= 2 && frames <= kMostPathFrames) || frames != std::floor(frames)) {
+    refuse(fmt::format("frames is no whole number from 2 to {}", kMostPathFrames));
+  }
+  return static_cast<uint32_t>(frames);
+}
+
+void setKey(CameraPath& path, const std::string& key, const json& value) {
+  if (key == "frames") {
+    path.frames = framesOf(value);
+  } else if (key == "cameras") {
+    if (!value.is_array()) refuse("cameras is not an array");
+    for (size_t i = 0; i < value.size(); ++i) {
+      path.keys.push_back(parseCamera(value[i].dump(), fmt::format("cameras[{}]", i)));
+    }
+  } else {
+    refuse(fmt::format("\"{}\" is no key of a camera path, which has cameras and frames", key));
+  }
+}
+
+}  // namespace
+
+std::vector<Camera> camerasOf(const CameraPath& path) {
+  if (path.keys.size() < 2) refuse("cameras holds fewer than two");
+  if (path.frames < 2 || path.frames > kMostPathFrames) {
+    refuse(fmt::format("frames is out of 2 to {}", kMostPathFrames));
+  }
+  std::vector<Camera> cameras;
+  const size_t last = path.keys.size() - 1;
+  for (uint32_t i = 0; i < path.frames; ++i) {
+    const double at = static_cast<double>(last) * i / (path.frames - 1);
+    const size_t before = std::min(static_cast<size_t>(at), last - 1);
+    const double share = at - static_cast<double>(before);
+    const Camera &a = path.keys[before], &b = path.keys[before + 1];
+    Camera camera = share == 1 ? b : a;
+    camera.eye = glm::mix(a.eye, b.eye, share);
+    camera.target = glm::mix(a.target, b.target, share);
+    camera.fovyDegrees = glm::mix(a.fovyDegrees, b.fovyDegrees, share);
+    try {
+      validate(camera);
+    } catch (const Error& error) {
+      throw Error(error.id(), "frame {}: {}", i, error.detail());
+    }
+    cameras.push_back(camera);
+  }
+  return cameras;
+}
+
+CameraPath parseCameraPath(std::string_view text, const std::string& name) {
+  const json document = json::parse(text, nullptr, false);
+  if (document.is_discarded()) {
+    throw Error(ErrorId::kCameraUnreadable, "{}: it is not JSON", name);
+  }
+  try {
+    if (!document.is_object()) refuse("the file holds no object");
+    CameraPath path;
+    for (const auto& [key, value] : document.items()) setKey(path, key, value);
+    for (const char* key : {"cameras", "frames"}) {
+      if (!document.contains(key)) refuse(fmt::format("{} is missing", key));
+    }
+    camerasOf(path);
+    return path;
+  } catch (const Error& error) {
+    throw Error(error.id(), "{}: {}", name, error.detail());
+  }
+}
+
+CameraPath loadCameraPath(const std::string& path) {
+  return parseCameraPath(readCameraText(path), path);
+}
+
+}  // namespace grisaille::scene
