@@ -20,8 +20,7 @@ namespace {
 std::string pictureUrl(const fs::path& file) {
   constexpr int kQuality = 85;
   if (!fs::exists(file)) return "";
-  return "data:image/jpeg;base64," +
-         base64(image::encodeJpeg(image::read(file.string()), kQuality));
+  return dataUrl("image/jpeg", image::encodeJpeg(image::read(file.string()), kQuality));
 }
 
 json jsonOf(const Record& r) {

@@ -1,6 +1,8 @@
 // SPDX-License-Identifier: MIT
 #include "app/study/study.h"
 
+#include <cmath>
+
 #include "app/study/flicker_run.h"
 #include "app/truth/error_map.h"
 #include "core/gpu/device.h"
@@ -50,9 +52,10 @@ void Study::writePictures(const Record& record, const View& view, const image::I
   image::write(shown, pictureOf(desc_.folder, record).string());
   image::write(truth::errorMap(truth::errorsOf(shown, view.truth)),
                errorMapOf(desc_.folder, record).string());
-  if (!fs::exists(truthPictureOf(desc_.folder))) {
-    image::write(view.truth, truthPictureOf(desc_.folder).string());
-  }
+  if (fs::exists(truthPictureOf(desc_.folder))) return;
+  image::Image truth = view.truth;
+  for (float& value : truth.pixels) value = std::isnan(value) ? 1 : value;  // the sky is open
+  image::write(truth, truthPictureOf(desc_.folder).string());
 }
 
 void Study::measureErrors(Job& job) {
