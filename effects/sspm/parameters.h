@@ -17,7 +17,6 @@ enum Parameter {
   kSplatScale,
   kSplatSharpness,
   kNoiseSeed,
-  kWalkLimit,
 };
 
 enum Output { kPaint, kCoverage, kOwner };
@@ -103,17 +102,6 @@ constexpr grisaille_param_desc kParams[] = {
                       .softMin = 0,
                       .softMax = 100,
                       .defaultValue = 0,
-                      .advanced = true}),
-    plugin::intParam({.key = "walk_limit",
-                      .label = "Walk limit",
-                      .tooltip = "On surfaces alone: so many of the newest shots that may reach a "
-                                 "pixel are asked, and older paint is left out",
-                      .hardMin = 1,
-                      .hardMax = 65536,
-                      .softMin = 1,
-                      .softMax = 65536,
-                      .defaultValue = 65536,
-                      .log = true,
                       .advanced = true}),
 };
 

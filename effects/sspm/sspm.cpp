@@ -48,7 +48,6 @@ struct ListsBlock {
   glm::vec4 camera_fraction;
   uint32_t slot_mask;
   float edge_fade;
-  uint32_t walk_limit;
 };
 GRISAILLE_CHECK_BLOCK_sspm_surface_Lists(ListsBlock);
 
@@ -208,7 +207,6 @@ class Sspm {
     block.camera_fraction = glm::vec4(glm::dvec4(eye - metres, frame.value<double>(kFull)));
     block.slot_mask = world_.cells().slotMask();
     block.edge_fade = frame.value<float>(kEdgeFade);
-    block.walk_limit = frame.value<uint32_t>(kWalkLimit);
     return block;
   }
 

@@ -20,7 +20,6 @@ layout(UNIFORM(2), std140) uniform Lists {
   vec4 camera_fraction;           // w: r0, metres
   uint slot_mask;                 // number of slots, a power of two, less 1
   float edge_fade;
-  uint walk_limit;
 } lists;
 
 struct Shot {
@@ -158,7 +157,7 @@ bool isOpen(Sum sum, float enough) { return sum.through >= 1.0 / 512.0 || sum.al
 
 void walkOne(inout Sum sum, float enough, vec3 from_camera, vec3 normal) {
   uvec3 left = listOn(0u, from_camera, facingOf(normal));
-  for (uint asked = 0u; asked < lists.walk_limit && left.x < left.y && isOpen(sum, enough); ++asked) {
+  while (left.x < left.y && isOpen(sum, enough)) {
     add(sum, entries[left.x * 4u], entries[left.x * 4u + 1u], from_camera, normal);
     left.x = seek(left.x + 1u, left.y, left.z);
   }
@@ -172,7 +171,7 @@ void walkAll(inout Sum sum, float enough, vec3 from_camera, vec3 normal) {
     const uvec3 list = listOn(i, from_camera, facingOf(normal));
     if (list.x < list.y) left[live++] = list;
   }
-  for (uint asked = 0u; asked < lists.walk_limit && live > 0u && isOpen(sum, enough); ++asked) {
+  while (live > 0u && isOpen(sum, enough)) {
     uint newest = 0u, record = entries[left[0].x * 4u];
     for (uint i = 1u; i < live; ++i) {
       const uint other = entries[left[i].x * 4u];

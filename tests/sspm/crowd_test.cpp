@@ -66,44 +66,6 @@ TEST_P(CrowdTest, HidingChangesNothing) {
   }
 }
 
-// One shot asked is the newest alone; each further one adds paint and takes none away; as many as
-// there are change nothing.
-TEST_P(CrowdTest, AWalkThatEndsEarlyLeavesOutTheOldest) {
-  const scene::Scene scene = wallScene();
-  TracedRays rays(scene);
-  for (const bool oneRange : {true, false}) {
-    std::vector<grisaille_shot> shots;
-    for (int i = 0; i < 12; ++i) {
-      // In a row that overlaps: each covers what no newer one does.
-      const double x = 0.08 * i - 0.5;
-      shots.push_back(shotAt({x, 0, 2}, {x, 0, 0}, {0, 1, 0}));
-      shots.back().range = oneRange || i % 2 == 0 ? 0.3f : 0.35f;
-    }
-    PaintFrame frame(device(), scene);
-    frame.setRays(&rays);
-    frame.set({{"edge_fade", "0"}});
-    frame.render(kWall, kWidth, kHeight, shots);
-    const image::Image whole = frame.read("paint_coverage");
-    image::Image before;
-    for (const char* limit : {"1", "2", "5", "12"}) {
-      frame.set({{"edge_fade", "0"}, {"walk_limit", limit}});
-      frame.render(kWall, kWidth, kHeight, shots);
-      const image::Image now = frame.read("paint_coverage");
-      size_t more = 0;
-      for (size_t i = 0; i < now.pixels.size() && !before.pixels.empty(); ++i) {
-        EXPECT_GE(now.pixels[i], before.pixels[i]);
-        more += now.pixels[i] > before.pixels[i] ? 1 : 0;
-      }
-      EXPECT_TRUE(before.pixels.empty() || more > 0 || now.pixels == whole.pixels) << limit;
-      before = now;
-    }
-    EXPECT_EQ(before.pixels, whole.pixels);
-    frame.set({{"edge_fade", "0"}, {"walk_limit", "1"}});
-    frame.render(kWall, kWidth, kHeight, shots);
-    EXPECT_NE(frame.read("paint_coverage").pixels, whole.pixels);
-  }
-}
-
 // A million shots at 200 places, then one more: each pixel is the newest shot's that reaches it.
 TEST_P(CrowdTest, TheNewestWinsOfAMillion) {
   const scene::Scene scene = wallScene();

@@ -80,6 +80,25 @@ TEST_F(MeasureTest, PartsMakeTheWhole) {
   EXPECT_EQ(readFile(folder_ / "copied/results.csv"), readFile(folder_ / "parts/results.csv"));
 }
 
+// Whenever it ends, what was measured is there and whole, and the same command goes on.
+TEST_F(MeasureTest, EndsAtAnyTimeAndGoesOn) {
+  ASSERT_EQ(measure({"--out", "whole"}).status, 0);
+  const std::string command =
+      "grisaille measure --size 96x54 --samples 32 --rounds 2 --sweep ssao.kernel_size=2,8 --sweep "
+      "ssao.radius=0.25,0.5 --backend opengl --out ended";
+  size_t before = 0;
+  for (const char* end : {"-s KILL 0.6", "-s INT 0.8", "-s KILL 0.9", "-s TERM 1.1"}) {
+    const Outcome outcome = runShell(
+        std::string("XDG_CACHE_HOME=$PWD/cache timeout ") + end + " " + command, folder_.path());
+    const auto records = app::study::loadAll(folder_.path() / "ended");
+    EXPECT_GE(records.size(), before);  // nothing that was there is lost or broken
+    before = records.size();
+    if (outcome.status == 0) break;  // a fast machine
+  }
+  ASSERT_EQ(measure({"--out", "ended"}).status, 0);
+  EXPECT_EQ(errorsOf(folder_.path() / "ended"), errorsOf(folder_.path() / "whole"));
+}
+
 TEST_F(MeasureTest, MistakesAreNamed) {
   const auto refused = [&](const std::vector<std::string>& more, const std::string& number) {
     std::vector<std::string> all = {"measure", "--out", "x", "--size", "16x16"};
