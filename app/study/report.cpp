@@ -105,9 +105,10 @@ std::string csvOf(std::span<const Record> records) {
       csv += "," + (own == r.setting.end() ? std::string() : own->second);
     }
     const CameraErrors mean = meanOf(r);
-    csv +=
-        fmt::format(",{:.4f},{:.4f},{},{},{},{},{},{}", r.cost(), r.spread(), r.milliseconds.size(),
-                    mean.rmse, mean.meanAbsolute, mean.bias, mean.percentile99, mean.ssim);
+    csv += fmt::format(",{:.4f},{:.4f},{},{},{},{},{},{},{}", r.cost(), r.spread(),
+                       r.milliseconds.size(), mean.rmse, mean.meanAbsolute, mean.bias,
+                       mean.percentile99, mean.ssim,
+                       r.flicker ? fmt::format("{}", *r.flicker) : std::string());
     for (const std::string& camera : cameras) {
       const auto own = std::ranges::find(r.errors, camera, &CameraErrors::camera);
       csv += "," + (own == r.errors.end() ? std::string() : fmt::format("{}", own->rmse));

@@ -2,8 +2,10 @@
 // `grisaille measure` as its users run it.
 #include <gtest/gtest.h>
 
+#include <algorithm>
 #include <filesystem>
 #include <nlohmann/json.hpp>
+#include <sstream>
 
 #include "app/study/record.h"
 #include "tests/program/run.h"
@@ -56,6 +58,17 @@ TEST_F(MeasureTest, GoesOnFromWhatThereIsAndIsTheSameTwice) {
   fs::remove(fs::directory_iterator(folder_.path() / "a/records")->path());
   ASSERT_EQ(measure({"--out", "a"}).status, 0);
   EXPECT_EQ(errorsOf(folder_.path() / "a"), errors);
+  // Every row of the table has a cell for every heading.
+  std::istringstream table(readFile(folder_ / "a/results.csv"));
+  std::vector<std::ptrdiff_t> commas;
+  for (std::string line; std::getline(table, line);) {
+    bool quoted = false;
+    commas.push_back(std::ranges::count_if(line, [&](char c) {
+      if (c == '"') quoted = !quoted;
+      return c == ',' && !quoted;
+    }));
+  }
+  EXPECT_EQ(commas, std::vector<std::ptrdiff_t>(5, commas.at(0)));
   // The page holds pictures and needs nothing else.
   const std::string page = readFile(folder_ / "a/index.html");
   EXPECT_NE(page.find("data:image/jpeg;base64,/9j/"), std::string::npos);
