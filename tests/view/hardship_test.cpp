@@ -53,7 +53,7 @@ TEST_P(InputTest, AnyInput) {
       "Left",      "Right",   "F1",     "F2",     "F5",        "F11",        "ctrl+z",
       "ctrl+y",    "t",       "ctrl+c", "ctrl+s", "ctrl+plus", "ctrl+minus", "ctrl+0",
       "BackSpace", "shift+v", "plus",   "minus",  "7",         "period",     "Delete"};
-  for (int batch = 0; batch < 10; ++batch) {
+  for (int batch = 0; batch < 6; ++batch) {
     std::string words;
     for (int i = 0; i < 50; ++i) {
       const int kind = std::uniform_int_distribution<int>(0, 5)(random);
