@@ -171,13 +171,23 @@ class Bench {
   std::vector<Kept> running_;
 };
 
-// Cameras that were not tuned on.
-std::vector<study::View> unseenViews(const Options& options, const LoadedSubject& subject) {
-  std::vector<study::View> views;
+// Those of --validate.
+std::vector<scene::Camera> givenCameras(const Options& options) {
+  std::vector<scene::Camera> cameras;
   for (const std::string& text : options.validate) {
-    views.push_back(subject.viewOf(text, text.starts_with('{')
-                                             ? scene::parseCamera(text, "--validate")
-                                             : scene::loadCamera(text)));
+    cameras.push_back(text.starts_with('{') ? scene::parseCamera(text, "--validate")
+                                            : scene::loadCamera(text));
+  }
+  return cameras;
+}
+
+// Cameras that were not tuned on.
+std::vector<study::View> unseenViews(const Options& options,
+                                     const std::vector<scene::Camera>& given,
+                                     const LoadedSubject& subject) {
+  std::vector<study::View> views;
+  for (size_t i = 0; i < given.size(); ++i) {
+    views.push_back(subject.viewOf(options.validate[i], given[i]));
   }
   if (!views.empty() || options.random == 0) return views;
   const study::Subject& known = subject.subject();
@@ -254,10 +264,10 @@ void writeSetting(const Options& options, const LoadedSubject& subject,
 }
 
 // The mean RMSE of cameras that were not tuned on; 0: there are none.
-double validate(const Options& options, LoadedSubject& subject, const study::Setting& setting,
-                gpu::Device& device) {
+double validate(const Options& options, const std::vector<scene::Camera>& given,
+                const LoadedSubject& subject, const study::Setting& setting, gpu::Device& device) {
   study::Subject unseen = subject.subject();
-  unseen.views = unseenViews(options, subject);
+  unseen.views = unseenViews(options, given, subject);
   if (unseen.views.empty()) return 0;
   study::Measurer measurer(unseen, device);
   double sum = 0;
@@ -275,6 +285,7 @@ void tune(const Options& options) {
   LoadedSubject subject(options.subject, {});
   const std::vector<study::Axis> axes = axesOf(options, subject.subject());
   if (axes.empty()) throw Error(ErrorId::kUsage, "there is no parameter to vary");
+  const std::vector<scene::Camera> given = givenCameras(options);
   subject.loadScene();
   const truth::Interruption interruption;
   subject.trace();
@@ -304,7 +315,7 @@ void tune(const Options& options) {
       found.starts + found.steps, found.starts, found.steps, found.costsSaved, axes.size(),
       gridSize(axes));
   fmt::print("{}\n  {}\n{}\n", result, study::nameOf(setting), effort);
-  const double unseen = validate(options, subject, setting, *device);
+  const double unseen = validate(options, given, subject, setting, *device);
   std::string story = fmt::format("# grisaille tune: {}; {}\n# {}: {}\n", wishText(wish), result,
                                   info.backend, info.name);
   if (unseen > 0) {

@@ -14,9 +14,8 @@ using nlohmann::json;
 class TuneTest : public testing::TestWithParam<const char*> {
  protected:
   Outcome tune(std::vector<std::string> more) const {
-    std::vector<std::string> all = {"tune",       "--backend", GetParam(), "--size",
-                                    "128x72",     "--samples", "64",       "--out",
-                                    "tuned.toml", "--random",  "2"};
+    std::vector<std::string> all = {"tune",      "--backend", GetParam(), "--size",    "96x54",
+                                    "--samples", "32",        "--out",    "tuned.toml"};
     all.insert(all.end(), more.begin(), more.end());
     return runProgram(all, folder_.path(), {"XDG_CACHE_HOME=" + (folder_ / "cache")});
   }
