@@ -4,6 +4,7 @@
 #include <fmt/format.h>
 #include <algorithm>
 #include <fstream>
+#include <set>
 
 #include "app/active_effects.h"
 #include "app/toml_values.h"
@@ -97,6 +98,33 @@ void applyPreset(effect::Values& values, const Presets& presets, const std::stri
     for (const auto& [key, text] : preset.values) values.set(key, defaults.text(key));
   }
   for (const auto& [key, text] : chosen.values) values.set(key, text);
+}
+
+std::vector<const grisaille_param_desc*> tunable(const effect::Effect& effect,
+                                                 const Presets& presets) {
+  std::set<std::string, std::less<>> named;
+  for (const Preset& preset : presets.all) {
+    for (const auto& [key, text] : preset.values) named.insert(key);
+  }
+  std::vector<const grisaille_param_desc*> params;
+  for (const grisaille_param_desc& param : effect.params()) {
+    const bool folded = (param.flags & GRISAILLE_PARAM_ADVANCED) != 0;
+    if (!folded || named.contains(param.key)) params.push_back(&param);
+  }
+  return params;
+}
+
+const Preset* presetOf(const effect::Values& values, const Presets& presets) {
+  for (const Preset& preset : presets.all) {
+    effect::Values applied = values;
+    applyPreset(applied, presets, preset.name);
+    if (std::ranges::equal(applied.all(), values.all())) return &preset;
+  }
+  return nullptr;
+}
+
+std::string priceOf(const Preset& preset) {
+  return fmt::format("error {:.3f}, cost {:.2f} x balanced", preset.error, preset.cost);
 }
 
 void applyPresets(const std::vector<std::string>& assignments, ActiveEffects& active) {

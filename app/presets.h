@@ -51,6 +51,17 @@ std::string presetsToml(const Presets& presets);
 // one names. Throws kPresetUnknown.
 void applyPreset(effect::Values& values, const Presets& presets, const std::string& name);
 
+// The parameters that a search may change: those that the presets name, and the others that the
+// panel does not fold away.
+std::vector<const grisaille_param_desc*> tunable(const effect::Effect& effect,
+                                                 const Presets& presets);
+
+// The first preset that would change nothing; null: the values are another setting.
+const Preset* presetOf(const effect::Values& values, const Presets& presets);
+
+// "error 0.106, cost 0.54 x balanced"
+std::string priceOf(const Preset& preset);
+
 // "ssao=balanced", one after the other. Throws kUsage, kEffectUnknown where the effect is not
 // active, kPresetUnknown, kPresetFile.
 void applyPresets(const std::vector<std::string>& assignments, ActiveEffects& active);

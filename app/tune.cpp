@@ -48,14 +48,8 @@ std::vector<study::Axis> axesOf(const Options& options, const study::Subject& su
   if (!options.vary.empty()) return axes;
   for (const std::string& key : subject.effects) {
     const effect::Effect& effect = subject.registry->find(key);
-    std::vector<std::string> named;
-    for (const Preset& preset : loadPresets(effect).all) {
-      for (const auto& [parameter, value] : preset.values) named.push_back(parameter);
-    }
-    for (const grisaille_param_desc& param : effect.params()) {
-      const bool folded = (param.flags & GRISAILLE_PARAM_ADVANCED) != 0;
-      if (!folded || std::ranges::find(named, param.key) != named.end()) add(effect, param);
-    }
+    for (const grisaille_param_desc* param : tunable(effect, loadPresets(effect)))
+      add(effect, *param);
   }
   return axes;
 }

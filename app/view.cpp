@@ -34,6 +34,11 @@ void addView(CLI::App& program) {
   CLI::Option* effects =
       command->add_option("--effects", session.effects, "Effects, in the order they run")
           ->delimiter(',');
+  command
+      ->add_option("--preset", session.presets,
+                   "fast, balanced, fine or reference; --config and --set go over it")
+      ->type_name("EFFECT=NAME")
+      ->allow_extra_args(false);
   command->add_option("--set", session.sets, "A parameter's value")
       ->type_name("EFFECT.PARAMETER=VALUE")
       ->allow_extra_args(false);

@@ -6,14 +6,13 @@
 #include <algorithm>
 
 namespace grisaille::app::viewer {
-namespace {
 
-// A path that no command line takes for an option.
-std::string pathOf(const std::string& path) {
+std::string plainPath(const std::string& path) {
   return path.starts_with('-') ? "./" + path : path;
 }
 
-void addEffects(const EffectList& effects, std::vector<std::string>& arguments) {
+void addEffects(const EffectList& effects, const std::vector<std::string>& leftOut,
+                std::vector<std::string>& arguments) {
   std::string keys;
   std::vector<std::string> sets;
   for (const EffectList::Entry& entry : effects.entries()) {
@@ -23,14 +22,14 @@ void addEffects(const EffectList& effects, std::vector<std::string>& arguments) 
     for (const grisaille_param_desc& param : entry.values.effect().params()) {
       const std::string text = entry.values.text(param.key);
       if (text == defaults.text(param.key)) continue;
-      sets.push_back(fmt::format("{}.{}={}", entry.key(), param.key, text));
+      const std::string name = fmt::format("{}.{}", entry.key(), param.key);
+      if (std::ranges::find(leftOut, name) != leftOut.end()) continue;
+      sets.push_back(name + "=" + text);
     }
   }
   arguments.insert(arguments.end(), {"--effects", keys});
   for (const std::string& set : sets) arguments.insert(arguments.end(), {"--set", set});
 }
-
-}  // namespace
 
 std::vector<std::string> renderArguments(const RenderCommand& command) {
   std::vector<std::string> arguments = {"grisaille", "render"};
@@ -38,16 +37,16 @@ std::vector<std::string> renderArguments(const RenderCommand& command) {
     arguments.insert(arguments.end(), {option, value});
   };
   // Before --effects, which would take it for one more.
-  if (!command.scene.empty()) arguments.push_back(pathOf(command.scene));
+  if (!command.scene.empty()) arguments.push_back(plainPath(command.scene));
   scene::Camera camera = command.camera;
   camera.size = glm::uvec2(0);  // --size says it
   add("--camera", scene::cameraJson(camera));
   add("--size", fmt::format("{}x{}", command.size.x, command.size.y));
   if (!command.backend.empty()) add("--backend", command.backend);
   if (!command.device.empty()) add("--device", command.device);
-  for (const std::string& path : command.pluginPaths) add("--plugin-path", pathOf(path));
+  for (const std::string& path : command.pluginPaths) add("--plugin-path", plainPath(path));
   if (command.effects != nullptr) {
-    addEffects(*command.effects, arguments);
+    addEffects(*command.effects, {}, arguments);
   } else {
     add("--effects", "");
   }

@@ -1,5 +1,6 @@
 // SPDX-License-Identifier: MIT
-// The `grisaille render` command that makes the viewer's picture.
+// The `grisaille render` command that makes the viewer's picture, and what other commands share
+// with it.
 #pragma once
 
 #include <string>
@@ -29,6 +30,14 @@ std::vector<std::string> renderArguments(const RenderCommand& command);
 
 // The same as one line for a shell.
 std::string renderCommand(const RenderCommand& command);
+
+// --effects with those that are on, and --set for their values that differ from the defaults, but
+// for those of the parameters that are left out ("ssao.radius").
+void addEffects(const EffectList& effects, const std::vector<std::string>& leftOut,
+                std::vector<std::string>& arguments);
+
+// A path that no command line takes for an option.
+std::string plainPath(const std::string& path);
 
 // A word that a POSIX shell takes as `text`, in single quotes where that is needed.
 std::string shellQuoted(std::string_view text);

@@ -5,6 +5,7 @@
 #include <utility>
 
 #include "app/active_effects.h"
+#include "app/presets.h"
 #include "core/error.h"
 
 namespace grisaille::app::viewer {
@@ -86,9 +87,10 @@ Settings EffectList::settings() const {
   return settings;
 }
 
-void EffectList::apply(const Settings& settings) {
+void EffectList::apply(const Settings& settings, const std::vector<std::string>& presets) {
   const std::vector<std::string>& keys = settings.effects ? *settings.effects : kDefaultEffects;
   ActiveEffects active(*registry_, keys);
+  applyPresets(presets, active);
   applySettings(settings, active);
   std::vector<Entry> entries;
   for (const std::string& key : keys) {

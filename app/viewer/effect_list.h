@@ -61,9 +61,10 @@ class EffectList {
   Settings settings() const;
 
   // As `grisaille render --config` takes them: the effects named (kDefaultEffects where the
-  // settings name none) come first, on, with defaults but for the values given; the others are off,
-  // in their order, and keep their values. Throws as render does, and then changes nothing.
-  void apply(const Settings& settings);
+  // settings name none) come first, on, with defaults but for the values given, which go over the
+  // presets ("ssao=fast"); the others are off, in their order, and keep their values. Throws as
+  // render does, and then changes nothing.
+  void apply(const Settings& settings, const std::vector<std::string>& presets = {});
 
   // The state of `old` among the effects of a fresh scan, whose registry is the new list's; `old`'s
   // must still live. Adds to `dropped` what restore() returns.

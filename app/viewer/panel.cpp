@@ -11,7 +11,6 @@ namespace grisaille::app::viewer {
 namespace {
 
 constexpr float kWidth = 26;  // of the panel, heights of a line of text
-const ImVec4 kErrorColour(0.90f, 0.62f, 0.00f, 1);
 
 constexpr struct {
   const char *keys, *what;

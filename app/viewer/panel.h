@@ -6,6 +6,7 @@
 #include <imgui/imgui.h>
 
 #include <array>
+#include <map>
 #include <optional>
 #include <string>
 #include <vector>
@@ -20,6 +21,8 @@
 
 namespace grisaille::app::viewer {
 
+inline const ImVec4 kErrorColour(0.90f, 0.62f, 0.00f, 1);  // of words about what went wrong
+
 // Of the comparing with truth.
 struct TruthStatus {
   bool running = false;
@@ -27,6 +30,14 @@ struct TruthStatus {
   double rays = 0;                          // a traced pixel, on average
   double share = 0;                         // of the picture's pixels
   std::optional<truth::Point> cursor = {};  // of the texel under it
+};
+
+// Of the search for a setting.
+struct TuneStatus {
+  std::string effect;  // that it is for, or was; "": there was none yet
+  bool running = false;
+  TuneRun::State state;
+  TuneRun::Outcome outcome;  // of the last one
 };
 
 // What the panel shows besides the session.
@@ -40,6 +51,7 @@ struct Status {
   glm::uvec2 picture = glm::uvec2(0);  // pixels
   uint64_t waiting = 0;                // shots
   TruthStatus truth;
+  TuneStatus tune;
   std::optional<double> loading;  // share of a scene that is read
   std::string loadingPath;
   std::string rebuilding;    // the effect whose plugin is being built; "": none
@@ -49,6 +61,8 @@ struct Status {
 // What the panel asks for.
 struct Requests {
   std::optional<std::string> scene;  // to open; "": the built-in one
+  std::optional<TuneWish> tune;
+  bool cancelTune = false;
   bool rescan = false, picture = false, copyCommand = false, help = false, quit = false;
 };
 
@@ -82,12 +96,19 @@ class Panel {
   void drawHelp(glm::vec2 window);
   // panel_effects.cpp
   void drawEffects(const Status& status, Requests& requests);
-  void drawEffect(EffectList::Entry& entry, size_t index);
+  void drawEffect(EffectList::Entry& entry, size_t index, const Status& status, Requests& requests);
   void drawParameters(EffectList::Entry& entry);
   void drawParameter(EffectList::Entry& entry, const grisaille_param_desc& param);
   bool editParameter(const EffectList::Entry& entry, const grisaille_param_desc& param,
                      double& value);
   void drawCost(const Status& status);
+  // panel_tune.cpp
+  void drawPresets(EffectList::Entry& entry);
+  void drawTune(const EffectList::Entry& entry, const TuneStatus& status, Requests& requests);
+  TuneWish& wishOf(const std::string& effect);
+  void drawWish(const EffectList::Entry& entry, TuneWish& wish);
+  void drawMayChange(const EffectList::Entry& entry, TuneWish& wish);
+  void drawOutcome(const TuneStatus& status);
   // panel_views.cpp
   void drawViews(const Status& status, Requests& requests);
   void drawViewChoice(const char* label, const char* id, std::string& output,
@@ -111,6 +132,7 @@ class Panel {
   std::vector<Preset> presetList_;
   bool listsFresh_ = false;
   size_t messagesSeen_ = 0;
+  std::map<std::string, TuneWish> wishes_;               // by effect
   std::optional<std::pair<std::string, double>> typed_;  // parameter and value, not yet taken
 };
 

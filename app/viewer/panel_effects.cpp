@@ -69,7 +69,7 @@ std::string writesOf(const EffectList::Entry& entry) {
 void Panel::drawEffects(const Status& status, Requests& requests) {
   for (size_t i = 0; i < session_.effects.entries().size(); ++i) {
     ImGui::PushID(static_cast<int>(i));
-    drawEffect(session_.effects.entries()[i], i);
+    drawEffect(session_.effects.entries()[i], i, status, requests);
     ImGui::PopID();
   }
   if (button("Rescan plugins", "rescan", "Loads plugins that are new or have changed")) {
@@ -90,7 +90,8 @@ void Panel::drawEffects(const Status& status, Requests& requests) {
   }
 }
 
-void Panel::drawEffect(EffectList::Entry& entry, size_t index) {
+void Panel::drawEffect(EffectList::Entry& entry, size_t index, const Status& status,
+                       Requests& requests) {
   const grisaille_effect_desc& desc = *entry.values.effect().desc;
   const std::string key = desc.key;
   bool on = entry.on;
@@ -124,7 +125,12 @@ void Panel::drawEffect(EffectList::Entry& entry, size_t index) {
   if (ImGui::ArrowButton("##down", ImGuiDir_Down)) target = index + 1;
   layout.note(key + ".down");
   if (ImGui::IsItemHovered()) ImGui::SetTooltip("Runs later");
-  if (open) drawParameters(entry);
+  if (open) {
+    ImGui::Indent();
+    drawParameters(entry);
+    drawTune(entry, status.tune, requests);
+    ImGui::Unindent();
+  }
   // Last: `entry` is another one then.
   if (target && *target < session_.effects.entries().size()) {
     session_.effects.move(index, *target);
@@ -133,10 +139,10 @@ void Panel::drawEffect(EffectList::Entry& entry, size_t index) {
 }
 
 void Panel::drawParameters(EffectList::Entry& entry) {
-  ImGui::Indent();
   ImGui::PushStyleColor(ImGuiCol_Text, ImGui::GetStyleColorVec4(ImGuiCol_TextDisabled));
   ImGui::TextWrapped("reads %s; writes %s", readsOf(entry).c_str(), writesOf(entry).c_str());
   ImGui::PopStyleColor();
+  drawPresets(entry);
   bool anyAdvanced = false;
   for (const grisaille_param_desc& param : entry.values.effect().params()) {
     if ((param.flags & GRISAILLE_PARAM_ADVANCED) != 0) {
@@ -155,7 +161,6 @@ void Panel::drawParameters(EffectList::Entry& entry) {
       }
     }
   }
-  ImGui::Unindent();
 }
 
 void Panel::drawParameter(EffectList::Entry& entry, const grisaille_param_desc& param) {

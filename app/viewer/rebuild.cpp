@@ -1,18 +1,10 @@
 // SPDX-License-Identifier: MIT
 #include "app/viewer/rebuild.h"
 
-#include <sys/wait.h>
-
 #include <algorithm>
-#include <array>
-#include <chrono>
-#include <cstdio>
 #include <fstream>
-#include <memory>
 #include <nlohmann/json.hpp>
 #include <set>
-
-#include "app/viewer/command_line.h"
 
 namespace grisaille::app::viewer {
 namespace fs = std::filesystem;
@@ -42,25 +34,10 @@ std::string gist(const std::string& words) {
   return text.empty() ? "the build failed without a word" : text;
 }
 
-Rebuild::Outcome build(const std::string& folder, const std::string& target) {
-  const std::string command = "cmake --build " + shellQuoted(folder) + " --target " +
-                              shellQuoted(target) + " 2>&1 </dev/null";
-  std::FILE* pipe = popen(command.c_str(), "re");
-  if (pipe == nullptr) return {false, "no shell to build with"};
-  std::string words;
-  std::array<char, 4096> buffer;
-  while (const size_t count = std::fread(buffer.data(), 1, buffer.size(), pipe)) {
-    words.append(buffer.data(), count);
-  }
-  const int status = pclose(pipe);
-  if (status != -1 && WIFEXITED(status) && WEXITSTATUS(status) == 0) return {true, ""};
-  return {false, gist(words)};
-}
-
 }  // namespace
 
 Rebuild::~Rebuild() {
-  if (outcome_.valid()) outcome_.wait();
+  if (build_) build_->wait();
 }
 
 std::optional<Rebuild::Plugin> Rebuild::read(const fs::path& description) {
@@ -121,24 +98,24 @@ void Rebuild::watch(const effect::Registry& registry) {
 }
 
 void Rebuild::look() {
-  if (outcome_.valid()) return;
+  if (build_) return;
   for (Plugin& plugin : plugins_) {
     Times times = timesOf(plugin);
     if (times == plugin.times) continue;
     plugin.times = std::move(times);
+    build_ = std::make_unique<Child>(
+        std::vector<std::string>{"cmake", "--build", plugin.folder, "--target", plugin.target});
     building_ = plugin.target;
-    outcome_ = std::async(std::launch::async, build, plugin.folder, plugin.target);
     return;
   }
 }
 
 std::optional<Rebuild::Outcome> Rebuild::take() {
-  if (!outcome_.valid() ||
-      outcome_.wait_for(std::chrono::seconds(0)) != std::future_status::ready) {
-    return std::nullopt;
-  }
+  if (!build_ || build_->running()) return std::nullopt;
   building_.clear();
-  return outcome_.get();
+  const std::unique_ptr<Child> ended = std::exchange(build_, nullptr);
+  if (ended->status() == 0) return Outcome{true, ""};
+  return Outcome{false, gist(ended->out() + ended->err())};
 }
 
 }  // namespace grisaille::app::viewer

@@ -1,16 +1,17 @@
 // SPDX-License-Identifier: MIT
 // Plugins of a build folder follow their sources: a change of a file starts the build of the plugin
-// beside the window's thread. What a build folder says of a plugin is in NAME.build.json beside
+// beside the window. What a build folder says of a plugin is in NAME.build.json beside
 // NAME.so (cmake/GrisailleEffect.cmake writes it); a plugin without that file is left alone.
 #pragma once
 
 #include <filesystem>
-#include <future>
 #include <map>
+#include <memory>
 #include <optional>
 #include <string>
 #include <vector>
 
+#include "app/viewer/child.h"
 #include "core/effect/registry.h"
 
 namespace grisaille::app::viewer {
@@ -50,7 +51,7 @@ class Rebuild {
 
   std::vector<Plugin> plugins_;
   std::string building_;
-  std::future<Outcome> outcome_;
+  std::unique_ptr<Child> build_;
 };
 
 }  // namespace grisaille::app::viewer

@@ -39,7 +39,7 @@ EffectList asked(const effect::Registry& registry, const SessionOptions& options
                           .text = text.substr(equals + 1),
                           .place = "--set"});
   }
-  list.apply(all);
+  list.apply(all, options.presets);
   return list;
 }
 
@@ -70,6 +70,7 @@ Session::Session(SessionOptions options)
   const Settings settings = options_.config.empty() ? Settings{} : readSettings(options_.config);
   effects = asked(*registry_, options_, settings);
   history.noteSettings(effects.state(), "command line");
+  loadAllPresets();
   surface =
       surfaceOf(!options_.surface.empty() ? options_.surface : settings.surface.value_or("white"));
   if (options_.camera.starts_with('{')) {
@@ -147,6 +148,7 @@ void Session::rescan(const std::function<void()>& before) {
   registry_ = std::move(fresh);
   ++revision;
   ++heldRevision;
+  loadAllPresets();
   addLists();
   checkViews();
   for (const std::string& one : dropped) say(one);

@@ -5,14 +5,18 @@
 
 #include <deque>
 #include <functional>
+#include <map>
 #include <memory>
 #include <optional>
+#include <set>
 #include <string>
 #include <vector>
 
+#include "app/presets.h"
 #include "app/viewer/effect_list.h"
 #include "app/viewer/history.h"
 #include "app/viewer/stage.h"
+#include "app/viewer/tune_run.h"
 #include "core/error.h"
 #include "core/scene/camera.h"
 
@@ -21,7 +25,7 @@ namespace grisaille::app::viewer {
 // As the command line has them.
 struct SessionOptions {
   std::string scene, camera, config, surface, view, split;
-  std::vector<std::string> effects, sets, loads, pluginPaths;
+  std::vector<std::string> effects, presets, sets, loads, pluginPaths;
   bool effectsGiven = false;
   bool compareTruth = false;
   double truthRadius = 0;  // metres; 0: the effect's own
@@ -37,6 +41,24 @@ struct TruthSettings {
   std::string output = "";            // that is compared; "": the first there is
   std::optional<double> radius = {};  // metres, over 0 to kFarthest; none: the effect's own
   uint32_t rays = 256;                // a pixel, kLeastRays ... kMostRays
+};
+
+// What `grisaille tune` is to find for an effect, in the view as it is.
+struct TuneWish {
+  static constexpr uint32_t kMostEvaluations = 100000;
+
+  std::string effect;
+  bool byBudget = false;
+  double maxError = 0.1;                         // RMSE, over 0
+  double budget = 40;                            // milliseconds, over 0
+  uint32_t evaluations = 80;                     // at most, 1 to kMostEvaluations
+  std::set<std::string, std::less<>> stay = {};  // keys of parameters that may not change
+};
+
+// An effect's presets, as their file had them when the plugins were scanned.
+struct EffectPresets {
+  Presets presets;
+  std::string error;  // why they cannot be read; "": they can
 };
 
 // Views that no frame has: of the truth that is traced, and how far the picture is from it.
@@ -114,8 +136,22 @@ class Session {
   void compareWithTruth(bool on);
   std::vector<std::string> comparable() const;  // outputs of one channel: each effect's visibility
   std::string comparedOutput() const;           // "": there is none, or nothing is compared
-  double truthRadius() const;                   // metres
-  void setTruthRadius(double metres);           // throws kUsage
+  double truthRadius() const { return truthRadius(comparedOutput()); }  // metres
+  double truthRadius(const std::string& output) const;
+  void setTruthRadius(double metres);  // throws kUsage
+
+  // --- Presets, and settings that are searched for: each a step of undo
+  const EffectPresets& presetsOf(const std::string& effect) const;
+  void choosePreset(EffectList::Entry& entry, const std::string& name);
+  std::string outputToTune(const std::string& effect) const;  // "": there is none
+  // The radius says what is asked for where the truth has it too.
+  bool staysInTune(std::string_view parameter) const;
+  // `view`: pixels. Throws kUsage.
+  TuneCommand tuneCommand(const TuneWish& wish, glm::uvec2 view, const std::string& backend,
+                          const std::string& device);
+  // Values of that effect. Throws as effect::Values does and where the effect is gone, and then
+  // changes nothing.
+  void takeTuned(const std::string& effect, const std::vector<Settings::Value>& values);
 
   // --- Shots
   ShotLists shots;
@@ -148,8 +184,10 @@ class Session {
  private:
   void addLists();
   void beginComparing();
+  void loadAllPresets();
 
   SessionOptions options_;
+  std::map<std::string, EffectPresets> presets_;  // by effect
   std::string lastChange_;
   std::string leftBefore_ = "color";  // comparing
   bool firstScene_ = true;

@@ -42,10 +42,9 @@ std::string Session::comparedOutput() const {
   return there ? comparing.output : outputs.front();
 }
 
-double Session::truthRadius() const {
+double Session::truthRadius(const std::string& output) const {
   constexpr double kUsual = 0.5;  // metres
   if (comparing.radius) return *comparing.radius;
-  const std::string output = comparedOutput();
   for (const EffectList::Entry& entry : effects.entries()) {
     if (!output.starts_with(std::string(entry.key()) + ".")) continue;
     for (const grisaille_param_desc& param : entry.values.effect().params()) {

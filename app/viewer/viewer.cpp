@@ -127,7 +127,9 @@ double Viewer::patience() const {
   const bool visible = window_->pixels().x > 0;
   const bool stale = stage_ && !session_.paused && stage_->isStale(stageDesc());
   if (visible && (settle_ > 0 || moving_ || stale || session_.continuous)) return 0;
-  if (loading_.running() || !rebuild_.building().empty() || truth_->running()) return kWaitInterval;
+  if (loading_.running() || !rebuild_.building().empty() || tune_.started() || truth_->running()) {
+    return kWaitInterval;
+  }
   return rebuild_.watches() ? kLookInterval : 60;
 }
 
@@ -139,15 +141,39 @@ bool Viewer::lookAround() {
   const std::string before = rebuild_.building();
   if (std::chrono::duration<double>(now - lastLook_).count() >= kLookInterval) {
     lastLook_ = now;
-    rebuild_.look();
+    session_.attempt([&] { rebuild_.look(); });
   }
   if (const auto outcome = rebuild_.take()) {
     buildMessage_ = outcome->message;
     news = true;
-    if (outcome->good) perform({.scene = {}, .rescan = true});
+    if (outcome->good) perform({.scene = {}, .tune = {}, .rescan = true});
   }
+  news |= lookAtTune();
   session_.attempt([&] { news |= truth_->look(); });
   return news || before != rebuild_.building();
+}
+
+void Viewer::startTune(const TuneWish& wish) {
+  session_.attempt([&] {
+    tune_.start(session_.tuneCommand(wish, place().size, backend_, options_.device));
+    tuning_ = {.effect = wish.effect, .running = true, .state = tune_.state(), .outcome = {}};
+  });
+}
+
+// True where there is news.
+bool Viewer::lookAtTune() {
+  if (!tuning_.running) return false;
+  const auto outcome = tune_.take();
+  if (!outcome) {
+    const std::string before = std::exchange(tuning_.state, tune_.state()).text;
+    return tuning_.state.text != before;
+  }
+  tuning_.running = false;
+  tuning_.outcome = *outcome;
+  session_.attempt([&] {
+    if (outcome->values) session_.takeTuned(tuning_.effect, *outcome->values);
+  });
+  return true;
 }
 
 void Viewer::frame(double seconds) {
@@ -181,6 +207,8 @@ void Viewer::perform(const Requests& requests) {
     });
     settle_ = kSettleFrames;
   }
+  if (requests.tune) startTune(*requests.tune);
+  if (requests.cancelTune) tune_.cancel();
   if (requests.scene) openScene(*requests.scene);
   if (requests.picture) savePicture();
   if (requests.copyCommand) {

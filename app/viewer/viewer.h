@@ -51,6 +51,8 @@ class Viewer {
   bool lookAround();
   void frame(double seconds);
   void perform(const Requests& requests);
+  void startTune(const TuneWish& wish);
+  bool lookAtTune();
   void openScene(const std::string& path);
   void takeScene();
   void takeDropped();
@@ -89,6 +91,8 @@ class Viewer {
   SceneLoading loading_;
   Rebuild rebuild_;
   std::string buildMessage_;
+  TuneRun tune_;
+  TuneStatus tuning_;
   PassTimes times_;
   std::vector<ColorShare> coverage_;
 

@@ -165,6 +165,7 @@ Status Viewer::status() {
     status.loadingPath = loading_.path().empty() ? "built-in atrium" : loading_.path();
   }
   status.truth = truthStatus();
+  status.tune = tuning_;
   status.rebuilding = rebuild_.building();
   status.buildMessage = buildMessage_;
   const auto texel = controls_.texel(place());

@@ -1,0 +1,173 @@
+// SPDX-License-Identifier: MIT
+// The panel's presets, and its search for a setting.
+#include <fmt/format.h>
+
+#include <algorithm>
+
+#include "app/viewer/panel.h"
+
+namespace grisaille::app::viewer {
+namespace {
+
+void drawTrouble(const std::string& text) {
+  ImGui::PushStyleColor(ImGuiCol_Text, kErrorColour);
+  ImGui::TextWrapped("%s", text.c_str());
+  ImGui::PopStyleColor();
+}
+
+void drawQuiet(const std::string& text) {
+  ImGui::PushStyleColor(ImGuiCol_Text, ImGui::GetStyleColorVec4(ImGuiCol_TextDisabled));
+  ImGui::TextWrapped("%s", text.c_str());
+  ImGui::PopStyleColor();
+}
+
+std::string tooltipOf(const app::Preset& preset, const Presets& presets) {
+  std::string values;
+  for (const auto& [key, text] : preset.values) {
+    values += fmt::format("{}{} = {}", values.empty() ? "" : ", ", key, text);
+  }
+  return fmt::format("{}\n{}\nmeasured: {}", priceOf(preset), values, presets.study);
+}
+
+}  // namespace
+
+void Panel::drawPresets(EffectList::Entry& entry) {
+  const std::string key = entry.key();
+  const EffectPresets& own = session_.presetsOf(key);
+  if (!own.error.empty()) {
+    drawTrouble(own.error);
+    layout.note(key + ".presets", own.error);
+  }
+  if (own.presets.all.empty()) return;
+  const app::Preset* const now = presetOf(entry.values, own.presets);
+  drawQuiet("Preset: " + (now != nullptr ? now->name + ", " + priceOf(*now) : "custom"));
+  layout.note(key + ".presets", now != nullptr ? now->name : "custom");
+  const auto count = static_cast<float>(own.presets.all.size());
+  const float gap = ImGui::GetStyle().ItemInnerSpacing.x;
+  const float width = (ImGui::GetContentRegionAvail().x - (count - 1) * gap) / count;
+  const float height = 3 * ImGui::GetTextLineHeight() + 2 * ImGui::GetStyle().FramePadding.y;
+  std::string chosen;
+  for (const app::Preset& preset : own.presets.all) {
+    if (&preset != &own.presets.all.front()) ImGui::SameLine(0, gap);
+    const bool is = &preset == now;
+    if (is) ImGui::PushStyleColor(ImGuiCol_Button, ImGui::GetStyleColorVec4(ImGuiCol_ButtonActive));
+    const std::string label =
+        fmt::format("{}\nerror {:.3f}\n{:.2f} x", preset.name, preset.error, preset.cost);
+    if (ImGui::Button(label.c_str(), ImVec2(width, height))) chosen = preset.name;
+    if (is) ImGui::PopStyleColor();
+    if (ImGui::IsItemHovered()) ImGui::SetTooltip("%s", tooltipOf(preset, own.presets).c_str());
+    layout.note(key + ".preset." + preset.name, is ? "true" : "false");
+  }
+  if (!chosen.empty()) session_.attempt([&] { session_.choosePreset(entry, chosen); });
+}
+
+// What was asked last; at first the error of the preset that others are priced by.
+TuneWish& Panel::wishOf(const std::string& effect) {
+  const auto [found, fresh] = wishes_.try_emplace(effect);
+  if (fresh) {
+    found->second.effect = effect;
+    for (const app::Preset& preset : session_.presetsOf(effect).presets.all) {
+      if (preset.name == "balanced" && preset.error > 0) found->second.maxError = preset.error;
+    }
+  }
+  return found->second;
+}
+
+void Panel::drawMayChange(const EffectList::Entry& entry, TuneWish& wish) {
+  const bool open =
+      ImGui::TreeNodeEx("may change", ImGuiTreeNodeFlags_NoTreePushOnOpen, "May change");
+  layout.note(wish.effect + ".tune.may change", open ? "open" : "closed");
+  if (!open) return;
+  const Presets& presets = session_.presetsOf(wish.effect).presets;
+  ImGui::Indent();
+  for (const grisaille_param_desc* param : tunable(entry.values.effect(), presets)) {
+    const bool fixed = session_.staysInTune(param->key);
+    bool may = !fixed && !wish.stay.contains(param->key);
+    ImGui::BeginDisabled(fixed);
+    const std::string label = fmt::format("{}##may.{}", param->label, param->key);
+    if (toggle(label.c_str(), (wish.effect + ".tune.may." + param->key).c_str(), may)) {
+      may ? void(wish.stay.erase(param->key)) : void(wish.stay.insert(param->key));
+    }
+    ImGui::EndDisabled();
+    if (fixed) {
+      ImGui::SameLine();
+      ImGui::TextDisabled("is the truth's too");
+    }
+  }
+  ImGui::Unindent();
+}
+
+void Panel::drawWish(const EffectList::Entry& entry, TuneWish& wish) {
+  const std::string id = wish.effect + ".tune.";
+  const float left = ImGui::GetContentRegionAvail().x * 0.5f;
+  const auto field = [&](const char* label, const char* name, const char* format, double& value) {
+    const bool budget = std::string_view(name) == "budget";
+    if (ImGui::RadioButton(label, wish.byBudget == budget)) wish.byBudget = budget;
+    layout.note(id + "by " + name, wish.byBudget == budget ? "true" : "false");
+    ImGui::SameLine(left + ImGui::GetStyle().IndentSpacing);
+    ImGui::SetNextItemWidth(-1);
+    if (ImGui::InputDouble(fmt::format("##{}", name).c_str(), &value, 0, 0, format)) {
+      wish.byBudget = budget;
+    }
+    layout.note(id + name, fmt::format("{}", value));
+  };
+  field("Error at most", "error", "%.6g", wish.maxError);
+  field("Budget, ms", "budget", "%.6g", wish.budget);
+  ImGui::AlignTextToFramePadding();
+  ImGui::TextUnformatted("Evaluations at most");
+  ImGui::SameLine(left + ImGui::GetStyle().IndentSpacing);
+  ImGui::SetNextItemWidth(-1);
+  const uint32_t step = 10;
+  ImGui::InputScalar("##evaluations", ImGuiDataType_U32, &wish.evaluations, &step);
+  wish.evaluations = std::clamp(wish.evaluations, 1u, TuneWish::kMostEvaluations);
+  layout.note(id + "evaluations", fmt::format("{}", wish.evaluations));
+  drawMayChange(entry, wish);
+}
+
+void Panel::drawOutcome(const TuneStatus& status) {
+  const TuneRun::Outcome& outcome = status.outcome;
+  if (outcome.text.empty()) return;
+  if (outcome.values) {
+    ImGui::TextWrapped("%s", outcome.text.c_str());
+  } else {
+    drawTrouble(outcome.text);
+  }
+  layout.note(status.effect + ".tune.result", outcome.text);
+  if (!outcome.warning.empty()) drawTrouble(outcome.warning);
+}
+
+void Panel::drawTune(const EffectList::Entry& entry, const TuneStatus& status, Requests& requests) {
+  const std::string key = entry.key();
+  const bool own = status.effect == key;
+  if (session_.outputToTune(key).empty() && !(own && status.running)) return;
+  const bool open =
+      ImGui::TreeNodeEx("tune", ImGuiTreeNodeFlags_NoTreePushOnOpen, "Tune for this view");
+  if (ImGui::IsItemHovered()) {
+    ImGui::SetTooltip(
+        "Searches for the cheapest setting that is good enough here, or the best\n"
+        "in a budget, as `grisaille tune` does, while the window goes on");
+  }
+  layout.note(key + ".tune", open ? "open" : "closed");
+  if (!open && !own) return;
+  TuneWish& wish = wishOf(key);
+  if (open) drawWish(entry, wish);
+  if (own && status.running) {
+    ImGui::ProgressBar(static_cast<float>(status.state.done));
+    drawQuiet(status.state.text);
+    layout.note(key + ".tune.progress", status.state.text);
+    if (button("Cancel", (key + ".tune.cancel").c_str())) requests.cancelTune = true;
+    return;
+  }
+  if (open) {
+    const double bound = wish.byBudget ? wish.budget : wish.maxError;
+    ImGui::BeginDisabled(status.running || !(bound > 0));
+    if (button("Tune", (key + ".tune.start").c_str(),
+               "One search at a time; what it finds is one step of undo")) {
+      requests.tune = wish;
+    }
+    ImGui::EndDisabled();
+  }
+  if (own) drawOutcome(status);
+}
+
+}  // namespace grisaille::app::viewer
