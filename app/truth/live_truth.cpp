@@ -17,6 +17,10 @@
 namespace grisaille::app::truth {
 namespace {
 
+// A window that draws goes first; yet on a busy machine the lowest priority of all, 19, gets
+// nothing done for minutes.
+constexpr int kNiceness = 10;
+
 // Rays a pixel of the first pass, the least whose spread tells an error well, and of each later one
 // at most.
 constexpr uint32_t kFirstRays = 2 * trace::kScrambles;
@@ -32,7 +36,7 @@ uint32_t passEnd(uint32_t from, uint32_t samples) {
 
 // The window's thread and the driver's come first. Linux counts this by thread.
 void giveWay() {
-  setpriority(PRIO_PROCESS, static_cast<id_t>(gettid()), 19);
+  setpriority(PRIO_PROCESS, static_cast<id_t>(gettid()), kNiceness);
 }
 
 }  // namespace
