@@ -113,7 +113,8 @@ GRISAILLE_ERROR(kFileUnknown, 5203, "give a .glb, .gltf, .toml, .json or .shots 
 // --- 53xx: studies
 GRISAILLE_ERROR(kStudyRecord, 5301, "remove the file; it is measured again")
 GRISAILLE_ERROR(kFrontSmall, 5302, "measure a grid whose settings differ in cost and in error")
-GRISAILLE_ERROR(kTuneImpossible, 5303, "allow more, --vary more parameters or a larger --evaluations")
+GRISAILLE_ERROR(kTuneImpossible, 5303,
+                "allow more, --vary more parameters or a larger --evaluations")
 // --- 90xx: the program itself
 GRISAILLE_ERROR(kUnexpected, 9001, "report it with the command that led here")
 GRISAILLE_ERROR(kOutOfMemory, 9002, "use a smaller --size or scene, or close other programs")
