@@ -60,8 +60,7 @@ study::ClaimsOfBackend runOn(const std::string& backend, const Options& options,
                                                  .timed = true,
                                                  .message = messages.sink()});
   const gpu::DeviceInfo& info = device->info();
-  fmt::print("{}: {} ({}){}\n", info.backend, info.name, info.driver,
-             info.software ? ", software" : "");
+  printDevice(info);
   study::ClaimsOfBackend result{.backend = info.backend,
                                 .device = info.name,
                                 .driver = info.driver,

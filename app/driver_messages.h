@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: MIT
-// What a driver or its validation says while a command runs.
+// Which device a command runs on, and what its driver or the validation says meanwhile.
 #pragma once
 
 #include <fmt/format.h>
@@ -10,6 +10,13 @@
 #include "core/gpu/device.h"
 
 namespace grisaille::app {
+
+// The line by which a command says which device it took.
+inline void printDevice(const gpu::DeviceInfo& info, std::FILE* file = stdout) {
+  fmt::print(file, "{}: {} ({}){}\n", info.backend, info.name, info.driver,
+             info.software ? ", software" : "");
+  std::fflush(file);
+}
 
 class DriverMessages {
  public:

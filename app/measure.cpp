@@ -43,7 +43,7 @@ struct Job {
 };
 
 Job::Job(const Options& options) {
-  const auto registry = loadEffects(options.subject.pluginPaths);
+  auto registry = loadEffects(options.subject.pluginPaths);
   std::vector<study::Sweep> sweeps;
   std::vector<std::string> swept;
   for (const std::string& text : options.sweeps) {
@@ -58,7 +58,7 @@ Job::Job(const Options& options) {
   backendNames = options.backend == "both" ? std::vector<std::string>{"opengl", "vulkan"}
                                            : std::vector<std::string>{options.backend};
   for (const std::string& name : backendNames) backends::find(name);
-  subject = std::make_unique<LoadedSubject>(options.subject, swept);
+  subject = std::make_unique<LoadedSubject>(options.subject, std::move(registry), swept);
   if (options.path.empty()) return;
   path = scene::camerasOf(scene::loadCameraPath(options.path));
   study::checkPathSize(options.path, path.size(), subject->subject().size);
@@ -84,10 +84,7 @@ bool measureOn(const std::string& backend, const Options& options, const Job& jo
                                                  .check = options.check,
                                                  .timed = true,
                                                  .message = messages.sink()});
-  const gpu::DeviceInfo& info = device->info();
-  fmt::print("{}: {} ({}){}\n", info.backend, info.name, info.driver,
-             info.software ? ", software" : "");
-  std::fflush(stdout);
+  printDevice(device->info());
   truth::Progress progress(backend, isatty(STDERR_FILENO) == 1);
   study::Study study(desc, *device, job.settings);
   return study.run(

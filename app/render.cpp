@@ -7,6 +7,7 @@
 #include <optional>
 
 #include "app/active_effects.h"
+#include "app/camera_option.h"
 #include "app/command.h"
 #include "app/coverage.h"
 #include "app/driver_messages.h"
@@ -67,11 +68,6 @@ std::unique_ptr<gpu::Device> makeDevice(const Options& options, const gpu::Devic
   throw Error(ErrorId::kNoDevice, "no backend starts: {}", reasons);
 }
 
-// A camera file or, beginning with '{', what would be in one.
-scene::Camera cameraOf(const std::string& text) {
-  return text.starts_with('{') ? scene::parseCamera(text, "--camera") : scene::loadCamera(text);
-}
-
 // What the command line asks for, checked before anything slow is done.
 struct Job {
   std::vector<Write> writes;
@@ -105,7 +101,7 @@ struct Job {
     for (const std::string& assignment : options.sets) active->set(assignment);
     for (const Write& write : writes) frame::checkOutput(write.output, active->effects());
 
-    if (!options.camera.empty()) camera = cameraOf(options.camera);
+    if (!options.camera.empty()) camera = cameraOf(options.camera, "--camera");
     scene = options.scene.empty() ? scene::makeAtrium() : scene::loadGltf(options.scene);
     if (options.camera.empty()) {
       camera = options.scene.empty() ? scene::atriumCamera() : scene::overviewCamera(scene.bounds);
@@ -212,9 +208,7 @@ void render(const Options& options) {
                                              .check = options.check,
                                              .timed = !options.timings.empty(),
                                              .message = messages.sink()});
-    const gpu::DeviceInfo& info = device->info();
-    fmt::print(notesOf(options), "{}: {} ({}){}\n", info.backend, info.name, info.driver,
-               info.software ? ", software" : "");
+    printDevice(device->info(), notesOf(options));
     renderFrames(options, job, *device);
     if (!options.timings.empty()) writeTimings(options, *device);
   }

@@ -8,6 +8,7 @@
 #include <filesystem>
 #include <limits>
 
+#include "app/camera_option.h"
 #include "app/settings.h"
 #include "app/size.h"
 #include "app/truth/content_hash.h"
@@ -73,8 +74,10 @@ void SubjectOptions::addTo(CLI::App& command) {
       ->allow_extra_args(false);
 }
 
-LoadedSubject::LoadedSubject(const SubjectOptions& options, const std::vector<std::string>& swept)
-    : options_(options), registry_(loadEffects(options.pluginPaths)) {
+LoadedSubject::LoadedSubject(const SubjectOptions& options,
+                             std::unique_ptr<effect::Registry> registry,
+                             const std::vector<std::string>& swept)
+    : options_(options), registry_(std::move(registry)) {
   subject_.effects = options.effects;
   for (const std::string& effect : swept) {
     if (std::ranges::find(subject_.effects, effect) == subject_.effects.end()) {
@@ -93,10 +96,9 @@ LoadedSubject::LoadedSubject(const SubjectOptions& options, const std::vector<st
   subject_.scene = &scene_;
   if (paint) loadShots(active);
   for (const std::string& text : options.cameras) {
-    const bool inlined = text.starts_with('{');
-    cameras_.emplace_back(
-        inlined ? "camera " + std::to_string(cameras_.size() + 1) : fs::path(text).stem().string(),
-        inlined ? scene::parseCamera(text, "--camera") : scene::loadCamera(text));
+    cameras_.emplace_back(isInlineCamera(text) ? "camera " + std::to_string(cameras_.size() + 1)
+                                               : fs::path(text).stem().string(),
+                          cameraOf(text, "--camera"));
   }
 }
 

@@ -23,10 +23,11 @@ struct SubjectOptions {
 // A study's subject with all that it points to.
 class LoadedSubject {
  public:
-  // Loads the effects and checks the options, but neither the scene nor the truth: see trace().
-  // `swept`: effects that run even if no option names them. Throws as what it loads does, and
-  // kUsage.
-  LoadedSubject(const SubjectOptions& options, const std::vector<std::string>& swept);
+  // Checks the options, but loads neither the scene nor the truth: see trace(). `registry`: the
+  // effects of options.pluginPaths. `swept`: effects that run even if no option names them. Throws
+  // as what it loads does, and kUsage.
+  LoadedSubject(const SubjectOptions& options, std::unique_ptr<effect::Registry> registry,
+                const std::vector<std::string>& swept);
 
   LoadedSubject(const LoadedSubject&) = delete;
   LoadedSubject& operator=(const LoadedSubject&) = delete;

@@ -9,6 +9,7 @@
 #include <memory>
 #include <optional>
 
+#include "app/camera_option.h"
 #include "app/command.h"
 #include "app/size.h"
 #include "app/truth/content_hash.h"
@@ -86,11 +87,7 @@ struct Job {
     if (wants("mask")) loadShots(options);
     glm::uvec2 given(0);
     if (!options.size.empty()) given = parseSize(options.size);
-    const bool text = options.camera.starts_with('{');
-    if (!options.camera.empty()) {
-      camera =
-          text ? scene::parseCamera(options.camera, "--camera") : scene::loadCamera(options.camera);
-    }
+    if (!options.camera.empty()) camera = cameraOf(options.camera, "--camera");
     scene = options.scene.empty() ? scene::makeAtrium() : scene::loadGltf(options.scene);
     if (options.camera.empty()) {
       camera = options.scene.empty() ? scene::atriumCamera() : scene::overviewCamera(scene.bounds);

@@ -7,6 +7,7 @@
 #include <cmath>
 #include <memory>
 
+#include "app/camera_option.h"
 #include "app/command.h"
 #include "app/driver_messages.h"
 #include "app/presets.h"
@@ -118,7 +119,7 @@ class Bench {
     study::Measurer::Running& own = running(point);
     std::vector<double> all;
     for (int i = 0; i < kRounds; ++i) all.push_back(measurer_.cost(own));
-    return median(all);
+    return study::medianOf(all);
   }
 
   // In turns with what is known.
@@ -130,17 +131,12 @@ class Bench {
       const double first = measurer_.cost(a);
       ratios.push_back(measurer_.cost(b) / first);
     }
-    return known.cost * median(ratios);
+    return known.cost * study::medianOf(ratios);
   }
 
  private:
   static constexpr int kRounds = 3;
   static constexpr size_t kKept = 4;
-
-  static double median(std::vector<double> values) {
-    std::ranges::sort(values);
-    return values[values.size() / 2];
-  }
 
   // The last few stay: the one that others are measured beside is among them.
   study::Measurer::Running& running(const study::Point& point) {
@@ -169,8 +165,7 @@ class Bench {
 std::vector<scene::Camera> givenCameras(const Options& options) {
   std::vector<scene::Camera> cameras;
   for (const std::string& text : options.validate) {
-    cameras.push_back(text.starts_with('{') ? scene::parseCamera(text, "--validate")
-                                            : scene::loadCamera(text));
+    cameras.push_back(cameraOf(text, "--validate"));
   }
   return cameras;
 }
@@ -276,7 +271,7 @@ double validate(const Options& options, const std::vector<scene::Camera>& given,
 
 void tune(const Options& options) {
   const study::Wish wish{options.maxError, options.budget};
-  LoadedSubject subject(options.subject, {});
+  LoadedSubject subject(options.subject, loadEffects(options.subject.pluginPaths), {});
   const std::vector<study::Axis> axes = axesOf(options, subject.subject());
   if (axes.empty()) throw Error(ErrorId::kUsage, "there is no parameter to vary");
   const std::vector<scene::Camera> given = givenCameras(options);
@@ -287,9 +282,7 @@ void tune(const Options& options) {
   const auto device = backends::create(
       options.backend, {.device = options.device, .timed = true, .message = messages.sink()});
   const gpu::DeviceInfo& info = device->info();
-  fmt::print("{}: {} ({}){}\n", info.backend, info.name, info.driver,
-             info.software ? ", software" : "");
-  std::fflush(stdout);
+  printDevice(info);
   Bench bench(subject.subject(), axes, *device);
   const study::Found found = find(options, subject, axes, wish, bench);
   if (found.stopped) throw truth::Interrupted();

@@ -24,11 +24,7 @@ std::map<std::string, double> medianCosts(std::span<const Record> records) {
     if (isWhole(r)) costs[r.backend].push_back(r.cost());
   }
   std::map<std::string, double> medians;
-  for (auto& [backend, all] : costs) {
-    const auto middle = all.begin() + static_cast<std::ptrdiff_t>(all.size() / 2);
-    std::ranges::nth_element(all, middle);
-    medians[backend] = *middle;
-  }
+  for (const auto& [backend, all] : costs) medians[backend] = medianOf(all);
   return medians;
 }
 

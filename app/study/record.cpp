@@ -7,6 +7,7 @@
 #include <fstream>
 #include <nlohmann/json.hpp>
 
+#include "app/truth/content_hash.h"
 #include "core/error.h"
 #include "core/image/write_aside.h"
 
@@ -40,12 +41,6 @@ CameraErrors errorsFrom(const json& j) {
           j.at("bias"),   j.at("percentile_99"), j.at("ssim")};
 }
 
-uint64_t hashOf(std::string_view text) {
-  uint64_t value = 0xcbf29ce484222325u;  // FNV-1a
-  for (const char c : text) value = (value ^ static_cast<unsigned char>(c)) * 0x100000001b3u;
-  return value;
-}
-
 }  // namespace
 
 double medianOf(const std::vector<double>& values) {
@@ -69,7 +64,9 @@ double Record::spread() const {
 fs::path fileOf(const fs::path& folder, const Record& record) {
   std::string key = record.study + "\n" + record.backend;
   for (const auto& [name, value] : record.setting) key += "\n" + name + "=" + value;
-  return folder / "records" / fmt::format("{:016x}.json", hashOf(key));
+  truth::ContentHash hash;
+  hash.add(key);
+  return folder / "records" / fmt::format("{:016x}.json", hash.value());
 }
 
 void save(const fs::path& folder, const Record& r) {

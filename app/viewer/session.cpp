@@ -1,5 +1,6 @@
 // SPDX-License-Identifier: MIT
 #include "app/viewer/session.h"
+#include "app/camera_option.h"
 
 #include <algorithm>
 #include <filesystem>
@@ -73,11 +74,7 @@ Session::Session(SessionOptions options)
   loadAllPresets();
   surface =
       surfaceOf(!options_.surface.empty() ? options_.surface : settings.surface.value_or("white"));
-  if (options_.camera.starts_with('{')) {
-    camera = scene::parseCamera(options_.camera, "--camera");
-  } else if (!options_.camera.empty()) {
-    camera = scene::loadCamera(options_.camera);
-  }
+  if (!options_.camera.empty()) camera = cameraOf(options_.camera, "--camera");
   split = !options_.split.empty();
   beginComparing();
   for (auto [wanted, view] : {std::pair{&options_.view, &left}, {&options_.split, &right}}) {
