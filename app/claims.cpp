@@ -20,7 +20,7 @@
 namespace grisaille::app {
 namespace {
 
-struct Options {
+struct ClaimsOptions {
   std::string file, out, backend = "both", device;
   std::vector<std::string> only, pluginPaths;
   double scale = 1;
@@ -41,9 +41,9 @@ void choose(study::ClaimsFile& file, const std::vector<std::string>& only) {
   });
 }
 
-std::string commandOf(const Options& options) {
+std::string commandOf(const ClaimsOptions& options) {
   std::string command = "grisaille claims " + viewer::shellQuoted(options.file);
-  const Options usual;
+  const ClaimsOptions usual;
   if (options.backend != usual.backend) command += " --backend " + options.backend;
   if (!options.only.empty()) command += fmt::format(" --only {}", fmt::join(options.only, ","));
   if (options.scale != usual.scale) command += fmt::format(" --scale {}", options.scale);
@@ -52,7 +52,7 @@ std::string commandOf(const Options& options) {
   return command + " --out " + viewer::shellQuoted(options.out);
 }
 
-study::ClaimsOfBackend runOn(const std::string& backend, const Options& options,
+study::ClaimsOfBackend runOn(const std::string& backend, const ClaimsOptions& options,
                              const study::ClaimsDesc& desc, const study::ClaimsFile& file,
                              DriverMessages& messages) {
   const auto device = backends::create(backend, {.device = options.device,
@@ -76,7 +76,7 @@ study::ClaimsOfBackend runOn(const std::string& backend, const Options& options,
   return result;
 }
 
-void claims(const Options& options) {
+void claims(const ClaimsOptions& options) {
   const auto registry = loadEffects(options.pluginPaths);
   study::ClaimsReport report{.file = study::loadClaims(options.file, *registry),
                              .command = commandOf(options),
@@ -106,7 +106,7 @@ void claims(const Options& options) {
 }  // namespace
 
 void addClaims(CLI::App& program) {
-  auto options = std::make_shared<Options>();
+  auto options = std::make_shared<ClaimsOptions>();
   CLI::App* command =
       program.add_subcommand("claims", "Measure what is said of effects, and tell what holds");
   command->add_option("file", options->file, "A study file, such as studies/claims.toml")

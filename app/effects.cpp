@@ -11,13 +11,13 @@
 namespace grisaille::app {
 namespace {
 
-struct Options {
+struct EffectsOptions {
   bool json = false;
   std::string markdown;
   std::vector<std::string> pluginPaths;
 };
 
-void listEffects(const Options& options) {
+void listEffects(const EffectsOptions& options) {
   const auto registry = loadEffects(options.pluginPaths);
   const std::string text = !options.markdown.empty()
                                ? effectMarkdown(registry->find(options.markdown))
@@ -29,7 +29,7 @@ void listEffects(const Options& options) {
 }  // namespace
 
 void addEffects(CLI::App& program) {
-  auto options = std::make_shared<Options>();
+  auto options = std::make_shared<EffectsOptions>();
   CLI::App* command = program.add_subcommand(
       "effects", "List the effects with their parameters, and the plugins that were refused");
   command->add_flag("--json", options->json, "As JSON");

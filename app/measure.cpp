@@ -23,7 +23,7 @@ namespace {
 
 namespace fs = std::filesystem;
 
-struct Options {
+struct MeasureOptions {
   SubjectOptions subject;
   std::string backend = "both", device, out, shard = "1/1", presets, path;
   std::vector<std::string> sweeps;
@@ -32,17 +32,17 @@ struct Options {
 };
 
 // What the command line asks for, checked before anything slow is done.
-struct Job {
+struct MeasureJob {
   std::unique_ptr<LoadedSubject> subject;
   std::vector<study::Setting> settings;
   std::vector<std::string> backendNames;
   std::vector<scene::Camera> path;             // of the flicker; none: it is not measured
   std::vector<trace::FlickerFrame> pathTruth;  // one a camera of the path
 
-  explicit Job(const Options& options);
+  explicit MeasureJob(const MeasureOptions& options);
 };
 
-Job::Job(const Options& options) {
+MeasureJob::MeasureJob(const MeasureOptions& options) {
   auto registry = loadEffects(options.subject.pluginPaths);
   std::vector<study::Sweep> sweeps;
   std::vector<std::string> swept;
@@ -65,7 +65,7 @@ Job::Job(const Options& options) {
 }
 
 // Traces the path's truth; what results depend on, as text.
-std::string tracePath(const Options& options, Job& job) {
+std::string tracePath(const MeasureOptions& options, MeasureJob& job) {
   std::string key;
   const study::Subject& subject = job.subject->subject();
   for (const scene::Camera& camera : job.path) {
@@ -78,7 +78,7 @@ std::string tracePath(const Options& options, Job& job) {
 }
 
 // False where a signal ended it.
-bool measureOn(const std::string& backend, const Options& options, const Job& job,
+bool measureOn(const std::string& backend, const MeasureOptions& options, const MeasureJob& job,
                const study::StudyDesc& desc, DriverMessages& messages) {
   const auto device = backends::create(backend, {.device = options.device,
                                                  .check = options.check,
@@ -95,7 +95,7 @@ bool measureOn(const std::string& backend, const Options& options, const Job& jo
       truth::Interruption::asked);
 }
 
-void report(const Options& options) {
+void report(const MeasureOptions& options) {
   study::writeReport(options.out);
   fmt::print("wrote {}\n", (fs::path(options.out) / "index.html").string());
   if (options.presets.empty()) return;
@@ -103,9 +103,9 @@ void report(const Options& options) {
   fmt::print("wrote {}\n", options.presets);
 }
 
-void measure(const Options& options) {
+void measure(const MeasureOptions& options) {
   if (options.reportOnly) return report(options);
-  Job job(options);
+  MeasureJob job(options);
   job.subject->loadScene();
   const truth::Interruption interruption;
   job.subject->trace();
@@ -139,7 +139,7 @@ void measure(const Options& options) {
 }  // namespace
 
 void addMeasure(CLI::App& program) {
-  auto options = std::make_shared<Options>();
+  auto options = std::make_shared<MeasureOptions>();
   CLI::App* command = program.add_subcommand(
       "measure", "Measure what settings cost and how far they are from the truth");
   command

@@ -11,6 +11,7 @@
 #include "app/command.h"
 #include "app/coverage.h"
 #include "app/driver_messages.h"
+#include "app/output_file.h"
 #include "app/presets.h"
 #include "app/scene_rays.h"
 #include "app/settings.h"
@@ -27,7 +28,7 @@
 namespace grisaille::app {
 namespace {
 
-struct Options {
+struct RenderOptions {
   std::string scene, camera, size, backend, device, config, timings;
   std::vector<std::string> effects, presets, sets, writes, pluginPaths;
   ShotOptions shots;
@@ -37,25 +38,18 @@ struct Options {
   bool effectsGiven = false, surfaceGiven = false;
 };
 
-struct Write {
-  std::string output, file;
-};
-
-std::vector<Write> parseWrites(const std::vector<std::string>& texts) {
-  std::vector<Write> writes;
+std::vector<OutputFile> parseWrites(const std::vector<std::string>& texts) {
+  std::vector<OutputFile> writes;
   for (const std::string& text : texts) {
-    const size_t equals = text.find('=');
-    if (equals == std::string::npos || equals == 0 || equals + 1 == text.size()) {
-      throw Error(ErrorId::kUsage, "'{}' is not of the form NAME=FILE", text);
-    }
-    writes.push_back({.output = text.substr(0, equals), .file = text.substr(equals + 1)});
+    writes.push_back(parseOutputFile(text));
     image::checkWritable(writes.back().file);
   }
   return writes;
 }
 
 // The device asked for, or, where none was named, the first backend that starts.
-std::unique_ptr<gpu::Device> makeDevice(const Options& options, const gpu::DeviceOptions& device) {
+std::unique_ptr<gpu::Device> makeDevice(const RenderOptions& options,
+                                        const gpu::DeviceOptions& device) {
   if (!options.backend.empty()) return backends::create(options.backend, device);
   std::string reasons;
   for (const backends::Backend& backend : backends::all()) {
@@ -69,8 +63,8 @@ std::unique_ptr<gpu::Device> makeDevice(const Options& options, const gpu::Devic
 }
 
 // What the command line asks for, checked before anything slow is done.
-struct Job {
-  std::vector<Write> writes;
+struct RenderJob {
+  std::vector<OutputFile> writes;
   std::unique_ptr<effect::Registry> registry;
   std::optional<ActiveEffects> active;
   std::optional<Shots> shots;
@@ -82,7 +76,7 @@ struct Job {
   // The effect that --coverage counts.
   std::optional<Painter> painter;
 
-  explicit Job(const Options& options) : writes(parseWrites(options.writes)) {
+  explicit RenderJob(const RenderOptions& options) : writes(parseWrites(options.writes)) {
     if (options.timings == "-" && options.shots.coverage == "-") {
       throw Error(ErrorId::kUsage, "--timings and --coverage cannot both be standard output");
     }
@@ -99,7 +93,7 @@ struct Job {
         options.surfaceGiven || !settings.surface ? options.surface : *settings.surface;
     surface = ground == "base" ? frame::Surface::kBaseColour : frame::Surface::kWhite;
     for (const std::string& assignment : options.sets) active->set(assignment);
-    for (const Write& write : writes) frame::checkOutput(write.output, active->effects());
+    for (const OutputFile& write : writes) frame::checkOutput(write.output, active->effects());
 
     if (!options.camera.empty()) camera = cameraOf(options.camera, "--camera");
     scene = options.scene.empty() ? scene::makeAtrium() : scene::loadGltf(options.scene);
@@ -119,7 +113,7 @@ struct Job {
 };
 
 // Standard output is for a table where one was asked for there.
-std::FILE* notesOf(const Options& options) {
+std::FILE* notesOf(const RenderOptions& options) {
   return options.timings == "-" || options.shots.coverage == "-" ? stderr : stdout;
 }
 
@@ -131,7 +125,7 @@ void writeText(const std::string& file, const std::string& text) {
   }
 }
 
-void writeTimings(const Options& options, gpu::Device& device) {
+void writeTimings(const RenderOptions& options, gpu::Device& device) {
   device.wait();
   const std::vector<gpu::FrameTimes> frames = device.takeTimes();
   writeText(options.timings, timingsCsv(frames, device.info().clock));
@@ -139,7 +133,7 @@ void writeTimings(const Options& options, gpu::Device& device) {
   if (!doubt.empty()) fmt::print(stderr, "warning: {}\n", doubt);
 }
 
-void writeCoverage(const Options& options, const Job& job, frame::Renderer& renderer) {
+void writeCoverage(const RenderOptions& options, const RenderJob& job, frame::Renderer& renderer) {
   const auto shares = colorShares(
       renderer.read(job.painter->owner), renderer.read(job.painter->paint), renderer.read("depth"),
       renderer.read("facet_normal"), job.camera, job.shots->of(job.painter->effect));
@@ -147,7 +141,7 @@ void writeCoverage(const Options& options, const Job& job, frame::Renderer& rend
 }
 
 // What the effects' rays hit: the scene, or what a frame of it shows, drawn for that alone.
-std::unique_ptr<effect::RayService> makeRays(const Options& options, const Job& job,
+std::unique_ptr<effect::RayService> makeRays(const RenderOptions& options, const RenderJob& job,
                                              frame::Renderer& renderer) {
   auto scene = std::make_unique<SceneRays>(job.scene);
   if (options.rays == "scene") return scene;
@@ -163,14 +157,14 @@ std::unique_ptr<effect::RayService> makeRays(const Options& options, const Job& 
   return std::make_unique<effect::RaysInTurn>(std::move(depth), std::move(scene));
 }
 
-void renderFrames(const Options& options, const Job& job, gpu::Device& device) {
+void renderFrames(const RenderOptions& options, const RenderJob& job, gpu::Device& device) {
   const auto instances = job.active->start(device);
   std::vector<frame::ActiveEffect> effects = job.active->with(instances);
   for (frame::ActiveEffect& active : effects) {
     active.shots = job.shots->of(active.effect().desc->key);
   }
   std::vector<std::string> outputs;
-  for (const Write& write : job.writes) outputs.push_back(write.output);
+  for (const OutputFile& write : job.writes) outputs.push_back(write.output);
   if (job.painter) {
     outputs.insert(outputs.end(),
                    {job.painter->owner, job.painter->paint, "depth", "facet_normal"});
@@ -187,7 +181,7 @@ void renderFrames(const Options& options, const Job& job, gpu::Device& device) {
                      .rays = rays.get()});
     for (frame::ActiveEffect& active : effects) active.shotsKept = active.shots.size();
   }
-  for (const Write& write : job.writes) {
+  for (const OutputFile& write : job.writes) {
     image::write(renderer.read(write.output), write.file,
                  {.transfer = frame::transferOf(write.output)});
     fmt::print(notesOf(options), "wrote {}\n", write.file);
@@ -200,8 +194,8 @@ void renderFrames(const Options& options, const Job& job, gpu::Device& device) {
   }
 }
 
-void render(const Options& options) {
-  const Job job(options);
+void render(const RenderOptions& options) {
+  const RenderJob job(options);
   DriverMessages messages;
   {
     const auto device = makeDevice(options, {.device = options.device,
@@ -218,7 +212,7 @@ void render(const Options& options) {
 }  // namespace
 
 void addRender(CLI::App& program) {
-  auto options = std::make_shared<Options>();
+  auto options = std::make_shared<RenderOptions>();
   options->effects = kDefaultEffects;
   CLI::App* command = program.add_subcommand("render", "Render a scene to files");
   command->add_option("scene", options->scene,

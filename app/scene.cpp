@@ -12,11 +12,11 @@
 namespace grisaille::app {
 namespace {
 
-struct Options {
+struct SceneOptions {
   std::string scene, write, writeCamera;
 };
 
-void showScene(const Options& options) {
+void showScene(const SceneOptions& options) {
   const scene::Scene scene =
       options.scene.empty() ? scene::makeAtrium() : scene::loadGltf(options.scene);
   const scene::Bounds& b = scene.bounds;
@@ -41,7 +41,7 @@ void showScene(const Options& options) {
 }  // namespace
 
 void addScene(CLI::App& program) {
-  auto options = std::make_shared<Options>();
+  auto options = std::make_shared<SceneOptions>();
   CLI::App* command =
       program.add_subcommand("scene", "Show what a scene holds, or write it and its camera");
   command->add_option("scene", options->scene,

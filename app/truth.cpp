@@ -11,6 +11,7 @@
 
 #include "app/camera_option.h"
 #include "app/command.h"
+#include "app/output_file.h"
 #include "app/size.h"
 #include "app/truth/content_hash.h"
 #include "app/truth/occlusion_truth.h"
@@ -28,7 +29,7 @@ namespace {
 // Metres: as far as a shot's range goes.
 constexpr double kFarthest = 1e6;
 
-struct Options {
+struct TruthOptions {
   std::string scene, camera, size, paint;
   std::vector<std::string> writes;
   double radius = 0.5, error = 0;
@@ -37,18 +38,10 @@ struct Options {
   bool noCache = false, progress = false;
 };
 
-struct Write {
-  std::string output, file;
-};
-
-Write parseWrite(const std::string& text) {
+OutputFile parseWrite(const std::string& text) {
   constexpr std::array kOutputs = {"ao",    "ao_error", "ceiling", "ceiling_error",
                                    "depth", "normal",   "mask"};
-  const size_t equals = text.find('=');
-  if (equals == std::string::npos || equals == 0 || equals + 1 == text.size()) {
-    throw Error(ErrorId::kUsage, "'{}' is not of the form NAME=FILE", text);
-  }
-  Write write{.output = text.substr(0, equals), .file = text.substr(equals + 1)};
+  OutputFile write = parseOutputFile(text);
   if (std::ranges::find(kOutputs, write.output) == kOutputs.end()) {
     throw Error(ErrorId::kTruthUnknown, "'{}' is nothing that truth writes", write.output);
   }
@@ -64,15 +57,15 @@ void requireLength(const char* option, double metres) {
 }
 
 // What the command line asks for, checked before anything slow is done.
-struct Job {
-  std::vector<Write> writes;
+struct TruthJob {
+  std::vector<OutputFile> writes;
   std::vector<grisaille_shot> shots;
   double thickness;
   scene::Scene scene;
   scene::Camera camera;
   glm::uvec2 size = glm::uvec2(1280, 720);
 
-  explicit Job(const Options& options)
+  explicit TruthJob(const TruthOptions& options)
       : thickness(options.thickness > 0 ? options.thickness : options.radius / 5) {
     for (const std::string& text : options.writes) writes.push_back(parseWrite(text));
     requireLength("--radius", options.radius);
@@ -97,7 +90,7 @@ struct Job {
   }
 
   bool wants(std::string_view output) const {
-    return std::ranges::any_of(writes, [&](const Write& w) { return w.output == output; });
+    return std::ranges::any_of(writes, [&](const OutputFile& w) { return w.output == output; });
   }
 
  private:
@@ -107,7 +100,7 @@ struct Job {
     }
   }
 
-  void loadShots(const Options& options) {
+  void loadShots(const TruthOptions& options) {
     if (options.paint.empty()) {
       throw Error(ErrorId::kUsage, "a mask is to be written, but --paint names no shots");
     }
@@ -123,7 +116,7 @@ struct Job {
 
 class Truth {
  public:
-  Truth(const Options& options, const Job& job)
+  Truth(const TruthOptions& options, const TruthJob& job)
       : options_(options), job_(job), tracer_(job.scene, job.camera.eye) {
     hits_ = tracer_.castPrimary(job.camera, job.size.x, job.size.y);
   }
@@ -181,18 +174,18 @@ class Truth {
                          options_.progress || isatty(STDERR_FILENO) == 1);
   }
 
-  const Options& options_;
-  const Job& job_;
+  const TruthOptions& options_;
+  const TruthJob& job_;
   trace::RayTracer tracer_;
   std::vector<trace::Hit> hits_;
   std::optional<truth::Estimate> ao_, ceiling_;
 };
 
-void writeTruth(const Options& options) {
-  const Job job(options);
+void writeTruth(const TruthOptions& options) {
+  const TruthJob job(options);
   Truth truth(options, job);
   truth.trace();
-  for (const Write& write : job.writes) {
+  for (const OutputFile& write : job.writes) {
     const auto transfer =
         write.output == "normal" ? image::Transfer::kSigned : image::Transfer::kData;
     image::write(truth.image(write.output), write.file, {.transfer = transfer});
@@ -201,7 +194,7 @@ void writeTruth(const Options& options) {
   truth.summarise();
 }
 
-void addOutputs(CLI::App& command, Options& options) {
+void addOutputs(CLI::App& command, TruthOptions& options) {
   command
       .add_option("--write", options.writes,
                   "ao, ao_error (the standard error), ceiling (of what a depth buffer allows), "
@@ -224,7 +217,7 @@ void addOutputs(CLI::App& command, Options& options) {
 }  // namespace
 
 void addTruth(CLI::App& program) {
-  auto options = std::make_shared<Options>();
+  auto options = std::make_shared<TruthOptions>();
   CLI::App* command =
       program.add_subcommand("truth", "Trace what effects are measured against, by rays");
   command->add_option("scene", options->scene,

@@ -24,7 +24,7 @@
 namespace grisaille::app {
 namespace {
 
-struct Options {
+struct TuneOptions {
   SubjectOptions subject;
   std::vector<std::string> vary, validate;
   std::string backend = "opengl", device, out;
@@ -35,7 +35,7 @@ struct Options {
 
 // The parameters that may change: those of --vary, else those of the effects' presets and the
 // others that the panel does not fold away.
-std::vector<study::Axis> axesOf(const Options& options, const study::Subject& subject) {
+std::vector<study::Axis> axesOf(const TuneOptions& options, const study::Subject& subject) {
   std::vector<study::Axis> axes;
   const auto add = [&](const effect::Effect& effect, const grisaille_param_desc& param) {
     axes.push_back({fmt::format("{}.{}", effect.desc->key, param.key), &param});
@@ -162,7 +162,7 @@ class Bench {
 };
 
 // Those of --validate.
-std::vector<scene::Camera> givenCameras(const Options& options) {
+std::vector<scene::Camera> givenCameras(const TuneOptions& options) {
   std::vector<scene::Camera> cameras;
   for (const std::string& text : options.validate) {
     cameras.push_back(cameraOf(text, "--validate"));
@@ -171,7 +171,7 @@ std::vector<scene::Camera> givenCameras(const Options& options) {
 }
 
 // Cameras that were not tuned on.
-std::vector<study::View> unseenViews(const Options& options,
+std::vector<study::View> unseenViews(const TuneOptions& options,
                                      const std::vector<scene::Camera>& given,
                                      const LoadedSubject& subject) {
   std::vector<study::View> views;
@@ -213,7 +213,7 @@ double gridSize(const std::vector<study::Axis>& axes) {
   return all;
 }
 
-study::Found find(const Options& options, const LoadedSubject& subject,
+study::Found find(const TuneOptions& options, const LoadedSubject& subject,
                   const std::vector<study::Axis>& axes, const study::Wish& wish, Bench& bench) {
   const Starts starts(subject.subject(), axes);
   truth::Progress progress("tune", options.progress || isatty(STDERR_FILENO) == 1);
@@ -237,7 +237,7 @@ study::Found find(const Options& options, const LoadedSubject& subject,
 }
 
 // A settings file that says where it comes from.
-void writeSetting(const Options& options, const LoadedSubject& subject,
+void writeSetting(const TuneOptions& options, const LoadedSubject& subject,
                   const study::Setting& setting, const std::string& story) {
   Settings settings{.effects = subject.subject().effects, .surface = {}, .values = {}};
   const auto add = [&](const std::string& name, const std::string& value) {
@@ -253,7 +253,7 @@ void writeSetting(const Options& options, const LoadedSubject& subject,
 }
 
 // The mean RMSE of cameras that were not tuned on; 0: there are none.
-double validate(const Options& options, const std::vector<scene::Camera>& given,
+double validate(const TuneOptions& options, const std::vector<scene::Camera>& given,
                 const LoadedSubject& subject, const study::Setting& setting, gpu::Device& device) {
   study::Subject unseen = subject.subject();
   unseen.views = unseenViews(options, given, subject);
@@ -269,7 +269,7 @@ double validate(const Options& options, const std::vector<scene::Camera>& given,
   return sum / static_cast<double>(unseen.views.size());
 }
 
-void tune(const Options& options) {
+void tune(const TuneOptions& options) {
   const study::Wish wish{options.maxError, options.budget};
   LoadedSubject subject(options.subject, loadEffects(options.subject.pluginPaths), {});
   const std::vector<study::Axis> axes = axesOf(options, subject.subject());
@@ -318,7 +318,7 @@ void tune(const Options& options) {
   fmt::print("wrote {}\n", options.out);
 }
 
-void checkWish(const Options& options) {
+void checkWish(const TuneOptions& options) {
   if ((options.maxError > 0) == (options.budget > 0)) {
     throw Error(ErrorId::kUsage, "give either --max-error or --budget-ms");
   }
@@ -327,7 +327,7 @@ void checkWish(const Options& options) {
 }  // namespace
 
 void addTune(CLI::App& program) {
-  auto options = std::make_shared<Options>();
+  auto options = std::make_shared<TuneOptions>();
   CLI::App* command = program.add_subcommand(
       "tune", "Find the cheapest setting that is good enough for a scene, or the best in a budget");
   command->add_option("scene", options->subject.scene,

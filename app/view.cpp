@@ -12,14 +12,14 @@
 namespace grisaille::app {
 namespace {
 
-struct Options : viewer::ViewerOptions {
+struct ViewOptions : viewer::ViewerOptions {
   std::string windowSize;
 };
 
 }  // namespace
 
 void addView(CLI::App& program) {
-  auto options = std::make_shared<Options>();
+  auto options = std::make_shared<ViewOptions>();
   viewer::SessionOptions& session = options->session;
   CLI::App* command =
       program.add_subcommand("view", "Open a window on a scene: look, tune, shoot paint");

@@ -29,6 +29,9 @@ function(grisaille_add_shader target name source)
     DEPFILE ${stem}.d
     COMMENT "Compiling shader ${name}"
     VERBATIM)
+  # Each has its own `spirv`, `glsl` and so on.
+  set_source_files_properties(${stem}.c PROPERTIES SKIP_UNITY_BUILD_INCLUSION ON)
   target_sources(${target} PRIVATE ${stem}.c ${stem}.h)
+  set_property(GLOBAL APPEND PROPERTY GRISAILLE_GENERATED ${stem}.h)
   target_include_directories(${target} PRIVATE ${folder})
 endfunction()

@@ -98,6 +98,8 @@ GRISAILLE_ERROR(kImageUnreadable, 4101, "check the path and that the file is an 
 GRISAILLE_ERROR(kImageFormat, 4102, "end the name in .exr or .png")
 GRISAILLE_ERROR(kFileUnwritable, 4103, "check that the folder exists, is writable and has room")
 GRISAILLE_ERROR(kImageMismatch, 4104, "compare images of the same size and channels")
+GRISAILLE_ERROR(kNoCodecs, 4105,
+                "install lib/grisaille beside the program's folder, and OpenImageIO")
 // --- 51xx: the command line and settings
 GRISAILLE_ERROR(kUsage, 5101, "see --help")
 GRISAILLE_ERROR(kOutputUnknown, 5102, "name an output of the frame or of an active effect")

@@ -12,6 +12,7 @@
 #include "app/truth/content_hash.h"
 #include "app/truth/occlusion_truth.h"
 #include "app/truth/pixel_order.h"
+#include "app/truth/refine.h"
 #include "core/trace/background.h"
 
 namespace grisaille::app::truth {
@@ -21,13 +22,11 @@ namespace {
 // nothing done for minutes.
 constexpr int kNiceness = 10;
 
-// Rays a pixel of the first pass, the least whose spread tells an error well, and of each later one
-// at most.
+// Rays a pixel of the first pass, the least whose spread tells an error well.
 constexpr uint32_t kFirstRays = 2 * trace::kScrambles;
-constexpr uint32_t kPassRays = 64;
 
 // Pixels between two looks at whether to stop: some ten milliseconds of one core.
-constexpr size_t kSlice = 1024;
+constexpr size_t kLiveSlice = 1024;
 
 uint32_t passEnd(uint32_t from, uint32_t samples) {
   const uint32_t to = from == 0 ? kFirstRays : (from / kPassRays + 1) * kPassRays;
@@ -160,7 +159,7 @@ void LiveTruth::trace(const LiveView& view) {
   uint32_t from = kept.samples;
   uint32_t to = from > 0 ? from : passEnd(0, view.samples);
   for (;; from = to, to = passEnd(from, view.samples)) {
-    for (size_t first = 0; first < size; first += kSlice) {
+    for (size_t first = 0; first < size; first += kLiveSlice) {
       if (!addSlice(job, first, from, to)) return;
     }
     if (to >= view.samples) break;
@@ -175,7 +174,7 @@ bool LiveTruth::addSlice(Job& job, size_t first, uint32_t from, uint32_t to) {
   if (stop_) return false;
   const LiveView& view = job.view;
   const std::span pixels = std::span(order_).subspan(first);
-  const size_t count = std::min(kSlice, pixels.size());
+  const size_t count = std::min(kLiveSlice, pixels.size());
   job.pixels.clear();
   for (const uint32_t pixel : pixels.first(count)) {
     job.pixels.emplace_back(pixel % view.size.x, pixel / view.size.x);

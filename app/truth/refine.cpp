@@ -17,7 +17,7 @@ namespace {
 using Clock = std::chrono::steady_clock;
 
 // Pixels between two looks at the clock.
-constexpr size_t kSlice = 8192;
+constexpr size_t kRefineSlice = 8192;
 constexpr double kSaveSeconds = 5;
 // Saving takes no more than this share of the time.
 constexpr double kSaveShare = 0.05;
@@ -67,8 +67,8 @@ std::string progressText(const Goal& goal, double samples, double error) {
 template <typename Report>
 void castPass(std::span<const trace::Hit> hits, const AddRays& addRays, Counts& counts, uint32_t to,
               const Report& report) {
-  for (size_t first = 0; first < hits.size(); first += kSlice) {
-    const size_t count = std::min(kSlice, hits.size() - first);
+  for (size_t first = 0; first < hits.size(); first += kRefineSlice) {
+    const size_t count = std::min(kRefineSlice, hits.size() - first);
     addRays(hits.subspan(first, count), counts.samples, to,
             std::span(counts.pixels).subspan(first, count));
     const double share = static_cast<double>(first + count) / static_cast<double>(hits.size());

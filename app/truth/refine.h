@@ -12,7 +12,8 @@
 
 namespace grisaille::app::truth {
 
-constexpr uint32_t kPassRays = 64;  // a pixel
+// Rays a pixel of one pass at most.
+constexpr uint32_t kPassRays = 64;
 
 // Casts the rays `from` ... `to` - 1 of these pixels, as RayTracer::addOcclusion() does.
 using AddRays = std::function<void(std::span<const trace::Hit> hits, uint32_t from, uint32_t to,

@@ -14,7 +14,7 @@ namespace {
 
 // Seconds between two pictures of a truth that is being traced: each takes some ten milliseconds
 // from the tracing and from whatever else is done.
-constexpr double kLookInterval = 0.25;
+constexpr double kTruthInterval = 0.25;
 
 // For a texture of kRgba8Unorm.
 std::vector<uint32_t> packed(const image::Image& colors) {
@@ -77,7 +77,7 @@ bool TruthView::look() {
   const bool first = traced_.pixels == 0;
   const bool ended = !truth_.running();
   const Clock::time_point now = Clock::now();
-  const bool due = std::chrono::duration<double>(now - looked_).count() >= kLookInterval;
+  const bool due = std::chrono::duration<double>(now - looked_).count() >= kTruthInterval;
   if (!first && !ended && !due) return false;
   try {
     if (!truth_.poll(traced_)) return false;

@@ -1,18 +1,15 @@
 // SPDX-License-Identifier: MIT
 #include <cstdlib>
-#include <filesystem>
 
 #include "core/effect/registry.h"
+#include "core/library_folder.h"
 
 namespace grisaille::effect {
 
 std::vector<SearchPath> searchPaths(std::span<const std::string> extra) {
   std::vector<SearchPath> paths;
-  std::error_code failed;
-  const auto program = std::filesystem::read_symlink("/proc/self/exe", failed);
-  if (!failed) {
-    const auto beside = program.parent_path() / ".." / "lib" / "grisaille" / "effects";
-    paths.push_back({beside.lexically_normal().string(), false});
+  if (const auto folder = libraryFolder(); !folder.empty()) {
+    paths.push_back({folder / "effects", false});
   }
   if (const char* variable = std::getenv("GRISAILLE_EFFECT_PATH")) {
     std::string_view rest = variable;

@@ -159,11 +159,6 @@ void addDraw(Account& account, CallUses& uses, const Render& render, const Targe
 
 }  // namespace
 
-uint64_t subresourceBytes(const TextureDesc& desc, uint32_t mip) {
-  return uint64_t{std::max(1u, desc.width >> mip)} * std::max(1u, desc.height >> mip) *
-         formatInfo(desc.format).texelBytes;
-}
-
 void CheckingCommands::requireRecording(const char* what) const {
   if (account_.recording) return;
   throw Error(ErrorId::kNotRecording, "{} outside of a frame", what);

@@ -32,7 +32,4 @@ class CheckingCommands final : public Commands {
   Commands* commands_ = nullptr;
 };
 
-// Bytes of one subresource.
-uint64_t subresourceBytes(const TextureDesc& desc, uint32_t mip);
-
 }  // namespace grisaille::gpu

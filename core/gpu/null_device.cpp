@@ -40,11 +40,6 @@ DeviceInfo nullInfo() {
   return info;
 }
 
-size_t subresourceBytes(const TextureDesc& desc, uint32_t mip) {
-  return size_t{std::max(1u, desc.width >> mip)} * std::max(1u, desc.height >> mip) *
-         formatInfo(desc.format).texelBytes;
-}
-
 class NullDeviceImpl final : public NullDevice, private Commands {
  public:
   const DeviceInfo& info() const override { return info_; }

@@ -1,6 +1,8 @@
 // SPDX-License-Identifier: MIT
 #include "core/gpu/types.h"
 
+#include <algorithm>
+
 namespace grisaille::gpu {
 
 const FormatInfo& formatInfo(Format format) {
@@ -13,6 +15,11 @@ const FormatInfo& formatInfo(Format format) {
       {"d32f", 4, 1, true, false, false},
   };
   return kInfos[static_cast<size_t>(format)];
+}
+
+uint64_t subresourceBytes(const TextureDesc& desc, uint32_t mip) {
+  return uint64_t{std::max(1u, desc.width >> mip)} * std::max(1u, desc.height >> mip) *
+         formatInfo(desc.format).texelBytes;
 }
 
 const char* clockName(Clock clock) {

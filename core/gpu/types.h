@@ -104,6 +104,9 @@ struct TextureDesc {
   TextureUsage usage = TextureUsage::kNone;
 };
 
+// Bytes of one layer of one level, in uploads and readbacks.
+uint64_t subresourceBytes(const TextureDesc& desc, uint32_t mip);
+
 enum class Filter : uint8_t { kNearest, kLinear };
 enum class Address : uint8_t { kClamp, kRepeat, kMirror };
 

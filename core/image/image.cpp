@@ -1,27 +1,18 @@
 // SPDX-License-Identifier: MIT
 #include "core/image/image.h"
 
-#include <OpenImageIO/filesystem.h>
-#include <OpenImageIO/imageio.h>
-
-#include <fcntl.h>
-#include <unistd.h>
+#include <dlfcn.h>
 
 #include <algorithm>
-#include <cmath>
-#include <cstdio>
-#include <cstring>
 #include <filesystem>
-#include <mutex>
 
 #include "core/error.h"
+#include "core/image/codecs.h"
 #include "core/image/write_aside.h"
+#include "core/library_folder.h"
 
 namespace grisaille::image {
 namespace {
-
-constexpr int kLargestSide = 16384;  // pixels
-constexpr uint64_t kMostValues = uint64_t{1} << 29;
 
 enum class Format : uint8_t { kExr, kPng };
 
@@ -35,161 +26,18 @@ Format formatOf(const std::string& path) {
               ending);
 }
 
-// Keeps the process's standard error shut while it lives: libpng prints each error there although
-// the library reports it too, and offers no way to stop it. Threads may overlap.
-class SilentStderr {
- public:
-  SilentStderr() {
-    const std::lock_guard lock(mutex_);
-    if (users_++ > 0) return;
-    std::fflush(stderr);
-    saved_ = dup(STDERR_FILENO);
-    const int nowhere = open("/dev/null", O_WRONLY | O_CLOEXEC);
-    if (saved_ >= 0 && nowhere >= 0) dup2(nowhere, STDERR_FILENO);
-    if (nowhere >= 0) close(nowhere);
-  }
-  ~SilentStderr() {
-    const std::lock_guard lock(mutex_);
-    if (--users_ > 0 || saved_ < 0) return;
-    std::fflush(stderr);
-    dup2(saved_, STDERR_FILENO);
-    close(saved_);
-  }
-  SilentStderr(const SilentStderr&) = delete;
-  SilentStderr& operator=(const SilentStderr&) = delete;
-
- private:
-  static inline std::mutex mutex_;
-  static inline int users_ = 0;
-  static inline int saved_ = -1;
-};
-
-// OpenImageIO keeps errors in two places and prints those that nobody fetched: fetch both.
-template <typename Stream>
-std::string errorOf(const Stream* stream) {
-  std::string text = stream ? stream->geterror() : std::string();
-  const std::string global = OIIO::geterror();
-  if (text.empty()) text = global;
-  return text.empty() ? "no reason is known" : text;
-}
-
-// IEC 61966-2-1.
-double encodeSrgb(double linear) {
-  return linear <= 0.0031308 ? 12.92 * linear : 1.055 * std::pow(linear, 1.0 / 2.4) - 0.055;
-}
-
-bool isAlpha(uint32_t channel, uint32_t channels) {
-  return channels % 2 == 0 && channel + 1 == channels;
-}
-
-template <typename Integer>
-std::vector<Integer> quantise(const Image& image, Transfer transfer) {
-  constexpr double kLargest = std::numeric_limits<Integer>::max();
-  std::vector<Integer> result(image.pixels.size());
-  for (size_t i = 0; i < result.size(); ++i) {
-    const float stored = image.pixels[i];
-    const double shown = transfer == Transfer::kSigned ? (double{stored} + 1) / 2 : double{stored};
-    double value = std::isnan(shown) ? 0.0 : std::clamp(shown, 0.0, 1.0);
-    const auto channel = static_cast<uint32_t>(i % image.channels);
-    if (transfer == Transfer::kColour && !isAlpha(channel, image.channels)) {
-      value = encodeSrgb(value);
+const Codecs& codecs() {
+  static const Codecs& loaded = []() -> const Codecs& {
+    // Never unloaded.
+    const std::string file = libraryFolder() / "libgrisaille_codecs.so";
+    void* library = dlopen(file.c_str(), RTLD_LAZY | RTLD_LOCAL);
+    void* function = library != nullptr ? dlsym(library, kCodecsFunction) : nullptr;
+    if (function == nullptr) {
+      throw Error(ErrorId::kNoCodecs, "no picture can be read or written: {}", dlerror());
     }
-    result[i] = static_cast<Integer>(std::lround(value * kLargest));
-  }
-  return result;
-}
-
-OIIO::ImageSpec specOf(const Image& image, const OIIO::TypeDesc& type) {
-  OIIO::ImageSpec spec(static_cast<int>(image.width), static_cast<int>(image.height),
-                       static_cast<int>(image.channels), type);
-  if (image.channels == 1) spec.channelnames = {"Y"};
-  if (image.channels == 2) spec.channelnames = {"R", "G"};
-  // Store what is given: no division by alpha on the way.
-  spec.attribute("oiio:UnassociatedAlpha", 1);
-  // Else OpenImageIO notes the time of writing, and equal pictures make different files.
-  spec.attribute("DateTime", "1970:01:01 00:00:00");
-  return spec;
-}
-
-// The bytes of a file. They go to memory first: the library overlooks a disk that is full.
-std::vector<unsigned char> encode(const char* plugin, const OIIO::ImageSpec& spec,
-                                  const void* pixels) {
-  const SilentStderr silent;
-  std::vector<unsigned char> bytes;
-  OIIO::Filesystem::IOVecOutput memory(bytes);
-  const auto output = OIIO::ImageOutput::create(plugin);
-  if (!output || !output->set_ioproxy(&memory) || !output->open(plugin, spec) ||
-      !output->write_image(spec.format, pixels) || !output->close()) {
-    throw Error(ErrorId::kFileUnwritable, "an {} file cannot be made: {}", plugin,
-                errorOf(output.get()));
-  }
-  return bytes;
-}
-
-std::vector<unsigned char> encodePngOf(const Image& image, const WriteOptions& options) {
-  const bool wide = options.pngBits == 16;
-  OIIO::ImageSpec spec = specOf(image, wide ? OIIO::TypeDesc::UINT16 : OIIO::TypeDesc::UINT8);
-  if (options.transfer == Transfer::kColour) spec.attribute("oiio:ColorSpace", "sRGB");
-  return wide ? encode("png", spec, quantise<uint16_t>(image, options.transfer).data())
-              : encode("png", spec, quantise<uint8_t>(image, options.transfer).data());
-}
-
-OIIO::ImageSpec readConfig() {
-  OIIO::ImageSpec config;
-  config.attribute("oiio:UnassociatedAlpha", 1);
-  return config;
-}
-
-// Whether the chunks lie inside the bytes up to the last one. OpenImageIO leaks where they do not.
-bool isWholePng(std::span<const std::byte> bytes) {
-  constexpr size_t kSignature = 8, kFrame = 12;  // a chunk's length, type and checksum
-  for (size_t at = kSignature; bytes.size() - at >= kFrame;) {
-    size_t length = 0;
-    for (size_t i = 0; i < 4; ++i) length = length << 8 | std::to_integer<size_t>(bytes[at + i]);
-    if (length > bytes.size() - at - kFrame) return false;
-    if (std::memcmp(&bytes[at + 4], "IEND", 4) == 0) return true;
-    at += kFrame + length;
-  }
-  return false;
-}
-
-bool endsLikeJpeg(std::span<const std::byte> bytes) {
-  // A file cut short decodes to grey with no error: look for the end marker. Some writers pad.
-  const size_t from = bytes.size() > 64 ? bytes.size() - 64 : 0;
-  for (size_t i = from; i + 1 < bytes.size(); ++i) {
-    if (bytes[i] == std::byte{0xff} && bytes[i + 1] == std::byte{0xd9}) return true;
-  }
-  return false;
-}
-
-const char* pluginFor(std::span<const std::byte> encoded, const std::string& name) {
-  constexpr unsigned char kPng[] = {0x89, 'P', 'N', 'G', 0x0d, 0x0a, 0x1a, 0x0a};
-  constexpr unsigned char kJpeg[] = {0xff, 0xd8, 0xff};
-  if (encoded.size() >= sizeof kPng && std::memcmp(encoded.data(), kPng, sizeof kPng) == 0) {
-    if (isWholePng(encoded)) return "png";
-    throw Error(ErrorId::kSceneImage, "image \"{}\": the PNG is cut short", name);
-  }
-  if (encoded.size() >= sizeof kJpeg && std::memcmp(encoded.data(), kJpeg, sizeof kJpeg) == 0) {
-    if (endsLikeJpeg(encoded)) return "jpeg";
-    throw Error(ErrorId::kSceneImage, "image \"{}\": the JPEG is cut short", name);
-  }
-  throw Error(ErrorId::kSceneImage, "image \"{}\": neither a PNG nor a JPEG", name);
-}
-
-// Grey, grey with alpha, RGB or RGBA to RGBA.
-std::vector<uint8_t> toRgba(const std::vector<uint8_t>& from, size_t channels) {
-  const size_t count = from.size() / channels;
-  std::vector<uint8_t> result(count * 4);
-  for (size_t i = 0; i < count; ++i) {
-    const uint8_t* in = &from[i * channels];
-    uint8_t* out = &result[i * 4];
-    const bool grey = channels < 3;
-    out[0] = in[0];
-    out[1] = grey ? in[0] : in[1];
-    out[2] = grey ? in[0] : in[2];
-    out[3] = channels == 2 ? in[1] : channels == 4 ? in[3] : uint8_t{255};
-  }
-  return result;
+    return *reinterpret_cast<CodecsOf*>(function)();
+  }();
+  return loaded;
 }
 
 }  // namespace
@@ -210,83 +58,24 @@ void write(const Image& image, const std::string& path, const WriteOptions& opti
                 options.pngBits);
   }
   const std::vector<unsigned char> bytes =
-      format == Format::kExr
-          ? encode("openexr", specOf(image, OIIO::TypeDesc::FLOAT), image.pixels.data())
-          : encodePngOf(image, options);
+      format == Format::kExr ? codecs().exrOf(image) : codecs().pngOf(image, options);
   writeFileAside(path, {reinterpret_cast<const char*>(bytes.data()), bytes.size()});
 }
 
 Image read(const std::string& path) {
-  std::error_code code;
-  if (!std::filesystem::is_regular_file(path, code)) {
-    throw Error(ErrorId::kImageUnreadable, "{}: {}", path,
-                code ? code.message() : "not a regular file");
-  }
-  const SilentStderr silent;
-  const OIIO::ImageSpec config = readConfig();
-  const auto input = OIIO::ImageInput::open(path, &config);
-  if (!input) {
-    throw Error(ErrorId::kImageUnreadable, "{}: {}", path,
-                errorOf(static_cast<OIIO::ImageInput*>(nullptr)));
-  }
-  const OIIO::ImageSpec& spec = input->spec();
-  const uint64_t values = spec.image_pixels() * static_cast<uint64_t>(spec.nchannels);
-  if (spec.width > kLargestSide || spec.height > kLargestSide || values > kMostValues ||
-      values == 0) {
-    throw Error(ErrorId::kImageUnreadable, "{}: {} x {} pixels of {} channels are out of range",
-                path, spec.width, spec.height, spec.nchannels);
-  }
-  Image image{.width = static_cast<uint32_t>(spec.width),
-              .height = static_cast<uint32_t>(spec.height),
-              .channels = static_cast<uint32_t>(spec.nchannels),
-              .pixels = std::vector<float>(values)};
-  if (!input->read_image(0, 0, 0, spec.nchannels, OIIO::TypeDesc::FLOAT, image.pixels.data())) {
-    throw Error(ErrorId::kImageUnreadable, "{}: {}", path, errorOf(input.get()));
-  }
-  return image;
+  return codecs().read(path);
 }
 
 Image8 decode(std::span<const std::byte> encoded, const std::string& name) {
-  const char* plugin = pluginFor(encoded, name);
-  const SilentStderr silent;
-  OIIO::Filesystem::IOMemReader memory(encoded.data(), encoded.size());
-  const auto input = OIIO::ImageInput::create(plugin);
-  OIIO::ImageSpec spec;
-  if (!input || !input->set_ioproxy(&memory) || !input->open(plugin, spec, readConfig())) {
-    throw Error(ErrorId::kSceneImage, "image \"{}\": {}", name, errorOf(input.get()));
-  }
-  if (spec.width < 1 || spec.height < 1 || spec.width > kLargestSide ||
-      spec.height > kLargestSide || spec.nchannels < 1 || spec.nchannels > 4) {
-    throw Error(ErrorId::kSceneImage,
-                "image \"{}\": {} x {} pixels of {} channels, at most {} a side", name, spec.width,
-                spec.height, spec.nchannels, kLargestSide);
-  }
-  std::vector<uint8_t> pixels(spec.image_pixels() * static_cast<size_t>(spec.nchannels));
-  if (!input->read_image(0, 0, 0, spec.nchannels, OIIO::TypeDesc::UINT8, pixels.data())) {
-    throw Error(ErrorId::kSceneImage, "image \"{}\": {}", name, errorOf(input.get()));
-  }
-  if (spec.nchannels != 4) pixels = toRgba(pixels, static_cast<size_t>(spec.nchannels));
-  return {.width = static_cast<uint32_t>(spec.width),
-          .height = static_cast<uint32_t>(spec.height),
-          .pixels = std::move(pixels)};
+  return codecs().decode(encoded, name);
 }
 
 std::vector<std::byte> encodePng(const Image8& image) {
-  OIIO::ImageSpec spec(static_cast<int>(image.width), static_cast<int>(image.height), 4,
-                       OIIO::TypeDesc::UINT8);
-  spec.attribute("oiio:UnassociatedAlpha", 1);
-  const std::vector<unsigned char> bytes = encode("png", spec, image.pixels.data());
-  const auto view = std::as_bytes(std::span(bytes));
-  return {view.begin(), view.end()};
+  return codecs().encodePng(image);
 }
 
 std::vector<std::byte> encodeJpeg(const Image& image, int quality) {
-  OIIO::ImageSpec spec = specOf(image, OIIO::TypeDesc::UINT8);
-  spec.attribute("Compression", "jpeg:" + std::to_string(quality));
-  const std::vector<unsigned char> bytes =
-      encode("jpeg", spec, quantise<uint8_t>(image, Transfer::kData).data());
-  const auto view = std::as_bytes(std::span(bytes));
-  return {view.begin(), view.end()};
+  return codecs().encodeJpeg(image, quality);
 }
 
 }  // namespace grisaille::image

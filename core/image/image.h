@@ -42,17 +42,17 @@ struct WriteOptions {
 
 // By the name's ending: .exr holds 32-bit floats as they are, .png rounds to integers after
 // clamping to [0, 1] (NaN: 0). Written aside, then renamed: a failure leaves no half file and an
-// older file as it was. Throws kImageFormat, kFileUnwritable.
+// older file as it was. Throws kImageFormat, kFileUnwritable, kNoCodecs.
 void write(const Image& image, const std::string& path, const WriteOptions& options = {});
 
 // Throws kImageFormat when `path` has an ending that write() does not take: ask before long work.
 void checkWritable(const std::string& path);
 
-// Any format OpenImageIO reads; integers become [0, 1]. Throws kImageUnreadable.
+// Any format OpenImageIO reads; integers become [0, 1]. Throws kImageUnreadable, kNoCodecs.
 Image read(const std::string& path);
 
 // A PNG or JPEG in memory, of at most 16384 pixels a side. `name` is for messages. Throws
-// kSceneImage.
+// kSceneImage, kNoCodecs.
 Image8 decode(std::span<const std::byte> encoded, const std::string& name);
 
 // A PNG of 8 bits a channel, RGBA, in memory.

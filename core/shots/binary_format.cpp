@@ -15,7 +15,7 @@ namespace grisaille::shots {
 namespace {
 
 constexpr std::array<unsigned char, 8> kMagic = {kBinaryMark, 'G', 'R', 'S', 'H', '\r', '\n', 0x1a};
-constexpr uint32_t kVersion = 1;
+constexpr uint32_t kBinaryVersion = 1;
 constexpr size_t kVersionAt = kMagic.size();
 constexpr size_t kCountAt = kVersionAt + 4;
 constexpr size_t kHeaderBytes = kCountAt + 8;
@@ -114,9 +114,9 @@ class BinaryReader {
     }
     const char* at = chunk_.data() + kVersionAt;
     const auto version = take<uint32_t>(at);
-    if (version != kVersion) {
+    if (version != kBinaryVersion) {
       throw Error(ErrorId::kShotFileVersion, " byte {}: version {}, and only {} can be read",
-                  kVersionAt, version, kVersion);
+                  kVersionAt, version, kBinaryVersion);
     }
     const auto count = take<uint64_t>(at);
     const uint64_t room = bytes_ - kHeaderBytes - kHashBytes;
@@ -159,7 +159,7 @@ void writeBinary(std::span<const grisaille_shot> shots, std::ostream& out) {
     out.write(chunk.data(), static_cast<std::streamsize>(chunk.size()));
     chunk.clear();
   };
-  put(chunk, kVersion);
+  put(chunk, kBinaryVersion);
   put(chunk, uint64_t{shots.size()});
   for (const grisaille_shot& shot : shots) {
     putShot(chunk, shot);

@@ -23,7 +23,7 @@ namespace {
 
 using nlohmann::json;
 
-constexpr double kVersion = 1;
+constexpr double kJsonVersion = 1;
 constexpr size_t kChunk = size_t{1} << 16;
 
 struct Place {
@@ -225,9 +225,9 @@ class Handler : public nlohmann::json_sax<json> {
     } else if (inside_ == Inside::kShot && *member_ == kRangeMember) {
       values_.range = value;
     } else if (inside_ == Inside::kFile && *member_ == kVersionMember) {
-      if (value != kVersion) {
+      if (value != kJsonVersion) {
         throw Error(ErrorId::kShotFileVersion, "{}:{}: version {}, and only {} can be read",
-                    chars_.place().line, chars_.place().column, value, kVersion);
+                    chars_.place().line, chars_.place().column, value, kJsonVersion);
       }
     } else {
       unexpected("a number");
@@ -352,7 +352,7 @@ void writeJson(std::span<const grisaille_shot> shots, std::ostream& out) {
     out.write(text.data(), static_cast<std::streamsize>(text.size()));
     text.clear();
   };
-  fmt::format_to(std::back_inserter(text), "{{\"version\": {}, \"shots\": [", kVersion);
+  fmt::format_to(std::back_inserter(text), "{{\"version\": {}, \"shots\": [", kJsonVersion);
   for (const grisaille_shot& shot : shots) {
     text.append(std::string_view(&shot == shots.data() ? "\n{" : ",\n{"));
     putVector(text, "origin", shot.origin);

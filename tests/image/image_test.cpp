@@ -44,7 +44,7 @@ class ImageFiles : public ::testing::Test {
   fs::path folder_;
 };
 
-Image noise(uint32_t channels, float low, float high) {
+Image noiseIn(uint32_t channels, float low, float high) {
   std::mt19937 random(channels);
   Image image{.width = 37, .height = 23, .channels = channels, .pixels = {}};
   image.pixels.resize(size_t{image.width} * image.height * channels);
@@ -61,7 +61,7 @@ double toLinear(double encoded) {
 
 TEST_F(ImageFiles, ExrKeepsEveryBit) {
   for (const uint32_t channels : {1u, 2u, 3u, 4u}) {
-    Image image = noise(channels, -1e4f, 1e4f);
+    Image image = noiseIn(channels, -1e4f, 1e4f);
     image.pixels[0] = std::numeric_limits<float>::infinity();
     image.pixels[1] = 1e-40f;
     image.pixels[2] = std::numeric_limits<float>::quiet_NaN();
@@ -80,7 +80,7 @@ TEST_F(ImageFiles, ExrKeepsEveryBit) {
 TEST_F(ImageFiles, PngRoundsDataToTheNearestStep) {
   for (const uint32_t channels : {1u, 2u, 3u, 4u}) {
     for (const uint32_t bits : {8u, 16u}) {
-      const Image image = noise(channels, 0, 1);
+      const Image image = noiseIn(channels, 0, 1);
       write(image, file("a.PNG"), {.pngBits = bits});
       const Image back = read(file("a.PNG"));
       ASSERT_EQ(back.channels, channels);
@@ -91,7 +91,7 @@ TEST_F(ImageFiles, PngRoundsDataToTheNearestStep) {
 
 TEST_F(ImageFiles, PngEncodesColourButNeverAlpha) {
   for (const uint32_t channels : {1u, 3u, 4u}) {
-    const Image image = noise(channels, 0, 1);
+    const Image image = noiseIn(channels, 0, 1);
     write(image, file("a.png"), {.transfer = Transfer::kColour, .pngBits = 16});
     Image back = read(file("a.png"));
     for (size_t i = 0; i < back.pixels.size(); ++i) {
@@ -103,7 +103,7 @@ TEST_F(ImageFiles, PngEncodesColourButNeverAlpha) {
 }
 
 TEST_F(ImageFiles, PngHoldsSignedNumbersAboutTheMiddle) {
-  const Image image = noise(3, -1, 1);
+  const Image image = noiseIn(3, -1, 1);
   write(image, file("a.png"), {.transfer = Transfer::kSigned, .pngBits = 16});
   Image back = read(file("a.png"));
   for (float& value : back.pixels) value = 2 * value - 1;
@@ -129,7 +129,7 @@ TEST_F(ImageFiles, RowsRunFromTheTop) {
 }
 
 TEST_F(ImageFiles, OtherEndingsAndShapesAreRefused) {
-  const Image image = noise(3, 0, 1);
+  const Image image = noiseIn(3, 0, 1);
   for (const char* name : {"a", "a.jpg", "a.exr.txt", ".png", "a.hdr"}) {
     EXPECT_ERROR(ErrorId::kImageFormat, write(image, file(name)));
     EXPECT_ERROR(ErrorId::kImageFormat, checkWritable(file(name)));
@@ -144,7 +144,7 @@ TEST_F(ImageFiles, OtherEndingsAndShapesAreRefused) {
 }
 
 TEST_F(ImageFiles, AFailureLeavesNothingBehind) {
-  const Image image = noise(3, 0, 1);
+  const Image image = noiseIn(3, 0, 1);
   EXPECT_ERROR(ErrorId::kFileUnwritable, write(image, file("missing/a.png")));
   EXPECT_ERROR(ErrorId::kFileUnwritable, write(image, file("missing/a.exr")));
   fs::create_directories(folder_ / "folder.png");
@@ -170,7 +170,7 @@ TEST_F(ImageFiles, AFullDiskIsAnError) {
   if (!fs::exists("/dev/full")) GTEST_SKIP() << "no /dev/full here";
   const std::string part = fmt::format("{}.{}.part.png", file("a.png"), getpid());
   fs::create_symlink("/dev/full", part);
-  EXPECT_ERROR(ErrorId::kFileUnwritable, write(noise(3, 0, 1), file("a.png")));
+  EXPECT_ERROR(ErrorId::kFileUnwritable, write(noiseIn(3, 0, 1), file("a.png")));
   EXPECT_TRUE(fs::is_empty(folder_));
 }
 
@@ -203,7 +203,7 @@ TEST(Decode, ReturnsWhatWasEncoded) {
 TEST_F(ImageFiles, DecodeWidensEveryChannelCount) {
   for (const uint32_t channels : {1u, 2u, 3u, 4u}) {
     for (const uint32_t bits : {8u, 16u}) {
-      const Image image = noise(channels, 0, 1);
+      const Image image = noiseIn(channels, 0, 1);
       write(image, file("a.png"), {.pngBits = bits});
       const Image8 decoded = decode(bytesOf(file("a.png")), "a");
       ASSERT_EQ(decoded.pixels.size(), size_t{4} * image.width * image.height);

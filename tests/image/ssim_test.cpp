@@ -21,7 +21,7 @@ Image flat(uint32_t width, uint32_t height, float value) {
           .pixels = std::vector<float>(size_t{width} * height, value)};
 }
 
-Image noise(uint32_t width, uint32_t height, unsigned seed) {
+Image greyNoise(uint32_t width, uint32_t height, unsigned seed) {
   Image image = flat(width, height, 0);
   std::mt19937 random(seed);
   for (float& pixel : image.pixels) pixel = static_cast<float>(random() % 1000) / 1000;
@@ -29,7 +29,7 @@ Image noise(uint32_t width, uint32_t height, unsigned seed) {
 }
 
 TEST(Ssim, EqualPicturesHaveOne) {
-  const Image image = noise(40, 30, 1);
+  const Image image = greyNoise(40, 30, 1);
   const Similarity s = ssim(image, image);
   EXPECT_DOUBLE_EQ(s.mean, 1);
   EXPECT_EQ(s.windows, 30u * 20u);
@@ -60,7 +60,7 @@ TEST(Ssim, ASinglePixelByHand) {
 
 // The same by the definition, window by window.
 TEST(Ssim, TwoNoisesByTheDefinition) {
-  const Image a = noise(13, 12, 2), b = noise(13, 12, 3);
+  const Image a = greyNoise(13, 12, 2), b = greyNoise(13, 12, 3);
   double weights[11], sum = 0, mean = 0;
   for (int i = 0; i < 11; ++i) sum += weights[i] = std::exp(-(i - 5) * (i - 5) / (2 * 1.5 * 1.5));
   for (uint32_t top = 0; top < 2; ++top) {
@@ -91,7 +91,7 @@ TEST(Ssim, TwoNoisesByTheDefinition) {
 TEST(Ssim, WindowsWithAPixelThatIsNotFiniteAreLeftOut) {
   for (const float bad :
        {std::numeric_limits<float>::quiet_NaN(), std::numeric_limits<float>::infinity()}) {
-    const Image a = noise(30, 11, 4);
+    const Image a = greyNoise(30, 11, 4);
     Image b = a;
     b.pixels[5 * 30] = bad;  // the leftmost column: in one window
     EXPECT_EQ(ssim(a, b).leftOut, 1u);

@@ -192,5 +192,18 @@ TEST_F(CommandLine, MissingLibraryOfOneBackendLeavesTheOther) {
   }
 }
 
+// What needs no picture in a file starts without the library that makes them, which is slow to
+// load.
+TEST_F(CommandLine, OnlyPicturesNeedTheirLibrary) {
+  const std::vector<std::string> without = {"LD_PRELOAD=" HIDE_LIBRARY, "HIDE_LIBRARY=codecs"};
+  const auto run = [&](const std::vector<std::string>& arguments) {
+    return runProgram(arguments, folder_.path(), without);
+  };
+  EXPECT_EQ(run({"effects"}).status, 0);
+  EXPECT_EQ(run({"backends"}).status, 0);
+  EXPECT_EQ(run({"render", "--help"}).status, 0);
+  expectError(run({"render", "--size", "8x8", "--write", "color=c.png"}), 4105);
+}
+
 }  // namespace
 }  // namespace grisaille::tests

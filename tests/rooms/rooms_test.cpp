@@ -75,7 +75,8 @@ bool allowed(const std::string& folder, const std::string& header, bool quoted) 
   if (std::regex_match(header, apiHeader())) return startsWith(folder, "backends/");
   // A library's header, or one that lies beside the file.
   if (!quoted || header.find('/') == std::string::npos) return true;
-  if (header == "core/error.h" || header == "core/error_list.h" || header == "core/nearest.h") {
+  if (header == "core/error.h" || header == "core/error_list.h" ||
+      header == "core/library_folder.h" || header == "core/nearest.h") {
     return !startsWith(folder, "effects") && !startsWith(folder, "core/effect/include");
   }
   // An effect's own folder is the second level: one effect never sees another.

@@ -13,12 +13,12 @@ json key(double x) {
   return {{"eye", {x, 1, 3}}, {"target", {2 * x, 0, 0}}, {"fovy_degrees", 40 + x}};
 }
 
-json good() {
+json goodPath() {
   return {{"cameras", {key(0), key(3), key(4)}}, {"frames", 7}};
 }
 
 TEST_F(CameraPathFiles, RunsFromKeyToKey) {
-  const CameraPath path = loadCameraPath(put("path.json", good().dump()));
+  const CameraPath path = loadCameraPath(put("path.json", goodPath().dump()));
   const std::vector<Camera> cameras = camerasOf(path);
   ASSERT_EQ(cameras.size(), 7u);
   const double x[] = {0, 1, 2, 3, 3 + 1.0 / 3, 3 + 2.0 / 3, 4};
@@ -46,7 +46,7 @@ TEST_F(CameraPathFiles, MistakesAreNamed) {
     }
   };
   const auto with = [](const char* field, const json& value) {
-    json document = good();
+    json document = goodPath();
     document[field] = value;
     return document;
   };
@@ -61,7 +61,7 @@ TEST_F(CameraPathFiles, MistakesAreNamed) {
   wide["fovy_degrees"] = 180;
   refused(with("cameras", {key(0), wide}), ErrorId::kCameraInvalid, "cameras[1]: fovy_degrees");
   for (const char* field : {"cameras", "frames"}) {
-    json document = good();
+    json document = goodPath();
     document.erase(field);
     refused(document, ErrorId::kCameraInvalid, field);
   }

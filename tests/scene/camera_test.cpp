@@ -14,12 +14,12 @@ namespace {
 
 using CameraFiles = SceneFiles;
 
-json good() {
+json goodCamera() {
   return {{"eye", {1, 2, 3}}, {"target", {4, 5, -6}}, {"fovy_degrees", 55.5}};
 }
 
 TEST_F(CameraFiles, ReadsAllFields) {
-  json document = good();
+  json document = goodCamera();
   document["up"] = {0.1, 1, 0};
   document["size"] = {1280, 720};
   document["near"] = 0.05;
@@ -133,7 +133,7 @@ TEST_F(CameraFiles, BadFieldsAreRefusedByName) {
       {"near", 1e300},
   };
   for (const auto& [field, value] : cases) {
-    json document = good();
+    json document = goodCamera();
     document[field] = value;
     try {
       loadCamera(put("a.json", document.dump()));
@@ -144,7 +144,7 @@ TEST_F(CameraFiles, BadFieldsAreRefusedByName) {
     }
   }
   for (const char* field : {"eye", "target", "fovy_degrees"}) {
-    json document = good();
+    json document = goodCamera();
     document.erase(field);
     EXPECT_ERROR(ErrorId::kCameraInvalid, loadCamera(put("a.json", document.dump())));
   }
@@ -152,7 +152,7 @@ TEST_F(CameraFiles, BadFieldsAreRefusedByName) {
 }
 
 TEST_F(CameraFiles, AnUnknownKeyNamesTheNearest) {
-  json document = good();
+  json document = goodCamera();
   document["fov_degrees"] = 60;
   try {
     loadCamera(put("a.json", document.dump()));

@@ -14,10 +14,6 @@
 namespace grisaille::tests {
 namespace {
 
-constexpr uint32_t kWidth = 96;
-constexpr uint32_t kHeight = 72;
-
-const scene::Camera kCrease = {.eye = glm::dvec3(0.3, 1.5, 2.5), .target = glm::dvec3(0, 0.5, 0)};
 const scene::Camera kWall = {.eye = glm::dvec3(0, 0, 3), .target = glm::dvec3(0, 0, 0)};
 
 class CrowdTest : public BackendTest {};

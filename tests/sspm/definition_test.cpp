@@ -10,8 +10,8 @@
 namespace grisaille::tests {
 namespace {
 
-constexpr uint32_t kWidth = 128;
-constexpr uint32_t kHeight = 96;
+constexpr uint32_t kDefinedWidth = 128;
+constexpr uint32_t kDefinedHeight = 96;
 
 std::string text(double value) {
   return fmt::format("{}", value);
@@ -48,9 +48,8 @@ double different(const image::Image& paint, const image::Image& coverage, Expect
   return static_cast<double>(count) / (paint.width * paint.height);
 }
 
-const scene::Camera kCrease = {.eye = glm::dvec3(0.3, 1.5, 2.5), .target = glm::dvec3(0, 0.5, 0)};
 double pixelSlope(const scene::Camera& camera) {
-  return 2 * std::tan(glm::radians(camera.fovyDegrees) / 2) / kHeight;
+  return 2 * std::tan(glm::radians(camera.fovyDegrees) / 2) / kDefinedHeight;
 }
 
 class DefinitionTest : public BackendTest {};
@@ -77,13 +76,13 @@ TEST_P(DefinitionTest, PerShotIsTheDefinition) {
       shots.push_back(shotAt(origin, target, randomColor(random), range));
     }
     frame.set(settingsOf(settings, "per_shot"));
-    frame.render(kCrease, kWidth, kHeight, shots);
+    frame.render(kCrease, kDefinedWidth, kDefinedHeight, shots);
     const image::Image depth = frame.read("depth");
     const double wrong =
         different(frame.read("paint"), frame.read("paint_coverage"), [&](uint32_t x, uint32_t y) {
           const double d = depth.at(x, y);
-          return paintOf(worldOf(kCrease, kWidth, kHeight, x, y, d), d, pixelSlope(kCrease), shots,
-                         settings);
+          return paintOf(worldOf(kCrease, kDefinedWidth, kDefinedHeight, x, y, d), d,
+                         pixelSlope(kCrease), shots, settings);
         });
     EXPECT_LT(wrong, 0.001) << "round " << round;
   }
@@ -114,11 +113,11 @@ TEST_P(DefinitionTest, SurfaceIsPerShotOnAnOpenWall) {
     PaintFrame frame(device(), scene);
     frame.setRays(&rays);
     frame.set(settingsOf(settings, "surface"));
-    frame.render(camera, kWidth, kHeight, shots);
+    frame.render(camera, kDefinedWidth, kDefinedHeight, shots);
     EXPECT_EQ(frame.waiting(), 0u);
     const image::Image paint = frame.read("paint"), coverage = frame.read("paint_coverage");
     frame.set(settingsOf(settings, "per_shot"));
-    frame.render(camera, kWidth, kHeight, shots);
+    frame.render(camera, kDefinedWidth, kDefinedHeight, shots);
     const image::Image every = frame.read("paint"), sum = frame.read("paint_coverage");
     const double wrong = different(paint, coverage, [&](uint32_t x, uint32_t y) {
       return PaintPixel{

@@ -11,8 +11,8 @@
 namespace grisaille::tests {
 namespace {
 
-constexpr uint32_t kWidth = 1280;
-constexpr uint32_t kHeight = 720;
+constexpr uint32_t kMaskWidth = 1280;
+constexpr uint32_t kMaskHeight = 720;
 
 using Mask = std::vector<uint8_t>;
 
@@ -62,14 +62,14 @@ TEST_P(MaskTest, PaintLandsWhereTheMuzzleSees) {
   for (const char* name : {"atrium", "arcade", "gallery", "lion"}) {
     const scene::Camera camera =
         scene::loadCamera(shared / "cameras" / (std::string(name) + ".json"));
-    const std::vector<trace::Hit> hits = rays.tracer().castPrimary(camera, kWidth, kHeight);
+    const std::vector<trace::Hit> hits = rays.tracer().castPrimary(camera, kMaskWidth, kMaskHeight);
     PaintFrame frame(device(), scene);
     frame.setRays(&rays);
     for (int i = 0; i < 8; ++i) {
       // Anywhere in the picture, from anywhere about the camera.
-      const auto x = static_cast<uint32_t>(kWidth * (0.05 + 0.9 * unit(random)));
-      const auto y = static_cast<uint32_t>(kHeight * (0.05 + 0.9 * unit(random)));
-      const trace::Hit& target = hits[y * kWidth + x];
+      const auto x = static_cast<uint32_t>(kMaskWidth * (0.05 + 0.9 * unit(random)));
+      const auto y = static_cast<uint32_t>(kMaskHeight * (0.05 + 0.9 * unit(random)));
+      const trace::Hit& target = hits[y * kMaskWidth + x];
       const glm::dvec3 muzzle =
           camera.eye +
           glm::dvec3(3 * unit(random) - 1.5, 1.5 * unit(random) - 0.7, 3 * unit(random) - 1.5);
@@ -78,7 +78,7 @@ TEST_P(MaskTest, PaintLandsWhereTheMuzzleSees) {
       const std::vector<grisaille_shot> shots = {
           shotAt(muzzle, target.position, glm::vec3(1, 0, 0), static_cast<float>(range))};
       frame.set({{"edge_fade", "0"}});
-      frame.render(camera, kWidth, kHeight, shots, 0, {"paint_coverage"});
+      frame.render(camera, kMaskWidth, kMaskHeight, shots, 0, {"paint_coverage"});
       const Agreement one = compare(trace::paintMask(rays.tracer(), hits, shots, range),
                                     frame.read("paint_coverage"));
       SCOPED_TRACE(fmt::format("{}, shot {} at pixel {},{} with range {}: {} px", name, i, x, y,

@@ -16,6 +16,12 @@ namespace grisaille::tests {
 
 using Settings = std::vector<std::pair<std::string, std::string>>;
 
+// The size of a small picture, and a camera before the corner that floor and wall make.
+constexpr uint32_t kWidth = 96;
+constexpr uint32_t kHeight = 72;
+inline const scene::Camera kCrease = {.eye = glm::dvec3(0.3, 1.5, 2.5),
+                                      .target = glm::dvec3(0, 0.5, 0)};
+
 class PaintFrame {
  public:
   PaintFrame(gpu::Device& device, const scene::Scene& scene);

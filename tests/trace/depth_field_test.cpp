@@ -12,15 +12,15 @@
 namespace grisaille::trace {
 namespace {
 
-constexpr uint32_t kWidth = 64;
-constexpr uint32_t kHeight = 48;
+constexpr uint32_t kFieldWidth = 64;
+constexpr uint32_t kFieldHeight = 48;
 
 struct View {
   View(const scene::Scene& scene, const scene::Camera& theCamera)
       : camera(theCamera),
         tracer(scene, camera.eye),
-        hits(tracer.castPrimary(camera, kWidth, kHeight)),
-        field(hits, camera, kWidth, kHeight) {}
+        hits(tracer.castPrimary(camera, kFieldWidth, kFieldHeight)),
+        field(hits, camera, kFieldWidth, kFieldHeight) {}
 
   std::vector<Visibility> ceiling(double radius, double thickness, uint32_t samples) const {
     std::vector<OcclusionCounts> counts(hits.size());
@@ -64,9 +64,9 @@ TEST(DepthField, ACornerInFullViewIsTheTruth) {
   const auto ceiling = view.ceiling(0.5, 0.25, 64);
   const auto truth = view.truth(0.5, 64);
   size_t equal = 0, inner = 0;
-  for (uint32_t y = 0; y < kHeight; ++y) {
-    for (uint32_t x = kWidth / 4; x < kWidth * 3 / 4; ++x) {
-      const size_t i = y * kWidth + x;
+  for (uint32_t y = 0; y < kFieldHeight; ++y) {
+    for (uint32_t x = kFieldWidth / 4; x < kFieldWidth * 3 / 4; ++x) {
+      const size_t i = y * kFieldWidth + x;
       equal += ceiling[i].mean == truth[i].mean ? 1 : 0;
       EXPECT_NEAR(ceiling[i].mean, truth[i].mean, 0.2);
       ++inner;
@@ -102,7 +102,7 @@ TEST(DepthField, OffThePictureIsOpen) {
   const uint32_t material = builder.material({});
   builder.place(builder.floor(glm::vec3(0), 100, material));
   scene::Camera camera = cameraAt({0, 1, 0}, {0, 0, 0}, {0, 0, -1});
-  const double half = std::tan(glm::radians(30.0)) * kWidth / kHeight;
+  const double half = std::tan(glm::radians(30.0)) * kFieldWidth / kFieldHeight;
   const auto x = static_cast<float>(half + 0.01);
   builder.place(builder.quad({glm::vec3(x, 0, 100), {x, 0, -100}, {x, 100, -100}, {x, 100, 100}},
                              builder.material({.name = "wall", .doubleSided = true})));
@@ -123,11 +123,12 @@ bool isOpenByPoints(const View& view, const Hit& from, const glm::dvec3& directi
     const glm::dvec3 point = from.position + radius * i / kPoints * direction - view.camera.eye;
     const double depth = glm::dot(point, forward);
     if (depth < view.camera.nearPlane) return true;
-    const double x = (glm::dot(point, right) / depth / tangent + double{kWidth} / kHeight) / 2;
+    const double x =
+        (glm::dot(point, right) / depth / tangent + double{kFieldWidth} / kFieldHeight) / 2;
     const double y = (1 - glm::dot(point, up) / depth / tangent) / 2;
-    const double column = std::floor(x * kHeight), row = std::floor(y * kHeight);
-    if (column < 0 || row < 0 || column >= kWidth || row >= kHeight) return true;
-    const Hit& shown = view.hits[static_cast<size_t>(row * kWidth + column)];
+    const double column = std::floor(x * kFieldHeight), row = std::floor(y * kFieldHeight);
+    if (column < 0 || row < 0 || column >= kFieldWidth || row >= kFieldHeight) return true;
+    const Hit& shown = view.hits[static_cast<size_t>(row * kFieldWidth + column)];
     if (shown.viewDepth == 0) continue;
     const glm::dvec3 place = shown.position - view.camera.eye;
     const double surface =

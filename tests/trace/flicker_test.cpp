@@ -13,8 +13,8 @@
 namespace grisaille::trace {
 namespace {
 
-constexpr uint32_t kWidth = 48;
-constexpr uint32_t kHeight = 32;
+constexpr uint32_t kFlickerWidth = 48;
+constexpr uint32_t kFlickerHeight = 32;
 
 // A camera that walks past a sphere on a floor. `value(frame, hit)` fills a picture.
 template <typename Ao, typename TruthOf>
@@ -28,10 +28,10 @@ std::vector<FlickerFrame> walk(size_t frames, double step, const Ao& ao, const T
     const double x = step * static_cast<double>(i);
     FlickerFrame& frame = path[i];
     frame.camera = cameraAt({1 + x, 1, 1.5}, {x, 0.3, 0});
-    frame.hits =
-        RayTracer(builder.scene, frame.camera.eye).castPrimary(frame.camera, kWidth, kHeight);
+    frame.hits = RayTracer(builder.scene, frame.camera.eye)
+                     .castPrimary(frame.camera, kFlickerWidth, kFlickerHeight);
     for (image::Image* image : {&frame.ao, &frame.truth}) {
-      *image = {.width = kWidth, .height = kHeight, .channels = 1, .pixels = {}};
+      *image = {.width = kFlickerWidth, .height = kFlickerHeight, .channels = 1, .pixels = {}};
       for (const Hit& hit : frame.hits) {
         image->pixels.push_back(
             static_cast<float>(image == &frame.ao ? ao(i, hit) : truth(i, hit)));
@@ -51,7 +51,7 @@ double plain(size_t, const Hit&) {
 TEST(Flicker, AConstantPictureHasNone) {
   const Flicker f = flicker(walk(3, 0.05, plain, plain));
   EXPECT_EQ(f.rms, 0);
-  EXPECT_GT(f.points, size_t{kWidth} * kHeight);
+  EXPECT_GT(f.points, size_t{kFlickerWidth} * kFlickerHeight);
 }
 
 TEST(Flicker, TheTruthHasNoneOnAnyPath) {
@@ -107,7 +107,7 @@ TEST(Flicker, OnlyPointsThatTheNextFrameShowsCount) {
 TEST(Flicker, ValuesThatAreNotFiniteAreLeftOut) {
   auto frames = walk(2, 0, plain, plain);
   const uint64_t all = flicker(frames).points;
-  const size_t pixel = kWidth * kHeight - kWidth / 2;  // the floor
+  const size_t pixel = kFlickerWidth * kFlickerHeight - kFlickerWidth / 2;  // the floor
   frames[1].truth.pixels[pixel] = std::numeric_limits<float>::quiet_NaN();
   frames[0].ao.pixels[pixel - 1] = std::numeric_limits<float>::infinity();
   EXPECT_EQ(flicker(frames).points, all - 2);
@@ -138,7 +138,7 @@ TEST(Flicker, FewerThanTwoFramesAndOtherShapes) {
   auto frames = walk(2, 0, plain, plain);
   EXPECT_EQ(flicker({}).points, 0u);
   EXPECT_EQ(flicker(std::span(frames).first(1)).points, 0u);
-  frames[1].truth.width = kWidth / 2;
+  frames[1].truth.width = kFlickerWidth / 2;
   EXPECT_ERROR(ErrorId::kImageMismatch, flicker(frames));
 }
 

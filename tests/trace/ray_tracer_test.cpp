@@ -14,8 +14,8 @@
 namespace grisaille::trace {
 namespace {
 
-constexpr uint32_t kWidth = 64;
-constexpr uint32_t kHeight = 36;
+constexpr uint32_t kTracedWidth = 64;
+constexpr uint32_t kTracedHeight = 36;
 
 // The view depth at which a pixel's ray meets a horizontal plane, from the camera's own definition:
 // eye, target, whole vertical angle; y down.
@@ -24,8 +24,8 @@ double planeDepth(const scene::Camera& camera, glm::uvec2 pixel, double planeY) 
   const glm::dvec3 right = glm::normalize(glm::cross(forward, camera.up));
   const glm::dvec3 up = glm::cross(right, forward);
   const double tangent = std::tan(camera.fovyDegrees * std::numbers::pi / 360.0);
-  const double x = (2.0 * (pixel.x + 0.5) - kWidth) / kHeight * tangent;
-  const double y = (1.0 - 2.0 * (pixel.y + 0.5) / kHeight) * tangent;
+  const double x = (2.0 * (pixel.x + 0.5) - kTracedWidth) / kTracedHeight * tangent;
+  const double y = (1.0 - 2.0 * (pixel.y + 0.5) / kTracedHeight) * tangent;
   const glm::dvec3 direction = forward + x * right + y * up;
   return direction.y < 0 ? (planeY - camera.eye.y) / direction.y : 0;
 }
@@ -38,8 +38,9 @@ TEST(RayTracer, DepthOfAPlaneIsExactNearAndFarFromTheWorldsOrigin) {
     builder.place(floor, glm::translate(glm::dmat4(1), centre));
     const scene::Camera camera =
         cameraAt(centre + glm::dvec3(0.3, 1.7, 0.1), centre + glm::dvec3(6, 0.9, -3));
-    const auto hits = RayTracer(builder.scene, camera.eye).castPrimary(camera, kWidth, kHeight);
-    ASSERT_EQ(hits.size(), size_t{kWidth} * kHeight);
+    const auto hits =
+        RayTracer(builder.scene, camera.eye).castPrimary(camera, kTracedWidth, kTracedHeight);
+    ASSERT_EQ(hits.size(), size_t{kTracedWidth} * kTracedHeight);
     size_t compared = 0;
     for (const Hit& hit : hits) {
       const double expected = planeDepth(camera, hit.pixel, centre.y);
@@ -63,7 +64,8 @@ TEST(RayTracer, NormalsOfASphereAreRadialUnderAnyTransform) {
     builder.scene.instances.clear();
     builder.place(sphere, glm::scale(glm::dmat4(1), glm::dvec3(2 * mirror, 1, 0.5)));
     const scene::Camera camera = cameraAt({1, 2, 4}, {0, 0, 0});
-    const auto hits = RayTracer(builder.scene, camera.eye).castPrimary(camera, kWidth, kHeight);
+    const auto hits =
+        RayTracer(builder.scene, camera.eye).castPrimary(camera, kTracedWidth, kTracedHeight);
     size_t seen = 0;
     for (const Hit& hit : hits) {
       if (hit.viewDepth == 0) continue;

@@ -1,0 +1,24 @@
+// SPDX-License-Identifier: MIT
+// What to write where, as the command line gives it: NAME=FILE.
+#pragma once
+
+#include <string>
+
+#include "core/error.h"
+
+namespace grisaille::app {
+
+struct OutputFile {
+  std::string output, file;
+};
+
+// Throws Error(kUsage).
+inline OutputFile parseOutputFile(const std::string& text) {
+  const size_t equals = text.find('=');
+  if (equals == std::string::npos || equals == 0 || equals + 1 == text.size()) {
+    throw Error(ErrorId::kUsage, "'{}' is not of the form NAME=FILE", text);
+  }
+  return {.output = text.substr(0, equals), .file = text.substr(equals + 1)};
+}
+
+}  // namespace grisaille::app
