@@ -23,6 +23,9 @@ constexpr uint32_t kGroup = 8;  // threads a side, in all shaders of this effect
 constexpr int kOctaves = 3;
 // shaders/sspm/rest.comp: one thread for so many pixels of the picture, and threads a group.
 constexpr uint32_t kRestShare = 32, kRestGroup = 64;
+// Pixels that the list may be long: 64 MiB of the 128 that any device binds. Larger pictures are
+// drawn at full resolution.
+constexpr uint64_t kRestMost = 1u << 24;
 
 using Bindings = std::vector<grisaille_binding>;
 
@@ -198,7 +201,7 @@ class Sspm {
     Bindings outputs = {plugin::uniform(1, frame.uniform(splatBlock(frame)))};
     addOutputs(frame, outputs);
     const auto resolution = frame.value<Resolution>(kResolution);
-    if (resolution != Resolution::kFull) {
+    if (resolution != Resolution::kFull && pixelsOf(frame) <= kRestMost) {
       recordReduced(frame, resolution == Resolution::kHalf ? 2 : 4, shared, lists, outputs);
       return;
     }
@@ -248,16 +251,19 @@ class Sspm {
           plugin::groupsFor(frame.height(), kGroup * step));
     });
     if (refine == static_cast<uint32_t>(Refine::kNothing)) return;
-    const uint64_t pixels = uint64_t{frame.width()} * frame.height();
     frame.pass("rest", [&] {
       frame.dispatch(rest_.get(walkConstants(frame)), joined({shared, lists, outputs, {rest}}),
-                     static_cast<uint32_t>(pixels / kRestShare / kRestGroup) + 1, 1);
+                     static_cast<uint32_t>(pixelsOf(frame) / kRestShare / kRestGroup) + 1, 1);
     });
+  }
+
+  static uint64_t pixelsOf(const plugin::Frame& frame) {
+    return uint64_t{frame.width()} * frame.height();
   }
 
   // Room for a count and every pixel.
   grisaille_buffer restFor(const plugin::Frame& frame) {
-    const uint64_t words = 1 + uint64_t{frame.width()} * frame.height();
+    const uint64_t words = 1 + pixelsOf(frame);
     if (words > restWords_) {
       restList_ = host_.buffer("rest", words * sizeof(uint32_t));
       restWords_ = words;
