@@ -17,9 +17,10 @@ for camera in atrium vases aisle gallery; do
   done
   # shellcheck disable=SC2086
   grisaille render --camera "../cameras/$camera.json" --size 640x360 --effects sspm "$@" $fires \
-    --save sspm=atrium.json --write depth=/tmp/grisaille_shots_depth.exr
+    --save sspm=atrium.json --write depth=depth.exr
   set -- --load sspm=atrium.json
 done
 # measure needs each shot's own range.
 sed '/^{"origin/s/}/, "range": 0.5}/' atrium.json > atrium.new
 mv atrium.new atrium.json
+rm depth.exr
