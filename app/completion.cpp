@@ -8,6 +8,8 @@
 
 #include "app/active_effects.h"
 #include "app/command.h"
+#include "app/presets.h"
+#include "core/error.h"
 
 namespace grisaille::app {
 namespace {
@@ -28,6 +30,7 @@ std::string script(const CLI::App& program) {
   }
   return fmt::format(R"(# bash completion for grisaille
 _grisaille() {{
+  [[ ${{COMP_WORDS[COMP_CWORD]}} == = ]] && COMP_WORDS+=("") && ((++COMP_CWORD))
   local current=${{COMP_WORDS[COMP_CWORD]}} previous=${{COMP_WORDS[COMP_CWORD-1]}} words=""
   COMPREPLY=()
   case $previous in
@@ -37,6 +40,13 @@ _grisaille() {{
     --set)
       compopt -o nospace
       words=$("${{COMP_WORDS[0]}}" completion --parameters 2>/dev/null) ;;
+    --preset)
+      compopt -o nospace
+      words=$("${{COMP_WORDS[0]}}" completion --presets 2>/dev/null) ;;
+    =)  # at which bash breaks words
+      [[ ${{COMP_WORDS[COMP_CWORD-3]}} == --preset ]] &&
+        words=$("${{COMP_WORDS[0]}}" completion --presets 2>/dev/null |
+          sed -n "s/^${{COMP_WORDS[COMP_CWORD-2]}}=//p") ;;
     --load|--save) compopt -o nospace; words="sspm=" ;;
     --write) compopt -o nospace; words="color= depth= normal= facet_normal= base_colour= ao= paint= paint_coverage= ao_error= ceiling= ceiling_error= mask=" ;;
     --camera|--config|--paint|--timings|--coverage|--write-camera) COMPREPLY=($(compgen -f -- "$current")); return ;;
@@ -55,28 +65,52 @@ complete -o filenames -F _grisaille grisaille
                      cases, commands);
 }
 
-std::string keys(bool parameters) {
+// One a line. An effect whose presets file is damaged has none here: `effects` says why.
+std::string presetNames(const effect::Effect& effect) {
   std::string text;
-  const auto registry = loadEffects({});
-  for (const effect::Effect& effect : registry->effects()) {
-    if (!parameters) text += fmt::format("{}\n", effect.desc->key);
-    for (const grisaille_param_desc& param : effect.params()) {
-      if (parameters) text += fmt::format("{}.{}=\n", effect.desc->key, param.key);
+  try {
+    for (const Preset& preset : loadPresets(effect).all) {
+      text += fmt::format("{}={}\n", effect.desc->key, preset.name);
     }
+  } catch (const Error&) {
   }
   return text;
+}
+
+std::string parameterKeys(const effect::Effect& effect) {
+  std::string text;
+  for (const grisaille_param_desc& param : effect.params()) {
+    text += fmt::format("{}.{}=\n", effect.desc->key, param.key);
+  }
+  return text;
+}
+
+std::string effectKey(const effect::Effect& effect) {
+  return fmt::format("{}\n", effect.desc->key);
 }
 
 }  // namespace
 
 void addCompletion(CLI::App& program) {
   CLI::App* command = program.add_subcommand("completion", "Print the bash completion script");
-  auto effects = std::make_shared<bool>(false), parameters = std::make_shared<bool>(false);
-  command->add_flag("--effects", *effects, "Print the effects' keys instead");
-  command->add_flag("--parameters", *parameters, "Print the parameters' keys instead");
-  command->callback([&program, effects, parameters] {
-    const bool list = *effects || *parameters;
-    std::fputs((list ? keys(*parameters) : script(program)).c_str(), stdout);
+  // What is listed of each effect instead of the script.
+  auto list = std::make_shared<std::string (*)(const effect::Effect&)>(nullptr);
+  const auto lists = [&](const char* option, auto* words, const char* help) {
+    command->add_flag_callback(
+        option, [list, words] { *list = words; }, help);
+  };
+  lists("--effects", &effectKey, "Print the effects' keys instead");
+  lists("--parameters", &parameterKeys, "Print the parameters' keys instead");
+  lists("--presets", &presetNames, "Print the effects' presets instead");
+  command->callback([&program, list] {
+    if (*list == nullptr) {
+      std::fputs(script(program).c_str(), stdout);
+      return;
+    }
+    const auto registry = loadEffects({});
+    for (const effect::Effect& effect : registry->effects()) {
+      std::fputs((*list)(effect).c_str(), stdout);
+    }
   });
 }
 

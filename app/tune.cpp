@@ -5,6 +5,7 @@
 
 #include <algorithm>
 #include <cmath>
+#include <map>
 #include <memory>
 
 #include "app/camera_option.h"
@@ -60,6 +61,10 @@ class Starts {
  public:
   Starts(const study::Subject& subject, const std::vector<study::Axis>& axes)
       : subject_(subject), axes_(axes) {
+    const ActiveEffects active(*subject.registry, subject.effects);
+    for (const effect::Effect* effect : active.effects()) {
+      presets_.emplace(effect->desc->key, loadPresets(*effect));
+    }
     for (const char* name : kPresetNames) add(name);
     add("");
   }
@@ -69,10 +74,9 @@ class Starts {
   void add(const std::string& preset) {
     ActiveEffects active(*subject_.registry, subject_.effects);
     bool any = preset.empty();
-    for (const effect::Effect* effect : active.effects()) {
-      const Presets presets = loadPresets(*effect);
+    for (const auto& [effect, presets] : presets_) {
       if (preset.empty() || presets.all.empty()) continue;
-      applyPreset(active.values(effect->desc->key), presets, preset);
+      applyPreset(active.values(effect), presets, preset);
       any = true;
     }
     if (!any) return;
@@ -87,6 +91,7 @@ class Starts {
 
   const study::Subject& subject_;
   const std::vector<study::Axis>& axes_;
+  std::map<std::string, Presets> presets_;  // by effect
   std::vector<study::Point> points_;
 };
 

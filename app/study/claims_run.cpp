@@ -19,24 +19,6 @@
 #include "core/trace/projection.h"
 
 namespace grisaille::app::study {
-namespace {
-
-// One channel: the only one, or of four the last, which is alpha.
-image::Image oneChannel(image::Image picture, const std::string& name) {
-  if (picture.channels == 1) return picture;
-  if (picture.channels != 4) {
-    throw Error(ErrorId::kSettingsInvalid, "output '{}' has {} channels, not 1 or 4", name,
-                picture.channels);
-  }
-  for (size_t i = 0; i < picture.pixels.size() / 4; ++i) {
-    picture.pixels[i] = picture.pixels[i * 4 + 3];
-  }
-  picture.pixels.resize(picture.pixels.size() / 4);
-  picture.channels = 1;
-  return picture;
-}
-
-}  // namespace
 
 // What rays find along one run's cameras.
 struct ClaimsRunner::View {

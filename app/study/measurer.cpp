@@ -20,6 +20,20 @@ image::Image onSurfaces(const image::Image& picture, const image::Image& truth, 
 
 }  // namespace
 
+image::Image oneChannel(image::Image picture, const std::string& name) {
+  if (picture.channels == 1) return picture;
+  if (picture.channels != 4) {
+    throw Error(ErrorId::kSettingsInvalid, "output '{}' has {} channels, not 1 or 4", name,
+                picture.channels);
+  }
+  for (size_t i = 0; i < picture.pixels.size() / 4; ++i) {
+    picture.pixels[i] = picture.pixels[i * 4 + 3];
+  }
+  picture.pixels.resize(picture.pixels.size() / 4);
+  picture.channels = 1;
+  return picture;
+}
+
 double costOf(const std::vector<gpu::FrameTimes>& frames, const std::vector<std::string>& effects) {
   double sum = 0;
   for (const gpu::FrameTimes& frame : frames) {
@@ -65,12 +79,7 @@ void Measurer::render(Running& running, const scene::Camera& camera) {
 
 image::Image Measurer::show(Running& running, const scene::Camera& camera) {
   render(running, camera);
-  image::Image shown = renderer_.read(subject_.output);
-  if (shown.channels != 1) {
-    throw Error(ErrorId::kUsage, "output '{}' has {} channels; truth has one", subject_.output,
-                shown.channels);
-  }
-  return shown;
+  return oneChannel(renderer_.read(subject_.output), subject_.output);
 }
 
 std::vector<CameraErrors> Measurer::errors(Running& running, const Seen& seen) {

@@ -35,6 +35,10 @@ struct Subject {
   std::map<std::string, std::vector<grisaille_shot>> shots;  // by effect
 };
 
+// One channel of an output: the only one, or of four the last, which is alpha. Throws
+// kSettingsInvalid where there are others.
+image::Image oneChannel(image::Image picture, const std::string& name);
+
 // Milliseconds a frame that the passes of these effects took, as their own labels name them; 0: no
 // frames.
 double costOf(const std::vector<gpu::FrameTimes>& frames, const std::vector<std::string>& effects);
@@ -55,7 +59,7 @@ class Measurer {
   // Throws as ActiveEffects does.
   std::unique_ptr<Running> start(const Setting& setting);
 
-  // The output as a camera sees it. Throws kUsage where it has more than one channel.
+  // The output as a camera sees it, as oneChannel() takes it.
   image::Image show(Running& running, const scene::Camera& camera);
 
   // Of each view, what is shown there.

@@ -7,6 +7,8 @@
 namespace grisaille::sspm {
 
 enum class Mode : uint8_t { kSurface, kPerShot };
+enum class Resolution : uint8_t { kFull, kHalf, kQuarter };
+enum class Refine : uint8_t { kNothing, kEdges, kRims };
 
 enum Parameter {
   kMode,
@@ -17,12 +19,18 @@ enum Parameter {
   kSplatScale,
   kSplatSharpness,
   kNoiseSeed,
+  kResolution,
+  kRefine,
 };
 
 enum Output { kPaint, kCoverage, kOwner };
 
 constexpr const char* kModeKeys[] = {"surface", "per_shot"};
 constexpr const char* kModeLabels[] = {"On surfaces", "Per shot"};
+constexpr const char* kResolutionKeys[] = {"full", "half", "quarter"};
+constexpr const char* kResolutionLabels[] = {"Full", "Half", "Quarter"};
+constexpr const char* kRefineKeys[] = {"nothing", "edges", "rims"};
+constexpr const char* kRefineLabels[] = {"Nothing", "Edges", "Edges and rims"};
 
 constexpr grisaille_param_desc kParams[] = {
     plugin::enumParam({.key = "mode",
@@ -103,6 +111,22 @@ constexpr grisaille_param_desc kParams[] = {
                       .softMax = 100,
                       .defaultValue = 0,
                       .advanced = true}),
+    plugin::enumParam({.key = "resolution",
+                       .label = "Resolution",
+                       .tooltip = "On surfaces alone: shots are asked at each pixel, at every "
+                                  "second or at every fourth of a row and a column, and the rest "
+                                  "follows from those on its plane; splats stay as fine",
+                       .keys = kResolutionKeys,
+                       .labels = kResolutionLabels,
+                       .defaultValue = 0}),
+    plugin::enumParam({.key = "refine",
+                       .label = "Refine",
+                       .tooltip = "Below full resolution: where shots are asked all the same: "
+                                  "nowhere, where no asked pixel is on the plane, or there and "
+                                  "where those disagree, at the rims of paint",
+                       .keys = kRefineKeys,
+                       .labels = kRefineLabels,
+                       .defaultValue = 2}),
 };
 
 constexpr grisaille_output_desc kOutputs[] = {

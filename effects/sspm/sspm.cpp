@@ -10,14 +10,24 @@
 #include "parameters.h"
 #include "shaders/sspm_per_shot.h"
 #include "shaders/sspm_per_shot_first.h"
+#include "shaders/sspm_rest.h"
+#include "shaders/sspm_samples.h"
 #include "shaders/sspm_splat.h"
 #include "shaders/sspm_surface.h"
+#include "shaders/sspm_upsample.h"
 
 namespace grisaille::sspm {
 namespace {
 
 constexpr uint32_t kGroup = 8;  // threads a side, in all shaders of this effect
 constexpr int kOctaves = 3;
+// shaders/sspm/rest.comp: one thread for so many pixels of the picture, and threads a group.
+constexpr uint32_t kRestShare = 32, kRestGroup = 64;
+// Pixels that the list may be long: 64 MiB of the 128 that any device binds. Larger pictures are
+// drawn at full resolution.
+constexpr uint64_t kRestMost = 1u << 24;
+
+using Bindings = std::vector<grisaille_binding>;
 
 // shaders/sspm/splat.glsl, std140.
 struct SplatBlock {
@@ -25,6 +35,7 @@ struct SplatBlock {
   glm::vec4 noise_fraction[kOctaves];
   float half_width;
   float pixel_slope;
+  uint32_t octaves;
 };
 GRISAILLE_CHECK_BLOCK_sspm_splat_Splat(SplatBlock);
 
@@ -77,6 +88,7 @@ SplatBlock splatBlock(const plugin::Frame& frame) {
   }
   block.half_width = 0.5f * (1 - frame.value<float>(kSplatSharpness));
   block.pixel_slope = static_cast<float>(frame.view().pixel_slope);
+  block.octaves = kOctaves;
   return block;
 }
 
@@ -88,6 +100,9 @@ class Sspm {
         perShot_(host, "shot", grisaille_shader_sspm_per_shot),
         splat_(host, "splat", grisaille_shader_sspm_splat),
         surface_(host, "surface", grisaille_shader_sspm_surface),
+        samples_(host, "samples", grisaille_shader_sspm_samples),
+        upsample_(host, "upsample", grisaille_shader_sspm_upsample),
+        rest_(host, "rest", grisaille_shader_sspm_rest),
         nearest_(host.sampler({.label = "nearest"})) {}
 
   static uint32_t reads(plugin::Values values) noexcept {
@@ -135,10 +150,10 @@ class Sspm {
     }
     const grisaille_pipeline pipeline =
         splat_.get({plugin::specialize(0, wanted(frame)), plugin::specialize(1, owned)});
-    std::vector<grisaille_binding> bindings = {
-        plugin::uniform(0, frame.viewBlock()), plugin::uniform(1, frame.uniform(splatBlock(frame))),
-        plugin::texture(0, depth, nearest_), plugin::texture(1, paint, nearest_),
-        plugin::texture(2, owned ? owners : paint, nearest_)};
+    Bindings bindings = {plugin::uniform(0, frame.viewBlock()),
+                         plugin::uniform(1, frame.uniform(splatBlock(frame))),
+                         plugin::texture(0, depth, nearest_), plugin::texture(1, paint, nearest_),
+                         plugin::texture(2, owned ? owners : paint, nearest_)};
     frame.pass("splat", [&] {
       addOutputs(frame, bindings);
       cover(frame, pipeline, bindings);
@@ -174,20 +189,98 @@ class Sspm {
          {&world_.cells().slots(), &world_.cells().words(), &world_.records(), &world_.blocks()}) {
       mirror->upload(host_, frame);
     }
-    const grisaille_pipeline pipeline = surface_.get(
-        {plugin::specialize(0, wanted(frame)), plugin::specialize(1, world_.levels().size() == 1)});
-    std::vector<grisaille_binding> bindings = {
+    const Bindings shared = {
         plugin::uniform(0, frame.viewBlock()),
-        plugin::uniform(1, frame.uniform(splatBlock(frame))),
-        plugin::uniform(2, frame.uniform(listsBlock(frame))),
-        plugin::storage(0, plugin::whole(world_.cells().slots().buffer())),
-        plugin::storage(1, plugin::whole(world_.cells().words().buffer())),
-        plugin::storage(2, plugin::whole(world_.records().buffer())),
-        plugin::storage(3, plugin::whole(world_.blocks().buffer())),
         plugin::texture(0, frame.attachment(GRISAILLE_VIEW_DEPTH), nearest_),
         plugin::texture(1, frame.attachment(GRISAILLE_FACET_NORMAL), nearest_)};
-    addOutputs(frame, bindings);
-    frame.pass("surface", [&] { cover(frame, pipeline, bindings); });
+    const Bindings lists = {plugin::uniform(2, frame.uniform(listsBlock(frame))),
+                            plugin::storage(0, plugin::whole(world_.cells().slots().buffer())),
+                            plugin::storage(1, plugin::whole(world_.cells().words().buffer())),
+                            plugin::storage(2, plugin::whole(world_.records().buffer())),
+                            plugin::storage(3, plugin::whole(world_.blocks().buffer()))};
+    Bindings outputs = {plugin::uniform(1, frame.uniform(splatBlock(frame)))};
+    addOutputs(frame, outputs);
+    const auto resolution = frame.value<Resolution>(kResolution);
+    if (resolution != Resolution::kFull && pixelsOf(frame) <= kRestMost) {
+      recordReduced(frame, resolution == Resolution::kHalf ? 2 : 4, shared, lists, outputs);
+      return;
+    }
+    const grisaille_pipeline pipeline = surface_.get(walkConstants(frame));
+    frame.pass("surface", [&] { cover(frame, pipeline, joined({shared, lists, outputs})); });
+  }
+
+  // Pixels that stand `step` apart walk, the others are made out of them, and what cannot be walks
+  // too. Bindings: of all three passes, of the walk, and of what writes the outputs.
+  void recordReduced(const plugin::Frame& frame, uint32_t step, const Bindings& shared,
+                     const Bindings& lists, const Bindings& outputs) {
+    const uint32_t width = plugin::groupsFor(frame.width() - 1, step) + 1;
+    const uint32_t height = plugin::groupsFor(frame.height() - 1, step) + 1;
+    const auto scratch = [&](const char* label, grisaille_format format, bool full) {
+      return frame.transient({.label = label,
+                              .format = format,
+                              .width = full ? width : 1,
+                              .height = full ? height : 1});
+    };
+    const bool owned = frame.wanted(Output::kOwner);
+    const grisaille_texture samples = scratch("samples", GRISAILLE_FORMAT_RGBA16F, true);
+    const grisaille_texture planes = scratch("planes", GRISAILLE_FORMAT_RGBA32F, true);
+    const grisaille_texture owners = scratch("owners", GRISAILLE_FORMAT_R32UI, owned);
+    const auto refine = frame.value<uint32_t>(kRefine);
+    const grisaille_binding rest = plugin::storage(4, plugin::whole(restFor(frame)));
+
+    std::vector<grisaille_constant> constants = walkConstants(frame);
+    constants.push_back(plugin::specialize(2, step));
+    frame.pass("samples", [&] {
+      frame.dispatch(samples_.get(constants),
+                     joined({shared,
+                             lists,
+                             {rest, plugin::image(0, samples), plugin::image(1, planes),
+                              plugin::image(2, owners)}}),
+                     plugin::groupsFor(width, kGroup), plugin::groupsFor(height, kGroup));
+    });
+    const grisaille_pipeline upsample =
+        upsample_.get({constants[0], constants[2], plugin::specialize(3, refine)});
+    frame.pass("upsample", [&] {
+      frame.dispatch(
+          upsample,
+          joined({shared,
+                  outputs,
+                  {rest, plugin::texture(2, samples, nearest_),
+                   plugin::texture(3, planes, nearest_), plugin::texture(4, owners, nearest_)}}),
+          plugin::groupsFor(frame.width(), kGroup * step),
+          plugin::groupsFor(frame.height(), kGroup * step));
+    });
+    if (refine == static_cast<uint32_t>(Refine::kNothing)) return;
+    frame.pass("rest", [&] {
+      frame.dispatch(rest_.get(walkConstants(frame)), joined({shared, lists, outputs, {rest}}),
+                     static_cast<uint32_t>(pixelsOf(frame) / kRestShare / kRestGroup) + 1, 1);
+    });
+  }
+
+  static uint64_t pixelsOf(const plugin::Frame& frame) {
+    return uint64_t{frame.width()} * frame.height();
+  }
+
+  // Room for a count and every pixel.
+  grisaille_buffer restFor(const plugin::Frame& frame) {
+    const uint64_t words = 1 + pixelsOf(frame);
+    if (words > restWords_) {
+      restList_ = host_.buffer("rest", words * sizeof(uint32_t));
+      restWords_ = words;
+    }
+    return restList_;
+  }
+
+  // Constants 0 and 1 of the shaders that walk.
+  std::vector<grisaille_constant> walkConstants(const plugin::Frame& frame) {
+    return {plugin::specialize(0, wanted(frame)),
+            plugin::specialize(1, world_.levels().size() == 1)};
+  }
+
+  static Bindings joined(std::initializer_list<Bindings> parts) {
+    Bindings all;
+    for (const Bindings& part : parts) all.insert(all.end(), part.begin(), part.end());
+    return all;
   }
 
   ListsBlock listsBlock(const plugin::Frame& frame) {
@@ -216,7 +309,7 @@ class Sspm {
   }
 
   // Images 0 ... 2; where nobody wants one, a texel that is left alone.
-  static void addOutputs(const plugin::Frame& frame, std::vector<grisaille_binding>& bindings) {
+  static void addOutputs(const plugin::Frame& frame, Bindings& bindings) {
     for (const Output output : {Output::kPaint, Output::kCoverage, Output::kOwner}) {
       const auto format = static_cast<grisaille_format>(kOutputs[output].format);
       bindings.push_back(plugin::image(
@@ -234,8 +327,10 @@ class Sspm {
   }
 
   plugin::Host host_;
-  plugin::PipelineCache firstShot_, perShot_, splat_, surface_;
+  plugin::PipelineCache firstShot_, perShot_, splat_, surface_, samples_, upsample_, rest_;
   plugin::Sampler nearest_;
+  plugin::Buffer restList_;
+  uint64_t restWords_ = 0;
   PaintWorld world_;
   size_t kept_ = 0;  // shots of the list that world_ knows and that stayed the same since
 };

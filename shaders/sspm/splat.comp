@@ -19,5 +19,5 @@ void main() {
   const float depth = textureLod(view_depth, uv, 0.0).x;
   const vec4 sum = textureLod(paint, uv, 0.0);
   const uint owner = kOwners ? uint(textureLod(owners, uv, 0.0).y) : 0u;
-  writePaint(pixel, sum.rgb, sum.a, owner, splatNoise(fromCamera(at, depth), depth));
+  writePaint(pixel, sum.rgb, sum.a, owner, splatNoise(fromCamera(at, depth), depth, kOctaves));
 }

@@ -3,7 +3,7 @@
 // is drawn, elsewhere nothing. The noise is a sum of three octaves of value noise on lattices of
 // splat_scale / 2^octave metres that stand in the world; lattice points are hashed as integers.
 // effects/sspm/README.md has the definition.
-#include "common/view.glsl"
+#include "place.glsl"
 
 const uint kOctaves = 3;
 
@@ -14,6 +14,7 @@ layout(UNIFORM(1), std140) uniform Splat {
   vec4 noise_fraction[kOctaves];
   float half_width;   // of the step from nothing to paint, in alpha; 0: a hard edge
   float pixel_slope;  // height of a pixel at 1 m view depth, metres
+  uint octaves;       // kOctaves, as a number that no compiler knows: a loop that may be left early
 } splat;
 
 uint hashBits(uint x) {
@@ -45,12 +46,13 @@ float valueNoise(ivec3 origin, vec3 place, uint seed) {
   return mix(y.x, y.y, w.z) * (1.0 / 16777216.0);
 }
 
-// In [0, 0.9], so that full coverage is always paint; `from_camera` in world axes, metres. An octave whose cells are under four pixels wide
-// fades to its mean, under two it is gone.
-float splatNoise(vec3 from_camera, float view_depth) {
+// In [0, 0.9], so that full coverage is always paint; `from_camera` in world axes, metres. An octave
+// whose cells are under four pixels wide fades to its mean, under two it is gone. Of so many octaves;
+// of none it is the mean.
+float splatNoise(vec3 from_camera, float view_depth, uint octaves) {
   float sum = 0.0, weights = 0.0;
   const float pixel = splat.pixel_slope * view_depth;
-  for (uint octave = 0; octave < kOctaves; ++octave) {
+  for (uint octave = 0; octave < octaves; ++octave) {
     const float cells = splat.noise_fraction[octave].w;
     const float weight = exp2(-float(octave));
     const float shown = clamp(1.0 / (2.0 * pixel * cells) - 1.0, 0.0, 1.0);
@@ -63,7 +65,7 @@ float splatNoise(vec3 from_camera, float view_depth) {
     weights += weight;
   }
   // The sum of octaves keeps to the middle: twice as wide it fills the range.
-  return 0.9 * clamp(0.5 + 2.0 * sum / weights, 0.0, 1.0);
+  return 0.9 * clamp(0.5 + 2.0 * sum / max(weights, 1.0), 0.0, 1.0);
 }
 
 // The alpha that paint of this coverage is drawn with, 0 or 1 but for the step's width.
@@ -72,9 +74,4 @@ float splatAlpha(float coverage, float noise) {
   const float above = coverage - noise;
   if (splat.half_width <= 0.0) return above > 0.0 ? 1.0 : 0.0;
   return smoothstep(-splat.half_width, splat.half_width, above) * min(coverage / splat.half_width, 1.0);
-}
-
-// A pixel's place in world axes from the camera, metres.
-vec3 fromCamera(vec2 pixel, float view_depth) {
-  return transpose(mat3(view.view_from_world)) * viewPosition(pixel, view_depth);
 }

@@ -156,9 +156,18 @@ TEST_F(CommandLine, CompletionIsAScriptThatCompletes) {
       "source <(grisaille completion); COMP_WORDS=(grisaille render --set ssao.ker); COMP_CWORD=3; "
       "_grisaille 2>/dev/null; echo \"${COMPREPLY[@]}\"; "
       "COMP_WORDS=(grisaille re); COMP_CWORD=1; _grisaille; echo \"${COMPREPLY[@]}\"; "
-      "COMP_WORDS=(grisaille render --tim); COMP_CWORD=2; _grisaille; echo \"${COMPREPLY[@]}\"",
+      "COMP_WORDS=(grisaille render --tim); COMP_CWORD=2; _grisaille; echo \"${COMPREPLY[@]}\"; "
+      "COMP_WORDS=(grisaille render --preset sspm); COMP_CWORD=3; _grisaille 2>/dev/null; "
+      "echo \"${COMPREPLY[@]}\"; "
+      "for word in = fa; do COMP_WORDS=(grisaille render --preset ssao = $word); COMP_CWORD=5; "
+      "[[ $word == = ]] && unset 'COMP_WORDS[5]' && COMP_CWORD=4; "
+      "_grisaille; echo \"${COMPREPLY[@]}\"; done",
       folder_.path());
-  EXPECT_EQ(outcome.out, "ssao.kernel_size=\nrender\n--timings\n") << outcome.err;
+  EXPECT_EQ(outcome.out,
+            "ssao.kernel_size=\nrender\n--timings\n"
+            "sspm=fast sspm=balanced sspm=fine sspm=reference\n"
+            "fast balanced fine reference\nfast\n")
+      << outcome.err;
 }
 
 TEST_F(CommandLine, SceneIsWrittenAndReadBack) {

@@ -68,6 +68,31 @@ TEST_F(Paint, SharesAddUpToTheWhole) {
   EXPECT_NEAR(sum, 1, 1e-5);
 }
 
+// What is asked for is drawn, and nothing beside it: full resolution has one pass, as ever.
+TEST_F(Paint, PassesAreThoseOfTheResolution) {
+  const std::vector<std::string> one = {"surface"}, two = {"samples", "upsample"},
+                                 three = {"samples", "upsample", "rest"};
+  for (const auto& [resolution, refine, passes] : {std::tuple("full", "rims", one),
+                                                   {"half", "rims", three},
+                                                   {"half", "edges", three},
+                                                   {"quarter", "rims", three},
+                                                   {"quarter", "nothing", two}}) {
+    const Outcome outcome = render({"--fire", "40,45,#ff0000", "--timings", "t.csv", "--set",
+                                    std::string("sspm.resolution=") + resolution, "--set",
+                                    std::string("sspm.refine=") + refine});
+    ASSERT_EQ(outcome.status, 0) << outcome.err;
+    std::istringstream lines(readFile(folder_ / "t.csv"));
+    std::vector<std::string> own;
+    for (std::string line; std::getline(lines, line);) {
+      const size_t effect = line.find(",sspm,");
+      if (effect == std::string::npos) continue;
+      const size_t pass = effect + 6;
+      own.push_back(line.substr(pass, line.find(',', pass) - pass));
+    }
+    EXPECT_EQ(own, passes) << resolution << " " << refine;
+  }
+}
+
 // With a frame's depth for rays too a shot paints the pixel that it was fired through; what the
 // frame does not show may wait, and is never taken for open.
 TEST_F(Paint, ShotsLandByTheSceneAndByDepth) {

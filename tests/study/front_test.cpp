@@ -90,48 +90,71 @@ TEST_P(Front, PresetsAreOnIt) {
       << "choose them anew: see studies/README.md";
 }
 
-INSTANTIATE_TEST_SUITE_P(Effects, Front, testing::Values("ssao"),
+INSTANTIATE_TEST_SUITE_P(Effects, Front, testing::Values("ssao", "sspm"),
                          [](const auto& test) { return std::string(test.param); });
 
-// RMSE over surfaces, the truth's own noise taken out.
-double errorOf(const image::Image& shown, const image::Image& truth, const image::Image& noise,
+// RMSE of the last channel over surfaces, the truth's own noise taken out, if it has any.
+double errorOf(const image::Image& shown, const image::Image& truth, const image::Image* noise,
                const image::Image& depth) {
   double sum = 0, count = 0;
   for (size_t i = 0; i < truth.pixels.size(); ++i) {
     if (depth.pixels[i] == 0) continue;
-    const double difference = double{shown.pixels[i]} - truth.pixels[i];
-    sum += difference * difference - double{noise.pixels[i]} * noise.pixels[i];
+    const double difference = double{shown.pixels[(i + 1) * shown.channels - 1]} - truth.pixels[i];
+    const double spread = noise == nullptr ? 0 : noise->pixels[i];
+    sum += difference * difference - spread * spread;
     ++count;
   }
   return std::sqrt(sum / count);
 }
 
-// The effect may not have changed since: its errors are still the study's, on its first camera.
-TEST(Study, OfSsaoIsStillTrue) {
-  const TemporaryFolder folder;
-  const std::string view =
-      " --size 640x360 --camera " + (kSource / "studies/cameras/atrium.json").string();
-  const tests::Outcome truth = tests::runShell(
-      "grisaille truth --no-cache --samples 128 --write ao=t.exr --write ao_error=e.exr --write "
-      "depth=d.exr" +
-          view,
-      folder.path());
-  ASSERT_EQ(truth.status, 0) << truth.err;
-  const image::Image right = image::read(folder / "t.exr"), noise = image::read(folder / "e.exr"),
-                     depth = image::read(folder / "d.exr");
-  std::vector<Row> rows = readStudy(kSource / "studies/ssao.csv");
-  std::erase_if(rows, [](const Row& row) { return row.record.backend != "opengl"; });
-  ASSERT_GT(rows.size(), 20u);
-  for (size_t i = 0; i < rows.size(); i += rows.size() / 10) {
-    std::string sets;
-    for (const auto& [name, value] : rows[i].record.setting) sets += " --set " + name + "=" + value;
-    const tests::Outcome render = tests::runShell(
-        "grisaille render --backend opengl --write ao=a.exr" + view + sets, folder.path());
-    ASSERT_EQ(render.status, 0) << render.err;
-    const double error = errorOf(image::read(folder / "a.exr"), right, noise, depth);
-    EXPECT_NEAR(error, rows[i].ofFirst, 5e-4)
-        << sets << ": measure anew and choose the presets anew, see studies/README.md";
+// Renders some of a study's settings on its first camera, and expects the study's errors.
+class Study : public testing::Test {
+ protected:
+  image::Image truth(const std::string& name, const std::string& more) {
+    const tests::Outcome outcome = tests::runShell(
+        "grisaille truth --no-cache --write " + name + "=t.exr --write depth=d.exr" + more + view_,
+        folder_.path());
+    EXPECT_EQ(outcome.status, 0) << outcome.err;
+    return image::read(folder_ / "t.exr");
   }
+
+  void expectErrors(const std::string& effect, const std::string& output, size_t count,
+                    const std::string& more, const image::Image& right, const image::Image* noise) {
+    const image::Image depth = image::read(folder_ / "d.exr");
+    std::vector<Row> rows = readStudy(kSource / "studies" / (effect + ".csv"));
+    std::erase_if(rows, [](const Row& row) { return row.record.backend != "opengl"; });
+    ASSERT_GE(rows.size(), count);
+    for (size_t i = 0; i < rows.size(); i += rows.size() / count) {
+      std::string sets;
+      for (const auto& [name, value] : rows[i].record.setting)
+        sets += " --set " + name + "=" + value;
+      const tests::Outcome render = tests::runShell(
+          "grisaille render --backend opengl --write " + output + "=a.exr" + view_ + more + sets,
+          folder_.path());
+      ASSERT_EQ(render.status, 0) << render.err;
+      const double error = errorOf(image::read(folder_ / "a.exr"), right, noise, depth);
+      EXPECT_NEAR(error, rows[i].ofFirst, 5e-4)
+          << sets << ": measure anew and choose the presets anew, see studies/README.md";
+    }
+  }
+
+  const TemporaryFolder folder_;
+  const std::string view_ =
+      " --size 640x360 --camera " + (kSource / "studies/cameras/atrium.json").string();
+};
+
+// The effect may not have changed since.
+TEST_F(Study, OfSsaoIsStillTrue) {
+  const image::Image right = truth("ao", " --samples 128 --write ao_error=e.exr");
+  const image::Image noise = image::read(folder_ / "e.exr");
+  expectErrors("ssao", "ao", 10, "", right, &noise);
+}
+
+TEST_F(Study, OfSspmIsStillTrue) {
+  const std::string shots = (kSource / "studies/shots/atrium.json").string();
+  const image::Image right = truth("mask", " --paint " + shots);
+  expectErrors("sspm", "paint", 4, " --effects sspm --set sspm.edge_fade=0 --load sspm=" + shots,
+               right, nullptr);
 }
 
 }  // namespace

@@ -1,0 +1,29 @@
+#version 460
+// SPDX-License-Identifier: MIT
+// The mode surface below full resolution, third pass: the pixels that upsample.comp has left walk. So
+// few threads that each has many of them: one without costs a software driver as much as one with.
+#extension GL_GOOGLE_include_directive : require
+#include "splat.glsl"
+#include "outputs.glsl"
+#include "walk.glsl"
+
+layout(local_size_x = 64) in;
+layout(TEXTURE(0)) uniform sampler2D view_depth;
+layout(TEXTURE(1)) uniform sampler2D facet_normal;
+layout(STORAGE(4), std430) readonly buffer Rest {
+  uint rest_count;
+  uint rest[];
+};
+
+void main() {
+  for (uint i = gl_GlobalInvocationID.x; i < rest_count; i += gl_NumWorkGroups.x * 64u) {
+    const ivec2 pixel = ivec2(rest[i] & 0xffffu, rest[i] >> 16);
+    const vec2 at = vec2(pixel) + 0.5;
+    const vec2 uv = at * view.size.zw;
+    const float depth = textureLod(view_depth, uv, 0.0).x;
+    const vec3 from_camera = fromCamera(at, depth);
+    const float noise = splatNoise(from_camera, depth, kOctaves);
+    const Sum sum = walk(from_camera, textureLod(facet_normal, uv, 0.0).xyz, enoughAlpha(noise));
+    writePaint(pixel, sum.color, sum.alphas, sum.owner, noise);
+  }
+}
