@@ -10,8 +10,10 @@
 #include <chrono>
 #include <cmath>
 #include <optional>
+#include <sstream>
 #include <thread>
 
+#include "app/presets.h"
 #include "backends/backends.h"
 #include "core/effect/instance.h"
 #include "core/effect/registry.h"
@@ -35,26 +37,50 @@ struct Options : CommonOptions {
   Options() { rounds = 9; }
   uint32_t samples = 256;
   std::string only;
+  std::vector<std::string> settings;
 };
 
 struct Setting {
   std::string name;
-  std::vector<std::pair<const char*, const char*>> values;
+  std::vector<std::pair<std::string, std::string>> values;
 };
 
-// Those whose name holds `only`.
-std::vector<Setting> settings(const std::string& only) {
-  std::vector<Setting> all;
-  for (const char* taps : {"4", "8", "16", "32", "64", "128", "256"}) {
-    all.push_back({fmt::format("{} taps, 4x4 box", taps), {{"kernel_size", taps}}});
+// "KEY=VALUE KEY=VALUE ...", of the effect's parameters.
+Setting parseSetting(const std::string& text) {
+  Setting setting = {.name = text, .values = {}};
+  std::istringstream words(text);
+  for (std::string word; words >> word;) {
+    const size_t at = word.find('=');
+    setting.values.emplace_back(word.substr(0, at),
+                                at == std::string::npos ? std::string() : word.substr(at + 1));
   }
-  all.push_back({"64 taps, 4x4 box, intensity 1", {{"intensity", "1"}}});
-  all.push_back({"64 taps, no blur", {{"blur_size", "0"}}});
-  all.push_back({"64 taps, 4x4 edge-aware", {{"blur", "edge_aware"}}});
-  all.push_back({"64 taps, 8x8 box", {{"blur_size", "8"}}});
-  all.push_back({"64 taps, sphere", {{"sampling", "sphere"}}});
-  std::erase_if(
-      all, [&](const Setting& setting) { return setting.name.find(only) == std::string::npos; });
+  return setting;
+}
+
+// Those that were asked for or, without any, the presets and the classic estimator's whose name
+// holds `only`.
+std::vector<Setting> settings(const Options& options, const effect::Effect& effect) {
+  std::vector<Setting> all;
+  for (const std::string& text : options.settings) all.push_back(parseSetting(text));
+  if (!all.empty()) return all;
+  for (const app::Preset& preset : app::loadPresets(effect).all) {
+    Setting& setting = all.emplace_back(Setting{.name = "**" + preset.name + "**:", .values = {}});
+    for (const auto& [key, value] : preset.values) {
+      setting.name += " " + key + "=" + value;
+      setting.values.emplace_back(key, value);
+    }
+  }
+  const std::string classic = "estimator=classic intensity=2 ";
+  for (const char* taps : {"4", "8", "16", "32", "64", "128", "256"}) {
+    all.push_back(parseSetting(classic + "kernel_size=" + taps));
+  }
+  all.push_back(parseSetting("estimator=classic"));
+  for (const char* more : {"blur_size=0", "blur=edge_aware", "blur_size=8", "sampling=sphere"}) {
+    all.push_back(parseSetting(classic + more));
+  }
+  std::erase_if(all, [&](const Setting& setting) {
+    return setting.name.find(options.only) == std::string::npos;
+  });
   return all;
 }
 
@@ -100,7 +126,7 @@ class Bench {
     tutorial_.emplace(*device_);
     instance_.emplace(*device_, registry.find("ssao"));
     renderer_.emplace(*device_, subject.scene);
-    for (const Setting& setting : settings(options.only)) {
+    for (const Setting& setting : settings(options, registry.find("ssao"))) {
       effect::Values& values = values_.emplace_back(registry.find("ssao"));
       for (const auto& [key, value] : setting.values) values.set(key, value);
     }
@@ -118,11 +144,11 @@ class Bench {
   // Milliseconds of the effect's passes.
   double timeSetting(size_t setting) {
     render(values_[setting], subject_.cameras[0]);
-    return taken(std::array<std::string_view, 2>{"ssao/occlusion", "ssao/blur"});
+    return taken("ssao/");
   }
   double timeTutorial() {
     drawTutorial(subject_.cameras[0]);
-    return taken(std::array<std::string_view, 2>{"tutorial_occlusion", "tutorial_blur"});
+    return taken("tutorial_");
   }
 
   image::Image ao(size_t setting, const scene::Camera& camera) {
@@ -160,15 +186,13 @@ class Bench {
     device_->submit();
   }
 
-  // Milliseconds of the last frame's passes of these labels.
-  double taken(std::span<const std::string_view> labels) {
+  // Milliseconds of the last frame's passes whose labels begin so.
+  double taken(std::string_view label) {
     device_->wait();
     double sum = 0;
     const std::vector<gpu::FrameTimes> frames = device_->takeTimes();
     for (const gpu::PassTime& pass : frames.back().passes) {
-      if (std::find(labels.begin(), labels.end(), pass.label) != labels.end()) {
-        sum += pass.milliseconds;
-      }
+      if (pass.label.starts_with(label)) sum += pass.milliseconds;
     }
     return sum;
   }
@@ -203,18 +227,23 @@ void printRows(const std::vector<Row>& rows) {
   }
 }
 
-// How far a straight line through 8 and 256 taps misses the cost of those between, at most; in
-// units of the tutorial's, which a slow moment of the machine leaves alone.
+// How far a straight line through 8 and 256 taps of the classic estimator misses the cost of those
+// between, at most; in units of the tutorial's, which a slow moment of the machine leaves alone.
 void printLinearity(const std::vector<Row>& rows) {
-  constexpr double kTaps[] = {4, 8, 16, 32, 64, 128, 256};
-  const auto cost = [&](size_t i) { return median(rows[i + 1].ratios); };
-  const double slope = (cost(6) - cost(1)) / (kTaps[6] - kTaps[1]);
+  const auto cost = [&](int taps) {
+    const std::string end = fmt::format(" kernel_size={}", taps);
+    const auto row = std::find_if(rows.begin(), rows.end(),
+                                  [&](const Row& one) { return one.name.ends_with(end); });
+    return median(row->ratios);
+  };
+  const double slope = (cost(256) - cost(8)) / (256 - 8);
   double worst = 0;
-  for (size_t i = 1; i < std::size(kTaps); ++i) {
-    worst = std::max(worst, std::abs(cost(i) / (cost(1) + slope * (kTaps[i] - kTaps[1])) - 1));
+  for (const int taps : {16, 32, 64, 128}) {
+    worst = std::max(worst, std::abs(cost(taps) / (cost(8) + slope * (taps - 8)) - 1));
   }
-  fmt::print("\nA line through 8 and 256 taps misses no cost between by more than {:.0f} %.\n\n",
-             worst * 100);
+  fmt::print(
+      "\nClassic: a line through 8 and 256 taps misses no cost between by more than {:.0f} %.\n\n",
+      worst * 100);
 }
 
 void runBackend(const std::string& backend, const Subject& subject,
@@ -222,7 +251,7 @@ void runBackend(const std::string& backend, const Subject& subject,
                 const Options& options) {
   Bench bench(backend, subject, registry, options);
   const gpu::DeviceInfo& info = bench.device().info();
-  const std::vector<Setting> all = settings(options.only);
+  const std::vector<Setting> all = settings(options, registry.find("ssao"));
   std::vector<Row> rows(all.size() + 1);
   rows[0].name = "the tutorial's way, 64 taps";
   for (uint32_t round = 0; round < options.rounds; ++round) {
@@ -250,7 +279,7 @@ void runBackend(const std::string& backend, const Subject& subject,
       info.backend, info.name, info.driver, info.software ? " (software)" : "",
       gpu::clockName(info.clock), options.rounds, subject.loadSeconds, bench.firstFrameSeconds());
   printRows(rows);
-  if (options.only.empty()) printLinearity(rows);
+  if (options.only.empty() && options.settings.empty()) printLinearity(rows);
 }
 
 void run(const Options& options) {
@@ -267,7 +296,7 @@ void run(const Options& options) {
       "0.5 m, {} hardware threads.\n\n",
       subject.name, options.width, options.height, std::thread::hardware_concurrency());
   fmt::print(
-      "Cost: the occlusion and blur passes on the first camera. Tutorial: a fragment shader;\n"
+      "Cost: the effect's passes on the first camera. Tutorial: a fragment shader;\n"
       "view-space positions and normals in 16-bit float textures; 64 samples from a uniform "
       "array,\n"
       "each a full matrix product and a fetch; smooth range check; 4x4 box blur in a second pass.\n"
@@ -294,6 +323,7 @@ int main(int argc, char** argv) {
   CLI::App program("What SSAO costs and how wrong it is, as Markdown");
   program.add_option("--samples", options.samples, "Rays a pixel of the truth")
       ->check(CLI::Range(1u, 65536u));
+  program.add_option("--setting", options.settings, "Measure these: \"KEY=VALUE KEY=VALUE\", ...");
   program.add_option("--only", options.only, "Settings whose name holds this");
   return grisaille::bench::runCommand(program, options, argc, argv,
                                       [&] { grisaille::bench::run(options); });

@@ -133,7 +133,7 @@ TutorialSsao::Inputs TutorialSsao::makeInputs(gpu::Commands& commands, gpu::Text
                                gpu::textureBinding(0, {.texture = viewDepth}, clamped_),
                                gpu::textureBinding(1, {.texture = worldNormal}, clamped_)};
   const std::array targets = {inputs.position, inputs.normal};
-  pass(commands, "tutorial_inputs", inputs_, bindings, targets);
+  pass(commands, "inputs_of_tutorial", inputs_, bindings, targets);
   return inputs;
 }
 

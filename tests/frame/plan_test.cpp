@@ -92,6 +92,7 @@ TEST_F(PlanTest, NormalNeedsNoViewDepth) {
 }
 
 TEST_F(PlanTest, AoReadsDepthAndNormalButNoColour) {
+  values_->set("estimator", "classic");
   const Recording recording = record({"ao"}, true);
   EXPECT_EQ(recording.passes,
             (Labels{"scene/geometry", "scene/view_depth", "ssao/occlusion", "ssao/blur"}));
@@ -100,6 +101,7 @@ TEST_F(PlanTest, AoReadsDepthAndNormalButNoColour) {
 }
 
 TEST_F(PlanTest, SphereSamplingReadsNoNormal) {
+  values_->set("estimator", "classic");
   values_->set("sampling", "sphere");
   const Recording recording = record({"ssao.ao"}, true);
   ASSERT_EQ(recording.renders.size(), 1u);
@@ -107,10 +109,29 @@ TEST_F(PlanTest, SphereSamplingReadsNoNormal) {
 }
 
 TEST_F(PlanTest, NoBlurRecordsNoBlurPass) {
+  values_->set("estimator", "classic");
   for (const char* size : {"0", "1"}) {
     values_->set("blur_size", size);
     EXPECT_EQ(record({"ao"}, true).passes,
               (Labels{"scene/geometry", "scene/view_depth", "ssao/occlusion"}));
+  }
+}
+
+TEST_F(PlanTest, SlicesRecordWhatTheirResolutionAndBlurNeed) {
+  const auto passes = [&](const char* resolution, const char* blur) {
+    values_->set("resolution", resolution);
+    values_->set("blur_size", blur);
+    const Recording recording = record({"ao"}, true);
+    EXPECT_EQ(recording.renders.at(0).targets, (Labels{"normal", "clip depth"}));
+    return Labels(recording.passes.begin() + 2, recording.passes.end());
+  };
+  EXPECT_EQ(passes("full", "1"), (Labels{"ssao/occlusion", "ssao/denoise columns"}));
+  EXPECT_EQ(passes("full", "4"),
+            (Labels{"ssao/occlusion", "ssao/denoise rows", "ssao/denoise columns"}));
+  for (const char* coarse : {"half", "quarter"}) {
+    EXPECT_EQ(passes(coarse, "0"), (Labels{"ssao/occlusion", "ssao/upsample"}));
+    EXPECT_EQ(passes(coarse, "4"), (Labels{"ssao/occlusion", "ssao/denoise rows",
+                                           "ssao/denoise columns", "ssao/upsample"}));
   }
 }
 
@@ -181,7 +202,7 @@ TEST_F(PlanTest, BadCameraIsAnErrorAndTheNextFrameWorks) {
   camera_.target = camera_.eye;
   EXPECT_ERROR(ErrorId::kCameraInvalid, record({"ao"}, true));
   camera_ = good;
-  EXPECT_EQ(record({"ao"}, true).passes.size(), 4u);
+  EXPECT_EQ(record({"ao"}, true).passes.size(), 6u);
 }
 
 }  // namespace

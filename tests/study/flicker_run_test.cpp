@@ -64,7 +64,8 @@ class MeasurePathTest : public testing::TestWithParam<const char*> {
 
 TEST_P(MeasurePathTest, EverySettingHasItsFlicker) {
   folder_.write("path.json", kPath);
-  const std::vector<std::string> options = {"--path", "path.json", "--set", "ssao.blur_size=0"};
+  const std::vector<std::string> options = {
+      "--path", "path.json", "--set", "ssao.estimator=classic", "--set", "ssao.blur_size=0"};
   const tests::Outcome outcome = measure(options);
   ASSERT_EQ(outcome.status, 0) << outcome.err;
   std::map<std::string, double> flicker;

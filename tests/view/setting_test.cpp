@@ -18,7 +18,7 @@ TEST_P(SettingTest, ADraggedSliderIsTheRenderedSetting) {
                                      "--backend",
                                      GetParam(),
                                      "--set",
-                                     "ssao.kernel_size=8",
+                                     "ssao.steps=3",
                                      "--set",
                                      "ssao.radius=" + radius,
                                      "--write",

@@ -18,7 +18,7 @@ class WindowTest : public testing::TestWithParam<std::string> {
   std::vector<std::string> arguments(std::vector<std::string> more = {}) const {
     std::vector<std::string> all = {"--backend", GetParam(), "--size", "720x1300"};
     all.insert(all.end(), more.begin(), more.end());
-    all.insert(all.end(), {"--set", "ssao.kernel_size=8"});
+    all.insert(all.end(), {"--set", "ssao.steps=3"});
     return all;
   }
   // Ends it well: no message of the driver, its validation or the layer.

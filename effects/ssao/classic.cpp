@@ -1,0 +1,120 @@
+// SPDX-License-Identifier: MIT
+#include "classic.h"
+
+#include <vector>
+
+#include "kernel.h"
+#include "parameters.h"
+#include "shaders/ssao_blur.h"
+#include "shaders/ssao_hemisphere.h"
+#include "shaders/ssao_sphere.h"
+
+namespace grisaille::ssao {
+namespace {
+
+// shaders/ssao/occlusion.glsl, std140.
+struct SettingsBlock {
+  glm::vec4 kernel[kMaxKernelSize];
+  float radius;
+  float bias;
+  float intensity;
+  float power;
+};
+GRISAILLE_CHECK_BLOCK_ssao_hemisphere_Settings(SettingsBlock);
+
+// shaders/ssao/blur.comp, std140.
+struct BlurBlock {
+  float radius;
+  float intensity;
+  float power;
+};
+GRISAILLE_CHECK_BLOCK_ssao_blur_Settings(BlurBlock);
+
+void dispatch(const plugin::Frame& frame, grisaille_pipeline pipeline,
+              std::span<const grisaille_binding> bindings) {
+  frame.dispatch(pipeline, bindings, plugin::groupsFor(frame.width(), kGroup),
+                 plugin::groupsFor(frame.height(), kGroup));
+}
+
+}  // namespace
+
+Classic::Classic(plugin::Host host)
+    : host_(host),
+      hemisphere_(host, "occlusion", grisaille_shader_ssao_hemisphere),
+      sphere_(host, "occlusion", grisaille_shader_ssao_sphere),
+      blur_(host, "blur", grisaille_shader_ssao_blur),
+      clamped_(host.sampler({.label = "clamped"})),
+      repeated_(host.sampler({.label = "repeated", .repeat = true})) {}
+
+uint32_t Classic::reads(plugin::Values values) noexcept {
+  const bool normals = values.get<Sampling>(Parameter::kSampling) == Sampling::kHemisphere;
+  return GRISAILLE_READS(GRISAILLE_VIEW_DEPTH) | (normals ? GRISAILLE_READS(GRISAILLE_NORMAL) : 0u);
+}
+
+void Classic::record(const plugin::Frame& frame) {
+  const uint32_t size = frame.value<uint32_t>(kBlurSize);
+  const bool blurred = size > 1;
+  const grisaille_texture raw = blurred ? frame.transient({.label = "raw occlusion",
+                                                           .format = GRISAILLE_FORMAT_R16F,
+                                                           .width = frame.width(),
+                                                           .height = frame.height()})
+                                        : frame.output(0);
+  frame.pass("occlusion", [&] { occlude(frame, raw, blurred); });
+  if (blurred) {
+    frame.pass("blur", [&] { blur(frame, raw, size); });
+  }
+}
+
+void Classic::occlude(const plugin::Frame& frame, grisaille_texture target, bool blurred) {
+  const uint32_t seed = frame.value<uint32_t>(kSeed);
+  if (noiseSeed_ != seed) {
+    if (!noise_) {
+      noise_ = host_.texture({.label = "rotations",
+                              .format = GRISAILLE_FORMAT_RG32F,
+                              .width = kNoiseSize,
+                              .height = kNoiseSize,
+                              .usage = GRISAILLE_TEXTURE_SAMPLED});
+    }
+    frame.uploadTexture(noise_, makeNoise(seed));
+    noiseSeed_ = seed;
+  }
+  const auto sampling = frame.value<Sampling>(kSampling);
+  const uint32_t count = frame.value<uint32_t>(kKernelSize);
+  SettingsBlock settings{};
+  const auto kernel = makeKernel(count, sampling, seed);
+  for (uint32_t i = 0; i < count; ++i) settings.kernel[i] = kernel[i];
+  settings.radius = frame.value<float>(kRadius);
+  settings.bias = frame.value<float>(kBias);
+  settings.intensity = frame.value<float>(kIntensity);
+  settings.power = frame.value<float>(kPower);
+
+  // Constants 0 ... 3 of shaders/ssao/occlusion.glsl.
+  const grisaille_constant constants[] = {
+      plugin::specialize(0, count), plugin::specialize(1, frame.value<uint32_t>(kRotation)),
+      plugin::specialize(2, frame.value<uint32_t>(kRangeCheck)), plugin::specialize(3, !blurred)};
+  const bool normals = sampling == Sampling::kHemisphere;
+  std::vector<grisaille_binding> bindings = {
+      plugin::uniform(0, frame.viewBlock()), plugin::uniform(1, frame.uniform(settings)),
+      plugin::texture(0, frame.attachment(GRISAILLE_VIEW_DEPTH), clamped_),
+      plugin::texture(1, noise_, repeated_), plugin::image(0, target)};
+  if (normals) {
+    bindings.push_back(plugin::texture(2, frame.attachment(GRISAILLE_NORMAL), clamped_));
+  }
+  dispatch(frame, (normals ? hemisphere_ : sphere_).get(constants), bindings);
+}
+
+void Classic::blur(const plugin::Frame& frame, grisaille_texture raw, uint32_t size) {
+  const BlurBlock settings = {.radius = frame.value<float>(kRadius),
+                              .intensity = frame.value<float>(kIntensity),
+                              .power = frame.value<float>(kPower)};
+  // Constants 0 and 1 of shaders/ssao/blur.comp.
+  const grisaille_constant constants[] = {plugin::specialize(0, size),
+                                          plugin::specialize(1, frame.value<uint32_t>(kBlur))};
+  const grisaille_binding bindings[] = {
+      plugin::uniform(0, frame.viewBlock()), plugin::uniform(1, frame.uniform(settings)),
+      plugin::texture(0, frame.attachment(GRISAILLE_VIEW_DEPTH), clamped_),
+      plugin::texture(1, raw, clamped_), plugin::image(0, frame.output(0))};
+  dispatch(frame, blur_.get(constants), bindings);
+}
+
+}  // namespace grisaille::ssao

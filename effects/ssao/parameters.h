@@ -1,0 +1,197 @@
+// SPDX-License-Identifier: MIT
+// The one table of the effect's parameters; the enums count along with it.
+#pragma once
+
+#include "grisaille/effect.hpp"
+#include "kernel.h"
+
+namespace grisaille::ssao {
+
+enum Parameter {
+  kEstimator,
+  kRadius,
+  kSlices,
+  kSteps,
+  kThickness,
+  kResolution,
+  kBlurSize,
+  kIntensity,
+  kPower,
+  kSeed,
+  kKernelSize,
+  kBias,
+  kSampling,
+  kRotation,
+  kRangeCheck,
+  kBlur,
+};
+
+enum class Estimator : uint32_t { kSlices = 0, kClassic = 1 };
+
+constexpr const char* kSamplingKeys[] = {"hemisphere", "sphere"};
+constexpr const char* kSamplingLabels[] = {"Hemisphere", "Sphere"};
+constexpr const char* kRotationKeys[] = {"noise", "none"};
+constexpr const char* kRotationLabels[] = {"4x4 noise", "None"};
+constexpr const char* kRangeKeys[] = {"linear", "raw_depth", "none"};
+constexpr const char* kRangeLabels[] = {"Linear depth", "Raw depth", "None"};
+constexpr const char* kBlurKeys[] = {"box", "edge_aware"};
+constexpr const char* kBlurLabels[] = {"Box", "Edge-aware"};
+
+constexpr const char* kEstimatorKeys[] = {"slices", "classic"};
+constexpr const char* kEstimatorLabels[] = {"Slices", "Classic"};
+constexpr const char* kResolutionKeys[] = {"full", "half", "quarter"};
+constexpr const char* kResolutionLabels[] = {"Full", "Half", "Quarter"};
+
+constexpr grisaille_param_desc kParams[] = {
+    plugin::enumParam(
+        {.key = "estimator",
+         .label = "Estimator",
+         .tooltip =
+             "Slices: occluded sectors of slices through the view vector, the most accurate; "
+             "classic: sample points in a volume",
+         .keys = kEstimatorKeys,
+         .labels = kEstimatorLabels,
+         .defaultValue = 0}),
+    plugin::floatParam({.key = "radius",
+                        .label = "Radius",
+                        .unit = "m",
+                        .tooltip = "How far an occluder may be from the surface it darkens",
+                        .hardMin = 1e-6,
+                        .hardMax = 1e6,
+                        .softMin = 0.01,
+                        .softMax = 10,
+                        .defaultValue = 0.5,
+                        .log = true}),
+    plugin::intParam({.key = "slices",
+                      .label = "Slices",
+                      .tooltip = "Slices a pixel; cost grows in proportion, noise falls",
+                      .hardMin = 1,
+                      .hardMax = 64,
+                      .softMin = 1,
+                      .softMax = 16,
+                      .defaultValue = 1,
+                      .log = true}),
+    plugin::intParam({.key = "steps",
+                      .label = "Steps",
+                      .tooltip = "Taps on each side of a slice; few miss thin occluders",
+                      .hardMin = 1,
+                      .hardMax = 64,
+                      .softMin = 2,
+                      .softMax = 32,
+                      .defaultValue = 6,
+                      .log = true}),
+    plugin::floatParam({.key = "thickness",
+                        .label = "Thickness",
+                        .tooltip = "How much matter is taken to be behind what is seen, in radii",
+                        .hardMin = 0,
+                        .hardMax = 1e6,
+                        .softMin = 0,
+                        .softMax = 2,
+                        .defaultValue = 0.7,
+                        .step = 0.01}),
+    plugin::enumParam({.key = "resolution",
+                       .label = "Resolution",
+                       .tooltip = "Slices for every pixel, for one of 2x2 or for one of 4x4",
+                       .keys = kResolutionKeys,
+                       .labels = kResolutionLabels,
+                       .defaultValue = 1}),
+    plugin::intParam({.key = "blur_size",
+                      .label = "Blur size",
+                      .unit = "px",
+                      .tooltip =
+                          "Width of the blur at half its height, in pixels of the estimator's "
+                          "resolution; 0 and 1: none; 4 and 8 remove the noise's pattern exactly",
+                      .hardMin = 0,
+                      .hardMax = 16,
+                      .softMin = 0,
+                      .softMax = 8,
+                      .defaultValue = 4}),
+    plugin::floatParam({.key = "intensity",
+                        .label = "Intensity",
+                        .tooltip = "Multiplies the occlusion before it is clamped to 1; 1: as "
+                                   "estimated. Classic is too bright below 2",
+                        .hardMin = 0,
+                        .hardMax = 10,
+                        .softMin = 0,
+                        .softMax = 3,
+                        .defaultValue = 1,
+                        .step = 0.05}),
+    plugin::floatParam({.key = "power",
+                        .label = "Power",
+                        .tooltip = "Exponent of the visibility; over 1 darkens creases",
+                        .hardMin = 0.1,
+                        .hardMax = 10,
+                        .softMin = 0.5,
+                        .softMax = 4,
+                        .defaultValue = 1,
+                        .step = 0.05}),
+    plugin::intParam({.key = "seed",
+                      .label = "Seed",
+                      .tooltip = "Which slices, or which sample points and rotations, are drawn",
+                      .hardMin = 0,
+                      .hardMax = 65535,
+                      .softMin = 0,
+                      .softMax = 100,
+                      .defaultValue = 0,
+                      .advanced = true}),
+    plugin::intParam(
+        {.key = "kernel_size",
+         .label = "Kernel size",
+         .tooltip = "Classic: sample points a pixel; cost grows in proportion, noise falls",
+         .hardMin = 1,
+         .hardMax = kMaxKernelSize,
+         .softMin = 4,
+         .softMax = 128,
+         .defaultValue = 64,
+         .log = true}),
+    plugin::floatParam({.key = "bias",
+                        .label = "Bias",
+                        .unit = "m",
+                        .tooltip = "Classic: how much nearer than a sample point the surface must "
+                                   "be to occlude it; hides self-occlusion, loses fine detail",
+                        .hardMin = 0,
+                        .hardMax = 1e6,
+                        .softMin = 0,
+                        .softMax = 0.1,
+                        .defaultValue = 0.01,
+                        .step = 0.001}),
+    plugin::enumParam(
+        {.key = "sampling",
+         .label = "Sampling",
+         .tooltip = "Classic: where the sample points lie: in the hemisphere over the surface, or "
+                    "all around, which needs no normals and brightens convex edges",
+         .keys = kSamplingKeys,
+         .labels = kSamplingLabels,
+         .defaultValue = 0,
+         .advanced = true}),
+    plugin::enumParam(
+        {.key = "rotation",
+         .label = "Rotation",
+         .tooltip = "Classic: turns the kernel from pixel to pixel, which makes noise out of bands",
+         .keys = kRotationKeys,
+         .labels = kRotationLabels,
+         .defaultValue = 0,
+         .advanced = true}),
+    plugin::enumParam(
+        {.key = "range_check",
+         .label = "Range check",
+         .tooltip = "Classic: which depths must be within the radius for a surface to occlude: raw "
+                    "depth is wrong near and far, none leaves halos",
+         .keys = kRangeKeys,
+         .labels = kRangeLabels,
+         .defaultValue = 0,
+         .advanced = true}),
+    plugin::enumParam(
+        {.key = "blur",
+         .label = "Blur",
+         .tooltip = "Classic: box averages across edges; edge-aware leaves out what is more than "
+                    "the radius nearer or farther",
+         .keys = kBlurKeys,
+         .labels = kBlurLabels,
+         .defaultValue = 0,
+         .advanced = true}),
+};
+
+constexpr uint32_t kGroup = 8;  // threads a side, in all shaders of this effect
+
+}  // namespace grisaille::ssao

@@ -1,0 +1,72 @@
+// SPDX-License-Identifier: MIT
+// Averages along a row or a column with the weights 1, 2 ... kSize ... 2, 1: after both, every slice
+// of the pattern has the same weight where kSize is a multiple of the pattern's 4 texels. Only
+// what lies in the plane of the texel's surface counts: the weight falls to 0 at the tolerance.
+// LAST is 1 where intensity and power follow and nothing else.
+//
+// One invocation does a run of 4 texels, which share most of what they average.
+#include "common/view.glsl"
+#include "plane.glsl"
+
+layout(constant_id = 0) const uint kSize = 4u;       // half the width, texels, 1 ... 16
+layout(constant_id = 1) const uint kScale = 1u;      // pixels a texel, each way
+layout(constant_id = 2) const bool kColumn = false;  // down a column, not along a row
+
+layout(local_size_x = 8, local_size_y = 8) in;
+layout(UNIFORM(1), std140) uniform Settings {
+  float tolerance;  // 1 / metres
+  float intensity;
+  float power;
+} settings;
+layout(TEXTURE(0)) uniform sampler2D raw;  // visibility and view depth; nearest, clamped
+layout(TEXTURE(1)) uniform sampler2D world_normal;
+#if LAST
+layout(IMAGE(0), r16f) writeonly uniform image2D target;
+#else
+layout(IMAGE(0), rg32f) writeonly uniform image2D target;  // as raw
+#endif
+
+void main() {
+  // By branches: lavapipe takes a vector chosen by a specialization constant for the default's.
+  ivec2 along = ivec2(1, 0);
+  if (kColumn) along = along.yx;
+  const ivec2 first = ivec2(gl_GlobalInvocationID.xy) * (1 + along * 3);
+  const ivec2 size = imageSize(target);
+  if (any(greaterThanEqual(first, size))) return;
+  const vec2 inverse = 1.0 / vec2(size);
+
+  // One component for each texel of the run. Neighbour k of a texel lies
+  // depth * (offset + k * slope) + constant from its plane, in tolerances.
+  vec4 depths, offset, slope, constant;
+  [[unroll]] for (int t = 0; t < 4; ++t) {
+    const vec2 texel = vec2(first + along * t);
+    const vec2 pixel = texel * float(kScale) + 0.5;
+    depths[t] = textureLod(raw, (texel + 0.5) * inverse, 0.0).y;
+    const vec3 normal = viewNormal(textureLod(world_normal, pixel * view.size.zw, 0.0).xyz);
+    const vec4 plane = planeOf(pixel, depths[t], normal) * settings.tolerance;
+    offset[t] = dot(plane.xy, pixel) + plane.z;
+    slope[t] = dot(plane.xy, vec2(along)) * float(kScale);
+    constant[t] = plane.w;
+  }
+  vec4 sum = vec4(0.0), weights = vec4(0.0);
+  const int reach = int(kSize) - 1;
+  [[unroll]] for (int i = -reach; i < 4 + reach; ++i) {
+    const vec2 other = textureLod(raw, (vec2(first + along * i) + 0.5) * inverse, 0.0).xy;
+    const vec4 k = float(i) - vec4(0.0, 1.0, 2.0, 3.0);
+    const vec4 off = abs(other.y * (offset + k * slope) + constant);
+    const vec4 share = max(float(kSize) - abs(k), 0.0) * max(1.0 - off, 0.0);
+    const vec4 weight = other.y > 0.0 ? share : vec4(0.0);
+    sum += weight * other.x;
+    weights += weight;
+  }
+  vec4 open = sum / max(weights, 1e-6);
+#if LAST
+  open = clamp(1.0 - settings.intensity * (1.0 - open), 0.0, 1.0);
+  if (settings.power != 1.0) open = pow(open, vec4(settings.power));
+#endif
+  [[unroll]] for (int t = 0; t < 4; ++t) {
+    const ivec2 texel = first + along * t;
+    const float value = depths[t] > 0.0 ? open[t] : 1.0;
+    if (all(lessThan(texel, size))) imageStore(target, texel, vec4(value, depths[t], 0.0, 0.0));
+  }
+}
