@@ -28,21 +28,6 @@ std::map<std::string, double> medianCosts(std::span<const Record> records) {
   return medians;
 }
 
-// The index strictly between two, farthest under their chord; `none` where nothing lies between.
-size_t kneeOf(std::span<const Price> front, size_t first, size_t last, size_t none) {
-  const auto x = [&](size_t i) { return std::log(front[i].cost); };
-  size_t knee = none;
-  double farthest = -1e300;
-  for (size_t i = first + 1; i < last; ++i) {
-    const double share = (x(i) - x(first)) / (x(last) - x(first));
-    const double chord = front[first].error + share * (front[last].error - front[first].error);
-    if (chord - front[i].error <= farthest) continue;
-    farthest = chord - front[i].error;
-    knee = i;
-  }
-  return knee;
-}
-
 // "ssao" of "ssao.radius", the same in all.
 std::string effectOf(std::span<const Choice> choices) {
   std::set<std::string> effects;
@@ -101,9 +86,17 @@ std::vector<size_t> presetsOn(std::span<const Price> front) {
                 front.size(), std::size(kPresetNames));
   }
   const size_t reference = front.size() - 1;
-  const size_t balanced = std::clamp<size_t>(kneeOf(front, 0, reference, 1), 1, reference - 2);
-  return {kneeOf(front, 0, balanced, balanced - 1), balanced,
-          kneeOf(front, balanced, reference, balanced + 1), reference};
+  std::vector<size_t> chosen;
+  for (size_t k = 1; k < std::size(kPresetNames); ++k) {
+    const double most = front[reference].cost /
+                        std::pow(kPresetRatio, static_cast<double>(std::size(kPresetNames) - k));
+    size_t i = 0;
+    while (i + 1 < reference && front[i + 1].cost <= most) ++i;
+    const size_t least = chosen.empty() ? 0 : chosen.back() + 1;
+    chosen.push_back(std::clamp(i, least, reference - std::size(kPresetNames) + k));
+  }
+  chosen.push_back(reference);
+  return chosen;
 }
 
 std::vector<size_t> distinct(std::span<const Price> prices, std::span<const size_t> front) {

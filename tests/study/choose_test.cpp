@@ -41,12 +41,14 @@ TEST(Presets, AreOnTheFrontAndInOrder) {
   EXPECT_ERROR(ErrorId::kFrontSmall, presetsOn(std::vector<Price>(3, {1, 1})));
 }
 
-TEST(Presets, BalancedIsTheKnee) {
-  // Error falls fast to 0.1 at cost 16, then hardly.
+TEST(Presets, EachCostsAtMostAThirdOfTheNext) {
   std::vector<Price> front;
-  for (int i = 0; i <= 4; ++i) front.push_back({std::exp2(i), 0.5 - 0.1 * i});
-  for (int i = 1; i <= 6; ++i) front.push_back({std::exp2(4 + i), 0.1 - 0.002 * i});
-  EXPECT_EQ(presetsOn(front)[1], 4u);
+  for (int i = 0; i <= 10; ++i) front.push_back({std::exp2(i), 1 - 0.05 * i});
+  // Of 1024: at most 37.9, 113.8 and 341.3.
+  EXPECT_EQ(presetsOn(front), (std::vector<size_t>{5, 6, 8, 10}));
+  // Where nothing is so cheap, the cheapest that there are.
+  front = {{40, 0.9}, {45, 0.8}, {50, 0.7}, {60, 0.6}, {100, 0.5}};
+  EXPECT_EQ(presetsOn(front), (std::vector<size_t>{0, 1, 2, 4}));
 }
 
 TEST(Presets, SettingsThatClocksDoNotTellApartAreOne) {
