@@ -141,8 +141,8 @@ TEST_F(CommandLine, TimingsAreCsvOfEveryPassOfEveryFrame) {
   const Outcome outcome = render({"--frames", "3", "--timings", "-", "--write", "ao=a.exr"});
   ASSERT_EQ(outcome.status, 0) << outcome.err;
   EXPECT_EQ(outcome.out.rfind("frame,effect,pass,milliseconds,clock\n", 0), 0u) << outcome.out;
-  for (const char* row :
-       {"\n0,scene,geometry,", "\n1,scene,view_depth,", "\n2,ssao,occlusion,", "\n2,ssao,blur,"}) {
+  for (const char* row : {"\n0,scene,geometry,", "\n1,scene,view_depth,", "\n2,ssao,occlusion,",
+                          "\n2,ssao,upsample,"}) {
     EXPECT_NE(outcome.out.find(row), std::string::npos) << row << outcome.out;
   }
   EXPECT_TRUE(outcome.out.find(",wall\n") != std::string::npos ||

@@ -90,8 +90,8 @@ text = "More sample points, less noise."
 source = "A test."
 camera = {eye = [-6.5, 1.75, 1.9], target = [2.6, 2.35, -1.2], fovy_degrees = 62}
 size = [96, 54]
-set = ["ssao.blur_size=0"]
-runs = [{name = "few", set = ["ssao.estimator=classic", "ssao.kernel_size=4"]}, {name = "many", set = ["ssao.estimator=classic", "ssao.kernel_size=64"]}]
+set = ["ssao.estimator=classic", "ssao.intensity=2", "ssao.blur_size=0"]
+runs = [{name = "few", set = ["ssao.kernel_size=4"]}, {name = "many", set = ["ssao.kernel_size=64"]}]
 expect = ["few.noise > 1.5 * many.noise"]
 [[claim]]
 key = "wrong"
@@ -99,7 +99,8 @@ text = "Fewer sample points, less noise."
 source = "A test."
 camera = {eye = [-6.5, 1.75, 1.9], target = [2.6, 2.35, -1.2], fovy_degrees = 62}
 size = [96, 54]
-runs = [{name = "few", set = ["ssao.estimator=classic", "ssao.kernel_size=4"]}, {name = "many", set = ["ssao.estimator=classic", "ssao.kernel_size=64"]}]
+set = ["ssao.estimator=classic", "ssao.intensity=2"]
+runs = [{name = "few", set = ["ssao.kernel_size=4"]}, {name = "many", set = ["ssao.kernel_size=64"]}]
 expect = ["few.rmse < 0.5 * many.rmse"]
 )";
 

@@ -45,12 +45,12 @@ TEST_P(TuneTest, FindsASettingThatErrsNoMoreThanAsked) {
 }
 
 TEST_P(TuneTest, KeepsToABudget) {
-  const Outcome outcome = tune({"--budget-ms", "1000", "--vary", "ssao.steps,ssao.intensity",
+  const Outcome outcome = tune({"--budget-ms", "1000", "--vary", "ssao.slices,ssao.intensity",
                                 "--evaluations", "12", "--random", "0"});
   ASSERT_EQ(outcome.status, 0) << outcome.err;
   EXPECT_LE(numberAfter(outcome.out, " at "), 1000);
-  // With all the time that it could want it takes more steps than the cheapest preset does.
-  EXPECT_GT(numberAfter(outcome.out, "steps="), 4);
+  // With all the time that it could want it takes more slices than the cheap presets do.
+  EXPECT_GT(numberAfter(outcome.out, " slices="), 1);
   EXPECT_EQ(outcome.out.find("validated"), std::string::npos);
 }
 

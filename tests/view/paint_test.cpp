@@ -39,7 +39,7 @@ TEST_P(WindowPaintTest, LandsOnThePixelClicked) {
 }
 
 TEST_P(WindowPaintTest, SprayIsOneStepAndColoursAreCounted) {
-  DrivenViewer viewer(folder_, {"--backend", GetParam(), "--size", "720x1300", "--effects", "sspm",
+  DrivenViewer viewer(folder_, {"--backend", GetParam(), "--size", "720x1560", "--effects", "sspm",
                                 "--set", "sspm.paint_range=0.3"});
   viewer.key("b");
   viewer.untilValue("painting", "true");

@@ -16,7 +16,7 @@ class WindowTest : public testing::TestWithParam<std::string> {
 
   // Cheap settings: the panel's words are what is tested, and software draws.
   std::vector<std::string> arguments(std::vector<std::string> more = {}) const {
-    std::vector<std::string> all = {"--backend", GetParam(), "--size", "720x1300"};
+    std::vector<std::string> all = {"--backend", GetParam(), "--size", "720x1560"};
     all.insert(all.end(), more.begin(), more.end());
     all.insert(all.end(), {"--set", "ssao.steps=3"});
     return all;
