@@ -3,6 +3,7 @@
 
 #include <vector>
 
+#include "dispatch.h"
 #include "kernel.h"
 #include "parameters.h"
 #include "shaders/ssao_blur.h"
@@ -29,12 +30,6 @@ struct BlurBlock {
   float power;
 };
 GRISAILLE_CHECK_BLOCK_ssao_blur_Settings(BlurBlock);
-
-void dispatch(const plugin::Frame& frame, grisaille_pipeline pipeline,
-              std::span<const grisaille_binding> bindings) {
-  frame.dispatch(pipeline, bindings, plugin::groupsFor(frame.width(), kGroup),
-                 plugin::groupsFor(frame.height(), kGroup));
-}
 
 }  // namespace
 
@@ -100,7 +95,8 @@ void Classic::occlude(const plugin::Frame& frame, grisaille_texture target, bool
   if (normals) {
     bindings.push_back(plugin::texture(2, frame.attachment(GRISAILLE_NORMAL), clamped_));
   }
-  dispatch(frame, (normals ? hemisphere_ : sphere_).get(constants), bindings);
+  dispatch(frame, (normals ? hemisphere_ : sphere_).get(constants), bindings, frame.width(),
+           frame.height());
 }
 
 void Classic::blur(const plugin::Frame& frame, grisaille_texture raw, uint32_t size) {
@@ -114,7 +110,7 @@ void Classic::blur(const plugin::Frame& frame, grisaille_texture raw, uint32_t s
       plugin::uniform(0, frame.viewBlock()), plugin::uniform(1, frame.uniform(settings)),
       plugin::texture(0, frame.attachment(GRISAILLE_VIEW_DEPTH), clamped_),
       plugin::texture(1, raw, clamped_), plugin::image(0, frame.output(0))};
-  dispatch(frame, blur_.get(constants), bindings);
+  dispatch(frame, blur_.get(constants), bindings, frame.width(), frame.height());
 }
 
 }  // namespace grisaille::ssao

@@ -192,6 +192,4 @@ constexpr grisaille_param_desc kParams[] = {
          .advanced = true}),
 };
 
-constexpr uint32_t kGroup = 8;  // threads a side, in all shaders of this effect
-
 }  // namespace grisaille::ssao

@@ -4,6 +4,7 @@
 #include <algorithm>
 #include <cmath>
 
+#include "dispatch.h"
 #include "parameters.h"
 #include "shaders/ssao_denoise.h"
 #include "shaders/ssao_denoise_last.h"
@@ -38,12 +39,6 @@ FilterBlock filterBlock(const plugin::Frame& frame) {
   return {.tolerance = 1 / (kTolerance * frame.value<float>(kRadius)),
           .intensity = frame.value<float>(kIntensity),
           .power = frame.value<float>(kPower)};
-}
-
-void dispatch(const plugin::Frame& frame, grisaille_pipeline pipeline,
-              std::span<const grisaille_binding> bindings, uint32_t width, uint32_t height) {
-  frame.dispatch(pipeline, bindings, plugin::groupsFor(width, kGroup),
-                 plugin::groupsFor(height, kGroup));
 }
 
 }  // namespace

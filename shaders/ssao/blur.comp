@@ -5,6 +5,7 @@
 #extension GL_GOOGLE_include_directive : require
 #extension GL_EXT_control_flow_attributes : require
 #include "common/view.glsl"
+#include "finish.glsl"
 
 layout(constant_id = 0) const uint kSize = 4u;  // pixels a side, over 1
 layout(constant_id = 1) const uint kMode = 0u;  // 0 box, 1 edge-aware
@@ -45,6 +46,5 @@ void main() {
     }
     open = sum / weights;
   }
-  open = pow(clamp(1.0 - settings.intensity * (1.0 - open), 0.0, 1.0), settings.power);
-  imageStore(visibility, pixel, vec4(open));
+  imageStore(visibility, pixel, vec4(finished(open, settings.intensity, settings.power)));
 }

@@ -6,6 +6,7 @@
 //
 // One invocation does a run of 4 texels, which share most of what they average.
 #include "common/view.glsl"
+#include "finish.glsl"
 #include "plane.glsl"
 
 layout(constant_id = 0) const uint kSize = 4u;       // half the width, texels, 1 ... 16
@@ -59,14 +60,13 @@ void main() {
     sum += weight * other.x;
     weights += weight;
   }
-  vec4 open = sum / max(weights, 1e-6);
-#if LAST
-  open = clamp(1.0 - settings.intensity * (1.0 - open), 0.0, 1.0);
-  if (settings.power != 1.0) open = pow(open, vec4(settings.power));
-#endif
+  const vec4 open = sum / max(weights, 1e-6);
   [[unroll]] for (int t = 0; t < 4; ++t) {
     const ivec2 texel = first + along * t;
-    const float value = depths[t] > 0.0 ? open[t] : 1.0;
+    float value = depths[t] > 0.0 ? open[t] : 1.0;
+#if LAST
+    value = finished(value, settings.intensity, settings.power);
+#endif
     if (all(lessThan(texel, size))) imageStore(target, texel, vec4(value, depths[t], 0.0, 0.0));
   }
 }

@@ -5,6 +5,8 @@
 // point projects, holds a surface nearer than the point by more than the bias, and that surface is in
 // range of the pixel. Occlusion is the share of occluded points.
 #include "common/view.glsl"
+#include "finish.glsl"
+#include "plane.glsl"
 
 layout(constant_id = 0) const uint kKernelSize = 64u;
 layout(constant_id = 1) const uint kRotation = 0u;    // 0 noise, 1 none
@@ -25,14 +27,6 @@ layout(TEXTURE(1)) uniform sampler2D rotations;   // 4x4, repeated
 layout(TEXTURE(2)) uniform sampler2D world_normal;
 #endif
 layout(IMAGE(0), r16f) writeonly uniform image2D visibility;
-
-// Axes with z along n, a unit vector, in one branchless step (Duff et al. 2017).
-mat3 basis(vec3 n) {
-  const float s = n.z >= 0.0 ? 1.0 : -1.0;
-  const float a = -1.0 / (s + n.z);
-  const float b = n.x * n.y * a;
-  return mat3(vec3(1.0 + s * n.x * n.x * a, s * b, -s * n.x), vec3(b, s + n.y * n.y * a, -n.y), n);
-}
 
 // What all sample points of a pixel share.
 struct Taps {
@@ -73,11 +67,8 @@ float occlusionAt(ivec2 pixel, float depth) {
 #if SPHERE
   mat3 axes = mat3(1.0);
 #else
-  vec3 normal = mat3(view.view_from_world) *
-                textureLod(world_normal, centre * view.size.zw, 0.0).xyz;
-  // A surface without a direction is taken to face the camera.
-  if (dot(normal, normal) < 0.25) normal = vec3(0.0, 0.0, 1.0);
-  mat3 axes = basis(normal);
+  const vec3 normal = viewNormal(textureLod(world_normal, centre * view.size.zw, 0.0).xyz);
+  mat3 axes = basisAbout(normal);
 #endif
   if (kRotation == 0u) {
     const vec2 turn = textureLod(rotations, centre * 0.25, 0.0).xy;
@@ -109,6 +100,6 @@ void main() {
   const float depth = textureLod(view_depth, (vec2(pixel) + 0.5) * view.size.zw, 0.0).x;
   float open = 1.0;
   if (depth > 0.0) open -= occlusionAt(pixel, depth);
-  if (kFinish) open = pow(clamp(1.0 - settings.intensity * (1.0 - open), 0.0, 1.0), settings.power);
+  if (kFinish) open = finished(open, settings.intensity, settings.power);
   imageStore(visibility, pixel, vec4(open));
 }

@@ -12,7 +12,6 @@
 //
 // One texel of the target is one of kScale x kScale pixels: the top left one.
 #extension GL_GOOGLE_include_directive : require
-#extension GL_EXT_control_flow_attributes : require
 #include "common/view.glsl"
 #include "plane.glsl"
 

@@ -8,6 +8,7 @@
 #extension GL_GOOGLE_include_directive : require
 #extension GL_EXT_control_flow_attributes : require
 #include "common/view.glsl"
+#include "finish.glsl"
 #include "plane.glsl"
 
 layout(constant_id = 0) const uint kScale = 2u;  // pixels a texel, each way: 2 or 4
@@ -60,9 +61,8 @@ void main() {
   }
   [[unroll]] for (uint i = 0u; i < 4u; ++i) {
     const ivec2 at = place + ivec2(i & 1u, i >> 1u);
-    float open = openAt(at, first, texels);
-    open = clamp(1.0 - settings.intensity * (1.0 - open), 0.0, 1.0);
-    if (settings.power != 1.0) open = pow(open, settings.power);
+    const float open =
+        finished(openAt(at, first, texels), settings.intensity, settings.power);
     if (all(lessThan(at, size))) imageStore(visibility, at, vec4(open));
   }
 }

@@ -77,7 +77,7 @@ std::array<std::array<double, 5>, 2> cornerErrors(const image::Image& ao,
   return sums;
 }
 
-TEST_P(SlicesTest, ACornerIsWithinATwoHundredthOfItsAnalyticValue) {
+TEST_P(SlicesTest, ACornerIsWithinTwoHundredthsOfItsAnalyticValue) {
   const scene::Scene scene = tests::cornerScene();
   effect::Registry registry;
   frame::Renderer renderer(device(), scene);
