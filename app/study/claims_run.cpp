@@ -203,7 +203,8 @@ void ClaimsRunner::Stage::timeAll() {
       device_.takeTimes();
       render(run, run.view->cameras[0], outputs);
       device_.wait();
-      run.milliseconds.push_back(costOf(device_.takeTimes(), claim_.effects));
+      const double share = frame::guardShare(run.effects, claim_.size.x, claim_.size.y);
+      run.milliseconds.push_back(costOf(device_.takeTimes(), claim_.effects, share));
     }
   }
 }

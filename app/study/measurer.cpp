@@ -34,12 +34,14 @@ image::Image oneChannel(image::Image picture, const std::string& name) {
   return picture;
 }
 
-double costOf(const std::vector<gpu::FrameTimes>& frames, const std::vector<std::string>& effects) {
+double costOf(const std::vector<gpu::FrameTimes>& frames, const std::vector<std::string>& effects,
+              double guardShare) {
   double sum = 0;
   for (const gpu::FrameTimes& frame : frames) {
     for (const gpu::PassTime& pass : frame.passes) {
       const std::string effect = pass.label.substr(0, pass.label.find('/'));
       if (std::ranges::find(effects, effect) != effects.end()) sum += pass.milliseconds;
+      if (pass.label.starts_with(frame::kGuardedPasses)) sum += guardShare * pass.milliseconds;
     }
   }
   return frames.empty() ? 0 : sum / static_cast<double>(frames.size());
@@ -102,7 +104,9 @@ double Measurer::cost(Running& running) {
   device_.takeTimes();
   for (const View& view : subject_.views) render(running, view.camera);
   device_.wait();
-  return costOf(device_.takeTimes(), subject_.effects);
+  const double share = frame::guardShare(running.active_->with(running.instances_), subject_.size.x,
+                                         subject_.size.y);
+  return costOf(device_.takeTimes(), subject_.effects, share);
 }
 
 }  // namespace grisaille::app::study

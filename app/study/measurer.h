@@ -39,9 +39,11 @@ struct Subject {
 // kSettingsInvalid where there are others.
 image::Image oneChannel(image::Image picture, const std::string& name);
 
-// Milliseconds a frame that the passes of these effects took, as their own labels name them; 0: no
-// frames.
-double costOf(const std::vector<gpu::FrameTimes>& frames, const std::vector<std::string>& effects);
+// Milliseconds a frame that the passes of these effects took, as their own labels name them, and
+// what their guard bands add to drawing the scene, of which `guardShare` is as frame::guardShare()
+// has it. 0: no frames.
+double costOf(const std::vector<gpu::FrameTimes>& frames, const std::vector<std::string>& effects,
+              double guardShare);
 
 class Measurer {
  public:

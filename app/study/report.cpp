@@ -111,8 +111,7 @@ std::string csvOf(std::span<const Record> records) {
     const CameraErrors mean = meanOf(r);
     csv += fmt::format(",{:.4f},{:.4f},{},{},{},{},{},{},{},{}", r.cost(), r.spread(),
                        r.milliseconds.size(), mean.rmse, mean.meanAbsolute, mean.bias,
-                       mean.percentile99, mean.ssim,
-                       textOf(r.flicker), textOf(r.pathRmse));
+                       mean.percentile99, mean.ssim, textOf(r.flicker), textOf(r.pathRmse));
     for (const std::string& camera : cameras) {
       const auto own = std::ranges::find(r.errors, camera, &CameraErrors::camera);
       csv += "," + (own == r.errors.end() ? std::string() : fmt::format("{}", own->rmse));

@@ -382,7 +382,9 @@ grisaille_frame frameTable(HostServices* self) {
           .upload_texture = HostFunctions::uploadTexture,
           .shots = nullptr,
           .patience = 0,
-          .waiting = HostFunctions::waiting};
+          .waiting = HostFunctions::waiting,
+          .guard = 0,
+          .reserved = 0};
 }
 
 }  // namespace grisaille::effect

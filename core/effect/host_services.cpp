@@ -46,6 +46,7 @@ const grisaille_frame* HostServices::openFrame(const FrameInputs& inputs, size_t
   }
   frame_.width = inputs.width;
   frame_.height = inputs.height;
+  frame_.guard = inputs.guard;
   frame_.index = frames_++;
   frame_.values = inputs.values.data();
   frame_.view = inputs.view;

@@ -30,6 +30,7 @@ struct FrameInputs {
   gpu::Commands* commands = nullptr;
   uint32_t width = 0;
   uint32_t height = 0;
+  uint32_t guard = 0;  // as grisaille_frame has it
   const grisaille_view* view = nullptr;
   gpu::BufferRange viewBlock;
   std::array<gpu::Texture, GRISAILLE_ATTACHMENT_COUNT> attachments;

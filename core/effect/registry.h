@@ -26,6 +26,11 @@ struct Effect {
   uint32_t reads(const double* values, uint32_t wanted) const {
     return desc->reads_for != nullptr ? desc->reads_for(values, wanted) : desc->reads(values);
   }
+  // As guard_band() has it, 0 where the plugin's answer is no share.
+  double guardBand(const double* values) const {
+    const double share = desc->guard_band != nullptr ? desc->guard_band(values) : 0;
+    return share > 0 && share <= 1 ? share : 0;
+  }
   bool takesShots() const { return (desc->flags & GRISAILLE_EFFECT_TAKES_SHOTS) != 0; }
 };
 

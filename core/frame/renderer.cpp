@@ -3,6 +3,7 @@
 
 #include <algorithm>
 #include <array>
+#include <cmath>
 
 #include "core/error.h"
 #include "core/frame/texture_image.h"
@@ -51,6 +52,12 @@ bool composed(std::span<const grisaille_output_desc> outputs, uint32_t role, Sur
          role == (tinted ? GRISAILLE_ROLE_TINT : GRISAILLE_ROLE_VISIBILITY);
 }
 
+// Of the guard band that an effect wants, pixels.
+uint32_t bandOf(const ActiveEffect& active, uint32_t height) {
+  return static_cast<uint32_t>(
+      std::ceil(active.effect().guardBand(active.values->all().data()) * height));
+}
+
 constexpr auto kDrawn = gpu::TextureUsage::kTarget | gpu::TextureUsage::kSampled;
 constexpr auto kComputed = gpu::TextureUsage::kStorage | gpu::TextureUsage::kSampled;
 
@@ -65,6 +72,12 @@ std::vector<std::string> outputNames(std::span<const effect::Effect* const> effe
     }
   }
   return all;
+}
+
+double guardShare(std::span<const ActiveEffect> effects, uint32_t width, uint32_t height) {
+  double band = 0;
+  for (const ActiveEffect& active : effects) band = std::max<double>(band, bandOf(active, height));
+  return 1 - double{1} * width * height / ((width + 2 * band) * (height + 2 * band));
 }
 
 void checkOutput(std::string_view name, std::span<const effect::Effect* const> effects) {
@@ -84,6 +97,8 @@ image::Transfer transferOf(std::string_view output) {
 // What one frame needs, worked out before anything is recorded.
 struct Renderer::Plan {
   uint32_t attachments = 0;  // of GRISAILLE_READS
+  // Those of effects that want a guard band, and its width, pixels.
+  uint32_t guarded = 0, guard = 0;
   // One a effect of the frame: the outputs that somebody wants. 0: it does not run.
   std::vector<uint32_t> wanted;
   bool color = false;
@@ -107,17 +122,30 @@ struct Renderer::Plan {
         if (layer || asked) bits |= 1u << i;
       }
       wanted.push_back(bits);
-      if (bits != 0) attachments |= active.effect().reads(active.values->all().data(), bits);
+      if (bits == 0) continue;
+      const uint32_t reads = active.effect().reads(active.values->all().data(), bits);
+      const uint32_t band = bandOf(active, desc.height);
+      (band > 0 ? guarded : attachments) |= reads;
+      guard = std::max(guard, band);
     }
-  }
-
-  bool reads(grisaille_attachment attachment) const {
-    return (attachments & GRISAILLE_READS(attachment)) != 0;
   }
 
  private:
   static bool wants(const FrameDesc& desc, std::string_view name) {
     return std::find(desc.outputs.begin(), desc.outputs.end(), name) != desc.outputs.end();
+  }
+};
+
+// The scene's attachments: of the picture, or with the guard band about it.
+struct Renderer::SceneView {
+  scene::Camera camera;
+  uint32_t width, height;  // pixels
+  uint32_t attachments;    // of GRISAILLE_READS
+  gpu::BufferRange block;
+  std::string prefix;  // of the targets' names
+
+  bool reads(grisaille_attachment attachment) const {
+    return (attachments & GRISAILLE_READS(attachment)) != 0;
   }
 };
 
@@ -168,47 +196,61 @@ void Renderer::record(gpu::Commands& commands, const FrameDesc& desc, const Plan
     viewDepth_ = device_.createComputePipeline(
         {.label = "view depth", .shader = &grisaille_shader_view_depth, .constants = {}});
   }
-  const ViewBlock block = viewBlock(desc.camera, desc.width, desc.height);
-  const gpu::BufferRange range = commands.uniform(std::as_bytes(std::span(&block, 1)));
-  if (plan.attachments != 0) recordScene(commands, desc, plan, range);
-  recordEffects(commands, desc, plan, range);
+  const auto sceneView = [&](uint32_t guard, uint32_t attachments, const char* prefix) {
+    const ViewBlock block = viewBlock(desc.camera, desc.width, desc.height, guard);
+    return SceneView{.camera = widened(desc.camera, desc.height, guard),
+                     .width = desc.width + 2 * guard,
+                     .height = desc.height + 2 * guard,
+                     .attachments = attachments,
+                     .block = commands.uniform(std::as_bytes(std::span(&block, 1))),
+                     .prefix = prefix};
+  };
+  const SceneView picture = sceneView(0, plan.attachments, "");
+  const SceneView guarded =
+      plan.guard > 0 ? sceneView(plan.guard, plan.guarded, "guarded ") : picture;
+  if (plan.attachments != 0) recordScene(commands, picture);
+  if (plan.guarded != 0) recordScene(commands, guarded);
+  recordEffects(commands, desc, plan, picture, guarded);
   if (plan.color) recordCompose(commands, desc);
   for (const std::string& name : desc.outputs) outputs_.try_emplace(name, name);
 }
 
-void Renderer::recordScene(gpu::Commands& commands, const FrameDesc& desc, const Plan& plan,
-                           gpu::BufferRange viewBlock) {
+void Renderer::recordScene(gpu::Commands& commands, const SceneView& view) {
+  const auto attachment = [&](const char* name, gpu::Format format, gpu::TextureUsage usage) {
+    return target(view.prefix + name, format, usage, view.width, view.height);
+  };
   SceneTargets targets;
-  targets.depth = target(kClipDepth, gpu::Format::kD32Float, kDrawn, desc);
-  if (plan.reads(GRISAILLE_NORMAL)) {
-    targets.normal = target(kNormal, gpu::Format::kRgba16Float, kDrawn, desc);
+  targets.depth = attachment(kClipDepth, gpu::Format::kD32Float, kDrawn);
+  if (view.reads(GRISAILLE_NORMAL)) {
+    targets.normal = attachment(kNormal, gpu::Format::kRgba16Float, kDrawn);
   }
-  if (plan.reads(GRISAILLE_BASE_COLOUR)) {
-    targets.baseColour = target(kBaseColour, gpu::Format::kRgba8Srgb, kDrawn, desc);
+  if (view.reads(GRISAILLE_BASE_COLOUR)) {
+    targets.baseColour = attachment(kBaseColour, gpu::Format::kRgba8Srgb, kDrawn);
   }
-  if (plan.reads(GRISAILLE_FACET_NORMAL)) {
-    targets.facetNormal = target(kFacetNormal, gpu::Format::kRgba16Float, kDrawn, desc);
+  if (view.reads(GRISAILLE_FACET_NORMAL)) {
+    targets.facetNormal = attachment(kFacetNormal, gpu::Format::kRgba16Float, kDrawn);
   }
-  commands.beginPass("scene/geometry");
-  scene_.draw(commands, desc.camera, desc.width, desc.height, targets);
+  const std::string passes = view.prefix.empty() ? "scene/" : std::string(kGuardedPasses);
+  commands.beginPass(passes + "geometry");
+  scene_.draw(commands, view.camera, view.width, view.height, targets);
   commands.endPass();
-  if (!plan.reads(GRISAILLE_VIEW_DEPTH)) return;
+  if (!view.reads(GRISAILLE_VIEW_DEPTH)) return;
 
-  const gpu::Texture depth = target(kDepth, gpu::Format::kR32Float, kComputed, desc);
+  const gpu::Texture depth = attachment(kDepth, gpu::Format::kR32Float, kComputed);
   const std::array bindings = {
-      gpu::uniformBinding(0, viewBlock),
+      gpu::uniformBinding(0, view.block),
       gpu::textureBinding(0, {.texture = targets.depth}, nearest_),
       gpu::imageBinding(0, depth),
   };
-  commands.beginPass("scene/view_depth");
+  commands.beginPass(passes + "view_depth");
   commands.dispatch({.pipeline = viewDepth_,
                      .bindings = bindings,
-                     .groups = {groups(desc.width), groups(desc.height), 1}});
+                     .groups = {groups(view.width), groups(view.height), 1}});
   commands.endPass();
 }
 
 void Renderer::recordEffects(gpu::Commands& commands, const FrameDesc& desc, const Plan& plan,
-                             gpu::BufferRange viewBlock) {
+                             const SceneView& picture, const SceneView& guarded) {
   const grisaille_view view = viewOf(desc.camera, desc.width, desc.height);
   for (size_t i = 0; i < desc.effects.size(); ++i) {
     if (plan.wanted[i] == 0) continue;
@@ -219,11 +261,15 @@ void Renderer::recordEffects(gpu::Commands& commands, const FrameDesc& desc, con
     inputs.width = desc.width;
     inputs.height = desc.height;
     inputs.view = &view;
-    inputs.viewBlock = viewBlock;
+    const bool band = bandOf(active, desc.height) > 0;
+    const SceneView& seen = band ? guarded : picture;
+    inputs.guard = band ? plan.guard : 0;
+    inputs.viewBlock = seen.block;
     constexpr const char* kAttachments[GRISAILLE_ATTACHMENT_COUNT] = {kClipDepth, kDepth, kNormal,
                                                                       kBaseColour, kFacetNormal};
     for (size_t a = 0; a < GRISAILLE_ATTACHMENT_COUNT; ++a) {
-      if ((reads & GRISAILLE_READS(a)) != 0) inputs.attachments[a] = find(kAttachments[a]);
+      if ((reads & GRISAILLE_READS(a)) != 0)
+        inputs.attachments[a] = find(seen.prefix + kAttachments[a]);
     }
     std::vector<gpu::Texture> outputs;
     const auto descs = active.effect().outputs();
@@ -234,7 +280,7 @@ void Renderer::recordEffects(gpu::Commands& commands, const FrameDesc& desc, con
       }
       const std::string name = targetName(active.effect(), descs[o]);
       const auto format = effect::formatOf(descs[o].format);
-      outputs.push_back(target(name, format, kComputed, desc));
+      outputs.push_back(target(name, format, kComputed, desc.width, desc.height));
       outputs_.try_emplace(name, name);
       outputs_.try_emplace(descs[o].key, name);
     }
@@ -290,12 +336,13 @@ void Renderer::recordCompose(gpu::Commands& commands, const FrameDesc& desc) {
   gpu::Texture surface = desc.surface == Surface::kBaseColour ? find(kBaseColour) : white_;
   for (size_t i = 0; i < layers.size(); ++i) {
     const bool last = i + 1 == layers.size();
-    const gpu::Texture to = last ? target(kColor, gpu::Format::kRgba16Float, kComputed, desc)
-                                 : commands.transient({.label = "layer",
-                                                       .format = gpu::Format::kRgba16Float,
-                                                       .width = desc.width,
-                                                       .height = desc.height,
-                                                       .usage = kComputed});
+    const gpu::Texture to =
+        last ? target(kColor, gpu::Format::kRgba16Float, kComputed, desc.width, desc.height)
+             : commands.transient({.label = "layer",
+                                   .format = gpu::Format::kRgba16Float,
+                                   .width = desc.width,
+                                   .height = desc.height,
+                                   .usage = kComputed});
     composeLayer(commands, surface, layers[i], to, desc);
     surface = to;
   }
@@ -316,14 +363,14 @@ void Renderer::composeLayer(gpu::Commands& commands, gpu::Texture surface, const
 }
 
 gpu::Texture Renderer::target(const std::string& name, gpu::Format format, gpu::TextureUsage usage,
-                              const FrameDesc& desc) {
+                              uint32_t width, uint32_t height) {
   Slot& slot = targets_[name];
-  const bool fits = slot.texture && slot.desc.width == desc.width &&
-                    slot.desc.height == desc.height && slot.desc.format == format;
+  const bool fits = slot.texture && slot.desc.width == width && slot.desc.height == height &&
+                    slot.desc.format == format;
   if (!fits) {
     device_.destroy(slot.texture);
     slot = {};
-    slot.desc = {.format = format, .width = desc.width, .height = desc.height, .usage = usage};
+    slot.desc = {.format = format, .width = width, .height = height, .usage = usage};
     gpu::TextureDesc labelled = slot.desc;
     labelled.label = name;
     slot.texture = device_.createTexture(labelled);

@@ -49,6 +49,11 @@ struct FrameDesc {
   effect::RayService* rays = nullptr;
 };
 
+// How the labels of passes begin that draw the scene with a guard band, and which share of their
+// time goes beyond the picture: what the effects' guard bands cost. 0: none has one.
+constexpr std::string_view kGuardedPasses = "scene/guarded ";
+double guardShare(std::span<const ActiveEffect> effects, uint32_t width, uint32_t height);
+
 // Every frame has color (composed, linear light), depth (linear view depth in metres, 0 = sky),
 // normal and facet_normal (world) and base_colour; an active effect adds its own outputs.
 std::vector<std::string> outputNames(std::span<const effect::Effect* const> effects);
@@ -84,6 +89,7 @@ class Renderer {
 
  private:
   struct Plan;
+  struct SceneView;
   struct Slot {
     gpu::Texture texture;
     gpu::TextureDesc desc;
@@ -91,10 +97,9 @@ class Renderer {
   };
 
   void record(gpu::Commands& commands, const FrameDesc& desc, const Plan& plan);
-  void recordScene(gpu::Commands& commands, const FrameDesc& desc, const Plan& plan,
-                   gpu::BufferRange viewBlock);
+  void recordScene(gpu::Commands& commands, const SceneView& view);
   void recordEffects(gpu::Commands& commands, const FrameDesc& desc, const Plan& plan,
-                     gpu::BufferRange viewBlock);
+                     const SceneView& picture, const SceneView& guarded);
   void recordCompose(gpu::Commands& commands, const FrameDesc& desc);
   // One layer of the composition: `paint` lies over what is there, `visibility` multiplies it, by
   // channel where it is tinted; null: the neutral texture.
@@ -105,7 +110,7 @@ class Renderer {
   void composeLayer(gpu::Commands& commands, gpu::Texture surface, const Layer& layer,
                     gpu::Texture target, const FrameDesc& desc);
   gpu::Texture target(const std::string& name, gpu::Format format, gpu::TextureUsage usage,
-                      const FrameDesc& desc);
+                      uint32_t width, uint32_t height);
   gpu::Texture find(std::string_view name) const;
 
   gpu::Device& device_;

@@ -20,7 +20,7 @@ glm::dvec2 halfExtent(const scene::Camera& camera, uint32_t width, uint32_t heig
 
 }  // namespace
 
-ViewBlock viewBlock(const scene::Camera& camera, uint32_t width, uint32_t height) {
+ViewBlock viewBlock(const scene::Camera& camera, uint32_t width, uint32_t height, uint32_t guard) {
   const glm::dvec2 half = halfExtent(camera, width, height);
   const glm::dvec2 size(width, height);
   // x = -half + pixel * 2 half / size, and y the other way round, since row 0 is the top.
@@ -34,7 +34,19 @@ ViewBlock viewBlock(const scene::Camera& camera, uint32_t width, uint32_t height
   block.view_from_world = glm::mat4(glm::dmat4(glm::transpose(scene::worldFromView(camera))));
   block.camera_cell = glm::ivec4(glm::ivec3(cell), 0);
   block.camera_fraction = glm::vec4(glm::dvec4(camera.eye - cell, camera.nearPlane));
+  const glm::dvec2 band(guard);
+  block.attachment = glm::vec4(glm::dvec4(band, 1.0 / (size + 2.0 * band)));
   return block;
+}
+
+scene::Camera widened(const scene::Camera& camera, uint32_t height, uint32_t guard) {
+  scene::Camera wide = camera;
+  const double share = (height + 2.0 * guard) / height;
+  if (guard > 0) {
+    wide.fovyDegrees =
+        glm::degrees(2 * std::atan(std::tan(glm::radians(camera.fovyDegrees) / 2) * share));
+  }
+  return wide;
 }
 
 grisaille_view viewOf(const scene::Camera& camera, uint32_t width, uint32_t height) {

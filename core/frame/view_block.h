@@ -17,9 +17,15 @@ struct ViewBlock {
   glm::mat4 view_from_world;
   glm::ivec4 camera_cell;
   glm::vec4 camera_fraction;
+  glm::vec4 attachment;
 };
 
-ViewBlock viewBlock(const scene::Camera& camera, uint32_t width, uint32_t height);
+// `guard`: pixels by which attachments go beyond the picture on each side.
+ViewBlock viewBlock(const scene::Camera& camera, uint32_t width, uint32_t height,
+                    uint32_t guard = 0);
+// The camera whose picture goes so many pixels beyond on each side; pixels are of the same size.
+scene::Camera widened(const scene::Camera& camera, uint32_t height, uint32_t guard);
+
 grisaille_view viewOf(const scene::Camera& camera, uint32_t width, uint32_t height);
 
 }  // namespace grisaille::frame

@@ -44,6 +44,11 @@ class Ssao {
            (coloured ? GRISAILLE_READS(GRISAILLE_BASE_COLOUR) : 0u);
   }
 
+  static double guardBand(plugin::Values values) noexcept {
+    const bool slices = values.get<Estimator>(Parameter::kEstimator) == Estimator::kSlices;
+    return slices ? values.get<double>(Parameter::kGuardBand) : 0;
+  }
+
   void record(const plugin::Frame& frame) {
     const grisaille_texture ao = frame.wanted(kAo)
                                      ? frame.output(kAo)

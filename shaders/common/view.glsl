@@ -15,7 +15,13 @@ layout(UNIFORM(VIEW_SLOT), std140) uniform View {
   mat4 view_from_world;  // rotation alone: world axes to view axes
   ivec4 camera_cell;     // the camera's world position: whole metres
   vec4 camera_fraction;  // and the rest, in [0, 1) metres; w: near plane, metres
+  vec4 attachment;       // attachments go beyond the picture by .xy pixels; .zw: 1 / their size
 } view;
+
+// Texture coordinates in an attachment, of pixels as far outside the picture as its guard band.
+vec2 attachmentAt(vec2 pixel) {
+  return (pixel + view.attachment.xy) * view.attachment.zw;
+}
 
 // A pixel put back into view space. view_depth in metres.
 vec3 viewPosition(vec2 pixel, float view_depth) {

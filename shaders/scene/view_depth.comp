@@ -11,7 +11,7 @@ layout(IMAGE(0), r32f) writeonly uniform image2D view_depth;
 void main() {
   const ivec2 pixel = ivec2(gl_GlobalInvocationID.xy);
   if (any(greaterThanEqual(pixel, imageSize(view_depth)))) return;
-  const float depth = textureLod(clip_depth, (vec2(pixel) + 0.5) * view.size.zw, 0.0).x;
+  const float depth = textureLod(clip_depth, (vec2(pixel) + 0.5) * view.attachment.zw, 0.0).x;
   const float metres = depth > 0.0 ? view.camera_fraction.w / depth : 0.0;
   imageStore(view_depth, pixel, vec4(metres));
 }

@@ -86,7 +86,7 @@ void main() {
   vec4 result = vec4(now, 1.0, 0.0);
   if (now.y > 0.0) {
     const vec2 pixel = vec2(texel) * float(kScale) + 0.5;
-    const vec3 world = textureLod(world_normal, pixel * view.size.zw, 0.0).xyz;
+    const vec3 world = textureLod(world_normal, attachmentAt(pixel), 0.0).xyz;
     if (settings.most > 0.0) {
       const vec2 old = before(viewPosition(pixel, now.y), viewNormal(world), world);
       const float frames = min(old.y, settings.most);

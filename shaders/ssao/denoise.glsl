@@ -47,7 +47,7 @@ void main() {
     const vec2 texel = vec2(first + along * t);
     const vec2 pixel = texel * float(kScale) + 0.5;
     depths[t] = textureLod(raw, (texel + 0.5) * inverse, 0.0).y;
-    const vec3 normal = viewNormal(textureLod(world_normal, pixel * view.size.zw, 0.0).xyz);
+    const vec3 normal = viewNormal(textureLod(world_normal, attachmentAt(pixel), 0.0).xyz);
     const vec4 plane = planeOf(pixel, depths[t], normal) * settings.tolerance;
     offset[t] = dot(plane.xy, pixel) + plane.z;
     slope[t] = dot(plane.xy, vec2(along)) * float(kScale);
@@ -83,7 +83,7 @@ void main() {
 #if BENT
     vec3 mean = bent[t] / max(weights[t], 1e-6);
 #if LAST
-    mean = bentNormal(mean, textureLod(world_normal, (vec2(texel) + 0.5) * inverse, 0.0).xyz);
+    mean = bentNormal(mean, textureLod(world_normal, attachmentAt(vec2(texel) + 0.5), 0.0).xyz);
 #endif
     imageStore(bent_target, texel, vec4(mean, 0.0));
 #endif

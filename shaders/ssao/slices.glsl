@@ -118,8 +118,9 @@ vec3 leavesAt(Side before, vec3 step) {
 }
 
 uint tapBits(Slice s, vec2 at, float side, float dither, inout Side before) {
-  const bool seen = all(equal(clamp(at, vec2(0.0), view.size.xy), at));
-  const float depth = textureLod(view_depth, at * view.size.zw, 0.0).x;
+  const vec2 place = attachmentAt(at);
+  const bool seen = all(equal(clamp(place, vec2(0.0), vec2(1.0)), place));
+  const float depth = textureLod(view_depth, place, 0.0).x;
   const vec3 ray = vec3(at * view.view_from_pixel.xy + view.view_from_pixel.zw, -1.0);
   const vec3 front = ray * depth - s.position;
   // The part of front + k ray, k in [0, thickness], inside the sphere.
@@ -217,7 +218,7 @@ float openAt(uvec2 texel, vec2 pixel, float depth, inout vec3 bent) {
   const vec3 position = viewPosition(pixel, depth);
   const vec3 toward = position * -inversesqrt(dot(position, position));
   // Normals of bent surfaces may turn away from the eye: to the silhouette with them.
-  vec3 normal = viewNormal(textureLod(world_normal, pixel * view.size.zw, 0.0).xyz);
+  vec3 normal = viewNormal(textureLod(world_normal, attachmentAt(pixel), 0.0).xyz);
   normal = normalize(normal - toward * min(dot(normal, toward) - 1e-3, 0.0));
   const mat3 axes = basisAbout(normal);
   // 16 texels, 4x4, hold the 16 points of a Hammersley set: an ordered dither's number of bits
@@ -242,7 +243,7 @@ void main() {
   const ivec2 texel = ivec2(gl_GlobalInvocationID.xy);
   if (any(greaterThanEqual(texel, imageSize(target)))) return;
   const vec2 pixel = vec2(texel) * float(kScale) + 0.5;
-  const float depth = textureLod(view_depth, pixel * view.size.zw, 0.0).x;
+  const float depth = textureLod(view_depth, attachmentAt(pixel), 0.0).x;
   float open = 1.0;
   vec3 bent = vec3(0.0);
   if (depth > 0.0) open = openAt(uvec2(texel), pixel, depth, bent);

@@ -16,8 +16,8 @@ layout(IMAGE(0), rgba16f) writeonly uniform image2D tint;
 void main() {
   const ivec2 pixel = ivec2(gl_GlobalInvocationID.xy);
   if (any(greaterThanEqual(pixel, imageSize(tint)))) return;
-  const vec2 at = (vec2(pixel) + 0.5) * view.size.zw;
-  const float open = textureLod(visibility, at, 0.0).x;
-  const vec3 albedo = textureLod(base_colour, at, 0.0).rgb;
+  const vec2 at = vec2(pixel) + 0.5;
+  const float open = textureLod(visibility, at * view.size.zw, 0.0).x;
+  const vec3 albedo = textureLod(base_colour, attachmentAt(at), 0.0).rgb;
   imageStore(tint, pixel, vec4(kColoured ? bounced(open, albedo) : vec3(open), 1.0));
 }

@@ -29,8 +29,8 @@ layout(IMAGE(1), rgba16f) writeonly uniform image2D bent_normal;
 // the view depths. All 0: there is no surface.
 vec4 weightsAt(ivec2 place, ivec2 first, vec4 depths) {
   const vec2 pixel = vec2(place) + 0.5;
-  const float depth = textureLod(view_depth, pixel * view.size.zw, 0.0).x;
-  const vec3 normal = viewNormal(textureLod(world_normal, pixel * view.size.zw, 0.0).xyz);
+  const float depth = textureLod(view_depth, attachmentAt(pixel), 0.0).x;
+  const vec3 normal = viewNormal(textureLod(world_normal, attachmentAt(pixel), 0.0).xyz);
   const vec4 plane = planeOf(pixel, depth, normal) * settings.tolerance;
   // Texel t is the sample of pixel t * kScale.
   const vec2 part = vec2(place - first * int(kScale)) / float(kScale);
@@ -76,7 +76,7 @@ void main() {
     if (any(greaterThanEqual(at, size))) continue;
     imageStore(visibility, at, vec4(finished(value, settings.finish)));
 #if BENT
-    const vec3 normal = textureLod(world_normal, (vec2(at) + 0.5) * view.size.zw, 0.0).xyz;
+    const vec3 normal = textureLod(world_normal, attachmentAt(vec2(at) + 0.5), 0.0).xyz;
     imageStore(bent_normal, at, vec4(bentNormal(bent * weights, normal), 0.0));
 #endif
   }

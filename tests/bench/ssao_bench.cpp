@@ -141,14 +141,16 @@ class Bench {
   gpu::Device& device() { return *device_; }
   double firstFrameSeconds() const { return firstFrameSeconds_; }
 
-  // Milliseconds of the effect's passes.
+  // Milliseconds of the effect's passes, and what its guard band adds to drawing the scene.
   double timeSetting(size_t setting) {
-    render(values_[setting], subject_.cameras[0]);
-    return taken("ssao/");
+    const auto effects = render(values_[setting], subject_.cameras[0]);
+    return taken(
+        {{"ssao/", 1},
+         {frame::kGuardedPasses, frame::guardShare(effects, options_.width, options_.height)}});
   }
   double timeTutorial() {
     drawTutorial(subject_.cameras[0]);
-    return taken("tutorial_");
+    return taken({{"tutorial_", 1}});
   }
 
   image::Image ao(size_t setting, const scene::Camera& camera) {
@@ -163,13 +165,15 @@ class Bench {
   }
 
  private:
-  void render(const effect::Values& values, const scene::Camera& camera) {
+  std::array<frame::ActiveEffect, 1> render(const effect::Values& values,
+                                            const scene::Camera& camera) {
     const std::array effects = {frame::ActiveEffect{.instance = &*instance_, .values = &values}};
     renderer_->render({.camera = camera,
                        .width = options_.width,
                        .height = options_.height,
                        .effects = effects,
                        .outputs = outputs_});
+    return effects;
   }
 
   // From the attachments of the last render().
@@ -186,13 +190,15 @@ class Bench {
     device_->submit();
   }
 
-  // Milliseconds of the last frame's passes whose labels begin so.
-  double taken(std::string_view label) {
+  // Milliseconds of the last frame's passes whose labels begin so, each by its share.
+  double taken(std::initializer_list<std::pair<std::string_view, double>> shares) {
     device_->wait();
     double sum = 0;
     const std::vector<gpu::FrameTimes> frames = device_->takeTimes();
     for (const gpu::PassTime& pass : frames.back().passes) {
-      if (pass.label.starts_with(label)) sum += pass.milliseconds;
+      for (const auto& [label, share] : shares) {
+        if (pass.label.starts_with(label)) sum += share * pass.milliseconds;
+      }
     }
     return sum;
   }
@@ -296,7 +302,9 @@ void run(const Options& options) {
       "0.5 m, {} hardware threads.\n\n",
       subject.name, options.width, options.height, std::thread::hardware_concurrency());
   fmt::print(
-      "Cost: the effect's passes on the first camera. Tutorial: a fragment shader;\n"
+      "Cost: the effect's passes on the first camera, and the share of drawing the scene that "
+      "goes\n"
+      "into a guard band. Tutorial: a fragment shader;\n"
       "view-space positions and normals in 16-bit float textures; 64 samples from a uniform "
       "array,\n"
       "each a full matrix product and a fetch; smooth range check; 4x4 box blur in a second pass.\n"

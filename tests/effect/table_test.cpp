@@ -78,7 +78,8 @@ struct Table {
                                  .destroy = destroyNothing,
                                  .flags = GRISAILLE_EFFECT_TAKES_SHOTS,
                                  .reserved2 = 0,
-                                 .reads_for = nullptr};
+                                 .reads_for = nullptr,
+                                 .guard_band = nullptr};
   grisaille_effect_desc second = [this] {
     grisaille_effect_desc desc = first;
     desc.key = "second";

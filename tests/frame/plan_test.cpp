@@ -170,6 +170,21 @@ TEST_F(PlanTest, HistoryOpenDirectionsAndTintCostNothingUnlessAskedFor) {
   EXPECT_EQ(record({"ao"}, true).renders.at(0).targets, Labels{"clip depth"});
 }
 
+// What an effect with a guard band reads is drawn larger; others get theirs as large as the picture.
+TEST_F(PlanTest, AGuardBandDrawsLargerAttachmentsForItsEffectAlone) {
+  values_->set("guard_band", "0.25");
+  const Recording alone = record({"ao"}, true);
+  ASSERT_EQ(alone.renders.size(), 1u);
+  EXPECT_EQ(alone.renders[0].targets, (Labels{"guarded normal", "guarded clip depth"}));
+  const Recording both = record({"ao", "normal"}, true);
+  ASSERT_EQ(both.renders.size(), 2u);
+  EXPECT_EQ(both.renders[0].targets, (Labels{"normal", "clip depth"}));
+  EXPECT_EQ(both.renders[1].targets, (Labels{"guarded normal", "guarded clip depth"}));
+  // The classic estimator has none.
+  values_->set("estimator", "classic");
+  EXPECT_EQ(record({"ao"}, true).renders.at(0).targets, (Labels{"normal", "clip depth"}));
+}
+
 TEST_F(PlanTest, BaseColourIsDrawnForTheBaseSurfaceAlone) {
   EXPECT_TRUE(record({"color"}, false).renders.empty());
   const Recording recording = record({"color"}, false, frame::Surface::kBaseColour);

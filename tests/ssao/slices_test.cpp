@@ -4,6 +4,7 @@
 
 #include <glm/gtc/constants.hpp>
 
+#include "core/frame/view_block.h"
 #include "tests/ssao/render_ao.h"
 #include "tests/support/devices.h"
 #include "tests/support/scenes.h"
@@ -12,6 +13,7 @@ namespace grisaille {
 namespace {
 
 constexpr const char* kResolutions[] = {"full", "half", "quarter"};
+constexpr uint32_t kSide = 64;  // pixels
 const scene::Camera kCorner = {.eye = glm::dvec3(0, 1.2, 1.5), .target = glm::dvec3(0, 0, 0)};
 
 class SlicesTest : public tests::BackendTest {};
@@ -116,6 +118,7 @@ TEST_P(SlicesTest, ExtremesStayVisibilitiesAtEverySize) {
                                                  {{"intensity", "10"}},
                                                  {{"power", "0.1"}},
                                                  {{"power", "10"}},
+                                                 {{"guard_band", "1"}},
                                                  {{"seed", "65535"}}};
   for (const char* resolution : kResolutions) {
     for (tests::Settings settings : extremes) {
@@ -169,6 +172,34 @@ TEST_P(SlicesTest, MoreThicknessIsDarker) {
   };
   EXPECT_GT(mean("0.01"), mean("0.3"));
   EXPECT_GT(mean("0.3"), mean("2"));
+}
+
+// With a guard band a picture knows what a larger one would: it is the larger one's middle. The
+// band is a multiple of the noise's period.
+TEST_P(SlicesTest, AGuardBandMakesItTheMiddleOfALargerPicture) {
+  const scene::Scene scene = tests::cornerScene();
+  constexpr uint32_t kBand = 32;
+  const scene::Camera wide = frame::widened(kCorner, kSide, kBand);
+  for (const char* resolution : kResolutions) {
+    const tests::Settings settings = {{"resolution", resolution}, {"blur_size", "0"}};
+    const image::Image larger =
+        tests::renderAo(device(), scene, wide, settings, kSide + 2 * kBand, kSide + 2 * kBand);
+    image::Image middle = {.width = kSide, .height = kSide, .channels = 1, .pixels = {}};
+    for (uint32_t y = 0; y < kSide; ++y) {
+      for (uint32_t x = 0; x < kSide; ++x) {
+        middle.pixels.push_back(larger.at(x + kBand, y + kBand));
+      }
+    }
+    tests::Settings guarded = settings;
+    guarded.emplace_back("guard_band", "0.5");
+    const image::Image own = tests::renderAo(device(), scene, kCorner, guarded, kSide, kSide);
+    // But for rounding, which moves taps that fall between two pixels.
+    const double off = image::shareOver(own, middle, 2.0 / 255);
+    EXPECT_LT(off, 0.02) << resolution;
+    // Which it is not without.
+    const image::Image bare = tests::renderAo(device(), scene, kCorner, settings, kSide, kSide);
+    EXPECT_GT(image::shareOver(bare, middle, 2.0 / 255), 2 * off) << resolution;
+  }
 }
 
 TEST_P(SlicesTest, OneSeedGivesTheSameBitsAndAnotherDoesNot) {

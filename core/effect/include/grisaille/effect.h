@@ -303,7 +303,7 @@ typedef struct grisaille_view {
 /* One frame of one effect, valid during `record`. */
 typedef struct grisaille_frame {
   uint32_t struct_size;
-  uint32_t width; /* pixels, of every attachment and output */
+  uint32_t width; /* pixels, of every output, and of every attachment but for the guard band */
   uint32_t height;
   uint32_t wanted;      /* bit n: somebody uses output n; others have texture id 0 */
   uint64_t index;       /* counts the frames of this instance from 0 */
@@ -338,6 +338,12 @@ typedef struct grisaille_frame {
   /* So many things wait to be drawn: the host renders again soon. 0, as before the first call: the
    * picture is whole. */
   grisaille_result (*waiting)(const struct grisaille_frame* self, uint64_t count);
+
+  /* Since 1.2. Pixels by which every attachment goes beyond the picture on each side: texture
+   * coordinates are what attachmentAt() of shaders/common/view.glsl says. At least what the
+   * effect's guard_band asked for; 0 where that is 0. */
+  uint32_t guard;
+  uint32_t reserved; /* 0 */
 } grisaille_frame;
 
 /* ---- The effect ------------------------------------------------------------------------------ */
@@ -380,6 +386,11 @@ typedef struct grisaille_effect_desc {
   /* Since 1.2; null: reads() answers. Which attachments it reads for the outputs of which `wanted`
    * holds the bits, as grisaille_frame.wanted does. As reads() otherwise. */
   uint32_t (*reads_for)(const double* values, uint32_t wanted);
+
+  /* Since 1.2; null: 0. The guard band it wants with these values: by what share of the picture's
+   * height, 0 ... 1, the attachments that it reads go beyond the picture on every side. Effects
+   * without one get attachments of the picture's size, drawn by themselves. */
+  double (*guard_band)(const double* values);
 } grisaille_effect_desc;
 
 typedef struct grisaille_plugin_desc {

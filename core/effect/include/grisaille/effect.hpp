@@ -63,6 +63,7 @@
 #define GRISAILLE_EFFECT_HPP
 
 #include <concepts>
+#include <cstddef>
 #include <exception>
 #include <initializer_list>
 #include <limits>
@@ -138,6 +139,10 @@ class Frame {
 
   uint32_t width() const { return frame_->width; }  // pixels
   uint32_t height() const { return frame_->height; }
+  // Pixels by which attachments go beyond the picture on each side.
+  uint32_t guard() const {
+    return frame_->struct_size >= sizeof(grisaille_frame) ? frame_->guard : 0;
+  }
   uint64_t index() const { return frame_->index; }  // counts this instance's frames from 0
 
   Values values() const { return Values(frame_->values); }
@@ -249,7 +254,7 @@ class Frame {
   }
 
  private:
-  bool since11() const { return frame_->struct_size >= sizeof(grisaille_frame); }
+  bool since11() const { return frame_->struct_size >= offsetof(grisaille_frame, guard); }
   const grisaille_shots* shotList() const { return since11() ? frame_->shots : nullptr; }
 
   const grisaille_frame* frame_;
@@ -267,6 +272,13 @@ template <typename E>
 concept ReadsForWanted = requires(Values values, uint32_t wanted) {
   { E::reads(values, wanted) }
   noexcept->std::same_as<uint32_t>;
+};
+
+// It may want a guard band, as grisaille_effect_desc.guard_band has it.
+template <typename E>
+concept WantsGuardBand = requires(Values values) {
+  { E::guardBand(values) }
+  noexcept->std::same_as<double>;
 };
 
 template <typename E>
@@ -298,6 +310,14 @@ class Boundary {
     }
   }
   static uint32_t reads(const double* values) noexcept { return readsFor(values, ~0u); }
+
+  static double guardBand(const double* values) noexcept {
+    if constexpr (WantsGuardBand<E>) {
+      return E::guardBand(Values(values));
+    } else {
+      return 0;
+    }
+  }
 
   static grisaille_result create(const grisaille_host* host, void** out) noexcept {
     return guarded(host, [&] { *out = new Held(host); });
@@ -351,7 +371,8 @@ constexpr grisaille_effect_desc effect(const EffectSpec& spec) {
           .destroy = Boundary<E>::destroy,
           .flags = spec.takesShots ? uint32_t{GRISAILLE_EFFECT_TAKES_SHOTS} : 0u,
           .reserved2 = 0,
-          .reads_for = Boundary<E>::readsFor};
+          .reads_for = Boundary<E>::readsFor,
+          .guard_band = Boundary<E>::guardBand};
 }
 
 }  // namespace grisaille::plugin
