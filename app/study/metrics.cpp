@@ -31,6 +31,8 @@ constexpr std::array kMetrics = {
     MetricInfo{"swim",
                "rms change of what is shown at the same point of the world from frame to frame",
                true, false},
+    MetricInfo{"moving_rmse", "root mean square error along the path, but for its first frame",
+               true, false},
     MetricInfo{"mask_outside",
                "share of the painted pixels (alpha over 1/2) that are more than 2 pixels from what "
                "rays say is painted",
@@ -74,16 +76,15 @@ Squares squaresOf(const image::Image& shown, const image::Image& reference) {
   return result;
 }
 
-// A flicker's rms over points where what is shown is in the region.
-double changeAlong(const Evidence& evidence, bool ofError) {
+// Where what is shown is in the region.
+trace::Flicker changeAlong(const Evidence& evidence, bool ofError) {
   for (size_t i = 0; i < evidence.frames.size(); ++i) {
     trace::FlickerFrame& frame = evidence.frames[i];
     frame.ao = inRegion(evidence.shown[i], evidence.region[i]);
     frame.truth = evidence.reference[i];
     if (!ofError) std::fill(frame.truth.pixels.begin(), frame.truth.pixels.end(), 0.0f);
   }
-  const trace::Flicker flicker = trace::flicker(evidence.frames);
-  return flicker.points == 0 ? kNone : flicker.rms;
+  return trace::flicker(evidence.frames);
 }
 
 double shareOutside(const Evidence& evidence) {
@@ -114,8 +115,11 @@ const MetricInfo* findMetric(std::string_view key) {
 }
 
 double measured(std::string_view metric, const Evidence& evidence) {
-  if (metric == "flicker") return changeAlong(evidence, true);
-  if (metric == "swim") return changeAlong(evidence, false);
+  if (metric == "flicker" || metric == "swim" || metric == "moving_rmse") {
+    const trace::Flicker along = changeAlong(evidence, metric != "swim");
+    if (along.points == 0) return kNone;
+    return metric == "moving_rmse" ? along.error : along.rms;
+  }
   if (metric == "mask_outside") return shareOutside(evidence);
   const image::Image shown = inRegion(evidence.shown[0], evidence.region[0]);
   image::Image reference = evidence.reference[0];
