@@ -23,6 +23,8 @@ uint64_t hashOf(const scene::Scene& scene) {
   }
   for (const scene::Texture& texture : scene.textures) {
     hash.add<std::byte>(texture.encoded);
+    hash.number(texture.texels.width);
+    hash.add<uint8_t>(texture.texels.pixels);
     hash.number(texture.wrapU);
     hash.number(texture.wrapV);
   }

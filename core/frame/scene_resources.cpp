@@ -150,7 +150,7 @@ gpu::Texture SceneResources::texture(gpu::Commands& commands, const scene::Mater
   DeviceTexture& texture = textures_[static_cast<size_t>(material.baseColorTexture)];
   gpu::Texture& wanted = base ? texture.colour : texture.alpha;
   if (wanted) return wanted;
-  const image::Image8 image = image::decode(source.encoded, source.name);
+  const image::Image8 image = scene::texelsOf(source);
   const std::vector<std::vector<uint8_t>> levels = base ? mipChain(image) : alphaAlone(image);
   wanted = device_.createTexture({.label = source.name,
                                   .format = base ? gpu::Format::kRgba8Srgb : gpu::Format::kR8Unorm,

@@ -56,8 +56,11 @@ class Atrium {
  private:
   void addMaterials() {
     scene_.name = "atrium";
-    scene_.textures.push_back(
-        {.name = "leaf", .encoded = leafTexture(), .wrapU = Wrap::kClamp, .wrapV = Wrap::kClamp});
+    scene_.textures.push_back({.name = "leaf",
+                               .encoded = {},
+                               .texels = leafTexture(),
+                               .wrapU = Wrap::kClamp,
+                               .wrapV = Wrap::kClamp});
     const auto plain = [&](const char* name, glm::vec3 color, bool doubleSided = false) {
       scene_.materials.push_back(
           {.name = name, .baseColor = glm::vec4(color, 1), .doubleSided = doubleSided});

@@ -41,6 +41,6 @@ Solid banner(double width, double drop);
 Solid plant(uint32_t leaves, double length, uint32_t seed);
 
 // A bushy leaf with holes around it, for the plant's cards.
-std::vector<std::byte> leafTexture();
+image::Image8 leafTexture();
 
 }  // namespace grisaille::scene

@@ -1,7 +1,6 @@
 // SPDX-License-Identifier: MIT
 #include <cmath>
 
-#include "core/image/image.h"
 #include "core/scene/atrium_parts.h"
 
 namespace grisaille::scene {
@@ -33,7 +32,7 @@ double insideLeaf(double x, double y) {
 
 }  // namespace
 
-std::vector<std::byte> leafTexture() {
+image::Image8 leafTexture() {
   image::Image8 picture{.width = kSide, .height = kSide, .pixels = {}};
   picture.pixels.reserve(size_t{4} * kSide * kSide);
   for (int row = 0; row < kSide; ++row) {
@@ -49,7 +48,7 @@ std::vector<std::byte> leafTexture() {
       }
     }
   }
-  return image::encodePng(picture);
+  return picture;
 }
 
 }  // namespace grisaille::scene

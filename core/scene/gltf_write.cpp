@@ -104,8 +104,11 @@ class GlbWriter {
 
   void addTextures() {
     for (const Texture& texture : scene_.textures) {
-      const bool jpeg = !texture.encoded.empty() && texture.encoded[0] == std::byte{0xff};
-      const size_t view = addView(texture.encoded.data(), texture.encoded.size(), 0);
+      const bool made = !texture.texels.pixels.empty();
+      const std::vector<std::byte> bytes =
+          made ? image::encodePng(texture.texels) : texture.encoded;
+      const bool jpeg = !bytes.empty() && bytes[0] == std::byte{0xff};
+      const size_t view = addView(bytes.data(), bytes.size(), 0);
       const size_t image = push("images", {{"name", texture.name},
                                            {"bufferView", view},
                                            {"mimeType", jpeg ? "image/jpeg" : "image/png"}});

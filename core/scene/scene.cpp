@@ -34,6 +34,11 @@ void computeBounds(Scene& scene) {
   scene.bounds = scene.instances.empty() ? Bounds{} : bounds;
 }
 
+image::Image8 texelsOf(const Texture& texture) {
+  if (!texture.texels.pixels.empty()) return texture.texels;
+  return image::decode(texture.encoded, texture.name);
+}
+
 uint64_t triangleCount(const Scene& scene) {
   uint64_t count = 0;
   for (const Instance& instance : scene.instances) {

@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: MIT
-// A scene in memory: triangles, materials, still-encoded textures, instances. World axes are
-// right-handed with +y up; lengths are metres.
+// A scene in memory: triangles, materials, textures, instances. World axes are right-handed with +y
+// up; lengths are metres.
 #pragma once
 
 #include <cstddef>
@@ -11,17 +11,24 @@
 #include <string_view>
 #include <vector>
 
+#include "core/image/image.h"
+
 namespace grisaille::scene {
 
 enum class Wrap : uint8_t { kRepeat, kClamp, kMirror };
 
-// A texture as the file holds it: decoded (image::decode) only by who needs it.
+// As a file holds it, to be decoded only by who needs it; or its texels, so that the built-in scene
+// needs no codec.
 struct Texture {
   std::string name;                // for messages
   std::vector<std::byte> encoded;  // PNG or JPEG
+  image::Image8 texels;            // where it has any, in place of `encoded`
   Wrap wrapU = Wrap::kRepeat;
   Wrap wrapV = Wrap::kRepeat;
 };
+
+// Throws as image::decode().
+image::Image8 texelsOf(const Texture& texture);
 
 struct Material {
   std::string name;
@@ -76,13 +83,12 @@ uint64_t triangleCount(const Scene& scene);
 // that is done, 0 to 1, ascending. Throws kScene* errors; never partial results.
 Scene loadGltf(const std::string& path, const std::function<void(double)>& progress = {});
 
-// Writes the scene as one .glb, aside and then renamed. Throws kFileUnwritable, kSceneEmpty,
-// kSceneTooLarge.
+// Writes the scene as one .glb, aside and then renamed; textures that are texels become PNGs.
+// Throws kFileUnwritable, kSceneEmpty, kSceneTooLarge, kNoCodecs.
 void writeGlb(const Scene& scene, const std::string& path);
 
 // The built-in scene: an atrium of columns, arches, vases, steps, a hanging cloth and foliage cards
-// with an alpha mask, at least 50,000 triangles. The same on every machine, to the bit (of the
-// texture: its texels).
+// with an alpha mask, at least 50,000 triangles. The same on every machine, to the bit.
 Scene makeAtrium();
 
 }  // namespace grisaille::scene

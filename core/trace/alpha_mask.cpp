@@ -4,8 +4,6 @@
 #include <algorithm>
 #include <cmath>
 
-#include "core/image/image.h"
-
 namespace grisaille::trace {
 namespace {
 
@@ -30,7 +28,7 @@ AlphaMask::AlphaMask(const scene::Scene& scene, const scene::Material& material)
     : factor_(material.baseColor.a), cutoff_(material.alphaCutoff) {
   if (material.baseColorTexture < 0) return;
   const scene::Texture& texture = scene.textures[static_cast<size_t>(material.baseColorTexture)];
-  const image::Image8 image = image::decode(texture.encoded, texture.name);
+  const image::Image8 image = scene::texelsOf(texture);
   width_ = image.width;
   height_ = image.height;
   wrapU_ = texture.wrapU;

@@ -201,8 +201,8 @@ TEST_F(CommandLine, MissingLibraryOfOneBackendLeavesTheOther) {
   }
 }
 
-// What needs no picture in a file starts without the library that makes them, which is slow to
-// load.
+// What needs no picture in a file runs without the library that makes them, which is slow to load:
+// the built-in scene is traced and drawn too.
 TEST_F(CommandLine, OnlyPicturesNeedTheirLibrary) {
   const std::vector<std::string> without = {"LD_PRELOAD=" HIDE_LIBRARY, "HIDE_LIBRARY=codecs"};
   const auto run = [&](const std::vector<std::string>& arguments) {
@@ -211,6 +211,9 @@ TEST_F(CommandLine, OnlyPicturesNeedTheirLibrary) {
   EXPECT_EQ(run({"effects"}).status, 0);
   EXPECT_EQ(run({"backends"}).status, 0);
   EXPECT_EQ(run({"render", "--help"}).status, 0);
+  const Outcome tuned = run({"tune", "--max-error", "1", "--evaluations", "1", "--random", "0",
+                             "--size", "16x16", "--samples", "16", "--out", "t.toml"});
+  EXPECT_EQ(tuned.status, 0) << tuned.err;
   expectError(run({"render", "--size", "8x8", "--write", "color=c.png"}), 4105);
 }
 

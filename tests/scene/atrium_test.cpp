@@ -46,7 +46,7 @@ TEST(Atrium, IsTheSameOnEveryMachine) {
     state = hash(state, &instance.worldFromObject, sizeof instance.worldFromObject);
   }
   EXPECT_EQ(state, 16779352904752206454u);
-  const image::Image8 leaf = image::decode(atrium().textures.at(0).encoded, "leaf");
+  const image::Image8 leaf = texelsOf(atrium().textures.at(0));
   EXPECT_EQ(hash(0xcbf29ce484222325u, leaf.pixels), 2333328223688851514u);
 }
 
@@ -91,7 +91,7 @@ TEST(Atrium, NormalsAreUnitAndAgreeWithTheWinding) {
 }
 
 TEST(Atrium, TheLeafHasHolesAndSubstance) {
-  const image::Image8 leaf = image::decode(atrium().textures.at(0).encoded, "leaf");
+  const image::Image8 leaf = texelsOf(atrium().textures.at(0));
   size_t opaque = 0;
   for (size_t i = 3; i < leaf.pixels.size(); i += 4) opaque += leaf.pixels[i] >= 128;
   const double share = static_cast<double>(opaque) / (leaf.width * leaf.height);

@@ -3,9 +3,6 @@
 #include <gtest/gtest.h>
 
 #include <cmath>
-#include <filesystem>
-#include <fstream>
-#include <iterator>
 #include <numbers>
 
 #include "core/trace/ray_tracer.h"
@@ -103,16 +100,11 @@ TEST(RayTracer, BackFacesAreSeenOnlyWhenDoubleSidedAndMirroringTurnsThem) {
   }
 }
 
-// A 2 x 1 image, encoded: left texel of alpha 1, right texel of alpha 0.
+// A 2 x 1 image: left texel of alpha 1, right texel of alpha 0.
 scene::Texture halfMask(scene::Wrap wrap) {
-  const std::string path =
-      (std::filesystem::path(testing::TempDir()) / "grisaille_half_mask.png").string();
-  image::write({.width = 2, .height = 1, .channels = 4, .pixels = {1, 1, 1, 1, 1, 1, 1, 0}}, path);
-  std::ifstream file(path, std::ios::binary);
-  const std::string bytes{std::istreambuf_iterator<char>(file), {}};
-  scene::Texture texture{.name = "half mask", .encoded = {}, .wrapU = wrap, .wrapV = wrap};
-  for (const char c : bytes) texture.encoded.push_back(static_cast<std::byte>(c));
-  return texture;
+  const image::Image8 texels{
+      .width = 2, .height = 1, .pixels = {255, 255, 255, 255, 255, 255, 255, 0}};
+  return {.name = "half mask", .encoded = {}, .texels = texels, .wrapU = wrap, .wrapV = wrap};
 }
 
 // Alpha at texture coordinate u of that image, with linear filtering.
