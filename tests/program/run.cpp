@@ -47,8 +47,20 @@ int waitFor(pid_t child) {
   return WIFEXITED(status) ? WEXITSTATUS(status) : -1;
 }
 
+// Mesa's compiled shaders are kept where they always are, also for a test with a cache folder of
+// its own: compiling them is most of what a short run of the program costs.
+std::string shaderCache() {
+  const char* cache = std::getenv("XDG_CACHE_HOME");
+  const char* home = std::getenv("HOME");
+  const fs::path folder = cache != nullptr  ? fs::path(cache)
+                          : home != nullptr ? fs::path(home) / ".cache"
+                                            : fs::temp_directory_path();
+  return "MESA_SHADER_CACHE_DIR=" + folder.string();
+}
+
 Outcome run(std::vector<std::string> arguments, const fs::path& folder,
             std::vector<std::string> environment) {
+  if (std::getenv("MESA_SHADER_CACHE_DIR") == nullptr) environment.push_back(shaderCache());
   const size_t given = environment.size();
   for (char** variable = environ; *variable != nullptr; ++variable) {
     const std::string text = *variable;
