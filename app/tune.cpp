@@ -280,12 +280,13 @@ void tune(const TuneOptions& options) {
   const std::vector<study::Axis> axes = axesOf(options, subject.subject());
   if (axes.empty()) throw Error(ErrorId::kUsage, "there is no parameter to vary");
   const std::vector<scene::Camera> given = givenCameras(options);
-  subject.loadScene();
-  const truth::Interruption interruption;
-  subject.trace();
+  // What cannot start says so before truth is traced, which takes long.
   DriverMessages messages;
   const auto device = backends::create(
       options.backend, {.device = options.device, .timed = true, .message = messages.sink()});
+  subject.loadScene();
+  const truth::Interruption interruption;
+  subject.trace();
   const gpu::DeviceInfo& info = device->info();
   printDevice(info);
   Bench bench(subject.subject(), axes, *device);
