@@ -240,7 +240,7 @@ void Viewer::writeLayout() {
   const Place where = place();
   const auto corner = glm::vec2(where.corner), end = corner + glm::vec2(where.size);
   panel_.layout.note("picture", corner.x, corner.y, end.x, end.y,
-                     stage_ && !stage_->isStale(stageDesc()) ? "done" : "stale");
+                     settle_ == 0 && stage_ && !stage_->isStale(stageDesc()) ? "done" : "stale");
   panel_.layout.note("camera", 0, 0, 0, 0, scene::cameraJson(session_.camera));
   panel_.layout.note("drawn", 0, 0, 0, 0, fmt::format("{}", drawn_));
   if (session_.comparing.on) {

@@ -13,7 +13,8 @@ namespace {
 using Clock = std::chrono::steady_clock;
 
 constexpr std::chrono::seconds kPatience(200);
-constexpr std::chrono::milliseconds kLook(40);
+constexpr std::chrono::milliseconds kLook(10);
+constexpr std::chrono::milliseconds kArrives(300);  // from xdotool to the viewer, at most
 
 }  // namespace
 
@@ -94,16 +95,13 @@ void DrivenViewer::untilThere(const std::string& control) {
 }
 
 void DrivenViewer::untilDrawn() {
-  constexpr int kStill = 4;  // looks
-  std::string last;
-  int still = 0;
-  until("a picture", [&](const nlohmann::json& now) {
-    if (!now.contains("picture") || now["picture"]["value"] != "done") return false;
-    const std::string text = now.dump();
-    still = text == last ? still + 1 : 0;
-    last = text;
-    return still >= kStill;
-  });
+  until("a picture", [&](const nlohmann::json& now) { return isDrawn(now); });
+}
+
+// What was sent has arrived once a frame was drawn for it; what changes nothing draws none.
+bool DrivenViewer::isDrawn(const nlohmann::json& now) const {
+  if (!now.contains("picture") || now["picture"]["value"] != "done") return false;
+  return now["drawn"]["value"] != drawnBefore_ || Clock::now() - sent_ > kArrives;
 }
 
 Point DrivenViewer::at(const std::string& control, double x, double y) const {
@@ -119,6 +117,12 @@ Point DrivenViewer::middle(const std::string& control) const {
 }
 
 void DrivenViewer::send(const std::string& words) {
+  // One after the other; but a viewer that sprays is never done.
+  for (const auto end = Clock::now() + kArrives; !isDrawn(layout()) && Clock::now() < end;) {
+    std::this_thread::sleep_for(kLook);
+  }
+  drawnBefore_ = value("drawn");
+  sent_ = Clock::now();
   if (std::system(("xdotool " + words).c_str()) != 0) {
     throw std::runtime_error("xdotool fails at: " + words);
   }

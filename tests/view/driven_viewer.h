@@ -2,6 +2,7 @@
 // The viewer as people drive it: a window on an X server, mouse and keys sent by xdotool.
 #pragma once
 
+#include <chrono>
 #include <functional>
 #include <future>
 #include <nlohmann/json.hpp>
@@ -54,10 +55,13 @@ class DrivenViewer {
 
  private:
   void focus();
+  bool isDrawn(const nlohmann::json& now) const;
 
   const TemporaryFolder& folder_;
   std::string layoutFile_;
   std::future<Outcome> outcome_;
+  std::string drawnBefore_;  // frames, when words went to xdotool
+  std::chrono::steady_clock::time_point sent_;
 };
 
 }  // namespace grisaille::tests

@@ -35,12 +35,12 @@ TEST_P(HardshipTest, EverySize) {
 // On a small screen, which a window may fill.
 class InputTest : public WindowTest {
  protected:
-  InputTest() : WindowTest(800) {}
+  InputTest() : WindowTest(600) {}
 };
 GRISAILLE_IN_WINDOWS(InputTest);
 
 TEST_P(InputTest, AnyInput) {
-  DrivenViewer viewer(folder_, {"--backend", GetParam(), "--size", "640x700", "--effects",
+  DrivenViewer viewer(folder_, {"--backend", GetParam(), "--size", "500x560", "--effects",
                                 "ssao,sspm", "--set", "ssao.steps=2"});
   std::mt19937 random(GetParam() == "opengl" ? 1 : 2);
   const auto below = [&](int count) {
@@ -58,7 +58,7 @@ TEST_P(InputTest, AnyInput) {
     for (int i = 0; i < 50; ++i) {
       const int kind = std::uniform_int_distribution<int>(0, 5)(random);
       if (kind < 2) {
-        words += "mousemove " + below(640) + " " + below(700) + " ";
+        words += "mousemove " + below(500) + " " + below(560) + " ";
       } else if (kind == 2) {
         words += "click " + std::to_string(1 + std::stoi(below(5))) + " ";
       } else if (kind == 3) {

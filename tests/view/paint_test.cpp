@@ -1,5 +1,7 @@
 // SPDX-License-Identifier: MIT
 // Paint from the window: it lands on the pixel clicked, sprays while held, and can be undone.
+#include <fmt/format.h>
+
 #include "tests/view/window_test.h"
 
 namespace grisaille::tests {
@@ -34,12 +36,12 @@ TEST_P(WindowPaintTest, LandsOnThePixelClicked) {
   viewer.key("i");
   viewer.untilThere("value");
   const std::string value = viewer.value("value");
-  EXPECT_EQ(value.find(std::to_string(x) + ", " + std::to_string(y) + ": 1"), 0u) << value;
+  EXPECT_EQ(value.find(fmt::format("{}, {}: 1", x, y)), 0u) << value << " at " << x << ", " << y;
   expectQuits(viewer);
 }
 
 TEST_P(WindowPaintTest, SprayIsOneStepAndColoursAreCounted) {
-  DrivenViewer viewer(folder_, {"--backend", GetParam(), "--size", "720x1560", "--effects", "sspm",
+  DrivenViewer viewer(folder_, {"--backend", GetParam(), "--size", kWindow, "--effects", "sspm",
                                 "--set", "sspm.paint_range=0.3"});
   viewer.key("b");
   viewer.untilValue("painting", "true");

@@ -111,7 +111,7 @@ TEST_P(SettingTest, WhatIsSavedComesBack) {
     expectQuits(viewer);
   }
   DrivenViewer viewer(folder_,
-                      {"--backend", GetParam(), "--size", "720x1560", "--config", "settings.toml"});
+                      {"--backend", GetParam(), "--size", kWindow, "--config", "settings.toml"});
   EXPECT_EQ(viewer.value("base"), "true");
   viewer.click("load shots");
   viewer.untilValue("shots", "1");
