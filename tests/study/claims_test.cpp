@@ -43,7 +43,7 @@ std::string untimedClaims() {
 // What the manual's report says holds does so at another size too, on both backends.
 TEST_F(ClaimsTest, TheStudyHoldsWhatItReports) {
   const Outcome outcome = claims(
-      {kStudy, "--only", untimedClaims(), "--scale", "0.75", "--samples", "64", "--out", "out"});
+      {kStudy, "--only", untimedClaims(), "--scale", "0.75", "--samples", "32", "--out", "out"});
   ASSERT_EQ(outcome.status, 0) << outcome.err;
   const json report = json::parse(readFile(folder_ / "out/claims.json"));
   ASSERT_EQ(report["backends"].size(), 2u);
