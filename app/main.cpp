@@ -18,6 +18,7 @@ int main(int argc, char** argv) {
   grisaille::app::addRender(program);
   grisaille::app::addView(program);
   grisaille::app::addEffects(program);
+  grisaille::app::addNewEffect(program);
   grisaille::app::addBackends(program);
   grisaille::app::addTruth(program);
   grisaille::app::addMeasure(program);
