@@ -127,11 +127,13 @@ class EffectCheck {
   void checkReads() {
     step("asking what it reads");
     const effect::Values values(effect_);
-    const uint32_t reads = effect_.desc->reads(values.all().data());
-    expect(reads < 1u << GRISAILLE_ATTACHMENT_COUNT,
-           fmt::format("it reads {:#x}, of which there is not all", reads));
-    expect(reads == effect_.desc->reads(values.all().data()),
-           "what it reads differs for the same values");
+    for (uint32_t wanted = 1; wanted < 1u << names_.size(); wanted <<= 1) {
+      const uint32_t reads = effect_.reads(values.all().data(), wanted);
+      expect(reads < 1u << GRISAILLE_ATTACHMENT_COUNT,
+             fmt::format("it reads {:#x}, of which there is not all", reads));
+      expect(reads == effect_.reads(values.all().data(), wanted),
+             "what it reads differs for the same values");
+    }
   }
 
   bool render(const std::string& what, glm::uvec2 size, const effect::Values& values,
@@ -180,6 +182,7 @@ class EffectCheck {
       if (!std::isfinite(value)) ++odd;
       const size_t channel = i % picture.channels;
       const bool share = (output.role == GRISAILLE_ROLE_VISIBILITY && channel == 0) ||
+                         (output.role == GRISAILLE_ROLE_TINT && channel < 3) ||
                          (output.role == GRISAILLE_ROLE_PAINT && channel == 3);
       if (share && (value < -kRounding || value > 1 + kRounding)) ++outside;
     }

@@ -42,6 +42,7 @@ json jsonOf(const Record& r) {
               {"rmse", r.rmse()},          {"cost", r.cost()},
               {"spread", r.spread()},      {"milliseconds", r.milliseconds}};
   if (r.flicker) all["flicker"] = *r.flicker;
+  if (r.pathRmse) all["path_rmse"] = *r.pathRmse;
   return all;
 }
 

@@ -78,6 +78,7 @@ void save(const fs::path& folder, const Record& r) {
               {"clock", r.clock},     {"machine", r.machine}, {"commit", r.commit},
               {"command", r.command}, {"errors", errors},     {"milliseconds", r.milliseconds}};
   if (r.flicker) all["flicker"] = *r.flicker;
+  if (r.pathRmse) all["path_rmse"] = *r.pathRmse;
   const fs::path file = fileOf(folder, r);
   std::error_code failed;
   fs::create_directories(file.parent_path(), failed);
@@ -106,6 +107,7 @@ std::optional<Record> load(const fs::path& file) {
     for (const json& one : j.at("errors")) r.errors.push_back(errorsFrom(one));
     r.milliseconds = j.at("milliseconds").get<std::vector<double>>();
     if (j.contains("flicker")) r.flicker = j["flicker"].get<double>();
+    if (j.contains("path_rmse")) r.pathRmse = j["path_rmse"].get<double>();
     return r;
   } catch (const json::exception& error) {
     throw Error(ErrorId::kStudyRecord, "{}: {}", file.string(), error.what());

@@ -32,7 +32,8 @@ struct Record {
   std::string command;               // that makes its picture of the first camera
   std::vector<CameraErrors> errors;  // one a camera, once they are known
   std::vector<double> milliseconds;  // the effects' passes, mean of the cameras, one a round
-  std::optional<double> flicker;     // rms along the study's camera path, where it has one
+  // Along the study's camera path, where it has one: trace::Flicker's rms and error.
+  std::optional<double> flicker, pathRmse;
 
   bool operator==(const Record&) const = default;
 

@@ -90,11 +90,15 @@ std::vector<std::string> camerasOf(std::span<const Record> records) {
   return names;
 }
 
+std::string textOf(std::optional<double> value) {
+  return value ? fmt::format("{}", *value) : std::string();
+}
+
 std::string csvOf(std::span<const Record> records) {
   const std::vector<std::string> parameters = parametersOf(records);
   std::string csv = "backend,device,clock";
   for (const std::string& name : parameters) csv += "," + name;
-  csv += ",milliseconds,spread,rounds,rmse,mean_absolute,bias,percentile_99,ssim,flicker";
+  csv += ",milliseconds,spread,rounds,rmse,mean_absolute,bias,percentile_99,ssim,flicker,path_rmse";
   const std::vector<std::string> cameras = camerasOf(records);
   for (const std::string& camera : cameras) csv += ",rmse of " + camera;
   csv += ",commit\n";
@@ -105,10 +109,10 @@ std::string csvOf(std::span<const Record> records) {
       csv += "," + (own == r.setting.end() ? std::string() : own->second);
     }
     const CameraErrors mean = meanOf(r);
-    csv += fmt::format(",{:.4f},{:.4f},{},{},{},{},{},{},{}", r.cost(), r.spread(),
+    csv += fmt::format(",{:.4f},{:.4f},{},{},{},{},{},{},{},{}", r.cost(), r.spread(),
                        r.milliseconds.size(), mean.rmse, mean.meanAbsolute, mean.bias,
                        mean.percentile99, mean.ssim,
-                       r.flicker ? fmt::format("{}", *r.flicker) : std::string());
+                       textOf(r.flicker), textOf(r.pathRmse));
     for (const std::string& camera : cameras) {
       const auto own = std::ranges::find(r.errors, camera, &CameraErrors::camera);
       csv += "," + (own == r.errors.end() ? std::string() : fmt::format("{}", own->rmse));

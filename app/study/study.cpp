@@ -68,9 +68,11 @@ void Study::measureErrors(Job& job) {
 
 void Study::measureFlicker(Job& job) {
   if (!job.running) job.running = measurer_.start(job.record.setting);
-  job.record.flicker = flickerAlong(*desc_.path, [&](const scene::Camera& camera) {
-                         return measurer_.show(*job.running, camera);
-                       }).rms;
+  const trace::Flicker along = flickerAlong(*desc_.path, [&](const scene::Camera& camera) {
+    return measurer_.show(*job.running, camera);
+  });
+  job.record.flicker = along.rms;
+  job.record.pathRmse = along.error;
   save(desc_.folder, job.record);
 }
 
@@ -97,7 +99,7 @@ bool Study::run(const Told& told, const std::function<bool()>& stop) {
   for (Job& job : jobs_) {
     if (!step(job.record.errors.empty(), [&] { measureErrors(job); })) return false;
     if (desc_.path == nullptr) continue;
-    if (!step(!job.record.flicker, [&] { measureFlicker(job); })) return false;
+    if (!step(!job.record.pathRmse, [&] { measureFlicker(job); })) return false;
   }
   for (uint32_t round = 0; round < desc_.rounds; ++round) {
     for (Job& job : jobs_) {

@@ -22,6 +22,10 @@ struct Effect {
   std::span<const grisaille_output_desc> outputs() const {
     return {desc->outputs, desc->output_count};
   }
+  // Which attachments it reads with these values for these outputs, as reads_for() has them.
+  uint32_t reads(const double* values, uint32_t wanted) const {
+    return desc->reads_for != nullptr ? desc->reads_for(values, wanted) : desc->reads(values);
+  }
   bool takesShots() const { return (desc->flags & GRISAILLE_EFFECT_TAKES_SHOTS) != 0; }
 };
 

@@ -19,7 +19,10 @@ constexpr uint32_t kMaxOutputs = 16;
 constexpr uint32_t kMaxEnumEntries = 64;
 constexpr uint32_t kParamFlags = GRISAILLE_PARAM_LOG | GRISAILLE_PARAM_ADVANCED;
 constexpr uint32_t kEffectFlags = GRISAILLE_EFFECT_TAKES_SHOTS;
-constexpr size_t kOldestEffectDesc = offsetof(grisaille_effect_desc, flags);
+// Of version 1.2, 1.1, 1.0.
+constexpr std::initializer_list<size_t> kEffectDescSizes = {
+    sizeof(grisaille_effect_desc), offsetof(grisaille_effect_desc, reads_for),
+    offsetof(grisaille_effect_desc, flags)};
 constexpr double kMaxWhole = 9007199254740992;  // 2^53: beyond it a double skips whole numbers
 constexpr std::array<std::string_view, 5> kUnits = {"", "m", "px", "rad", "s"};
 
@@ -31,21 +34,16 @@ template <typename... Args>
               fmt::format(what, std::forward<Args>(args)...));
 }
 
-// `oldest` is the size that version 1.0 gives the struct; no version between has another one.
-void checkSize(const std::string& owner, uint32_t size, size_t known, size_t oldest) {
+// `sizes`: what the versions give the struct, this program's first.
+void checkSize(const std::string& owner, uint32_t size, std::initializer_list<size_t> sizes) {
+  const size_t known = *sizes.begin();
   if (size > known) {
     refuse(owner + ".struct_size", "is {}, more than the {} that this program knows", size, known);
   }
-  if (size < oldest) {
-    refuse(owner + ".struct_size", "is {}, less than the {} of version 1.0", size, oldest);
+  if (std::ranges::find(sizes, size) == sizes.end()) {
+    refuse(owner + ".struct_size", "is {}, which no version has; there are {}", size,
+           fmt::join(sizes, ", "));
   }
-  if (size != known && size != oldest) {
-    refuse(owner + ".struct_size", "is {}, neither {} nor the {} of version 1.0", size, known,
-           oldest);
-  }
-}
-void checkSize(const std::string& owner, uint32_t size, size_t known) {
-  checkSize(owner, size, known, known);
 }
 
 void checkCount(const std::string& field, uint32_t count, uint32_t least, uint32_t most) {
@@ -179,7 +177,7 @@ void checkNumbers(const std::string& at, const grisaille_param_desc& param) {
 }
 
 void checkParam(const std::string& at, const grisaille_param_desc& param) {
-  checkSize(at, param.struct_size, sizeof(grisaille_param_desc));
+  checkSize(at, param.struct_size, {sizeof(grisaille_param_desc)});
   checkKey(at + ".key", param.key);
   checkLine(at + ".label", param.label);
   checkPresent(at + ".unit", param.unit);
@@ -193,14 +191,14 @@ void checkParam(const std::string& at, const grisaille_param_desc& param) {
 }
 
 void checkOutput(const std::string& at, const grisaille_output_desc& output) {
-  checkSize(at, output.struct_size, sizeof(grisaille_output_desc));
+  checkSize(at, output.struct_size, {sizeof(grisaille_output_desc)});
   checkKey(at + ".key", output.key);
   checkLine(at + ".tooltip", output.tooltip);
   const uint32_t format = output.format;
   if (format < GRISAILLE_FORMAT_R8 || format > GRISAILLE_FORMAT_R32UI) {
     refuse(at + ".format", "is {}, which is none", format);
   }
-  if (output.role > GRISAILLE_ROLE_OWNER) {
+  if (output.role > GRISAILLE_ROLE_TINT) {
     refuse(at + ".role", "is {}, which is none", output.role);
   }
   if (output.role == GRISAILLE_ROLE_VISIBILITY && format == GRISAILLE_FORMAT_R32UI) {
@@ -209,15 +207,16 @@ void checkOutput(const std::string& at, const grisaille_output_desc& output) {
   if (output.role == GRISAILLE_ROLE_OWNER && format != GRISAILLE_FORMAT_R32UI) {
     refuse(at + ".format", "is {}, which cannot number shots", format);
   }
-  if (output.role == GRISAILLE_ROLE_PAINT && format != GRISAILLE_FORMAT_RGBA8 &&
-      format != GRISAILLE_FORMAT_RGBA16F && format != GRISAILLE_FORMAT_RGBA32F) {
-    refuse(at + ".format", "is {}, without the four channels of paint", format);
+  const bool coloured = output.role == GRISAILLE_ROLE_PAINT || output.role == GRISAILLE_ROLE_TINT;
+  if (coloured && format != GRISAILLE_FORMAT_RGBA8 && format != GRISAILLE_FORMAT_RGBA16F &&
+      format != GRISAILLE_FORMAT_RGBA32F) {
+    refuse(at + ".format", "is {}, without four channels", format);
   }
 }
 
 void checkEffect(const std::string& at, const grisaille_effect_desc* desc) {
   checkPresent(at, desc);
-  checkSize(at, desc->struct_size, sizeof(grisaille_effect_desc), kOldestEffectDesc);
+  checkSize(at, desc->struct_size, kEffectDescSizes);
   const grisaille_effect_desc effect = whole(desc);
   checkKey(at + ".key", effect.key);
   checkLine(at + ".label", effect.label);
@@ -254,7 +253,7 @@ grisaille_effect_desc whole(const grisaille_effect_desc* desc) {
 }
 
 void checkTable(const grisaille_plugin_desc& plugin) {
-  checkSize("plugin", plugin.struct_size, sizeof(grisaille_plugin_desc));
+  checkSize("plugin", plugin.struct_size, {sizeof(grisaille_plugin_desc)});
   checkZero("plugin.reserved", plugin.reserved);
   checkCount("effect_count", plugin.effect_count, 1, kMaxEffects);
   checkPresent("effects", plugin.effects);

@@ -40,6 +40,17 @@ bool names(std::string_view name, const effect::Effect& effect,
   return name == output.key || name == targetName(effect, output);
 }
 
+// Is an output of this role a layer of the composed picture? Tints stand in for visibilities where
+// the picture shows base colours.
+bool composed(std::span<const grisaille_output_desc> outputs, uint32_t role, Surface surface) {
+  const bool tinted = surface == Surface::kBaseColour &&
+                      std::ranges::any_of(outputs, [](const grisaille_output_desc& output) {
+                        return output.role == GRISAILLE_ROLE_TINT;
+                      });
+  return role == GRISAILLE_ROLE_PAINT ||
+         role == (tinted ? GRISAILLE_ROLE_TINT : GRISAILLE_ROLE_VISIBILITY);
+}
+
 constexpr auto kDrawn = gpu::TextureUsage::kTarget | gpu::TextureUsage::kSampled;
 constexpr auto kComputed = gpu::TextureUsage::kStorage | gpu::TextureUsage::kSampled;
 
@@ -89,16 +100,14 @@ struct Renderer::Plan {
       uint32_t bits = 0;
       const auto outputs = active.effect().outputs();
       for (size_t i = 0; i < outputs.size(); ++i) {
-        const uint32_t role = outputs[i].role;
-        const bool composed =
-            color && (role == GRISAILLE_ROLE_VISIBILITY || role == GRISAILLE_ROLE_PAINT);
+        const bool layer = color && composed(outputs, outputs[i].role, desc.surface);
         const bool asked = std::any_of(
             desc.outputs.begin(), desc.outputs.end(),
             [&](const std::string& name) { return names(name, active.effect(), outputs[i]); });
-        if (composed || asked) bits |= 1u << i;
+        if (layer || asked) bits |= 1u << i;
       }
       wanted.push_back(bits);
-      if (bits != 0) attachments |= active.effect().desc->reads(active.values->all().data());
+      if (bits != 0) attachments |= active.effect().reads(active.values->all().data(), bits);
     }
   }
 
@@ -119,6 +128,7 @@ Renderer::~Renderer() {
   for (const auto& [name, slot] : targets_) device_.destroy(slot.texture);
   device_.destroy(viewDepth_);
   device_.destroy(compose_);
+  device_.destroy(composeTinted_);
   device_.destroy(nearest_);
   device_.destroy(white_);
   device_.destroy(clear_);
@@ -203,7 +213,7 @@ void Renderer::recordEffects(gpu::Commands& commands, const FrameDesc& desc, con
   for (size_t i = 0; i < desc.effects.size(); ++i) {
     if (plan.wanted[i] == 0) continue;
     const ActiveEffect& active = desc.effects[i];
-    const uint32_t reads = active.effect().desc->reads(active.values->all().data());
+    const uint32_t reads = active.effect().reads(active.values->all().data(), plan.wanted[i]);
     effect::FrameInputs inputs;
     inputs.commands = &commands;
     inputs.width = desc.width;
@@ -242,8 +252,14 @@ void Renderer::recordEffects(gpu::Commands& commands, const FrameDesc& desc, con
 void Renderer::recordCompose(gpu::Commands& commands, const FrameDesc& desc) {
   commands.beginPass("compose/color");
   if (!compose_) {
-    compose_ = device_.createComputePipeline(
-        {.label = "compose", .shader = &grisaille_shader_compose, .constants = {}});
+    const auto pipeline = [&](bool tinted) {
+      // Constant 0 of shaders/scene/compose.comp.
+      const gpu::Specialization constant[] = {{0, tinted ? 1u : 0u}};
+      return device_.createComputePipeline(
+          {.label = "compose", .shader = &grisaille_shader_compose, .constants = constant});
+    };
+    compose_ = pipeline(false);
+    composeTinted_ = pipeline(true);
     const auto neutral = [&](const char* label, uint32_t texel) {
       const gpu::Texture texture = device_.createTexture({.label = label,
                                                           .format = gpu::Format::kRgba8Unorm,
@@ -257,20 +273,18 @@ void Renderer::recordCompose(gpu::Commands& commands, const FrameDesc& desc) {
     clear_ = neutral("clear", 0);
   }
   // Layers that can share a dispatch do: a paint and a visibility after it.
-  struct Layer {
-    gpu::Texture paint, visibility;
-  };
   std::vector<Layer> layers(1);
   for (const ActiveEffect& active : desc.effects) {
     for (const grisaille_output_desc& output : active.effect().outputs()) {
       const bool paint = output.role == GRISAILLE_ROLE_PAINT;
-      if (!paint && output.role != GRISAILLE_ROLE_VISIBILITY) continue;
+      if (!composed(active.effect().outputs(), output.role, desc.surface)) continue;
       const gpu::Texture texture = find(targetName(active.effect(), output));
       if (paint ? layers.back().paint || layers.back().visibility
                 : bool{layers.back().visibility}) {
         layers.emplace_back();
       }
       (paint ? layers.back().paint : layers.back().visibility) = texture;
+      if (!paint) layers.back().tinted = output.role == GRISAILLE_ROLE_TINT;
     }
   }
   gpu::Texture surface = desc.surface == Surface::kBaseColour ? find(kBaseColour) : white_;
@@ -282,21 +296,21 @@ void Renderer::recordCompose(gpu::Commands& commands, const FrameDesc& desc) {
                                                        .width = desc.width,
                                                        .height = desc.height,
                                                        .usage = kComputed});
-    composeLayer(commands, surface, layers[i].paint, layers[i].visibility, to, desc);
+    composeLayer(commands, surface, layers[i], to, desc);
     surface = to;
   }
   commands.endPass();
 }
 
-void Renderer::composeLayer(gpu::Commands& commands, gpu::Texture surface, gpu::Texture paint,
-                            gpu::Texture visibility, gpu::Texture target, const FrameDesc& desc) {
+void Renderer::composeLayer(gpu::Commands& commands, gpu::Texture surface, const Layer& layer,
+                            gpu::Texture target, const FrameDesc& desc) {
   const std::array bindings = {
       gpu::textureBinding(0, {.texture = surface}, nearest_),
-      gpu::textureBinding(1, {.texture = paint ? paint : clear_}, nearest_),
-      gpu::textureBinding(2, {.texture = visibility ? visibility : white_}, nearest_),
+      gpu::textureBinding(1, {.texture = layer.paint ? layer.paint : clear_}, nearest_),
+      gpu::textureBinding(2, {.texture = layer.visibility ? layer.visibility : white_}, nearest_),
       gpu::imageBinding(0, target),
   };
-  commands.dispatch({.pipeline = compose_,
+  commands.dispatch({.pipeline = layer.tinted ? composeTinted_ : compose_,
                      .bindings = bindings,
                      .groups = {groups(desc.width), groups(desc.height), 1}});
 }

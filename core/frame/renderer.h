@@ -96,10 +96,14 @@ class Renderer {
   void recordEffects(gpu::Commands& commands, const FrameDesc& desc, const Plan& plan,
                      gpu::BufferRange viewBlock);
   void recordCompose(gpu::Commands& commands, const FrameDesc& desc);
-  // One layer of the composition: `over` paints, `visibility` multiplies; null: the neutral
-  // texture.
-  void composeLayer(gpu::Commands& commands, gpu::Texture surface, gpu::Texture paint,
-                    gpu::Texture visibility, gpu::Texture target, const FrameDesc& desc);
+  // One layer of the composition: `paint` lies over what is there, `visibility` multiplies it, by
+  // channel where it is tinted; null: the neutral texture.
+  struct Layer {
+    gpu::Texture paint, visibility;
+    bool tinted = false;
+  };
+  void composeLayer(gpu::Commands& commands, gpu::Texture surface, const Layer& layer,
+                    gpu::Texture target, const FrameDesc& desc);
   gpu::Texture target(const std::string& name, gpu::Format format, gpu::TextureUsage usage,
                       const FrameDesc& desc);
   gpu::Texture find(std::string_view name) const;
@@ -108,7 +112,7 @@ class Renderer {
   SceneResources scene_;
   std::map<std::string, Slot, std::less<>> targets_;         // by output name, or attachment name
   std::map<std::string, std::string, std::less<>> outputs_;  // of the last frame: name to target
-  gpu::ComputePipeline viewDepth_, compose_;
+  gpu::ComputePipeline viewDepth_, compose_, composeTinted_;
   gpu::Sampler nearest_;
   gpu::Texture white_, clear_;
   uint64_t waiting_ = 0;

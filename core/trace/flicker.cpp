@@ -70,6 +70,17 @@ Flicker flicker(std::span<const FlickerFrame> frames, double tolerance) {
       ++result.points;
     });
   }
+  double errors = 0;
+  uint64_t pixels = 0;
+  for (size_t i = 1; i < frames.size(); ++i) {
+    for (size_t p = 0; p < frames[i].ao.pixels.size(); ++p) {
+      const double error = double{frames[i].ao.pixels[p]} - double{frames[i].truth.pixels[p]};
+      if (!std::isfinite(error)) continue;
+      errors += error * error;
+      ++pixels;
+    }
+  }
+  if (pixels > 0) result.error = std::sqrt(errors / static_cast<double>(pixels));
   if (result.points > 0) result.rms = std::sqrt(squares / static_cast<double>(result.points));
   return result;
 }

@@ -23,6 +23,7 @@ struct FlickerFrame {
 struct Flicker {
   double rms = 0;       // 0: no points
   uint64_t points = 0;  // pairs of pixels that the rms is over
+  double error = 0;     // rms of ao - truth where both are finite, over all frames but the first
 };
 
 // For each frame but the last and each pixel p of it that sees a surface: the world point at its

@@ -4,6 +4,7 @@
 #include <vector>
 
 #include "dispatch.h"
+#include "finish.h"
 #include "kernel.h"
 #include "parameters.h"
 #include "shaders/ssao_blur.h"
@@ -16,18 +17,16 @@ namespace {
 // shaders/ssao/occlusion.glsl, std140.
 struct SettingsBlock {
   glm::vec4 kernel[kMaxKernelSize];
+  glm::vec4 finish;
   float radius;
   float bias;
-  float intensity;
-  float power;
 };
 GRISAILLE_CHECK_BLOCK_ssao_hemisphere_Settings(SettingsBlock);
 
 // shaders/ssao/blur.comp, std140.
 struct BlurBlock {
+  glm::vec4 finish;
   float radius;
-  float intensity;
-  float power;
 };
 GRISAILLE_CHECK_BLOCK_ssao_blur_Settings(BlurBlock);
 
@@ -46,17 +45,17 @@ uint32_t Classic::reads(plugin::Values values) noexcept {
   return GRISAILLE_READS(GRISAILLE_VIEW_DEPTH) | (normals ? GRISAILLE_READS(GRISAILLE_NORMAL) : 0u);
 }
 
-void Classic::record(const plugin::Frame& frame) {
+void Classic::record(const plugin::Frame& frame, grisaille_texture ao) {
   const uint32_t size = frame.value<uint32_t>(kBlurSize);
   const bool blurred = size > 1;
   const grisaille_texture raw = blurred ? frame.transient({.label = "raw occlusion",
                                                            .format = GRISAILLE_FORMAT_R16F,
                                                            .width = frame.width(),
                                                            .height = frame.height()})
-                                        : frame.output(0);
+                                        : ao;
   frame.pass("occlusion", [&] { occlude(frame, raw, blurred); });
   if (blurred) {
-    frame.pass("blur", [&] { blur(frame, raw, size); });
+    frame.pass("blur", [&] { blur(frame, raw, ao, size); });
   }
 }
 
@@ -80,8 +79,7 @@ void Classic::occlude(const plugin::Frame& frame, grisaille_texture target, bool
   for (uint32_t i = 0; i < count; ++i) settings.kernel[i] = kernel[i];
   settings.radius = frame.value<float>(kRadius);
   settings.bias = frame.value<float>(kBias);
-  settings.intensity = frame.value<float>(kIntensity);
-  settings.power = frame.value<float>(kPower);
+  settings.finish = finishOf(frame);
 
   // Constants 0 ... 3 of shaders/ssao/occlusion.glsl.
   const grisaille_constant constants[] = {
@@ -99,17 +97,16 @@ void Classic::occlude(const plugin::Frame& frame, grisaille_texture target, bool
            frame.height());
 }
 
-void Classic::blur(const plugin::Frame& frame, grisaille_texture raw, uint32_t size) {
-  const BlurBlock settings = {.radius = frame.value<float>(kRadius),
-                              .intensity = frame.value<float>(kIntensity),
-                              .power = frame.value<float>(kPower)};
+void Classic::blur(const plugin::Frame& frame, grisaille_texture raw, grisaille_texture ao,
+                   uint32_t size) {
+  const BlurBlock settings = {.finish = finishOf(frame), .radius = frame.value<float>(kRadius)};
   // Constants 0 and 1 of shaders/ssao/blur.comp.
   const grisaille_constant constants[] = {plugin::specialize(0, size),
                                           plugin::specialize(1, frame.value<uint32_t>(kBlur))};
   const grisaille_binding bindings[] = {
       plugin::uniform(0, frame.viewBlock()), plugin::uniform(1, frame.uniform(settings)),
       plugin::texture(0, frame.attachment(GRISAILLE_VIEW_DEPTH), clamped_),
-      plugin::texture(1, raw, clamped_), plugin::image(0, frame.output(0))};
+      plugin::texture(1, raw, clamped_), plugin::image(0, ao)};
   dispatch(frame, blur_.get(constants), bindings, frame.width(), frame.height());
 }
 

@@ -13,11 +13,12 @@ class Classic {
   explicit Classic(plugin::Host host);
 
   static uint32_t reads(plugin::Values values) noexcept;
-  void record(const plugin::Frame& frame);
+  // `ao`: r16f, of the picture's size.
+  void record(const plugin::Frame& frame, grisaille_texture ao);
 
  private:
   void occlude(const plugin::Frame& frame, grisaille_texture target, bool blurred);
-  void blur(const plugin::Frame& frame, grisaille_texture raw, uint32_t size);
+  void blur(const plugin::Frame& frame, grisaille_texture raw, grisaille_texture ao, uint32_t size);
 
   plugin::Host host_;
   plugin::PipelineCache hemisphere_, sphere_, blur_;

@@ -14,9 +14,12 @@ enum Parameter {
   kSteps,
   kThickness,
   kResolution,
+  kHistory,
   kBlurSize,
   kIntensity,
   kPower,
+  kBounce,
+  kAlbedo,
   kSeed,
   kKernelSize,
   kBias,
@@ -27,6 +30,9 @@ enum Parameter {
 };
 
 enum class Estimator : uint32_t { kSlices = 0, kClassic = 1 };
+enum class Bounce : uint32_t { kNone = 0, kAlbedo = 1, kBaseColour = 2 };
+
+enum Output { kAo, kBentNormal, kTint };
 
 constexpr const char* kSamplingKeys[] = {"hemisphere", "sphere"};
 constexpr const char* kSamplingLabels[] = {"Hemisphere", "Sphere"};
@@ -39,6 +45,8 @@ constexpr const char* kBlurLabels[] = {"Box", "Edge-aware"};
 
 constexpr const char* kEstimatorKeys[] = {"slices", "classic"};
 constexpr const char* kEstimatorLabels[] = {"Slices", "Classic"};
+constexpr const char* kBounceKeys[] = {"none", "albedo", "base_colour"};
+constexpr const char* kBounceLabels[] = {"None", "Off the albedo", "Off base colours"};
 constexpr const char* kResolutionKeys[] = {"full", "half", "quarter"};
 constexpr const char* kResolutionLabels[] = {"Full", "Half", "Quarter"};
 
@@ -95,6 +103,16 @@ constexpr grisaille_param_desc kParams[] = {
                        .keys = kResolutionKeys,
                        .labels = kResolutionLabels,
                        .defaultValue = 1}),
+    plugin::intParam({.key = "history",
+                      .label = "History",
+                      .tooltip = "Slices: frames averaged where they saw the same surface; 1: each "
+                                 "frame by itself",
+                      .hardMin = 1,
+                      .hardMax = 256,
+                      .softMin = 1,
+                      .softMax = 32,
+                      .defaultValue = 1,
+                      .log = true}),
     plugin::intParam({.key = "blur_size",
                       .label = "Blur size",
                       .unit = "px",
@@ -125,6 +143,22 @@ constexpr grisaille_param_desc kParams[] = {
                         .softMax = 4,
                         .defaultValue = 1,
                         .step = 0.05}),
+    plugin::enumParam({.key = "bounce",
+                       .label = "Bounced light",
+                       .tooltip = "Light that what is near throws back: none, by one albedo, or by "
+                                  "the pixel's base colour, which tints the output tint alone",
+                       .keys = kBounceKeys,
+                       .labels = kBounceLabels,
+                       .defaultValue = 0}),
+    plugin::floatParam({.key = "albedo",
+                        .label = "Albedo",
+                        .tooltip = "Share of light that surfaces throw back",
+                        .hardMin = 0,
+                        .hardMax = 1,
+                        .softMin = 0,
+                        .softMax = 1,
+                        .defaultValue = 0.8,
+                        .step = 0.01}),
     plugin::intParam({.key = "seed",
                       .label = "Seed",
                       .tooltip = "Which slices, or which sample points and rotations, are drawn",

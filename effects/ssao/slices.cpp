@@ -3,115 +3,165 @@
 
 #include <algorithm>
 #include <cmath>
+#include <vector>
 
 #include "dispatch.h"
-#include "parameters.h"
+#include "finish.h"
 #include "shaders/ssao_denoise.h"
+#include "shaders/ssao_denoise_bent.h"
 #include "shaders/ssao_denoise_last.h"
+#include "shaders/ssao_denoise_last_bent.h"
 #include "shaders/ssao_slices.h"
+#include "shaders/ssao_slices_bent.h"
 #include "shaders/ssao_upsample.h"
+#include "shaders/ssao_upsample_bent.h"
 
 namespace grisaille::ssao {
 namespace {
 
-// shaders/ssao/slices.comp, std140.
+// shaders/ssao/slices.glsl, std140.
 struct SlicesBlock {
   float radius;
   float thickness;
   float turn;
+  uint32_t exchange;
 };
 GRISAILLE_CHECK_BLOCK_ssao_slices_Settings(SlicesBlock);
+GRISAILLE_CHECK_BLOCK_ssao_slices_bent_Settings(SlicesBlock);
 
-// shaders/ssao/denoise.glsl and upsample.comp, std140.
+// shaders/ssao/denoise.glsl and upsample.glsl, std140.
 struct FilterBlock {
+  glm::vec4 finish;
   float tolerance;
-  float intensity;
-  float power;
 };
 GRISAILLE_CHECK_BLOCK_ssao_denoise_Settings(FilterBlock);
+GRISAILLE_CHECK_BLOCK_ssao_denoise_bent_Settings(FilterBlock);
 GRISAILLE_CHECK_BLOCK_ssao_denoise_last_Settings(FilterBlock);
+GRISAILLE_CHECK_BLOCK_ssao_denoise_last_bent_Settings(FilterBlock);
 GRISAILLE_CHECK_BLOCK_ssao_upsample_Settings(FilterBlock);
+GRISAILLE_CHECK_BLOCK_ssao_upsample_bent_Settings(FilterBlock);
 
 // How far from the plane of a pixel's surface another may lie to be averaged with it, in radii.
 constexpr float kTolerance = 0.05f;
 
 FilterBlock filterBlock(const plugin::Frame& frame) {
-  return {.tolerance = 1 / (kTolerance * frame.value<float>(kRadius)),
-          .intensity = frame.value<float>(kIntensity),
-          .power = frame.value<float>(kPower)};
+  return {.finish = finishOf(frame), .tolerance = 1 / (kTolerance * frame.value<float>(kRadius))};
 }
 
 }  // namespace
 
+Slices::Kernels::Kernels(plugin::Host host)
+    : occlusion(host, "slices", grisaille_shader_ssao_slices),
+      denoise(host, "denoise", grisaille_shader_ssao_denoise),
+      denoiseLast(host, "denoise", grisaille_shader_ssao_denoise_last),
+      upsample(host, "upsample", grisaille_shader_ssao_upsample) {}
+
+Slices::Kernels Slices::Kernels::withBent(plugin::Host host) {
+  Kernels kernels(host);
+  kernels.occlusion = {host, "slices, bent", grisaille_shader_ssao_slices_bent};
+  kernels.denoise = {host, "denoise, bent", grisaille_shader_ssao_denoise_bent};
+  kernels.denoiseLast = {host, "denoise, bent", grisaille_shader_ssao_denoise_last_bent};
+  kernels.upsample = {host, "upsample, bent", grisaille_shader_ssao_upsample_bent};
+  return kernels;
+}
+
 Slices::Slices(plugin::Host host)
-    : occlusion_(host, "slices", grisaille_shader_ssao_slices),
-      denoise_(host, "denoise", grisaille_shader_ssao_denoise),
-      denoiseLast_(host, "denoise", grisaille_shader_ssao_denoise_last),
-      upsample_(host, "upsample", grisaille_shader_ssao_upsample),
-      clamped_(host.sampler({.label = "clamped"})) {}
+    : open_(host),
+      openAndBent_(Kernels::withBent(host)),
+      clamped_(host.sampler({.label = "clamped"})),
+      history_(host) {}
 
 uint32_t Slices::reads() noexcept {
   return GRISAILLE_READS(GRISAILLE_VIEW_DEPTH) | GRISAILLE_READS(GRISAILLE_NORMAL);
 }
 
-void Slices::record(const plugin::Frame& frame) {
+void Slices::record(const plugin::Frame& frame, Pair outputs) {
   const uint32_t scale = 1u << frame.value<uint32_t>(kResolution);
   const Size size = {.scale = scale,
                      .width = plugin::groupsFor(frame.width(), scale),
                      .height = plugin::groupsFor(frame.height(), scale)};
-  const auto texture = [&](const char* label) {
-    return frame.transient({.label = label,
-                            .format = GRISAILLE_FORMAT_RG32F,
-                            .width = size.width,
-                            .height = size.height});
+  const bool bent = outputs.bent.id != 0;
+  const auto pair = [&](const char* open, const char* direction) {
+    const auto texture = [&](const char* label, grisaille_format format) {
+      return frame.transient(
+          {.label = label, .format = format, .width = size.width, .height = size.height});
+    };
+    return Pair{.open = texture(open, GRISAILLE_FORMAT_RG32F),
+                .bent = bent ? texture(direction, GRISAILLE_FORMAT_RGBA16F) : grisaille_texture{0}};
   };
   const uint32_t blur = std::max(frame.value<uint32_t>(kBlurSize), 1u);
-  const grisaille_texture raw = texture("raw visibility");
-  frame.pass("occlusion", [&] { occlude(frame, size, raw); });
-  grisaille_texture rows = raw;
+  history_.keepOnly({frame.value<double>(kRadius), frame.value<double>(kSlices),
+                     frame.value<double>(kSteps), frame.value<double>(kThickness)});
+  const uint32_t averaged = frame.value<uint32_t>(kHistory);
+  if (averaged == 1) history_.forget();
+
+  Kernels& kernels = bent ? openAndBent_ : open_;
+  const Pair raw = pair("raw visibility", "raw open direction");
+  frame.pass("occlusion", [&] { occlude(frame, kernels, size, raw); });
+  Pair from = raw;
+  if (averaged > 1) from.open = history_.accumulate(frame, scale, averaged - 1, raw.open);
   if (blur > 1) {
-    rows = texture("visibility denoised along rows");
-    frame.pass("denoise rows", [&] { denoise(frame, size, denoise_, false, blur, raw, rows); });
+    const Pair rows = pair("visibility denoised along rows", "open direction denoised along rows");
+    frame.pass("denoise rows",
+               [&] { denoise(frame, kernels.denoise, size, false, blur, from, rows); });
+    from = rows;
   }
   if (scale == 1) {
     frame.pass("denoise columns",
-               [&] { denoise(frame, size, denoiseLast_, true, blur, rows, frame.output(0)); });
+               [&] { denoise(frame, kernels.denoiseLast, size, true, blur, from, outputs); });
     return;
   }
   if (blur > 1) {
-    frame.pass("denoise columns", [&] { denoise(frame, size, denoise_, true, blur, rows, raw); });
+    frame.pass("denoise columns",
+               [&] { denoise(frame, kernels.denoise, size, true, blur, from, raw); });
+    from = raw;
   }
-  frame.pass("upsample", [&] { upsample(frame, size, raw); });
+  frame.pass("upsample", [&] { upsample(frame, kernels, size, from, outputs); });
 }
 
-void Slices::occlude(const plugin::Frame& frame, Size size, grisaille_texture target) {
+void Slices::occlude(const plugin::Frame& frame, Kernels& kernels, Size size, Pair target) {
   const float radius = frame.value<float>(kRadius);
-  // Seeds turn the pattern; the golden ratio spreads them.
-  const float turn =
-      static_cast<float>(std::fmod(0.5 + frame.value<uint32_t>(kSeed) * 0.6180339887498949, 1.0));
-  const SlicesBlock settings = {
-      .radius = radius, .thickness = radius * frame.value<float>(kThickness), .turn = turn};
-  // Constants 0 ... 2 of shaders/ssao/slices.comp.
+  // In 16 frames a texel draws each of the pattern's 16 points, far ones after one another. Seeds
+  // turn the pattern, and so does what follows; the golden ratio spreads them.
+  constexpr uint32_t kBits[] = {0b0101, 0b1010, 0b0010, 0b0001};
+  uint32_t exchange = 0;
+  for (uint32_t bit = 0; bit < 4; ++bit) {
+    if ((history_.frames() >> bit & 1) != 0) exchange ^= kBits[bit];
+  }
+  const double turns = frame.value<double>(kSeed) + static_cast<double>(history_.frames() / 16);
+  const float turn = static_cast<float>(std::fmod(0.5 + turns * 0.6180339887498949, 1.0));
+  const SlicesBlock settings = {.radius = radius,
+                                .thickness = radius * frame.value<float>(kThickness),
+                                .turn = turn,
+                                .exchange = exchange};
+  // Constants 0 ... 2 of shaders/ssao/slices.glsl.
   const grisaille_constant constants[] = {plugin::specialize(0, frame.value<uint32_t>(kSlices)),
                                           plugin::specialize(1, frame.value<uint32_t>(kSteps)),
                                           plugin::specialize(2, size.scale)};
-  const grisaille_binding bindings[] = {
+  std::vector<grisaille_binding> bindings = {
       plugin::uniform(0, frame.viewBlock()), plugin::uniform(1, frame.uniform(settings)),
       plugin::texture(0, frame.attachment(GRISAILLE_VIEW_DEPTH), clamped_),
-      plugin::texture(1, frame.attachment(GRISAILLE_NORMAL), clamped_), plugin::image(0, target)};
-  dispatch(frame, occlusion_.get(constants), bindings, size.width, size.height);
+      plugin::texture(1, frame.attachment(GRISAILLE_NORMAL), clamped_),
+      plugin::image(0, target.open)};
+  if (target.bent.id != 0) bindings.push_back(plugin::image(1, target.bent));
+  dispatch(frame, kernels.occlusion.get(constants), bindings, size.width, size.height);
 }
 
-void Slices::denoise(const plugin::Frame& frame, Size size, plugin::PipelineCache& pipelines,
-                     bool columns, uint32_t blur, grisaille_texture raw, grisaille_texture target) {
+void Slices::denoise(const plugin::Frame& frame, plugin::PipelineCache& pipelines, Size size,
+                     bool columns, uint32_t blur, Pair raw, Pair target) {
   // Constants 0 ... 2 of shaders/ssao/denoise.glsl.
   const grisaille_constant constants[] = {plugin::specialize(0, blur),
                                           plugin::specialize(1, size.scale),
                                           plugin::specialize(2, columns)};
-  const grisaille_binding bindings[] = {
+  std::vector<grisaille_binding> bindings = {
       plugin::uniform(0, frame.viewBlock()), plugin::uniform(1, frame.uniform(filterBlock(frame))),
-      plugin::texture(0, raw, clamped_),
-      plugin::texture(1, frame.attachment(GRISAILLE_NORMAL), clamped_), plugin::image(0, target)};
+      plugin::texture(0, raw.open, clamped_),
+      plugin::texture(1, frame.attachment(GRISAILLE_NORMAL), clamped_),
+      plugin::image(0, target.open)};
+  if (target.bent.id != 0) {
+    bindings.push_back(plugin::texture(2, raw.bent, clamped_));
+    bindings.push_back(plugin::image(1, target.bent));
+  }
   // A run of texels an invocation, along the row or the column.
   constexpr uint32_t kRun = 4;
   dispatch(frame, pipelines.get(constants), bindings,
@@ -119,17 +169,22 @@ void Slices::denoise(const plugin::Frame& frame, Size size, plugin::PipelineCach
            columns ? plugin::groupsFor(size.height, kRun) : size.height);
 }
 
-void Slices::upsample(const plugin::Frame& frame, Size size, grisaille_texture coarse) {
-  // Constant 0 of shaders/ssao/upsample.comp.
+void Slices::upsample(const plugin::Frame& frame, Kernels& kernels, Size size, Pair coarse,
+                      Pair target) {
+  // Constant 0 of shaders/ssao/upsample.glsl.
   const grisaille_constant constants[] = {plugin::specialize(0, size.scale)};
-  const grisaille_binding bindings[] = {
+  std::vector<grisaille_binding> bindings = {
       plugin::uniform(0, frame.viewBlock()),
       plugin::uniform(1, frame.uniform(filterBlock(frame))),
-      plugin::texture(0, coarse, clamped_),
+      plugin::texture(0, coarse.open, clamped_),
       plugin::texture(1, frame.attachment(GRISAILLE_VIEW_DEPTH), clamped_),
       plugin::texture(2, frame.attachment(GRISAILLE_NORMAL), clamped_),
-      plugin::image(0, frame.output(0))};
-  dispatch(frame, upsample_.get(constants), bindings, plugin::groupsFor(frame.width(), 2),
+      plugin::image(0, target.open)};
+  if (target.bent.id != 0) {
+    bindings.push_back(plugin::texture(3, coarse.bent, clamped_));
+    bindings.push_back(plugin::image(1, target.bent));
+  }
+  dispatch(frame, kernels.upsample.get(constants), bindings, plugin::groupsFor(frame.width(), 2),
            plugin::groupsFor(frame.height(), 2));
 }
 

@@ -1,9 +1,10 @@
 // SPDX-License-Identifier: MIT
-// Visibility by slices and a bitmask of sectors. Up to three passes: occlusion and denoise, at the
-// resolution that is asked for, and upsample where that is not the picture's.
+// Visibility by slices and a bitmask of sectors: occlusion, accumulate where frames are averaged,
+// and denoise, at the resolution that is asked for, then upsample where that is not the picture's.
 #pragma once
 
 #include "grisaille/effect.hpp"
+#include "history.h"
 
 namespace grisaille::ssao {
 
@@ -11,22 +12,34 @@ class Slices {
  public:
   explicit Slices(plugin::Host host);
 
+  // Visibility, and the mean open direction where `bent` is there; it costs nothing where not.
+  struct Pair {
+    grisaille_texture open, bent;
+  };
+
   static uint32_t reads() noexcept;
-  void record(const plugin::Frame& frame);
+  // `outputs`: r16f and rgba16f, of the picture's size.
+  void record(const plugin::Frame& frame, Pair outputs);
 
  private:
   struct Size {
     uint32_t scale;  // pixels a texel, each way
     uint32_t width, height;
   };
+  struct Kernels {
+    explicit Kernels(plugin::Host host);
+    static Kernels withBent(plugin::Host host);
+    plugin::PipelineCache occlusion, denoise, denoiseLast, upsample;
+  };
 
-  void occlude(const plugin::Frame& frame, Size size, grisaille_texture target);
-  void denoise(const plugin::Frame& frame, Size size, plugin::PipelineCache& pipelines,
-               bool columns, uint32_t blur, grisaille_texture raw, grisaille_texture target);
-  void upsample(const plugin::Frame& frame, Size size, grisaille_texture coarse);
+  void occlude(const plugin::Frame& frame, Kernels& kernels, Size size, Pair target);
+  void denoise(const plugin::Frame& frame, plugin::PipelineCache& pipelines, Size size,
+               bool columns, uint32_t blur, Pair raw, Pair target);
+  void upsample(const plugin::Frame& frame, Kernels& kernels, Size size, Pair coarse, Pair target);
 
-  plugin::PipelineCache occlusion_, denoise_, denoiseLast_, upsample_;
+  Kernels open_, openAndBent_;
   plugin::Sampler clamped_;
+  History history_;
 };
 
 }  // namespace grisaille::ssao

@@ -5,10 +5,12 @@
 #extension GL_GOOGLE_include_directive : require
 #include "common/bindings.glsl"
 
+layout(constant_id = 0) const bool kTinted = false;  // visibility has one for each colour channel
+
 layout(local_size_x = 8, local_size_y = 8) in;
 layout(TEXTURE(0)) uniform sampler2D surface;     // rgb; a = 0: sky, which is white
 layout(TEXTURE(1)) uniform sampler2D paint;       // straight alpha
-layout(TEXTURE(2)) uniform sampler2D visibility;  // r
+layout(TEXTURE(2)) uniform sampler2D visibility;  // r, or rgb
 layout(IMAGE(0), rgba16f) writeonly uniform image2D color;
 
 void main() {
@@ -19,6 +21,7 @@ void main() {
   const vec4 base = textureLod(surface, uv, 0.0);
   const vec4 over = textureLod(paint, uv, 0.0);
   vec3 light = base.a > 0.0 ? base.rgb : vec3(1.0);
-  light = mix(light, over.rgb, over.a) * textureLod(visibility, uv, 0.0).r;
+  const vec3 open = textureLod(visibility, uv, 0.0).rgb;
+  light = mix(light, over.rgb, over.a) * (kTinted ? open : open.rrr);
   imageStore(color, pixel, vec4(light, 1.0));
 }

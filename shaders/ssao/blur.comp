@@ -1,7 +1,7 @@
 #version 460
 // SPDX-License-Identifier: MIT
 // Averages a square of pixels: all alike (box), or weighted down to 0 where the depth differs by the
-// radius (edge-aware). Then applies intensity and power.
+// radius (edge-aware). Then finishes.
 #extension GL_GOOGLE_include_directive : require
 #extension GL_EXT_control_flow_attributes : require
 #include "common/view.glsl"
@@ -12,9 +12,8 @@ layout(constant_id = 1) const uint kMode = 0u;  // 0 box, 1 edge-aware
 
 layout(local_size_x = 8, local_size_y = 8) in;
 layout(UNIFORM(1), std140) uniform Settings {
+  vec4 finish;
   float radius;  // metres
-  float intensity;
-  float power;
 } settings;
 layout(TEXTURE(0)) uniform sampler2D view_depth;
 layout(TEXTURE(1)) uniform sampler2D raw;  // clamped
@@ -46,5 +45,5 @@ void main() {
     }
     open = sum / weights;
   }
-  imageStore(visibility, pixel, vec4(finished(open, settings.intensity, settings.power)));
+  imageStore(visibility, pixel, vec4(finished(open, settings.finish)));
 }

@@ -2,7 +2,8 @@
 // Averages along a row or a column with the weights 1, 2 ... kSize ... 2, 1: after both, every slice
 // of the pattern has the same weight where kSize is a multiple of the pattern's 4 texels. Only
 // what lies in the plane of the texel's surface counts: the weight falls to 0 at the tolerance.
-// LAST is 1 where intensity and power follow and nothing else.
+// LAST is 1 where intensity and power follow and nothing else. With BENT, which is 0 or 1, the mean
+// open directions are averaged alike, and LAST turns them to the world.
 //
 // One invocation does a run of 4 texels, which share most of what they average.
 #include "common/view.glsl"
@@ -15,12 +16,15 @@ layout(constant_id = 2) const bool kColumn = false;  // down a column, not along
 
 layout(local_size_x = 8, local_size_y = 8) in;
 layout(UNIFORM(1), std140) uniform Settings {
+  vec4 finish;
   float tolerance;  // 1 / metres
-  float intensity;
-  float power;
 } settings;
 layout(TEXTURE(0)) uniform sampler2D raw;  // visibility and view depth; nearest, clamped
 layout(TEXTURE(1)) uniform sampler2D world_normal;
+#if BENT
+layout(TEXTURE(2)) uniform sampler2D raw_bent;
+layout(IMAGE(1), rgba16f) writeonly uniform image2D bent_target;
+#endif
 #if LAST
 layout(IMAGE(0), r16f) writeonly uniform image2D target;
 #else
@@ -50,23 +54,38 @@ void main() {
     constant[t] = plane.w;
   }
   vec4 sum = vec4(0.0), weights = vec4(0.0);
+#if BENT
+  mat4x3 bent = mat4x3(0.0);
+#endif
   const int reach = int(kSize) - 1;
   [[unroll]] for (int i = -reach; i < 4 + reach; ++i) {
-    const vec2 other = textureLod(raw, (vec2(first + along * i) + 0.5) * inverse, 0.0).xy;
+    const vec2 from = (vec2(first + along * i) + 0.5) * inverse;
+    const vec2 other = textureLod(raw, from, 0.0).xy;
     const vec4 k = float(i) - vec4(0.0, 1.0, 2.0, 3.0);
     const vec4 off = abs(other.y * (offset + k * slope) + constant);
     const vec4 share = max(float(kSize) - abs(k), 0.0) * max(1.0 - off, 0.0);
     const vec4 weight = other.y > 0.0 ? share : vec4(0.0);
     sum += weight * other.x;
     weights += weight;
+#if BENT
+    bent += outerProduct(textureLod(raw_bent, from, 0.0).xyz, weight);
+#endif
   }
   const vec4 open = sum / max(weights, 1e-6);
   [[unroll]] for (int t = 0; t < 4; ++t) {
     const ivec2 texel = first + along * t;
     float value = depths[t] > 0.0 ? open[t] : 1.0;
 #if LAST
-    value = finished(value, settings.intensity, settings.power);
+    value = finished(value, settings.finish);
 #endif
-    if (all(lessThan(texel, size))) imageStore(target, texel, vec4(value, depths[t], 0.0, 0.0));
+    if (any(greaterThanEqual(texel, size))) continue;
+    imageStore(target, texel, vec4(value, depths[t], 0.0, 0.0));
+#if BENT
+    vec3 mean = bent[t] / max(weights[t], 1e-6);
+#if LAST
+    mean = bentNormal(mean, textureLod(world_normal, (vec2(texel) + 0.5) * inverse, 0.0).xyz);
+#endif
+    imageStore(bent_target, texel, vec4(mean, 0.0));
+#endif
   }
 }

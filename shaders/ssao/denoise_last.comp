@@ -3,4 +3,5 @@
 #extension GL_GOOGLE_include_directive : require
 #extension GL_EXT_control_flow_attributes : require
 #define LAST 1
+#define BENT 0
 #include "denoise.glsl"

@@ -16,10 +16,9 @@ layout(constant_id = 3) const bool kFinish = false;   // apply intensity and pow
 layout(local_size_x = 8, local_size_y = 8) in;
 layout(UNIFORM(1), std140) uniform Settings {
   vec4 kernel[256];  // in the unit sphere, +z away from the surface
+  vec4 finish;
   float radius;      // metres
   float bias;        // metres
-  float intensity;
-  float power;
 } settings;
 layout(TEXTURE(0)) uniform sampler2D view_depth;  // nearest, clamped: the edge goes on outside
 layout(TEXTURE(1)) uniform sampler2D rotations;   // 4x4, repeated
@@ -100,6 +99,6 @@ void main() {
   const float depth = textureLod(view_depth, (vec2(pixel) + 0.5) * view.size.zw, 0.0).x;
   float open = 1.0;
   if (depth > 0.0) open -= occlusionAt(pixel, depth);
-  if (kFinish) open = finished(open, settings.intensity, settings.power);
+  if (kFinish) open = finished(open, settings.finish);
   imageStore(visibility, pixel, vec4(open));
 }

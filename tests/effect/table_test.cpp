@@ -77,7 +77,8 @@ struct Table {
                                  .record = recordNothing,
                                  .destroy = destroyNothing,
                                  .flags = GRISAILLE_EFFECT_TAKES_SHOTS,
-                                 .reserved2 = 0};
+                                 .reserved2 = 0,
+                                 .reads_for = nullptr};
   grisaille_effect_desc second = [this] {
     grisaille_effect_desc desc = first;
     desc.key = "second";
@@ -204,7 +205,8 @@ const std::vector<Fault>& faults() {
        [](Table& t) { t.outputs[0].format = GRISAILLE_FORMAT_R32UI; }},
       {"effects[0].outputs[1].format",
        [](Table& t) { t.outputs[1].format = GRISAILLE_FORMAT_R32F; }},
-      {"effects[0].outputs[0].role", [](Table& t) { t.outputs[0].role = 4; }},
+      {"effects[0].outputs[0].role", [](Table& t) { t.outputs[0].role = 5; }},
+      {"effects[0].outputs[0].format", [](Table& t) { t.outputs[0].role = GRISAILLE_ROLE_TINT; }},
       {"effects[0].outputs[0].format", [](Table& t) { t.outputs[0].role = GRISAILLE_ROLE_OWNER; }},
       {"effects[0].outputs[0].key", [](Table& t) { t.outputs[0].key = "A"; }},
       {"effects[0].outputs[1].key", [](Table& t) { t.outputs[1].key = "ao"; }},

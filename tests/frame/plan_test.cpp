@@ -135,6 +135,41 @@ TEST_F(PlanTest, SlicesRecordWhatTheirResolutionAndBlurNeed) {
   }
 }
 
+TEST_F(PlanTest, HistoryOpenDirectionsAndTintCostNothingUnlessAskedFor) {
+  const Labels scene = {"scene/geometry", "scene/view_depth"};
+  const auto passes = [&](const Labels& outputs, frame::Surface surface = frame::Surface::kWhite) {
+    const Recording recording = record(outputs, true, surface);
+    return Labels(recording.passes.begin() + 2, recording.passes.end());
+  };
+  values_->set("resolution", "full");
+  values_->set("blur_size", "0");
+  const Labels visibility = {"ssao/occlusion", "ssao/denoise columns"};
+  const Labels tinted = {"ssao/occlusion", "ssao/denoise columns", "ssao/tint"};
+  EXPECT_EQ(passes({"bent_normal"}), visibility);
+  EXPECT_EQ(passes({"tint"}), tinted);
+  values_->set("history", "8");
+  EXPECT_EQ(passes({"ao"}), (Labels{"ssao/occlusion", "ssao/accumulate", "ssao/denoise columns"}));
+  values_->set("history", "1");
+  EXPECT_EQ(passes({"ao"}), visibility);
+
+  // Base colours are drawn for a tint of theirs.
+  values_->set("bounce", "base_colour");
+  EXPECT_EQ(record({"ao"}, true).renders.at(0).targets, (Labels{"normal", "clip depth"}));
+  EXPECT_EQ(record({"tint"}, true).renders.at(0).targets,
+            (Labels{"normal", "base_colour", "clip depth"}));
+  // Tints are composed where the picture shows base colours.
+  EXPECT_EQ(passes({"color"}), (Labels{"ssao/occlusion", "ssao/denoise columns", "compose/color"}));
+  EXPECT_EQ(passes({"color"}, frame::Surface::kBaseColour),
+            (Labels{"ssao/occlusion", "ssao/denoise columns", "ssao/tint", "compose/color"}));
+
+  // Open directions are the slices' alone, and need normals.
+  values_->set("estimator", "classic");
+  values_->set("sampling", "sphere");
+  EXPECT_EQ(passes({"bent_normal"}), visibility);
+  EXPECT_EQ(record({"bent_normal"}, true).renders.at(0).targets, (Labels{"normal", "clip depth"}));
+  EXPECT_EQ(record({"ao"}, true).renders.at(0).targets, Labels{"clip depth"});
+}
+
 TEST_F(PlanTest, BaseColourIsDrawnForTheBaseSurfaceAlone) {
   EXPECT_TRUE(record({"color"}, false).renders.empty());
   const Recording recording = record({"color"}, false, frame::Surface::kBaseColour);

@@ -6,6 +6,7 @@
 
 #include <array>
 #include <cmath>
+#include <memory>
 #include <string>
 #include <vector>
 
@@ -18,20 +19,59 @@ using Settings = std::vector<std::pair<std::string, std::string>>;
 constexpr uint32_t kAoWidth = 96;
 constexpr uint32_t kAoHeight = 72;
 
+// The effect with its instance, for several frames.
+class AoFrames {
+ public:
+  AoFrames(gpu::Device& device, const scene::Scene& scene, const Settings& settings)
+      : registry_(scanned()),
+        values_(registry_->find("ssao")),
+        instance_(device, registry_->find("ssao")),
+        renderer_(device, scene) {
+    set(settings);
+  }
+
+  void set(const Settings& settings) {
+    for (const auto& [key, value] : settings) values_.set(key, value);
+  }
+
+  image::Image show(const scene::Camera& camera, uint32_t width = kAoWidth,
+                    uint32_t height = kAoHeight) {
+    return showAll(camera, width, height, {"ao"}).front();
+  }
+
+  // Outputs of one frame.
+  std::vector<image::Image> showAll(const scene::Camera& camera, uint32_t width, uint32_t height,
+                                    const std::vector<std::string>& outputs,
+                                    frame::Surface surface = frame::Surface::kWhite) {
+    const std::array effects = {frame::ActiveEffect{.instance = &instance_, .values = &values_}};
+    renderer_.render({.camera = camera,
+                      .width = width,
+                      .height = height,
+                      .surface = surface,
+                      .effects = effects,
+                      .outputs = outputs});
+    std::vector<image::Image> images;
+    for (const std::string& output : outputs) images.push_back(renderer_.read(output));
+    return images;
+  }
+
+ private:
+  static std::unique_ptr<effect::Registry> scanned() {
+    auto registry = std::make_unique<effect::Registry>();
+    registry->scan(EFFECTS_FOLDER);
+    return registry;
+  }
+
+  std::unique_ptr<effect::Registry> registry_;
+  effect::Values values_;
+  effect::Instance instance_;
+  frame::Renderer renderer_;
+};
+
 inline image::Image renderAo(gpu::Device& device, const scene::Scene& scene,
                              const scene::Camera& camera, const Settings& settings,
                              uint32_t width = kAoWidth, uint32_t height = kAoHeight) {
-  effect::Registry registry;
-  registry.scan(EFFECTS_FOLDER);
-  effect::Values values(registry.find("ssao"));
-  for (const auto& [key, value] : settings) values.set(key, value);
-  effect::Instance instance(device, registry.find("ssao"));
-  frame::Renderer renderer(device, scene);
-  const std::array effects = {frame::ActiveEffect{.instance = &instance, .values = &values}};
-  const std::vector<std::string> outputs = {"ao"};
-  renderer.render(
-      {.camera = camera, .width = width, .height = height, .effects = effects, .outputs = outputs});
-  return renderer.read("ao");
+  return AoFrames(device, scene, settings).show(camera, width, height);
 }
 
 inline double meanRows(const image::Image& image, uint32_t fromRow, uint32_t toRow) {

@@ -30,6 +30,7 @@ TEST(RecordTest, ComesBackBitForBit) {
   r.command = "grisaille render 'x'";
   r.milliseconds = {0.1, 1e-300, 3};
   r.flicker = 1.0 / 7;
+  r.pathRmse = 1.0 / 11;
   save(folder.path(), r);
   EXPECT_EQ(load(fileOf(folder.path(), r)), r);
   save(folder.path(), record(2, 0.2, "0.4"));

@@ -96,6 +96,10 @@ static const grisaille_effect_desc kEffect = {
     .struct_size = offsetof(grisaille_effect_desc, flags),
     .flags = ~0u, /* what lies behind that version's struct */
     .reserved2 = ~0u,
+    .reads_for = (uint32_t(*)(const double*, uint32_t))1,
+#elif defined(VERSION_1_1)
+    .struct_size = offsetof(grisaille_effect_desc, reads_for),
+    .reads_for = (uint32_t(*)(const double*, uint32_t))1,
 #else
     .struct_size = sizeof(grisaille_effect_desc),
 #endif
@@ -131,6 +135,8 @@ static const grisaille_effect_desc* const kEffects[] = {&kEffect};
 #define MINOR (GRISAILLE_ABI_MINOR + 1)
 #elif defined(VERSION_1_0)
 #define MINOR 0
+#elif defined(VERSION_1_1)
+#define MINOR 1
 #else
 #define MINOR GRISAILLE_ABI_MINOR
 #endif

@@ -33,7 +33,7 @@ extern "C" {
 
 #define GRISAILLE_MAGIC 0x53495247u /* "GRIS" */
 #define GRISAILLE_ABI_MAJOR 1u
-#define GRISAILLE_ABI_MINOR 1u
+#define GRISAILLE_ABI_MINOR 2u
 
 #if defined(_WIN32)
 #define GRISAILLE_EXPORT __declspec(dllexport)
@@ -116,7 +116,10 @@ typedef enum grisaille_role {
   GRISAILLE_ROLE_PAINT = 2, /* rgba, straight alpha, linear: laid over the surface's colour */
   /* Since 1.1; r32ui, not composed: whose the paint of a pixel is, 1 + number of the shot; 0: none
    */
-  GRISAILLE_ROLE_OWNER = 3
+  GRISAILLE_ROLE_OWNER = 3,
+  /* Since 1.2; rgb in [0,1], 1 = open: multiplies the light where the picture shows base colours,
+   * instead of the effect's other visibilities; four channels */
+  GRISAILLE_ROLE_TINT = 4
 } grisaille_role;
 
 typedef struct grisaille_output_desc {
@@ -356,7 +359,7 @@ typedef struct grisaille_effect_desc {
   const grisaille_output_desc* outputs;
 
   /* Which attachments it reads with these values: GRISAILLE_READS(...) combined. May depend on the
-   * values alone; called at any time, also without an instance. Cannot fail. */
+   * arguments alone; called at any time, also without an instance. Cannot fail. */
   uint32_t (*reads)(const double* values);
 
   /* Makes an instance; *out is handed to the others. After a failure no other function is called.
@@ -373,6 +376,10 @@ typedef struct grisaille_effect_desc {
   /* Since 1.1. */
   uint32_t flags;     /* of grisaille_effect_flags */
   uint32_t reserved2; /* 0 */
+
+  /* Since 1.2; null: reads() answers. Which attachments it reads for the outputs of which `wanted`
+   * holds the bits, as grisaille_frame.wanted does. As reads() otherwise. */
+  uint32_t (*reads_for)(const double* values, uint32_t wanted);
 } grisaille_effect_desc;
 
 typedef struct grisaille_plugin_desc {

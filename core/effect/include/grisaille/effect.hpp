@@ -124,6 +124,12 @@ constexpr uint32_t groupsFor(uint32_t pixels, uint32_t localSize) {
   return pixels / localSize + (pixels % localSize != 0 ? 1u : 0u);
 }
 
+// Is this output among the bits? It counts as the table of outputs does.
+template <typename Index>
+constexpr bool wants(uint32_t bits, Index output) {
+  return (bits >> static_cast<uint32_t>(output) & 1u) != 0;
+}
+
 // A view of one frame, valid during record(). Every function that returns nothing or a resource
 // throws Failure.
 class Frame {
@@ -150,7 +156,7 @@ class Frame {
   // By index in the table of outputs. Those that nobody wants have id 0.
   template <typename Index>
   bool wanted(Index output) const {
-    return (frame_->wanted >> static_cast<uint32_t>(output) & 1u) != 0;
+    return wants(frame_->wanted, output);
   }
   template <typename Index>
   grisaille_texture output(Index output) const {
@@ -251,12 +257,22 @@ class Frame {
 
 // --- The effect ----------------------------------------------------------------------------------
 
+// An effect says what it reads, as grisaille_effect_desc.reads or as reads_for.
 template <typename E>
-concept EffectClass = std::constructible_from<E, Host> && std::is_nothrow_destructible_v<E> &&
-    requires(E& effect, const Frame& frame, Values values) {
-  effect.record(frame);
+concept ReadsForAll = requires(Values values) {
   { E::reads(values) }
   noexcept->std::same_as<uint32_t>;
+};
+template <typename E>
+concept ReadsForWanted = requires(Values values, uint32_t wanted) {
+  { E::reads(values, wanted) }
+  noexcept->std::same_as<uint32_t>;
+};
+
+template <typename E>
+concept EffectClass = std::constructible_from<E, Host> && std::is_nothrow_destructible_v<E> &&
+    (ReadsForAll<E> || ReadsForWanted<E>)&&requires(E& effect, const Frame& frame) {
+  effect.record(frame);
 };
 
 // All static: text, and the arrays behind the spans.
@@ -274,7 +290,14 @@ struct EffectSpec {
 template <EffectClass E>
 class Boundary {
  public:
-  static uint32_t reads(const double* values) noexcept { return E::reads(Values(values)); }
+  static uint32_t readsFor(const double* values, uint32_t wanted) noexcept {
+    if constexpr (ReadsForWanted<E>) {
+      return E::reads(Values(values), wanted);
+    } else {
+      return E::reads(Values(values));
+    }
+  }
+  static uint32_t reads(const double* values) noexcept { return readsFor(values, ~0u); }
 
   static grisaille_result create(const grisaille_host* host, void** out) noexcept {
     return guarded(host, [&] { *out = new Held(host); });
@@ -327,7 +350,8 @@ constexpr grisaille_effect_desc effect(const EffectSpec& spec) {
           .record = Boundary<E>::record,
           .destroy = Boundary<E>::destroy,
           .flags = spec.takesShots ? uint32_t{GRISAILLE_EFFECT_TAKES_SHOTS} : 0u,
-          .reserved2 = 0};
+          .reserved2 = 0,
+          .reads_for = Boundary<E>::readsFor};
 }
 
 }  // namespace grisaille::plugin

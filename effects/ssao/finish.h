@@ -1,0 +1,17 @@
+// SPDX-License-Identifier: MIT
+#pragma once
+
+#include <glm/glm.hpp>
+
+#include "parameters.h"
+
+namespace grisaille::ssao {
+
+// As finished() of shaders/ssao/finish.glsl takes it.
+inline glm::vec4 finishOf(const plugin::Frame& frame) {
+  const bool grey = frame.value<Bounce>(kBounce) == Bounce::kAlbedo;
+  return {frame.value<float>(kIntensity), frame.value<float>(kPower),
+          grey ? frame.value<float>(kAlbedo) : 0.0f, 0.0f};
+}
+
+}  // namespace grisaille::ssao

@@ -1,0 +1,106 @@
+// SPDX-License-Identifier: MIT
+#include "history.h"
+
+#include <algorithm>
+#include <glm/gtc/type_ptr.hpp>
+#include <utility>
+
+#include "dispatch.h"
+#include "shaders/ssao_accumulate.h"
+
+namespace grisaille::ssao {
+namespace {
+
+// shaders/ssao/accumulate.comp, std140.
+struct AccumulateBlock {
+  glm::mat4 then_from_view;
+  glm::vec4 then_view_from_pixel;
+  glm::vec4 then_pixel_from_view;
+  glm::vec2 then_size;
+  float then_scale;
+  float most;
+  float tolerance;
+};
+GRISAILLE_CHECK_BLOCK_ssao_accumulate_Settings(AccumulateBlock);
+
+// How far from the plane of a texel's surface another may lie to be the same, in view depths.
+constexpr float kSameSurface = 0.01f;
+
+// A view's pixels by its points: pixel = view.xy / view depth * .xy + .zw.
+glm::dvec4 pixelFromView(const grisaille_view& view, glm::dvec2 size) {
+  const glm::dmat4 clip = glm::make_mat4(view.clip_from_view);
+  return {clip[0][0] * size.x / 2, -clip[1][1] * size.y / 2, size.x / 2 * (1 - clip[2][0]),
+          size.y / 2 * (1 + clip[2][1])};
+}
+
+// Points of `from`'s view space in `to`'s. In double: positions may be far from the world's origin.
+glm::dmat4 between(const grisaille_view& from, const grisaille_view& to) {
+  const glm::dmat3 turn = glm::transpose(glm::make_mat3(to.world_from_view));
+  glm::dmat4 matrix(turn * glm::make_mat3(from.world_from_view));
+  matrix[3] = glm::dvec4(turn * (glm::make_vec3(from.position) - glm::make_vec3(to.position)), 1);
+  return matrix;
+}
+
+}  // namespace
+
+History::History(plugin::Host host)
+    : host_(host),
+      accumulate_(host, "accumulate", grisaille_shader_ssao_accumulate),
+      clamped_(host.sampler({.label = "clamped"})) {}
+
+void History::keepOnly(const Values& values) {
+  if (values != values_) forget();
+  values_ = values;
+}
+
+void History::forget() {
+  then_ = {};
+  spare_ = {};
+  frames_ = 0;
+}
+
+grisaille_texture History::accumulate(const plugin::Frame& frame, uint32_t scale, uint32_t most,
+                                      grisaille_texture raw) {
+  Seen now = std::move(spare_);
+  spare_ = {};
+  const uint32_t width = plugin::groupsFor(frame.width(), scale);
+  const uint32_t height = plugin::groupsFor(frame.height(), scale);
+  if (!now.mean || now.width != width || now.height != height) {
+    now.mean = host_.texture({.label = "mean visibility",
+                              .format = GRISAILLE_FORMAT_RGBA32F,
+                              .width = width,
+                              .height = height});
+  }
+  now.width = width;
+  now.height = height;
+  now.scale = scale;
+  now.size = {frame.width(), frame.height()};
+  now.view = frame.view();
+
+  const Seen& then = frames_ > 0 ? then_ : now;
+  const glm::dvec4 pixel = pixelFromView(then.view, then.size);
+  const AccumulateBlock settings = {
+      .then_from_view = glm::mat4(between(now.view, then.view)),
+      .then_view_from_pixel =
+          glm::vec4(1.0 / pixel.x, 1.0 / pixel.y, -pixel.z / pixel.x, -pixel.w / pixel.y),
+      .then_pixel_from_view = glm::vec4(pixel),
+      .then_size = glm::vec2(then.width, then.height),
+      .then_scale = static_cast<float>(then.scale),
+      .most = frames_ > 0 ? static_cast<float>(most) : 0.0f,
+      .tolerance = 1 / kSameSurface};
+  frame.pass("accumulate", [&] {
+    const grisaille_binding bindings[] = {
+        plugin::uniform(0, frame.viewBlock()),
+        plugin::uniform(1, frame.uniform(settings)),
+        plugin::texture(0, raw, clamped_),
+        plugin::texture(1, frame.attachment(GRISAILLE_NORMAL), clamped_),
+        plugin::texture(2, frames_ > 0 ? grisaille_texture(then_.mean) : raw, clamped_),
+        plugin::image(0, now.mean)};
+    dispatch(frame, accumulate_.get({plugin::specialize(0, scale)}), bindings, width, height);
+  });
+  spare_ = std::exchange(then_, std::move(now));
+  ++frames_;
+  return then_.mean;
+}
+
+}  // namespace grisaille::ssao

@@ -1,0 +1,253 @@
+// SPDX-License-Identifier: MIT
+// Ambient visibility by slices through the view vector and a bitmask of occluded sectors: Therrien,
+// Levesque and Gilet 2023, "Screen Space Indirect Lighting with Visibility Bitmask", on the slices
+// of Jimenez et al. 2016, "Practical Real-Time Strategies for Accurate Indirect Occlusion".
+//
+// A slice is the plane through the view vector and a direction drawn with the cosine's density about
+// the normal: slices then weigh alike. Angles in it run from the view vector, negative on one side.
+// A sector is a 32nd of the slice's cosine-weighted solid angle, so that the share of clear bits is
+// the slice's visibility. A tap is the surface that the depth buffer has there and so much matter
+// behind it, cut off at the sphere of the radius: no falloff.
+//
+// One texel of the target is one of kScale x kScale pixels: the top left one. With BENT, which is
+// 0 or 1, the mean of the unoccluded directions is found as well.
+#include "common/view.glsl"
+#include "plane.glsl"
+
+layout(constant_id = 0) const uint kSlices = 1u;
+layout(constant_id = 1) const uint kSteps = 8u;  // taps a side
+layout(constant_id = 2) const uint kScale = 1u;  // pixels a texel, each way
+
+layout(local_size_x = 8, local_size_y = 8) in;
+layout(UNIFORM(1), std140) uniform Settings {
+  float radius;     // metres
+  float thickness;  // of the matter behind a surface, metres
+  float turn;       // which pattern of slices is drawn, 0 to 1
+  uint exchange;    // which of its points a texel draws, 0 to 15
+} settings;
+layout(TEXTURE(0)) uniform sampler2D view_depth;  // nearest, clamped
+layout(TEXTURE(1)) uniform sampler2D world_normal;
+layout(IMAGE(0), rg32f) writeonly uniform image2D target;  // visibility and view depth
+#if BENT
+layout(IMAGE(1), rgba16f) writeonly uniform image2D bent_target;  // in view space, any length
+#endif
+
+const float kPi = 3.14159265358979;
+
+// Within 7e-5 radians: Hastings 1955, "Approximations for Digital Computers", sheet 38; x in [0, 1].
+float arcCosine(float x) {
+  return sqrt(1.0 - x) * (1.5707288 + x * (-0.2121144 + x * (0.0742610 - 0.0187293 * x)));
+}
+
+struct Slice {
+  vec3 position;
+  vec3 along, up;      // the surface's tangent in the slice, and its normal over the projected one's length
+  float cos_n, sin_n;  // of the projected normal's angle from the view vector
+  float offset, scale; // of shares
+};
+
+// The share of the slice's cosine-weighted solid angle that lies below the direction of a point on
+// this side of the view vector. With h the direction's angle and n the normal's, the integral of
+// |sin h| cos(h - n) from 0 to h is (cos n - cos(2 h - n)) / 4 + h sin(n) / 2.
+//
+// A tap is the middle of a pixel and lies beside the slice. It is moved into it at its own height
+// over the surface, which keeps planes open however near the tap is.
+float shareOf(Slice s, vec3 point, float side) {
+  const float sin_n = side * s.sin_n;
+  vec2 local = vec2(side * dot(point, s.along), dot(point, s.up));
+  // Taps near by may so come to lie on the other side of the view vector: back with them.
+  if (local.x * s.cos_n + local.y * sin_n < 0.0) local.x = abs(local.x);
+  vec2 at = vec2(max(local.x * s.cos_n + local.y * sin_n, 0.0),
+                 local.y * s.cos_n - local.x * sin_n);
+  at *= inversesqrt(max(dot(at, at), 1e-30));
+  const float low = arcCosine(abs(at.y));
+  const float angle = at.y < 0.0 ? kPi - low : low;
+  const float twice = (2.0 * at.y * at.y - 1.0) * s.cos_n + 2.0 * at.x * at.y * sin_n;
+  const float part = 0.25 * (s.cos_n - twice) + 0.5 * angle * sin_n;
+  // What is below the surface is at the hemisphere's edge.
+  return local.y <= 0.0 ? 0.5 + 0.5 * side : s.offset + side * part * s.scale;
+}
+
+#if BENT
+// Which of 32 sectors holds a direction of the slice, by its angle from the view vector.
+uint sectorOf(Slice s, float angle) {
+  const float side = angle < 0.0 ? -1.0 : 1.0, h = abs(angle), sin_n = side * s.sin_n;
+  const float twice = cos(2.0 * h) * s.cos_n + sin(2.0 * h) * sin_n;
+  const float part = 0.25 * (s.cos_n - twice) + 0.5 * h * sin_n;
+  return uint(clamp((s.offset + side * part * s.scale) * 32.0, 0.0, 31.0));
+}
+
+// The cosine-weighted mean of the slice's directions in sectors that are not shut.
+vec3 meanOpen(Slice s, float n, vec3 across, vec3 toward, uint shut) {
+  const uint kDirections = 16u;
+  vec3 sum = vec3(0.0);
+  for (uint i = 0u; i < kDirections; ++i) {
+    const float angle = n + ((float(i) + 0.5) / float(kDirections) - 0.5) * kPi;
+    const float weight = abs(sin(angle)) * cos(angle - n);
+    const bool open = (shut >> sectorOf(s, angle) & 1u) == 0u;
+    if (open) sum += weight * (across * sin(angle) + toward * cos(angle));
+  }
+  return sum * (s.scale * kPi / float(kDirections));
+}
+#endif
+
+// Bits [from, to) of 32.
+uint bitsOf(uint from, uint to) {
+  const uint count = to - min(from, to);
+  return count == 0u ? 0u : (0xffffffffu >> (32u - count)) << from;
+}
+
+// One side of a slice as its taps go outwards.
+struct Side {
+  vec3 point, step;  // the tap before, from the pixel's surface, and that less the one before it
+  float share;       // of the tap before
+  float depth;       // of the tap before, metres; no tap is connected to one without
+  float seen;        // taps that lay in the picture
+};
+
+uint bitsBetween(float low, float high, float dither) {
+  return bitsOf(uint(clamp(low * 32.0 + dither, 0.0, 32.0)),
+                uint(clamp(high * 32.0 + dither, 0.0, 32.0)));
+}
+
+// Where a surface that goes on from the tap before by `step` leaves the sphere; at most a step on.
+vec3 leavesAt(Side before, vec3 step) {
+  const float a = 1.0 / max(dot(step, step), 1e-20), b = dot(before.point, step) * a;
+  const float c = (dot(before.point, before.point) - settings.radius * settings.radius) * a;
+  return before.point + clamp(sqrt(max(b * b - c, 0.0)) - b, 0.0, 1.0) * step;
+}
+
+uint tapBits(Slice s, vec2 at, float side, float dither, inout Side before) {
+  const bool seen = all(equal(clamp(at, vec2(0.0), view.size.xy), at));
+  const float depth = textureLod(view_depth, at * view.size.zw, 0.0).x;
+  const vec3 ray = vec3(at * view.view_from_pixel.xy + view.view_from_pixel.zw, -1.0);
+  const vec3 front = ray * depth - s.position;
+  // The part of front + k ray, k in [0, thickness], inside the sphere.
+  const float a = 1.0 / dot(ray, ray), b = dot(ray, front) * a;
+  const float beyond = dot(front, front) - settings.radius * settings.radius;
+  const float d = b * b - beyond * a;
+  const float root = sqrt(max(d, 0.0));
+  const float near = max(0.0, -b - root), far = min(settings.thickness, root - b);
+  // What lies between two taps is covered as well where their depths differ by less than the
+  // thickness, up to the sphere.
+  const bool connected = seen && abs(depth - before.depth) < settings.thickness;
+  const bool inside = beyond <= 0.0;
+  const bool leaves = connected && !inside;
+  const vec3 step = front - before.point;
+  const vec3 from = front + near * ray;
+  const vec3 to = leaves ? leavesAt(before, step) : front + far * ray;
+  const float first = shareOf(s, from, side), last = shareOf(s, to, side);
+  const float low = min(leaves ? before.share : min(first, connected ? before.share : 1.0), last);
+  const float high = max(leaves ? before.share : max(first, connected ? before.share : 0.0), last);
+  const bool present = seen && depth > 0.0 && (leaves || (d > 0.0 && near < far));
+  before.step = connected ? step : vec3(0.0);
+  before.point = front;
+  before.share = first;
+  before.depth = present && inside ? depth : -1e30;
+  before.seen += seen ? 1.0 : 0.0;
+  return present ? bitsBetween(low, high, dither) : 0u;
+}
+
+// What the surface of the last tap covers that goes on as it came.
+uint bitsBeyond(Slice s, Side last, float side, float dither) {
+  const float share = shareOf(s, leavesAt(last, last.step), side);
+  return last.depth > 0.0 ? bitsBetween(min(last.share, share), max(last.share, share), dither) : 0u;
+}
+
+// Visibility of one slice; what it has to say of the mean open direction is added to `bent`.
+float sliceOf(vec3 position, vec3 toward, vec3 normal, vec3 direction, vec2 pixel, float jitter,
+              inout vec3 bent) {
+  vec3 across = direction - toward * dot(direction, toward);
+  across *= inversesqrt(max(dot(across, across), 1e-12));
+  vec2 at = vec2(dot(normal, across), dot(normal, toward));
+  const float projected = inversesqrt(max(dot(at, at), 1e-4));
+  at *= inversesqrt(max(dot(at, at), 1e-12));
+  Slice s;
+  s.position = position;
+  s.along = across * at.y - toward * at.x;
+  s.up = normal * projected;
+  s.cos_n = at.y;
+  s.sin_n = at.x;
+  // The integral over the whole slice is cos n + n sin n, and below the view vector half of
+  // cos n + (n - pi/2) sin n.
+  const float angle = arcCosine(min(abs(at.y), 1.0));
+  const float n = sign(at.x) * (at.y < 0.0 ? kPi - angle : angle);
+  s.scale = 1.0 / (s.cos_n + n * s.sin_n);
+  s.offset = 0.5 * (s.cos_n + (n - 0.5 * kPi) * s.sin_n) * s.scale;
+
+  // The slice's line on the screen, and how far the sphere reaches along it: to the view ray that
+  // touches it.
+  const float depth = -position.z;
+  vec2 way = (across.xy * depth + position.xy * across.z) * view.pixel_from_view.xy;
+  const float stretch = dot(way, way);
+  way *= inversesqrt(max(stretch, 1e-20));
+  const float near = settings.radius * settings.radius / dot(position, position);
+  const float reach = settings.radius / (depth * depth) * sqrt(stretch / max(1.0 - near, 0.0625));
+  uint bits = 0u;
+  Side ahead = Side(vec3(0.0), vec3(0.0), 1.0, -1e30, 0.0);
+  Side behind = Side(vec3(0.0), vec3(0.0), 0.0, -1e30, 0.0);
+  // Not unrolled: that costs a third more on lavapipe, and nothing elsewhere.
+  for (uint i = 0u; i < kSteps; ++i) {
+    // Taps are denser near the pixel, and at least a pixel apart from it.
+    const float one = (float(i) + jitter) / float(kSteps);
+    const float two = (float(i) + 1.0 - jitter) / float(kSteps);
+    const float least = float(i) + 1.0;
+    const vec2 to = way * max(one * sqrt(sqrt(one)) * reach, least);
+    const vec2 back = way * max(two * sqrt(sqrt(two)) * reach, least);
+    bits |= tapBits(s, floor(pixel + to) + 0.5, 1.0, jitter, ahead);
+    bits |= tapBits(s, floor(pixel - back) + 0.5, -1.0, jitter, behind);
+  }
+  bits |= bitsBeyond(s, ahead, 1.0, jitter) | bitsBeyond(s, behind, -1.0, jitter);
+#if BENT
+  bent += meanOpen(s, n, across, toward, bits);
+#endif
+  // A side that leaves the picture takes the other's share for the taps that it lacks.
+  const float low = clamp(round(s.offset * 32.0), 1.0, 31.0);
+  const uint low_bits = (1u << uint(low)) - 1u;
+  const float shut_behind = float(bitCount(bits & low_bits)) / low;
+  const float shut_ahead = float(bitCount(bits & ~low_bits)) / (32.0 - low);
+  const float lacks_behind = 1.0 - behind.seen / float(kSteps);
+  const float lacks_ahead = 1.0 - ahead.seen / float(kSteps);
+  const float share = low / 32.0;
+  return 1.0 - mix(max(shut_ahead, lacks_ahead * (1.0 - lacks_behind) * shut_behind),
+                   max(shut_behind, lacks_behind * (1.0 - lacks_ahead) * shut_ahead), share);
+}
+
+float openAt(uvec2 texel, vec2 pixel, float depth, inout vec3 bent) {
+  const vec3 position = viewPosition(pixel, depth);
+  const vec3 toward = position * -inversesqrt(dot(position, position));
+  // Normals of bent surfaces may turn away from the eye: to the silhouette with them.
+  vec3 normal = viewNormal(textureLod(world_normal, pixel * view.size.zw, 0.0).xyz);
+  normal = normalize(normal - toward * min(dot(normal, toward) - 1e-3, 0.0));
+  const mat3 axes = basisAbout(normal);
+  // 16 texels, 4x4, hold the 16 points of a Hammersley set: an ordered dither's number of bits
+  // x0^y0, y0, x1^y1, y1, and the same bits in reverse.
+  const uvec2 high = texel >> 1u & 1u, low = texel & 1u;
+  const uint rank = ((low.x ^ low.y) * 8u + low.y * 4u + (high.x ^ high.y) * 2u + high.y) ^
+                    settings.exchange;
+  const uint reverse = bitfieldReverse(rank) >> 28u;
+  const float turn = (float(rank) + settings.turn) / 16.0, jitter = (float(reverse) + 0.5) / 16.0;
+  float open = 0.0;
+  for (uint k = 0u; k < kSlices; ++k) {
+    const float phi = (float(k) + turn) / float(kSlices) * 2.0 * kPi;
+    const float u = fract(jitter + float(k) * 0.618034);
+    const float r = sqrt(u);
+    const vec3 direction = axes * vec3(r * cos(phi), r * sin(phi), sqrt(1.0 - u));
+    open += sliceOf(position, toward, normal, direction, pixel, u, bent);
+  }
+  return open / float(kSlices);
+}
+
+void main() {
+  const ivec2 texel = ivec2(gl_GlobalInvocationID.xy);
+  if (any(greaterThanEqual(texel, imageSize(target)))) return;
+  const vec2 pixel = vec2(texel) * float(kScale) + 0.5;
+  const float depth = textureLod(view_depth, pixel * view.size.zw, 0.0).x;
+  float open = 1.0;
+  vec3 bent = vec3(0.0);
+  if (depth > 0.0) open = openAt(uvec2(texel), pixel, depth, bent);
+  imageStore(target, texel, vec4(open, depth, 0.0, 0.0));
+#if BENT
+  imageStore(bent_target, texel, vec4(bent / float(kSlices), 0.0));
+#endif
+}

@@ -1,0 +1,23 @@
+#version 460
+// SPDX-License-Identifier: MIT
+// Visibility by colour channel: that of light which bounced off surfaces of the pixel's own base
+// colour. White and black surfaces differ most: 1 bounces all, 0 nothing.
+#extension GL_GOOGLE_include_directive : require
+#include "common/view.glsl"
+#include "finish.glsl"
+
+layout(constant_id = 0) const bool kColoured = true;  // else visibility as it is, in each channel
+
+layout(local_size_x = 8, local_size_y = 8) in;
+layout(TEXTURE(0)) uniform sampler2D visibility;
+layout(TEXTURE(1)) uniform sampler2D base_colour;  // of no meaning unless kColoured
+layout(IMAGE(0), rgba16f) writeonly uniform image2D tint;
+
+void main() {
+  const ivec2 pixel = ivec2(gl_GlobalInvocationID.xy);
+  if (any(greaterThanEqual(pixel, imageSize(tint)))) return;
+  const vec2 at = (vec2(pixel) + 0.5) * view.size.zw;
+  const float open = textureLod(visibility, at, 0.0).x;
+  const vec3 albedo = textureLod(base_colour, at, 0.0).rgb;
+  imageStore(tint, pixel, vec4(kColoured ? bounced(open, albedo) : vec3(open), 1.0));
+}

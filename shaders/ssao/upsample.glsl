@@ -1,0 +1,83 @@
+// SPDX-License-Identifier: MIT
+// A pixel's visibility from the four texels about it: bilinear, less what lies off the plane of the
+// pixel's surface. Where none lies in it, the nearest to it. Then intensity and power. With BENT,
+// which is 0 or 1, the mean open direction as well, turned to the world.
+//
+// One invocation does 2x2 pixels, which lie between the same four texels: software drivers take as
+// long to start an invocation as for ten fetches.
+#include "common/view.glsl"
+#include "finish.glsl"
+#include "plane.glsl"
+
+layout(constant_id = 0) const uint kScale = 2u;  // pixels a texel, each way: 2 or 4
+
+layout(local_size_x = 8, local_size_y = 8) in;
+layout(UNIFORM(1), std140) uniform Settings {
+  vec4 finish;
+  float tolerance;  // 1 / metres
+} settings;
+layout(TEXTURE(0)) uniform sampler2D coarse;  // visibility and view depth; nearest, clamped
+layout(TEXTURE(1)) uniform sampler2D view_depth;
+layout(TEXTURE(2)) uniform sampler2D world_normal;
+layout(IMAGE(0), r16f) writeonly uniform image2D visibility;
+#if BENT
+layout(TEXTURE(3)) uniform sampler2D coarse_bent;
+layout(IMAGE(1), rgba16f) writeonly uniform image2D bent_normal;
+#endif
+
+// The weights of four texels, at `first` and one on in x, in y, and in both, of which `depths` are
+// the view depths. All 0: there is no surface.
+vec4 weightsAt(ivec2 place, ivec2 first, vec4 depths) {
+  const vec2 pixel = vec2(place) + 0.5;
+  const float depth = textureLod(view_depth, pixel * view.size.zw, 0.0).x;
+  const vec3 normal = viewNormal(textureLod(world_normal, pixel * view.size.zw, 0.0).xyz);
+  const vec4 plane = planeOf(pixel, depth, normal) * settings.tolerance;
+  // Texel t is the sample of pixel t * kScale.
+  const vec2 part = vec2(place - first * int(kScale)) / float(kScale);
+  vec4 weights = vec4(0.0);
+  if (depth <= 0.0) return weights;
+  [[unroll]] for (uint i = 0u; i < 4u; ++i) {
+    const vec2 corner = vec2(i & 1u, i >> 1u);
+    const float off =
+        distanceFrom(plane, (vec2(first) + corner) * float(kScale) + 0.5, depths[i]);
+    const vec2 share = mix(1.0 - part, part, corner);
+    // Past the tolerance what is left makes the nearest win where none is within it.
+    weights[i] = depths[i] > 0.0 ? share.x * share.y * max(0.0, 1.0 - off) +
+                                       1e-4 / (1.0 + off * off * off)
+                                 : 0.0;
+  }
+  return weights / max(dot(weights, vec4(1.0)), 1e-30);
+}
+
+void main() {
+  const ivec2 place = ivec2(gl_GlobalInvocationID.xy) * 2;
+  const ivec2 size = imageSize(visibility);
+  if (any(greaterThanEqual(place, size))) return;
+  const ivec2 first = place / int(kScale);
+  const vec2 inverse = 1.0 / ceil(view.size.xy / float(kScale));
+  vec4 open, depths;
+#if BENT
+  mat4x3 bent;
+#endif
+  [[unroll]] for (uint i = 0u; i < 4u; ++i) {
+    const vec2 at = (vec2(first) + vec2(i & 1u, i >> 1u) + 0.5) * inverse;
+    const vec2 texel = textureLod(coarse, at, 0.0).xy;
+    open[i] = texel.x;
+    depths[i] = texel.y;
+#if BENT
+    bent[i] = textureLod(coarse_bent, at, 0.0).xyz;
+#endif
+  }
+  [[unroll]] for (uint i = 0u; i < 4u; ++i) {
+    const ivec2 at = place + ivec2(i & 1u, i >> 1u);
+    const vec4 weights = weightsAt(at, first, depths);
+    // Nothing shuts what has no surface.
+    const float value = dot(weights, open) + (weights == vec4(0.0) ? 1.0 : 0.0);
+    if (any(greaterThanEqual(at, size))) continue;
+    imageStore(visibility, at, vec4(finished(value, settings.finish)));
+#if BENT
+    const vec3 normal = textureLod(world_normal, (vec2(at) + 0.5) * view.size.zw, 0.0).xyz;
+    imageStore(bent_normal, at, vec4(bentNormal(bent * weights, normal), 0.0));
+#endif
+  }
+}
