@@ -8,6 +8,7 @@
 namespace grisaille::app {
 
 void addRender(CLI::App& program);
+void addApply(CLI::App& program);
 void addView(CLI::App& program);
 void addEffects(CLI::App& program);
 void addNewEffect(CLI::App& program);

@@ -5,11 +5,11 @@
 #include <array>
 
 #include "core/error.h"
+#include "core/frame/scene_attachments.h"
 #include "core/frame/texture_image.h"
 #include "core/frame/view_block.h"
 #include "core/nearest.h"
 #include "shaders/compose.h"
-#include "shaders/view_depth.h"
 
 namespace grisaille::frame {
 namespace {
@@ -122,11 +122,15 @@ struct Renderer::Plan {
 };
 
 Renderer::Renderer(gpu::Device& device, const scene::Scene& scene)
-    : device_(device), scene_(device, scene) {}
+    : device_(device),
+      scene_(std::make_unique<SceneAttachments>(device, scene)),
+      source_(*scene_) {}
+
+Renderer::Renderer(gpu::Device& device, AttachmentSource& source)
+    : device_(device), source_(source) {}
 
 Renderer::~Renderer() {
   for (const auto& [name, slot] : targets_) device_.destroy(slot.texture);
-  device_.destroy(viewDepth_);
   device_.destroy(compose_);
   device_.destroy(composeTinted_);
   device_.destroy(nearest_);
@@ -163,22 +167,18 @@ void Renderer::render(const FrameDesc& desc) {
 }
 
 void Renderer::record(gpu::Commands& commands, const FrameDesc& desc, const Plan& plan) {
-  if (!nearest_) {
-    nearest_ = device_.createSampler({.label = "nearest"});
-    viewDepth_ = device_.createComputePipeline(
-        {.label = "view depth", .shader = &grisaille_shader_view_depth, .constants = {}});
-  }
+  if (!nearest_) nearest_ = device_.createSampler({.label = "nearest"});
   const ViewBlock block = viewBlock(desc.camera, desc.width, desc.height);
   const gpu::BufferRange range = commands.uniform(std::as_bytes(std::span(&block, 1)));
-  if (plan.attachments != 0) recordScene(commands, desc, plan, range);
+  if (plan.attachments != 0) recordAttachments(commands, desc, plan, range);
   recordEffects(commands, desc, plan, range);
   if (plan.color) recordCompose(commands, desc);
   for (const std::string& name : desc.outputs) outputs_.try_emplace(name, name);
 }
 
-void Renderer::recordScene(gpu::Commands& commands, const FrameDesc& desc, const Plan& plan,
-                           gpu::BufferRange viewBlock) {
-  SceneTargets targets;
+void Renderer::recordAttachments(gpu::Commands& commands, const FrameDesc& desc, const Plan& plan,
+                                 gpu::BufferRange viewBlock) {
+  AttachmentTargets targets;
   targets.depth = target(kClipDepth, gpu::Format::kD32Float, kDrawn, desc);
   if (plan.reads(GRISAILLE_NORMAL)) {
     targets.normal = target(kNormal, gpu::Format::kRgba16Float, kDrawn, desc);
@@ -189,22 +189,10 @@ void Renderer::recordScene(gpu::Commands& commands, const FrameDesc& desc, const
   if (plan.reads(GRISAILLE_FACET_NORMAL)) {
     targets.facetNormal = target(kFacetNormal, gpu::Format::kRgba16Float, kDrawn, desc);
   }
-  commands.beginPass("scene/geometry");
-  scene_.draw(commands, desc.camera, desc.width, desc.height, targets);
-  commands.endPass();
-  if (!plan.reads(GRISAILLE_VIEW_DEPTH)) return;
-
-  const gpu::Texture depth = target(kDepth, gpu::Format::kR32Float, kComputed, desc);
-  const std::array bindings = {
-      gpu::uniformBinding(0, viewBlock),
-      gpu::textureBinding(0, {.texture = targets.depth}, nearest_),
-      gpu::imageBinding(0, depth),
-  };
-  commands.beginPass("scene/view_depth");
-  commands.dispatch({.pipeline = viewDepth_,
-                     .bindings = bindings,
-                     .groups = {groups(desc.width), groups(desc.height), 1}});
-  commands.endPass();
+  if (plan.reads(GRISAILLE_VIEW_DEPTH)) {
+    targets.viewDepth = target(kDepth, gpu::Format::kR32Float, kComputed, desc);
+  }
+  source_.record(commands, desc.camera, desc.width, desc.height, viewBlock, targets);
 }
 
 void Renderer::recordEffects(gpu::Commands& commands, const FrameDesc& desc, const Plan& plan,
