@@ -11,7 +11,9 @@ namespace grisaille::app {
 std::unique_ptr<effect::Registry> loadEffects(const std::vector<std::string>& pluginPaths) {
   auto registry = std::make_unique<effect::Registry>();
   for (const effect::SearchPath& path : effect::searchPaths(pluginPaths)) {
-    if (path.required || std::filesystem::is_directory(path.folder)) registry->scan(path.folder);
+    if (path.required || std::filesystem::is_directory(path.folder)) {
+      registry->scan(path.folder, path.origin);
+    }
   }
   return registry;
 }

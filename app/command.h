@@ -8,8 +8,10 @@
 namespace grisaille::app {
 
 void addRender(CLI::App& program);
+void addApply(CLI::App& program);
 void addView(CLI::App& program);
 void addEffects(CLI::App& program);
+void addNewEffect(CLI::App& program);
 void addBackends(CLI::App& program);
 void addMeasure(CLI::App& program);
 void addClaims(CLI::App& program);

@@ -1,11 +1,12 @@
 // SPDX-License-Identifier: MIT
-// grisaille effects: what is there, what was refused and why.
+// grisaille effects: what is there, what was refused and why; the whole check of one plugin.
 #include <cstdio>
 #include <memory>
 
 #include "app/active_effects.h"
 #include "app/command.h"
 #include "app/effect_tables.h"
+#include "app/verify.h"
 #include "core/error.h"
 
 namespace grisaille::app {
@@ -13,7 +14,8 @@ namespace {
 
 struct EffectsOptions {
   bool json = false;
-  std::string markdown;
+  std::string markdown, verify;
+  bool inProcess = false;
   std::vector<std::string> pluginPaths;
 };
 
@@ -24,6 +26,16 @@ void listEffects(const EffectsOptions& options) {
                            : options.json ? effectsJson(*registry)
                                           : effectsText(*registry);
   std::fputs(text.c_str(), stdout);
+}
+
+void verify(const EffectsOptions& options) {
+  if (!options.inProcess) return verifyPlugin(options.verify);
+  Report report;
+  checkPlugin(options.verify, report);
+  report.end();
+  if (report.faults() > 0) {
+    throw Error(ErrorId::kEffectFaulty, "{}: {} faults", options.verify, report.faults());
+  }
 }
 
 }  // namespace
@@ -38,7 +50,18 @@ void addEffects(CLI::App& program) {
   command->add_option("--plugin-path", options->pluginPaths, "A further folder of effects")
       ->type_name("DIR")
       ->allow_extra_args(false);
-  command->callback([options] { listEffects(*options); });
+  CLI::Option* verified =
+      command
+          ->add_option("--verify", options->verify,
+                       "Check a plugin whole instead: its table, then on every backend, validated, "
+                       "sizes, parameters at their extremes, every pixel; print a report")
+          ->type_name("FILE.so");
+  command
+      ->add_flag("--in-process", options->inProcess,
+                 "Check it in this process, where a debugger sees it crash")
+      ->needs(verified);
+  command->callback(
+      [options] { options->verify.empty() ? listEffects(*options) : verify(*options); });
 }
 
 }  // namespace grisaille::app

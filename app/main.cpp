@@ -16,8 +16,10 @@ int main(int argc, char** argv) {
     return std::string(grisaille::Error(grisaille::ErrorId::kUsage, error.what()).what()) + "\n";
   });
   grisaille::app::addRender(program);
+  grisaille::app::addApply(program);
   grisaille::app::addView(program);
   grisaille::app::addEffects(program);
+  grisaille::app::addNewEffect(program);
   grisaille::app::addBackends(program);
   grisaille::app::addTruth(program);
   grisaille::app::addMeasure(program);

@@ -3,8 +3,10 @@
 #pragma once
 
 #include <string>
+#include <vector>
 
 #include "core/error.h"
+#include "core/image/image.h"
 
 namespace grisaille::app {
 
@@ -19,6 +21,16 @@ inline OutputFile parseOutputFile(const std::string& text) {
     throw Error(ErrorId::kUsage, "'{}' is not of the form NAME=FILE", text);
   }
   return {.output = text.substr(0, equals), .file = text.substr(equals + 1)};
+}
+
+// Throws as parseOutputFile() and image::checkWritable() do.
+inline std::vector<OutputFile> parseOutputFiles(const std::vector<std::string>& texts) {
+  std::vector<OutputFile> writes;
+  for (const std::string& text : texts) {
+    writes.push_back(parseOutputFile(text));
+    image::checkWritable(writes.back().file);
+  }
+  return writes;
 }
 
 }  // namespace grisaille::app

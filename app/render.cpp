@@ -17,13 +17,14 @@
 #include "app/settings.h"
 #include "app/shot_options.h"
 #include "app/size.h"
+#include "app/start_device.h"
 #include "app/timings.h"
-#include "backends/backends.h"
 #include "core/effect/rays_in_turn.h"
 #include "core/error.h"
 #include "core/frame/depth_rays.h"
 #include "core/image/image.h"
 #include "core/image/write_aside.h"
+#include "core/scene/camera_matrices.h"
 
 namespace grisaille::app {
 namespace {
@@ -37,30 +38,6 @@ struct RenderOptions {
   bool check = false;
   bool effectsGiven = false, surfaceGiven = false;
 };
-
-std::vector<OutputFile> parseWrites(const std::vector<std::string>& texts) {
-  std::vector<OutputFile> writes;
-  for (const std::string& text : texts) {
-    writes.push_back(parseOutputFile(text));
-    image::checkWritable(writes.back().file);
-  }
-  return writes;
-}
-
-// The device asked for, or, where none was named, the first backend that starts.
-std::unique_ptr<gpu::Device> makeDevice(const RenderOptions& options,
-                                        const gpu::DeviceOptions& device) {
-  if (!options.backend.empty()) return backends::create(options.backend, device);
-  std::string reasons;
-  for (const backends::Backend& backend : backends::all()) {
-    try {
-      return backends::create(backend.name, device);
-    } catch (const Error& error) {
-      reasons += fmt::format("{}{}: {}", reasons.empty() ? "" : "; ", backend.name, error.detail());
-    }
-  }
-  throw Error(ErrorId::kNoDevice, "no backend starts: {}", reasons);
-}
 
 // What the command line asks for, checked before anything slow is done.
 struct RenderJob {
@@ -76,7 +53,7 @@ struct RenderJob {
   // The effect that --coverage counts.
   std::optional<Painter> painter;
 
-  explicit RenderJob(const RenderOptions& options) : writes(parseWrites(options.writes)) {
+  explicit RenderJob(const RenderOptions& options) : writes(parseOutputFiles(options.writes)) {
     if (options.timings == "-" && options.shots.coverage == "-") {
       throw Error(ErrorId::kUsage, "--timings and --coverage cannot both be standard output");
     }
@@ -183,7 +160,8 @@ void renderFrames(const RenderOptions& options, const RenderJob& job, gpu::Devic
   }
   for (const OutputFile& write : job.writes) {
     image::write(renderer.read(write.output), write.file,
-                 {.transfer = frame::transferOf(write.output)});
+                 {.transfer = frame::transferOf(write.output),
+                  .matrices = scene::matricesOf(job.camera, job.size.x, job.size.y)});
     fmt::print(notesOf(options), "wrote {}\n", write.file);
   }
   if (job.painter) writeCoverage(options, job, renderer);
@@ -198,10 +176,10 @@ void render(const RenderOptions& options) {
   const RenderJob job(options);
   DriverMessages messages;
   {
-    const auto device = makeDevice(options, {.device = options.device,
-                                             .check = options.check,
-                                             .timed = !options.timings.empty(),
-                                             .message = messages.sink()});
+    const auto device = startDevice(options.backend, {.device = options.device,
+                                                      .check = options.check,
+                                                      .timed = !options.timings.empty(),
+                                                      .message = messages.sink()});
     printDevice(device->info(), notesOf(options));
     renderFrames(options, job, *device);
     if (!options.timings.empty()) writeTimings(options, *device);

@@ -8,9 +8,13 @@
 #   GRISAILLE_CHECK_BLOCK_<name>_<Block>(Struct);
 # Sources may include "common/..." (the shared GLSL) and files beside themselves.
 
-set(GRISAILLE_SHADER_INCLUDE ${CMAKE_CURRENT_LIST_DIR}/../shaders CACHE INTERNAL "The shared GLSL")
 
 function(grisaille_add_shader target name source)
+  get_property(languages GLOBAL PROPERTY ENABLED_LANGUAGES)
+  if(NOT C IN_LIST languages)
+    message(FATAL_ERROR "grisaille_add_shader(${target} ${name}): name C among the project's languages; "
+                        "a compiled shader is a C file")
+  endif()
   cmake_parse_arguments(ARG "" "" "DEFINES" ${ARGN})
   cmake_path(ABSOLUTE_PATH source NORMALIZE OUTPUT_VARIABLE source)
   set(folder ${CMAKE_CURRENT_BINARY_DIR}/${target}_shaders)
@@ -24,8 +28,8 @@ function(grisaille_add_shader target name source)
     COMMAND ${GRISAILLE_GLSLC} --target-env=vulkan1.3 -O -g ${defines}
             -I ${GRISAILLE_SHADER_INCLUDE} -I ${beside} -MD -MF ${stem}.d -MT ${stem}.c
             ${source} -o ${stem}.spv
-    COMMAND grisaille_shader_compiler ${stem}.spv ${name} ${stem}
-    DEPENDS ${source} grisaille_shader_compiler
+    COMMAND Grisaille::shader_compiler ${stem}.spv ${name} ${stem}
+    DEPENDS ${source} Grisaille::shader_compiler
     DEPFILE ${stem}.d
     COMMENT "Compiling shader ${name}"
     VERBATIM)

@@ -71,12 +71,15 @@ GRISAILLE_ERROR(kPluginTable, 3104,
                 "correct the field that the message names in the plugin's table")
 GRISAILLE_ERROR(kPluginDuplicate, 3105, "remove one of the two plugins or rename the effect")
 GRISAILLE_ERROR(kPluginPath, 3106, "give a folder that exists and can be read")
+GRISAILLE_ERROR(kPluginCrashes, 3107,
+                "repair the plugin, with what `grisaille effects --verify FILE` says of it")
 // --- 32xx: running effects
 GRISAILLE_ERROR(kEffectUnknown, 3201, "see `grisaille effects` for what is there")
 GRISAILLE_ERROR(kEffectCreate, 3202, "leave the effect out of --effects or repair its plugin")
 GRISAILLE_ERROR(kEffectRecord, 3203, "leave the effect out of --effects or repair its plugin")
 GRISAILLE_ERROR(kEffectTwice, 3204, "name each effect once")
 GRISAILLE_ERROR(kEffectTakesNoShots, 3205, "name an active effect that takes shots, such as sspm")
+GRISAILLE_ERROR(kEffectFaulty, 3206, "repair what the report above calls a fault")
 // --- 33xx: parameter values
 GRISAILLE_ERROR(kParameterUnknown, 3301, "see `grisaille effects` for the keys")
 GRISAILLE_ERROR(kParameterRange, 3302, "give a value inside the range")
@@ -117,6 +120,20 @@ GRISAILLE_ERROR(kStudyRecord, 5301, "remove the file; it is measured again")
 GRISAILLE_ERROR(kFrontSmall, 5302, "measure a grid whose settings differ in cost and in error")
 GRISAILLE_ERROR(kTuneImpossible, 5303,
                 "allow more, --vary more parameters or a larger --evaluations")
+// --- 54xx: new effects
+GRISAILLE_ERROR(kProjectName, 5401, "give 1 to 40 of a-z, 0-9 and _, beginning with a letter")
+GRISAILLE_ERROR(kProjectFolder, 5402, "name a folder that is empty or not there yet")
+// --- 55xx: pictures made elsewhere
+GRISAILLE_ERROR(kPictureCamera, 5501,
+                "give --camera FILE, or a depth that holds worldToCamera and worldToNDC")
+GRISAILLE_ERROR(kPictureMatrices, 5502, "give --camera FILE instead of the picture's own matrices")
+GRISAILLE_ERROR(kPictureSize, 5503, "give whole pictures, all of one size")
+GRISAILLE_ERROR(kPictureDepth, 5504, "repair the picture, or name another --depth-kind")
+GRISAILLE_ERROR(kPictureChannels, 5505,
+                "name the channels with --depth-channel or --normal-channels")
+GRISAILLE_ERROR(kPictureMissing, 5506,
+                "give the picture that the message names, or leave out what reads it")
+GRISAILLE_ERROR(kSequence, 5507, "number the files with %04d or ####, the same frames in each")
 // --- 90xx: the program itself
 GRISAILLE_ERROR(kUnexpected, 9001, "report it with the command that led here")
 GRISAILLE_ERROR(kOutOfMemory, 9002, "use a smaller --size or scene, or close other programs")

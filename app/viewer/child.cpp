@@ -86,6 +86,7 @@ bool Child::running() {
   if (!ended) return true;
   process_ = 0;
   status_ = WIFEXITED(status) ? WEXITSTATUS(status) : -1;
+  signal_ = WIFSIGNALED(status) ? WTERMSIG(status) : 0;
   return false;
 }
 

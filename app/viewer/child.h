@@ -33,6 +33,8 @@ class Child {
 
   // Once it has ended: its exit status; -1: a signal ended it.
   int status() const { return status_; }
+  // The signal that ended it; 0: none.
+  int signal() const { return signal_; }
 
   // What it has written until now.
   const std::string& out() const { return streams_[0].text; }
@@ -50,6 +52,7 @@ class Child {
 
   pid_t process_ = 0;  // 0: it has ended
   int status_ = -1;
+  int signal_ = 0;
   std::array<Stream, 2> streams_ = {};  // standard output, standard error
   bool asked_ = false;
   Clock::time_point askedAt_ = {};

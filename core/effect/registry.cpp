@@ -1,13 +1,14 @@
 // SPDX-License-Identifier: MIT
 #include "core/effect/registry.h"
-#include "core/nearest.h"
 
 #include <algorithm>
 #include <filesystem>
 #include <set>
 
+#include "core/effect/probe.h"
 #include "core/effect/shared_library.h"
 #include "core/effect/values.h"
+#include "core/nearest.h"
 
 namespace grisaille::effect {
 namespace fs = std::filesystem;
@@ -34,18 +35,19 @@ struct Registry::State {
   std::set<fs::path> loadedFiles;   // real paths
   std::set<fs::path> refusedFiles;  // real paths, by scan()
 
-  void add(const std::string& path);
+  void add(const std::string& path, Origin origin);
 };
 
 Registry::Registry() : state_(std::make_unique<State>()) {}
 Registry::~Registry() = default;
 
-void Registry::State::add(const std::string& path) {
+void Registry::State::add(const std::string& path, Origin origin) {
   std::error_code failed;
   const fs::path real = fs::canonical(path, failed);
   if (failed) throw Error(ErrorId::kPluginUnloadable, "{}", failed.message());
   if (loadedFiles.contains(real)) return;
 
+  if (origin == Origin::kForeign) probe(real);
   Library library = openLibrary(real.string());
   const auto& plugin =
       *static_cast<const grisaille_plugin_desc*>(symbolOf(library, GRISAILLE_PLUGIN_SYMBOL));
@@ -69,7 +71,7 @@ void Registry::State::add(const std::string& path) {
   loadedFiles.insert(real);
 }
 
-void Registry::scan(const std::string& folder) {
+void Registry::scan(const std::string& folder, Origin origin) {
   std::vector<std::string> paths;
   std::error_code failed;
   // increment(), not ++, so that a folder that fails halfway is an error of ours.
@@ -81,7 +83,7 @@ void Registry::scan(const std::string& folder) {
   std::ranges::sort(paths);
   for (const std::string& path : paths) {
     try {
-      load(path);
+      load(path, origin);
     } catch (const Error& reason) {
       const fs::path real = fs::weakly_canonical(path, failed);
       if (state_->refusedFiles.insert(real).second) state_->refused.push_back({path, reason});
@@ -89,9 +91,9 @@ void Registry::scan(const std::string& folder) {
   }
 }
 
-void Registry::load(const std::string& path) {
+void Registry::load(const std::string& path, Origin origin) {
   try {
-    state_->add(path);
+    state_->add(path, origin);
   } catch (const Error& error) {
     throw Error(error.id(), "{}: {}", path, error.detail());
   }

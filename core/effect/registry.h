@@ -46,6 +46,10 @@ void checkTable(const grisaille_plugin_desc& plugin);
 // A checked description with what it lacks, being of an older version, as zero.
 grisaille_effect_desc whole(const grisaille_effect_desc* desc);
 
+// Whose a plugin is. Loading runs its code, so that those of others are tried out in a process of
+// their own first: see probe.h.
+enum class Origin : uint8_t { kOwn, kForeign };
+
 class Registry {
  public:
   Registry();
@@ -55,11 +59,11 @@ class Registry {
 
   // Loads every *.so of a folder, in the order of their names. Plugins that do not fit join
   // refused(), each file once. Throws kPluginPath when the folder cannot be read.
-  void scan(const std::string& folder);
+  void scan(const std::string& folder, Origin origin = Origin::kOwn);
 
   // Loads one plugin: all its effects or none. A file that is loaded already, by whatever path, is
   // passed over. Throws kPlugin*; what is already registered stays.
-  void load(const std::string& path);
+  void load(const std::string& path, Origin origin = Origin::kOwn);
 
   std::span<const Effect> effects() const;  // by key; good until the next scan() or load()
   std::span<const Refused> refused() const;
@@ -74,11 +78,12 @@ class Registry {
 };
 
 // Where plugins are looked for: `lib/grisaille/effects` beside the program's folder, then the
-// folders of GRISAILLE_EFFECT_PATH (':' between), then `extra`. The first may be missing; the
-// others not.
+// folders of GRISAILLE_EFFECT_PATH (':' between), then `extra`. The first is the program's own and
+// may be missing; the others not.
 struct SearchPath {
   std::string folder;
   bool required = false;
+  Origin origin = Origin::kForeign;
 };
 std::vector<SearchPath> searchPaths(std::span<const std::string> extra);
 

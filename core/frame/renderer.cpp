@@ -6,11 +6,11 @@
 #include <cmath>
 
 #include "core/error.h"
+#include "core/frame/scene_attachments.h"
 #include "core/frame/texture_image.h"
 #include "core/frame/view_block.h"
 #include "core/nearest.h"
 #include "shaders/compose.h"
-#include "shaders/view_depth.h"
 
 namespace grisaille::frame {
 namespace {
@@ -103,7 +103,7 @@ struct Renderer::Plan {
   std::vector<uint32_t> wanted;
   bool color = false;
 
-  explicit Plan(const FrameDesc& desc) {
+  Plan(const FrameDesc& desc, const AttachmentSource& source) {
     color = wants(desc, kColor);
     if (wants(desc, kDepth)) attachments |= GRISAILLE_READS(GRISAILLE_VIEW_DEPTH);
     if (wants(desc, kNormal)) attachments |= GRISAILLE_READS(GRISAILLE_NORMAL);
@@ -124,7 +124,7 @@ struct Renderer::Plan {
       wanted.push_back(bits);
       if (bits == 0) continue;
       const uint32_t reads = active.effect().reads(active.values->all().data(), bits);
-      const uint32_t band = bandOf(active, desc.height);
+      const uint32_t band = source.goesBeyond() ? bandOf(active, desc.height) : 0;
       (band > 0 ? guarded : attachments) |= reads;
       guard = std::max(guard, band);
     }
@@ -150,11 +150,15 @@ struct Renderer::SceneView {
 };
 
 Renderer::Renderer(gpu::Device& device, const scene::Scene& scene)
-    : device_(device), scene_(device, scene) {}
+    : device_(device),
+      scene_(std::make_unique<SceneAttachments>(device, scene)),
+      source_(*scene_) {}
+
+Renderer::Renderer(gpu::Device& device, AttachmentSource& source)
+    : device_(device), source_(source) {}
 
 Renderer::~Renderer() {
   for (const auto& [name, slot] : targets_) device_.destroy(slot.texture);
-  device_.destroy(viewDepth_);
   device_.destroy(compose_);
   device_.destroy(composeTinted_);
   device_.destroy(nearest_);
@@ -172,7 +176,7 @@ void Renderer::render(const FrameDesc& desc) {
   for (const ActiveEffect& active : desc.effects) effects.push_back(&active.effect());
   for (const std::string& name : desc.outputs) checkOutput(name, effects);
 
-  const Plan plan(desc);
+  const Plan plan(desc, source_);
   for (auto& [name, slot] : targets_) slot.used = false;
   outputs_.clear();
   waiting_ = 0;
@@ -191,11 +195,7 @@ void Renderer::render(const FrameDesc& desc) {
 }
 
 void Renderer::record(gpu::Commands& commands, const FrameDesc& desc, const Plan& plan) {
-  if (!nearest_) {
-    nearest_ = device_.createSampler({.label = "nearest"});
-    viewDepth_ = device_.createComputePipeline(
-        {.label = "view depth", .shader = &grisaille_shader_view_depth, .constants = {}});
-  }
+  if (!nearest_) nearest_ = device_.createSampler({.label = "nearest"});
   const auto sceneView = [&](uint32_t guard, uint32_t attachments, const char* prefix) {
     const ViewBlock block = viewBlock(desc.camera, desc.width, desc.height, guard);
     return SceneView{.camera = widened(desc.camera, desc.height, guard),
@@ -208,18 +208,18 @@ void Renderer::record(gpu::Commands& commands, const FrameDesc& desc, const Plan
   const SceneView picture = sceneView(0, plan.attachments, "");
   const SceneView guarded =
       plan.guard > 0 ? sceneView(plan.guard, plan.guarded, "guarded ") : picture;
-  if (plan.attachments != 0) recordScene(commands, picture);
-  if (plan.guarded != 0) recordScene(commands, guarded);
+  if (plan.attachments != 0) recordAttachments(commands, picture);
+  if (plan.guarded != 0) recordAttachments(commands, guarded);
   recordEffects(commands, desc, plan, picture, guarded);
   if (plan.color) recordCompose(commands, desc);
   for (const std::string& name : desc.outputs) outputs_.try_emplace(name, name);
 }
 
-void Renderer::recordScene(gpu::Commands& commands, const SceneView& view) {
+void Renderer::recordAttachments(gpu::Commands& commands, const SceneView& view) {
   const auto attachment = [&](const char* name, gpu::Format format, gpu::TextureUsage usage) {
     return target(view.prefix + name, format, usage, view.width, view.height);
   };
-  SceneTargets targets;
+  AttachmentTargets targets;
   targets.depth = attachment(kClipDepth, gpu::Format::kD32Float, kDrawn);
   if (view.reads(GRISAILLE_NORMAL)) {
     targets.normal = attachment(kNormal, gpu::Format::kRgba16Float, kDrawn);
@@ -230,23 +230,11 @@ void Renderer::recordScene(gpu::Commands& commands, const SceneView& view) {
   if (view.reads(GRISAILLE_FACET_NORMAL)) {
     targets.facetNormal = attachment(kFacetNormal, gpu::Format::kRgba16Float, kDrawn);
   }
-  const std::string passes = view.prefix.empty() ? "scene/" : std::string(kGuardedPasses);
-  commands.beginPass(passes + "geometry");
-  scene_.draw(commands, view.camera, view.width, view.height, targets);
-  commands.endPass();
-  if (!view.reads(GRISAILLE_VIEW_DEPTH)) return;
-
-  const gpu::Texture depth = attachment(kDepth, gpu::Format::kR32Float, kComputed);
-  const std::array bindings = {
-      gpu::uniformBinding(0, view.block),
-      gpu::textureBinding(0, {.texture = targets.depth}, nearest_),
-      gpu::imageBinding(0, depth),
-  };
-  commands.beginPass(passes + "view_depth");
-  commands.dispatch({.pipeline = viewDepth_,
-                     .bindings = bindings,
-                     .groups = {groups(view.width), groups(view.height), 1}});
-  commands.endPass();
+  if (view.reads(GRISAILLE_VIEW_DEPTH)) {
+    targets.viewDepth = attachment(kDepth, gpu::Format::kR32Float, kComputed);
+  }
+  source_.record(commands, view.camera, view.width, view.height, view.block, targets,
+                 view.prefix.empty() ? "scene/" : kGuardedPasses);
 }
 
 void Renderer::recordEffects(gpu::Commands& commands, const FrameDesc& desc, const Plan& plan,
@@ -261,7 +249,7 @@ void Renderer::recordEffects(gpu::Commands& commands, const FrameDesc& desc, con
     inputs.width = desc.width;
     inputs.height = desc.height;
     inputs.view = &view;
-    const bool band = bandOf(active, desc.height) > 0;
+    const bool band = plan.guard > 0 && bandOf(active, desc.height) > 0;
     const SceneView& seen = band ? guarded : picture;
     inputs.guard = band ? plan.guard : 0;
     inputs.viewBlock = seen.block;

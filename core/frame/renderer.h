@@ -14,7 +14,7 @@
 
 #include "core/effect/instance.h"
 #include "core/effect/values.h"
-#include "core/frame/scene_resources.h"
+#include "core/frame/attachments.h"
 #include "core/gpu/device.h"
 #include "core/image/image.h"
 #include "core/scene/camera.h"
@@ -67,8 +67,10 @@ image::Transfer transferOf(std::string_view output);
 
 class Renderer {
  public:
-  // Device and scene outlive this; the scene stays unchanged.
+  // Draws the scene. Device and scene outlive this; the scene stays unchanged.
   Renderer(gpu::Device& device, const scene::Scene& scene);
+  // Takes the attachments from there; it outlives this as the device does.
+  Renderer(gpu::Device& device, AttachmentSource& source);
   ~Renderer();
   Renderer(const Renderer&) = delete;
   Renderer& operator=(const Renderer&) = delete;
@@ -97,7 +99,7 @@ class Renderer {
   };
 
   void record(gpu::Commands& commands, const FrameDesc& desc, const Plan& plan);
-  void recordScene(gpu::Commands& commands, const SceneView& view);
+  void recordAttachments(gpu::Commands& commands, const SceneView& view);
   void recordEffects(gpu::Commands& commands, const FrameDesc& desc, const Plan& plan,
                      const SceneView& picture, const SceneView& guarded);
   void recordCompose(gpu::Commands& commands, const FrameDesc& desc);
@@ -114,10 +116,11 @@ class Renderer {
   gpu::Texture find(std::string_view name) const;
 
   gpu::Device& device_;
-  SceneResources scene_;
+  std::unique_ptr<AttachmentSource> scene_;  // null: the source is somebody else's
+  AttachmentSource& source_;
   std::map<std::string, Slot, std::less<>> targets_;         // by output name, or attachment name
   std::map<std::string, std::string, std::less<>> outputs_;  // of the last frame: name to target
-  gpu::ComputePipeline viewDepth_, compose_, composeTinted_;
+  gpu::ComputePipeline compose_, composeTinted_;
   gpu::Sampler nearest_;
   gpu::Texture white_, clear_;
   uint64_t waiting_ = 0;

@@ -121,8 +121,26 @@ std::vector<unsigned char> pngOf(const Image& image, const WriteOptions& options
               : encode("png", spec, quantise<uint8_t>(image, options.transfer).data());
 }
 
-std::vector<unsigned char> exrOf(const Image& image) {
-  return encode("openexr", specOf(image, OIIO::TypeDesc::FLOAT), image.pixels.data());
+// As OpenImageIO calls OpenEXR's worldToCamera and worldToNDC.
+constexpr const char* kWorldToCamera = "worldtocamera";
+constexpr const char* kWorldToNdc = "worldtoNDC";
+
+std::vector<unsigned char> exrOf(const Image& image, const WriteOptions& options) {
+  OIIO::ImageSpec spec = specOf(image, OIIO::TypeDesc::FLOAT);
+  if (options.matrices) {
+    spec.attribute(kWorldToCamera, OIIO::TypeMatrix, options.matrices->worldToCamera.data());
+    spec.attribute(kWorldToNdc, OIIO::TypeMatrix, options.matrices->worldToNdc.data());
+  }
+  return encode("openexr", spec, image.pixels.data());
+}
+
+std::optional<ViewMatrices> matricesOf(const OIIO::ImageSpec& spec) {
+  ViewMatrices matrices;
+  if (!spec.getattribute(kWorldToCamera, OIIO::TypeMatrix, matrices.worldToCamera.data()) ||
+      !spec.getattribute(kWorldToNdc, OIIO::TypeMatrix, matrices.worldToNdc.data())) {
+    return std::nullopt;
+  }
+  return matrices;
 }
 
 OIIO::ImageSpec readConfig() {
@@ -183,20 +201,23 @@ std::vector<uint8_t> toRgba(const std::vector<uint8_t>& from, size_t channels) {
   return result;
 }
 
-Image read(const std::string& path) {
+std::unique_ptr<OIIO::ImageInput> openPicture(const std::string& path) {
   std::error_code code;
   if (!std::filesystem::is_regular_file(path, code)) {
     throw Error(ErrorId::kImageUnreadable, "{}: {}", path,
                 code ? code.message() : "not a regular file");
   }
-  const SilentStderr silent;
   const OIIO::ImageSpec config = readConfig();
-  const auto input = OIIO::ImageInput::open(path, &config);
+  auto input = OIIO::ImageInput::open(path, &config);
   if (!input) {
     throw Error(ErrorId::kImageUnreadable, "{}: {}", path,
                 errorOf(static_cast<OIIO::ImageInput*>(nullptr)));
   }
-  const OIIO::ImageSpec& spec = input->spec();
+  return input;
+}
+
+Image pixelsOf(OIIO::ImageInput& input, const std::string& path) {
+  const OIIO::ImageSpec& spec = input.spec();
   const uint64_t values = spec.image_pixels() * static_cast<uint64_t>(spec.nchannels);
   if (spec.width > kLargestSide || spec.height > kLargestSide || values > kMostValues ||
       values == 0) {
@@ -207,10 +228,31 @@ Image read(const std::string& path) {
               .height = static_cast<uint32_t>(spec.height),
               .channels = static_cast<uint32_t>(spec.nchannels),
               .pixels = std::vector<float>(values)};
-  if (!input->read_image(0, 0, 0, spec.nchannels, OIIO::TypeDesc::FLOAT, image.pixels.data())) {
-    throw Error(ErrorId::kImageUnreadable, "{}: {}", path, errorOf(input.get()));
+  if (!input.read_image(0, 0, 0, spec.nchannels, OIIO::TypeDesc::FLOAT, image.pixels.data())) {
+    throw Error(ErrorId::kImageUnreadable, "{}: {}", path, errorOf(&input));
   }
   return image;
+}
+
+Image read(const std::string& path) {
+  const SilentStderr silent;
+  const auto input = openPicture(path);
+  return pixelsOf(*input, path);
+}
+
+Picture readPicture(const std::string& path) {
+  const SilentStderr silent;
+  const auto input = openPicture(path);
+  const OIIO::ImageSpec& spec = input->spec();
+  if (spec.x != spec.full_x || spec.y != spec.full_y || spec.width != spec.full_width ||
+      spec.height != spec.full_height) {
+    throw Error(ErrorId::kPictureSize,
+                "{}: it holds {} x {} pixels at ({}, {}) of a picture of {} x {}", path, spec.width,
+                spec.height, spec.x - spec.full_x, spec.y - spec.full_y, spec.full_width,
+                spec.full_height);
+  }
+  return {
+      .image = pixelsOf(*input, path), .channels = spec.channelnames, .matrices = matricesOf(spec)};
 }
 
 Image8 decode(std::span<const std::byte> encoded, const std::string& name) {
@@ -256,7 +298,7 @@ std::vector<std::byte> encodeJpeg(const Image& image, int quality) {
   return {view.begin(), view.end()};
 }
 
-constexpr Codecs kCodecs = {exrOf, pngOf, read, decode, encodePng, encodeJpeg};
+constexpr Codecs kCodecs = {exrOf, pngOf, read, readPicture, decode, encodePng, encodeJpeg};
 
 }  // namespace
 }  // namespace grisaille::image

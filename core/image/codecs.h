@@ -10,9 +10,10 @@ namespace grisaille::image {
 
 // As the functions of image.h. What goes in was checked.
 struct Codecs {
-  std::vector<unsigned char> (*exrOf)(const Image& image);
+  std::vector<unsigned char> (*exrOf)(const Image& image, const WriteOptions& options);
   std::vector<unsigned char> (*pngOf)(const Image& image, const WriteOptions& options);
   Image (*read)(const std::string& path);
+  Picture (*readPicture)(const std::string& path);
   Image8 (*decode)(std::span<const std::byte> encoded, const std::string& name);
   std::vector<std::byte> (*encodePng)(const Image8& image);
   std::vector<std::byte> (*encodeJpeg)(const Image& image, int quality);

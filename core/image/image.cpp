@@ -58,12 +58,16 @@ void write(const Image& image, const std::string& path, const WriteOptions& opti
                 options.pngBits);
   }
   const std::vector<unsigned char> bytes =
-      format == Format::kExr ? codecs().exrOf(image) : codecs().pngOf(image, options);
+      format == Format::kExr ? codecs().exrOf(image, options) : codecs().pngOf(image, options);
   writeFileAside(path, {reinterpret_cast<const char*>(bytes.data()), bytes.size()});
 }
 
 Image read(const std::string& path) {
   return codecs().read(path);
+}
+
+Picture readPicture(const std::string& path) {
+  return codecs().readPicture(path);
 }
 
 Image8 decode(std::span<const std::byte> encoded, const std::string& name) {

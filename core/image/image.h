@@ -2,8 +2,10 @@
 // Pictures in memory, in and out of files (through OpenImageIO), and how far two of them differ.
 #pragma once
 
+#include <array>
 #include <cstddef>
 #include <cstdint>
+#include <optional>
 #include <span>
 #include <string>
 #include <vector>
@@ -35,9 +37,16 @@ enum class Transfer : uint8_t {
   kSigned   // numbers from -1 to 1: files of integers hold (x + 1) / 2
 };
 
+// The camera of a picture as OpenEXR's standard attributes hold it: row after row, for points that
+// are rows, so that the last row is what the origin goes to.
+struct ViewMatrices {
+  std::array<float, 16> worldToCamera{}, worldToNdc{};
+};
+
 struct WriteOptions {
   Transfer transfer = Transfer::kData;
-  uint32_t pngBits = 8;  // 8 or 16
+  uint32_t pngBits = 8;                       // 8 or 16
+  std::optional<ViewMatrices> matrices = {};  // for an EXR to hold
 };
 
 // By the name's ending: .exr holds 32-bit floats as they are, .png rounds to integers after
@@ -50,6 +59,16 @@ void checkWritable(const std::string& path);
 
 // Any format OpenImageIO reads; integers become [0, 1]. Throws kImageUnreadable, kNoCodecs.
 Image read(const std::string& path);
+
+// A picture with what its file says of it.
+struct Picture {
+  Image image;
+  std::vector<std::string> channels;  // names, as many as the image has
+  std::optional<ViewMatrices> matrices;
+};
+
+// As read(). Throws kPictureSize as well, where the file holds a part of its picture, or more.
+Picture readPicture(const std::string& path);
 
 // A PNG or JPEG in memory, of at most 16384 pixels a side. `name` is for messages. Throws
 // kSceneImage, kNoCodecs.

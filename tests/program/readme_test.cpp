@@ -76,7 +76,8 @@ TEST(Readme, TablesAreTheEffectsOwn) {
 }
 
 TEST(Readme, EveryLinkedFileIsThere) {
-  for (const char* file : {"README.md", "effects/ssao/README.md", "effects/sspm/README.md"}) {
+  for (const char* file :
+       {"README.md", "effects/ssao/README.md", "effects/sspm/README.md", "docs/tutorial.md"}) {
     const std::string text = readFile(kSource / file);
     for (size_t at = 0; (at = text.find("](", at)) != std::string::npos; ++at) {
       const std::string target = text.substr(at + 2, text.find(')', at) - at - 2);

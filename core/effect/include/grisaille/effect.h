@@ -341,7 +341,7 @@ typedef struct grisaille_frame {
 
   /* Since 1.2. Pixels by which every attachment goes beyond the picture on each side: texture
    * coordinates are what attachmentAt() of shaders/common/view.glsl says. At least what the
-   * effect's guard_band asked for; 0 where that is 0. */
+   * effect's guard_band asked for, or 0 where the host has nothing beyond the picture. */
   uint32_t guard;
   uint32_t reserved; /* 0 */
 } grisaille_frame;

@@ -1,0 +1,99 @@
+// SPDX-License-Identifier: MIT
+#include "app/apply/sequence.h"
+
+#include <algorithm>
+#include <charconv>
+#include <filesystem>
+#include <regex>
+
+#include "core/error.h"
+
+namespace grisaille::app {
+namespace {
+
+namespace fs = std::filesystem;
+
+constexpr size_t kMostDigits = 9;  // what an int holds
+
+bool isDigit(char c) {
+  return c >= '0' && c <= '9';
+}
+
+// The number that stands between, as FileName::at() would write it.
+std::optional<int> numberIn(std::string_view digits, size_t width) {
+  if (digits.size() < width || digits.size() > kMostDigits || digits.empty() ||
+      !std::ranges::all_of(digits, isDigit)) {
+    return std::nullopt;
+  }
+  if (digits.size() > width && digits[0] == '0' && digits.size() > 1) return std::nullopt;
+  int number = 0;
+  std::from_chars(digits.data(), digits.data() + digits.size(), number);
+  return number;
+}
+
+}  // namespace
+
+FileName::FileName(const std::string& text) : text_(text), before_(text) {
+  static const std::regex kNumber("##+|%(0([1-9]))?d");
+  std::smatch match;
+  if (!std::regex_search(text, match, kNumber)) return;
+  before_ = match.prefix();
+  after_ = match.suffix();
+  width_ = match.str()[0] == '#' ? match.length() : match[2].matched ? std::stoul(match[2]) : 1;
+  if (std::regex_search(after_, kNumber)) {
+    throw Error(ErrorId::kSequence, "'{}' has more than one place for a number", text);
+  }
+  if (after_.find('/') != std::string::npos) {
+    throw Error(ErrorId::kSequence, "'{}' has a number in its folder", text);
+  }
+  if (width_ > kMostDigits) {
+    throw Error(ErrorId::kSequence, "'{}' has numbers of more than {} digits", text, kMostDigits);
+  }
+}
+
+std::string FileName::at(int number) const {
+  if (!numbered()) return text_;
+  return fmt::format("{}{:0{}}{}", before_, number, width_, after_);
+}
+
+std::vector<int> FileName::numbers() const {
+  const fs::path folder = fs::path(before_ + "x").parent_path();
+  const std::string before = before_.substr(before_.rfind('/') + 1);
+  std::vector<int> found;
+  std::error_code failed;
+  for (fs::directory_iterator file(folder.empty() ? "." : folder, failed);
+       !failed && file != fs::directory_iterator(); file.increment(failed)) {
+    const std::string name = file->path().filename();
+    if (name.size() <= before.size() + after_.size() || !name.starts_with(before) ||
+        !name.ends_with(after_)) {
+      continue;
+    }
+    const auto number = numberIn(
+        std::string_view(name).substr(before.size(), name.size() - before.size() - after_.size()),
+        width_);
+    if (number) found.push_back(*number);
+  }
+  if (found.empty()) throw Error(ErrorId::kSequence, "there is no file '{}'", text_);
+  std::ranges::sort(found);
+  return found;
+}
+
+std::vector<int> parseFrames(const std::string& text) {
+  static const std::regex kRange("([0-9]{1,9})(-([0-9]{1,9})(x([0-9]{1,9}))?)?");
+  std::smatch match;
+  if (!std::regex_match(text, match, kRange)) {
+    throw Error(ErrorId::kUsage, "'{}' is not of the form FIRST-LAST or FIRST-LASTxSTEP", text);
+  }
+  const int first = std::stoi(match[1]);
+  const int last = match[3].matched ? std::stoi(match[3]) : first;
+  const int step = match[5].matched ? std::stoi(match[5]) : 1;
+  constexpr int kMost = 1000000;
+  if (last < first || step < 1 || (last - first) / step >= kMost) {
+    throw Error(ErrorId::kUsage, "'{}' is no range of 1 to {} frames", text, kMost);
+  }
+  std::vector<int> frames;
+  for (int number = first; number <= last; number += step) frames.push_back(number);
+  return frames;
+}
+
+}  // namespace grisaille::app

@@ -1,0 +1,151 @@
+// SPDX-License-Identifier: MIT
+// grisaille new-effect: a whole project of an effect of one's own.
+#include <fmt/format.h>
+
+#include <algorithm>
+#include <cstdio>
+#include <cstdlib>
+#include <filesystem>
+#include <memory>
+
+#include "app/active_effects.h"
+#include "app/command.h"
+#include "app/new_effect_files.h"
+#include "app/viewer/command_line.h"
+#include "core/error.h"
+#include "core/image/write_aside.h"
+#include "core/library_folder.h"
+
+namespace grisaille::app {
+namespace {
+
+namespace fs = std::filesystem;
+
+struct NewEffectOptions {
+  std::string key, folder, language = "c++";
+};
+
+constexpr size_t kLongestKey = 40;
+// Settings files have these beside the effects' tables.
+constexpr const char* kTaken[] = {"effects", "surface"};
+
+void checkKey(const std::string& key) {
+  const auto small = [](char c) { return c >= 'a' && c <= 'z'; };
+  const auto fits = [&](char c) { return small(c) || (c >= '0' && c <= '9') || c == '_'; };
+  if (key.empty() || key.size() > kLongestKey || !small(key[0]) ||
+      !std::ranges::all_of(key, fits)) {
+    throw Error(ErrorId::kProjectName, "'{}' cannot be the key of an effect", oneLine(key));
+  }
+  if (std::ranges::find(kTaken, key) != std::end(kTaken)) {
+    throw Error(ErrorId::kProjectName, "'{}' has a meaning of its own in settings files", key);
+  }
+  const auto registry = loadEffects({});
+  for (const effect::Effect& effect : registry->effects()) {
+    if (key == effect.desc->key) {
+      throw Error(ErrorId::kProjectName, "there is an effect '{}' already, {}", key, effect.path);
+    }
+  }
+}
+
+void checkFolder(const fs::path& folder) {
+  std::error_code failed;
+  const fs::file_status status = fs::status(folder, failed);
+  if (status.type() == fs::file_type::not_found) return;
+  if (status.type() != fs::file_type::directory) {
+    throw Error(ErrorId::kProjectFolder, "{} is there and no folder", folder.string());
+  }
+  const bool empty = fs::is_empty(folder, failed);
+  if (failed) throw Error(ErrorId::kProjectFolder, "{}: {}", folder.string(), failed.message());
+  if (!empty) throw Error(ErrorId::kProjectFolder, "{} holds files already", folder.string());
+}
+
+// "edge_lines": "Edge lines" for people, EdgeLinesEffect for C++.
+std::string labelOf(std::string key) {
+  std::ranges::replace(key, '_', ' ');
+  key[0] = static_cast<char>(key[0] - 'a' + 'A');
+  return key;
+}
+std::string classOf(const std::string& key) {
+  std::string name;
+  bool begins = true;
+  for (const char c : key) {
+    const bool small = c >= 'a' && c <= 'z';
+    if (c != '_') name += begins && small ? static_cast<char>(c - 'a' + 'A') : c;
+    begins = c == '_';
+  }
+  return name + "Effect";
+}
+
+std::string filled(std::string text, const NewEffectOptions& options) {
+  const std::pair<const char*, std::string> words[] = {
+      {"@KEY@", options.key},
+      {"@LABEL@", labelOf(options.key)},
+      {"@CLASS@", classOf(options.key)},
+      {"@ENDING@", options.language == "c" ? "c" : "cpp"}};
+  for (const auto& [mark, word] : words) {
+    const std::string_view what = mark;
+    for (size_t at = 0; (at = text.find(what, at)) != std::string::npos; at += word.size()) {
+      text.replace(at, what.size(), word);
+    }
+  }
+  return text;
+}
+
+// Where CMake finds this program's package by itself: beside a folder of the PATH, or in a folder
+// of the system's.
+bool isFoundByCMake(const fs::path& prefix) {
+  if (prefix == "/usr" || prefix == "/usr/local") return true;
+  const char* variable = std::getenv("PATH");
+  std::string_view rest = variable != nullptr ? variable : "";
+  while (!rest.empty()) {
+    const size_t end = std::min(rest.find(':'), rest.size());
+    std::error_code failed;
+    if (fs::weakly_canonical(rest.substr(0, end), failed) == prefix / "bin") return true;
+    rest.remove_prefix(std::min(end + 1, rest.size()));
+  }
+  return false;
+}
+
+void newEffect(const NewEffectOptions& options) {
+  checkKey(options.key);
+  const fs::path folder = options.folder.empty() ? options.key : options.folder;
+  checkFolder(folder);
+  std::error_code failed;
+  fs::create_directories(folder, failed);
+  if (failed) {
+    throw Error(ErrorId::kFileUnwritable, "{}: {}", folder.string(), failed.message());
+  }
+  const bool c = options.language == "c";
+  const std::pair<std::string, const char*> files[] = {
+      {"CMakeLists.txt", kProjectCMakeLists},
+      {"CMakePresets.json", kProjectCMakePresets},
+      {options.key + (c ? ".c" : ".cpp"), c ? kProjectC : kProjectCpp},
+      {options.key + ".comp", kProjectShader},
+      {"README.md", kProjectReadme}};
+  for (const auto& [name, text] : files) {
+    image::writeFileAside(folder / name, filled(text, options));
+    fmt::print("wrote {}\n", (folder / name).string());
+  }
+  const fs::path prefix = libraryFolder().parent_path().parent_path();
+  const std::string where = isFoundByCMake(prefix)
+                                ? ""
+                                : "CMAKE_PREFIX_PATH=" + viewer::shellQuoted(prefix.string()) + " ";
+  fmt::print("build and test it: cd {} && {}cmake --workflow --preset effect\n",
+             viewer::shellQuoted(folder.string()), where);
+}
+
+}  // namespace
+
+void addNewEffect(CLI::App& program) {
+  auto options = std::make_shared<NewEffectOptions>();
+  CLI::App* command = program.add_subcommand(
+      "new-effect", "Begin an effect of your own: a project that builds, runs and tests itself");
+  command->add_option("name", options->key, "The effect's key: a-z, 0-9 and _")->required();
+  command->add_option("folder", options->folder, "Where to; default: a new folder of that name");
+  command->add_option("--language", options->language, "What the effect is written in")
+      ->check(CLI::IsMember({"c++", "c"}))
+      ->capture_default_str();
+  command->callback([options] { newEffect(*options); });
+}
+
+}  // namespace grisaille::app

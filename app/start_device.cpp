@@ -1,0 +1,23 @@
+// SPDX-License-Identifier: MIT
+#include "app/start_device.h"
+
+#include "backends/backends.h"
+#include "core/error.h"
+
+namespace grisaille::app {
+
+std::unique_ptr<gpu::Device> startDevice(const std::string& backend,
+                                         const gpu::DeviceOptions& options) {
+  if (!backend.empty()) return backends::create(backend, options);
+  std::string reasons;
+  for (const backends::Backend& one : backends::all()) {
+    try {
+      return backends::create(one.name, options);
+    } catch (const Error& error) {
+      reasons += fmt::format("{}{}: {}", reasons.empty() ? "" : "; ", one.name, error.detail());
+    }
+  }
+  throw Error(ErrorId::kNoDevice, "no backend starts: {}", reasons);
+}
+
+}  // namespace grisaille::app

@@ -1,0 +1,16 @@
+// SPDX-License-Identifier: MIT
+#pragma once
+
+#include <memory>
+#include <string>
+
+#include "core/gpu/device.h"
+
+namespace grisaille::app {
+
+// A device of the backend asked for or, where `backend` is "", of the first one that starts. Throws
+// as backends::create() does, and kNoDevice with every backend's reason.
+std::unique_ptr<gpu::Device> startDevice(const std::string& backend,
+                                         const gpu::DeviceOptions& options);
+
+}  // namespace grisaille::app

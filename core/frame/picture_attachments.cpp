@@ -1,0 +1,119 @@
+// SPDX-License-Identifier: MIT
+#include "core/frame/picture_attachments.h"
+
+#include <algorithm>
+#include <array>
+#include <cmath>
+#include <glm/gtc/color_space.hpp>
+#include <glm/gtc/packing.hpp>
+
+#include "core/error.h"
+#include "core/frame/facet_normals.h"
+
+namespace grisaille::frame {
+namespace {
+
+void checkSize(const Pictures& pictures, const image::Image& other, const char* name) {
+  const image::Image& depth = pictures.viewDepth;
+  if (other.pixels.empty()) return;
+  if (other.width == depth.width && other.height == depth.height) return;
+  throw Error(ErrorId::kPictureSize, "the {} has {} x {} pixels, the depth {} x {}", name,
+              other.width, other.height, depth.width, depth.height);
+}
+
+template <typename Texel>
+void upload(gpu::Commands& commands, gpu::Texture texture, const std::vector<Texel>& texels) {
+  commands.upload(texture, 0, 0, std::as_bytes(std::span(texels)));
+}
+
+using Half4 = std::array<uint16_t, 4>;
+
+// World normals of unit length. Those that are so already, to the half floats' precision, are kept
+// as they are: a picture of such a target comes back to it bit for bit.
+std::vector<Half4> normalTexels(const image::Image& normal, const image::Image& depth) {
+  constexpr float kHalfPrecision = 0.002f;
+  std::vector<Half4> texels(depth.pixels.size(), Half4{});
+  for (size_t i = 0; i < texels.size(); ++i) {
+    if (depth.pixels[i] <= 0) continue;
+    glm::vec3 n(normal.pixels[3 * i], normal.pixels[3 * i + 1], normal.pixels[3 * i + 2]);
+    const float length = glm::length(n);
+    if (length == 0) {
+      n = glm::vec3(0);
+    } else if (std::abs(length - 1) > kHalfPrecision) {
+      n /= length;
+    }
+    texels[i] = {glm::packHalf1x16(n.x), glm::packHalf1x16(n.y), glm::packHalf1x16(n.z),
+                 glm::packHalf1x16(1)};
+  }
+  return texels;
+}
+
+std::vector<float> clipDepth(const image::Image& depth, double near) {
+  std::vector<float> clip(depth.pixels.size());
+  for (size_t i = 0; i < clip.size(); ++i) {
+    const float metres = depth.pixels[i];
+    clip[i] = metres > 0 ? std::min(static_cast<float>(near / double{metres}), 1.0f) : 0.0f;
+  }
+  return clip;
+}
+
+std::vector<glm::u8vec4> colourTexels(const image::Image& colour, const image::Image& depth) {
+  std::vector<glm::u8vec4> texels(depth.pixels.size(), glm::u8vec4(0));
+  for (size_t i = 0; i < texels.size(); ++i) {
+    if (depth.pixels[i] <= 0) continue;
+    const glm::vec3 linear(colour.pixels[3 * i], colour.pixels[3 * i + 1],
+                           colour.pixels[3 * i + 2]);
+    const glm::vec3 encoded = glm::convertLinearToSRGB(glm::clamp(linear, 0.0f, 1.0f));
+    texels[i] = glm::u8vec4(glm::round(encoded * 255.0f), 255);
+  }
+  return texels;
+}
+
+}  // namespace
+
+void checkPictures(const Pictures& pictures) {
+  checkSize(pictures, pictures.normal, "normal");
+  checkSize(pictures, pictures.baseColour, "base colour");
+  const std::vector<float>& normals = pictures.normal.pixels;
+  const auto odd = std::ranges::find_if(normals, [](float n) { return !std::isfinite(n); });
+  if (odd == normals.end()) return;
+  const auto pixel = static_cast<size_t>(odd - normals.begin()) / 3;
+  throw Error(ErrorId::kPictureDepth, "the normal at ({}, {}) is no finite number",
+              pixel % pictures.normal.width, pixel / pictures.normal.width);
+}
+
+void PictureAttachments::show(Pictures pictures) {
+  checkPictures(pictures);
+  pictures_ = std::move(pictures);
+}
+
+void PictureAttachments::record(gpu::Commands& commands, const scene::Camera& camera,
+                                uint32_t width, uint32_t height, gpu::BufferRange,
+                                const AttachmentTargets& targets, std::string_view) {
+  const image::Image& depth = pictures_.viewDepth;
+  if (depth.width != width || depth.height != height) {
+    throw Error(ErrorId::kPictureSize, "the depth has {} x {} pixels, the frame {} x {}",
+                depth.width, depth.height, width, height);
+  }
+  if (targets.baseColour && pictures_.baseColour.pixels.empty()) {
+    throw Error(ErrorId::kPictureMissing, "base colours are read, and no picture has them");
+  }
+  commands.beginPass("pictures/upload");
+  upload(commands, targets.depth, clipDepth(depth, camera.nearPlane));
+  if (targets.viewDepth) upload(commands, targets.viewDepth, depth.pixels);
+  if (targets.baseColour) {
+    upload(commands, targets.baseColour, colourTexels(pictures_.baseColour, depth));
+  }
+  const bool given = !pictures_.normal.pixels.empty();
+  if (targets.normal && given) {
+    upload(commands, targets.normal, normalTexels(pictures_.normal, depth));
+  }
+  if (targets.facetNormal || (targets.normal && !given)) {
+    const std::vector<Half4> facets = normalTexels(facetNormals(depth, camera), depth);
+    if (targets.facetNormal) upload(commands, targets.facetNormal, facets);
+    if (targets.normal && !given) upload(commands, targets.normal, facets);
+  }
+  commands.endPass();
+}
+
+}  // namespace grisaille::frame

@@ -1,0 +1,59 @@
+// SPDX-License-Identifier: MIT
+#include "core/frame/picture_depth.h"
+
+#include <cmath>
+
+#include "core/error.h"
+
+namespace grisaille::frame {
+namespace {
+
+// What renderers write for the sky is 1e10 or more; what they write of a scene is not.
+constexpr double kSky = 1e9;  // metres
+
+// Metres along the view direction of a depth buffer's value that is 1 at the near plane.
+double viewDepth(double reversed, double near, double far) {
+  if (reversed <= 0) return 0;
+  if (std::isinf(far)) return near / reversed;
+  return near * far / (near + reversed * (far - near));
+}
+
+double metres(double value, const DepthMeaning& meaning, double ray) {
+  switch (meaning.kind) {
+    case DepthKind::kView:
+      return value >= std::min(meaning.far, kSky) ? 0 : value;
+    case DepthKind::kDistance:
+      return value >= std::min(meaning.far, kSky) ? 0 : value / ray;
+    case DepthKind::kClipReversed:
+      return viewDepth(value, meaning.near, meaning.far);
+    case DepthKind::kClip:
+      return viewDepth(1 - value, meaning.near, meaning.far);
+  }
+  return 0;
+}
+
+}  // namespace
+
+image::Image viewDepthOf(const image::Image& depth, const DepthMeaning& meaning,
+                         const scene::Camera& camera, const std::string& name) {
+  const bool buffer = meaning.kind == DepthKind::kClip || meaning.kind == DepthKind::kClipReversed;
+  const double most = buffer ? 1 : std::numeric_limits<double>::infinity();
+  const double half = std::tan(glm::radians(camera.fovyDegrees) / 2);
+  const double scale = 2 * half / depth.height;  // of a pixel at a view depth of 1
+  image::Image result = depth;
+  for (uint32_t y = 0; y < depth.height; ++y) {
+    for (uint32_t x = 0; x < depth.width; ++x) {
+      float& pixel = result.pixels[size_t{y} * depth.width + x];
+      const double value{pixel};
+      if (!(value >= 0 && value <= most)) {
+        throw Error(ErrorId::kPictureDepth, "{}: the depth at ({}, {}) is {}", name, x, y, value);
+      }
+      const glm::dvec2 place =
+          scale * (glm::dvec2(x, y) + 0.5 - 0.5 * glm::dvec2(depth.width, depth.height));
+      pixel = static_cast<float>(metres(value, meaning, std::sqrt(1 + glm::dot(place, place))));
+    }
+  }
+  return result;
+}
+
+}  // namespace grisaille::frame

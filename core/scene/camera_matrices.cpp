@@ -1,0 +1,108 @@
+// SPDX-License-Identifier: MIT
+#include "core/scene/camera_matrices.h"
+
+#include <algorithm>
+#include <cmath>
+
+#include "core/error.h"
+
+namespace grisaille::scene {
+namespace {
+
+// As glm has it, for points that are columns: the transpose, whose rows in memory are columns here.
+glm::dmat4 fromRows(const std::array<float, 16>& rows) {
+  glm::dmat4 matrix;
+  for (int i = 0; i < 4; ++i) {
+    for (int j = 0; j < 4; ++j) matrix[i][j] = double{rows[static_cast<size_t>(4 * i + j)]};
+  }
+  return matrix;
+}
+
+std::array<float, 16> toRows(const glm::dmat4& matrix) {
+  std::array<float, 16> rows;
+  for (int i = 0; i < 4; ++i) {
+    for (int j = 0; j < 4; ++j)
+      rows[static_cast<size_t>(4 * i + j)] = static_cast<float>(matrix[i][j]);
+  }
+  return rows;
+}
+
+template <typename... Args>
+[[noreturn]] void refuse(const std::string& name, fmt::format_string<Args...> why, Args&&... args) {
+  throw Error(ErrorId::kPictureMatrices, "{}: {}", name,
+              fmt::format(why, std::forward<Args>(args)...));
+}
+
+// One row of a matrix for column points: what of a direction it takes.
+glm::dvec3 rowOf(const glm::dmat4& matrix, int row) {
+  return {matrix[0][row], matrix[1][row], matrix[2][row]};
+}
+
+// What an axis of the picture tells. `axis`: its row of the projection, `depth`: that of w.
+struct Axis {
+  glm::dvec3 direction;  // unit, world: to where its coordinate grows
+  double centre = 0;     // coordinate of the optical axis
+  double slope = 0;      // of the coordinate, at a view depth of 1
+};
+Axis axisOf(const glm::dvec3& axis, const glm::dvec3& depth) {
+  const double centre = glm::dot(axis, depth) / glm::dot(depth, depth);
+  const glm::dvec3 across = axis - centre * depth;
+  return {glm::normalize(across), centre, glm::length(across) / glm::length(depth)};
+}
+
+}  // namespace
+
+image::ViewMatrices matricesOf(const Camera& camera, uint32_t width, uint32_t height) {
+  const glm::dmat3 rotation = glm::transpose(worldFromView(camera));
+  glm::dmat4 view(rotation);
+  view[3] = glm::dvec4(-(rotation * camera.eye), 1);
+  return {.worldToCamera = toRows(view),
+          .worldToNdc = toRows(clipFromView(camera, double{1} * width / height) * view)};
+}
+
+Camera cameraOf(const image::ViewMatrices& matrices, uint32_t width, uint32_t height,
+                const std::string& name) {
+  // What is no number fails every comparison: they all say what must hold.
+  const glm::dmat4 view = fromRows(matrices.worldToCamera), ndc = fromRows(matrices.worldToNdc);
+  const glm::dmat3 rotation(view);
+  const double size = std::cbrt(std::abs(glm::determinant(rotation)));
+  if (!(size > 1e-6) || !std::isfinite(size)) refuse(name, "worldToCamera cannot be inverted");
+  const glm::dvec3 up = glm::normalize(rowOf(view, 1));
+  const glm::dvec3 depth = rowOf(ndc, 3);  // grows along the view direction
+  if (!(glm::length(depth) > 1e-9)) refuse(name, "worldToNDC is no perspective projection");
+  const glm::dvec3 forward = glm::normalize(depth);
+  if (!(std::abs(glm::dot(forward, glm::normalize(rowOf(view, 2)))) >= 0.9999)) {
+    refuse(name, "worldToCamera and worldToNDC look in different directions");
+  }
+  const Axis x = axisOf(rowOf(ndc, 0), depth), y = axisOf(rowOf(ndc, 1), depth);
+  // NDC runs from 0 to 1 or from -1 to 1, as its centre tells.
+  const bool fromZero = std::abs(x.centre - 0.5) < 0.25 && std::abs(y.centre - 0.5) < 0.25;
+  const double centre = fromZero ? 0.5 : 0, half = fromZero ? 0.5 : 1;
+  constexpr double kOff = 1e-3;  // half a pixel in 1000
+  if (!(std::abs(x.centre - centre) <= kOff * half && std::abs(y.centre - centre) <= kOff * half)) {
+    refuse(name, "the view's axis goes through ({:.4f}, {:.4f}) of NDC, not through the centre",
+           x.centre, y.centre);
+  }
+  if (!(glm::dot(x.direction, glm::cross(forward, up)) >= 0.999)) {
+    refuse(name, "the picture is mirrored or sheared");
+  }
+  const double tangent = half / y.slope, across = half / x.slope;
+  const double aspect = double{1} * width / height;
+  if (!(std::abs(across / tangent / aspect - 1) <= 0.01)) {
+    refuse(name, "its matrices are of a picture of {:.3f} : 1, it is one of {:.3f} : 1",
+           across / tangent, aspect);
+  }
+  Camera camera;
+  camera.eye = -(glm::inverse(rotation) * glm::dvec3(view[3]));
+  camera.target = camera.eye + forward;
+  camera.up = up;
+  camera.fovyDegrees = glm::degrees(2 * std::atan(tangent));
+  try {
+    validate(camera);
+  } catch (const Error& error) {
+    refuse(name, "{}", error.detail());
+  }
+  return camera;
+}
+
+}  // namespace grisaille::scene

@@ -1,0 +1,38 @@
+/* SPDX-License-Identifier: MIT
+ *
+ * Plugins whose loading takes a process along, each in the way that -DCRASH_... names. */
+#include <signal.h>
+#include <stdint.h>
+#include <unistd.h>
+
+#include "grisaille/effect.h"
+
+__attribute__((constructor)) static void load(void) {
+#if defined(CRASH_LOAD)
+  raise(SIGSEGV);
+#elif defined(CRASH_EXIT)
+  _exit(0);
+#elif defined(CRASH_HANG)
+  for (;;) pause();
+#endif
+}
+
+__attribute__((destructor)) static void unload(void) {
+#if defined(CRASH_UNLOAD)
+  raise(SIGABRT);
+#endif
+}
+
+static const grisaille_effect_desc kEffect = {.struct_size = sizeof kEffect};
+
+#if defined(CRASH_TABLE)
+/* Nothing is there. */
+#define FIRST ((const grisaille_effect_desc*)(uintptr_t)16)
+#else
+#define FIRST &kEffect
+#endif
+static const grisaille_effect_desc* const kEffects[] = {FIRST};
+
+GRISAILLE_EXPORT const grisaille_plugin_desc grisaille_plugin = {
+    GRISAILLE_MAGIC, GRISAILLE_ABI_MAJOR, GRISAILLE_ABI_MINOR, sizeof(grisaille_plugin_desc), 1, 0,
+    kEffects};

@@ -1,0 +1,76 @@
+// SPDX-License-Identifier: MIT
+// Plugins of others that take a process along are refused, and this process goes on.
+#include "core/effect/probe.h"
+
+#include <gtest/gtest.h>
+#include <unistd.h>
+
+#include <filesystem>
+
+#include "core/effect/registry.h"
+#include "tests/support/expect_error.h"
+
+namespace grisaille::effect {
+namespace {
+
+namespace fs = std::filesystem;
+
+const fs::path kFolder = fs::path(PLUGIN_DIR) / "crash";
+
+// A folder with links to some plugins.
+struct TemporaryLinks {
+  explicit TemporaryLinks(std::initializer_list<const char*> plugins) {
+    fs::create_directory(folder);
+    for (const char* plugin : plugins) {
+      fs::create_symlink(fs::path(PLUGIN_DIR) / plugin, folder / fs::path(plugin).filename());
+    }
+  }
+  ~TemporaryLinks() { fs::remove_all(folder); }
+
+  fs::path folder = fs::temp_directory_path() / fmt::format("grisaille_probe_{}", getpid());
+};
+
+std::string words(const char* name) {
+  try {
+    probe(kFolder / (std::string("crash_") + name + ".so"), std::chrono::milliseconds(300));
+  } catch (const Error& error) {
+    EXPECT_EQ(error.id(), ErrorId::kPluginCrashes);
+    return error.detail();
+  }
+  return "none";
+}
+
+TEST(Probe, NamesWhatEndedTheProcess) {
+  EXPECT_EQ(words("load"), "loading it ends the process: Segmentation fault");
+  EXPECT_EQ(words("unload"), "loading it ends the process: Aborted");
+  EXPECT_EQ(words("table"), "loading it ends the process: Segmentation fault");
+  EXPECT_EQ(words("exit"), "loading it ends the process with exit status 0");
+  EXPECT_EQ(words("hang"), "loading it does not end within 300 ms");
+}
+
+// Files that are no plugin are the registry's to refuse, in its own words.
+TEST(Probe, LetsThroughWhatEndsInGoodOrder) {
+  probe(fs::path(PLUGIN_DIR) / "sound" / "copy.so");
+  probe(fs::path(PLUGIN_DIR) / "faulty" / "magic.so");
+  probe("/dev/null");
+  probe("/nothing/there.so");
+}
+
+TEST(Probe, TheRegistryAsksItForForeignPluginsAlone) {
+  const TemporaryLinks links(
+      {"crash/crash_load.so", "crash/crash_exit.so", "sound/plain.so", "faulty/range.so"});
+  Registry registry;
+  registry.scan(links.folder, Origin::kForeign);
+  ASSERT_EQ(registry.effects().size(), 1u);
+  ASSERT_EQ(registry.refused().size(), 3u);
+  EXPECT_EQ(registry.refused()[0].reason.id(), ErrorId::kPluginCrashes);
+  EXPECT_EQ(registry.refused()[1].reason.id(), ErrorId::kPluginCrashes);
+  EXPECT_NE(registry.refused()[1].reason.detail().find("crash_load.so"), std::string::npos);
+  EXPECT_EQ(registry.refused()[2].reason.id(), ErrorId::kPluginTable);
+  EXPECT_ERROR(ErrorId::kPluginCrashes,
+               registry.load(kFolder / "crash_table.so", Origin::kForeign));
+  EXPECT_EXIT(Registry().load(kFolder / "crash_load.so"), testing::KilledBySignal(SIGSEGV), "");
+}
+
+}  // namespace
+}  // namespace grisaille::effect
