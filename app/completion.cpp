@@ -36,6 +36,9 @@ _grisaille() {{
   case $previous in
     --backend) words="opengl vulkan" ;;
     --surface) words="white base" ;;
+    --depth-kind) words="view distance clip clip-reversed" ;;
+    --normal-space) words="world view" ;;
+    --language) words="c++ c" ;;
     --effects) words=$("${{COMP_WORDS[0]}}" completion --effects 2>/dev/null) ;;
     --set)
       compopt -o nospace

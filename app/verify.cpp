@@ -108,7 +108,7 @@ void Report::conclude(const std::string& what) {
   const size_t faults = faults_ - std::exchange(concludedFaults_, faults_);
   if (faults > kMostFaults) note(fmt::format("{}: {} more", what, faults - kMostFaults));
   if (faults > 0) return;
-  fmt::print("{}{} ({} checks)\n", kOk, oneLine(what), checks);
+  fmt::print("{}{} ({} check{})\n", kOk, oneLine(what), checks, checks == 1 ? "" : "s");
   std::fflush(stdout);
 }
 

@@ -47,7 +47,7 @@ TEST(Verify, FaultsAreNamedWithTheStep) {
 }
 
 TEST(Verify, WhatEndsTheProcessIsAFaultToo) {
-  expectFault("crashes", "the process ended: Segmentation fault while: opengl: crashes: level = 1");
+  expectFault("crashes", "the process ended: Aborted while: opengl: crashes: level = 1");
   expectFault("exits", "the process ended with exit status 0 while: opengl: exits: level = 1");
 }
 

@@ -23,7 +23,7 @@ static grisaille_result create(const grisaille_host* host, void** out) {
 static float valueAt(double level) {
   if (level < 1) return (float)level;
 #if defined(FAULT_CRASHES)
-  raise(SIGSEGV);
+  raise(SIGABRT);
 #elif defined(FAULT_EXITS)
   _exit(0);
 #elif defined(FAULT_NAN)

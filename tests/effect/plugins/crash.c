@@ -9,7 +9,7 @@
 
 __attribute__((constructor)) static void load(void) {
 #if defined(CRASH_LOAD)
-  raise(SIGSEGV);
+  raise(SIGABRT);
 #elif defined(CRASH_EXIT)
   _exit(0);
 #elif defined(CRASH_HANG)
