@@ -123,7 +123,8 @@ void LoadedSubject::loadScene() {
                                                           : scene::overviewCamera(scene_.bounds));
 }
 
-study::View LoadedSubject::viewOf(const std::string& name, const scene::Camera& camera) const {
+study::View LoadedSubject::viewOf(const std::string& name, const scene::Camera& camera,
+                                  const std::string& bar) const {
   study::View view{.name = name, .camera = camera, .truth = {}};
   view.camera.size = subject_.size;
   const auto [width, height] = std::pair(subject_.size.x, subject_.size.y);
@@ -131,7 +132,7 @@ study::View LoadedSubject::viewOf(const std::string& name, const scene::Camera& 
   if (options_.paint.empty()) {
     truth::OcclusionTruth traced =
         truth::traceOcclusion(scene_, view.camera, subject_.size, options_.radius, options_.samples,
-                              isatty(STDERR_FILENO) == 1);
+                              options_.progress || isatty(STDERR_FILENO) == 1, bar);
     view.truth = std::move(traced.visibility);
     view.noise = traced.error;
     hits = std::move(traced.hits);
@@ -149,7 +150,11 @@ study::View LoadedSubject::viewOf(const std::string& name, const scene::Camera& 
 }
 
 void LoadedSubject::trace() {
-  for (const auto& [name, camera] : cameras_) subject_.views.push_back(viewOf(name, camera));
+  for (const auto& [name, camera] : cameras_) {
+    const std::string bar =
+        fmt::format("truth {} of {}", subject_.views.size() + 1, cameras_.size());
+    subject_.views.push_back(viewOf(name, camera, bar));
+  }
 }
 
 std::string LoadedSubject::key() const {

@@ -16,6 +16,7 @@ struct SubjectOptions {
   std::vector<std::string> cameras, sets, effects, pluginPaths;
   double radius = 0.5;     // metres
   uint32_t samples = 256;  // rays a pixel
+  bool progress = false;   // bars also where standard error is no terminal
 
   void addTo(CLI::App& command);
 };
@@ -41,8 +42,9 @@ class LoadedSubject {
   // Traces the truth of every camera, or takes it from the cache. Throws truth::Interrupted.
   void trace();
 
-  // Of one more camera.
-  study::View viewOf(const std::string& name, const scene::Camera& camera) const;
+  // Of one more camera. `bar` is the progress bar's name.
+  study::View viewOf(const std::string& name, const scene::Camera& camera,
+                     const std::string& bar) const;
 
   // Text: all that results depend on but setting and backend.
   std::string key() const;

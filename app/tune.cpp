@@ -31,7 +31,6 @@ struct TuneOptions {
   std::string backend = "opengl", device, out;
   double maxError = 0, budget = 0;
   uint32_t random = 3, seed = 1, evaluations = 80;
-  bool progress = false;
 };
 
 // The parameters that may change: those of --vary, else those of the effects' presets and the
@@ -181,14 +180,16 @@ std::vector<study::View> unseenViews(const TuneOptions& options,
                                      const LoadedSubject& subject) {
   std::vector<study::View> views;
   for (size_t i = 0; i < given.size(); ++i) {
-    views.push_back(subject.viewOf(options.validate[i], given[i]));
+    const std::string bar = fmt::format("unseen truth {} of {}", i + 1, given.size());
+    views.push_back(subject.viewOf(options.validate[i], given[i], bar));
   }
   if (!views.empty() || options.random == 0) return views;
   const study::Subject& known = subject.subject();
   const auto cameras =
       study::randomCameras(*known.scene, known.views.front().camera, options.random, options.seed);
   for (size_t i = 0; i < cameras.size(); ++i) {
-    views.push_back(subject.viewOf(fmt::format("random {}", i + 1), cameras[i]));
+    const std::string bar = fmt::format("unseen truth {} of {}", i + 1, cameras.size());
+    views.push_back(subject.viewOf(fmt::format("random {}", i + 1), cameras[i], bar));
   }
   if (cameras.size() < options.random) {
     fmt::print(stderr, "warning: only {} of {} random cameras inside the scene have a free view\n",
@@ -221,7 +222,7 @@ double gridSize(const std::vector<study::Axis>& axes) {
 study::Found find(const TuneOptions& options, const LoadedSubject& subject,
                   const std::vector<study::Axis>& axes, const study::Wish& wish, Bench& bench) {
   const Starts starts(subject.subject(), axes);
-  truth::Progress progress("tune", options.progress || isatty(STDERR_FILENO) == 1);
+  truth::Progress progress("tune", options.subject.progress || isatty(STDERR_FILENO) == 1);
   double done = 0;
   const auto told = [&](double error) {
     progress.show({++done, static_cast<double>(options.evaluations),
@@ -370,8 +371,8 @@ void addTune(CLI::App& program) {
   command->add_option("--out", options->out, "The settings file")
       ->type_name("FILE.toml")
       ->required();
-  command->add_flag("--progress", options->progress,
-                    "Draw the progress bar though standard error is no terminal");
+  command->add_flag("--progress", options->subject.progress,
+                    "Draw progress bars though standard error is no terminal");
   command->callback([options] {
     checkWish(*options);
     tune(*options);

@@ -21,7 +21,8 @@ std::string keyOf(const std::string& estimate, uint64_t scene, const scene::Came
 }
 
 OcclusionTruth traceOcclusion(const scene::Scene& scene, const scene::Camera& camera,
-                              glm::uvec2 size, double radius, uint32_t samples, bool progress) {
+                              glm::uvec2 size, double radius, uint32_t samples, bool progress,
+                              const std::string& name) {
   scene::Camera sized = camera;
   sized.size = size;
   const trace::RayTracer tracer(scene, camera.eye);
@@ -29,7 +30,7 @@ OcclusionTruth traceOcclusion(const scene::Scene& scene, const scene::Camera& ca
   truth.hits = tracer.castPrimary(camera, size.x, size.y);
   Cache cache(cacheFolder(), keyOf("ao", hashOf(scene), sized, radius, kSeed));
   const Estimate estimate = refine(
-      "truth", truth.hits,
+      name, truth.hits,
       [&](auto hits, uint32_t from, uint32_t to, auto counts) {
         tracer.addOcclusion(hits, radius, kSeed, from, to, counts);
       },

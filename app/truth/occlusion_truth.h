@@ -25,8 +25,10 @@ struct OcclusionTruth {
   double error = 0;              // rms standard error of the visibility
 };
 
-// As `grisaille truth --write ao=...` has it, with its cache and the same seed. Throws Interrupted.
+// As `grisaille truth --write ao=...` has it, with its cache and the same seed. `name` is for the
+// progress bar. Throws Interrupted.
 OcclusionTruth traceOcclusion(const scene::Scene& scene, const scene::Camera& camera,
-                              glm::uvec2 size, double radius, uint32_t samples, bool progress);
+                              glm::uvec2 size, double radius, uint32_t samples, bool progress,
+                              const std::string& name = "truth");
 
 }  // namespace grisaille::app::truth

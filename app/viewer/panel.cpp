@@ -82,7 +82,7 @@ Requests Panel::draw(const Status& status, glm::vec2 window) {
   layout.begin();
   if (!listsFresh_) {
     bookmarkList_ = bookmarks_.list();
-    presetList_ = presets();
+    savedList_ = savedSettings();
     listsFresh_ = true;
   }
   if (shown) {
@@ -157,19 +157,19 @@ void Panel::drawSettings(Requests& requests) {
   }
   ImGui::SameLine();
   if (button("Save", "save settings", "(Ctrl+S)")) saveSettings();
-  for (const Preset& preset : presetList_) {
-    if (ImGui::Selectable(preset.name.c_str())) {
-      session_.attempt([&] { session_.loadSettings(preset.path.string()); });
+  for (const SavedSettings& saved : savedList_) {
+    if (ImGui::Selectable(saved.name.c_str())) {
+      session_.attempt([&] { session_.loadSettings(saved.path.string()); });
     }
-    layout.note("preset." + preset.name);
+    layout.note("saved." + saved.name);
   }
-  path("##preset", "preset name", presetName_);
+  path("##saved", "saved name", savedName_);
   ImGui::SameLine();
-  if (button("Save as preset", "save preset")) {
+  if (button("Save under this name", "save named", "Listed here, in every session")) {
     session_.attempt([&] {
-      Bookmarks::checkName(presetName_);
-      std::filesystem::create_directories(configFolder() / "presets");
-      session_.saveSettings((configFolder() / "presets" / (presetName_ + ".toml")).string());
+      Bookmarks::checkName(savedName_);
+      std::filesystem::create_directories(configFolder() / "settings");
+      session_.saveSettings((configFolder() / "settings" / (savedName_ + ".toml")).string());
     });
     listsFresh_ = false;
   }

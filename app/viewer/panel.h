@@ -126,10 +126,10 @@ class Panel {
   Session& session_;
   ViewerState& state_;
   Bookmarks& bookmarks_;
-  std::string scenePath_, settingsPath_ = "settings.toml", presetName_, shotsPath_ = "shots.json";
+  std::string scenePath_, settingsPath_ = "settings.toml", savedName_, shotsPath_ = "shots.json";
   std::string bookmarkName_;
   std::vector<Bookmarks::Entry> bookmarkList_;
-  std::vector<Preset> presetList_;
+  std::vector<SavedSettings> savedList_;
   bool listsFresh_ = false;
   size_t messagesSeen_ = 0;
   std::map<std::string, TuneWish> wishes_;               // by effect

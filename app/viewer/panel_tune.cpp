@@ -21,7 +21,7 @@ void drawQuiet(const std::string& text) {
   ImGui::PopStyleColor();
 }
 
-std::string tooltipOf(const app::Preset& preset, const Presets& presets) {
+std::string tooltipOf(const Preset& preset, const Presets& presets) {
   std::string values;
   for (const auto& [key, text] : preset.values) {
     values += fmt::format("{}{} = {}", values.empty() ? "" : ", ", key, text);
@@ -39,7 +39,7 @@ void Panel::drawPresets(EffectList::Entry& entry) {
     layout.note(key + ".presets", own.error);
   }
   if (own.presets.all.empty()) return;
-  const app::Preset* const now = presetOf(entry.values, own.presets);
+  const Preset* const now = presetOf(entry.values, own.presets);
   drawQuiet("Preset: " + (now != nullptr ? now->name + ", " + priceOf(*now) : "custom"));
   layout.note(key + ".presets", now != nullptr ? now->name : "custom");
   const auto count = static_cast<float>(own.presets.all.size());
@@ -47,7 +47,7 @@ void Panel::drawPresets(EffectList::Entry& entry) {
   const float width = (ImGui::GetContentRegionAvail().x - (count - 1) * gap) / count;
   const float height = 3 * ImGui::GetTextLineHeight() + 2 * ImGui::GetStyle().FramePadding.y;
   std::string chosen;
-  for (const app::Preset& preset : own.presets.all) {
+  for (const Preset& preset : own.presets.all) {
     if (&preset != &own.presets.all.front()) ImGui::SameLine(0, gap);
     const bool is = &preset == now;
     if (is) ImGui::PushStyleColor(ImGuiCol_Button, ImGui::GetStyleColorVec4(ImGuiCol_ButtonActive));
@@ -66,7 +66,7 @@ TuneWish& Panel::wishOf(const std::string& effect) {
   const auto [found, fresh] = wishes_.try_emplace(effect);
   if (fresh) {
     found->second.effect = effect;
-    for (const app::Preset& preset : session_.presetsOf(effect).presets.all) {
+    for (const Preset& preset : session_.presetsOf(effect).presets.all) {
       if (preset.name == "balanced" && preset.error > 0) found->second.maxError = preset.error;
     }
   }

@@ -139,15 +139,15 @@ void saveState(const ViewerState& state, const fs::path& file) {
   image::writeFileAside(file.string(), document.dump(2) + "\n");
 }
 
-std::vector<Preset> presets(const fs::path& folder) {
-  std::vector<Preset> all;
+std::vector<SavedSettings> savedSettings(const fs::path& folder) {
+  std::vector<SavedSettings> all;
   std::error_code failed;
-  for (fs::directory_iterator file(folder / "presets", failed);
+  for (fs::directory_iterator file(folder / "settings", failed);
        !failed && file != fs::directory_iterator(); file.increment(failed)) {
     const fs::path& path = file->path();
     if (path.extension() == ".toml") all.push_back({.name = path.stem().string(), .path = path});
   }
-  std::ranges::sort(all, {}, &Preset::name);
+  std::ranges::sort(all, {}, &SavedSettings::name);
   return all;
 }
 

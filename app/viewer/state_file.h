@@ -33,12 +33,13 @@ ViewerState loadState(const std::filesystem::path& file, std::string& message);
 // are no UTF-8 are left out.
 void saveState(const ViewerState& state, const std::filesystem::path& file);
 
-struct Preset {
-  std::string name;            // of the file, without its ending
-  std::filesystem::path path;  // of a settings file
+// A settings file of the user's own, not one of an effect's presets.
+struct SavedSettings {
+  std::string name;  // of the file, without its ending
+  std::filesystem::path path;
 };
 
-// The files folder/presets/*.toml, by name.
-std::vector<Preset> presets(const std::filesystem::path& folder = configFolder());
+// The files folder/settings/*.toml, by name.
+std::vector<SavedSettings> savedSettings(const std::filesystem::path& folder = configFolder());
 
 }  // namespace grisaille::app::viewer

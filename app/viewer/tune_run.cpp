@@ -122,16 +122,19 @@ void TuneRun::start(const TuneCommand& command) {
   }
 }
 
-// "tune [####....]  42 % 34 evaluations, RMSE 0.1034, 5 s left"
+// "tune [####....]  42 % 34 evaluations, RMSE 0.1034, 5 s left"; before that, by the camera,
+// "truth 1 of 1 [##......]  25 % 64 of 256 samples a pixel, 7 s left".
 TuneRun::State TuneRun::state() const {
   if (!child_) return {};
   if (cancelled_) return {0, "is being cancelled"};
   const std::vector<std::string> lines = linesOf(child_->err());
-  if (lines.empty()) return {0, "the view's truth is traced"};
+  if (lines.empty()) return {0, "starts"};
   const std::string& line = lines.back();
-  const size_t bracket = line.find(']'), percent = line.find(" % ");
-  if (bracket == std::string::npos || percent == std::string::npos) return {0, line};
-  return {std::strtod(line.c_str() + bracket + 1, nullptr) / 100, line.substr(percent + 3)};
+  const size_t open = line.find(" ["), bracket = line.find(']'), percent = line.find(" % ");
+  if (open > bracket || percent == std::string::npos) return {0, line};
+  const std::string name = line.substr(0, open);
+  const std::string doing = name == "tune" ? "" : "tracing " + name + ": ";
+  return {std::strtod(line.c_str() + bracket + 1, nullptr) / 100, doing + line.substr(percent + 3)};
 }
 
 void TuneRun::cancel() {

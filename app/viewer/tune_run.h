@@ -41,7 +41,7 @@ glm::uvec2 tuneSize(glm::uvec2 view);
 class TuneRun {
  public:
   struct State {
-    double done = 0;   // share of the evaluations
+    double done = 0;   // share of what `text` says it does
     std::string text;  // the child's own words
   };
   struct Outcome {

@@ -157,7 +157,11 @@ TEST_P(TuneTest, ASearchEndsWithTheWindow) {
   viewer.untilThere("ssao.tune.start");
   type(viewer, "ssao.tune.evaluations", "100000");
   viewer.click("ssao.tune.start");
-  viewer.untilThere("ssao.tune.cancel");
+  viewer.until("the truth's progress", [](const nlohmann::json& now) {
+    return now.contains("ssao.tune.progress") &&
+           now["ssao.tune.progress"]["value"].get<std::string>().starts_with(
+               "tracing truth 1 of 1: ");
+  });
   viewer.click("ssao.tune.cancel");
   viewer.untilValue("ssao.tune.result", "cancelled");
   viewer.click("ssao.tune.start");

@@ -154,15 +154,15 @@ TEST(Folders, AreWhereTheStandardSays) {
   EXPECT_TRUE(configFolder().is_absolute());
 }
 
-TEST_F(StateFile, PresetsAreTheSettingsFilesOfTheirFolder) {
-  EXPECT_TRUE(presets(folder_).empty());
+TEST_F(StateFile, SavedSettingsAreTheFilesOfTheirFolder) {
+  EXPECT_TRUE(savedSettings(folder_).empty());
   for (const char* name : {"soft.toml", "a b.toml", "readme.md", "x.toml.bak"}) {
-    fileOf(std::string("presets/") + name, "");
+    fileOf(std::string("settings/") + name, "");
   }
-  const std::vector<Preset> all = presets(folder_);
+  const std::vector<SavedSettings> all = savedSettings(folder_);
   ASSERT_EQ(all.size(), 2u);
   EXPECT_EQ(all[0].name, "a b");
-  EXPECT_EQ(all[0].path, folder_ / "presets/a b.toml");
+  EXPECT_EQ(all[0].path, folder_ / "settings/a b.toml");
   EXPECT_EQ(all[1].name, "soft");
 }
 

@@ -87,16 +87,25 @@ TEST_F(TuneRunTest, WhatIsFoundComesBack) {
 }
 
 TEST_F(TuneRunTest, ItsWordsTellHowFarItIs) {
-  TuneRun run(
-      script("printf '\\rtune [#...]   7 %% early\\033[K\\rtune [##..]  42 %% 34 evaluations, 5 s "
-             "left\\033[K' >&2\nwhile [ ! -e '" +
-             file("go") + "' ]; do sleep 0.01; done"));
+  const auto untilThere = [&](const std::string& name) {
+    return "\nwhile [ ! -e '" + file(name) + "' ]; do sleep 0.01; done\n";
+  };
+  TuneRun run(script("printf '\\rtruth 1 of 2 [#...]  25 %% 64 of 256 samples a pixel\\033[K' >&2" +
+                     untilThere("traced") +
+                     "printf '\\r\\033[K\\rtune [#...]   7 %% early\\033[K\\rtune [##..]  42 %% 34 "
+                     "evaluations, 5 s left\\033[K' >&2" +
+                     untilThere("go")));
+  const auto until = [&](double done) {
+    while (run.state().done != done) {
+      EXPECT_FALSE(run.take());
+      std::this_thread::sleep_for(std::chrono::milliseconds(2));
+    }
+  };
   run.start(command_);
-  while (run.state().done == 0 || run.state().text == "early") {
-    EXPECT_FALSE(run.take());
-    std::this_thread::sleep_for(std::chrono::milliseconds(2));
-  }
-  EXPECT_EQ(run.state().done, 0.42);
+  until(0.25);
+  EXPECT_EQ(run.state().text, "tracing truth 1 of 2: 64 of 256 samples a pixel");
+  fileOf("traced", "");
+  until(0.42);
   EXPECT_EQ(run.state().text, "34 evaluations, 5 s left");
   fileOf("go", "");
   outcomeOf(run);
