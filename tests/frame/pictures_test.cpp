@@ -180,11 +180,12 @@ class PictureFrames : public tests::BackendTest {
 
   // Outputs of one frame of ambient occlusion by an estimator.
   std::vector<image::Image> render(Renderer& renderer, const std::string& estimator, uint32_t width,
-                                   uint32_t height) {
+                                   uint32_t height, double guardBand = 0) {
     const effect::Effect& effect = registry_.find("ssao");
     effect::Instance instance(device(), effect);
     effect::Values values(effect);
     values.set("estimator", estimator);
+    values.set("guard_band", guardBand);
     const ActiveEffect active[] = {{.instance = &instance, .values = &values}};
     renderer.render({.camera = camera_,
                      .width = width,
@@ -242,6 +243,18 @@ TEST_P(PictureFrames, NormalsOfTheDepthStandInForThoseThatAreNotThere) {
   EXPECT_GT(image::shareOver(drawn[1], again[1], 0.02), 0.0);
   EXPECT_LT(image::shareOver(drawn[1], again[1], 0.02), 0.5);
   EXPECT_LT(image::compare(drawn[3], again[3]).rmse, 0.14);
+}
+
+// Whatever band an effect asks for, it gets none.
+TEST_P(PictureFrames, NothingIsSeenBeyondAPicturesBorder) {
+  const scene::Scene atrium = scene::makeAtrium();
+  Renderer scene(device(), atrium);
+  const auto drawn = render(scene, "slices", 97, 55);
+  PictureAttachments source;
+  source.show({drawn[0], drawn[1], drawn[2]});
+  Renderer pictures(device(), source);
+  EXPECT_EQ(render(pictures, "slices", 97, 55, 0.5)[3].pixels, drawn[3].pixels);
+  EXPECT_NE(render(scene, "slices", 97, 55, 0.5)[3].pixels, drawn[3].pixels);
 }
 
 TEST_P(PictureFrames, WhatNoPictureHasIsMissing) {
