@@ -4,6 +4,7 @@
 #include <array>
 #include <cmath>
 #include <ctime>
+#include <filesystem>
 
 #include "app/truth/error_map.h"
 #include "app/viewer/viewer.h"
@@ -23,9 +24,18 @@ std::string timeStamp() {
   return text.data();
 }
 
+constexpr const char* kPictureEndings[] = {".png", ".exr"};
+
+// Without its ending, and of no picture that is there: two may be saved in a second.
 std::string fileName(std::string output) {
   std::ranges::replace(output, '.', '-');
-  return fmt::format("grisaille-{}-{}", timeStamp(), output);
+  const std::string first = fmt::format("grisaille-{}-{}", timeStamp(), output);
+  std::string name = first;
+  const auto isThere = [&](const char* ending) { return std::filesystem::exists(name + ending); };
+  for (int number = 2; std::ranges::any_of(kPictureEndings, isThere); ++number) {
+    name = fmt::format("{}-{}", first, number);
+  }
+  return name;
 }
 
 std::optional<Painter> painterOf(const EffectList& list) {
@@ -217,7 +227,7 @@ void Viewer::savePicture() {
   session_.attempt([&] {
     const std::string name = fileName(session_.left);
     const image::Image picture = pictureOf(session_.left);
-    for (const std::string ending : {".png", ".exr"}) {
+    for (const std::string ending : kPictureEndings) {
       const bool colors = session_.left == kErrorView && ending == ".png";
       image::write(colors ? truth::errorMap(picture) : picture, name + ending,
                    {.transfer = frame::transferOf(session_.left)});

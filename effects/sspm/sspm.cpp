@@ -46,7 +46,7 @@ struct ShotBlock {
   glm::vec3 direction;
   float full;
   glm::vec3 color;
-  float edge_fade;
+  float per_fade;
   float number;
 };
 GRISAILLE_CHECK_BLOCK_sspm_per_shot_Shot(ShotBlock);
@@ -58,9 +58,15 @@ struct ListsBlock {
   glm::ivec4 camera_cell;
   glm::vec4 camera_fraction;
   uint32_t slot_mask;
-  float edge_fade;
+  float per_fade;
 };
 GRISAILLE_CHECK_BLOCK_sspm_surface_Lists(ListsBlock);
+
+// 1 / edge_fade. What is multiplied is not asked about: a driver may compile a shader anew for each
+// value that a uniform in a condition takes, and lavapipe does.
+float perFade(const plugin::Frame& frame) {
+  return 1.0f / std::max(frame.value<float>(kEdgeFade), 1e-30f);
+}
 
 glm::dvec3 eyeOf(const plugin::Frame& frame) {
   const double* p = frame.view().position;
@@ -168,7 +174,7 @@ class Sspm {
             .direction = {shot.direction[0], shot.direction[1], shot.direction[2]},
             .full = frame.value<float>(kFull),
             .color = {shot.color[0], shot.color[1], shot.color[2]},
-            .edge_fade = frame.value<float>(kEdgeFade),
+            .per_fade = perFade(frame),
             .number = static_cast<float>(number + 1)};
   }
 
@@ -299,7 +305,7 @@ class Sspm {
     block.camera_cell = glm::ivec4(glm::ivec3(metres), static_cast<int32_t>(levels.size()));
     block.camera_fraction = glm::vec4(glm::dvec4(eye - metres, frame.value<double>(kFull)));
     block.slot_mask = world_.cells().slotMask();
-    block.edge_fade = frame.value<float>(kEdgeFade);
+    block.per_fade = perFade(frame);
     return block;
   }
 

@@ -87,9 +87,9 @@ void main() {
   if (now.y > 0.0) {
     const vec2 pixel = vec2(texel) * float(kScale) + 0.5;
     const vec3 world = textureLod(world_normal, attachmentAt(pixel), 0.0).xyz;
-    if (settings.most > 0.0) {
-      const vec2 old = before(viewPosition(pixel, now.y), viewNormal(world), world);
-      const float frames = min(old.y, settings.most);
+    const vec2 old = before(viewPosition(pixel, now.y), viewNormal(world), world);
+    const float frames = min(old.y, settings.most);
+    if (frames > 0.0) {  // of an uninitialised history: not
       result.x = (old.x * frames + now.x) / (frames + 1.0);
       result.z = frames + 1.0;
     }

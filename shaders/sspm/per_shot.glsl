@@ -13,7 +13,7 @@ layout(UNIFORM(1), std140) uniform Shot {
   vec3 direction;
   float full;  // r0, metres: alpha is r0 / distance, 1 up to r0
   vec3 color;
-  float edge_fade;  // share of the range over which alpha fades out at the rim
+  float per_fade;   // 1 / share of the range over which alpha fades out at the rim
   float number;     // of the shot, from 1
 } shot;
 layout(TEXTURE(0)) uniform sampler2D view_depth;
@@ -37,8 +37,7 @@ void main() {
 #endif
   if (hit) {
     const float alpha = min(1.0, shot.full / max(across, 1e-6));
-    const float fade =
-        shot.edge_fade > 0.0 ? min(1.0, (1.0 - across / shot.range) / shot.edge_fade) : 1.0;
+    const float fade = min(1.0, (1.0 - across / shot.range) * shot.per_fade);
     sum = vec4(mix(sum.rgb, shot.color, alpha), sum.a + alpha * fade);
     owner.x *= 1.0 - alpha;
     if (alpha > owner.x) owner = vec2(alpha, shot.number);

@@ -14,7 +14,7 @@ layout(UNIFORM(2), std140) uniform Lists {
   ivec4 camera_cell;              // as in View, w: number of levels
   vec4 camera_fraction;           // w: r0, metres
   uint slot_mask;                 // number of slots, a power of two, less 1
-  float edge_fade;
+  float per_fade;
 } lists;
 
 struct Shot {
@@ -124,7 +124,7 @@ void add(inout Sum sum, uint record, uint word, vec3 from_camera, vec3 normal) {
   if (along < 0.0 || across >= shot.range || dot(q, normal) >= 0.0) return;
   if (!inSight(shot, word, q, along, normal)) return;
   const float alpha = min(1.0, lists.camera_fraction.w / max(across, 1e-6));
-  const float fade = lists.edge_fade > 0.0 ? min(1.0, (1.0 - across / shot.range) / lists.edge_fade) : 1.0;
+  const float fade = min(1.0, (1.0 - across / shot.range) * lists.per_fade);
   const float weight = alpha * sum.through;
   const vec2 blue_times = unpackHalf2x16(shot.color_b_times);
   sum.color += weight * vec3(unpackHalf2x16(shot.color_rg), blue_times.x);

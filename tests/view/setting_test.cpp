@@ -37,6 +37,17 @@ TEST_P(SettingTest, ADraggedSliderIsTheRenderedSetting) {
   expectQuits(viewer);
 }
 
+// Within a second too, which names them.
+TEST_P(SettingTest, APictureSavedReplacesNone) {
+  DrivenViewer viewer(folder_, arguments({"--effects", "ssao", "--view", "ssao.ao"}));
+  for (int i = 0; i < 4; ++i) viewer.savePicture();
+  const std::vector<std::string> files = folder_.files();
+  for (const std::string ending : {".png", ".exr"}) {
+    EXPECT_EQ(std::ranges::count_if(files, [&](const auto& f) { return f.ends_with(ending); }), 4);
+  }
+  expectQuits(viewer);
+}
+
 TEST_P(SettingTest, ValuesAreTypedAndCheckedAndReset) {
   DrivenViewer viewer(folder_, arguments({"--effects", "ssao"}));
   const auto type = [&](const std::string& control, const std::string& text) {

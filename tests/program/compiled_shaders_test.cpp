@@ -1,0 +1,69 @@
+// SPDX-License-Identifier: MIT
+// Shaders are compiled for what is set, not for each frame and each shot: some drivers compile one
+// anew for each value that a uniform in a condition takes. Counted in Mesa's cache; other drivers
+// leave that empty.
+#include <gtest/gtest.h>
+
+#include <fmt/format.h>
+
+#include "tests/program/run.h"
+
+namespace grisaille::tests {
+namespace {
+
+namespace fs = std::filesystem;
+
+class CompiledShaders : public ::testing::TestWithParam<const char*> {
+ protected:
+  // By a run that succeeds.
+  ptrdiff_t compiledBy(const std::string& name, std::vector<std::string> arguments) {
+    const fs::path cache = folder_.path() / name;
+    arguments.insert(arguments.end(), {"--backend", GetParam()});
+    const Outcome outcome =
+        runProgram(arguments, folder_.path(), {"MESA_SHADER_CACHE_DIR=" + cache.string()});
+    EXPECT_EQ(outcome.status, 0) << outcome.err;
+    if (!fs::exists(cache)) return 0;
+    return std::count_if(fs::recursive_directory_iterator(cache), {},
+                         [](const fs::directory_entry& entry) { return entry.is_regular_file(); });
+  }
+  TemporaryFolder folder_;
+};
+INSTANTIATE_TEST_SUITE_P(Backends, CompiledShaders, ::testing::Values("opengl", "vulkan"),
+                         [](const auto& parameter) { return std::string(parameter.param); });
+
+TEST_P(CompiledShaders, AreNoMoreForMoreShots) {
+  for (const std::string mode : {"surface", "per_shot"}) {
+    ptrdiff_t few = 0;
+    for (const int shots : {2, 20}) {
+      std::vector<std::string> arguments = {"render",      "--size", "160x90",
+                                            "--effects",   "sspm",   "--write",
+                                            "paint=p.exr", "--set",  "sspm.mode=" + mode};
+      for (int i = 0; i < shots; ++i) {
+        arguments.insert(arguments.end(),
+                         {"--fire", fmt::format("{},45,#ff{:02x}00", 5 + 7 * i, i)});
+      }
+      const ptrdiff_t compiled = compiledBy(fmt::format("{}-{}", mode, shots), arguments);
+      if (shots == 2) few = compiled;
+      EXPECT_EQ(compiled, few) << mode;
+    }
+  }
+}
+
+TEST_P(CompiledShaders, AreNoMoreForMoreFrames) {
+  ptrdiff_t few = 0;
+  for (const int frames : {3, 9}) {
+    const std::string path = folder_.write("path.json", fmt::format(R"({{"frames": {}, "cameras": [
+          {{"eye": [-6.5, 1.75, 1.9], "target": [2.6, 2.35, -1.2], "fovy_degrees": 62}},
+          {{"eye": [-5.5, 1.85, 1.7], "target": [2.6, 2.35, -1.2], "fovy_degrees": 62}}]}})",
+                                                                    frames));
+    const std::string name = std::to_string(frames);
+    const ptrdiff_t compiled = compiledBy(
+        name, {"measure", "--sweep", "ssao.history=8", "--sweep", "ssao.steps=2", "--size", "96x54",
+               "--samples", "16", "--rounds", "1", "--path", path, "--out", "study-" + name});
+    if (frames == 3) few = compiled;
+    EXPECT_EQ(compiled, few);
+  }
+}
+
+}  // namespace
+}  // namespace grisaille::tests
