@@ -51,7 +51,7 @@ _grisaille() {{
         words=$("${{COMP_WORDS[0]}}" completion --presets 2>/dev/null |
           sed -n "s/^${{COMP_WORDS[COMP_CWORD-2]}}=//p") ;;
     --load|--save) compopt -o nospace; words="sspm=" ;;
-    --write) compopt -o nospace; words="color= depth= normal= facet_normal= base_colour= ao= paint= paint_coverage= ao_error= ceiling= ceiling_error= mask=" ;;
+    --write) compopt -o nospace; words="color= depth= back_depth= normal= facet_normal= base_colour= ao= paint= paint_coverage= ao_error= ceiling= ceiling_error= mask=" ;;
     --camera|--config|--paint|--timings|--coverage|--write-camera) COMPREPLY=($(compgen -f -- "$current")); return ;;
     --plugin-path|--out|--bookmarks) COMPREPLY=($(compgen -d -- "$current")); return ;;
   esac

@@ -35,16 +35,10 @@ std::string rangeText(const grisaille_param_desc& param) {
 
 // With its defaults, for all outputs.
 std::string readsText(const effect::Effect& effect) {
-  static constexpr const char* kNames[GRISAILLE_ATTACHMENT_COUNT] = {
-      "depth", "view_depth", "normal", "base_colour", "facet_normal"};
   std::vector<double> defaults;
   for (const grisaille_param_desc& param : effect.params()) defaults.push_back(param.default_value);
-  const uint32_t reads = effect.reads(defaults.data(), ~0u);
-  std::vector<std::string> names;
-  for (uint32_t a = 0; a < GRISAILLE_ATTACHMENT_COUNT; ++a) {
-    if ((reads & GRISAILLE_READS(a)) != 0) names.emplace_back(kNames[a]);
-  }
-  return fmt::format("{}", fmt::join(names, ", "));
+  return fmt::format("{}",
+                     fmt::join(effect::attachmentNames(effect.reads(defaults.data(), ~0u)), ", "));
 }
 
 nlohmann::ordered_json jsonOf(const grisaille_param_desc& param) {

@@ -230,8 +230,8 @@ void addRender(CLI::App& program) {
   command
       ->add_option(
           "--write", options->writes,
-          "color, depth (metres, 0 = sky), normal and facet_normal (world), base_colour or an "
-          "effect's output, as .exr or .png; default: color=grisaille.png")
+          "color, depth and back_depth (metres, 0 = sky), normal and facet_normal (world), "
+          "base_colour or an effect's output, as .exr or .png; default: color=grisaille.png")
       ->type_name("NAME=FILE")
       ->allow_extra_args(false);
   CLI::Option* surface =

@@ -41,7 +41,7 @@ double costOf(const std::vector<gpu::FrameTimes>& frames, const std::vector<std:
     for (const gpu::PassTime& pass : frame.passes) {
       const std::string effect = pass.label.substr(0, pass.label.find('/'));
       if (std::ranges::find(effects, effect) != effects.end()) sum += pass.milliseconds;
-      if (pass.label.starts_with(frame::kGuardedPasses)) sum += guardShare * pass.milliseconds;
+      sum += frame::shareForEffects(pass.label, guardShare) * pass.milliseconds;
     }
   }
   return frames.empty() ? 0 : sum / static_cast<double>(frames.size());

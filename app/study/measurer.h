@@ -40,8 +40,8 @@ struct Subject {
 image::Image oneChannel(image::Image picture, const std::string& name);
 
 // Milliseconds a frame that the passes of these effects took, as their own labels name them, and
-// what their guard bands add to drawing the scene, of which `guardShare` is as frame::guardShare()
-// has it. 0: no frames.
+// what they add to drawing the scene: frame::shareForEffects(); `guardShare` is
+// frame::guardShare()'s. 0: no frames.
 double costOf(const std::vector<gpu::FrameTimes>& frames, const std::vector<std::string>& effects,
               double guardShare);
 

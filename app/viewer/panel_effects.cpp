@@ -45,14 +45,8 @@ std::string tooltipOf(const EffectList::Entry& entry, const grisaille_param_desc
 }
 
 std::string readsOf(const EffectList::Entry& entry) {
-  constexpr const char* kNames[GRISAILLE_ATTACHMENT_COUNT] = {"depth", "view_depth", "normal",
-                                                              "base_colour", "facet_normal"};
   const uint32_t reads = entry.values.effect().reads(entry.values.all().data(), ~0u);
-  std::string text;
-  for (uint32_t i = 0; i < GRISAILLE_ATTACHMENT_COUNT; ++i) {
-    if ((reads & GRISAILLE_READS(i)) != 0)
-      text += (text.empty() ? "" : ", ") + std::string(kNames[i]);
-  }
+  const std::string text = fmt::format("{}", fmt::join(effect::attachmentNames(reads), ", "));
   return text.empty() ? "nothing" : text;
 }
 

@@ -40,6 +40,7 @@ std::vector<Viewable> viewables(const EffectList& effects) {
   all.push_back({"normal", "Normals", Kind::kSigned});
   all.push_back({"facet_normal", "Facet normals", Kind::kSigned});
   all.push_back({"depth", "Depth", Kind::kDepth});
+  all.push_back({"back_depth", "Back depth", Kind::kDepth});
   all.push_back({"base_colour", "Base colour", Kind::kLight});
   return all;
 }

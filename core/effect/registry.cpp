@@ -2,6 +2,7 @@
 #include "core/effect/registry.h"
 
 #include <algorithm>
+#include <array>
 #include <filesystem>
 #include <set>
 
@@ -25,7 +26,20 @@ void checkAbi(const grisaille_plugin_desc& plugin) {
   }
 }
 
+// By grisaille_attachment.
+constexpr std::array kAttachmentNames = {"depth",       "view_depth",   "normal",
+                                         "base_colour", "facet_normal", "back_depth"};
+static_assert(kAttachmentNames.size() == GRISAILLE_ATTACHMENT_COUNT);
+
 }  // namespace
+
+std::vector<std::string> attachmentNames(uint32_t reads) {
+  std::vector<std::string> names;
+  for (size_t a = 0; a < kAttachmentNames.size(); ++a) {
+    if ((reads & GRISAILLE_READS(a)) != 0) names.emplace_back(kAttachmentNames[a]);
+  }
+  return names;
+}
 
 struct Registry::State {
   std::vector<Effect> effects;                                      // by key

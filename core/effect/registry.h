@@ -34,6 +34,9 @@ struct Effect {
   bool takesShots() const { return (desc->flags & GRISAILLE_EFFECT_TAKES_SHOTS) != 0; }
 };
 
+// The names of GRISAILLE_READS' bits, as headers and messages have them: "view_depth", ...
+std::vector<std::string> attachmentNames(uint32_t reads);
+
 struct Refused {
   std::string path;
   Error reason;

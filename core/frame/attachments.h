@@ -16,6 +16,7 @@ struct AttachmentTargets {
   gpu::Texture normal;       // kRgba16Float
   gpu::Texture baseColour;   // kRgba8Srgb
   gpu::Texture facetNormal;  // kRgba16Float
+  gpu::Texture backDepth;    // kR32Float
 };
 
 class AttachmentSource {

@@ -101,6 +101,10 @@ void PictureAttachments::record(gpu::Commands& commands, const scene::Camera& ca
   commands.beginPass("pictures/upload");
   upload(commands, targets.depth, clipDepth(depth, camera.nearPlane));
   if (targets.viewDepth) upload(commands, targets.viewDepth, depth.pixels);
+  if (targets.backDepth) {
+    // Nothing is known of what is behind.
+    upload(commands, targets.backDepth, std::vector<float>(depth.pixels.size(), 0.0f));
+  }
   if (targets.baseColour) {
     upload(commands, targets.baseColour, colourTexels(pictures_.baseColour, depth));
   }

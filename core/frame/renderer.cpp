@@ -20,9 +20,14 @@ constexpr const char* kDepth = "depth";
 constexpr const char* kNormal = "normal";
 constexpr const char* kBaseColour = "base_colour";
 constexpr const char* kFacetNormal = "facet_normal";
-constexpr const char* kFrameOutputs[] = {kColor, kDepth, kNormal, kBaseColour, kFacetNormal};
+constexpr const char* kBackDepth = "back_depth";
+constexpr const char* kFrameOutputs[] = {kColor,      kDepth,       kNormal,
+                                         kBaseColour, kFacetNormal, kBackDepth};
 // Clip depth is drawn into this; nobody can ask for it by name.
 constexpr const char* kClipDepth = "clip depth";
+
+// How the labels of passes begin that draw the scene, as large as the picture or with a guard band.
+constexpr std::string_view kScenePasses = "scene/", kGuardedPasses = "scene/guarded ";
 
 constexpr uint32_t kGroup = 8;  // threads a side, in both shaders of this room
 
@@ -80,6 +85,15 @@ double guardShare(std::span<const ActiveEffect> effects, uint32_t width, uint32_
   return 1 - double{1} * width * height / ((width + 2 * band) * (height + 2 * band));
 }
 
+double shareForEffects(std::string_view pass, double guardShare) {
+  const bool guarded = pass.starts_with(kGuardedPasses);
+  const bool scene = guarded || pass.starts_with(kScenePasses);
+  if (!scene) return 0;
+  pass.remove_prefix(guarded ? kGuardedPasses.size() : kScenePasses.size());
+  if (pass.starts_with(SceneAttachments::kBackPasses)) return 1;
+  return guarded ? guardShare : 0;
+}
+
 void checkOutput(std::string_view name, std::span<const effect::Effect* const> effects) {
   const std::vector<std::string> all = outputNames(effects);
   if (std::find(all.begin(), all.end(), name) != all.end()) return;
@@ -108,6 +122,7 @@ struct Renderer::Plan {
     if (wants(desc, kDepth)) attachments |= GRISAILLE_READS(GRISAILLE_VIEW_DEPTH);
     if (wants(desc, kNormal)) attachments |= GRISAILLE_READS(GRISAILLE_NORMAL);
     if (wants(desc, kFacetNormal)) attachments |= GRISAILLE_READS(GRISAILLE_FACET_NORMAL);
+    if (wants(desc, kBackDepth)) attachments |= GRISAILLE_READS(GRISAILLE_BACK_DEPTH);
     if (wants(desc, kBaseColour) || (color && desc.surface == Surface::kBaseColour)) {
       attachments |= GRISAILLE_READS(GRISAILLE_BASE_COLOUR);
     }
@@ -233,8 +248,11 @@ void Renderer::recordAttachments(gpu::Commands& commands, const SceneView& view)
   if (view.reads(GRISAILLE_VIEW_DEPTH)) {
     targets.viewDepth = attachment(kDepth, gpu::Format::kR32Float, kComputed);
   }
+  if (view.reads(GRISAILLE_BACK_DEPTH)) {
+    targets.backDepth = attachment(kBackDepth, gpu::Format::kR32Float, kComputed);
+  }
   source_.record(commands, view.camera, view.width, view.height, view.block, targets,
-                 view.prefix.empty() ? "scene/" : kGuardedPasses);
+                 view.prefix.empty() ? kScenePasses : kGuardedPasses);
 }
 
 void Renderer::recordEffects(gpu::Commands& commands, const FrameDesc& desc, const Plan& plan,
@@ -253,8 +271,8 @@ void Renderer::recordEffects(gpu::Commands& commands, const FrameDesc& desc, con
     const SceneView& seen = band ? guarded : picture;
     inputs.guard = band ? plan.guard : 0;
     inputs.viewBlock = seen.block;
-    constexpr const char* kAttachments[GRISAILLE_ATTACHMENT_COUNT] = {kClipDepth, kDepth, kNormal,
-                                                                      kBaseColour, kFacetNormal};
+    constexpr const char* kAttachments[GRISAILLE_ATTACHMENT_COUNT] = {
+        kClipDepth, kDepth, kNormal, kBaseColour, kFacetNormal, kBackDepth};
     for (size_t a = 0; a < GRISAILLE_ATTACHMENT_COUNT; ++a) {
       if ((reads & GRISAILLE_READS(a)) != 0)
         inputs.attachments[a] = find(seen.prefix + kAttachments[a]);

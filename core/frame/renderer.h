@@ -49,13 +49,16 @@ struct FrameDesc {
   effect::RayService* rays = nullptr;
 };
 
-// How the labels of passes begin that draw the scene with a guard band, and which share of their
-// time goes beyond the picture: what the effects' guard bands cost. 0: none has one.
-constexpr std::string_view kGuardedPasses = "scene/guarded ";
+// Which share of the time of a pass that draws the scene with a guard band goes beyond the picture.
+// 0: no effect has one.
 double guardShare(std::span<const ActiveEffect> effects, uint32_t width, uint32_t height);
+// Which share of a pass of this label, of those that draw the scene, is what effects cost that want
+// more than most renderers have anyway: all of drawing back faces, and what guard bands add.
+double shareForEffects(std::string_view pass, double guardShare);
 
 // Every frame has color (composed, linear light), depth (linear view depth in metres, 0 = sky),
-// normal and facet_normal (world) and base_colour; an active effect adds its own outputs.
+// normal and facet_normal (world), base_colour and back_depth (as depth); an active effect adds its
+// own outputs.
 std::vector<std::string> outputNames(std::span<const effect::Effect* const> effects);
 
 // Throws kOutputUnknown, naming the nearest, unless outputNames() lists `name`.

@@ -23,8 +23,27 @@ void SceneAttachments::record(gpu::Commands& commands, const scene::Camera& came
                .baseColour = targets.baseColour,
                .facetNormal = targets.facetNormal});
   commands.endPass();
-  if (!targets.viewDepth) return;
+  if (targets.viewDepth) {
+    viewDepth(commands, targets.depth, viewBlock, targets.viewDepth, {width, height}, passes);
+  }
+  if (targets.backDepth) {
+    const gpu::Texture back =
+        commands.transient({.label = "back",
+                            .format = gpu::Format::kD32Float,
+                            .width = width,
+                            .height = height,
+                            .usage = gpu::TextureUsage::kTarget | gpu::TextureUsage::kSampled});
+    const std::string backs = std::string(passes) + std::string(kBackPasses);
+    commands.beginPass(backs + "geometry");
+    scene_.draw(commands, camera, width, height, {.depth = back, .front = targets.depth});
+    commands.endPass();
+    viewDepth(commands, back, viewBlock, targets.backDepth, {width, height}, backs);
+  }
+}
 
+void SceneAttachments::viewDepth(gpu::Commands& commands, gpu::Texture clipDepth,
+                                 gpu::BufferRange viewBlock, gpu::Texture to, glm::uvec2 size,
+                                 std::string_view passes) {
   if (!viewDepth_) {
     nearest_ = device_.createSampler({.label = "nearest depth"});
     viewDepth_ = device_.createComputePipeline(
@@ -32,14 +51,15 @@ void SceneAttachments::record(gpu::Commands& commands, const scene::Camera& came
   }
   const std::array bindings = {
       gpu::uniformBinding(0, viewBlock),
-      gpu::textureBinding(0, {.texture = targets.depth}, nearest_),
-      gpu::imageBinding(0, targets.viewDepth),
+      gpu::textureBinding(0, {.texture = clipDepth}, nearest_),
+      gpu::imageBinding(0, to),
   };
   constexpr uint32_t kGroup = 8;  // threads a side
   commands.beginPass(std::string(passes) + "view_depth");
-  commands.dispatch({.pipeline = viewDepth_,
-                     .bindings = bindings,
-                     .groups = {(width + kGroup - 1) / kGroup, (height + kGroup - 1) / kGroup, 1}});
+  commands.dispatch(
+      {.pipeline = viewDepth_,
+       .bindings = bindings,
+       .groups = {(size.x + kGroup - 1) / kGroup, (size.y + kGroup - 1) / kGroup, 1}});
   commands.endPass();
 }
 

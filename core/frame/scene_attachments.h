@@ -9,6 +9,9 @@ namespace grisaille::frame {
 
 class SceneAttachments : public AttachmentSource {
  public:
+  // How the labels begin of the passes that draw back faces, after the record()'s `passes`.
+  static constexpr std::string_view kBackPasses = "back ";
+
   // Device and scene outlive this; the scene stays unchanged.
   SceneAttachments(gpu::Device& device, const scene::Scene& scene)
       : device_(device), scene_(device, scene) {}
@@ -20,6 +23,10 @@ class SceneAttachments : public AttachmentSource {
               std::string_view passes) override;
 
  private:
+  // Clip depth to view depth.
+  void viewDepth(gpu::Commands& commands, gpu::Texture clipDepth, gpu::BufferRange viewBlock,
+                 gpu::Texture to, glm::uvec2 size, std::string_view passes);
+
   gpu::Device& device_;
   SceneResources scene_;
   gpu::ComputePipeline viewDepth_;

@@ -88,6 +88,7 @@ SceneResources::~SceneResources() {
     device_.destroy(texture.colour);
   }
   for (const gpu::Sampler sampler : samplers_) device_.destroy(sampler);
+  device_.destroy(nearest_);
   device_.destroy(white_);
 }
 
@@ -191,6 +192,8 @@ gpu::Sampler SceneResources::sampler(const scene::Material& material, bool base)
 void SceneResources::draw(gpu::Commands& commands, const scene::Camera& camera, uint32_t width,
                           uint32_t height, const SceneTargets& targets) {
   const bool normal{targets.normal}, base{targets.baseColour}, facet{targets.facetNormal};
+  const bool behind{targets.front};
+  if (behind && !nearest_) nearest_ = device_.createSampler({.label = "nearest"});
   const auto bytes = [](const auto& values) { return std::as_bytes(std::span(values)); };
   const auto vertex = gpu::BufferUsage::kVertex;
   vertexBuffer(commands, positions_, "positions", bytes(scene_.positions), vertex);
@@ -202,7 +205,7 @@ void SceneResources::draw(gpu::Commands& commands, const scene::Camera& camera, 
 
   // Bindings and streams stay where they are until render() returns: reserved, so nothing moves.
   std::vector<gpu::Draw> draws;
-  std::vector<std::array<gpu::Binding, 2>> bindings;
+  std::vector<std::array<gpu::Binding, 3>> bindings;
   std::vector<std::array<gpu::BufferRange, 3>> streams;
   bindings.reserve(scene_.instances.size());
   streams.reserve(scene_.instances.size());
@@ -223,7 +226,8 @@ void SceneResources::draw(gpu::Commands& commands, const scene::Camera& camera, 
                           .front_sign = mirrors ? -1.0f : 1.0f,
                           .camera_from_object = glm::mat4(cameraFromObject)};
     const auto blockBytes = std::as_bytes(std::span(&block, 1));
-    const Variant variant{.facet = facet, .normal = normal, .base = base, .mask = material.masked};
+    const Variant variant{
+        .facet = facet, .normal = normal, .base = base, .mask = material.masked, .behind = behind};
 
     auto& stream = streams.emplace_back();
     size_t streamCount = 0;
@@ -239,6 +243,9 @@ void SceneResources::draw(gpu::Commands& commands, const scene::Camera& camera, 
       binding[bindingCount++] = gpu::textureBinding(
           0, {.texture = texture(commands, material, base)}, sampler(material, base));
     }
+    if (behind) {
+      binding[bindingCount++] = gpu::textureBinding(1, {.texture = targets.front}, nearest_);
+    }
     draws.push_back({.pipeline = pipeline(variant),
                      .bindings = std::span(binding).first(bindingCount),
                      .vertexStreams = std::span(stream).first(streamCount),
@@ -246,7 +253,7 @@ void SceneResources::draw(gpu::Commands& commands, const scene::Camera& camera, 
                      .count = primitive.indexCount,
                      .first = primitive.firstIndex,
                      .cull = material.doubleSided ? gpu::Cull::kNone
-                             : mirrors            ? gpu::Cull::kFront
+                             : mirrors != behind  ? gpu::Cull::kFront
                                                   : gpu::Cull::kBack});
   }
 

@@ -15,10 +15,13 @@ namespace grisaille::frame {
 
 // What one draw writes; all but depth may be null.
 struct SceneTargets {
-  gpu::Texture depth;        // kD32Float
-  gpu::Texture normal;       // kRgba16Float
-  gpu::Texture baseColour;   // kRgba8Srgb
-  gpu::Texture facetNormal;  // kRgba16Float
+  gpu::Texture depth;             // kD32Float
+  gpu::Texture normal = {};       // kRgba16Float
+  gpu::Texture baseColour = {};   // kRgba8Srgb
+  gpu::Texture facetNormal = {};  // kRgba16Float
+  // kD32Float, as drawn before: where it is there, only surfaces are drawn that face away or have
+  // two sides and are not in front of it. Into depth alone.
+  gpu::Texture front = {};
 };
 
 class SceneResources {
@@ -36,13 +39,14 @@ class SceneResources {
  private:
   // Which of the things below a draw needs.
   struct Variant {
-    bool facet = false, normal = false, base = false, mask = false;
+    bool facet = false, normal = false, base = false, mask = false, behind = false;
 
     bool uv() const { return base || mask; }
     // In the lists of shaders/geometry_variants.h.
     size_t vertex() const { return (facet ? 4u : 0u) + (normal ? 2u : 0u) + (uv() ? 1u : 0u); }
     size_t fragment() const {
-      return (facet ? 8u : 0u) + (normal ? 4u : 0u) + (base ? 2u : 0u) + (mask ? 1u : 0u);
+      return (behind ? 16u : 0u) + (facet ? 8u : 0u) + (normal ? 4u : 0u) + (base ? 2u : 0u) +
+             (mask ? 1u : 0u);
     }
   };
   // A scene texture on the device: its alpha alone, or its colour with mip levels.
@@ -59,9 +63,10 @@ class SceneResources {
   gpu::Device& device_;
   const scene::Scene& scene_;
   gpu::Buffer positions_, normals_, texCoords_, indices_;
-  std::array<gpu::GraphicsPipeline, 16> pipelines_;  // by Variant::fragment()
+  std::array<gpu::GraphicsPipeline, 18> pipelines_;  // by Variant::fragment()
   std::vector<DeviceTexture> textures_;
   std::array<gpu::Sampler, 27> samplers_;       // wrap u, wrap v, one level | mips | anisotropic
+  gpu::Sampler nearest_;                        // for the front
   gpu::Texture white_;                          // for materials without a texture
   std::vector<scene::Bounds> primitiveBounds_;  // object space
 };

@@ -71,8 +71,9 @@ Slices::Slices(plugin::Host host)
       clamped_(host.sampler({.label = "clamped"})),
       history_(host) {}
 
-uint32_t Slices::reads() noexcept {
-  return GRISAILLE_READS(GRISAILLE_VIEW_DEPTH) | GRISAILLE_READS(GRISAILLE_NORMAL);
+uint32_t Slices::reads(plugin::Values values) noexcept {
+  return GRISAILLE_READS(GRISAILLE_VIEW_DEPTH) | GRISAILLE_READS(GRISAILLE_NORMAL) |
+         (values.get<bool>(kBackFaces) ? GRISAILLE_READS(GRISAILLE_BACK_DEPTH) : 0u);
 }
 
 void Slices::record(const plugin::Frame& frame, Pair outputs) {
@@ -91,7 +92,8 @@ void Slices::record(const plugin::Frame& frame, Pair outputs) {
   };
   const uint32_t blur = std::max(frame.value<uint32_t>(kBlurSize), 1u);
   history_.keepOnly({frame.value<double>(kRadius), frame.value<double>(kSlices),
-                     frame.value<double>(kSteps), frame.value<double>(kThickness)});
+                     frame.value<double>(kSteps), frame.value<double>(kThickness),
+                     frame.value<double>(kBackFaces)});
   const uint32_t averaged = frame.value<uint32_t>(kHistory);
   if (averaged == 1) history_.forget();
 
@@ -134,14 +136,19 @@ void Slices::occlude(const plugin::Frame& frame, Kernels& kernels, Size size, Pa
                                 .thickness = radius * frame.value<float>(kThickness),
                                 .turn = turn,
                                 .exchange = exchange};
-  // Constants 0 ... 2 of shaders/ssao/slices.glsl.
+  const bool back = frame.value<bool>(kBackFaces);
+  // Constants 0 ... 3 of shaders/ssao/slices.glsl.
   const grisaille_constant constants[] = {plugin::specialize(0, frame.value<uint32_t>(kSlices)),
                                           plugin::specialize(1, frame.value<uint32_t>(kSteps)),
-                                          plugin::specialize(2, size.scale)};
+                                          plugin::specialize(2, size.scale),
+                                          plugin::specialize(3, back)};
   std::vector<grisaille_binding> bindings = {
-      plugin::uniform(0, frame.viewBlock()), plugin::uniform(1, frame.uniform(settings)),
+      plugin::uniform(0, frame.viewBlock()),
+      plugin::uniform(1, frame.uniform(settings)),
       plugin::texture(0, frame.attachment(GRISAILLE_VIEW_DEPTH), clamped_),
       plugin::texture(1, frame.attachment(GRISAILLE_NORMAL), clamped_),
+      plugin::texture(2, frame.attachment(back ? GRISAILLE_BACK_DEPTH : GRISAILLE_VIEW_DEPTH),
+                      clamped_),
       plugin::image(0, target.open)};
   if (target.bent.id != 0) bindings.push_back(plugin::image(1, target.bent));
   dispatch(frame, kernels.occlusion.get(constants), bindings, size.width, size.height);

@@ -17,7 +17,7 @@ class Slices {
     grisaille_texture open, bent;
   };
 
-  static uint32_t reads() noexcept;
+  static uint32_t reads(plugin::Values values) noexcept;
   // `outputs`: r16f and rgba16f, of the picture's size.
   void record(const plugin::Frame& frame, Pair outputs);
 

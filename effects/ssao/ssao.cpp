@@ -40,7 +40,7 @@ class Ssao {
     const bool classic = values.get<Estimator>(Parameter::kEstimator) == Estimator::kClassic;
     const bool coloured = plugin::wants(wanted, kTint) &&
                           values.get<Bounce>(Parameter::kBounce) == Bounce::kBaseColour;
-    return (slices ? Slices::reads() : 0u) | (classic ? Classic::reads(values) : 0u) |
+    return (slices ? Slices::reads(values) : 0u) | (classic ? Classic::reads(values) : 0u) |
            (coloured ? GRISAILLE_READS(GRISAILLE_BASE_COLOUR) : 0u);
   }
 

@@ -19,7 +19,15 @@ layout(location = 2) in vec3 from_camera;  // world axes, metres
 layout(location = NORMAL + BASE) out vec4 out_facet;
 #endif
 
+#if BEHIND
+layout(TEXTURE(1)) uniform sampler2D front;  // clip depth
+#endif
+
 void main() {
+#if BEHIND
+  // Surfaces with two sides are where they were drawn before: with room for rounding.
+  if (gl_FragCoord.z > texelFetch(front, ivec2(gl_FragCoord.xy), 0).x * 1.000001) discard;
+#endif
 #if FACET
   // Before anything is cut out: the differences need all four pixels.
   const vec3 facet = cross(dFdx(from_camera), dFdy(from_camera));

@@ -16,6 +16,9 @@ layout(location = 1) out vec2 uv;
 layout(location = 2) out vec3 from_camera;
 #endif
 
+// The same in each variant: what is drawn twice is in the same place.
+invariant gl_Position;
+
 void main() {
   gl_Position = draw.clip_from_object * vec4(position, 1.0);
 #if NORMAL

@@ -17,6 +17,7 @@
 layout(constant_id = 0) const uint kSlices = 1u;
 layout(constant_id = 1) const uint kSteps = 8u;  // taps a side
 layout(constant_id = 2) const uint kScale = 1u;  // pixels a texel, each way
+layout(constant_id = 3) const bool kBack = false;  // the matter's back is known
 
 layout(local_size_x = 8, local_size_y = 8) in;
 layout(UNIFORM(1), std140) uniform Settings {
@@ -27,6 +28,7 @@ layout(UNIFORM(1), std140) uniform Settings {
 } settings;
 layout(TEXTURE(0)) uniform sampler2D view_depth;  // nearest, clamped
 layout(TEXTURE(1)) uniform sampler2D world_normal;
+layout(TEXTURE(2)) uniform sampler2D back_depth;  // with kBack; nearest, clamped
 layout(IMAGE(0), rg32f) writeonly uniform image2D target;  // visibility and view depth
 #if BENT
 layout(IMAGE(1), rgba16f) writeonly uniform image2D bent_target;  // in view space, any length
@@ -128,9 +130,15 @@ uint tapBits(Slice s, vec2 at, float side, float dither, inout Side before) {
   const float beyond = dot(front, front) - settings.radius * settings.radius;
   const float d = b * b - beyond * a;
   const float root = sqrt(max(d, 0.0));
-  const float near = max(0.0, -b - root), far = min(settings.thickness, root - b);
+  float thick = settings.thickness;
+  if (kBack) {
+    const float back = textureLod(back_depth, place, 0.0).x;
+    if (back > 0.0) thick = max(back - depth, 0.0);
+  }
+  const float near = max(0.0, -b - root), far = min(thick, root - b);
   // What lies between two taps is covered as well where their depths differ by less than the
-  // thickness, up to the sphere.
+  // thickness, up to the sphere: with few taps that errs less than to ask for matter between them,
+  // also where its back is known.
   const bool connected = seen && abs(depth - before.depth) < settings.thickness;
   const bool inside = beyond <= 0.0;
   const bool leaves = connected && !inside;
@@ -140,7 +148,7 @@ uint tapBits(Slice s, vec2 at, float side, float dither, inout Side before) {
   const float first = shareOf(s, from, side), last = shareOf(s, to, side);
   const float low = min(leaves ? before.share : min(first, connected ? before.share : 1.0), last);
   const float high = max(leaves ? before.share : max(first, connected ? before.share : 0.0), last);
-  const bool present = seen && depth > 0.0 && (leaves || (d > 0.0 && near < far));
+  const bool present = seen && depth > 0.0 && (leaves || (d > 0.0 && near <= far));
   before.step = connected ? step : vec3(0.0);
   before.point = front;
   before.share = first;

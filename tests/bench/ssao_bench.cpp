@@ -141,16 +141,17 @@ class Bench {
   gpu::Device& device() { return *device_; }
   double firstFrameSeconds() const { return firstFrameSeconds_; }
 
-  // Milliseconds of the effect's passes, and what its guard band adds to drawing the scene.
+  // Milliseconds of the effect's passes, and what it adds to drawing the scene.
   double timeSetting(size_t setting) {
     const auto effects = render(values_[setting], subject_.cameras[0]);
-    return taken(
-        {{"ssao/", 1},
-         {frame::kGuardedPasses, frame::guardShare(effects, options_.width, options_.height)}});
+    const double guard = frame::guardShare(effects, options_.width, options_.height);
+    return taken([&](const std::string& pass) {
+      return pass.starts_with("ssao/") ? 1 : frame::shareForEffects(pass, guard);
+    });
   }
   double timeTutorial() {
     drawTutorial(subject_.cameras[0]);
-    return taken({{"tutorial_", 1}});
+    return taken([](const std::string& pass) { return pass.starts_with("tutorial_") ? 1 : 0; });
   }
 
   image::Image ao(size_t setting, const scene::Camera& camera) {
@@ -190,15 +191,14 @@ class Bench {
     device_->submit();
   }
 
-  // Milliseconds of the last frame's passes whose labels begin so, each by its share.
-  double taken(std::initializer_list<std::pair<std::string_view, double>> shares) {
+  // Milliseconds of the last frame's passes, of each the share that `shareOf` its label says.
+  template <typename ShareOf>
+  double taken(ShareOf&& shareOf) {
     device_->wait();
     double sum = 0;
     const std::vector<gpu::FrameTimes> frames = device_->takeTimes();
     for (const gpu::PassTime& pass : frames.back().passes) {
-      for (const auto& [label, share] : shares) {
-        if (pass.label.starts_with(label)) sum += share * pass.milliseconds;
-      }
+      sum += shareOf(pass.label) * pass.milliseconds;
     }
     return sum;
   }

@@ -170,7 +170,22 @@ TEST_F(PlanTest, HistoryOpenDirectionsAndTintCostNothingUnlessAskedFor) {
   EXPECT_EQ(record({"ao"}, true).renders.at(0).targets, Labels{"clip depth"});
 }
 
-// What an effect with a guard band reads is drawn larger; others get theirs as large as the picture.
+// What a guard band adds to drawing the scene, and drawing back faces, is the effects' cost.
+TEST_F(PlanTest, WhatIsDrawnForEffectsAloneIsTheirCost) {
+  values_->set("guard_band", "0.25");
+  values_->set("back_faces", "true");
+  const Recording recording = record({"ao"}, true);
+  double sum = 0;
+  for (const std::string& pass : recording.passes) sum += frame::shareForEffects(pass, 0.25);
+  EXPECT_EQ(sum, 2.5);  // geometry, view depth; back geometry, back view depth
+  for (const char* pass : {"scene/geometry", "scene/view_depth", "ssao/back geometry", "back "}) {
+    EXPECT_EQ(frame::shareForEffects(pass, 0.25), 0) << pass;
+  }
+  EXPECT_EQ(recording.renders.at(1).targets, (Labels{"back"}));
+}
+
+// What an effect with a guard band reads is drawn larger; others get theirs as large as the
+// picture.
 TEST_F(PlanTest, AGuardBandDrawsLargerAttachmentsForItsEffectAlone) {
   values_->set("guard_band", "0.25");
   const Recording alone = record({"ao"}, true);
@@ -201,6 +216,17 @@ TEST_F(PlanTest, FacetNormalsAreDrawnInTheSamePassWhenAskedForAlone) {
   ASSERT_EQ(recording.renders.size(), 1u);
   EXPECT_EQ(recording.renders[0].targets,
             (Labels{"normal", "base_colour", "facet_normal", "clip depth"}));
+}
+
+TEST_F(PlanTest, BackFacesAreDrawnWhenAskedForAlone) {
+  const Recording plain = record({"depth", "ao"}, true);
+  EXPECT_EQ(plain.renders.size(), 1u);
+  const Recording recording = record({"back_depth"}, false);
+  EXPECT_EQ(recording.passes,
+            (Labels{"scene/geometry", "scene/back geometry", "scene/back view_depth"}));
+  ASSERT_EQ(recording.renders.size(), 2u);
+  EXPECT_EQ(recording.renders[0].targets, (Labels{"clip depth"}));
+  EXPECT_EQ(recording.renders[1].targets, (Labels{"back"}));
 }
 
 TEST_F(PlanTest, ShotsReachTheEffectsAndWhatWaitsComesBack) {

@@ -112,6 +112,8 @@ TEST_P(SlicesTest, ExtremesStayVisibilitiesAtEverySize) {
                                                  {{"thickness", "0"}},
                                                  {{"thickness", "1e6"}},
                                                  {{"thickness", "1e6"}, {"radius", "1e6"}},
+                                                 {{"back_faces", "true"}, {"thickness", "0"}},
+                                                 {{"back_faces", "true"}, {"guard_band", "0.5"}},
                                                  {{"blur_size", "0"}},
                                                  {{"blur_size", "16"}},
                                                  {{"intensity", "0"}},
@@ -172,6 +174,25 @@ TEST_P(SlicesTest, MoreThicknessIsDarker) {
   };
   EXPECT_GT(mean("0.01"), mean("0.3"));
   EXPECT_GT(mean("0.3"), mean("2"));
+}
+
+// A board that stands off a wall, seen from the front alone: what is behind its face is a guess,
+// unless its back is known.
+TEST_P(SlicesTest, BackFacesSayHowThickABoardIs) {
+  const scene::Camera camera = {.eye = glm::dvec3(0.4, 0.5, 3), .target = glm::dvec3(0, 0, 0)};
+  const auto mean = [&](float deep, const char* thickness, const char* back) {
+    scene::Scene scene = tests::wallScene();
+    const float front = 0.45f, rear = front - deep;
+    tests::addQuad(scene,
+                   {glm::vec3(-3, 0, front), {3, 0, front}, {3, 0.1f, front}, {-3, 0.1f, front}},
+                   {0, 0, 1});
+    tests::addQuad(scene, {glm::vec3(-3, 0.1f, rear), {3, 0.1f, rear}, {3, 0, rear}, {-3, 0, rear}},
+                   {0, 0, -1});
+    const tests::Settings settings = {{"thickness", thickness}, {"back_faces", back}};
+    return tests::meanRows(tests::renderAo(device(), scene, camera, settings), 0, tests::kAoHeight);
+  };
+  EXPECT_GT(mean(0.02f, "1", "true"), mean(0.02f, "1", "false") + 0.005);
+  EXPECT_LT(mean(0.4f, "0.05", "true"), mean(0.4f, "0.05", "false") - 0.005);
 }
 
 // With a guard band a picture knows what a larger one would: it is the larger one's middle. The

@@ -33,7 +33,7 @@ extern "C" {
 
 #define GRISAILLE_MAGIC 0x53495247u /* "GRIS" */
 #define GRISAILLE_ABI_MAJOR 1u
-#define GRISAILLE_ABI_MINOR 2u
+#define GRISAILLE_ABI_MINOR 3u
 
 #if defined(_WIN32)
 #define GRISAILLE_EXPORT __declspec(dllexport)
@@ -92,7 +92,10 @@ typedef enum grisaille_attachment {
   GRISAILLE_BASE_COLOUR = 3, /* rgba8 sRGB, read as linear: base colour; sky: 0 */
   /* Since 1.1. rgba16f: unit world normal of the triangle itself, facing the camera; sky: 0 */
   GRISAILLE_FACET_NORMAL = 4,
-  GRISAILLE_ATTACHMENT_COUNT = 5
+  /* Since 1.3. r32f: where the matter that is seen ends: the view depth, metres, of the nearest
+   * surface at or behind the seen one that faces away or has two sides; none, and sky: 0 */
+  GRISAILLE_BACK_DEPTH = 5,
+  GRISAILLE_ATTACHMENT_COUNT = 6
 } grisaille_attachment;
 
 #define GRISAILLE_READS(attachment) (1u << (attachment))

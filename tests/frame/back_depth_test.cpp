@@ -1,0 +1,122 @@
+// SPDX-License-Identifier: MIT
+// Where the matter that is seen ends, against rays through every triangle, on every backend.
+#include <gtest/gtest.h>
+
+#include <algorithm>
+#include <random>
+
+#include "core/frame/renderer.h"
+#include "tests/support/devices.h"
+#include "tests/support/scenes.h"
+
+namespace grisaille {
+namespace {
+
+constexpr uint32_t kWidth = 96, kHeight = 72;
+constexpr double kNone = std::numeric_limits<double>::infinity();
+
+class BackDepthTest : public tests::BackendTest {};
+GRISAILLE_ON_EVERY_BACKEND(BackDepthTest);
+
+// A closed box whose faces look outwards.
+void addBox(scene::Scene& scene, const glm::dmat4& placed, uint32_t material) {
+  for (int axis = 0; axis < 3; ++axis) {
+    for (const float side : {-1.0f, 1.0f}) {
+      glm::vec3 normal(0), u(0), v(0);
+      normal[axis] = side;
+      u[(axis + 1) % 3] = 1;
+      v[(axis + 2) % 3] = side;
+      tests::addQuad(scene, {normal - u - v, normal + u - v, normal + u + v, normal - u + v},
+                     normal, material);
+      scene.instances.back().worldFromObject = placed;
+    }
+  }
+}
+
+// Boxes, some mirrored, and cards of one side and of two, before nothing.
+scene::Scene mixedScene() {
+  scene::Scene scene;
+  scene.materials.push_back({.name = "one side"});
+  scene.materials.push_back({.name = "two sides", .doubleSided = true});
+  std::mt19937 random(3);
+  std::uniform_real_distribution<double> unit(-1, 1);
+  for (int i = 0; i < 12; ++i) {
+    glm::dmat4 placed(1);
+    placed[0].x = (i % 2 == 0 ? 0.3 : -0.3) * (1.2 + unit(random));
+    placed[1].y = 0.4;
+    placed[2].z = 0.3 * (1.2 + unit(random));
+    placed[2].x = 0.2 * unit(random);
+    placed[3] = glm::dvec4(1.6 * unit(random), 1.1 * unit(random), 1.5 * unit(random), 1);
+    if (i % 3 != 0) {
+      addBox(scene, placed, 0);
+      continue;
+    }
+    tests::addQuad(scene, {glm::vec3(-1, -1, 0.2f), {1, -1, 0.5f}, {1, 1, -0.1f}, {-1, 1, -0.4f}},
+                   {0, 0, 1}, i % 2 == 0 ? 1 : 0);
+    scene.instances.back().worldFromObject = placed;
+  }
+  scene::computeBounds(scene);
+  return scene;
+}
+
+struct Crossing {
+  double depth;
+  bool front, back;  // seen from the camera; ends matter
+};
+
+// All crossings of a pixel's ray with the scene, which has view depth 1 at its end.
+std::vector<Crossing> crossings(const scene::Scene& scene, glm::dvec3 eye, glm::dvec3 ray) {
+  std::vector<Crossing> found;
+  for (const scene::Instance& instance : scene.instances) {
+    const scene::Primitive& primitive = scene.primitives[instance.primitive];
+    const bool two = scene.materials[primitive.material].doubleSided;
+    const bool mirrors = glm::determinant(glm::dmat3(instance.worldFromObject)) < 0;
+    for (uint32_t i = 0; i < primitive.indexCount; i += 3) {
+      glm::dvec3 p[3];
+      for (uint32_t k = 0; k < 3; ++k) {
+        const glm::vec3 at = scene.positions[scene.indices[primitive.firstIndex + i + k]];
+        p[k] = glm::dvec3(instance.worldFromObject * glm::dvec4(at, 1)) - eye;
+      }
+      // The shares of the corners and the depth solve one linear system.
+      const glm::dvec3 x = glm::inverse(glm::dmat3(p[1] - p[0], p[2] - p[0], -ray)) * -p[0];
+      if (x.x < 0 || x.y < 0 || x.x + x.y > 1 || x.z <= 0) continue;
+      const bool faces = (glm::dot(glm::cross(p[1] - p[0], p[2] - p[0]), ray) < 0) != mirrors;
+      found.push_back({.depth = x.z, .front = faces || two, .back = !faces || two});
+    }
+  }
+  return found;
+}
+
+TEST_P(BackDepthTest, IsTheNextSurfaceThatFacesAway) {
+  const scene::Scene scene = mixedScene();
+  const scene::Camera camera = {.eye = glm::dvec3(0.7, 0.4, 4), .target = glm::dvec3(0)};
+  frame::Renderer renderer(device(), scene);
+  const std::vector<std::string> outputs = {"back_depth", "depth"};
+  renderer.render(
+      {.camera = camera, .width = kWidth, .height = kHeight, .effects = {}, .outputs = outputs});
+  const image::Image drawn = renderer.read("back_depth");
+  const glm::dmat3 axes = scene::worldFromView(camera);
+  const double slope = std::tan(glm::radians(camera.fovyDegrees) / 2);
+  size_t with = 0, without = 0, wrong = 0;
+  for (uint32_t y = 0; y < kHeight; ++y) {
+    for (uint32_t x = 0; x < kWidth; ++x) {
+      const glm::dvec3 ray = axes * glm::dvec3((2 * (x + 0.5) - kWidth) / kHeight * slope,
+                                               (1 - 2 * (y + 0.5) / kHeight) * slope, -1);
+      const std::vector<Crossing> all = crossings(scene, camera.eye, ray);
+      double front = kNone, back = kNone;
+      for (const Crossing& c : all) front = c.front ? std::min(front, c.depth) : front;
+      for (const Crossing& c : all) {
+        if (c.back && c.depth >= front * (1 - 1e-7)) back = std::min(back, c.depth);
+      }
+      const double expected = front < kNone && back < kNone ? back : 0;
+      (expected > 0 ? with : without) += front < kNone ? 1 : 0;
+      wrong += std::abs(drawn.at(x, y) - expected) > 1e-4 ? 1 : 0;
+    }
+  }
+  EXPECT_GT(with, 1000u);
+  EXPECT_GT(without, 100u);
+  EXPECT_LE(wrong, kWidth * kHeight / 200u);  // edges
+}
+
+}  // namespace
+}  // namespace grisaille
