@@ -127,7 +127,8 @@ TEST_F(RegistryTest, VersionsAndFieldsAreNamed) {
 TEST_F(RegistryTest, OlderPluginsAreTakenAsTheyAre) {
   Registry registry;
   registry.scan(kPlugins / "old");
-  EXPECT_EQ(keysOf(registry), (std::vector<std::string>{"header_1_0", "header_1_1", "old", "older"}));
+  EXPECT_EQ(keysOf(registry),
+            (std::vector<std::string>{"header_1_0", "header_1_1", "old", "older"}));
   EXPECT_FALSE(registry.find("older").takesShots());
   const double value = 0;
   for (const Effect& effect : registry.effects()) EXPECT_EQ(effect.reads(&value, ~0u), 0u);
