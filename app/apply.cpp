@@ -10,15 +10,13 @@
 #include <memory>
 #include <optional>
 
-#include "app/active_effects.h"
 #include "app/apply/channels.h"
 #include "app/apply/sequence.h"
 #include "app/camera_option.h"
 #include "app/command.h"
 #include "app/driver_messages.h"
+#include "app/effect_options.h"
 #include "app/output_file.h"
-#include "app/presets.h"
-#include "app/settings.h"
 #include "app/start_device.h"
 #include "app/truth/progress.h"
 #include "core/error.h"
@@ -29,13 +27,10 @@
 namespace grisaille::app {
 namespace {
 
-struct ApplyOptions {
-  std::string depth, normal, baseColour, camera, frames, backend, device, config;
+struct ApplyOptions : EffectOptions {
+  std::string depth, normal, baseColour, camera, frames;
   std::string depthKind = "view", depthChannel, normalChannels, normalSpace = "world";
   double near = 0, far = std::numeric_limits<double>::infinity();  // metres; near 0: the camera's
-  std::vector<std::string> effects, presets, sets, writes, pluginPaths;
-  std::string surface = "white";
-  bool check = false, effectsGiven = false, surfaceGiven = false;
 };
 
 frame::DepthKind kindOf(const std::string& name) {
@@ -50,17 +45,15 @@ struct Output {
 };
 
 // What the command line asks for, checked before anything slow is done.
-struct ApplyJob {
+struct ApplyJob : ChosenEffects {
   const ApplyOptions& options;
   FileName depth, normal, baseColour, camera;
   std::vector<Output> outputs;
   std::vector<int> frames;  // one that means nothing where nothing is numbered
-  std::unique_ptr<effect::Registry> registry;
-  std::optional<ActiveEffects> active;
-  frame::Surface surface = frame::Surface::kWhite;
 
   explicit ApplyJob(const ApplyOptions& given)
-      : options(given),
+      : ChosenEffects(given),
+        options(given),
         depth(given.depth),
         normal(given.normal),
         baseColour(given.baseColour),
@@ -71,16 +64,6 @@ struct ApplyJob {
       throw Error(ErrorId::kUsage, "--far {} is no farther than --near {}", options.far,
                   options.near);
     }
-    const Settings settings = options.config.empty() ? Settings{} : readSettings(options.config);
-    registry = loadEffects(options.pluginPaths);
-    active.emplace(*registry,
-                   options.effectsGiven || !settings.effects ? options.effects : *settings.effects);
-    applyPresets(options.presets, *active);
-    applySettings(settings, *active);
-    for (const std::string& assignment : options.sets) active->set(assignment);
-    const std::string& ground =
-        options.surfaceGiven || !settings.surface ? options.surface : *settings.surface;
-    surface = ground == "base" ? frame::Surface::kBaseColour : frame::Surface::kWhite;
     for (const Output& output : outputs) frame::checkOutput(output.name, active->effects());
     findFrames();
   }
@@ -286,48 +269,11 @@ void addPictures(CLI::App& command, ApplyOptions& options) {
 
 void addApply(CLI::App& program) {
   auto options = std::make_shared<ApplyOptions>();
-  options->effects = kDefaultEffects;
   CLI::App* command =
       program.add_subcommand("apply", "Run effects on pictures of depth that were made elsewhere");
   addPictures(*command, *options);
-  CLI::Option* effects = command
-                             ->add_option("--effects", options->effects,
-                                          "Effects in the order they run; default: ssao")
-                             ->type_name("KEY,...")
-                             ->delimiter(',')
-                             ->expected(0, 64);
-  command->add_option("--preset", options->presets, "fast, balanced, fine or reference")
-      ->type_name("EFFECT=NAME")
-      ->allow_extra_args(false);
-  command->add_option("--set", options->sets, "A parameter's value, see `grisaille effects`")
-      ->type_name("EFFECT.PARAMETER=VALUE")
-      ->allow_extra_args(false);
-  command->add_option("--config", options->config, "Settings; options go over it")
-      ->type_name("FILE.toml");
-  command
-      ->add_option("--write", options->writes,
-                   "As of `grisaille render`, numbered where the depth is")
-      ->required()
-      ->type_name("NAME=FILE")
-      ->allow_extra_args(false);
-  CLI::Option* surface =
-      command->add_option("--surface", options->surface, "What the light falls on in color")
-          ->check(CLI::IsMember({"white", "base"}))
-          ->capture_default_str();
-  command->add_option("--backend", options->backend, "opengl or vulkan")->type_name("NAME");
-  command->add_option("--device", options->device, "Number or part of the name")
-      ->type_name("N|NAME");
-  command->add_option("--plugin-path", options->pluginPaths, "A further folder of effects")
-      ->type_name("DIR")
-      ->allow_extra_args(false);
-  command->add_flag("--check", options->check,
-                    "Validate every call, in the layer and in the driver");
-  command->callback([options, effects, surface] {
-    options->effectsGiven = effects->count() > 0;
-    options->surfaceGiven = surface->count() > 0;
-    std::erase(options->effects, "");
-    apply(*options);
-  });
+  options->addTo(*command, "As of `grisaille render`, numbered where the depth is")->required();
+  command->callback([options] { apply(*options); });
 }
 
 }  // namespace grisaille::app

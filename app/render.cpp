@@ -6,15 +6,13 @@
 #include <memory>
 #include <optional>
 
-#include "app/active_effects.h"
 #include "app/camera_option.h"
 #include "app/command.h"
 #include "app/coverage.h"
 #include "app/driver_messages.h"
+#include "app/effect_options.h"
 #include "app/output_file.h"
-#include "app/presets.h"
 #include "app/scene_rays.h"
-#include "app/settings.h"
 #include "app/shot_options.h"
 #include "app/size.h"
 #include "app/start_device.h"
@@ -29,23 +27,16 @@
 namespace grisaille::app {
 namespace {
 
-struct RenderOptions {
-  std::string scene, camera, size, backend, device, config, timings;
-  std::vector<std::string> effects, presets, sets, writes, pluginPaths;
+struct RenderOptions : EffectOptions {
+  std::string scene, camera, size, timings, rays = "scene";
   ShotOptions shots;
-  std::string surface = "white", rays = "scene";
   uint32_t frames = 1;
-  bool check = false;
-  bool effectsGiven = false, surfaceGiven = false;
 };
 
 // What the command line asks for, checked before anything slow is done.
-struct RenderJob {
+struct RenderJob : ChosenEffects {
   std::vector<OutputFile> writes;
-  std::unique_ptr<effect::Registry> registry;
-  std::optional<ActiveEffects> active;
   std::optional<Shots> shots;
-  frame::Surface surface = frame::Surface::kWhite;
   scene::Scene scene;
   scene::Camera camera;
   glm::uvec2 size = glm::uvec2(1280, 720);
@@ -53,23 +44,14 @@ struct RenderJob {
   // The effect that --coverage counts.
   std::optional<Painter> painter;
 
-  explicit RenderJob(const RenderOptions& options) : writes(parseOutputFiles(options.writes)) {
+  explicit RenderJob(const RenderOptions& options)
+      : ChosenEffects(options), writes(parseOutputFiles(options.writes)) {
     if (options.timings == "-" && options.shots.coverage == "-") {
       throw Error(ErrorId::kUsage, "--timings and --coverage cannot both be standard output");
     }
     if (writes.empty()) writes.push_back({.output = "color", .file = "grisaille.png"});
     glm::uvec2 given(0);
     if (!options.size.empty()) given = parseSize(options.size);
-    const Settings settings = options.config.empty() ? Settings{} : readSettings(options.config);
-    registry = loadEffects(options.pluginPaths);
-    active.emplace(*registry,
-                   options.effectsGiven || !settings.effects ? options.effects : *settings.effects);
-    applyPresets(options.presets, *active);
-    applySettings(settings, *active);
-    const std::string& ground =
-        options.surfaceGiven || !settings.surface ? options.surface : *settings.surface;
-    surface = ground == "base" ? frame::Surface::kBaseColour : frame::Surface::kWhite;
-    for (const std::string& assignment : options.sets) active->set(assignment);
     for (const OutputFile& write : writes) frame::checkOutput(write.output, active->effects());
 
     if (!options.camera.empty()) camera = cameraOf(options.camera, "--camera");
@@ -191,7 +173,6 @@ void render(const RenderOptions& options) {
 
 void addRender(CLI::App& program) {
   auto options = std::make_shared<RenderOptions>();
-  options->effects = kDefaultEffects;
   CLI::App* command = program.add_subcommand("render", "Render a scene to files");
   command->add_option("scene", options->scene,
                       "A .gltf or .glb file; without one, the built-in atrium");
@@ -201,43 +182,10 @@ void addRender(CLI::App& program) {
       ->type_name("FILE|{...}");
   command->add_option("--size", options->size, "Pixels; default: the camera's size, else 1280x720")
       ->type_name("WxH");
-  command
-      ->add_option("--backend", options->backend,
-                   "opengl or vulkan; default: the first that starts")
-      ->type_name("NAME");
-  command
-      ->add_option("--device", options->device,
-                   "Number or part of the name, see `grisaille backends`")
-      ->type_name("N|NAME");
-  CLI::Option* effects = command
-                             ->add_option("--effects", options->effects,
-                                          "Effects in the order they run; default: ssao")
-                             ->type_name("KEY,...")
-                             ->delimiter(',')
-                             ->expected(0, 64);
-  command
-      ->add_option("--preset", options->presets,
-                   "fast, balanced, fine or reference; --config and --set go over it")
-      ->type_name("EFFECT=NAME")
-      ->allow_extra_args(false);
-  command->add_option("--set", options->sets, "A parameter's value, see `grisaille effects`")
-      ->type_name("EFFECT.PARAMETER=VALUE")
-      ->allow_extra_args(false);
-  command
-      ->add_option("--config", options->config,
-                   "Settings: effects, surface and values; options go over it")
-      ->type_name("FILE.toml");
-  command
-      ->add_option(
-          "--write", options->writes,
-          "color, depth and back_depth (metres, 0 = sky), normal and facet_normal (world), "
-          "base_colour or an effect's output, as .exr or .png; default: color=grisaille.png")
-      ->type_name("NAME=FILE")
-      ->allow_extra_args(false);
-  CLI::Option* surface =
-      command->add_option("--surface", options->surface, "What the light falls on in color")
-          ->check(CLI::IsMember({"white", "base"}))
-          ->capture_default_str();
+  options->addTo(
+      *command,
+      "color, depth and back_depth (metres, 0 = sky), normal and facet_normal (world), base_colour "
+      "or an effect's output, as .exr or .png; default: color=grisaille.png");
   command->add_option("--frames", options->frames, "How often to render; the last one is written")
       ->check(CLI::Range(1u, 1000000u))
       ->capture_default_str();
@@ -252,17 +200,7 @@ void addRender(CLI::App& program) {
           "leaves waiting what it does not show; or that depth, and the scene for the rest")
       ->check(CLI::IsMember({"scene", "depth", "both"}))
       ->capture_default_str();
-  command->add_option("--plugin-path", options->pluginPaths, "A further folder of effects")
-      ->type_name("DIR")
-      ->allow_extra_args(false);
-  command->add_flag("--check", options->check,
-                    "Validate every call, in the layer and in the driver");
-  command->callback([options, effects, surface] {
-    options->effectsGiven = effects->count() > 0;
-    options->surfaceGiven = surface->count() > 0;
-    std::erase(options->effects, "");
-    render(*options);
-  });
+  command->callback([options] { render(*options); });
 }
 
 }  // namespace grisaille::app
