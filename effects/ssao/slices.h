@@ -20,6 +20,8 @@ class Slices {
   static uint32_t reads(plugin::Values values) noexcept;
   // `outputs`: r16f and rgba16f, of the picture's size.
   void record(const plugin::Frame& frame, Pair outputs);
+  // What frames before leave for those to come.
+  void forget() { history_.forget(); }
 
  private:
   struct Size {

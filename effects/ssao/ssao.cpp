@@ -60,6 +60,8 @@ class Ssao {
     // Open directions are the slices' alone; their visibility is then overwritten.
     if (!classic || frame.wanted(kBentNormal)) {
       slices_.record(frame, {.open = ao, .bent = frame.output(kBentNormal)});
+    } else {
+      slices_.forget();
     }
     if (classic && (frame.wanted(kAo) || frame.wanted(kTint))) classic_.record(frame, ao);
     if (frame.wanted(kTint)) frame.pass("tint", [&] { tint(frame, ao); });

@@ -50,6 +50,17 @@ TEST_P(HistoryTest, NoiseFallsWhileNothingMoves) {
   EXPECT_LT(image::compare(last, before).rmse, 0.05 * first);
 }
 
+// An estimator between that leaves no history ends it.
+TEST_P(HistoryTest, AnotherEstimatorEndsIt) {
+  AoFrames frames(device(), scene_, kNoisy);
+  const image::Image first = frames.show(cameraAt(0), kWidth, kHeight);
+  frames.show(cameraAt(0), kWidth, kHeight);
+  frames.set({{"estimator", "classic"}});
+  frames.show(cameraAt(0), kWidth, kHeight);
+  frames.set({{"estimator", "slices"}});
+  EXPECT_EQ(frames.show(cameraAt(0), kWidth, kHeight).pixels, first.pixels);
+}
+
 // With 1 a frame knows nothing of those before, and a texel's pattern is that of the first.
 TEST_P(HistoryTest, WithoutItFramesStandAlone) {
   Settings settings = kNoisy;
