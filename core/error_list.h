@@ -134,6 +134,18 @@ GRISAILLE_ERROR(kPictureChannels, 5505,
 GRISAILLE_ERROR(kPictureMissing, 5506,
                 "give the picture that the message names, or leave out what reads it")
 GRISAILLE_ERROR(kSequence, 5507, "number the files with %04d or ####, the same frames in each")
+// --- 56xx: in other programs
+GRISAILLE_ERROR(kHostNull, 5601, "give what the message names")
+GRISAILLE_ERROR(kHostStruct, 5602, "set struct_size to the size of the struct")
+GRISAILLE_ERROR(kHostDevice, 5603, "give the handles of one device that has what the header asks for")
+GRISAILLE_ERROR(kHostContext, 5604, "make the OpenGL context current that the device was made in")
+GRISAILLE_ERROR(kHostTexture, 5605, "describe a 2D texture of one sample that shaders can sample")
+GRISAILLE_ERROR(kHostFrame, 5606, "count frames upwards and give the frame's command buffer")
+GRISAILLE_ERROR(kHostCamera, 5607, "give a rotation, finite metres and near under far")
+GRISAILLE_ERROR(kHostInUse, 5608, "destroy textures and effects before their device")
+GRISAILLE_ERROR(kHostForeign, 5609, "use only what one device has made with each other")
+GRISAILLE_ERROR(kHostMissing, 5610, "give the texture that the message names, or ask for less")
+GRISAILLE_ERROR(kHostValue, 5611, "give one of the values that the header lists")
 // --- 90xx: the program itself
 GRISAILLE_ERROR(kUnexpected, 9001, "report it with the command that led here")
 GRISAILLE_ERROR(kOutOfMemory, 9002, "use a smaller --size or scene, or close other programs")

@@ -69,6 +69,7 @@ Context::Context(GLFWwindow* window)
 }
 
 Context::~Context() {
+  if (foreign_) return;
   if (eglGetCurrentContext() == context_) {
     eglMakeCurrent(display_, EGL_NO_SURFACE, EGL_NO_SURFACE, EGL_NO_CONTEXT);
   }
@@ -77,7 +78,7 @@ Context::~Context() {
 }
 
 void Context::makeCurrent() {
-  if (eglGetCurrentContext() == context_) return;
+  if (foreign_ || eglGetCurrentContext() == context_) return;
   eglBindAPI(EGL_OPENGL_API);
   if (eglMakeCurrent(display_, surface_, surface_, context_)) return;
   const EGLint error = eglGetError();

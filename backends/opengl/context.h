@@ -15,6 +15,8 @@ enum class ContextKind {
 
 class Context {
  public:
+  // Another program's, which is current whenever this is used.
+  Context() : display_(nullptr), foreign_(true) {}
   // Throws kDeviceFailed. `display` is an initialised EGLDisplay.
   Context(void* display, ContextKind kind);
   // Borrows the window's own, of EGL, and makes it current. Throws kDeviceFailed.
@@ -35,6 +37,7 @@ class Context {
   void* display_;
   void* context_ = nullptr;
   void* surface_ = nullptr;  // null: no window
+  bool foreign_ = false;
 };
 
 // Puts the calling thread's current context back.

@@ -65,6 +65,12 @@ Object Object::texture(uint32_t target) {
   return object;
 }
 
+Object Object::foreign(uint32_t texture) {
+  Object object;
+  object.name_ = texture;
+  return object;
+}
+
 Object Object::textureView() {
   Object object;
   object.kind_ = ObjectKind::kTexture;

@@ -25,7 +25,8 @@ class Object {
   Object() = default;
   explicit Object(ObjectKind kind);  // any kind but kTexture
   static Object texture(uint32_t target);
-  static Object textureView();  // a name alone, for glTextureView
+  static Object foreign(uint32_t texture);  // another program's, which deletes it
+  static Object textureView();              // a name alone, for glTextureView
   ~Object() { reset(); }
   Object(Object&& other) noexcept
       : kind_(std::exchange(other.kind_, ObjectKind::kNone)),

@@ -5,7 +5,7 @@
 #include <memory>
 #include <vector>
 
-#include "core/gpu/device.h"
+#include "core/gpu/host_device.h"
 
 namespace grisaille::opengl {
 
@@ -14,6 +14,9 @@ std::vector<gpu::ListedDevice> listDevices();
 
 // Throws kBackendMissing, kNoDevice, kDeviceTooOld, kDeviceFailed.
 std::unique_ptr<gpu::Device> createDevice(const gpu::DeviceOptions& options);
+
+// In the context that is current, another program's. Throws kHostContext, kDeviceTooOld.
+std::unique_ptr<gpu::HostDevice> createHostDevice();
 
 // Sets GLFW's hints for the window of such a device.
 void hintWindow(bool check);

@@ -78,7 +78,8 @@ std::string lackingFormat(VkPhysicalDevice device) {
   return "";
 }
 
-Candidate candidateOf(const Instance& instance, VkPhysicalDevice device, VkSurfaceKHR surface) {
+// Who it is; what it lacks only of the version.
+Candidate named(VkPhysicalDevice device) {
   Candidate candidate;
   candidate.device = device;
   VkPhysicalDeviceProperties old{};
@@ -96,11 +97,15 @@ Candidate candidateOf(const Instance& instance, VkPhysicalDevice device, VkSurfa
       VK_STRUCTURE_TYPE_PHYSICAL_DEVICE_PROPERTIES_2, &driver, {}};
   vkGetPhysicalDeviceProperties2(device, &properties);
   candidate.listed.driver = oneLine(fmt::format("{} {}", driver.driverName, driver.driverInfo));
-
-  candidate.lacks = lackingFeature(device);
-  if (candidate.lacks.empty() && old.limits.maxUniformBufferRange < 65536) {
+  if (old.limits.maxUniformBufferRange < 65536) {
     candidate.lacks = "uniform ranges of 65536 bytes";
   }
+  return candidate;
+}
+
+Candidate candidateOf(const Instance& instance, VkPhysicalDevice device, VkSurfaceKHR surface) {
+  Candidate candidate = named(device);
+  if (candidate.lacks.empty()) candidate.lacks = lackingFeature(device);
   if (candidate.lacks.empty() && surface != VK_NULL_HANDLE && !hasSwapchains(device)) {
     candidate.lacks = "swapchains, which show pictures in a window";
   }
@@ -178,6 +183,26 @@ const Candidate& choose(const std::vector<Candidate>& candidates, const std::str
     throw Error(ErrorId::kDeviceTooOld, "{} lacks {}", chosen->listed.name, chosen->lacks);
   }
   return *chosen;
+}
+
+Candidate foreignCandidate(VkPhysicalDevice device, uint32_t queueFamily) {
+  Candidate candidate = named(device);
+  if (candidate.lacks.empty()) candidate.lacks = lackingForEffects(device);
+  uint32_t count = 0;
+  vkGetPhysicalDeviceQueueFamilyProperties(device, &count, nullptr);
+  std::vector<VkQueueFamilyProperties> families(count);
+  vkGetPhysicalDeviceQueueFamilyProperties(device, &count, families.data());
+  if (candidate.lacks.empty() && queueFamily >= count) {
+    candidate.lacks = fmt::format("a queue family {}, only {} of them", queueFamily, count);
+  } else if (candidate.lacks.empty() &&
+             (families[queueFamily].queueFlags & VK_QUEUE_COMPUTE_BIT) == 0) {
+    candidate.lacks = fmt::format("a queue family {} that computes", queueFamily);
+  }
+  if (!candidate.lacks.empty()) {
+    throw Error(ErrorId::kHostDevice, "{} has not {}", candidate.listed.name, candidate.lacks);
+  }
+  candidate.queueFamily = queueFamily;
+  return candidate;
 }
 
 VkFormat vulkanFormat(Format format) {

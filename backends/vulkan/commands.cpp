@@ -52,43 +52,25 @@ VkClearColorValue clearColor(const std::array<float, 4>& clear, gpu::Format form
 
 }  // namespace
 
-void Recorder::begin(Frame& frame, uint64_t number) {
-  frame.commands.begin();
-  frame.timer.beginFrame(number);
-  frame_ = &frame;
+void Recorder::begin(Recording& recording, VkCommandBuffer commands) {
+  recording_ = &recording;
+  commands_ = commands;
   pending_ = false;
 }
 
-void Recorder::submit() {
-  frame_->done = frame_->commands.submit(timeline_);
-  resources_.commit();
-  endFrame();
-}
-
-void Recorder::abandon() {
-  frame_->timer.drop();
-  resources_.rollBack();
-  endFrame();
-}
-
-void Recorder::endFrame() {
-  frame_ = nullptr;
-  transients_.endFrame(
-      [this](gpu::Texture texture) { resources_.retire(texture, timeline_.submitted()); });
+void Recorder::endFrame(uint64_t count) {
+  transients_.endFrame([&](gpu::Texture texture) { resources_.retire(texture, count); });
 }
 
 void Recorder::submitAndWait() {
   if (!pending_) return;
-  frame_->done = frame_->commands.submit(timeline_);
-  resources_.commit();
-  timeline_.wait(frame_->done);
-  frame_->commands.begin();
+  drain_();
   pending_ = false;
 }
 
 void Recorder::beginPass(std::string_view label) {
-  if (frame_->timer.wall()) submitAndWait();
-  frame_->timer.beginPass(commands(), label);
+  if (recording_->timer.wall()) submitAndWait();
+  recording_->timer.beginPass(commands(), label);
   if (context_.debug().beginLabel == nullptr) return;
   const std::string text(label);
   VkDebugUtilsLabelEXT info{VK_STRUCTURE_TYPE_DEBUG_UTILS_LABEL_EXT};
@@ -98,8 +80,8 @@ void Recorder::beginPass(std::string_view label) {
 
 void Recorder::endPass() {
   if (context_.debug().endLabel != nullptr) context_.debug().endLabel(commands());
-  if (frame_->timer.wall()) submitAndWait();
-  frame_->timer.endPass(commands());
+  if (recording_->timer.wall()) submitAndWait();
+  recording_->timer.endPass(commands());
 }
 
 // --- Dispatch ------------------------------------------------------------------------------------
@@ -127,7 +109,8 @@ void Recorder::dispatch(const gpu::Dispatch& dispatch) {
   const PipelineObject& pipeline = resources_.get(dispatch.pipeline);
   const BoundCall call{&pipeline, dispatch.bindings};
   const std::vector<gpu::Texture> general = readBothWays(resources_, {&call, 1});
-  const VkDescriptorSet set = writeSet(context_, resources_, frame_->descriptors, call, general);
+  const VkDescriptorSet set =
+      writeSet(context_, resources_, recording_->descriptors, call, general);
   declare(pipeline, dispatch.bindings, general);
   resources_.recordBarriers(commands());
 
@@ -199,7 +182,7 @@ void Recorder::render(const gpu::Render& render) {
   const std::vector<gpu::Texture> general = readBothWays(resources_, calls);
   std::vector<VkDescriptorSet> sets;
   for (const BoundCall& call : calls) {
-    sets.push_back(writeSet(context_, resources_, frame_->descriptors, call, general));
+    sets.push_back(writeSet(context_, resources_, recording_->descriptors, call, general));
   }
   declareRender(render, general);
   resources_.recordBarriers(commands());
@@ -267,7 +250,7 @@ void Recorder::drawAll(const gpu::Render& render, const Targets& targets,
 // --- Data ----------------------------------------------------------------------------------------
 
 gpu::BufferRange Recorder::uniform(std::span<const std::byte> bytes) {
-  return frame_->arena.copy(bytes);
+  return recording_->arena.copy(bytes);
 }
 
 gpu::Texture Recorder::transient(const gpu::TextureDesc& desc) {
@@ -276,7 +259,7 @@ gpu::Texture Recorder::transient(const gpu::TextureDesc& desc) {
 
 void Recorder::upload(gpu::Buffer buffer, uint64_t offset, std::span<const std::byte> bytes) {
   const VkBuffer target = resources_.get(buffer).buffer;
-  const gpu::BufferRange from = frame_->arena.copy(bytes);
+  const gpu::BufferRange from = recording_->arena.copy(bytes);
   resources_.tracker().use(buffer, Access::kCopyWrite);
   resources_.recordBarriers(commands());
   const VkBufferCopy region{from.offset, offset, bytes.size()};
@@ -289,7 +272,7 @@ void Recorder::upload(gpu::Texture texture, uint32_t mip, uint32_t layer,
   const gpu::TextureView view = resources_.resolve(gpu::TextureView{
       .texture = texture, .mip = mip, .mipCount = 1, .layer = layer, .layerCount = 1});
   const TextureObject& target = resources_.get(texture);
-  const gpu::BufferRange from = frame_->arena.copy(bytes);
+  const gpu::BufferRange from = recording_->arena.copy(bytes);
   resources_.tracker().use(view, Access::kCopyWrite);
   resources_.recordBarriers(commands());
   const VkBufferImageCopy region = copyRegion(target.desc, mip, layer, from.offset);

@@ -2,6 +2,8 @@
 // Records a frame's calls.
 #pragma once
 
+#include <functional>
+
 #include "backends/vulkan/frame.h"
 #include "core/gpu/transient_pool.h"
 
@@ -9,13 +11,18 @@ namespace grisaille::vulkan {
 
 class Recorder : public gpu::Commands {
  public:
-  Recorder(Context& context, Resources& resources, Timeline& timeline)
-      : context_(context), resources_(resources), timeline_(timeline) {}
+  // `drain` submits what is recorded, waits for it and begins the command buffer anew: for wall
+  // clocks, which not every device has.
+  Recorder(Context& context, Resources& resources, std::function<void()> drain)
+      : context_(context), resources_(resources), drain_(std::move(drain)) {}
 
-  void begin(Frame& frame, uint64_t number);
-  void submit();
-  void abandon();
-  bool recording() const { return frame_ != nullptr; }
+  void begin(Recording& recording, VkCommandBuffer commands);
+  void end() { recording_ = nullptr; }
+  bool recording() const { return recording_ != nullptr; }
+
+  // The transient textures may be handed out again. `count` as Resources::retire() has it, of the
+  // last frame.
+  void endFrame(uint64_t count);
 
   void beginPass(std::string_view label) override;
   void endPass() override;
@@ -36,9 +43,8 @@ class Recorder : public gpu::Commands {
     VkExtent2D extent{};
   };
 
-  VkCommandBuffer commands() const { return frame_->commands.handle(); }
+  VkCommandBuffer commands() const { return commands_; }
   void submitAndWait();
-  void endFrame();
 
   Targets targetsOf(const gpu::Render& render);
   gpu::TextureView targetView(gpu::TextureView view);
@@ -52,10 +58,11 @@ class Recorder : public gpu::Commands {
 
   Context& context_;
   Resources& resources_;
-  Timeline& timeline_;
+  std::function<void()> drain_;
   gpu::TransientPool transients_;
-  Frame* frame_ = nullptr;  // null: not recording
-  bool pending_ = false;    // something is recorded that is not submitted
+  Recording* recording_ = nullptr;  // null: not recording
+  VkCommandBuffer commands_ = VK_NULL_HANDLE;
+  bool pending_ = false;  // something is recorded that is not submitted
 };
 
 }  // namespace grisaille::vulkan

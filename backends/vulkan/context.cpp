@@ -22,8 +22,18 @@ Context::Context(const gpu::DeviceOptions& options)
   describe(chosen);
 }
 
+Context::Context(const HostHandles& host)
+    : device(static_cast<VkDevice>(host.device)),
+      physical(static_cast<VkPhysicalDevice>(host.physicalDevice)),
+      queueFamily(host.queueFamily),
+      foreign_(true),
+      instance_(host) {
+  volkLoadDeviceTable(&vk, device);
+  describe(foreignCandidate(physical, queueFamily));
+}
+
 Context::~Context() {
-  if (device != VK_NULL_HANDLE) vk.vkDestroyDevice(device, nullptr);
+  if (device != VK_NULL_HANDLE && !foreign_) vk.vkDestroyDevice(device, nullptr);
 }
 
 void Context::open(const Candidate& chosen) {

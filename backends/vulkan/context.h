@@ -22,6 +22,8 @@ enum class MemoryKind {
 class Context {
  public:
   explicit Context(const gpu::DeviceOptions& options);
+  // On another program's device, which it destroys after this.
+  explicit Context(const HostHandles& host);
   ~Context();
   Context(const Context&) = delete;
   Context& operator=(const Context&) = delete;
@@ -58,6 +60,7 @@ class Context {
   void describe(const Candidate& chosen);
   void setName(VkObjectType type, uint64_t object, std::string_view label) const;
 
+  bool foreign_ = false;  // the device is another program's
   Instance instance_;
   std::optional<Surface> surface_;
   VkPhysicalDeviceMemoryProperties memory_{};

@@ -3,8 +3,7 @@
 #include <array>
 #include <cstring>
 
-#include "backends/vulkan/commands.h"
-#include "backends/vulkan/pipeline_cache.h"
+#include "backends/vulkan/making.h"
 #include "backends/vulkan/swapchain.h"
 #include "backends/vulkan/vulkan.h"
 
@@ -13,17 +12,15 @@ namespace {
 
 constexpr size_t kFramesInFlight = 2;
 
-class VulkanDevice : public gpu::Device {
+class VulkanDevice : public Making<gpu::Device> {
  public:
   explicit VulkanDevice(const gpu::DeviceOptions& options)
-      : context_(options),
-        cache_(context_),
+      : Making(options, CacheFile::kOwn),
         timeline_(context_),
-        resources_(context_),
         readback_(context_),
         frames_{Frame(context_, resources_, clockOf(options)),
                 Frame(context_, resources_, clockOf(options))},
-        recorder_(context_, resources_, timeline_) {
+        recorder_(context_, resources_, [this] { drain(); }) {
     if (context_.surface() != nullptr) swapchain_.emplace(context_, resources_, timeline_);
   }
 
@@ -33,29 +30,9 @@ class VulkanDevice : public gpu::Device {
     release(context_, readbackMemory_);
   }
 
-  const gpu::DeviceInfo& info() const override { return context_.info; }
-
-  gpu::Buffer createBuffer(const gpu::BufferDesc& desc) override { return resources_.add(desc); }
-  gpu::Texture createTexture(const gpu::TextureDesc& desc) override { return resources_.add(desc); }
-  gpu::Sampler createSampler(const gpu::SamplerDesc& desc) override { return resources_.add(desc); }
-  gpu::ComputePipeline createComputePipeline(const gpu::ComputePipelineDesc& desc) override {
-    return resources_.add(cache_.handle(), desc);
-  }
-  gpu::GraphicsPipeline createGraphicsPipeline(const gpu::GraphicsPipelineDesc& desc) override {
-    return resources_.add(cache_.handle(), desc);
-  }
-
-  void destroy(gpu::Buffer buffer) override { retire(buffer); }
-  void destroy(gpu::Texture texture) override { retire(texture); }
-  void destroy(gpu::Sampler sampler) override { retire(sampler); }
-  void destroy(gpu::ComputePipeline pipeline) override { retire(pipeline); }
-  void destroy(gpu::GraphicsPipeline pipeline) override { retire(pipeline); }
-
   gpu::Commands& begin() override;
   void submit() override;
-  void abandon() override {
-    if (recorder_.recording()) recorder_.abandon();
-  }
+  void abandon() override;
   void wait() override;
 
   std::vector<std::byte> read(gpu::Texture texture, uint32_t mip, uint32_t layer) override;
@@ -73,22 +50,20 @@ class VulkanDevice : public gpu::Device {
     return options.timed ? context_.info.clock : gpu::Clock::kNone;
   }
 
-  template <typename HandleType>
-  void retire(HandleType handle) {
-    if (!handle) return;
-    resources_.retire(handle, timeline_.submitted() + (recorder_.recording() ? 1 : 0));
-    resources_.releaseUpTo(timeline_.completed());
+  uint64_t lastUse() const override {
+    return timeline_.submitted() + (recorder_.recording() ? 1 : 0);
   }
+  uint64_t finished() const override { return timeline_.completed(); }
 
+  Frame& current() { return frames_[(begun_ - 1) % frames_.size()]; }
+  void endFrame();
+  void drain();
   void collectTimes();
   void reserveReadback(uint64_t bytes);
   template <typename Copy>
   std::vector<std::byte> readBack(uint64_t bytes, Copy&& copy);
 
-  Context context_;
-  PipelineCache cache_;
   Timeline timeline_;
-  Resources resources_;
   CommandBuffer readback_;
   BufferObject readbackMemory_;
   std::array<Frame, kFramesInFlight> frames_;
@@ -103,16 +78,39 @@ gpu::Commands& VulkanDevice::begin() {
   timeline_.wait(frame.done);
   collectTimes();
   resources_.releaseUpTo(timeline_.completed());
-  frame.arena.reset();
-  frame.descriptors.reset();
-  recorder_.begin(frame, begun_);
+  frame.recording.reset();
+  frame.commands.begin();
+  frame.recording.timer.beginFrame(begun_);
+  recorder_.begin(frame.recording, frame.commands.handle());
   ++begun_;
   return recorder_;
 }
 
 void VulkanDevice::submit() {
-  recorder_.submit();
+  current().done = current().commands.submit(timeline_);
+  resources_.commit();
+  endFrame();
   resources_.releaseUpTo(timeline_.completed());
+}
+
+void VulkanDevice::abandon() {
+  if (!recorder_.recording()) return;
+  current().recording.timer.drop();
+  resources_.rollBack();
+  endFrame();
+}
+
+void VulkanDevice::endFrame() {
+  recorder_.end();
+  recorder_.endFrame(timeline_.submitted());
+}
+
+void VulkanDevice::drain() {
+  Frame& frame = current();
+  frame.done = frame.commands.submit(timeline_);
+  resources_.commit();
+  timeline_.wait(frame.done);
+  frame.commands.begin();
 }
 
 void VulkanDevice::wait() {
@@ -126,7 +124,7 @@ void VulkanDevice::collectTimes() {
   for (size_t i = 0; i < frames_.size(); ++i) {
     Frame& frame = frames_[(begun_ + i) % frames_.size()];
     if (frame.done > completed) continue;
-    if (std::optional<gpu::FrameTimes> times = frame.timer.collect()) {
+    if (std::optional<gpu::FrameTimes> times = frame.recording.timer.collect()) {
       times_.push_back(std::move(*times));
     }
   }

@@ -25,6 +25,9 @@ struct FeatureChain {
 // The first required feature that a device of Vulkan 1.3 has not, or "".
 std::string lackingFeature(VkPhysicalDevice device);
 
+// The same of what effects alone require, which draw and submit nothing.
+std::string lackingForEffects(VkPhysicalDevice device);
+
 // Sets what the backend uses: all that is required, and anisotropic filtering where it is there.
 void enableFeatures(VkPhysicalDevice device, FeatureChain& chain);
 

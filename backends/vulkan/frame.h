@@ -29,14 +29,27 @@ class CommandBuffer {
   VkCommandBuffer commands_ = VK_NULL_HANDLE;
 };
 
-struct Frame {
-  Frame(Context& context, Resources& resources, gpu::Clock clock)
-      : commands(context), arena(context, resources), descriptors(context), timer(context, clock) {}
+// What a frame records with; reset when the device has finished with it.
+struct Recording {
+  Recording(Context& context, Resources& resources, gpu::Clock clock)
+      : arena(context, resources), descriptors(context), timer(context, clock) {}
 
-  CommandBuffer commands;
+  void reset() {
+    arena.reset();
+    descriptors.reset();
+  }
+
   Arena arena;
   DescriptorPools descriptors;
   PassTimer timer;
+};
+
+struct Frame {
+  Frame(Context& context, Resources& resources, gpu::Clock clock)
+      : commands(context), recording(context, resources, clock) {}
+
+  CommandBuffer commands;
+  Recording recording;
   uint64_t done = 0;  // the timeline's count when the device has finished with it
 };
 

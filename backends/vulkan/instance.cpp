@@ -11,8 +11,13 @@ namespace {
 
 constexpr const char* kLayer = "VK_LAYER_KHRONOS_validation";
 
-void loadLibrary() {
-  static const VkResult loaded = volkInitialize();
+// By that entry of a loader, or by libvulkan.so.1's.
+void loadLibrary(PFN_vkGetInstanceProcAddr entry = nullptr) {
+  static const VkResult loaded = [&] {
+    if (entry == nullptr) return volkInitialize();
+    volkInitializeCustom(entry);
+    return VK_SUCCESS;
+  }();
   if (loaded != VK_SUCCESS) {
     throw Error(ErrorId::kBackendMissing, "the Vulkan loader (libvulkan.so.1) is not installed");
   }
@@ -97,6 +102,12 @@ Instance::Instance(bool check, gpu::MessageSink message, std::span<const char* c
   if (validate) createMessenger();
 }
 
+Instance::Instance(const HostHandles& host)
+    : instance_(static_cast<VkInstance>(host.instance)), foreign_(true) {
+  loadLibrary(reinterpret_cast<PFN_vkGetInstanceProcAddr>(host.getInstanceProcAddr));
+  load(false);
+}
+
 void Instance::load(bool debugUtils) {
   // The loader's own entry points serve every instance, so volk's globals are set once.
   static std::once_flag once;
@@ -118,7 +129,7 @@ void Instance::load(bool debugUtils) {
 
 Instance::~Instance() {
   if (messenger_ != VK_NULL_HANDLE) destroyMessenger_(instance_, messenger_, nullptr);
-  if (instance_ != VK_NULL_HANDLE) vkDestroyInstance(instance_, nullptr);
+  if (instance_ != VK_NULL_HANDLE && !foreign_) vkDestroyInstance(instance_, nullptr);
 }
 
 void Instance::create(bool debugUtils, bool validate, std::span<const char* const> others) {

@@ -7,6 +7,7 @@
 #include <vector>
 
 #include "backends/vulkan/api.h"
+#include "backends/vulkan/vulkan.h"
 #include "core/gpu/device.h"
 
 namespace grisaille::vulkan {
@@ -32,6 +33,8 @@ class Instance {
   // With `check`, the validation layer's messages go to `message`. `extensions` are enabled besides
   // the instance's own. Throws kBackendMissing, kDeviceTooOld.
   Instance(bool check, gpu::MessageSink message, std::span<const char* const> extensions = {});
+  // Another program's, which it destroys after this.
+  explicit Instance(const HostHandles& host);
   ~Instance();
   Instance(const Instance&) = delete;
   Instance& operator=(const Instance&) = delete;
@@ -52,6 +55,7 @@ class Instance {
 
   gpu::MessageSink message_;
   VkInstance instance_ = VK_NULL_HANDLE;
+  bool foreign_ = false;
   DebugFunctions debug_;
   SurfaceFunctions surface_;
   PFN_vkDestroyDebugUtilsMessengerEXT destroyMessenger_ = nullptr;
@@ -73,6 +77,9 @@ std::vector<Candidate> candidates(const Instance& instance, VkSurfaceKHR surface
 
 // `wanted` as DeviceOptions::device. Throws kNoDevice, kDeviceTooOld.
 const Candidate& choose(const std::vector<Candidate>& candidates, const std::string& wanted);
+
+// Of a device that another program has opened, with this queue family. Throws kHostDevice.
+Candidate foreignCandidate(VkPhysicalDevice device, uint32_t queueFamily);
 
 VkFormat vulkanFormat(gpu::Format format);
 

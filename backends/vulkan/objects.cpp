@@ -100,6 +100,8 @@ TextureObject makeTexture(Context& context, const gpu::TextureDesc& desc) {
   TextureObject object;
   object.desc = desc;
   object.desc.label = {};
+  object.format = info.format;
+  object.seen = aspectOf(desc.format);
   check(vk.vkCreateImage(context.device, &info, nullptr, &object.image), "vkCreateImage");
   try {
     VkMemoryRequirements requirements{};
@@ -149,9 +151,8 @@ VkImageView viewOf(Context& context, TextureObject& texture, const gpu::TextureV
   VkImageViewCreateInfo info{VK_STRUCTURE_TYPE_IMAGE_VIEW_CREATE_INFO};
   info.image = texture.image;
   info.viewType = type;
-  info.format = vulkanFormat(texture.desc.format);
-  info.subresourceRange = {aspectOf(texture.desc.format), range.mip, range.mipCount, range.layer,
-                           range.layerCount};
+  info.format = texture.format;
+  info.subresourceRange = {texture.seen, range.mip, range.mipCount, range.layer, range.layerCount};
   TextureObject::View made{.range = range, .type = type, .view = VK_NULL_HANDLE};
   texture.views.reserve(texture.views.size() + 1);
   check(context.vk.vkCreateImageView(context.device, &info, nullptr, &made.view),
@@ -179,7 +180,7 @@ void release(Context& context, TextureObject& object) {
   for (const TextureObject::View& made : object.views) {
     context.vk.vkDestroyImageView(context.device, made.view, nullptr);
   }
-  context.vk.vkDestroyImage(context.device, object.image, nullptr);
+  if (!object.foreign) context.vk.vkDestroyImage(context.device, object.image, nullptr);
   context.free(object.memory);
   object = {};
 }

@@ -26,6 +26,12 @@ struct TextureObject {
 
   VkImage image = VK_NULL_HANDLE;
   VkDeviceMemory memory = VK_NULL_HANDLE;
+  VkFormat format = VK_FORMAT_UNDEFINED;
+  VkImageAspectFlags seen = 0;  // by views
+  // Another program's: neither released nor tracked here, and in the layout `home` between
+  // recordings.
+  bool foreign = false;
+  VkImageLayout home = VK_IMAGE_LAYOUT_UNDEFINED;
   gpu::TextureDesc desc;    // its label is not kept
   std::vector<View> views;  // made when they are first asked for
 };

@@ -10,9 +10,12 @@
 
 namespace grisaille::vulkan {
 
+// Whether there is a file: another program's folders are not ours to write in.
+enum class CacheFile { kOwn, kNone };
+
 class PipelineCache {
  public:
-  explicit PipelineCache(Context& context);
+  PipelineCache(Context& context, CacheFile file);
   ~PipelineCache();  // writes the file if its contents changed
   PipelineCache(const PipelineCache&) = delete;
   PipelineCache& operator=(const PipelineCache&) = delete;

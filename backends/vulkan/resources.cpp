@@ -59,6 +59,10 @@ gpu::Texture Resources::add(const gpu::TextureDesc& desc) {
   return texture;
 }
 
+gpu::Texture Resources::addForeign(const TextureObject& object) {
+  return own(textures_, object);
+}
+
 gpu::Sampler Resources::add(const gpu::SamplerDesc& desc) {
   return own(samplers_, makeSampler(context_, desc));
 }

@@ -22,6 +22,8 @@ class Resources {
 
   gpu::Buffer add(const gpu::BufferDesc& desc);
   gpu::Texture add(const gpu::TextureDesc& desc);
+  // Another program's, whose hazards are its own.
+  gpu::Texture addForeign(const TextureObject& object);
   gpu::Sampler add(const gpu::SamplerDesc& desc);
   gpu::ComputePipeline add(VkPipelineCache cache, const gpu::ComputePipelineDesc& desc);
   gpu::GraphicsPipeline add(VkPipelineCache cache, const gpu::GraphicsPipelineDesc& desc);

@@ -5,7 +5,7 @@
 #include <memory>
 #include <vector>
 
-#include "core/gpu/device.h"
+#include "core/gpu/host_device.h"
 
 namespace grisaille::vulkan {
 
@@ -14,6 +14,21 @@ std::vector<gpu::ListedDevice> listDevices();
 
 // Throws kBackendMissing, kNoDevice, kDeviceTooOld, kDeviceFailed.
 std::unique_ptr<gpu::Device> createDevice(const gpu::DeviceOptions& options);
+
+// What another program has: handles of the API, and its own loader's entry, a
+// PFN_vkGetInstanceProcAddr, or null for libvulkan.so.1's. The first device's loader is this
+// process's.
+struct HostHandles {
+  void* instance = nullptr;
+  void* physicalDevice = nullptr;
+  void* device = nullptr;
+  uint32_t queueFamily = 0;
+  uint32_t framesInFlight = 0;  // over 0
+  void (*getInstanceProcAddr)() = nullptr;
+};
+
+// Throws kHostDevice, kBackendMissing, kDeviceTooOld, kDeviceFailed.
+std::unique_ptr<gpu::HostDevice> createHostDevice(const HostHandles& handles);
 
 // Sets GLFW's hints for the window of such a device.
 void hintWindow(bool check);

@@ -6,7 +6,7 @@
 
 namespace grisaille::effect {
 
-HostServices::HostServices(gpu::Device& device, std::string_view key, bool takesShots)
+HostServices::HostServices(gpu::Maker& device, std::string_view key, bool takesShots)
     : device_(device),
       key_(key),
       takesShots_(takesShots),

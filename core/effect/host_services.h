@@ -21,7 +21,7 @@ grisaille_frame frameTable(HostServices* self);
 class HostServices {
  public:
   // `key` names the effect in labels.
-  HostServices(gpu::Device& device, std::string_view key, bool takesShots);
+  HostServices(gpu::Maker& device, std::string_view key, bool takesShots);
   HostServices(const HostServices&) = delete;
   HostServices& operator=(const HostServices&) = delete;
 
@@ -60,7 +60,7 @@ class HostServices {
 
   std::string labelled(const char* label) const;
 
-  gpu::Device& device_;
+  gpu::Maker& device_;
   std::string key_;
   const bool takesShots_;
   grisaille_host host_;

@@ -31,7 +31,7 @@ gpu::Format formatOf(uint32_t format) {
 }
 
 struct Instance::State {
-  State(gpu::Device& device, const Effect& of)
+  State(gpu::Maker& device, const Effect& of)
       : desc(*of.desc), services(device, desc.key, of.takesShots()) {}
   ~State() { services.destroyAll(); }
 
@@ -42,7 +42,7 @@ struct Instance::State {
   size_t shotsKept = 0;
 };
 
-Instance::Instance(gpu::Device& device, const Effect& effect)
+Instance::Instance(gpu::Maker& device, const Effect& effect)
     : state_(std::make_unique<State>(device, effect)) {
   HostServices& services = state_->services;
   services.open();

@@ -46,7 +46,7 @@ struct FrameInputs {
 class Instance {
  public:
   // Throws kEffectCreate with the effect's own words.
-  Instance(gpu::Device& device, const Effect& effect);
+  Instance(gpu::Maker& device, const Effect& effect);
   ~Instance();
   Instance(const Instance&) = delete;
   Instance& operator=(const Instance&) = delete;

@@ -64,9 +64,10 @@ class Commands {
                       std::span<const std::byte> bytes) = 0;
 };
 
-class Device {
+// Makes what handles name and destroys it: the part of a device that needs no queue.
+class Maker {
  public:
-  virtual ~Device() = default;  // waits for the device; destroys what is left
+  virtual ~Maker() = default;  // destroys what is left
 
   virtual const DeviceInfo& info() const = 0;
 
@@ -84,6 +85,11 @@ class Device {
   virtual void destroy(Sampler sampler) = 0;
   virtual void destroy(ComputePipeline pipeline) = 0;
   virtual void destroy(GraphicsPipeline pipeline) = 0;
+};
+
+class Device : public Maker {
+ public:
+  ~Device() override = default;  // waits for the device first
 
   // Begins a frame; waits while too many are in flight. The commands are valid until submit().
   virtual Commands& begin() = 0;

@@ -1,0 +1,220 @@
+// SPDX-License-Identifier: MIT
+// A device in another program's context, whose state it leaves as it was.
+#include <epoxy/gl.h>
+
+#include <array>
+#include <optional>
+
+#include "backends/opengl/adapters.h"
+#include "backends/opengl/commands.h"
+#include "backends/opengl/current_context.h"
+#include "backends/opengl/formats.h"
+#include "backends/opengl/host_state.h"
+#include "backends/opengl/info.h"
+#include "backends/opengl/opengl.h"
+#include "backends/opengl/pipelines.h"
+#include "core/error.h"
+
+namespace grisaille::opengl {
+namespace {
+
+int ofTexture(GLuint name, GLenum what) {
+  GLint value = 0;
+  glGetTextureParameteriv(name, what, &value);
+  return value;
+}
+
+int ofLevel(GLuint name, GLenum what) {
+  GLint value = 0;
+  glGetTextureLevelParameteriv(name, 0, what, &value);
+  return value;
+}
+
+bool sampledAsFloat(int type) {
+  return type == GL_FLOAT || type == GL_UNSIGNED_NORMALIZED || type == GL_SIGNED_NORMALIZED;
+}
+
+class GlHostDevice final : public gpu::HostDevice {
+ public:
+  explicit GlHostDevice(const Adapter& adapter)
+      : current_(currentContext()),
+        info_(readInfo(adapter.listed)),
+        timer_(gpu::Clock::kNone),
+        commands_(context_, resources_, timer_, info_.capabilities.uniformAlignment) {}
+  ~GlHostDevice() override {
+    for (const GLsync fence : fences_) glDeleteSync(fence);  // ignores none
+  }
+
+  const gpu::DeviceInfo& info() const override { return info_; }
+
+  gpu::Buffer createBuffer(const gpu::BufferDesc& desc) override {
+    return resources_.createBuffer(desc);
+  }
+  gpu::Texture createTexture(const gpu::TextureDesc& desc) override {
+    return resources_.createTexture(desc);
+  }
+  gpu::Sampler createSampler(const gpu::SamplerDesc& desc) override {
+    return resources_.createSampler(desc);
+  }
+  gpu::ComputePipeline createComputePipeline(const gpu::ComputePipelineDesc& desc) override {
+    return resources_.computePipelines.add(buildCompute(desc));
+  }
+  gpu::GraphicsPipeline createGraphicsPipeline(const gpu::GraphicsPipelineDesc& desc) override {
+    return resources_.graphicsPipelines.add(buildGraphics(desc));
+  }
+  void destroy(gpu::Buffer buffer) override {
+    if (buffer) resources_.destroy(buffer);
+  }
+  void destroy(gpu::Texture texture) override {
+    if (texture) resources_.destroy(texture);
+  }
+  void destroy(gpu::Sampler sampler) override {
+    if (sampler) resources_.samplers.remove(sampler);
+  }
+  void destroy(gpu::ComputePipeline pipeline) override {
+    if (pipeline) resources_.computePipelines.remove(pipeline);
+  }
+  void destroy(gpu::GraphicsPipeline pipeline) override {
+    if (pipeline) resources_.graphicsPipelines.remove(pipeline);
+  }
+
+  gpu::Texture wrap(const gpu::ForeignTexture& texture) override;
+  gpu::ForeignInfo foreign(gpu::Texture texture) override;
+  gpu::Commands& begin(void* commandBuffer, uint64_t frame,
+                       std::span<const gpu::Texture> reads) override;
+  void end(std::span<const gpu::Texture> writes) override;
+  gpu::NativeTexture native(gpu::Texture texture) override;
+  void requireUsable() const override;
+
+ private:
+  void turnTo(uint64_t frame);
+
+  void* current_;  // the context
+  Context context_;
+  gpu::DeviceInfo info_;
+  HostState state_;
+  Resources resources_;
+  PassTimer timer_;
+  GlCommands commands_;
+  std::array<GLsync, kFramesInFlight> fences_ = {};
+  std::optional<uint64_t> frame_;  // the last one
+  uint64_t turns_ = 0;             // frames so far
+};
+
+void GlHostDevice::requireUsable() const {
+  void* const now = currentContext();
+  if (now == current_) return;
+  throw Error(ErrorId::kHostContext, "{} is current",
+              now == nullptr ? "no OpenGL context" : "another OpenGL context");
+}
+
+gpu::Texture GlHostDevice::wrap(const gpu::ForeignTexture& texture) {
+  const auto name = static_cast<GLuint>(texture.name);
+  if (texture.name != name || glIsTexture(name) == GL_FALSE) {
+    throw Error(ErrorId::kHostTexture, "{} names no texture", texture.name);
+  }
+  if (ofTexture(name, GL_TEXTURE_TARGET) != GL_TEXTURE_2D) {
+    throw Error(ErrorId::kHostTexture, "texture {} is no 2D texture", name);
+  }
+  const bool depth = ofLevel(name, GL_TEXTURE_DEPTH_SIZE) > 0;
+  if (!sampledAsFloat(ofLevel(name, depth ? GL_TEXTURE_DEPTH_TYPE : GL_TEXTURE_RED_TYPE))) {
+    throw Error(ErrorId::kHostTexture, "texture {} is not sampled as floats", name);
+  }
+  const auto width = static_cast<uint32_t>(ofLevel(name, GL_TEXTURE_WIDTH));
+  const auto height = static_cast<uint32_t>(ofLevel(name, GL_TEXTURE_HEIGHT));
+  const bool given = texture.width != 0 || texture.height != 0;
+  if (given && (texture.width != width || texture.height != height)) {
+    throw Error(ErrorId::kHostTexture, "texture {} has {} x {} pixels, not {} x {}", name, width,
+                height, texture.width, texture.height);
+  }
+  TextureResource resource;
+  resource.object = Object::foreign(name);
+  resource.desc = {.format = gpu::Format::kRgba32Float,
+                   .width = width,
+                   .height = height,
+                   .usage = gpu::TextureUsage::kSampled};
+  return resources_.textures.add(std::move(resource));
+}
+
+gpu::ForeignInfo GlHostDevice::foreign(gpu::Texture texture) {
+  const TextureResource& resource = resources_.textures.get(texture);
+  const GLuint name = resource.object.name();
+  uint32_t channels = 0;
+  for (const GLenum size :
+       {GL_TEXTURE_RED_SIZE, GL_TEXTURE_GREEN_SIZE, GL_TEXTURE_BLUE_SIZE, GL_TEXTURE_ALPHA_SIZE}) {
+    if (ofLevel(name, size) > 0) ++channels;
+  }
+  return {.width = resource.desc.width,
+          .height = resource.desc.height,
+          .channels = channels,
+          .depth = ofLevel(name, GL_TEXTURE_DEPTH_SIZE) > 0};
+}
+
+// The uniforms of as many frames before as there are slots are written over.
+void GlHostDevice::turnTo(uint64_t frame) {
+  if (frame_ && frame < *frame_) {
+    throw Error(ErrorId::kHostFrame, "frame {} comes after frame {}", frame, *frame_);
+  }
+  if (frame_ == frame) return;
+  if (frame_) commands_.endFrame();
+  frame_ = frame;
+  GLsync& fence = fences_[++turns_ % kFramesInFlight];
+  if (fence != nullptr) {
+    constexpr GLuint64 kPatience = 10'000'000'000;  // nanoseconds: the driver hangs
+    const GLenum status = glClientWaitSync(fence, GL_SYNC_FLUSH_COMMANDS_BIT, kPatience);
+    glDeleteSync(fence);
+    fence = nullptr;
+    if (status == GL_WAIT_FAILED || status == GL_TIMEOUT_EXPIRED) {
+      throw Error(ErrorId::kDeviceLost, "OpenGL does not finish an earlier frame");
+    }
+  }
+  commands_.beginFrame(static_cast<uint32_t>(turns_ % kFramesInFlight));
+}
+
+gpu::Commands& GlHostDevice::begin(void* commandBuffer, uint64_t frame,
+                                   std::span<const gpu::Texture>) {
+  if (commandBuffer != nullptr) {
+    throw Error(ErrorId::kHostFrame, "OpenGL has no command buffer, and one is given");
+  }
+  turnTo(frame);
+  state_.save();
+  glMemoryBarrier(GL_ALL_BARRIER_BITS);
+  return commands_;
+}
+
+void GlHostDevice::end(std::span<const gpu::Texture> writes) {
+  for (const gpu::Texture texture : writes) {
+    resources_.tracker.use(gpu::TextureView{.texture = texture}, gpu::Access::kSampled);
+  }
+  resources_.barriers();
+  glMemoryBarrier(GL_ALL_BARRIER_BITS);
+  GLsync& fence = fences_[turns_ % kFramesInFlight];
+  glDeleteSync(fence);
+  fence = glFenceSync(GL_SYNC_GPU_COMMANDS_COMPLETE, 0);
+  state_.restore();
+}
+
+gpu::NativeTexture GlHostDevice::native(gpu::Texture texture) {
+  const TextureResource& resource = resources_.textures.get(texture);
+  return {.name = resource.object.name(),
+          .view = 0,
+          .format = glFormat(resource.desc.format).internalFormat,
+          .layout = 0};
+}
+
+}  // namespace
+
+std::unique_ptr<gpu::HostDevice> createHostDevice() {
+  if (currentContext() == nullptr) {
+    throw Error(ErrorId::kHostContext, "no OpenGL context is current on this thread");
+  }
+  const Adapter adapter = currentAdapter();
+  if (!epoxy_is_desktop_gl() || adapter.version < 45) {
+    throw Error(ErrorId::kDeviceTooOld, "{} has OpenGL{} {}.{} in this context, and 4.5 is needed",
+                adapter.listed.name, epoxy_is_desktop_gl() ? "" : " ES", adapter.version / 10,
+                adapter.version % 10);
+  }
+  return std::make_unique<GlHostDevice>(adapter);
+}
+
+}  // namespace grisaille::opengl

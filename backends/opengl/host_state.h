@@ -1,0 +1,44 @@
+// SPDX-License-Identifier: MIT
+// The state of another program's context that recording compute work changes, kept and put back.
+#pragma once
+
+#include <array>
+#include <cstdint>
+
+#include "grisaille/shader.h"
+
+namespace grisaille::opengl {
+
+class HostState {
+ public:
+  HostState();  // in the context that is current from now on
+
+  void save();
+  void restore() const;
+
+ private:
+  static constexpr uint32_t kSlots = GRISAILLE_SLOTS_PER_CLASS;
+  struct Unit {
+    int32_t texture = 0, array = 0, sampler = 0;
+  };
+  struct Image {
+    int32_t texture = 0, level = 0, layered = 0, layer = 0, access = 0, format = 0;
+  };
+  struct Range {
+    int32_t buffer = 0;
+    int64_t offset = 0, size = 0;
+  };
+  struct Buffers {
+    int32_t general = 0;  // the binding that is not of a slot
+    std::array<Range, kSlots> slots;
+  };
+
+  uint32_t images_, storages_;  // slots that there are
+  int32_t program_ = 0, activeUnit_ = 0, unpackBuffer_ = 0;
+  std::array<int32_t, 8> unpack_ = {};
+  std::array<Unit, kSlots> units_;
+  std::array<Image, kSlots> image_;
+  Buffers uniform_, storage_;
+};
+
+}  // namespace grisaille::opengl

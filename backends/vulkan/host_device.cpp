@@ -1,0 +1,143 @@
+// SPDX-License-Identifier: MIT
+// A device on another program's: everything but queues, submission and waiting.
+#include <algorithm>
+#include <memory>
+#include <optional>
+
+#include "backends/vulkan/barriers.h"
+#include "backends/vulkan/foreign_formats.h"
+#include "backends/vulkan/making.h"
+#include "backends/vulkan/vulkan.h"
+
+namespace grisaille::vulkan {
+namespace {
+
+using gpu::Access;
+
+class VulkanHostDevice final : public Making<gpu::HostDevice> {
+ public:
+  explicit VulkanHostDevice(const HostHandles& handles)
+      : Making(handles, CacheFile::kNone), recorder_(context_, resources_, {}) {
+    for (uint32_t i = 0; i < handles.framesInFlight; ++i) {
+      recordings_.push_back(std::make_unique<Recording>(context_, resources_, gpu::Clock::kNone));
+    }
+  }
+
+  gpu::Texture wrap(const gpu::ForeignTexture& texture) override;
+  gpu::ForeignInfo foreign(gpu::Texture texture) override;
+  gpu::Commands& begin(void* commandBuffer, uint64_t frame,
+                       std::span<const gpu::Texture> reads) override;
+  void end(std::span<const gpu::Texture> writes) override;
+  gpu::NativeTexture native(gpu::Texture texture) override;
+  void requireUsable() const override {}
+
+ private:
+  uint64_t lastUse() const override { return frame_ ? *frame_ + 1 : 0; }
+  uint64_t finished() const override {
+    return lastUse() > recordings_.size() ? lastUse() - recordings_.size() : 0;
+  }
+  void turnTo(uint64_t frame);
+  void hand(bool toUs);
+
+  std::vector<std::unique_ptr<Recording>> recordings_;  // one a frame in flight
+  Recorder recorder_;
+  std::optional<uint64_t> frame_;  // the last one
+  VkCommandBuffer commands_ = VK_NULL_HANDLE;
+  std::vector<VkImageMemoryBarrier2> foreign_;  // of what is being read
+};
+
+gpu::Texture VulkanHostDevice::wrap(const gpu::ForeignTexture& texture) {
+  return resources_.addForeign(makeForeign(context_, texture));
+}
+
+gpu::ForeignInfo VulkanHostDevice::foreign(gpu::Texture texture) {
+  const TextureObject& object = resources_.get(texture);
+  const ForeignFormat& format = foreignFormat(object.format);
+  return {.width = object.desc.width,
+          .height = object.desc.height,
+          .channels = format.channels,
+          .depth = format.depth()};
+}
+
+// What the frame so many before used is free again.
+void VulkanHostDevice::turnTo(uint64_t frame) {
+  if (frame_ && frame < *frame_) {
+    throw Error(ErrorId::kHostFrame, "frame {} comes after frame {}", frame, *frame_);
+  }
+  if (frame_ == frame) return;
+  recorder_.endFrame(lastUse());
+  frame_ = frame;
+  recordings_[frame % recordings_.size()]->reset();
+  resources_.releaseUpTo(finished());
+}
+
+// The program's textures between its layouts and that of sampling, and all its memory either way:
+// it need know nothing of what the layer does with which stage.
+void VulkanHostDevice::hand(bool toUs) {
+  VkMemoryBarrier2 all{VK_STRUCTURE_TYPE_MEMORY_BARRIER_2};
+  all.srcStageMask = all.dstStageMask = VK_PIPELINE_STAGE_2_ALL_COMMANDS_BIT;
+  all.srcAccessMask = VK_ACCESS_2_MEMORY_WRITE_BIT;
+  all.dstAccessMask = VK_ACCESS_2_MEMORY_READ_BIT | VK_ACCESS_2_MEMORY_WRITE_BIT;
+  if (!toUs) {
+    for (VkImageMemoryBarrier2& barrier : foreign_) std::swap(barrier.oldLayout, barrier.newLayout);
+  }
+  VkDependencyInfo info{VK_STRUCTURE_TYPE_DEPENDENCY_INFO};
+  info.memoryBarrierCount = 1;
+  info.pMemoryBarriers = &all;
+  info.imageMemoryBarrierCount = static_cast<uint32_t>(foreign_.size());
+  info.pImageMemoryBarriers = foreign_.data();
+  context_.vk.vkCmdPipelineBarrier2(commands_, &info);
+}
+
+gpu::Commands& VulkanHostDevice::begin(void* commandBuffer, uint64_t frame,
+                                       std::span<const gpu::Texture> reads) {
+  if (commandBuffer == nullptr) throw Error(ErrorId::kHostFrame, "there is no command buffer");
+  turnTo(frame);
+  commands_ = static_cast<VkCommandBuffer>(commandBuffer);
+  foreign_.clear();
+  for (const gpu::Texture texture : reads) {
+    const TextureObject& object = resources_.get(texture);
+    const auto twin = std::ranges::find(foreign_, object.image, &VkImageMemoryBarrier2::image);
+    if (twin != foreign_.end()) continue;
+    VkImageMemoryBarrier2 barrier{VK_STRUCTURE_TYPE_IMAGE_MEMORY_BARRIER_2};
+    barrier.srcStageMask = barrier.dstStageMask = VK_PIPELINE_STAGE_2_ALL_COMMANDS_BIT;
+    barrier.srcAccessMask = VK_ACCESS_2_MEMORY_WRITE_BIT;
+    barrier.dstAccessMask = VK_ACCESS_2_MEMORY_READ_BIT | VK_ACCESS_2_MEMORY_WRITE_BIT;
+    barrier.oldLayout = object.home;
+    barrier.newLayout = layoutOf(Access::kSampled);
+    barrier.srcQueueFamilyIndex = barrier.dstQueueFamilyIndex = VK_QUEUE_FAMILY_IGNORED;
+    barrier.image = object.image;
+    barrier.subresourceRange = {foreignFormat(object.format).aspects, 0, 1, 0, 1};
+    foreign_.push_back(barrier);
+  }
+  hand(true);
+  recorder_.begin(*recordings_[frame % recordings_.size()], commands_);
+  return recorder_;
+}
+
+void VulkanHostDevice::end(std::span<const gpu::Texture> writes) {
+  for (const gpu::Texture texture : writes) {
+    resources_.tracker().use(gpu::TextureView{.texture = texture}, Access::kSampled);
+  }
+  resources_.recordBarriers(commands_);
+  hand(false);
+  recorder_.end();
+}
+
+gpu::NativeTexture VulkanHostDevice::native(gpu::Texture texture) {
+  const gpu::TextureView whole = resources_.resolve(gpu::TextureView{.texture = texture});
+  const VkImageView view = resources_.viewOf(whole, VK_IMAGE_VIEW_TYPE_2D);
+  const TextureObject& object = resources_.get(texture);
+  return {.name = reinterpret_cast<uint64_t>(object.image),
+          .view = reinterpret_cast<uint64_t>(view),
+          .format = static_cast<uint32_t>(object.format),
+          .layout = static_cast<uint32_t>(layoutOf(Access::kSampled))};
+}
+
+}  // namespace
+
+std::unique_ptr<gpu::HostDevice> createHostDevice(const HostHandles& handles) {
+  return std::make_unique<VulkanHostDevice>(handles);
+}
+
+}  // namespace grisaille::vulkan

@@ -1,0 +1,203 @@
+// SPDX-License-Identifier: MIT
+// The C functions of grisaille/host.h: nothing but a number leaves them.
+#include <algorithm>
+#include <array>
+#include <new>
+
+#include "backends/opengl/opengl.h"
+#include "backends/vulkan/vulkan.h"
+#include "host/checks.h"
+#include "host/effect.h"
+
+namespace grisaille::host {
+namespace {
+
+thread_local std::array<char, 1024> lastError = {};
+
+int note(ErrorId id, std::string_view line) noexcept {
+  const size_t length = std::min(line.size(), lastError.size() - 1);
+  std::copy_n(line.begin(), length, lastError.begin());
+  lastError[length] = '\0';
+  return static_cast<int>(id);
+}
+
+template <typename Work>
+int guarded(Work&& work) noexcept {
+  try {
+    try {
+      work();
+      return 0;
+    } catch (const Error& error) {
+      return note(error.id(), error.what());
+    } catch (const std::bad_alloc&) {
+      return note(ErrorId::kOutOfMemory, "error E9002: no memory; close other programs");
+    } catch (const std::exception& error) {
+      return note(ErrorId::kUnexpected, Error(ErrorId::kUnexpected, oneLine(error.what())).what());
+    }
+  } catch (...) {
+    return note(ErrorId::kUnexpected, "error E9001: something unknown was thrown");
+  }
+}
+
+// What the host gets is null unless all went well.
+template <typename Made, typename Make>
+int making(Made** out, Make&& make) noexcept {
+  return guarded([&] {
+    present(out, "out") = nullptr;
+    *out = make();
+  });
+}
+
+template <typename Made>
+int ending(Made* made) noexcept {
+  return guarded([&] {
+    if (made == nullptr) return;
+    made->device.gpu->requireUsable();
+    delete made;
+  });
+}
+
+}  // namespace
+}  // namespace grisaille::host
+
+using namespace grisaille;        // NOLINT: these functions are all that this file has
+using namespace grisaille::host;  // NOLINT
+
+uint32_t grisaille_host_version(void) {
+  return GRISAILLE_HOST_VERSION;
+}
+
+const char* grisaille_host_last_error(void) {
+  return lastError.data();
+}
+
+int grisaille_host_device_vulkan(const grisaille_host_vulkan* vulkan, grisaille_host_device** out) {
+  return making(out, [&] {
+    const grisaille_host_vulkan& given = whole(vulkan, "vulkan");
+    checkReserved(given.reserved, "vulkan.reserved");
+    if (given.frames_in_flight < 1 || given.frames_in_flight > 16) {
+      throw Error(ErrorId::kHostValue, "vulkan.frames_in_flight is {}, out of 1 to 16",
+                  given.frames_in_flight);
+    }
+    checkHandle(given.instance, "vulkan.instance");
+    checkHandle(given.physical_device, "vulkan.physical_device");
+    checkHandle(given.device, "vulkan.device");
+    const grisaille::vulkan::HostHandles handles = {
+        .instance = given.instance,
+        .physicalDevice = given.physical_device,
+        .device = given.device,
+        .queueFamily = given.queue_family,
+        .framesInFlight = given.frames_in_flight,
+        .getInstanceProcAddr = given.get_instance_proc_addr};
+    return new grisaille_host_device(grisaille::vulkan::createHostDevice(handles),
+                                     given.effect_folder);
+  });
+}
+
+int grisaille_host_device_opengl(const grisaille_host_opengl* opengl, grisaille_host_device** out) {
+  return making(out, [&] {
+    const grisaille_host_opengl& given = whole(opengl, "opengl");
+    checkReserved(given.reserved, "opengl.reserved");
+    return new grisaille_host_device(grisaille::opengl::createHostDevice(), given.effect_folder);
+  });
+}
+
+int grisaille_host_device_destroy(grisaille_host_device* device) {
+  return guarded([&] {
+    if (device == nullptr) return;
+    if (device->textures + device->effects > 0) {
+      throw Error(ErrorId::kHostInUse, "{} textures and {} effects are left", device->textures,
+                  device->effects);
+    }
+    device->gpu->requireUsable();
+    delete device;
+  });
+}
+
+int grisaille_host_effects(const grisaille_host_device* device,
+                           const grisaille_effect_desc* const** effects, uint32_t* count) {
+  return guarded([&] {
+    const grisaille_host_device& of = present(device, "device");
+    const grisaille_effect_desc* const*& list = present(effects, "effects");
+    present(count, "count") = static_cast<uint32_t>(of.tables.size());
+    list = of.tables.data();
+  });
+}
+
+int grisaille_host_texture_wrap(grisaille_host_device* device,
+                                const grisaille_host_texture_desc* desc,
+                                grisaille_host_texture** out) {
+  return making(out, [&] {
+    return new grisaille_host_texture(present(device, "device"), whole(desc, "desc"));
+  });
+}
+
+int grisaille_host_texture_destroy(grisaille_host_texture* texture) {
+  return ending(texture);
+}
+
+int grisaille_host_effect_create(grisaille_host_device* device,
+                                 const grisaille_host_effect_desc* desc,
+                                 grisaille_host_effect** out) {
+  return making(out, [&] {
+    return new grisaille_host_effect(present(device, "device"), whole(desc, "desc"));
+  });
+}
+
+int grisaille_host_effect_destroy(grisaille_host_effect* effect) {
+  return guarded([&] {
+    if (effect == nullptr) return;
+    grisaille_host_device& device = effect->device;
+    device.gpu->requireUsable();
+    delete effect;
+    --device.effects;
+  });
+}
+
+int grisaille_host_effect_set(grisaille_host_effect* effect, const char* key, double value) {
+  return guarded([&] { present(effect, "effect").values.set(&present(key, "key"), value); });
+}
+
+int grisaille_host_effect_set_text(grisaille_host_effect* effect, const char* key,
+                                   const char* text) {
+  return guarded([&] {
+    present(effect, "effect")
+        .values.set(&present(key, "key"), std::string_view(&present(text, "text")));
+  });
+}
+
+int grisaille_host_effect_get(const grisaille_host_effect* effect, const char* key, double* value) {
+  return guarded([&] {
+    double& to = present(value, "value");
+    to = present(effect, "effect").values.get(&present(key, "key"));
+  });
+}
+
+int grisaille_host_effect_resize(grisaille_host_effect* effect, uint32_t width, uint32_t height) {
+  return guarded([&] {
+    grisaille_host_effect& one = present(effect, "effect");
+    one.device.gpu->requireUsable();
+    one.resize(width, height);
+  });
+}
+
+int grisaille_host_effect_record(grisaille_host_effect* effect, const grisaille_host_frame* frame) {
+  return guarded([&] { present(effect, "effect").record(whole(frame, "frame")); });
+}
+
+int grisaille_host_effect_output(const grisaille_host_effect* effect, const char* key,
+                                 grisaille_host_output* out) {
+  return guarded([&] {
+    const grisaille_host_effect& one = present(effect, "effect");
+    grisaille_host_output& to = whole(out, "out");
+    uint32_t format = 0;
+    const gpu::NativeTexture texture = one.output(&present(key, "key"), format);
+    to.format = format;
+    to.native_format = texture.format;
+    to.layout = texture.layout;
+    to.width = one.width;
+    to.height = one.height;
+    to.image = texture.name;
+    to.view = texture.view;
+  });
+}

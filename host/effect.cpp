@@ -1,0 +1,211 @@
+// SPDX-License-Identifier: MIT
+#include "host/effect.h"
+
+#include <array>
+
+#include "core/frame/view_block.h"
+#include "host/checks.h"
+
+using grisaille::Error;
+using grisaille::ErrorId;
+namespace gpu = grisaille::gpu;
+namespace host = grisaille::host;
+
+namespace grisaille::host {
+namespace {
+
+constexpr uint32_t kLargestSide = 16384;  // pixels
+
+void checkSize(const grisaille_host_device& device, uint32_t width, uint32_t height) {
+  const uint32_t most = std::min(kLargestSide, device.gpu->info().capabilities.maxTextureSize);
+  if (width >= 1 && width <= most && height >= 1 && height <= most) return;
+  throw Error(ErrorId::kTextureSize, "{} x {} pixels are out of 1 to {}", width, height, most);
+}
+
+gpu::Texture checked(const grisaille_host_texture* texture, const grisaille_host_effect& effect,
+                     uint32_t channels, const char* name) {
+  if (texture == nullptr) return {};
+  if (&texture->device != &effect.device) {
+    throw Error(ErrorId::kHostForeign, "{} and the effect are of two devices", name);
+  }
+  const gpu::ForeignInfo& info = texture->info;
+  if (info.width != effect.width || info.height != effect.height) {
+    throw Error(ErrorId::kHostTexture, "{} has {} x {} pixels, the effect {} x {}", name,
+                info.width, info.height, effect.width, effect.height);
+  }
+  if (info.channels < channels && !(info.depth && channels == 1)) {
+    throw Error(ErrorId::kHostTexture, "{} has {} channels, not {}", name, info.channels, channels);
+  }
+  return texture->texture;
+}
+
+}  // namespace
+}  // namespace grisaille::host
+
+grisaille_host_effect::grisaille_host_effect(grisaille_host_device& of,
+                                             const grisaille_host_effect_desc& desc)
+    : device(of),
+      values(of.registry.find(&host::present(desc.effect, "desc.effect"))),
+      rows_(desc.rows),
+      attachments_(*of.gpu, of.kernels),
+      instance_((of.gpu->requireUsable(), *of.gpu), values.effect()) {
+  host::checkEnum(desc.rows, 2, "desc.rows");
+  host::checkReserved(desc.reserved, "desc.reserved");
+  if (desc.output_count > 0) host::present(desc.outputs, "desc.outputs");
+  for (uint32_t i = 0; i < desc.output_count; ++i) {
+    wanted_ |= 1u << indexOf(&host::present(desc.outputs[i], "an entry of desc.outputs"));
+  }
+  if (desc.output_count == 0) wanted_ = 1;
+  resize(desc.width, desc.height);
+  ++device.effects;
+}
+
+grisaille_host_effect::~grisaille_host_effect() {
+  drop(pictures_);
+}
+
+uint32_t grisaille_host_effect::indexOf(std::string_view key) const {
+  const auto outputs = values.effect().outputs();
+  for (uint32_t i = 0; i < outputs.size(); ++i) {
+    if (key == outputs[i].key) return i;
+  }
+  std::string all;
+  for (const grisaille_output_desc& output : outputs) {
+    all += (all.empty() ? "" : ", ") + std::string(output.key);
+  }
+  throw Error(ErrorId::kOutputUnknown, "effect {} has no output '{}'; it has {}",
+              values.effect().desc->key, grisaille::oneLine(key), all);
+}
+
+void grisaille_host_effect::drop(std::vector<Picture>& pictures) {
+  for (Picture& picture : pictures) {
+    if (picture.shown != picture.made) device.gpu->destroy(picture.shown);
+    device.gpu->destroy(picture.made);
+    picture = {};
+  }
+}
+
+void grisaille_host_effect::makePictures(std::vector<Picture>& pictures, uint32_t ofWidth,
+                                         uint32_t ofHeight) {
+  const auto outputs = values.effect().outputs();
+  for (uint32_t i = 0; i < outputs.size(); ++i) {
+    if ((wanted_ & (1u << i)) == 0) continue;
+    const gpu::TextureDesc desc = {
+        .label = outputs[i].key,
+        .format = grisaille::effect::formatOf(outputs[i].format),
+        .width = ofWidth,
+        .height = ofHeight,
+        .usage = gpu::TextureUsage::kStorage | gpu::TextureUsage::kSampled};
+    Picture& picture = pictures[i];
+    picture.made = device.gpu->createTexture(desc);
+    if (rows_ == GRISAILLE_HOST_ROWS_FROM_TOP) {
+      picture.shown = picture.made;
+    } else {
+      device.kernels.turn(desc.format);
+      picture.shown = device.gpu->createTexture(desc);
+    }
+    device.gpu->native(picture.shown);  // its view is made with it
+  }
+}
+
+void grisaille_host_effect::resize(uint32_t newWidth, uint32_t newHeight) {
+  host::checkSize(device, newWidth, newHeight);
+  if (newWidth == width && newHeight == height) return;
+  std::vector<Picture> pictures(values.effect().outputs().size());
+  std::vector<gpu::Texture> made, shown;
+  try {
+    makePictures(pictures, newWidth, newHeight);
+    for (const Picture& picture : pictures) {
+      made.push_back(picture.made);
+      if (picture.shown) shown.push_back(picture.shown);
+    }
+  } catch (...) {
+    drop(pictures);
+    throw;
+  }
+  drop(pictures_);
+  pictures_ = std::move(pictures);
+  made_ = std::move(made);
+  shown_ = std::move(shown);
+  width = newWidth;
+  height = newHeight;
+  attachments_.resize(width, height);
+}
+
+host::Textures grisaille_host_effect::texturesOf(const grisaille_host_frame& frame,
+                                                 uint32_t reads) const {
+  host::Textures textures;
+  textures.depth =
+      host::checked(&host::present(frame.depth, "frame.depth"), *this, 1, "frame.depth");
+  textures.normal = host::checked(frame.normal, *this, 3, "frame.normal");
+  textures.baseColour = host::checked(frame.base_colour, *this, 3, "frame.base_colour");
+  const auto read = [&](grisaille_attachment a) { return (reads & GRISAILLE_READS(a)) != 0; };
+  if (!read(GRISAILLE_NORMAL)) textures.normal = {};
+  if (!read(GRISAILLE_BASE_COLOUR)) {
+    textures.baseColour = {};
+  } else if (!textures.baseColour) {
+    throw Error(ErrorId::kHostMissing, "{} reads base colours, and frame.base_colour is null",
+                values.effect().desc->key);
+  }
+  return textures;
+}
+
+void grisaille_host_effect::record(const grisaille_host_frame& frame) {
+  device.gpu->requireUsable();
+  const uint32_t reads = values.effect().reads(values.all().data(), wanted_);
+  const host::View view = host::viewOf(frame, width, height, rows_);
+  const host::Textures textures = texturesOf(frame, reads);
+  attachments_.prepare(reads, static_cast<bool>(textures.normal));
+  std::array<gpu::Texture, 3> read;
+  size_t count = 0;
+  for (const gpu::Texture texture : {textures.depth, textures.normal, textures.baseColour}) {
+    if (texture) read[count++] = texture;
+  }
+  gpu::Commands& commands =
+      device.gpu->begin(frame.command_buffer, frame.number, std::span(read).first(count));
+  try {
+    recordInto(commands, view, textures, reads);
+  } catch (...) {
+    device.gpu->end(shown_);
+    throw;
+  }
+  device.gpu->end(shown_);
+}
+
+void grisaille_host_effect::recordInto(gpu::Commands& commands, const host::View& view,
+                                       const host::Textures& textures, uint32_t reads) {
+  attachments_.record(commands, view.source, textures);
+  const grisaille::frame::ViewBlock block = grisaille::frame::viewBlock(view.camera, width, height);
+  const grisaille_view seen = grisaille::frame::viewOf(view.camera, width, height);
+  grisaille::effect::FrameInputs inputs;
+  inputs.commands = &commands;
+  inputs.width = width;
+  inputs.height = height;
+  inputs.view = &seen;
+  inputs.viewBlock = commands.uniform(std::as_bytes(std::span(&block, 1)));
+  for (size_t i = 0; i < inputs.attachments.size(); ++i) {
+    if ((reads & GRISAILLE_READS(i)) == 0) continue;
+    inputs.attachments[i] = attachments_.get(static_cast<grisaille_attachment>(i));
+  }
+  inputs.outputs = made_;
+  inputs.values = values.all();
+  instance_.record(inputs);
+  if (rows_ == GRISAILLE_HOST_ROWS_FROM_TOP) return;
+  const gpu::BufferRange source = commands.uniform(std::as_bytes(std::span(&view.source, 1)));
+  const auto outputs = values.effect().outputs();
+  for (size_t i = 0; i < pictures_.size(); ++i) {
+    if (!pictures_[i].made) continue;
+    attachments_.copy(commands, source, pictures_[i].made, pictures_[i].shown,
+                      grisaille::effect::formatOf(outputs[i].format), "host/turn");
+  }
+}
+
+gpu::NativeTexture grisaille_host_effect::output(std::string_view key, uint32_t& format) const {
+  const uint32_t index = indexOf(key);
+  if ((wanted_ & (1u << index)) == 0) {
+    throw Error(ErrorId::kOutputUnknown, "output '{}' of {} was not asked for", key,
+                values.effect().desc->key);
+  }
+  format = values.effect().outputs()[index].format;
+  return device.gpu->native(pictures_[index].shown);
+}

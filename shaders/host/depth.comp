@@ -1,0 +1,36 @@
+#version 460
+// SPDX-License-Identifier: MIT
+// A texture of depth of any kind to linear view depth in metres; sky: 0.
+#extension GL_GOOGLE_include_directive : require
+#include "source.glsl"
+
+layout(local_size_x = 8, local_size_y = 8) in;
+layout(TEXTURE(0)) uniform sampler2D depths;
+layout(IMAGE(0), r32f) writeonly uniform image2D view_depth;
+
+// Of a depth buffer that is 1 at the near plane. Reversed and infinitely far, it is near / depth.
+float ofBuffer(float reversed) {
+  if (!(reversed > 0.0)) return 0.0;
+  if (orthographic()) return mix(source.planes.y, source.planes.x, reversed);
+  return source.planes.x / (source.planes.z + reversed * (1.0 - source.planes.z));
+}
+
+float ofMetres(float metres) {
+  return metres > 0.0 && metres < source.planes.w ? metres : 0.0;
+}
+
+void main() {
+  const ivec2 pixel = ivec2(gl_GlobalInvocationID.xy), size = imageSize(view_depth);
+  if (any(greaterThanEqual(pixel, size))) return;
+  const float given = texelFetch(depths, texelOf(pixel, size.y), 0).x;
+  float metres = 0.0;
+  if (source.mode.x == kClip) metres = ofBuffer(1.0 - given);
+  if (source.mode.x == kClipReversed) metres = ofBuffer(given);
+  if (source.mode.x == kView) metres = ofMetres(given);
+  if (source.mode.x == kDistance) {
+    const vec2 ray = (vec2(pixel) + 0.5) * source.view_from_pixel.xy + source.view_from_pixel.zw;
+    metres = ofMetres(given);
+    if (!orthographic()) metres *= inversesqrt(1.0 + dot(ray, ray));
+  }
+  imageStore(view_depth, pixel, vec4(metres > 0.0 ? metres + source.shift.x : 0.0));
+}
