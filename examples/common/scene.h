@@ -50,9 +50,9 @@ inline void addBox(std::vector<Vertex>& to, glm::vec3 middle, glm::vec3 half, fl
 
 inline std::vector<Vertex> scene() {
   std::vector<Vertex> vertices;
-  addFace(vertices, {-3, 0, 3}, {6, 0, 0}, {0, 0, -6});
-  addFace(vertices, {-3, 0, -2}, {6, 0, 0}, {0, 3, 0});
-  addFace(vertices, {-2, 0, 3}, {0, 0, -6}, {0, 3, 0});
+  addFace(vertices, {-2, 0, 6}, {8, 0, 0}, {0, 0, -8});
+  addFace(vertices, {-2, 0, -2}, {8, 0, 0}, {0, 4, 0});
+  addFace(vertices, {-2, 0, 6}, {0, 0, -8}, {0, 4, 0});
   addBox(vertices, {-0.9f, 0.6f, -0.8f}, {0.5f, 0.6f, 0.5f}, 0.4f);
   addBox(vertices, {0.5f, 0.3f, 0.2f}, {0.4f, 0.3f, 0.3f}, -0.5f);
   addBox(vertices, {-0.4f, 0.15f, 0.9f}, {0.15f, 0.15f, 0.6f}, 1.1f);

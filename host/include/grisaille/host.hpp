@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: MIT
-// grisaille/host.h in C++20: owners for what it makes, exceptions for its errors, nothing more. What
-// each function does, its units and who owns what stand there.
+// grisaille/host.h in C++20: owners for what it makes, exceptions for its errors, nothing more.
+// What each function does, its units and who owns what stand there.
 #ifndef GRISAILLE_HOST_HPP
 #define GRISAILLE_HOST_HPP
 
@@ -83,9 +83,8 @@ class Device {
 
   // Of the context that is current.
   static Device opengl(const char* effectFolder = nullptr) {
-    const grisaille_host_opengl given = {.struct_size = sizeof(grisaille_host_opengl),
-                                         .reserved = 0,
-                                         .effect_folder = effectFolder};
+    const grisaille_host_opengl given = {
+        .struct_size = sizeof(grisaille_host_opengl), .reserved = 0, .effect_folder = effectFolder};
     Device made;
     grisaille_host_device* device = nullptr;
     require(grisaille_host_device_opengl(&given, &device));

@@ -1,0 +1,63 @@
+// SPDX-License-Identifier: MIT
+// An instance, a device, a queue; images, buffers and shaders on it.
+#pragma once
+
+#include <vulkan/vulkan.h>
+
+#include <cstdint>
+#include <span>
+#include <vector>
+
+namespace example {
+
+// Throws std::runtime_error unless VK_SUCCESS.
+void check(VkResult result, const char* what);
+
+struct Buffer {
+  VkBuffer buffer = VK_NULL_HANDLE;
+  VkDeviceMemory memory = VK_NULL_HANDLE;
+  void* mapped = nullptr;
+};
+
+struct Image {
+  VkImage image = VK_NULL_HANDLE;
+  VkDeviceMemory memory = VK_NULL_HANDLE;
+  VkImageView view = VK_NULL_HANDLE;
+  VkFormat format = VK_FORMAT_UNDEFINED;
+  VkImageAspectFlags aspect = 0;
+};
+
+class Context {
+ public:
+  // With `validate`, what the validation layer says is printed and counted.
+  explicit Context(bool validate);
+  ~Context();
+  Context(const Context&) = delete;
+  Context& operator=(const Context&) = delete;
+
+  Buffer makeBuffer(VkDeviceSize bytes, VkBufferUsageFlags usage);  // mapped
+  Image makeImage(VkFormat format, uint32_t width, uint32_t height, VkImageUsageFlags usage);
+  VkShaderModule makeShader(std::span<const uint32_t> code);
+  void destroy(Buffer& buffer);
+  void destroy(Image& image);
+
+  VkInstance instance = VK_NULL_HANDLE;
+  VkPhysicalDevice physical = VK_NULL_HANDLE;
+  VkDevice device = VK_NULL_HANDLE;
+  VkQueue queue = VK_NULL_HANDLE;
+  uint32_t family = 0;
+  int complaints = 0;  // of the validation layer
+
+ private:
+  void makeInstance(bool validate);
+  void makeDevice();
+  VkDeviceMemory allocate(const VkMemoryRequirements& needs, VkMemoryPropertyFlags flags);
+
+  VkDebugUtilsMessengerEXT messenger_ = VK_NULL_HANDLE;
+};
+
+// All that was recorded before is seen by all that is recorded later, in the new layout.
+void transition(VkCommandBuffer commands, VkImage image, VkImageAspectFlags aspect,
+                VkImageLayout before, VkImageLayout after);
+
+}  // namespace example
