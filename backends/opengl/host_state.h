@@ -5,7 +5,7 @@
 #include <array>
 #include <cstdint>
 
-#include "grisaille/shader.h"
+#include "core/gpu/types.h"
 
 namespace grisaille::opengl {
 

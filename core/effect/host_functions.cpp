@@ -110,7 +110,7 @@ struct HostFunctions {
       for (const grisaille_constant& c : array(d.constants, d.constant_count, "constants")) {
         constants.push_back({c.id, c.bits});
       }
-      const std::string label = s.labelled(d.label);
+      const std::string& label = s.labelled(d.label);
       const gpu::ComputePipelineDesc wanted = {
           .label = label, .shader = d.shader, .constants = constants};
       give(s.pipelines_.own, present(out), [&] { return s.device_.createComputePipeline(wanted); });
@@ -122,7 +122,7 @@ struct HostFunctions {
                                         grisaille_texture* out) {
     return serve(self, "create_texture", [&](HostServices& s) {
       gpu::TextureDesc wanted = textureDesc(checked(desc));
-      const std::string label = s.labelled(desc->label);
+      const std::string& label = s.labelled(desc->label);
       wanted.label = label;
       give(s.textures_.own, present(out), [&] { return s.device_.createTexture(wanted); });
     });
@@ -133,7 +133,7 @@ struct HostFunctions {
     return serve(self, "create_buffer", [&](HostServices& s) {
       const grisaille_buffer_desc& d = checked(desc);
       if (d.reserved != 0) misuse("its reserved field is {}, not 0", d.reserved);
-      const std::string label = s.labelled(d.label);
+      const std::string& label = s.labelled(d.label);
       const gpu::BufferDesc wanted = {
           .label = label, .size = d.bytes, .usage = gpu::BufferUsage::kStorage};
       give(s.buffers_.own, present(out), [&] { return s.device_.createBuffer(wanted); });
@@ -149,7 +149,7 @@ struct HostFunctions {
         return linear != 0 ? gpu::Filter::kLinear : gpu::Filter::kNearest;
       };
       const auto address = d.repeat != 0 ? gpu::Address::kRepeat : gpu::Address::kClamp;
-      const std::string label = s.labelled(d.label);
+      const std::string& label = s.labelled(d.label);
       const gpu::SamplerDesc wanted = {.label = label,
                                        .filter = filter(d.linear),
                                        .mipFilter = filter(d.linear_mip),
@@ -165,6 +165,14 @@ struct HostFunctions {
     own.reserve(own.size() + 1);  // nothing may throw once the resource is there
     out.id = make().value;
     own.insert(out.id);
+  }
+
+  // Both kinds of list hold few.
+  static void enter(std::vector<uint32_t>& list, uint32_t id) {
+    if (!holds(list, id)) list.push_back(id);
+  }
+  static bool holds(const std::vector<uint32_t>& list, uint32_t id) {
+    return std::ranges::find(list, id) != list.end();
   }
 
   static void destroyPipeline(const grisaille_host* self, grisaille_pipeline pipeline) {
@@ -235,12 +243,12 @@ struct HostFunctions {
       if (!s.pipelines_.own.contains(d.pipeline.id)) {
         misuse("pipeline {:#x} is not this effect's", d.pipeline.id);
       }
-      std::vector<gpu::Binding> bindings;
+      s.bindings_.clear();
       for (const grisaille_binding& b : array(d.bindings, d.binding_count, "bindings")) {
-        bindings.push_back(bindingOf(s, b));
+        s.bindings_.push_back(bindingOf(s, b));
       }
       s.commands_->dispatch({.pipeline = {d.pipeline.id},
-                             .bindings = bindings,
+                             .bindings = s.bindings_,
                              .groups = {d.groups[0], d.groups[1], d.groups[2]}});
     });
   }
@@ -253,7 +261,7 @@ struct HostFunctions {
       }
       grisaille_range& place = present(out);
       const gpu::BufferRange range = s.commands_->uniform(bytesOf(data, bytes));
-      s.uniforms_.insert(range.buffer.value);
+      enter(s.uniforms_, range.buffer.value);
       place = {{range.buffer.value}, 0, range.offset, range.size};
     });
   }
@@ -262,9 +270,11 @@ struct HostFunctions {
                                     grisaille_texture* out) {
     return record(self, "transient", [&](HostServices& s) {
       gpu::TextureDesc wanted = textureDesc(checked(desc));
-      const std::string label = s.labelled(desc->label);
+      const std::string& label = s.labelled(desc->label);
       wanted.label = label;
-      give(s.writable_, present(out), [&] { return s.commands_->transient(wanted); });
+      grisaille_texture& place = present(out);
+      place.id = s.commands_->transient(wanted).value;
+      enter(s.writable_, place.id);
     });
   }
 
@@ -308,7 +318,7 @@ struct HostFunctions {
 
   static gpu::BufferRange rangeOf(const HostServices& s, const grisaille_range& range) {
     const uint32_t id = range.buffer.id;
-    if (id == 0 || (!s.buffers_.own.contains(id) && !s.uniforms_.contains(id))) {
+    if (id == 0 || (!s.buffers_.own.contains(id) && !holds(s.uniforms_, id))) {
       misuse("buffer {:#x} is not this effect's", id);
     }
     if (range.reserved != 0) misuse("a range's reserved field is {}, not 0", range.reserved);
@@ -316,7 +326,7 @@ struct HostFunctions {
   }
 
   static gpu::Texture textureOf(const HostServices& s, uint32_t id, bool written) {
-    const bool mine = s.textures_.own.contains(id) || s.writable_.contains(id);
+    const bool mine = s.textures_.own.contains(id) || holds(s.writable_, id);
     const bool attachment = std::ranges::any_of(s.attachments_, [&](auto a) { return a.id == id; });
     if (id == 0 || (!mine && !attachment)) misuse("texture {:#x} is not this effect's", id);
     if (written && !mine) misuse("texture {:#x} is an attachment, which is only read", id);

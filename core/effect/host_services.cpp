@@ -13,8 +13,19 @@ HostServices::HostServices(gpu::Maker& device, std::string_view key, bool takesS
       host_(hostTable(this)),
       frame_(frameTable(this)) {}
 
-std::string HostServices::labelled(const char* label) const {
-  return label != nullptr && *label != '\0' ? key_ + '/' + oneLine(label) : key_;
+const std::string& HostServices::labelled(const char* label) {
+  label_ = key_;
+  if (label == nullptr || *label == '\0') return label_;
+  label_ += '/';
+  const std::string_view text(label);
+  const bool plain =
+      text.size() <= 100 && std::ranges::none_of(text, [](char c) { return c < ' ' || c == 127; });
+  if (plain) {
+    label_ += text;
+  } else {
+    label_ += oneLine(text);
+  }
+  return label_;
 }
 
 // --- Calls ---------------------------------------------------------------------------------------
@@ -34,13 +45,13 @@ const grisaille_frame* HostServices::openFrame(const FrameInputs& inputs, size_t
   attachments_.clear();
   outputs_.clear();
   writable_.clear();
-  uniforms_ = {inputs.viewBlock.buffer.value};
+  uniforms_.assign(1, inputs.viewBlock.buffer.value);
   for (const gpu::Texture texture : inputs.attachments) attachments_.push_back({texture.value});
   frame_.wanted = 0;
   for (const gpu::Texture texture : inputs.outputs) {
     if (texture) {
       frame_.wanted |= 1u << outputs_.size();
-      writable_.insert(texture.value);
+      writable_.push_back(texture.value);
     }
     outputs_.push_back({texture.value});
   }

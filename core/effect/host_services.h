@@ -58,7 +58,8 @@ class HostServices {
   template <typename Handle>
   void destroyOwn(Kind<Handle>& kind) noexcept;
 
-  std::string labelled(const char* label) const;
+  // Kept from frame to frame, as all that recording fills: it allocates nothing then.
+  const std::string& labelled(const char* label);
 
   gpu::Maker& device_;
   std::string key_;
@@ -80,8 +81,10 @@ class HostServices {
   bool passOpen_ = false;
   std::vector<grisaille_texture> attachments_;  // may be read
   std::vector<grisaille_texture> outputs_;
-  std::unordered_set<uint32_t> writable_;  // transients and outputs
-  std::unordered_set<uint32_t> uniforms_;  // buffers
+  std::vector<uint32_t> writable_;      // transients and outputs
+  std::vector<uint32_t> uniforms_;      // buffers
+  std::vector<gpu::Binding> bindings_;  // of a dispatch
+  std::string label_;                   // of a pass or a transient texture
   uint64_t frames_ = 0;
 
   // Of the call since open().

@@ -1,7 +1,6 @@
 // SPDX-License-Identifier: MIT
 #include "classic.h"
 
-#include <vector>
 
 #include "dispatch.h"
 #include "finish.h"
@@ -86,10 +85,10 @@ void Classic::occlude(const plugin::Frame& frame, grisaille_texture target, bool
       plugin::specialize(0, count), plugin::specialize(1, frame.value<uint32_t>(kRotation)),
       plugin::specialize(2, frame.value<uint32_t>(kRangeCheck)), plugin::specialize(3, !blurred)};
   const bool normals = sampling == Sampling::kHemisphere;
-  std::vector<grisaille_binding> bindings = {
-      plugin::uniform(0, frame.viewBlock()), plugin::uniform(1, frame.uniform(settings)),
-      plugin::texture(0, frame.attachment(GRISAILLE_VIEW_DEPTH), clamped_),
-      plugin::texture(1, noise_, repeated_), plugin::image(0, target)};
+  Bindings bindings = {plugin::uniform(0, frame.viewBlock()),
+                       plugin::uniform(1, frame.uniform(settings)),
+                       plugin::texture(0, frame.attachment(GRISAILLE_VIEW_DEPTH), clamped_),
+                       plugin::texture(1, noise_, repeated_), plugin::image(0, target)};
   if (normals) {
     bindings.push_back(plugin::texture(2, frame.attachment(GRISAILLE_NORMAL), clamped_));
   }

@@ -1,9 +1,26 @@
 // SPDX-License-Identifier: MIT
 #pragma once
 
+#include <array>
+#include <initializer_list>
+
 #include "grisaille/effect.hpp"
 
 namespace grisaille::ssao {
+
+// What one dispatch binds, at most eight: recording a frame allocates nothing.
+class Bindings {
+ public:
+  Bindings(std::initializer_list<grisaille_binding> first) {
+    for (const grisaille_binding& binding : first) push_back(binding);
+  }
+  void push_back(const grisaille_binding& binding) { list_.at(count_++) = binding; }
+  operator std::span<const grisaille_binding>() const { return {list_.data(), count_}; }
+
+ private:
+  std::array<grisaille_binding, 8> list_ = {};
+  size_t count_ = 0;
+};
 
 // So many invocations, in groups of 8x8 as all shaders of this effect have them.
 inline void dispatch(const plugin::Frame& frame, grisaille_pipeline pipeline,

@@ -3,7 +3,6 @@
 
 #include <algorithm>
 #include <cmath>
-#include <vector>
 
 #include "dispatch.h"
 #include "finish.h"
@@ -142,7 +141,7 @@ void Slices::occlude(const plugin::Frame& frame, Kernels& kernels, Size size, Pa
                                           plugin::specialize(1, frame.value<uint32_t>(kSteps)),
                                           plugin::specialize(2, size.scale),
                                           plugin::specialize(3, back)};
-  std::vector<grisaille_binding> bindings = {
+  Bindings bindings = {
       plugin::uniform(0, frame.viewBlock()),
       plugin::uniform(1, frame.uniform(settings)),
       plugin::texture(0, frame.attachment(GRISAILLE_VIEW_DEPTH), clamped_),
@@ -160,11 +159,11 @@ void Slices::denoise(const plugin::Frame& frame, plugin::PipelineCache& pipeline
   const grisaille_constant constants[] = {plugin::specialize(0, blur),
                                           plugin::specialize(1, size.scale),
                                           plugin::specialize(2, columns)};
-  std::vector<grisaille_binding> bindings = {
-      plugin::uniform(0, frame.viewBlock()), plugin::uniform(1, frame.uniform(filterBlock(frame))),
-      plugin::texture(0, raw.open, clamped_),
-      plugin::texture(1, frame.attachment(GRISAILLE_NORMAL), clamped_),
-      plugin::image(0, target.open)};
+  Bindings bindings = {plugin::uniform(0, frame.viewBlock()),
+                       plugin::uniform(1, frame.uniform(filterBlock(frame))),
+                       plugin::texture(0, raw.open, clamped_),
+                       plugin::texture(1, frame.attachment(GRISAILLE_NORMAL), clamped_),
+                       plugin::image(0, target.open)};
   if (target.bent.id != 0) {
     bindings.push_back(plugin::texture(2, raw.bent, clamped_));
     bindings.push_back(plugin::image(1, target.bent));
@@ -180,13 +179,12 @@ void Slices::upsample(const plugin::Frame& frame, Kernels& kernels, Size size, P
                       Pair target) {
   // Constant 0 of shaders/ssao/upsample.glsl.
   const grisaille_constant constants[] = {plugin::specialize(0, size.scale)};
-  std::vector<grisaille_binding> bindings = {
-      plugin::uniform(0, frame.viewBlock()),
-      plugin::uniform(1, frame.uniform(filterBlock(frame))),
-      plugin::texture(0, coarse.open, clamped_),
-      plugin::texture(1, frame.attachment(GRISAILLE_VIEW_DEPTH), clamped_),
-      plugin::texture(2, frame.attachment(GRISAILLE_NORMAL), clamped_),
-      plugin::image(0, target.open)};
+  Bindings bindings = {plugin::uniform(0, frame.viewBlock()),
+                       plugin::uniform(1, frame.uniform(filterBlock(frame))),
+                       plugin::texture(0, coarse.open, clamped_),
+                       plugin::texture(1, frame.attachment(GRISAILLE_VIEW_DEPTH), clamped_),
+                       plugin::texture(2, frame.attachment(GRISAILLE_NORMAL), clamped_),
+                       plugin::image(0, target.open)};
   if (target.bent.id != 0) {
     bindings.push_back(plugin::texture(3, coarse.bent, clamped_));
     bindings.push_back(plugin::image(1, target.bent));

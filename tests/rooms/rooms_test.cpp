@@ -6,6 +6,7 @@
 #include <filesystem>
 #include <fstream>
 #include <regex>
+#include <set>
 #include <string>
 #include <vector>
 
@@ -35,6 +36,10 @@ const std::vector<Room>& rooms() {
       {"backends", {"backends/opengl/opengl.h", "backends/vulkan/vulkan.h", "core/gpu/"}},
       {"backends/opengl", {"core/gpu/"}},
       {"backends/vulkan", {"core/gpu/"}},
+      {"host",
+       {"backends/opengl/opengl.h", "backends/vulkan/vulkan.h", "core/effect/", "core/gpu/",
+        "core/frame/view_block.h", "core/scene/camera.h", "grisaille/", "host/", "shaders/"}},
+      {"host/include/grisaille", {"grisaille/"}},
       {"effects", {"grisaille/", "shaders/"}},
       {"app", {"backends/backends.h", "core/", "grisaille/", "app/"}},
       {"app/truth", {"core/"}},
@@ -77,7 +82,7 @@ bool allowed(const std::string& folder, const std::string& header, bool quoted) 
   if (!quoted || header.find('/') == std::string::npos) return true;
   if (header == "core/error.h" || header == "core/error_list.h" ||
       header == "core/library_folder.h" || header == "core/nearest.h") {
-    return !startsWith(folder, "effects") && !startsWith(folder, "core/effect/include");
+    return !startsWith(folder, "effects") && folder.find("include/grisaille") == std::string::npos;
   }
   // An effect's own folder is the second level: one effect never sees another.
   if (startsWith(header, folder + "/")) return true;
@@ -92,7 +97,7 @@ bool allowed(const std::string& folder, const std::string& header, bool quoted) 
 TEST(Rooms, ArrowsRunOneWay) {
   const std::regex include("^\\s*#\\s*include\\s*([<\"])([^>\"]+)[>\"].*");
   size_t read = 0;
-  for (const char* top : {"core", "backends", "effects", "app"}) {
+  for (const char* top : {"core", "backends", "effects", "host", "app"}) {
     for (const auto& entry : fs::recursive_directory_iterator(fs::path(SOURCE_FOLDER) / top)) {
       const std::string ending = entry.path().extension();
       if (ending != ".h" && ending != ".hpp" && ending != ".cpp" && ending != ".c") continue;
@@ -110,6 +115,35 @@ TEST(Rooms, ArrowsRunOneWay) {
   EXPECT_GT(read, 300u);
 }
 
+// The example hosts have of the project what is installed for them, and no more.
+TEST(Rooms, ExamplesSeeTheHostHeadersAlone) {
+  const std::regex include("^\\s*#\\s*include\\s*([<\"])([^>\"]+)[>\"].*");
+  std::set<std::string> seen;
+  for (const auto& entry : fs::recursive_directory_iterator(fs::path(SOURCE_FOLDER) / "examples")) {
+    const std::string ending = entry.path().extension();
+    if (ending != ".h" && ending != ".cpp") continue;
+    std::ifstream text(entry.path());
+    for (std::string line; std::getline(text, line);) {
+      std::smatch match;
+      if (!std::regex_match(line, match, include)) continue;
+      const std::string header = match[2];
+      if (match[1] == "\"") {
+        const fs::path beside = entry.path().parent_path();
+        EXPECT_TRUE(header.ends_with(".inc") || fs::exists(beside / header) ||
+                    fs::exists(beside / "../common" / header))
+            << entry.path() << " sees " << header;
+      } else if (startsWith(header, "grisaille/")) {
+        seen.insert(header);
+      } else {
+        for (const char* room : {"core/", "backends/", "host/", "app/", "shaders/"}) {
+          EXPECT_FALSE(startsWith(header, room)) << entry.path() << " sees " << header;
+        }
+      }
+    }
+  }
+  EXPECT_EQ(seen, (std::set<std::string>{"grisaille/host.h", "grisaille/host.hpp"}));
+}
+
 TEST(Rooms, ForbiddenArrowsAreSeen) {
   EXPECT_FALSE(allowed("core/frame", "backends/backends.h", true));
   EXPECT_FALSE(allowed("core/gpu", "core/frame/renderer.h", true));
@@ -121,6 +155,11 @@ TEST(Rooms, ForbiddenArrowsAreSeen) {
   EXPECT_FALSE(allowed("effects/ssao", "core/error.h", true));
   EXPECT_FALSE(allowed("effects/ssao", "effects/sspm/sspm.h", true));
   EXPECT_FALSE(allowed("core/gpu", "GLFW/glfw3.h", false));
+  EXPECT_FALSE(allowed("host", "core/frame/renderer.h", true));
+  EXPECT_FALSE(allowed("host", "volk.h", false));
+  EXPECT_FALSE(allowed("host", "app/command.h", true));
+  EXPECT_FALSE(allowed("host/include/grisaille", "core/error.h", true));
+  EXPECT_FALSE(allowed("app", "host/effect.h", true));
   EXPECT_FALSE(allowed("effects/ssao", "GLFW/glfw3.h", false));
   EXPECT_FALSE(allowed("app/viewer", "GLFW/glfw3native.h", false));
   EXPECT_TRUE(allowed("app/viewer", "GLFW/glfw3.h", false));
