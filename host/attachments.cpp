@@ -29,10 +29,13 @@ constexpr KernelRow kRows[Kernels::kKernels] = {
 // Of the attachments, in their order. Storage images hold clip depth as colour; samplers see no
 // difference.
 constexpr gpu::Format kFormats[GRISAILLE_ATTACHMENT_COUNT] = {
-    gpu::Format::kR32Float, gpu::Format::kR32Float, gpu::Format::kRgba16Float,
-    gpu::Format::kRgba16Float, gpu::Format::kRgba16Float};
-constexpr const char* kLabels[GRISAILLE_ATTACHMENT_COUNT] = {"clip depth", "depth", "normal",
-                                                             "base_colour", "facet_normal"};
+    gpu::Format::kR32Float,    gpu::Format::kR32Float,    gpu::Format::kRgba16Float,
+    gpu::Format::kRgba16Float, gpu::Format::kRgba16Float, gpu::Format::kR32Float};
+constexpr const char* kLabels[GRISAILLE_ATTACHMENT_COUNT] = {
+    "clip depth", "depth", "normal", "base_colour", "facet_normal", "back_depth"};
+
+// A depth kind that is none: sky everywhere.
+constexpr int kNothing = -1;
 
 constexpr auto kComputed = gpu::TextureUsage::kStorage | gpu::TextureUsage::kSampled;
 
@@ -146,6 +149,13 @@ void Attachments::record(gpu::Commands& commands, const SourceBlock& source,
   const gpu::Texture depth = targets_[GRISAILLE_VIEW_DEPTH];
   dispatch(commands, "host/depth", kernels_.get(Kernels::kDepth), block, {textures.depth, {}},
            depth);
+  if (const gpu::Texture back = targets_[GRISAILLE_BACK_DEPTH]) {
+    SourceBlock behind = source;
+    if (!textures.backDepth) behind.mode.x = kNothing;
+    dispatch(commands, "host/back depth", kernels_.get(Kernels::kDepth),
+             commands.uniform(std::as_bytes(std::span(&behind, 1))),
+             {textures.backDepth ? textures.backDepth : textures.depth, {}}, back);
+  }
   if (const gpu::Texture clip = targets_[GRISAILLE_DEPTH]) {
     dispatch(commands, "host/clip depth", kernels_.get(Kernels::kClipDepth), block, {depth, {}},
              clip);

@@ -14,7 +14,7 @@ namespace grisaille::host {
 
 // The host's; all but depth may be null.
 struct Textures {
-  gpu::Texture depth, normal, baseColour;
+  gpu::Texture depth, normal, backDepth, baseColour;
 };
 
 // The shaders that read them, one set a device; made when first used.

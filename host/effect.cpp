@@ -138,9 +138,11 @@ host::Textures grisaille_host_effect::texturesOf(const grisaille_host_frame& fra
   textures.depth =
       host::checked(&host::present(frame.depth, "frame.depth"), *this, 1, "frame.depth");
   textures.normal = host::checked(frame.normal, *this, 3, "frame.normal");
+  textures.backDepth = host::checked(frame.back_depth, *this, 1, "frame.back_depth");
   textures.baseColour = host::checked(frame.base_colour, *this, 3, "frame.base_colour");
   const auto read = [&](grisaille_attachment a) { return (reads & GRISAILLE_READS(a)) != 0; };
   if (!read(GRISAILLE_NORMAL)) textures.normal = {};
+  if (!read(GRISAILLE_BACK_DEPTH)) textures.backDepth = {};
   if (!read(GRISAILLE_BASE_COLOUR)) {
     textures.baseColour = {};
   } else if (!textures.baseColour) {
@@ -156,9 +158,10 @@ void grisaille_host_effect::record(const grisaille_host_frame& frame) {
   const host::View view = host::viewOf(frame, width, height, rows_);
   const host::Textures textures = texturesOf(frame, reads);
   attachments_.prepare(reads, static_cast<bool>(textures.normal));
-  std::array<gpu::Texture, 3> read;
+  std::array<gpu::Texture, 4> read;
   size_t count = 0;
-  for (const gpu::Texture texture : {textures.depth, textures.normal, textures.baseColour}) {
+  for (const gpu::Texture texture :
+       {textures.depth, textures.normal, textures.backDepth, textures.baseColour}) {
     if (texture) read[count++] = texture;
   }
   gpu::Commands& commands =

@@ -233,6 +233,8 @@ typedef struct grisaille_host_frame {
   const grisaille_host_camera* camera;
   const grisaille_host_texture* depth;
   const grisaille_host_texture* normal; /* three channels; null: those of the facets, from depth */
+  const grisaille_host_texture* back_depth; /* of the nearest surface at or behind the seen one that
+                                               faces away, as `depth` otherwise; null: not known */
   const grisaille_host_texture* base_colour; /* three channels, linear when sampled; null: none */
 } grisaille_host_frame;
 

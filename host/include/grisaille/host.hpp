@@ -192,6 +192,7 @@ struct Frame {
   const Texture* normal = nullptr;
   grisaille_host_normals normalSpace = GRISAILLE_HOST_NORMALS_WORLD;
   grisaille_host_encoding normalEncoding = GRISAILLE_HOST_SIGNED;
+  const Texture* backDepth = nullptr;
   const Texture* baseColour = nullptr;
 };
 
@@ -242,6 +243,7 @@ class Effect {
         .camera = &frame.camera,
         .depth = frame.depth.handle(),
         .normal = handleOf(frame.normal),
+        .back_depth = handleOf(frame.backDepth),
         .base_colour = handleOf(frame.baseColour)};
     require(grisaille_host_effect_record(effect_.get(), &given));
   }

@@ -1,0 +1,341 @@
+// SPDX-License-Identifier: MIT
+// What hosts give wrongly is refused with a number and a line, and nothing has happened.
+#include <gtest/gtest.h>
+
+#include <limits>
+
+#include "tests/host/hosts.h"
+#include "tests/host/vulkan_host.h"
+
+namespace grisaille::tests {
+namespace {
+
+constexpr double kNan = std::numeric_limits<double>::quiet_NaN();
+constexpr uint32_t kSide = 16;
+
+template <typename Struct>
+Struct sized() {
+  Struct made = {};
+  made.struct_size = sizeof(Struct);
+  return made;
+}
+
+void expectError(int result, int number, const std::string& mention) {
+  EXPECT_EQ(result, number) << grisaille_host_last_error();
+  const std::string line = grisaille_host_last_error();
+  EXPECT_EQ(line.rfind("error E" + std::to_string(number) + ": ", 0), 0u) << line;
+  EXPECT_NE(line.find(mention), std::string::npos) << line;
+}
+
+class Errors : public ::testing::TestWithParam<std::string> {
+ protected:
+  Errors()
+      : host_(makeHost(GetParam())),
+        device_(host_->device()),
+        depth_(host_->texture(device_, Texels::kFloat1, kSide, kSide,
+                              std::vector<float>(kSide * kSide, 2.0f))),
+        camera_(sized<grisaille_host_camera>()) {
+    camera_.world_from_view[0] = camera_.world_from_view[4] = camera_.world_from_view[8] = 1;
+    camera_.vertical_angle = 1;
+    camera_.near_plane = 0.1;
+  }
+  ~Errors() override { EXPECT_EQ(host_->complaints(), 0); }
+
+  grisaille_host_effect_desc effectDesc() const {
+    auto desc = sized<grisaille_host_effect_desc>();
+    desc.width = desc.height = kSide;
+    desc.effect = "ssao";
+    return desc;
+  }
+
+  // A frame that would be recorded as it is.
+  grisaille_host_frame frameOf(void* commands, uint64_t number) const {
+    auto frame = sized<grisaille_host_frame>();
+    frame.number = number;
+    frame.command_buffer = commands;
+    frame.camera = &camera_;
+    frame.depth = depth_.handle();
+    frame.depth_kind = GRISAILLE_HOST_DEPTH_VIEW;
+    return frame;
+  }
+
+  std::unique_ptr<Host> host_;
+  host::Device device_;
+  host::Texture depth_;
+  grisaille_host_camera camera_;
+};
+INSTANTIATE_TEST_SUITE_P(, Errors, ::testing::Values("vulkan", "opengl"),
+                         [](const auto& test) { return test.param; });
+
+TEST_P(Errors, OfTheLibrary) {
+  EXPECT_EQ(grisaille_host_version(), GRISAILLE_HOST_VERSION);
+  expectError(grisaille_host_effects(nullptr, nullptr, nullptr), 5601, "device is null");
+  const grisaille_effect_desc* const* list = nullptr;
+  expectError(grisaille_host_effects(device_.handle(), &list, nullptr), 5601, "count is null");
+}
+
+TEST_P(Errors, OfDevices) {
+  grisaille_host_device* made = device_.handle();
+  expectError(grisaille_host_device_opengl(nullptr, &made), 5601, "opengl is null");
+  EXPECT_EQ(made, nullptr) << "left as it was";
+  expectError(grisaille_host_device_opengl(nullptr, nullptr), 5601, "out is null");
+  auto opengl = sized<grisaille_host_opengl>();
+  opengl.reserved = 7;
+  expectError(grisaille_host_device_opengl(&opengl, &made), 5611, "reserved is 7");
+  opengl.struct_size = 3;
+  expectError(grisaille_host_device_opengl(&opengl, &made), 5602, "struct_size is 3");
+
+  auto vulkan = sized<grisaille_host_vulkan>();
+  expectError(grisaille_host_device_vulkan(nullptr, &made), 5601, "vulkan is null");
+  expectError(grisaille_host_device_vulkan(&vulkan, &made), 5611, "frames_in_flight is 0");
+  vulkan.frames_in_flight = 17;
+  expectError(grisaille_host_device_vulkan(&vulkan, &made), 5611, "frames_in_flight is 17");
+  vulkan.frames_in_flight = 2;
+  expectError(grisaille_host_device_vulkan(&vulkan, &made), 5601, "vulkan.instance is null");
+  vulkan.instance = vulkan.physical_device = &vulkan;
+  expectError(grisaille_host_device_vulkan(&vulkan, &made), 5601, "vulkan.device is null");
+  vulkan.reserved = 1;
+  expectError(grisaille_host_device_vulkan(&vulkan, &made), 5611, "reserved is 1");
+
+  expectError(grisaille_host_device_destroy(device_.handle()), 5608, "1 textures and 0 effects");
+  EXPECT_EQ(grisaille_host_device_destroy(nullptr), 0);
+}
+
+TEST_P(Errors, OfVulkanDevices) {
+  if (GetParam() != "vulkan") GTEST_SKIP();
+  host::VulkanSpec spec = vulkanSpec(*host_);
+  const auto expectRefused = [&](int number, const std::string& mention) {
+    try {
+      host::Device::vulkan(spec);
+      FAIL() << mention;
+    } catch (const host::Failure& failure) {
+      EXPECT_EQ(failure.number(), number) << failure.what();
+      EXPECT_NE(std::string(failure.what()).find(mention), std::string::npos) << failure.what();
+    }
+  };
+  spec.queueFamily = 99;
+  expectRefused(5603, "a queue family 99");
+  spec.queueFamily = 0;
+  spec.effectFolder = "/nowhere";
+  expectRefused(3106, "/nowhere");
+}
+
+TEST_P(Errors, OfTextures) {
+  const host::TextureSpec sound = host_->described();
+  grisaille_host_texture* made = nullptr;
+  auto desc = sized<grisaille_host_texture_desc>();
+  const auto reset = [&] {
+    desc.image = sound.image;
+    desc.format = sound.format;
+    desc.layout = sound.layout;
+    desc.width = sound.width;
+    desc.height = sound.height;
+    desc.reserved = 0;
+  };
+  const auto expectRefused = [&](int number, const std::string& mention) {
+    expectError(grisaille_host_texture_wrap(device_.handle(), &desc, &made), number, mention);
+    EXPECT_EQ(made, nullptr);
+    reset();
+  };
+  reset();
+  expectError(grisaille_host_texture_wrap(nullptr, &desc, &made), 5601, "device is null");
+  expectError(grisaille_host_texture_wrap(device_.handle(), nullptr, &made), 5601, "desc is null");
+  expectError(grisaille_host_texture_wrap(device_.handle(), &desc, nullptr), 5601, "out is null");
+  desc.reserved = 1;
+  expectRefused(5611, "reserved");
+  desc.image = 0;
+  expectRefused(5605, GetParam() == "vulkan" ? "VK_NULL_HANDLE" : "0 names no texture");
+  if (GetParam() == "vulkan") {
+    desc.format = 99999;
+    expectRefused(5605, "VkFormat 99999");
+    desc.layout = 0;
+    expectRefused(5605, "layout 0");
+    desc.width = 0;
+    expectRefused(5605, "0 x 16");
+    desc.height = 1u << 30;
+    expectRefused(5605, "16 x 1073741824");
+  } else {
+    desc.image = 4711;
+    expectRefused(5605, "4711 names no texture");
+    desc.image = 1ull << 32 | sound.image;
+    expectRefused(5605, "names no texture");
+    desc.width = 3;
+    expectRefused(5605, "has 16 x 16 pixels, not 3 x 0");
+  }
+  EXPECT_EQ(grisaille_host_texture_destroy(nullptr), 0);
+}
+
+TEST_P(Errors, OfEffects) {
+  grisaille_host_effect* made = nullptr;
+  const auto expectRefused = [&](const grisaille_host_effect_desc& desc, int number,
+                                 const std::string& mention) {
+    expectError(grisaille_host_effect_create(device_.handle(), &desc, &made), number, mention);
+    EXPECT_EQ(made, nullptr);
+  };
+  grisaille_host_effect_desc desc = effectDesc();
+  expectError(grisaille_host_effect_create(nullptr, &desc, &made), 5601, "device is null");
+  expectError(grisaille_host_effect_create(device_.handle(), nullptr, &made), 5601, "desc is null");
+  expectError(grisaille_host_effect_create(device_.handle(), &desc, nullptr), 5601, "out is null");
+  desc.struct_size = 1;
+  expectRefused(desc, 5602, "struct_size is 1");
+  desc = effectDesc();
+  desc.effect = nullptr;
+  expectRefused(desc, 5601, "desc.effect is null");
+  desc.effect = "sao";
+  expectRefused(desc, 3201, "nearest is ssao");
+  desc = effectDesc();
+  desc.width = 0;
+  expectRefused(desc, 1105, "0 x 16");
+  desc.width = 16385;
+  expectRefused(desc, 1105, "16385 x 16");
+  desc = effectDesc();
+  desc.rows = 2;
+  expectRefused(desc, 5611, "desc.rows is 2");
+  desc = effectDesc();
+  desc.output_count = 1;
+  expectRefused(desc, 5601, "desc.outputs is null");
+  const char* outputs[] = {"shade"};
+  desc.outputs = outputs;
+  expectRefused(desc, 5102, "it has ao, bent_normal, tint");
+  outputs[0] = nullptr;
+  expectRefused(desc, 5601, "an entry of desc.outputs");
+  desc = effectDesc();
+  desc.reserved = 1;
+  expectRefused(desc, 5611, "desc.reserved");
+  EXPECT_EQ(grisaille_host_effect_destroy(nullptr), 0);
+}
+
+TEST_P(Errors, OfParametersSizesAndOutputs) {
+  host::Effect effect(device_, {.effect = "ssao", .width = kSide, .height = kSide});
+  grisaille_host_effect* const one = effect.handle();
+  double value = 0;
+  expectError(grisaille_host_effect_set(nullptr, "radius", 1), 5601, "effect is null");
+  expectError(grisaille_host_effect_set(one, nullptr, 1), 5601, "key is null");
+  expectError(grisaille_host_effect_set(one, "radus", 1), 3301, "radius");
+  expectError(grisaille_host_effect_set(one, "radius", -1), 3302, "radius");
+  expectError(grisaille_host_effect_set(one, "radius", kNan), 3303, "radius");
+  expectError(grisaille_host_effect_set_text(nullptr, "radius", "1"), 5601, "effect is null");
+  expectError(grisaille_host_effect_set_text(one, nullptr, "1"), 5601, "key is null");
+  expectError(grisaille_host_effect_set_text(one, "radius", nullptr), 5601, "text is null");
+  expectError(grisaille_host_effect_set_text(one, "radius", "far"), 3303, "far");
+  expectError(grisaille_host_effect_get(nullptr, "radius", &value), 5601, "effect is null");
+  expectError(grisaille_host_effect_get(one, nullptr, &value), 5601, "key is null");
+  expectError(grisaille_host_effect_get(one, "radius", nullptr), 5601, "value is null");
+  expectError(grisaille_host_effect_get(one, "radus", &value), 3301, "radius");
+  expectError(grisaille_host_effect_resize(nullptr, 1, 1), 5601, "effect is null");
+  expectError(grisaille_host_effect_resize(one, 0, 1), 1105, "0 x 1");
+  auto output = sized<grisaille_host_output>();
+  expectError(grisaille_host_effect_output(nullptr, "ao", &output), 5601, "effect is null");
+  expectError(grisaille_host_effect_output(one, nullptr, &output), 5601, "key is null");
+  expectError(grisaille_host_effect_output(one, "ao", nullptr), 5601, "out is null");
+  expectError(grisaille_host_effect_output(one, "shade", &output), 5102, "shade");
+  expectError(grisaille_host_effect_output(one, "tint", &output), 5102, "not asked for");
+  output.struct_size = 0;
+  expectError(grisaille_host_effect_output(one, "ao", &output), 5602, "struct_size is 0");
+}
+
+TEST_P(Errors, OfFrames) {
+  host::Effect effect(device_, {.effect = "ssao", .width = kSide, .height = kSide});
+  host_->frame([&](void* commands, uint64_t number) {
+    const auto expectRefused = [&](const grisaille_host_frame& frame, int result,
+                                   const std::string& mention) {
+      expectError(grisaille_host_effect_record(effect.handle(), &frame), result, mention);
+    };
+    const grisaille_host_frame sound = frameOf(commands, number);
+    expectError(grisaille_host_effect_record(nullptr, &sound), 5601, "effect is null");
+    expectError(grisaille_host_effect_record(effect.handle(), nullptr), 5601, "frame is null");
+    grisaille_host_frame frame = sound;
+    frame.struct_size = 8;
+    expectRefused(frame, 5602, "struct_size is 8");
+    frame = sound;
+    frame.camera = nullptr;
+    expectRefused(frame, 5601, "frame.camera is null");
+    frame = sound;
+    frame.depth = nullptr;
+    expectRefused(frame, 5601, "frame.depth is null");
+    frame = sound;
+    frame.depth_kind = 4;
+    expectRefused(frame, 5611, "frame.depth_kind is 4");
+    frame = sound;
+    frame.normal_space = 2;
+    expectRefused(frame, 5611, "frame.normal_space is 2");
+    frame = sound;
+    frame.normal_encoding = 9;
+    expectRefused(frame, 5611, "frame.normal_encoding is 9");
+    frame = sound;
+    frame.normal = depth_.handle();
+    expectRefused(frame, 5605, "frame.normal has 1 channels");
+    frame = sound;
+    frame.command_buffer = commands != nullptr ? nullptr : &frame;
+    expectRefused(frame, 5606, "command buffer");
+    EXPECT_EQ(grisaille_host_effect_record(effect.handle(), &sound), 0)
+        << grisaille_host_last_error();
+  });
+  host_->frame([&](void* commands, uint64_t number) {
+    grisaille_host_frame frame = frameOf(commands, number);
+    EXPECT_EQ(grisaille_host_effect_record(effect.handle(), &frame), 0);
+    frame.number = number - 1;
+    expectError(grisaille_host_effect_record(effect.handle(), &frame), 5606, "comes after");
+  });
+}
+
+TEST_P(Errors, OfTexturesInFrames) {
+  host::Effect effect(device_,
+                      {.effect = "ssao", .width = kSide, .height = kSide, .outputs = {"tint"}});
+  effect.set("bounce", "base_colour");
+  const host::Device other = host_->device();
+  const std::vector<float> one(kSide * kSide, 1.0f);
+  const host::Texture foreign = host_->texture(other, Texels::kFloat1, kSide, kSide, one);
+  const host::Texture small =
+      host_->texture(device_, Texels::kFloat1, 8, 8, std::vector<float>(64, 1.0f));
+  host_->frame([&](void* commands, uint64_t number) {
+    grisaille_host_frame frame = frameOf(commands, number);
+    expectError(grisaille_host_effect_record(effect.handle(), &frame), 5610, "base_colour is null");
+    frame.depth = foreign.handle();
+    expectError(grisaille_host_effect_record(effect.handle(), &frame), 5609, "two devices");
+    frame.depth = small.handle();
+    expectError(grisaille_host_effect_record(effect.handle(), &frame), 5605, "8 x 8 pixels");
+  });
+}
+
+TEST_P(Errors, OfCameras) {
+  host::Effect effect(device_, {.effect = "ssao", .width = kSide, .height = kSide});
+  const grisaille_host_camera sound = camera_;
+  host_->frame([&](void* commands, uint64_t number) {
+    const grisaille_host_frame frame = frameOf(commands, number);
+    const auto expectRefused = [&](double grisaille_host_camera::*field, double value,
+                                   const std::string& mention) {
+      camera_.*field = value;
+      expectError(grisaille_host_effect_record(effect.handle(), &frame), 5607, mention);
+      camera_ = sound;
+    };
+    expectRefused(&grisaille_host_camera::near_plane, 0, "near_plane is 0");
+    expectRefused(&grisaille_host_camera::near_plane, kNan, "near_plane is nan");
+    expectRefused(&grisaille_host_camera::far_plane, 0.05, "far_plane is 0.05");
+    expectRefused(&grisaille_host_camera::far_plane, kNan, "far_plane is nan");
+    expectRefused(&grisaille_host_camera::vertical_angle, 4, "vertical_angle is 4");
+    expectRefused(&grisaille_host_camera::vertical_angle, 0, "orthographic_height 0");
+    expectRefused(&grisaille_host_camera::orthographic_height, 2, "both given");
+    camera_.position[1] = kNan;
+    expectError(grisaille_host_effect_record(effect.handle(), &frame), 5607, "position");
+    camera_ = sound;
+    camera_.world_from_view[4] = 2;
+    expectError(grisaille_host_effect_record(effect.handle(), &frame), 5607, "axes");
+    camera_.world_from_view[4] = -1;
+    expectError(grisaille_host_effect_record(effect.handle(), &frame), 5607, "mirrors");
+    camera_ = sound;
+    camera_.vertical_angle = 0;
+    camera_.orthographic_height = 3;
+    expectError(grisaille_host_effect_record(effect.handle(), &frame), 5607, "no far plane");
+    camera_ = sound;
+    camera_.struct_size = 0;
+    expectError(grisaille_host_effect_record(effect.handle(), &frame), 5602, "frame.camera");
+    camera_ = sound;
+    camera_.reserved = 5;
+    expectError(grisaille_host_effect_record(effect.handle(), &frame), 5611, "reserved");
+    camera_ = sound;
+  });
+}
+
+}  // namespace
+}  // namespace grisaille::tests

@@ -1,0 +1,9 @@
+/* SPDX-License-Identifier: MIT
+ * The header in plain C. */
+#include "grisaille/host.h"
+
+uint32_t hostVersionInC(void) {
+  grisaille_host_camera camera = {0};
+  camera.struct_size = sizeof(camera);
+  return grisaille_host_version() + (camera.struct_size == 0);
+}

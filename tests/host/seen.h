@@ -1,0 +1,63 @@
+// SPDX-License-Identifier: MIT
+// A small world, seen by cameras of every kind: a floor, a wall and a ball, traced in double.
+#pragma once
+
+#include <cmath>
+#include <glm/glm.hpp>
+#include <glm/gtc/matrix_transform.hpp>
+#include <vector>
+
+namespace grisaille::tests {
+
+struct Eye {
+  glm::dmat4 viewFromWorld = glm::dmat4(1);
+  double angle = 0;   // radians that the height spans; 0: orthographic
+  double height = 0;  // metres then
+};
+
+// Rows from the top.
+struct Seen {
+  uint32_t width = 0, height = 0;
+  std::vector<double> view, distance;  // metres; 0: sky
+  std::vector<glm::dvec3> normal;      // world
+};
+
+inline Seen see(const Eye& eye, uint32_t width, uint32_t height) {
+  Seen seen{.width = width, .height = height, .view = {}, .distance = {}, .normal = {}};
+  const glm::dmat4 world = glm::inverse(eye.viewFromWorld);
+  const double half = eye.angle > 0 ? std::tan(eye.angle / 2) : eye.height / 2;
+  for (uint32_t y = 0; y < height; ++y) {
+    for (uint32_t x = 0; x < width; ++x) {
+      const glm::dvec2 place(2 * half / height * (x + 0.5 - 0.5 * width),
+                             2 * half / height * (0.5 * height - y - 0.5));
+      const glm::dvec3 from = eye.angle > 0 ? glm::dvec3(0) : glm::dvec3(place, 0);
+      const glm::dvec3 along = eye.angle > 0 ? glm::dvec3(place, -1) : glm::dvec3(0, 0, -1);
+      const glm::dvec3 origin(world * glm::dvec4(from, 1)), ray(world * glm::dvec4(along, 0));
+      double best = 1e30;
+      glm::dvec3 normal(0);
+      const auto plane = [&](int axis, double at) {
+        const double t = (at - origin[axis]) / ray[axis];
+        if (!(t > 0 && t < best)) return;
+        best = t;
+        normal = glm::dvec3(0);
+        normal[axis] = 1;
+      };
+      plane(1, 0);
+      plane(2, -1);
+      const glm::dvec3 centre(0.2, 0.5, -0.2), to = origin - centre;
+      const double radius = 0.5, a = glm::dot(ray, ray), b = glm::dot(to, ray),
+                   c = glm::dot(to, to) - radius * radius, root = b * b - a * c;
+      if (root > 0 && (-b - std::sqrt(root)) / a < best) {
+        best = (-b - std::sqrt(root)) / a;
+        normal = (origin + best * ray - centre) / radius;
+      }
+      const bool sky = best > 1e6 || (origin + best * ray).y > 2.5;
+      seen.view.push_back(sky ? 0 : best);
+      seen.distance.push_back(sky ? 0 : best * glm::length(ray));
+      seen.normal.push_back(sky ? glm::dvec3(0) : normal);
+    }
+  }
+  return seen;
+}
+
+}  // namespace grisaille::tests

@@ -1,0 +1,170 @@
+// SPDX-License-Identifier: MIT
+#include <cstring>
+#include <deque>
+#include <glm/gtc/packing.hpp>
+#include <stdexcept>
+
+#include "examples/vulkan/context.h"
+#include "tests/host/vulkan_host.h"
+
+namespace grisaille::tests {
+namespace {
+
+constexpr VkImageLayout kLayout = VK_IMAGE_LAYOUT_GENERAL;
+
+struct Kind {
+  VkFormat format;
+  VkImageAspectFlags aspects, copied;
+  uint32_t channels, bytes;  // of a channel
+};
+
+Kind kindOf(Texels texels) {
+  constexpr VkImageAspectFlags kColour = VK_IMAGE_ASPECT_COLOR_BIT;
+  switch (texels) {
+    case Texels::kFloat1:
+      return {VK_FORMAT_R32_SFLOAT, kColour, kColour, 1, 4};
+    case Texels::kFloat4:
+      return {VK_FORMAT_R32G32B32A32_SFLOAT, kColour, kColour, 4, 4};
+    case Texels::kUnorm8x4:
+      return {VK_FORMAT_R8G8B8A8_UNORM, kColour, kColour, 4, 1};
+    default:
+      return {VK_FORMAT_D32_SFLOAT_S8_UINT, VK_IMAGE_ASPECT_DEPTH_BIT | VK_IMAGE_ASPECT_STENCIL_BIT,
+              VK_IMAGE_ASPECT_DEPTH_BIT, 1, 4};
+  }
+}
+
+class VulkanHost : public Host {
+ public:
+  explicit VulkanHost(bool validate) : context_(validate) {
+    VkCommandPoolCreateInfo pool{};
+    pool.sType = VK_STRUCTURE_TYPE_COMMAND_POOL_CREATE_INFO;
+    pool.flags = VK_COMMAND_POOL_CREATE_RESET_COMMAND_BUFFER_BIT;
+    pool.queueFamilyIndex = context_.family;
+    example::check(vkCreateCommandPool(context_.device, &pool, nullptr, &pool_), "a pool");
+    VkCommandBufferAllocateInfo info{};
+    info.sType = VK_STRUCTURE_TYPE_COMMAND_BUFFER_ALLOCATE_INFO;
+    info.commandPool = pool_;
+    info.commandBufferCount = 1;
+    example::check(vkAllocateCommandBuffers(context_.device, &info, &commands_), "commands");
+  }
+  ~VulkanHost() override {
+    for (example::Image& image : images_) context_.destroy(image);
+    vkDestroyCommandPool(context_.device, pool_, nullptr);
+  }
+
+  host::VulkanSpec spec() const {
+    return {.instance = context_.instance,
+            .physicalDevice = context_.physical,
+            .device = context_.device,
+            .queueFamily = context_.family,
+            .framesInFlight = 1};
+  }
+  host::Device device() override { return host::Device::vulkan(spec()); }
+
+  host::Texture texture(const host::Device& device, Texels texels, uint32_t width, uint32_t height,
+                        const std::vector<float>& numbers) override;
+  host::TextureSpec described() const override { return described_; }
+
+  void frame(const std::function<void(void*, uint64_t)>& record) override {
+    submit([&] { record(commands_, frame_); });
+    ++frame_;
+  }
+  std::vector<float> read(const grisaille_host_output& output) override;
+  int complaints() const override { return context_.complaints; }
+
+ private:
+  void submit(const std::function<void()>& record) {
+    VkCommandBufferBeginInfo begin{};
+    begin.sType = VK_STRUCTURE_TYPE_COMMAND_BUFFER_BEGIN_INFO;
+    example::check(vkBeginCommandBuffer(commands_, &begin), "vkBeginCommandBuffer");
+    record();
+    example::check(vkEndCommandBuffer(commands_), "vkEndCommandBuffer");
+    VkSubmitInfo info{};
+    info.sType = VK_STRUCTURE_TYPE_SUBMIT_INFO;
+    info.commandBufferCount = 1;
+    info.pCommandBuffers = &commands_;
+    example::check(vkQueueSubmit(context_.queue, 1, &info, VK_NULL_HANDLE), "vkQueueSubmit");
+    example::check(vkQueueWaitIdle(context_.queue), "vkQueueWaitIdle");
+  }
+
+  example::Context context_;
+  VkCommandPool pool_ = VK_NULL_HANDLE;
+  VkCommandBuffer commands_ = VK_NULL_HANDLE;
+  std::deque<example::Image> images_;
+  host::TextureSpec described_;
+  uint64_t frame_ = 0;
+};
+
+host::Texture VulkanHost::texture(const host::Device& device, Texels texels, uint32_t width,
+                                  uint32_t height, const std::vector<float>& numbers) {
+  const Kind kind = kindOf(texels);
+  VkImageUsageFlags usage = VK_IMAGE_USAGE_SAMPLED_BIT | VK_IMAGE_USAGE_TRANSFER_DST_BIT;
+  if (texels == Texels::kDepth24) usage |= VK_IMAGE_USAGE_DEPTH_STENCIL_ATTACHMENT_BIT;
+  const example::Image& image =
+      images_.emplace_back(context_.makeImage(kind.format, width, height, usage));
+  example::Buffer buffer =
+      context_.makeBuffer(numbers.size() * kind.bytes, VK_BUFFER_USAGE_TRANSFER_SRC_BIT);
+  if (kind.bytes == 4) {
+    std::memcpy(buffer.mapped, numbers.data(), numbers.size() * sizeof(float));
+  } else {
+    auto* bytes = static_cast<uint8_t*>(buffer.mapped);
+    for (const float number : numbers) *bytes++ = static_cast<uint8_t>(number * 255 + 0.5f);
+  }
+  submit([&] {
+    example::transition(commands_, image.image, kind.aspects, VK_IMAGE_LAYOUT_UNDEFINED,
+                        VK_IMAGE_LAYOUT_TRANSFER_DST_OPTIMAL);
+    VkBufferImageCopy region{};
+    region.imageSubresource = {kind.copied, 0, 0, 1};
+    region.imageExtent = {width, height, 1};
+    vkCmdCopyBufferToImage(commands_, buffer.buffer, image.image,
+                           VK_IMAGE_LAYOUT_TRANSFER_DST_OPTIMAL, 1, &region);
+    example::transition(commands_, image.image, kind.aspects, VK_IMAGE_LAYOUT_TRANSFER_DST_OPTIMAL,
+                        kLayout);
+  });
+  context_.destroy(buffer);
+  described_ = {.image = host::number(image.image),
+                .format = static_cast<uint32_t>(kind.format),
+                .layout = kLayout,
+                .width = width,
+                .height = height};
+  return {device, described_};
+}
+
+std::vector<float> VulkanHost::read(const grisaille_host_output& output) {
+  const bool half = output.native_format == VK_FORMAT_R16_SFLOAT ||
+                    output.native_format == VK_FORMAT_R16G16B16A16_SFLOAT;
+  if (!half) throw std::runtime_error("only half floats are read back here");
+  const size_t channels = output.native_format == VK_FORMAT_R16_SFLOAT ? 1 : 4;
+  std::vector<uint16_t> halves(size_t{output.width} * output.height * channels);
+  example::Buffer buffer = context_.makeBuffer(halves.size() * 2, VK_BUFFER_USAGE_TRANSFER_DST_BIT);
+  const auto image = reinterpret_cast<VkImage>(output.image);
+  const auto layout = static_cast<VkImageLayout>(output.layout);
+  submit([&] {
+    example::transition(commands_, image, VK_IMAGE_ASPECT_COLOR_BIT, layout,
+                        VK_IMAGE_LAYOUT_TRANSFER_SRC_OPTIMAL);
+    VkBufferImageCopy region{};
+    region.imageSubresource = {VK_IMAGE_ASPECT_COLOR_BIT, 0, 0, 1};
+    region.imageExtent = {output.width, output.height, 1};
+    vkCmdCopyImageToBuffer(commands_, image, VK_IMAGE_LAYOUT_TRANSFER_SRC_OPTIMAL, buffer.buffer, 1,
+                           &region);
+    example::transition(commands_, image, VK_IMAGE_ASPECT_COLOR_BIT,
+                        VK_IMAGE_LAYOUT_TRANSFER_SRC_OPTIMAL, layout);
+  });
+  std::memcpy(halves.data(), buffer.mapped, halves.size() * 2);
+  context_.destroy(buffer);
+  std::vector<float> numbers;
+  for (const uint16_t one : halves) numbers.push_back(glm::unpackHalf1x16(one));
+  return numbers;
+}
+
+}  // namespace
+
+std::unique_ptr<Host> makeVulkanHost(bool validate) {
+  return std::make_unique<VulkanHost>(validate);
+}
+
+host::VulkanSpec vulkanSpec(const Host& host) {
+  return dynamic_cast<const VulkanHost&>(host).spec();
+}
+
+}  // namespace grisaille::tests
