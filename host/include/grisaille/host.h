@@ -12,6 +12,8 @@
  * (a null pointer), 5602 (a struct_size that is not the struct's) and 9002 (no memory); what else
  * it may return stands with it. No exception leaves the library, and no message is printed.
  *
+ * Structs begin with their size, which the caller sets, and are otherwise 0 where nothing is meant.
+ *
  * Ownership. What a function makes is the host's to destroy, effects and textures before their
  * device. Structs and strings are read during the call and not kept. What the library is handed of
  * the graphics API stays the host's: it is neither released nor changed but as said here, and it
@@ -40,11 +42,13 @@
 extern "C" {
 #endif
 
-/* Grows when functions or fields are added. */
-#define GRISAILLE_HOST_VERSION 1u
+#define GRISAILLE_HOST_VERSION 1u /* grows when functions or fields are added */
 
+/* What the library makes of the host's device or context, and on it. */
 typedef struct grisaille_host_device grisaille_host_device;
+/* One of the host's textures, as the library reads it. */
 typedef struct grisaille_host_texture grisaille_host_texture;
+/* An effect at work, with values of its own and the textures that it writes. */
 typedef struct grisaille_host_effect grisaille_host_effect;
 
 /* ---- The library ----------------------------------------------------------------------------- */

@@ -271,22 +271,33 @@ typedef struct grisaille_host {
   /* Notes why the effect is about to return GRISAILLE_FAILED: one line, copied. */
   void (*fail)(const struct grisaille_host* self, const char* why);
 
+  /* Makes a compute pipeline. GRISAILLE_FAILED: a description that is wrong, a shader of another
+   * stage or that the driver refuses, or no memory. This and the other services that make
+   * something: inside create() and record(). */
   grisaille_result (*create_pipeline)(const struct grisaille_host* self,
                                       const grisaille_pipeline_desc* desc, grisaille_pipeline* out);
+  /* Makes a texture, contents undefined. GRISAILLE_FAILED: a description that is wrong, a size or
+   * use that the device does not have, or no memory. */
   grisaille_result (*create_texture)(const struct grisaille_host* self,
                                      const grisaille_texture_desc* desc, grisaille_texture* out);
+  /* Makes a storage buffer, contents undefined. GRISAILLE_FAILED: as with textures. */
   grisaille_result (*create_buffer)(const struct grisaille_host* self,
                                     const grisaille_buffer_desc* desc, grisaille_buffer* out);
+  /* Makes a sampler. GRISAILLE_FAILED: a description that is wrong, or no memory. */
   grisaille_result (*create_sampler)(const struct grisaille_host* self,
                                      const grisaille_sampler_desc* desc, grisaille_sampler* out);
-  /* Allowed at any time; id 0 does nothing. The memory goes once no frame in flight uses it. */
+  /* Ends what the instance owns, inside any of its functions; id 0 does nothing. The memory goes
+   * once no frame in flight uses it. Another's id makes the function that is running fail. */
   void (*destroy_pipeline)(const struct grisaille_host* self, grisaille_pipeline pipeline);
+  /* As destroy_pipeline. */
   void (*destroy_texture)(const struct grisaille_host* self, grisaille_texture texture);
+  /* As destroy_pipeline. */
   void (*destroy_buffer)(const struct grisaille_host* self, grisaille_buffer buffer);
+  /* As destroy_pipeline. */
   void (*destroy_sampler)(const struct grisaille_host* self, grisaille_sampler sampler);
 
   /* Since 1.1. What `count` rays hit, one an element of `hits`. GRISAILLE_UNSUPPORTED where the
-   * host casts none. Only inside record(). */
+   * host casts none. Only inside record(). GRISAILLE_FAILED: a ray that is not as said. */
   grisaille_result (*cast_rays)(const struct grisaille_host* self, const grisaille_ray* rays,
                                 uint64_t count, grisaille_hit* hits);
 } grisaille_host;
@@ -317,19 +328,29 @@ typedef struct grisaille_frame {
   const grisaille_texture* attachments; /* GRISAILLE_ATTACHMENT_COUNT; id 0: not asked for */
   const grisaille_texture* outputs;     /* one an output, in the table's order */
 
-  /* Named, timed, not nested; work is recorded only inside. The label is copied. */
+  /* Named, timed, not nested; work is recorded only inside. The label is copied. This and what
+   * follows: only inside record(). GRISAILLE_FAILED: no label, or inside another pass. */
   grisaille_result (*begin_pass)(const struct grisaille_frame* self, const char* label);
+  /* GRISAILLE_FAILED: no pass is open. */
   grisaille_result (*end_pass)(const struct grisaille_frame* self);
+  /* Records a dispatch, which sees what was recorded before. Read during the call.
+   * GRISAILLE_FAILED: outside a pass, a slot that nothing is bound to, or something bound that is
+   * neither the instance's nor the frame's; attachments are only read. */
   grisaille_result (*dispatch)(const struct grisaille_frame* self, const grisaille_dispatch* work);
-  /* 1 ... 65536 bytes as a uniform buffer for this frame. */
+  /* 1 ... 65536 bytes, copied, as a uniform buffer for this frame. GRISAILLE_FAILED: more, or none;
+   * no memory. */
   grisaille_result (*uniform)(const struct grisaille_frame* self, const void* data, uint32_t bytes,
                               grisaille_range* out);
-  /* A texture for this frame alone, contents undefined; not destroyed by the effect. */
+  /* A texture for this frame alone, contents undefined; not destroyed by the effect.
+   * GRISAILLE_FAILED: as create_texture. */
   grisaille_result (*transient)(const struct grisaille_frame* self,
                                 const grisaille_texture_desc* desc, grisaille_texture* out);
+  /* Copies so many bytes to an offset inside one of the instance's buffers. GRISAILLE_FAILED: it is
+   * another's; no memory. */
   grisaille_result (*upload_buffer)(const struct grisaille_frame* self, grisaille_buffer buffer,
                                     uint64_t offset, const void* data, uint64_t bytes);
-  /* The whole of one level and layer: rows tightly packed, top row first. */
+  /* The whole of one level and layer, copied: rows tightly packed, top row first. GRISAILLE_FAILED:
+   * it is neither the instance's nor an output; no memory. */
   grisaille_result (*upload_texture)(const struct grisaille_frame* self, grisaille_texture texture,
                                      uint32_t mip, uint32_t layer, const void* data,
                                      uint64_t bytes);
