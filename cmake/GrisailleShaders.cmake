@@ -15,6 +15,10 @@ function(grisaille_add_shader target name source)
     message(FATAL_ERROR "grisaille_add_shader(${target} ${name}): name C among the project's languages; "
                         "a compiled shader is a C file")
   endif()
+  if(NOT GRISAILLE_GLSLC)
+    message(FATAL_ERROR "grisaille_add_shader(${target} ${name}): glslc, which compiles shaders, is "
+                        "missing: install the package glslc")
+  endif()
   cmake_parse_arguments(ARG "" "" "DEFINES" ${ARGN})
   cmake_path(ABSOLUTE_PATH source NORMALIZE OUTPUT_VARIABLE source)
   set(folder ${CMAKE_CURRENT_BINARY_DIR}/${target}_shaders)

@@ -4,6 +4,7 @@
 #include <cstdio>
 #include <stdexcept>
 #include <string>
+#include <string_view>
 
 namespace example {
 namespace {
@@ -14,6 +15,17 @@ VkBool32 VKAPI_PTR onMessage(VkDebugUtilsMessageSeverityFlagBitsEXT,
   std::fprintf(stderr, "validation: %s\n", data->pMessage);
   ++static_cast<Context*>(context)->complaints;
   return VK_FALSE;
+}
+
+bool hasLayer(std::string_view name) {
+  uint32_t count = 0;
+  check(vkEnumerateInstanceLayerProperties(&count, nullptr), "the layers");
+  std::vector<VkLayerProperties> layers(count);
+  check(vkEnumerateInstanceLayerProperties(&count, layers.data()), "the layers");
+  for (const VkLayerProperties& layer : layers) {
+    if (layer.layerName == name) return true;
+  }
+  return false;
 }
 
 }  // namespace
@@ -45,6 +57,7 @@ void Context::makeInstance(bool validate) {
   VkApplicationInfo application{VK_STRUCTURE_TYPE_APPLICATION_INFO};
   application.apiVersion = VK_API_VERSION_1_3;
   const char* layer = "VK_LAYER_KHRONOS_validation";
+  validate = validate && hasLayer(layer);
   const char* extensions[] = {VK_EXT_DEBUG_UTILS_EXTENSION_NAME,
                               VK_EXT_VALIDATION_FEATURES_EXTENSION_NAME};
   const VkValidationFeatureEnableEXT sync =

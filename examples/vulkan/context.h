@@ -29,7 +29,7 @@ struct Image {
 
 class Context {
  public:
-  // With `validate`, what the validation layer says is printed and counted.
+  // With `validate`, what the validation layer says, where it is installed, is printed and counted.
   explicit Context(bool validate);
   ~Context();
   Context(const Context&) = delete;

@@ -28,7 +28,8 @@ class Occlusion {
                                     .physicalDevice = context.physical,
                                     .device = context.device,
                                     .queueFamily = context.family,
-                                    .framesInFlight = Renderer::kFramesInFlight})),
+                                    .framesInFlight = Renderer::kFramesInFlight,
+                                    .getInstanceProcAddr = loaderEntry()})),
         depth_(wrap(renderer.depth)),
         normal_(wrap(renderer.normal)),
         effect_(device_, {.effect = "ssao", .width = kWidth, .height = kHeight}),
@@ -49,6 +50,9 @@ class Occlusion {
   grisaille_host_output output() const { return effect_.output("ao"); }
 
  private:
+  // The host's own loader, should it be another than libvulkan.so.1.
+  static void (*loaderEntry())() { return reinterpret_cast<void (*)()>(vkGetInstanceProcAddr); }
+
   gr::Texture wrap(const Image& image) const {
     return {device_,
             {.image = gr::number(image.image),

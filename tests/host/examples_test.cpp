@@ -178,7 +178,9 @@ TEST_P(Examples, IntegrationTakesUnder120Lines) {
     }
     EXPECT_FALSE(inside) << entry.path();
   }
-  std::printf("%s: %zu lines\n", GetParam().name, lines);
+  const std::string name = GetParam().name;
+  const std::string told = fmt::format("[examples/{0}](examples/{0}/main.cpp) {1}", name, lines);
+  EXPECT_NE(readFile(fs::path(SOURCE_FOLDER) / "README.md").find(told), std::string::npos) << told;
   EXPECT_GT(lines, 20u);
   EXPECT_LT(lines, 120u);
 }
