@@ -9,8 +9,9 @@
  *
  * Errors. A function that returns int returns 0, or the number of an error and has done nothing;
  * grisaille_host_last_error() then says what, why and what to do. Every function may return 5601
- * (a null pointer), 5602 (a struct_size that is not the struct's) and 9002 (no memory); what else
- * it may return stands with it. No exception leaves the library, and no message is printed.
+ * (a null pointer), 5602 (a struct_size that is not the struct's), 9002 (no memory), and where it
+ * calls the graphics API 1005 and 1006 (the driver fails, or has lost the device); what else it may
+ * return stands with it. No exception leaves the library, and no message is printed.
  *
  * Structs begin with their size, which the caller sets, and are otherwise 0 where nothing is meant.
  *
@@ -30,8 +31,9 @@
  * loader that the first device of the process names, and submits nothing.
  *
  * OpenGL. The context has version 4.5, of the core or the compatibility profile, made by GLX or
- * EGL. Recording leaves all state as it was. Making, resizing and destroying change no state, but
- * ask glGetError(), so that an error that waited there is lost.
+ * EGL. Recording leaves all state as it was, and is no part of conditional rendering. Making,
+ * resizing and destroying change no state, but ask glGetError(), so that an error that waited there
+ * is lost.
  */
 #ifndef GRISAILLE_HOST_H
 #define GRISAILLE_HOST_H
@@ -255,8 +257,8 @@ typedef struct grisaille_host_frame {
  *
  * Errors: 5606 (the frame's number falls, or the command buffer), 5607 (the camera), 5605 (a
  * texture's size or channels), 5609 (a texture of another device), 5610 (base colours are read, and
- * none are given), 5611 (an enum's value), 3203 (the effect's own words), 1007, 1008, 1006 (the
- * device is lost), 5604 (the context is not current). */
+ * none are given), 5611 (an enum's value), 3203 (the effect's own words), 1007, 1008, 5604 (the
+ * context is not current). */
 GRISAILLE_EXPORT int grisaille_host_effect_record(grisaille_host_effect* effect,
                                                   const grisaille_host_frame* frame);
 
