@@ -116,8 +116,12 @@ TEST_F(RegistryTest, VersionsAndFieldsAreNamed) {
     }
     return std::string();
   };
-  EXPECT_NE(words("major.so").find("version 2.2, this program has 1.2"), std::string::npos);
-  EXPECT_NE(words("minor.so").find("version 1.3, this program has 1.2"), std::string::npos);
+  const uint32_t minor = GRISAILLE_ABI_MINOR;
+  EXPECT_NE(words("major.so").find(fmt::format("version 2.{0}, this program has 1.{0}", minor)),
+            std::string::npos);
+  EXPECT_NE(
+      words("minor.so").find(fmt::format("version 1.{}, this program has 1.{}", minor + 1, minor)),
+      std::string::npos);
   EXPECT_NE(words("range.so").find("effects[0].params[0].hard_max is 0.5, under soft_max 1"),
             std::string::npos);
   EXPECT_NE(words("tooltip.so").find("effects[0].outputs[0].tooltip"), std::string::npos);
