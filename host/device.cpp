@@ -24,9 +24,6 @@ fs::path ownEffects() {
 }  // namespace
 }  // namespace grisaille::host
 
-using grisaille::Error;
-using grisaille::ErrorId;
-
 grisaille_host_device::grisaille_host_device(std::unique_ptr<grisaille::gpu::HostDevice> made,
                                              const char* effectFolder)
     : gpu(std::move(made)), kernels(*gpu) {
