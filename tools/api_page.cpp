@@ -99,7 +99,7 @@ class Reader {
  private:
   std::string takeComment() {
     const size_t end = text_.find("*/", at_) + 2;
-    const std::string comment(text_.substr(at_, end - at_));
+    std::string comment(text_.substr(at_, end - at_));
     at_ = end;
     return comment;
   }

@@ -10,11 +10,6 @@ namespace {
 thread_local bool counting = false;
 thread_local size_t counted = 0;
 
-void* allocate(size_t bytes) {
-  if (counting) ++counted;
-  return std::malloc(bytes > 0 ? bytes : 1);
-}
-
 }  // namespace
 
 AllocationCount::AllocationCount() {
@@ -32,9 +27,11 @@ size_t AllocationCount::soFar() const {
 
 }  // namespace grisaille::tests
 
+// The sanitizers have their own.
 #if !SANITIZED
 void* operator new(size_t bytes) {
-  if (void* memory = grisaille::tests::allocate(bytes)) return memory;
+  if (grisaille::tests::counting) ++grisaille::tests::counted;
+  if (void* memory = std::malloc(bytes > 0 ? bytes : 1)) return memory;
   throw std::bad_alloc();
 }
 void operator delete(void* memory) noexcept {
