@@ -25,6 +25,7 @@ int main(int argc, char** argv) {
   grisaille::app::addMeasure(program);
   grisaille::app::addTune(program);
   grisaille::app::addClaims(program);
+  grisaille::app::addStability(program);
   grisaille::app::addScene(program);
   grisaille::app::addCompletion(program);
   try {

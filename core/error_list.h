@@ -120,6 +120,7 @@ GRISAILLE_ERROR(kStudyRecord, 5301, "remove the file; it is measured again")
 GRISAILLE_ERROR(kFrontSmall, 5302, "measure a grid whose settings differ in cost and in error")
 GRISAILLE_ERROR(kTuneImpossible, 5303,
                 "allow more, --vary more parameters or a larger --evaluations")
+GRISAILLE_ERROR(kUnstable, 5304, "see the cases that the table in --out prints bold")
 // --- 54xx: new effects
 GRISAILLE_ERROR(kProjectName, 5401, "give 1 to 40 of a-z, 0-9 and _, beginning with a letter")
 GRISAILLE_ERROR(kProjectFolder, 5402, "name a folder that is empty or not there yet")

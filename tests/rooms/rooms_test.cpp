@@ -43,6 +43,8 @@ const std::vector<Room>& rooms() {
       {"effects", {"grisaille/", "shaders/"}},
       {"app", {"backends/backends.h", "core/", "grisaille/", "app/"}},
       {"app/truth", {"core/"}},
+      {"app/stability", {"core/", "grisaille/", "app/"}},
+      {"app/stability/oracle", {"core/image/", "core/scene/", "grisaille/"}},
       {"app/study", {"core/", "grisaille/", "app/", "backends/backends.h"}},
       {"app/viewer", {"backends/backends.h", "core/", "grisaille/", "app/", "shaders/"}},
   };
@@ -152,6 +154,8 @@ TEST(Rooms, ForbiddenArrowsAreSeen) {
   EXPECT_FALSE(allowed("app", "volk.h", false));
   EXPECT_FALSE(allowed("app", "backends/vulkan/vulkan.h", true));
   EXPECT_FALSE(allowed("backends/opengl", "backends/vulkan/vulkan.h", true));
+  EXPECT_FALSE(allowed("app/stability/oracle", "effects/ssao/kernel.h", true));
+  EXPECT_FALSE(allowed("app/stability/oracle", "core/frame/renderer.h", true));
   EXPECT_FALSE(allowed("effects/ssao", "core/error.h", true));
   EXPECT_FALSE(allowed("effects/ssao", "effects/sspm/sspm.h", true));
   EXPECT_FALSE(allowed("core/gpu", "GLFW/glfw3.h", false));

@@ -6,13 +6,15 @@
 #include <cmath>
 #include <limits>
 
+#include "app/stability/oracle/paint.h"
 #include "tests/sspm/paint_frame.h"
-#include "tests/sspm/paint_oracle.h"
 #include "tests/support/devices.h"
 #include "tests/support/scenes.h"
 
 namespace grisaille::tests {
 namespace {
+
+using namespace app::stability;
 
 const scene::Camera kWall = {.eye = glm::dvec3(0, 0, 3), .target = glm::dvec3(0, 0, 0)};
 

@@ -2,13 +2,15 @@
 // Paint against its definition in double precision, on every backend.
 #include <gtest/gtest.h>
 
+#include "app/stability/oracle/paint.h"
 #include "tests/sspm/paint_frame.h"
-#include "tests/sspm/paint_oracle.h"
 #include "tests/support/devices.h"
 #include "tests/support/scenes.h"
 
 namespace grisaille::tests {
 namespace {
+
+using namespace app::stability;
 
 constexpr uint32_t kDefinedWidth = 128;
 constexpr uint32_t kDefinedHeight = 96;

@@ -4,13 +4,15 @@
 
 #include <cmath>
 
+#include "app/stability/oracle/paint.h"
 #include "tests/sspm/paint_frame.h"
-#include "tests/sspm/paint_oracle.h"
 #include "tests/support/devices.h"
 #include "tests/support/scenes.h"
 
 namespace grisaille::tests {
 namespace {
+
+using namespace app::stability;
 
 // The corner, somewhere else in the world.
 scene::Scene cornerAt(const glm::dvec3& place) {

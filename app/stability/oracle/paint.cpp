@@ -1,10 +1,10 @@
 // SPDX-License-Identifier: MIT
-#include "tests/sspm/paint_oracle.h"
+#include "app/stability/oracle/paint.h"
 
 #include <algorithm>
 #include <cmath>
 
-namespace grisaille::tests {
+namespace grisaille::app::stability {
 namespace {
 
 uint32_t hash(uint32_t x) {
@@ -67,18 +67,21 @@ double splatNoise(const glm::dvec3& world, double viewDepth, double pixelSlope,
 }
 
 PaintPixel paintOf(const glm::dvec3& world, double viewDepth, double pixelSlope,
-                   std::span<const grisaille_shot> shots, const PaintSettings& settings) {
+                   std::span<const grisaille_shot> shots, const PaintSettings& settings,
+                   const std::optional<Sight>& sight) {
   PaintPixel pixel;
   if (viewDepth == 0) return pixel;
   glm::dvec3 color(0);
   double alphas = 0;
-  const size_t kept = std::min(shots.size(), settings.shotLimit);
+  const size_t kept = sight ? shots.size() : std::min(shots.size(), settings.shotLimit);
   for (const grisaille_shot& shot : shots.last(kept)) {
     const glm::dvec3 q = world - glm::dvec3(shot.origin[0], shot.origin[1], shot.origin[2]);
     const glm::dvec3 direction(shot.direction[0], shot.direction[1], shot.direction[2]);
     const double range = shot.range > 0 ? double{shot.range} : settings.paintRange;
     const double distance = glm::length(glm::cross(q, direction));
     if (glm::dot(q, direction) < 0 || distance >= range) continue;
+    if (sight && !(glm::dot(q, sight->facet) < 0)) continue;
+    if (sight && sight->sees && !sight->sees(shot)) continue;
     const double alpha = std::min(1.0, settings.full / std::max(distance, 1e-6));
     const double fade =
         settings.edgeFade > 0 ? std::min(1.0, (1 - distance / range) / settings.edgeFade) : 1.0;
@@ -98,4 +101,4 @@ PaintPixel paintOf(const glm::dvec3& world, double viewDepth, double pixelSlope,
   return pixel;
 }
 
-}  // namespace grisaille::tests
+}  // namespace grisaille::app::stability

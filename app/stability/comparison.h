@@ -1,0 +1,36 @@
+// SPDX-License-Identifier: MIT
+// A picture of an effect against its oracle.
+#pragma once
+
+#include <vector>
+
+#include "app/stability/oracle/view.h"
+#include "app/stability/result.h"
+#include "core/effect/values.h"
+#include "core/image/image.h"
+
+namespace grisaille::app::stability {
+
+// The largest difference of each pixel's channels; 1 where a value is not finite. Of one size.
+std::vector<float> differences(const image::Image& a, const image::Image& b);
+
+// The pixels that are compared with an oracle: all, or those of tiles spread over a large picture.
+std::vector<glm::ivec2> pixelsToCompare(const glm::ivec2& size);
+
+// Sets result.oracle and, where the case knows more, leastOpen and cornerError. `view` is what the
+// effect read; `ao` what it made of it.
+void compareOcclusion(const Case& one, const effect::Values& values, const View& view,
+                      const image::Image& ao, BackendResult& result);
+
+// Sets result.oracle. In the mode `surface` the view's normals are those of the facets.
+void comparePaint(const Case& one, const effect::Values& values, const View& view,
+                  const scene::Scene& scene, const image::Image& paint,
+                  const image::Image& coverage, BackendResult& result);
+
+// What rays would find beside a right-angled corner, at a distance from its edge in radii: of the
+// cosine-weighted hemisphere the part is blocked whose directions come nearer to the other wall
+// than this within a radius. Seen from above that is a segment of the unit disc (Nusselt's
+// analogue).
+double cornerVisibility(double radii);
+
+}  // namespace grisaille::app::stability

@@ -1,0 +1,274 @@
+// SPDX-License-Identifier: MIT
+// The estimator `slices`: steps 1 to 8 of the README.
+#include <algorithm>
+#include <bit>
+#include <cmath>
+#include <glm/gtc/constants.hpp>
+#include <optional>
+
+#include "app/stability/oracle/occlusion.h"
+
+namespace grisaille::app::stability {
+namespace {
+
+constexpr double kPi = glm::pi<double>();
+constexpr double kGolden = 0.618034;      // spreads slices, a part of the pattern
+constexpr double kPlaneTolerance = 0.05;  // radii
+
+// A slice of the hemisphere over a surface. Angles run from the view vector, over 0 on the side of
+// `across`.
+struct Slice {
+  glm::dvec3 tangent, up;  // of the surface, in the slice
+  double normal = 0;       // the projected normal's angle
+
+  // Of cosine-weighted solid angle between the view vector and an angle on the side of its sign.
+  double between(double angle) const {
+    const double side = angle < 0 ? -1 : 1, h = std::abs(angle), n = side * normal;
+    return (std::cos(n) - std::cos(2 * h - n)) / 4 + h * std::sin(n) / 2;
+  }
+  // The share of the slice below an angle.
+  double below(double angle) const {
+    const double behind = between(normal - kPi / 2), ahead = between(normal + kPi / 2);
+    const double part = between(angle);
+    return (behind + (angle < 0 ? -part : part)) / (behind + ahead);
+  }
+  // The share of the slice below the direction of a point on one side (1 or -1) of the view vector.
+  double below(const glm::dvec3& point, double side) const {
+    const double height = glm::dot(point, up);
+    if (height <= 0) return side > 0 ? 1 : 0;
+    double along = side * glm::dot(point, tangent);
+    const double c = std::cos(normal), s = side * std::sin(normal);
+    if (along * c + height * s < 0) along = std::abs(along);
+    const double out = std::max(along * c + height * s, 0.0), towards = height * c - along * s;
+    const double part = between(side * std::atan2(out, towards));
+    const double behind = between(normal - kPi / 2), ahead = between(normal + kPi / 2);
+    return (behind + side * part) / (behind + ahead);
+  }
+};
+
+// One side of a slice as its taps go outwards.
+struct Walk {
+  double side;                    // 1 or -1
+  double share;                   // below the tap before
+  glm::dvec3 point{0}, step{0};   // the tap before, and how it was come to
+  std::optional<double> depth{};  // of the tap before where the next may be joined to it
+  int seen = 0;
+};
+
+class Slices : public Occlusion {
+ public:
+  Slices(const View& view, const OcclusionSettings& settings)
+      : view_(view),
+        settings_(settings),
+        thickness_(static_cast<float>(settings.radius) * static_cast<float>(settings.thickness)),
+        texels_((view.size() + settings.scale - 1) / settings.scale),
+        raw_(texels_, [this](const glm::ivec2& t) { return estimate(t); }),
+        rows_(texels_,
+              [this](const glm::ivec2& t) {
+                return denoised(raw_, t, {1, 0});
+              }),
+        columns_(texels_, [this](const glm::ivec2& t) {
+          return denoised(rows_, t, {0, 1});
+        }) {}
+
+  double visibility(const glm::ivec2& pixel) override {
+    if (view_.depth(pixel) <= 0) return finished(1, settings_);
+    return finished(settings_.scale == 1 ? columns_(pixel) : upsampled(pixel), settings_);
+  }
+
+ private:
+  double estimate(const glm::ivec2& texel) const;
+  double openIn(const glm::dvec3& position, const glm::dvec3& normal, const glm::dvec3& direction,
+                const glm::ivec2& pixel, double dither) const;
+  uint32_t tap(const Slice& slice, const glm::dvec3& position, const glm::ivec2& at, double dither,
+               Walk& walk) const;
+  glm::dvec3 leavesAt(const Walk& walk, const glm::dvec3& step) const;
+  double denoised(Lazy& from, const glm::ivec2& texel, const glm::ivec2& along) const;
+  double upsampled(const glm::ivec2& pixel);
+
+  // How far what a pixel shows, at another depth, lies from the plane of a surface; tolerances.
+  double offPlane(const glm::ivec2& surface, const glm::ivec2& pixel, double depth) const {
+    const glm::dvec3 apart = view_.position(pixel, depth) - view_.position(surface);
+    return std::abs(glm::dot(apart, view_.normal(surface))) / (kPlaneTolerance * settings_.radius);
+  }
+
+  const View& view_;
+  OcclusionSettings settings_;
+  double thickness_;  // metres
+  glm::ivec2 texels_;
+  Lazy raw_, rows_, columns_;
+};
+
+uint32_t sectors(double low, double high, double dither) {
+  const auto from = static_cast<uint32_t>(std::clamp(low * 32 + dither, 0.0, 32.0));
+  const auto to = static_cast<uint32_t>(std::clamp(high * 32 + dither, 0.0, 32.0));
+  uint32_t bits = 0;
+  for (uint32_t i = from; i < to; ++i) bits |= 1u << i;
+  return bits;
+}
+
+double Slices::estimate(const glm::ivec2& texel) const {
+  const glm::ivec2 pixel = texel * settings_.scale;
+  if (view_.depth(pixel) <= 0) return 1;
+  const glm::dvec3 position = view_.position(pixel);
+  const glm::dvec3 toward = -glm::normalize(position);
+  glm::dvec3 normal = view_.normal(pixel);
+  normal = glm::normalize(normal - toward * std::min(glm::dot(normal, toward) - 1e-3, 0.0));
+  // The 16 points of a Hammersley set on 4x4 texels.
+  const glm::ivec2 low = texel & 1, high = texel >> 1 & 1;
+  const int rank = (low.x ^ low.y) * 8 + low.y * 4 + (high.x ^ high.y) * 2 + high.y;
+  int reverse = 0;
+  for (int bit = 0; bit < 4; ++bit) reverse |= (rank >> bit & 1) << (3 - bit);
+  const double turn = std::fmod(0.5 + settings_.seed * 0.6180339887498949, 1.0);
+  const glm::dmat3 axes = axesAbout(normal);
+  double open = 0;
+  for (int k = 0; k < settings_.slices; ++k) {
+    const double phi = (k + (rank + turn) / 16) / settings_.slices * 2 * kPi;
+    const double place = (reverse + 0.5) / 16 + k * kGolden;
+    const double u = place - std::floor(place);
+    const double r = std::sqrt(u);
+    const glm::dvec3 direction =
+        axes * glm::dvec3(r * std::cos(phi), r * std::sin(phi), std::sqrt(1 - u));
+    open += openIn(position, normal, direction, pixel, u);
+  }
+  return open / settings_.slices;
+}
+
+double Slices::openIn(const glm::dvec3& position, const glm::dvec3& normal,
+                      const glm::dvec3& direction, const glm::ivec2& pixel, double dither) const {
+  const glm::dvec3 toward = -glm::normalize(position);
+  glm::dvec3 across = direction - toward * glm::dot(direction, toward);
+  across /= std::sqrt(std::max(glm::dot(across, across), 1e-12));
+  const double out = glm::dot(normal, across), up = glm::dot(normal, toward);
+  Slice slice;
+  slice.normal = std::atan2(out, up);
+  slice.tangent = across * std::cos(slice.normal) - toward * std::sin(slice.normal);
+  slice.up = normal / std::sqrt(std::max(out * out + up * up, 1e-4));
+
+  // The slice's line in the picture, and the taps on it: as far as the view ray that touches the
+  // sphere, no fewer pixels out than their number.
+  const double depth = -position.z, square = settings_.radius * settings_.radius;
+  glm::dvec2 way = (glm::dvec2(across) * depth + glm::dvec2(position) * across.z) * view_.focal();
+  const double stretch = glm::dot(way, way);
+  way /= std::sqrt(std::max(stretch, 1e-20));
+  const double cut = std::max(1 - square / glm::dot(position, position), 0.0625);
+  const double reach = settings_.radius / (depth * depth) * std::sqrt(stretch / cut);
+  Walk ahead{.side = 1, .share = 1}, behind{.side = -1, .share = 0};
+  uint32_t shut = 0;
+  const glm::dvec2 centre = glm::dvec2(pixel) + 0.5;
+  for (int i = 0; i < settings_.steps; ++i) {
+    for (Walk* walk : {&ahead, &behind}) {
+      const double at = (i + (walk->side > 0 ? dither : 1 - dither)) / settings_.steps;
+      const double pixels = std::max(std::pow(at, 1.25) * reach, i + 1.0);
+      const glm::dvec2 place = glm::clamp(centre + walk->side * pixels * way, -1e6, 1e6);
+      shut |= tap(slice, position, glm::ivec2(glm::floor(place)), dither, *walk);
+    }
+  }
+  for (const Walk* walk : {&ahead, &behind}) {
+    if (!walk->depth) continue;
+    const double share = slice.below(leavesAt(*walk, walk->step), walk->side);
+    shut |= sectors(std::min(walk->share, share), std::max(walk->share, share), dither);
+  }
+  // A side that leaves the picture takes the other's share for the taps that it lacks.
+  const int low = std::clamp(static_cast<int>(std::lround(slice.below(0) * 32)), 1, 31);
+  const double shutBehind = static_cast<double>(std::popcount(shut & ((1u << low) - 1))) / low;
+  const double shutAhead = static_cast<double>(std::popcount(shut >> low)) / (32 - low);
+  const double lacksAhead = 1 - static_cast<double>(ahead.seen) / settings_.steps;
+  const double lacksBehind = 1 - static_cast<double>(behind.seen) / settings_.steps;
+  return 1 - glm::mix(std::max(shutAhead, lacksAhead * (1 - lacksBehind) * shutBehind),
+                      std::max(shutBehind, lacksBehind * (1 - lacksAhead) * shutAhead), low / 32.0);
+}
+
+// Where a surface that goes on from the tap before by `step` leaves the sphere; at most a step on.
+glm::dvec3 Slices::leavesAt(const Walk& walk, const glm::dvec3& step) const {
+  const double square = std::max(glm::dot(step, step), 1e-20);
+  const double b = glm::dot(walk.point, step) / square;
+  const double c =
+      (glm::dot(walk.point, walk.point) - settings_.radius * settings_.radius) / square;
+  return walk.point + std::clamp(std::sqrt(std::max(b * b - c, 0.0)) - b, 0.0, 1.0) * step;
+}
+
+uint32_t Slices::tap(const Slice& slice, const glm::dvec3& position, const glm::ivec2& at,
+                     double dither, Walk& walk) const {
+  const bool seen = view_.holds(at);
+  const double depth = view_.depth(at);
+  const glm::dvec3 ray = view_.ray(glm::dvec2(at) + 0.5);
+  const glm::dvec3 front = ray * depth - position, step = front - walk.point;
+  const bool joined = seen && walk.depth && std::abs(depth - *walk.depth) < thickness_;
+  const double beyond = glm::dot(front, front) - settings_.radius * settings_.radius;
+  const bool inside = beyond <= 0;
+  const double first = slice.below(front, walk.side);
+  uint32_t bits = 0;
+  bool present = false;
+  double from = first;
+  if (joined && !inside) {
+    present = seen && depth > 0;
+    const double last = slice.below(leavesAt(walk, step), walk.side);
+    bits = sectors(std::min(walk.share, last), std::max(walk.share, last), dither);
+  } else {
+    // The part of front + k ray, k in [0, thickness], inside the sphere.
+    const double length = glm::dot(ray, ray), b = glm::dot(ray, front) / length;
+    const double d = b * b - beyond / length;
+    const double root = std::sqrt(std::max(d, 0.0));
+    const double near = std::max(0.0, -b - root), far = std::min(thickness_, root - b);
+    present = seen && depth > 0 && d > 0 && near < far;
+    from = slice.below(front + near * ray, walk.side);
+    const double last = slice.below(front + far * ray, walk.side);
+    const double low = joined ? std::min(from, walk.share) : from;
+    const double high = joined ? std::max(from, walk.share) : from;
+    bits = sectors(std::min(low, last), std::max(high, last), dither);
+  }
+  walk.step = joined ? step : glm::dvec3(0);
+  walk.point = front;
+  walk.share = from;
+  walk.depth = present && inside ? std::optional(depth) : std::nullopt;
+  walk.seen += seen ? 1 : 0;
+  return present ? bits : 0;
+}
+
+double Slices::denoised(Lazy& from, const glm::ivec2& texel, const glm::ivec2& along) const {
+  const int reach = std::max(settings_.blurSize, 1);
+  const glm::ivec2 surface = texel * settings_.scale;
+  if (view_.depth(surface) <= 0) return 1;
+  double sum = 0, weights = 0;
+  for (int i = 1 - reach; i < reach; ++i) {
+    const glm::ivec2 other = texel + along * i;
+    const glm::ivec2 inside = glm::clamp(other, glm::ivec2(0), texels_ - 1);
+    const double depth = view_.depth(inside * settings_.scale);
+    if (depth <= 0) continue;
+    const double off = offPlane(surface, other * settings_.scale, depth);
+    const double weight = (reach - std::abs(i)) * std::max(1 - off, 0.0);
+    sum += weight * from(inside);
+    weights += weight;
+  }
+  return sum / weights;
+}
+
+double Slices::upsampled(const glm::ivec2& pixel) {
+  const int scale = settings_.scale;
+  Lazy& texels = settings_.blurSize > 1 ? columns_ : raw_;
+  // Two by two pixels lie between the same four texels.
+  const glm::ivec2 first = pixel / 2 * 2 / scale;
+  const glm::dvec2 part = glm::dvec2(pixel - first * scale) / static_cast<double>(scale);
+  double sum = 0, weights = 0;
+  for (int i = 0; i < 4; ++i) {
+    const glm::ivec2 corner(i & 1, i >> 1), texel = first + corner;
+    const double depth = view_.depth(glm::clamp(texel, glm::ivec2(0), texels_ - 1) * scale);
+    if (depth <= 0) continue;
+    const double off = offPlane(pixel, texel * scale, depth);
+    const double share =
+        (corner.x != 0 ? part.x : 1 - part.x) * (corner.y != 0 ? part.y : 1 - part.y);
+    const double weight = share * std::max(0.0, 1 - off) + 1e-4 / (1 + off * off * off);
+    sum += weight * texels(texel);
+    weights += weight;
+  }
+  return weights > 0 ? sum / weights : 1;
+}
+
+}  // namespace
+
+std::unique_ptr<Occlusion> makeSlices(const View& view, const OcclusionSettings& settings) {
+  return std::make_unique<Slices>(view, settings);
+}
+
+}  // namespace grisaille::app::stability

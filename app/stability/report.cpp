@@ -1,0 +1,204 @@
+// SPDX-License-Identifier: MIT
+#include "app/stability/report.h"
+
+#include <fmt/format.h>
+
+#include <algorithm>
+#include <filesystem>
+#include <nlohmann/json.hpp>
+#include <set>
+
+#include "core/image/write_aside.h"
+
+namespace grisaille::app::stability {
+namespace fs = std::filesystem;
+using nlohmann::json;
+namespace {
+
+// Of every backend, once where they are alike.
+template <typename F>
+std::string each(const Result& result, const F& text) {
+  std::vector<std::string> texts;
+  for (const BackendResult& b : result.backends) {
+    texts.push_back(b.error.empty() ? text(b) : std::string("none"));
+  }
+  const bool same = std::ranges::all_of(texts, [&](const auto& t) { return t == texts[0]; });
+  return same ? texts.at(0) : fmt::format("{}", fmt::join(texts, " / "));
+}
+
+// Differences in 255ths, as a viewer sees them.
+std::string in255ths(double value) {
+  return fmt::format("{:.2f}", 255 * value);
+}
+
+std::string percent(double share) {
+  return fmt::format("{:.3g}", 100 * share);
+}
+
+std::string remarkOf(const Case& one, const Result& result) {
+  std::vector<std::string> remarks;
+  if (result.backends.at(0).leastOpen) {
+    remarks.push_back("least visibility " + each(result, [](const BackendResult& b) {
+                        return fmt::format("{:.3f}", b.leastOpen.value_or(0));
+                      }));
+  }
+  if (result.backends.at(0).cornerError) {
+    remarks.push_back("rms from the analytic value " + each(result, [](const BackendResult& b) {
+                        return fmt::format("{:.4f}", b.cornerError.value_or(0));
+                      }));
+  }
+  if (!one.edge.empty()) remarks.push_back("edge: " + one.edge);
+  for (const std::string& fault : faultsOf(one, result)) remarks.push_back("**" + fault + "**");
+  return fmt::format("{}", fmt::join(remarks, "; "));
+}
+
+std::string rowOf(const Case& one, const Result& result) {
+  return fmt::format("| {} | {} | {} | {} | {} | {} | {} | {} | {} |\n", one.name, one.variant,
+                     each(result, [](const auto& b) { return std::to_string(b.nonFinite); }),
+                     each(result, [](const auto& b) { return std::to_string(b.outside); }),
+                     each(result, [](const auto& b) { return in255ths(b.oracle.largest); }),
+                     each(result, [](const auto& b) { return in255ths(b.oracle.percentile99); }),
+                     each(result, [](const auto& b) { return percent(b.oracle.shareOver); }),
+                     result.between ? percent(result.between->shareOver) : "",
+                     remarkOf(one, result));
+}
+
+std::string edgesOf(const Sweep& sweep) {
+  std::set<std::string> used;
+  for (const Case& one : sweep.cases) used.insert(one.edge);
+  std::string text;
+  for (const Edge& edge : edges()) {
+    if (!used.contains(edge.key)) continue;
+    text += fmt::format("| {} | {} | {} |\n", edge.key, percent(edge.share), edge.why);
+  }
+  if (text.empty()) return "";
+  return "\n## Edges\n\nWhere more pixels may differ, and why. What is listed here the arithmetic "
+         "cannot mend: the method has a step there.\n\n| edge | at most, % | why "
+         "|\n|---|---|---|\n" +
+         text;
+}
+
+std::string markdownOf(const Sweep& sweep) {
+  std::string text = fmt::format(
+      "# Numerical stability\n\nMade by `{}` at {} on {}.\n\n"
+      "Each case is a scene, a camera and values at the edge of what is allowed. A shader's "
+      "picture "
+      "is compared pixel by pixel with its oracle: the same algorithm in double precision, from "
+      "the "
+      "effect's definition, for the attachments that the shader read. So what is shown here is the "
+      "error of arithmetic, not that of the method. Where the backends differ, the numbers are\n"
+      "{}.\n\n"
+      "A case holds with no value that is not finite, none outside its range, and {} % of pixels "
+      "within 2/255 of the oracle and of the other backend, but for the edges below. Planes must "
+      "have a visibility over {} everywhere, right angles lie within {} of what rays would find. "
+      "**{} of {} cases hold.**\n",
+      sweep.command, sweep.commit, sweep.machine, fmt::join(sweep.devices, " /\n"),
+      100 * kShareWithin, kLeastOpen, kCornerError, sweep.cases.size() - sweep.failed(),
+      sweep.cases.size());
+  text += edgesOf(sweep);
+  std::string group;
+  for (size_t i = 0; i < sweep.cases.size(); ++i) {
+    if (sweep.cases[i].group != group) {
+      group = sweep.cases[i].group;
+      text += fmt::format(
+          "\n## {}\n\n| case | variant | not finite | outside | largest, 1/255 | 99 %, 1/255 | "
+          "over "
+          "2/255, % | backends apart, % | |\n|---|---|---|---|---|---|---|---|---|\n",
+          group);
+    }
+    text += rowOf(sweep.cases[i], sweep.results[i]);
+  }
+  return text;
+}
+
+std::string csvOf(const Sweep& sweep) {
+  std::string text = "group,case,variant,edge,holds";
+  for (const BackendResult& b : sweep.results.at(0).backends) {
+    for (const char* column : {"non_finite", "outside", "largest", "percentile_99", "share_over",
+                               "least_open", "corner_error", "seconds"}) {
+      text += fmt::format(",{}_{}", b.backend, column);
+    }
+  }
+  text += ",apart_largest,apart_percentile_99,apart_share_over\n";
+  const auto optional = [](const std::optional<double>& value) {
+    return value ? fmt::format("{:.6g}", *value) : std::string();
+  };
+  for (size_t i = 0; i < sweep.cases.size(); ++i) {
+    const Case& one = sweep.cases[i];
+    const Result& result = sweep.results[i];
+    text += fmt::format("{},\"{}\",\"{}\",{},{}", one.group, one.name, one.variant, one.edge,
+                        faultsOf(one, result).empty() ? 1 : 0);
+    for (const BackendResult& b : result.backends) {
+      text += fmt::format(",{},{},{:.6g},{:.6g},{:.6g},{},{},{:.3f}", b.nonFinite, b.outside,
+                          b.oracle.largest, b.oracle.percentile99, b.oracle.shareOver,
+                          optional(b.leastOpen), optional(b.cornerError), b.seconds);
+    }
+    if (result.between) {
+      text += fmt::format(",{:.6g},{:.6g},{:.6g}\n", result.between->largest,
+                          result.between->percentile99, result.between->shareOver);
+    } else {
+      text += ",,,\n";
+    }
+  }
+  return text;
+}
+
+json jsonOf(const Apart& apart) {
+  return {{"pixels", apart.pixels},
+          {"largest", apart.largest},
+          {"percentile_99", apart.percentile99},
+          {"share_over", apart.shareOver}};
+}
+
+json jsonOf(const Case& one, const Result& result) {
+  json backends = json::array();
+  for (const BackendResult& b : result.backends) {
+    json entry = {{"backend", b.backend},
+                  {"non_finite", b.nonFinite},
+                  {"outside", b.outside},
+                  {"oracle", jsonOf(b.oracle)}};
+    if (!b.error.empty()) entry["error"] = b.error;
+    if (b.leastOpen) entry["least_open"] = *b.leastOpen;
+    if (b.cornerError) entry["corner_error"] = *b.cornerError;
+    backends.push_back(entry);
+  }
+  json settings = json::object();
+  for (const auto& [key, value] : one.settings) settings[key] = value;
+  json all = {{"group", one.group},         {"case", one.name},
+              {"variant", one.variant},     {"scene", nameOf(one.scenery.kind)},
+              {"scale", one.scenery.scale}, {"size", {one.size.x, one.size.y}},
+              {"effect", one.effect},       {"settings", settings},
+              {"shots", one.shots.size()},  {"camera", json::parse(scene::cameraJson(one.camera))},
+              {"backends", backends},       {"faults", faultsOf(one, result)}};
+  if (!one.edge.empty()) all["edge"] = one.edge;
+  if (result.between) all["between"] = jsonOf(*result.between);
+  return all;
+}
+
+}  // namespace
+
+size_t Sweep::failed() const {
+  size_t count = 0;
+  for (size_t i = 0; i < cases.size(); ++i) count += faultsOf(cases[i], results[i]).empty() ? 0 : 1;
+  return count;
+}
+
+void writeSweep(const std::string& folder, const Sweep& sweep) {
+  std::error_code failed;
+  fs::create_directories(folder, failed);
+  const auto write = [&](const char* name, const std::string& text) {
+    image::writeFileAside((fs::path(folder) / name).string(), text);
+  };
+  json cases = json::array();
+  for (size_t i = 0; i < sweep.cases.size(); ++i) {
+    cases.push_back(jsonOf(sweep.cases[i], sweep.results[i]));
+  }
+  const json all = {
+      {"version", 1},           {"command", sweep.command}, {"machine", sweep.machine},
+      {"commit", sweep.commit}, {"devices", sweep.devices}, {"cases", cases}};
+  write("stability.json", all.dump(1) + "\n");
+  write("stability.csv", csvOf(sweep));
+  write("stability.md", markdownOf(sweep));
+}
+
+}  // namespace grisaille::app::stability

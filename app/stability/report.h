@@ -1,0 +1,26 @@
+// SPDX-License-Identifier: MIT
+// The sweep's table: stability.md for people, stability.csv and stability.json for programs.
+#pragma once
+
+#include <span>
+#include <string>
+#include <vector>
+
+#include "app/stability/result.h"
+
+namespace grisaille::app::stability {
+
+struct Sweep {
+  std::string command, machine, commit;
+  std::vector<std::string> devices;  // one a backend: name and driver
+  std::vector<Case> cases;
+  std::vector<Result> results;  // one a case
+
+  // Cases with a fault.
+  size_t failed() const;
+};
+
+// Writes all three into a folder, which is made where it is not there. Throws kFileUnwritable.
+void writeSweep(const std::string& folder, const Sweep& sweep);
+
+}  // namespace grisaille::app::stability

@@ -1,0 +1,41 @@
+// SPDX-License-Identifier: MIT
+// Makes a case's picture on every backend, and compares it with the oracle and with the other one.
+#pragma once
+
+#include <map>
+#include <memory>
+#include <span>
+#include <string>
+#include <vector>
+
+#include "app/stability/result.h"
+#include "core/effect/instance.h"
+#include "core/effect/registry.h"
+#include "core/frame/renderer.h"
+#include "core/gpu/device.h"
+
+namespace grisaille::app::stability {
+
+class Runner {
+ public:
+  // Both outlive this; `devices` are of different backends.
+  Runner(const effect::Registry& registry, std::span<gpu::Device* const> devices);
+  ~Runner();
+  Runner(const Runner&) = delete;
+  Runner& operator=(const Runner&) = delete;
+
+  // What fails on a backend is told in its result.
+  Result run(const Case& one);
+
+ private:
+  struct Stage;
+  struct Picture;
+  BackendResult runOn(Stage& stage, const Case& one, const scene::Scene& scene, Picture& picture);
+  void render(Stage& stage, const Case& one, const effect::Values& values,
+              const scene::Scene& scene, Picture& picture);
+
+  const effect::Registry& registry_;
+  std::vector<std::unique_ptr<Stage>> stages_;
+};
+
+}  // namespace grisaille::app::stability
