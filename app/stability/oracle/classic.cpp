@@ -29,9 +29,9 @@ std::vector<glm::dvec3> samplePoints(const OcclusionSettings& settings) {
   constexpr double kPlastic = 1.2207440846057596;
   uint32_t state = pcg(settings.seed ^ pcg(0));
   glm::dvec3 start;
-  for (int i = 0; i < 3; ++i) {
+  for (const int axis : {2, 1, 0}) {
     state = pcg(state);
-    start[i] = state * 0x1p-32;
+    start[axis] = state * 0x1p-32;
   }
   std::vector<glm::dvec3> points;
   for (int i = 0; i < settings.kernelSize; ++i) {
