@@ -28,8 +28,9 @@ const std::vector<Variant>& variants() {
       {"slices, exact",
        "ssao",
        {{"resolution", "full"},
-        {"slices", "16"},
-        {"steps", "32"},
+        {"slices", "32"},
+        {"steps", "64"},
+        {"blur_size", "0"},
         {"thickness", "10"},
         {"guard_band", "0.2"}}},
       {"classic", "ssao", {{"estimator", "classic"}}},
@@ -104,9 +105,12 @@ void drawPaint(Draws& draw, Case& one, uint32_t seed) {
 }
 
 Scenery drawScenery(Draws& draw) {
+  const double scale = draw.of({1e-3, 0.1, 1.0, 1.0, 1.0, 30.0, 1e4});
+  // Cameras of small scenes must see them with the digits that a double has.
+  const double away = std::min(scale, 1.0) * draw.of({0.0, 0.0, 1e3, 1e6, 1e7});
   return {.kind = draw.of({Kind::kRoom, Kind::kRoom, Kind::kCorner, Kind::kWires}),
-          .scale = draw.of({1e-3, 0.1, 1.0, 1.0, 1.0, 30.0, 1e4}),
-          .origin = draw.of({0.0, 0.0, 1e3, 1e6, 1e7}) * glm::dvec3(0.3, 1, -0.8)};
+          .scale = scale,
+          .origin = away * glm::dvec3(0.3, 1, -0.8)};
 }
 
 Case randomCase(uint32_t seed) {

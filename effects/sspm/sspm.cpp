@@ -48,6 +48,7 @@ struct ShotBlock {
   glm::vec3 color;
   float per_fade;
   float number;
+  float muzzle;
 };
 GRISAILLE_CHECK_BLOCK_sspm_per_shot_Shot(ShotBlock);
 
@@ -168,14 +169,19 @@ class Sspm {
 
   static ShotBlock shotBlock(const plugin::Frame& frame, const grisaille_shot& shot,
                              size_t number) {
-    const glm::dvec3 origin(shot.origin[0], shot.origin[1], shot.origin[2]);
-    return {.origin = glm::vec3(origin - eyeOf(frame)),
+    // A muzzle may be so far away that single precision does not tell where its ray passes.
+    const glm::dvec3 muzzle =
+        glm::dvec3(shot.origin[0], shot.origin[1], shot.origin[2]) - eyeOf(frame);
+    const glm::dvec3 direction(shot.direction[0], shot.direction[1], shot.direction[2]);
+    const double onwards = -glm::dot(muzzle, direction);
+    return {.origin = glm::vec3(muzzle + onwards * direction),
             .range = shot.range != 0 ? shot.range : frame.value<float>(kPaintRange),
-            .direction = {shot.direction[0], shot.direction[1], shot.direction[2]},
+            .direction = glm::vec3(direction),
             .full = frame.value<float>(kFull),
             .color = {shot.color[0], shot.color[1], shot.color[2]},
             .per_fade = perFade(frame),
-            .number = static_cast<float>(number + 1)};
+            .number = static_cast<float>(number + 1),
+            .muzzle = static_cast<float>(-onwards)};
   }
 
   void recordSurface(const plugin::Frame& frame) {

@@ -40,18 +40,16 @@ void main() {
   if (any(greaterThanEqual(first, size))) return;
   const vec2 inverse = 1.0 / vec2(size);
 
-  // One component for each texel of the run. Neighbour k of a texel lies
-  // depth * (offset + k * slope) + constant from its plane, in tolerances.
-  vec4 depths, offset, slope, constant;
+  // One component for each texel of the run; planes in tolerances, and the slope a texel.
+  vec4 depths, facing, slope;
   [[unroll]] for (int t = 0; t < 4; ++t) {
     const vec2 texel = vec2(first + along * t);
     const vec2 pixel = texel * float(kScale) + 0.5;
     depths[t] = textureLod(raw, (texel + 0.5) * inverse, 0.0).y;
     const vec3 normal = viewNormal(textureLod(world_normal, attachmentAt(pixel), 0.0).xyz);
-    const vec4 plane = planeOf(pixel, depths[t], normal) * settings.tolerance;
-    offset[t] = dot(plane.xy, pixel) + plane.z;
-    slope[t] = dot(plane.xy, vec2(along)) * float(kScale);
-    constant[t] = plane.w;
+    const Plane plane = planeOf(pixel, normal);
+    facing[t] = plane.facing * settings.tolerance;
+    slope[t] = dot(plane.slope, vec2(along)) * float(kScale) * settings.tolerance;
   }
   vec4 sum = vec4(0.0), weights = vec4(0.0);
 #if BENT
@@ -62,7 +60,7 @@ void main() {
     const vec2 from = (vec2(first + along * i) + 0.5) * inverse;
     const vec2 other = textureLod(raw, from, 0.0).xy;
     const vec4 k = float(i) - vec4(0.0, 1.0, 2.0, 3.0);
-    const vec4 off = abs(other.y * (offset + k * slope) + constant);
+    const vec4 off = abs((other.y - depths) * facing + other.y * (k * slope));
     const vec4 share = max(float(kSize) - abs(k), 0.0) * max(1.0 - off, 0.0);
     const vec4 weight = other.y > 0.0 ? share : vec4(0.0);
     sum += weight * other.x;

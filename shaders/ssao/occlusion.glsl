@@ -30,23 +30,27 @@ layout(IMAGE(0), r16f) writeonly uniform image2D visibility;
 // What all sample points of a pixel share.
 struct Taps {
   vec4 row_x, row_y;  // kernel point and 1 to texture coordinates times view depth
-  vec4 row_depth;     // and to view depth, metres
+  vec3 row_beyond;    // kernel point to view depth beyond the pixel's, metres
   vec2 offset;        // texture coordinates of the view's axis
-  float nearest;      // a surface must be farther than this to be in range, metres
+  float depth;        // of the pixel, metres
+  float least;        // to the near plane, metres
+  float nearest;      // a surface must lie farther beyond the pixel to be in range, metres
   float raw;          // the pixel's raw depth
 };
 
 // 1 when sample point i is occluded.
 float tap(Taps taps, uint i) {
   const vec4 point = vec4(settings.kernel[i].xyz, 1.0);
-  // A point behind the camera is taken to the near plane, where no surface can be nearer.
-  const float point_depth = max(dot(taps.row_depth, point), view.camera_fraction.w);
-  const float inverse = 1.0 / point_depth;
+  // A point behind the camera is taken to the near plane, where no surface can be nearer. Depths are
+  // compared from the pixel's on: the radius may be lost in the rounding of a far surface's depth.
+  const float beyond = max(dot(taps.row_beyond, point.xyz), taps.least);
+  const float inverse = 1.0 / max(taps.depth + beyond, view.camera_fraction.w);
   const vec2 uv = vec2(dot(taps.row_x, point), dot(taps.row_y, point)) * inverse + taps.offset;
   const float surface = textureLod(view_depth, uv, 0.0).x;
   // Linear range check: a surface nearer than the point is in range when it is not nearer than the
   // pixel by the radius. The sky, depth 0, never is.
-  bool hit = surface < point_depth - settings.bias && surface > taps.nearest;
+  const float apart = surface - taps.depth;
+  bool hit = apart < beyond - settings.bias && apart > taps.nearest && surface > 0.0;
   if (kRangeCheck == 1u) {
     hit = hit && abs(taps.raw - view.camera_fraction.w / surface) < settings.radius;
   }
@@ -80,9 +84,11 @@ float occlusionAt(ivec2 pixel, float depth) {
   Taps taps;
   taps.row_x = vec4(vec3(axes[0].x, axes[1].x, axes[2].x) * scale.x, position.x * scale.x);
   taps.row_y = vec4(vec3(axes[0].y, axes[1].y, axes[2].y) * scale.y, position.y * scale.y);
-  taps.row_depth = vec4(-axes[0].z, -axes[1].z, -axes[2].z, depth);
+  taps.row_beyond = -vec3(axes[0].z, axes[1].z, axes[2].z);
   taps.offset = view.pixel_from_view.zw * view.size.zw;
-  taps.nearest = kRangeCheck == 0u ? max(depth - settings.radius, 0.0) : 0.0;
+  taps.depth = depth;
+  taps.least = view.camera_fraction.w - depth;
+  taps.nearest = kRangeCheck == 0u ? -settings.radius : -1e30;
   taps.raw = view.camera_fraction.w / depth;
 
   float occluded = 0.0;

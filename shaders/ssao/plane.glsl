@@ -15,16 +15,17 @@ vec3 viewNormal(vec3 world_normal) {
                                                 : mat3(view.view_from_world) * world_normal;
 }
 
-// The plane through a pixel's surface, for points put back into view space from pixels: the distance
-// of pixel p at view depth d from it is d * (p.x * x + p.y * y + z) + w.
-vec4 planeOf(vec2 pixel, float depth, vec3 normal) {
-  vec4 plane;
-  plane.xy = normal.xy * view.view_from_pixel.xy;
-  plane.z = dot(normal.xy, view.view_from_pixel.zw) - normal.z;
-  plane.w = -depth * (dot(plane.xy, pixel) + plane.z);
-  return plane;
-}
+// A plane through a pixel's surface, for points put back into view space from pixels. What lies
+// `across` pixels on at view depth e is
+//   (e - depth) * facing + e * dot(slope, across)
+// from it: differences of nearly equal numbers, so that the pixel itself lies on its plane exactly
+// however small the lengths are that this is compared with.
+struct Plane {
+  vec2 slope;
+  float facing;
+};
 
-float distanceFrom(vec4 plane, vec2 pixel, float depth) {
-  return abs(depth * (dot(plane.xy, pixel) + plane.z) + plane.w);
+Plane planeOf(vec2 pixel, vec3 normal) {
+  const vec2 ray = pixel * view.view_from_pixel.xy + view.view_from_pixel.zw;
+  return Plane(normal.xy * view.view_from_pixel.xy, dot(normal.xy, ray) - normal.z);
 }

@@ -31,19 +31,26 @@ vec4 weightsAt(ivec2 place, ivec2 first, vec4 depths) {
   const vec2 pixel = vec2(place) + 0.5;
   const float depth = textureLod(view_depth, attachmentAt(pixel), 0.0).x;
   const vec3 normal = viewNormal(textureLod(world_normal, attachmentAt(pixel), 0.0).xyz);
-  const vec4 plane = planeOf(pixel, depth, normal) * settings.tolerance;
+  const Plane plane = planeOf(pixel, normal);
   // Texel t is the sample of pixel t * kScale.
   const vec2 part = vec2(place - first * int(kScale)) / float(kScale);
   vec4 weights = vec4(0.0);
   if (depth <= 0.0) return weights;
+  vec4 off;
   [[unroll]] for (uint i = 0u; i < 4u; ++i) {
-    const vec2 corner = vec2(i & 1u, i >> 1u);
-    const float off =
-        distanceFrom(plane, (vec2(first) + corner) * float(kScale) + 0.5, depths[i]);
-    const vec2 share = mix(1.0 - part, part, corner);
-    // Past the tolerance what is left makes the nearest win where none is within it.
-    weights[i] = depths[i] > 0.0 ? share.x * share.y * max(0.0, 1.0 - off) +
-                                       1e-4 / (1.0 + off * off * off)
+    const vec2 across = (vec2(i & 1u, i >> 1u) - part) * float(kScale);
+    off[i] = abs((depths[i] - depth) * plane.facing + depths[i] * dot(plane.slope, across));
+    // No texel: as far off as none can be, whose cube is still a number.
+    off[i] = depths[i] > 0.0 ? min(off[i] * settings.tolerance, 1e11) : 1e12;
+  }
+  // Past the tolerance what is left makes the nearest win where none is within it, however far off
+  // that is.
+  const float least = min(min(off.x, off.y), min(off.z, off.w));
+  const float left = 1e-4 * (1.0 + least * least * least);
+  [[unroll]] for (uint i = 0u; i < 4u; ++i) {
+    const vec2 share = mix(1.0 - part, part, vec2(i & 1u, i >> 1u));
+    weights[i] = depths[i] > 0.0 ? share.x * share.y * max(0.0, 1.0 - off[i]) +
+                                       left / (1.0 + off[i] * off[i] * off[i])
                                  : 0.0;
   }
   return weights / max(dot(weights, vec4(1.0)), 1e-30);

@@ -8,13 +8,14 @@ layout(local_size_x = 8, local_size_y = 8) in;
 layout(constant_id = 0) const bool kOwners = false;  // keep who weighs most
 
 layout(UNIFORM(1), std140) uniform Shot {
-  vec3 origin;  // from the camera, world axes, metres
+  vec3 origin;  // the ray's point nearest to the camera, from there; world axes, metres
   float range;  // metres
   vec3 direction;
   float full;  // r0, metres: alpha is r0 / distance, 1 up to r0
   vec3 color;
   float per_fade;   // 1 / share of the range over which alpha fades out at the rim
   float number;     // of the shot, from 1
+  float muzzle;     // along the ray from its point above, metres
 } shot;
 layout(TEXTURE(0)) uniform sampler2D view_depth;
 layout(IMAGE(0), rgba32f) uniform ACCESS image2D paint;  // colour; sum of alphas
@@ -27,7 +28,7 @@ void main() {
   const float depth = textureLod(view_depth, at * view.size.zw, 0.0).x;
   const vec3 q = transpose(mat3(view.view_from_world)) * viewPosition(at, depth) - shot.origin;
   const float across = length(cross(q, shot.direction));
-  const bool hit = depth > 0.0 && dot(q, shot.direction) >= 0.0 && across < shot.range;
+  const bool hit = depth > 0.0 && dot(q, shot.direction) >= shot.muzzle && across < shot.range;
   vec4 sum = vec4(0.0);
   vec2 owner = vec2(0.0);
 #if !FIRST
