@@ -333,7 +333,8 @@ void PaintWorld::writeRecord(uint32_t id, const ShotFrame& frame, const ShotMap&
   const grisaille_shot& shot = list_[id];
   const uint32_t index = states_[id].record;
   const auto record = records_.change(index * kRecordWords, kRecordWords);
-  const glm::dvec3 whole = glm::floor(frame.origin);
+  // The nearest metre: small scenes about the world's origin keep all digits of their floats.
+  const glm::dvec3 whole = glm::round(frame.origin);
   for (int axis = 0; axis < 3; ++axis) {
     const size_t i = static_cast<size_t>(axis);
     record[i] = static_cast<uint32_t>(static_cast<int32_t>(whole[axis]));

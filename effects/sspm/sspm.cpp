@@ -307,7 +307,7 @@ class Sspm {
           glm::ivec4(wrapped(whole.x), wrapped(whole.y), wrapped(whole.z), levels[i]);
       block.level_fraction[i] = glm::vec4(glm::dvec4(place - whole, 1.0 / edge));
     }
-    const glm::dvec3 metres = glm::floor(eye);
+    const glm::dvec3 metres = glm::round(eye);
     block.camera_cell = glm::ivec4(glm::ivec3(metres), static_cast<int32_t>(levels.size()));
     block.camera_fraction = glm::vec4(glm::dvec4(eye - metres, frame.value<double>(kFull)));
     block.slot_mask = world_.cells().slotMask();

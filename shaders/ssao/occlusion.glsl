@@ -34,9 +34,26 @@ struct Taps {
   vec2 offset;        // texture coordinates of the view's axis
   float depth;        // of the pixel, metres
   float least;        // to the near plane, metres
+  float bias;         // metres
+  vec2 slack;         // what the surface itself rises by from pixel to pixel, a squared view depth; 1 / m
   float nearest;      // a surface must lie farther beyond the pixel to be in range, metres
   float raw;          // the pixel's raw depth
 };
+
+// What a depth buffer of floats and the way back from it may lose, of a view depth, and what a normal
+// of half floats is off by, radians.
+const float kDepthRounding = 5e-7, kNormalRounding = 5e-4;
+
+// A surface must not occlude itself. Its normal may be off, so that sample points lie under it, and a
+// tap is the middle of a pixel, half a pixel or, where the picture ends, more from where the point
+// projects: there a tilted surface may be nearer. Of a plane the inverse view depth is linear over
+// the picture.
+void keepOpen(inout Taps taps, vec2 pixel, float depth, vec3 normal) {
+  const Plane plane = planeOf(pixel, normal);
+  const float facing = max(-plane.facing, 1e-3);
+  taps.bias = settings.bias + settings.radius * kNormalRounding / facing;
+  taps.slack = abs(plane.slope) / (depth * facing);
+}
 
 // 1 when sample point i is occluded.
 float tap(Taps taps, uint i) {
@@ -44,13 +61,16 @@ float tap(Taps taps, uint i) {
   // A point behind the camera is taken to the near plane, where no surface can be nearer. Depths are
   // compared from the pixel's on: the radius may be lost in the rounding of a far surface's depth.
   const float beyond = max(dot(taps.row_beyond, point.xyz), taps.least);
-  const float inverse = 1.0 / max(taps.depth + beyond, view.camera_fraction.w);
+  const float point_depth = max(taps.depth + beyond, view.camera_fraction.w);
+  const float inverse = 1.0 / point_depth;
   const vec2 uv = vec2(dot(taps.row_x, point), dot(taps.row_y, point)) * inverse + taps.offset;
   const float surface = textureLod(view_depth, uv, 0.0).x;
   // Linear range check: a surface nearer than the point is in range when it is not nearer than the
   // pixel by the radius. The sky, depth 0, never is.
   const float apart = surface - taps.depth;
-  bool hit = apart < beyond - settings.bias && apart > taps.nearest && surface > 0.0;
+  const vec2 off = 0.5 + max(abs(uv - 0.5) - 0.5, 0.0) * view.size.xy;
+  const float bias = taps.bias + point_depth * (kDepthRounding + point_depth * dot(taps.slack, off));
+  bool hit = apart < beyond - bias && apart > taps.nearest && surface > 0.0;
   if (kRangeCheck == 1u) {
     hit = hit && abs(taps.raw - view.camera_fraction.w / surface) < settings.radius;
   }
@@ -67,11 +87,15 @@ float tap(Taps taps, uint i) {
 float occlusionAt(ivec2 pixel, float depth) {
   const vec2 centre = vec2(pixel) + 0.5;
   const vec3 position = viewPosition(centre, depth);
+  Taps taps;
 #if SPHERE
   mat3 axes = mat3(1.0);
+  taps.bias = settings.bias;
+  taps.slack = vec2(0.0);
 #else
   const vec3 normal = viewNormal(textureLod(world_normal, centre * view.size.zw, 0.0).xyz);
   mat3 axes = basisAbout(normal);
+  keepOpen(taps, centre, depth, normal);
 #endif
   if (kRotation == 0u) {
     const vec2 turn = textureLod(rotations, centre * 0.25, 0.0).xy;
@@ -81,7 +105,6 @@ float occlusionAt(ivec2 pixel, float depth) {
   // point then costs three dot products, one division and one fetch.
   const vec2 scale = view.pixel_from_view.xy * view.size.zw;
   axes *= settings.radius;
-  Taps taps;
   taps.row_x = vec4(vec3(axes[0].x, axes[1].x, axes[2].x) * scale.x, position.x * scale.x);
   taps.row_y = vec4(vec3(axes[0].y, axes[1].y, axes[2].y) * scale.y, position.y * scale.y);
   taps.row_beyond = -vec3(axes[0].z, axes[1].z, axes[2].z);

@@ -11,14 +11,14 @@ layout(constant_id = 1) const bool kOneLevel = false;
 layout(UNIFORM(2), std140) uniform Lists {
   ivec4 level_cell[kLevels];      // xyz: the camera's cell; w: code of the level
   vec4 level_fraction[kLevels];   // xyz: the camera's place in it, in cells; w: cells a metre
-  ivec4 camera_cell;              // as in View, w: number of levels
-  vec4 camera_fraction;           // w: r0, metres
+  ivec4 camera_cell;              // the camera's place: nearest whole metres; w: number of levels
+  vec4 camera_fraction;           // and the rest; w: r0, metres
   uint slot_mask;                 // number of slots, a power of two, less 1
   float per_fade;
 } lists;
 
 struct Shot {
-  ivec3 cell;  // muzzle, world: whole metres
+  ivec3 cell;  // muzzle, world: nearest whole metres
   float range;
   vec3 fraction;
   float slope;

@@ -12,6 +12,9 @@
 namespace grisaille::app::stability {
 namespace {
 
+constexpr double kDepthRounding = 5e-7;   // of a view depth
+constexpr double kNormalRounding = 5e-4;  // radians
+
 // PCG hash: Jarzynski and Olano 2020, "Hash Functions for GPU Rendering".
 uint32_t pcg(uint32_t value) {
   const uint32_t state = value * 747796405u + 2891336453u;
@@ -86,14 +89,31 @@ class Classic : public Occlusion {
       axes = glm::dmat3(c * axes[0] + s * axes[1], c * axes[1] - s * axes[0], axes[2]);
     }
     const glm::dvec3 position = view_.position(pixel);
+    const Bias own = biasOf(pixel);
     int occluded = 0;
     for (const glm::dvec3& point : points_) {
-      occluded += isOccluded(position, settings_.radius * (axes * point)) ? 1 : 0;
+      occluded += isOccluded(position, settings_.radius * (axes * point), own) ? 1 : 0;
     }
     return 1 - static_cast<double>(occluded) / static_cast<double>(points_.size());
   }
 
-  bool isOccluded(const glm::dvec3& position, const glm::dvec3& offset) const {
+  // What a surface must be nearer by than a point to occlude it.
+  struct Bias {
+    double least;         // metres
+    glm::dvec2 slope{0};  // from pixel to pixel, a squared view depth
+  };
+
+  // So much that a plane does not occlude itself, be its normal off by its rounding, and a tap by
+  // half a pixel. Of a plane the inverse view depth is linear over the picture.
+  Bias biasOf(const glm::ivec2& pixel) const {
+    if (settings_.sphere) return {.least = settings_.bias};
+    const glm::dvec3 normal = view_.normal(pixel);
+    const double facing = std::max(-glm::dot(normal, view_.ray(glm::dvec2(pixel) + 0.5)), 1e-3);
+    return {.least = settings_.bias + settings_.radius * kNormalRounding / facing,
+            .slope = glm::abs(glm::dvec2(normal) / view_.focal()) / (facing * view_.depth(pixel))};
+  }
+
+  bool isOccluded(const glm::dvec3& position, const glm::dvec3& offset, const Bias& own) const {
     const glm::dvec3 point = position + offset;
     const double depth = -position.z;
     const double pointDepth = std::max(-point.z, view_.nearPlane());
@@ -102,7 +122,11 @@ class Classic : public Occlusion {
     // Far enough outside all are clamped alike.
     const glm::dvec2 whole = glm::clamp(glm::floor(at), -1e6, 1e6);
     const double surface = view_.depth(glm::ivec2(whole));
-    if (surface <= 0 || !(surface < pointDepth - settings_.bias)) return false;
+    const glm::dvec2 size(view_.size());
+    const glm::dvec2 outside = glm::max(glm::max(-at, at - size), 0.0);
+    const double bias = own.least + kDepthRounding * pointDepth +
+                        glm::dot(own.slope, outside + 0.5) * pointDepth * pointDepth;
+    if (surface <= 0 || !(surface < pointDepth - bias)) return false;
     using Range = OcclusionSettings::Range;
     const double near = view_.nearPlane();
     if (settings_.range == Range::kLinear) return surface > depth - settings_.radius;
