@@ -53,14 +53,15 @@ std::string remarkOf(const Case& one, const Result& result) {
 }
 
 std::string rowOf(const Case& one, const Result& result) {
-  return fmt::format("| {} | {} | {} | {} | {} | {} | {} | {} | {} |\n", one.name, one.variant,
-                     each(result, [](const auto& b) { return std::to_string(b.nonFinite); }),
-                     each(result, [](const auto& b) { return std::to_string(b.outside); }),
-                     each(result, [](const auto& b) { return in255ths(b.oracle.largest); }),
-                     each(result, [](const auto& b) { return in255ths(b.oracle.percentile99); }),
-                     each(result, [](const auto& b) { return percent(b.oracle.shareOver); }),
-                     result.between ? percent(result.between->shareOver) : "",
-                     remarkOf(one, result));
+  return fmt::format(
+      "| {} | {} | {} | {} | {} | {} | {} | {} | {} | {} |\n", one.name, one.variant,
+      each(result, [](const auto& b) { return fmt::format("{:.0f}", 100 * b.touched); }),
+      each(result, [](const auto& b) { return std::to_string(b.nonFinite); }),
+      each(result, [](const auto& b) { return std::to_string(b.outside); }),
+      each(result, [](const auto& b) { return in255ths(b.oracle.largest); }),
+      each(result, [](const auto& b) { return in255ths(b.oracle.percentile99); }),
+      each(result, [](const auto& b) { return percent(b.oracle.shareOver); }),
+      result.between ? percent(result.between->shareOver) : "", remarkOf(one, result));
 }
 
 std::string edgesOf(const Sweep& sweep) {
@@ -101,9 +102,10 @@ std::string markdownOf(const Sweep& sweep) {
     if (sweep.cases[i].group != group) {
       group = sweep.cases[i].group;
       text += fmt::format(
-          "\n## {}\n\n| case | variant | not finite | outside | largest, 1/255 | 99 %, 1/255 | "
+          "\n## {}\n\n| case | variant | touched, % | not finite | outside | largest, 1/255 | 99 "
+          "%, 1/255 | "
           "over "
-          "2/255, % | backends apart, % | |\n|---|---|---|---|---|---|---|---|---|\n",
+          "2/255, % | backends apart, % | |\n|---|---|---|---|---|---|---|---|---|---|\n",
           group);
     }
     text += rowOf(sweep.cases[i], sweep.results[i]);
@@ -114,8 +116,8 @@ std::string markdownOf(const Sweep& sweep) {
 std::string csvOf(const Sweep& sweep) {
   std::string text = "group,case,variant,edge,holds";
   for (const BackendResult& b : sweep.results.at(0).backends) {
-    for (const char* column : {"non_finite", "outside", "largest", "percentile_99", "share_over",
-                               "least_open", "corner_error", "seconds"}) {
+    for (const char* column : {"touched", "non_finite", "outside", "largest", "percentile_99",
+                               "share_over", "least_open", "corner_error", "seconds"}) {
       text += fmt::format(",{}_{}", b.backend, column);
     }
   }
@@ -129,8 +131,8 @@ std::string csvOf(const Sweep& sweep) {
     text += fmt::format("{},\"{}\",\"{}\",{},{}", one.group, one.name, one.variant, one.edge,
                         faultsOf(one, result).empty() ? 1 : 0);
     for (const BackendResult& b : result.backends) {
-      text += fmt::format(",{},{},{:.6g},{:.6g},{:.6g},{},{},{:.3f}", b.nonFinite, b.outside,
-                          b.oracle.largest, b.oracle.percentile99, b.oracle.shareOver,
+      text += fmt::format(",{:.4g},{},{},{:.6g},{:.6g},{:.6g},{},{},{:.3f}", b.touched, b.nonFinite,
+                          b.outside, b.oracle.largest, b.oracle.percentile99, b.oracle.shareOver,
                           optional(b.leastOpen), optional(b.cornerError), b.seconds);
     }
     if (result.between) {
@@ -154,6 +156,7 @@ json jsonOf(const Case& one, const Result& result) {
   json backends = json::array();
   for (const BackendResult& b : result.backends) {
     json entry = {{"backend", b.backend},
+                  {"touched", b.touched},
                   {"non_finite", b.nonFinite},
                   {"outside", b.outside},
                   {"oracle", jsonOf(b.oracle)}};

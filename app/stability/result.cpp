@@ -81,8 +81,10 @@ std::vector<std::string> faultsOf(const Case& one, const Result& result) {
 void saveResult(const fs::path& folder, const Result& result) {
   json all = {{"key", result.key}, {"backends", json::array()}};
   for (const BackendResult& b : result.backends) {
-    json one = {{"backend", b.backend}, {"error", b.error},           {"non_finite", b.nonFinite},
-                {"outside", b.outside}, {"oracle", toJson(b.oracle)}, {"seconds", b.seconds}};
+    json one = {{"backend", b.backend},       {"error", b.error},
+                {"non_finite", b.nonFinite},  {"outside", b.outside},
+                {"oracle", toJson(b.oracle)}, {"seconds", b.seconds},
+                {"touched", b.touched},       {"bits", b.bits}};
     if (b.leastOpen) one["least_open"] = *b.leastOpen;
     if (b.cornerError) one["corner_error"] = *b.cornerError;
     all["backends"].push_back(one);
@@ -108,6 +110,8 @@ std::optional<Result> loadResult(const fs::path& folder, const std::string& key)
       b.outside = one.at("outside");
       b.oracle = apartFrom(one.at("oracle"));
       b.seconds = one.at("seconds");
+      b.touched = one.at("touched");
+      b.bits = one.at("bits");
       if (one.contains("least_open")) b.leastOpen = one["least_open"].get<double>();
       if (one.contains("corner_error")) b.cornerError = one["corner_error"].get<double>();
     }

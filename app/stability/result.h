@@ -30,6 +30,8 @@ struct BackendResult {
   std::string error;       // why there is no result; "": there is one
   uint64_t nonFinite = 0;  // values, of all outputs that were asked for
   uint64_t outside = 0;    // values outside their range
+  double touched = 0;      // share of pixels that the effect does something to: occludes, paints
+  uint64_t bits = 0;       // a hash of the compared picture: the same bits, the same number
   Apart oracle;
   std::optional<double> leastOpen;    // where Case::open
   std::optional<double> cornerError;  // where Case::corner, rms

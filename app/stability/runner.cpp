@@ -9,6 +9,7 @@
 
 #include "app/scene_rays.h"
 #include "app/stability/comparison.h"
+#include "app/truth/content_hash.h"
 #include "core/error.h"
 #include "core/frame/view_block.h"
 
@@ -27,6 +28,19 @@ std::vector<std::string> furtherOutputs(const Case& one) {
   if (!one.every) return {};
   if (one.effect == "ssao") return {"bent_normal", "tint"};
   return {"paint_owner"};
+}
+
+// Of visibility, or the alpha of paint.
+void describe(const image::Image& picture, BackendResult& result) {
+  const bool paint = picture.channels == 4;
+  uint64_t touched = 0;
+  for (size_t i = 0; i < picture.pixels.size(); i += picture.channels) {
+    touched += (paint ? picture.pixels[i + 3] > 0 : picture.pixels[i] < 1) ? 1 : 0;
+  }
+  result.touched = static_cast<double>(touched) / (double{1} * picture.width * picture.height);
+  truth::ContentHash hash;
+  hash.add(std::span<const float>(picture.pixels));
+  result.bits = hash.value();
 }
 
 bool isAttachment(const std::string& output) {
@@ -149,6 +163,7 @@ BackendResult Runner::runOn(Stage& stage, const Case& one, const scene::Scene& s
     for (const auto& [name, image] : picture.outputs) {
       if (!isAttachment(name)) count(image, rangeOf(name, one), result);
     }
+    describe(picture.outputs.at(one.effect == "ssao" ? "ao" : "paint"), result);
     const View view(one.camera, one.size, picture.guard, std::move(picture.depth),
                     std::move(picture.normal));
     if (one.effect == "ssao") {

@@ -35,42 +35,51 @@ struct Taps {
   float depth;        // of the pixel, metres
   float least;        // to the near plane, metres
   float bias;         // metres
-  vec2 slack;         // what the surface itself rises by from pixel to pixel, a squared view depth; 1 / m
+  float rounding;     // what roundings add to it, a metre of view depth
+  float spread;       // what the normal's adds to it, a metre of view depth and pixel
+  vec2 slope;         // of the surface's inverse view depth, a pixel; 1 / m
   float nearest;      // a surface must lie farther beyond the pixel to be in range, metres
   float raw;          // the pixel's raw depth
 };
 
-// What a depth buffer of floats and the way back from it may lose, of a view depth, and what a normal
-// of half floats is off by, radians.
-const float kDepthRounding = 5e-7, kNormalRounding = 5e-4;
+// What drawing into a depth buffer of floats and the way back may lose, of a view depth; what a normal
+// of half floats is off by, radians; and a place in the picture, of its size.
+const float kDepthRounding = 5e-7, kNormalRounding = 5e-4, kPlaceRounding = 2.5e-7;
 
-// A surface must not occlude itself. Its normal may be off, so that sample points lie under it, and a
-// tap is the middle of a pixel, half a pixel or, where the picture ends, more from where the point
-// projects: there a tilted surface may be nearer. Of a plane the inverse view depth is linear over
-// the picture.
+// A surface must not occlude itself. Its normal may be off, so that sample points lie under it; and a
+// tap is the middle of a pixel, beside the place where the point projects or, where the picture ends,
+// far from there: the point goes there along the surface's plane, whose inverse view depth is linear
+// over the picture.
 void keepOpen(inout Taps taps, vec2 pixel, float depth, vec3 normal) {
   const Plane plane = planeOf(pixel, normal);
   const float facing = max(-plane.facing, 1e-3);
   taps.bias = settings.bias + settings.radius * kNormalRounding / facing;
-  taps.slack = abs(plane.slope) / (depth * facing);
+  taps.spread = kNormalRounding * view.view_from_pixel.x / (facing * facing);
+  taps.slope = -plane.slope / (depth * facing);
+  taps.rounding = kDepthRounding + depth * kPlaceRounding * dot(abs(taps.slope), view.size.xy);
 }
 
 // 1 when sample point i is occluded.
 float tap(Taps taps, uint i) {
   const vec4 point = vec4(settings.kernel[i].xyz, 1.0);
-  // A point behind the camera is taken to the near plane, where no surface can be nearer. Depths are
-  // compared from the pixel's on: the radius may be lost in the rounding of a far surface's depth.
+  // A point before the near plane is taken there, and nothing is nearer. Depths are compared from the
+  // pixel's on: the radius may be lost in the rounding of a far surface's depth.
   const float beyond = max(dot(taps.row_beyond, point.xyz), taps.least);
   const float point_depth = max(taps.depth + beyond, view.camera_fraction.w);
   const float inverse = 1.0 / point_depth;
   const vec2 uv = vec2(dot(taps.row_x, point), dot(taps.row_y, point)) * inverse + taps.offset;
   const float surface = textureLod(view_depth, uv, 0.0).x;
+  const float apart = surface - taps.depth;
+  // The point's view depth at the tap is point_depth / (1 + turned).
+  const vec2 at = uv * view.size.xy;
+  const vec2 aside = clamp(floor(at) + 0.5, vec2(0.5), view.size.xy - 0.5) - at;
+  const float turned = point_depth * dot(taps.slope, aside);
+  const float rounding = taps.rounding + taps.spread * (abs(aside.x) + abs(aside.y));
+  const float bias = taps.bias + point_depth * rounding;
   // Linear range check: a surface nearer than the point is in range when it is not nearer than the
   // pixel by the radius. The sky, depth 0, never is.
-  const float apart = surface - taps.depth;
-  const vec2 off = 0.5 + max(abs(uv - 0.5) - 0.5, 0.0) * view.size.xy;
-  const float bias = taps.bias + point_depth * (kDepthRounding + point_depth * dot(taps.slack, off));
-  bool hit = apart < beyond - bias && apart > taps.nearest && surface > 0.0;
+  const bool nearer = apart + bias + turned * (surface + bias) < beyond && beyond > taps.least;
+  bool hit = nearer && apart > taps.nearest && surface > 0.0;
   if (kRangeCheck == 1u) {
     hit = hit && abs(taps.raw - view.camera_fraction.w / surface) < settings.radius;
   }
@@ -91,7 +100,9 @@ float occlusionAt(ivec2 pixel, float depth) {
 #if SPHERE
   mat3 axes = mat3(1.0);
   taps.bias = settings.bias;
-  taps.slack = vec2(0.0);
+  taps.rounding = kDepthRounding;
+  taps.spread = 0.0;
+  taps.slope = vec2(0.0);
 #else
   const vec3 normal = viewNormal(textureLod(world_normal, centre * view.size.zw, 0.0).xyz);
   mat3 axes = basisAbout(normal);

@@ -12,8 +12,9 @@
 namespace grisaille::app::stability {
 namespace {
 
-constexpr double kDepthRounding = 5e-7;   // of a view depth
-constexpr double kNormalRounding = 5e-4;  // radians
+constexpr double kDepthRounding = 5e-7;    // of a view depth
+constexpr double kNormalRounding = 5e-4;   // radians
+constexpr double kPlaceRounding = 2.5e-7;  // of the picture\'s size
 
 // PCG hash: Jarzynski and Olano 2020, "Hash Functions for GPU Rendering".
 uint32_t pcg(uint32_t value) {
@@ -89,7 +90,7 @@ class Classic : public Occlusion {
       axes = glm::dmat3(c * axes[0] + s * axes[1], c * axes[1] - s * axes[0], axes[2]);
     }
     const glm::dvec3 position = view_.position(pixel);
-    const Bias own = biasOf(pixel);
+    const Own own = ownOf(pixel);
     int occluded = 0;
     for (const glm::dvec3& point : points_) {
       occluded += isOccluded(position, settings_.radius * (axes * point), own) ? 1 : 0;
@@ -97,36 +98,44 @@ class Classic : public Occlusion {
     return 1 - static_cast<double>(occluded) / static_cast<double>(points_.size());
   }
 
-  // What a surface must be nearer by than a point to occlude it.
-  struct Bias {
-    double least;         // metres
-    glm::dvec2 slope{0};  // from pixel to pixel, a squared view depth
+  // What keeps a surface from occluding itself.
+  struct Own {
+    double bias;                       // metres that another must be nearer than a point
+    double rounding = kDepthRounding;  // what that grows by, a metre of view depth
+    double spread = 0;                 // and a metre of view depth and pixel aside
+    glm::dvec2 slope{0};               // of its inverse view depth over the picture, a pixel
   };
 
-  // So much that a plane does not occlude itself, be its normal off by its rounding, and a tap by
-  // half a pixel. Of a plane the inverse view depth is linear over the picture.
-  Bias biasOf(const glm::ivec2& pixel) const {
-    if (settings_.sphere) return {.least = settings_.bias};
+  Own ownOf(const glm::ivec2& pixel) const {
+    if (settings_.sphere) return {.bias = settings_.bias};
     const glm::dvec3 normal = view_.normal(pixel);
     const double facing = std::max(-glm::dot(normal, view_.ray(glm::dvec2(pixel) + 0.5)), 1e-3);
-    return {.least = settings_.bias + settings_.radius * kNormalRounding / facing,
-            .slope = glm::abs(glm::dvec2(normal) / view_.focal()) / (facing * view_.depth(pixel))};
+    const double depth = view_.depth(pixel);
+    const glm::dvec2 slope = -glm::dvec2(normal) / view_.focal() / (facing * depth);
+    const double place = glm::dot(glm::abs(slope), glm::dvec2(view_.size()));
+    return {.bias = settings_.bias + settings_.radius * kNormalRounding / facing,
+            .rounding = kDepthRounding + depth * kPlaceRounding * place,
+            .spread = kNormalRounding / view_.focal().x / (facing * facing),
+            .slope = slope};
   }
 
-  bool isOccluded(const glm::dvec3& position, const glm::dvec3& offset, const Bias& own) const {
+  bool isOccluded(const glm::dvec3& position, const glm::dvec3& offset, const Own& own) const {
     const glm::dvec3 point = position + offset;
     const double depth = -position.z;
-    const double pointDepth = std::max(-point.z, view_.nearPlane());
+    const double pointDepth = -point.z;
+    if (pointDepth <= view_.nearPlane()) return false;  // nothing is nearer
     const glm::dvec2 at =
         glm::dvec2(point) / pointDepth * view_.focal() + glm::dvec2(view_.size()) / 2.0;
     // Far enough outside all are clamped alike.
     const glm::dvec2 whole = glm::clamp(glm::floor(at), -1e6, 1e6);
     const double surface = view_.depth(glm::ivec2(whole));
-    const glm::dvec2 size(view_.size());
-    const glm::dvec2 outside = glm::max(glm::max(-at, at - size), 0.0);
-    const double bias = own.least + kDepthRounding * pointDepth +
-                        glm::dot(own.slope, outside + 0.5) * pointDepth * pointDepth;
-    if (surface <= 0 || !(surface < pointDepth - bias)) return false;
+    if (surface <= 0) return false;
+    // As the surface's plane goes, to the middle of the pixel that was seen.
+    const glm::dvec2 tap = glm::clamp(whole + 0.5, glm::dvec2(0.5), glm::dvec2(view_.size()) - 0.5);
+    const double inverse = 1 / pointDepth + glm::dot(own.slope, tap - at);
+    const double aside = std::abs(tap.x - at.x) + std::abs(tap.y - at.y);
+    const double bias = own.bias + pointDepth * (own.rounding + own.spread * aside);
+    if (inverse > 0 && !(surface < 1 / inverse - bias)) return false;
     using Range = OcclusionSettings::Range;
     const double near = view_.nearPlane();
     if (settings_.range == Range::kLinear) return surface > depth - settings_.radius;
