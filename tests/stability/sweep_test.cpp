@@ -1,0 +1,107 @@
+// SPDX-License-Identifier: MIT
+// A part of the sweep, on every backend, with every call checked; `grisaille stability` does it
+// all.
+#include <gtest/gtest.h>
+
+#include <set>
+
+#include "app/stability/runner.h"
+#include "tests/support/devices.h"
+
+namespace grisaille::tests {
+namespace {
+
+using namespace app::stability;
+
+// Of every group the ends, at small sizes.
+std::vector<Case> quickCases() {
+  std::vector<Case> cases = sweepCases(8, 1);
+  std::erase_if(cases, [](const Case& one) { return !one.quick; });
+  return cases;
+}
+
+TEST(Sweep, HasEveryKindOfCase) {
+  const std::vector<Case> cases = sweepCases(60, 1);
+  EXPECT_GE(cases.size(), 200u);
+  std::set<std::string> titles, groups, keys, known;
+  for (const Edge& edge : edges()) known.insert(edge.key);
+  for (const Case& one : cases) {
+    EXPECT_TRUE(titles.insert(one.title()).second) << one.title() << " is there twice";
+    EXPECT_TRUE(keys.insert(keyOf(one)).second) << one.title() << " is like another";
+    EXPECT_TRUE(one.edge.empty() || known.contains(one.edge)) << one.edge;
+    EXPECT_NO_THROW(scene::validate(one.camera)) << one.title();
+    groups.insert(one.group);
+  }
+  for (const char* group : {"near plane", "field of view", "camera far from the world's origin",
+                            "near a wall", "scene's scale", "plane", "right angle", "size",
+                            "kernel", "radius, m", "bias, m", "blur larger than the picture, px",
+                            "odd scene", "odd depths", "paint range, m", "shot", "at random"}) {
+    EXPECT_TRUE(groups.contains(group)) << group;
+  }
+}
+
+TEST(Sweep, RandomCasesAreTheSeedsOwn) {
+  const std::vector<Case> one = sweepCases(5, 7), again = sweepCases(5, 7),
+                          other = sweepCases(5, 8);
+  EXPECT_EQ(keyOf(one.back()), keyOf(again.back()));
+  EXPECT_NE(keyOf(one.back()), keyOf(other.back()));
+}
+
+class SweepTest : public BackendTest {
+ protected:
+  SweepTest() { registry_.scan(EFFECTS_FOLDER); }
+  effect::Registry registry_;
+};
+GRISAILLE_ON_EVERY_BACKEND(SweepTest);
+
+TEST_P(SweepTest, QuickCasesHold) {
+  gpu::Device* const devices[] = {&device()};
+  Runner runner(registry_, devices);
+  size_t touched = 0, count = 0;
+  for (const Case& one : quickCases()) {
+    const Result result = runner.run(one);
+    for (const std::string& fault : faultsOf(one, result))
+      ADD_FAILURE() << one.title() << ": " << fault;
+    touched += result.backends[0].touched > 0 ? 1 : 0;
+    ++count;
+  }
+  // Most show something: planes and skies have to stay open.
+  EXPECT_GT(touched, count * 3 / 5);
+}
+
+// The same bits from run to run, from instance to instance, and whatever was drawn in between.
+TEST_P(SweepTest, TheSameValuesMakeTheSameBits) {
+  gpu::Device* const devices[] = {&device()};
+  std::vector<Case> cases = sweepCases(8, 3);
+  std::erase_if(
+      cases, [](const Case& one) { return one.group != "at random" && one.group != "guard band"; });
+  std::vector<uint64_t> bits;
+  {
+    Runner runner(registry_, devices);
+    for (const Case& one : cases) bits.push_back(runner.run(one).backends[0].bits);
+    for (size_t i = cases.size(); i-- > 0;) {
+      EXPECT_EQ(runner.run(cases[i]).backends[0].bits, bits[i]) << cases[i].title();
+    }
+  }
+  EXPECT_GT(std::set(bits.begin(), bits.end()).size(), cases.size() * 2 / 3);
+  Runner another(registry_, devices);
+  for (size_t i = 0; i < cases.size(); ++i) {
+    EXPECT_EQ(another.run(cases[i]).backends[0].bits, bits[i]) << cases[i].title();
+  }
+}
+
+// What is not as it must be is found out: here a right angle is said to be a plane.
+TEST_P(SweepTest, AWrongPictureIsAFault) {
+  gpu::Device* const devices[] = {&device()};
+  Runner runner(registry_, devices);
+  std::vector<Case> cases = sweepCases(0, 1);
+  const auto found = std::ranges::find(cases, "kernel", &Case::group);
+  ASSERT_NE(found, cases.end());
+  found->open = true;
+  const Result result = runner.run(*found);
+  ASSERT_EQ(faultsOf(*found, result).size(), 1u);
+  EXPECT_NE(faultsOf(*found, result)[0].find("a plane has a visibility"), std::string::npos);
+}
+
+}  // namespace
+}  // namespace grisaille::tests
