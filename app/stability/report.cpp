@@ -128,8 +128,8 @@ std::string csvOf(const Sweep& sweep) {
   for (size_t i = 0; i < sweep.cases.size(); ++i) {
     const Case& one = sweep.cases[i];
     const Result& result = sweep.results[i];
-    text += fmt::format("{},\"{}\",\"{}\",{},{}", one.group, one.name, one.variant, one.edge,
-                        faultsOf(one, result).empty() ? 1 : 0);
+    text += fmt::format("\"{}\",\"{}\",\"{}\",\"{}\",{}", one.group, one.name, one.variant,
+                        one.edge, faultsOf(one, result).empty() ? 1 : 0);
     for (const BackendResult& b : result.backends) {
       text += fmt::format(",{:.4g},{},{},{:.6g},{:.6g},{:.6g},{},{},{:.3f}", b.touched, b.nonFinite,
                           b.outside, b.oracle.largest, b.oracle.percentile99, b.oracle.shareOver,

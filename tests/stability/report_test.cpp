@@ -107,18 +107,19 @@ TEST(Stability, ResultsAreKeptAndDamageIsDoneAgain) {
 
 TEST(Stability, TheProgramWritesItsTable) {
   const TemporaryFolder folder;
-  const Outcome outcome = runProgram(
-      {"stability", "--only", "range check", "--only", "kernel", "--quick", "--out", "out"},
-      folder.path());
+  const Outcome outcome =
+      runProgram({"stability", "--only", "bias, m", "--only", "kernel", "--quick", "--out", "out"},
+                 folder.path());
   ASSERT_EQ(outcome.status, 0) << outcome.out << outcome.err;
   const json all = json::parse(readFile(folder.path() / "out/stability.json"));
-  EXPECT_EQ(all["cases"].size(), 4u);
+  EXPECT_EQ(all["cases"].size(), 5u);
   for (const json& one : all["cases"]) EXPECT_TRUE(one["faults"].empty()) << one;
   const std::string text = readFile(folder.path() / "out/stability.md");
-  EXPECT_NE(text.find("## range check"), std::string::npos);
-  EXPECT_NE(text.find("**4 of 4 cases hold.**"), std::string::npos);
+  EXPECT_NE(text.find("## bias, m"), std::string::npos);
+  EXPECT_NE(text.find("**5 of 5 cases hold.**"), std::string::npos);
   const std::string csv = readFile(folder.path() / "out/stability.csv");
-  EXPECT_EQ(std::ranges::count(csv, '\n'), 5);
+  EXPECT_EQ(std::ranges::count(csv, '\n'), 6);
+  EXPECT_NE(csv.find("\n\"bias, m\",\"0\",\"classic\",\"\",1,"), std::string::npos) << csv;
   // Nothing else is left.
   EXPECT_EQ(std::distance(std::filesystem::directory_iterator(folder.path() / "out"), {}), 3);
 }
