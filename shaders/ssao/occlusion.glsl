@@ -29,17 +29,14 @@ layout(IMAGE(0), r16f) writeonly uniform image2D visibility;
 
 // What all sample points of a pixel share.
 struct Taps {
-  vec4 row_x, row_y;  // kernel point and 1 to texture coordinates times view depth
+  vec4 row_x, row_y;  // kernel point and 1 to pixels from the view's axis times view depth
   vec3 row_beyond;    // kernel point to view depth beyond the pixel's, metres
-  vec2 offset;        // texture coordinates of the view's axis
   float depth;        // of the pixel, metres
   float least;        // to the near plane, metres
-  float bias;         // metres
-  float rounding;     // what roundings add to it, a metre of view depth
-  float spread;       // what the normal's adds to it, a metre of view depth and pixel
-  vec2 slope;         // of the surface's inverse view depth, a pixel; 1 / m
   float nearest;      // a surface must lie farther beyond the pixel to be in range, metres
   float raw;          // the pixel's raw depth
+  float bias;         // metres
+  vec2 slope;         // of the surface's inverse view depth, a pixel; 1 / m
 };
 
 // What drawing into a depth buffer of floats and the way back may lose, of a view depth; what a normal
@@ -53,33 +50,35 @@ const float kDepthRounding = 5e-7, kNormalRounding = 5e-4, kPlaceRounding = 2.5e
 void keepOpen(inout Taps taps, vec2 pixel, float depth, vec3 normal) {
   const Plane plane = planeOf(pixel, normal);
   const float facing = max(-plane.facing, 1e-3);
-  taps.bias = settings.bias + settings.radius * kNormalRounding / facing;
-  taps.spread = kNormalRounding * view.view_from_pixel.x / (facing * facing);
   taps.slope = -plane.slope / (depth * facing);
-  taps.rounding = kDepthRounding + depth * kPlaceRounding * dot(abs(taps.slope), view.size.xy);
+  const float turned = kNormalRounding / facing;
+  const float aside = turned * view.view_from_pixel.x / facing;
+  const float place = depth * kPlaceRounding * dot(abs(taps.slope), view.size.xy);
+  taps.bias += settings.radius * (turned + aside) + depth * (aside + place);
 }
 
 // 1 when sample point i is occluded.
 float tap(Taps taps, uint i) {
   const vec4 point = vec4(settings.kernel[i].xyz, 1.0);
-  // A point before the near plane is taken there, and nothing is nearer. Depths are compared from the
-  // pixel's on: the radius may be lost in the rounding of a far surface's depth.
-  const float beyond = max(dot(taps.row_beyond, point.xyz), taps.least);
+  // Depths are compared from the pixel's on: the radius may be lost in the rounding of a far
+  // surface's depth.
+  const float beyond = dot(taps.row_beyond, point.xyz);
   const float point_depth = max(taps.depth + beyond, view.camera_fraction.w);
   const float inverse = 1.0 / point_depth;
-  const vec2 uv = vec2(dot(taps.row_x, point), dot(taps.row_y, point)) * inverse + taps.offset;
-  const float surface = textureLod(view_depth, uv, 0.0).x;
+  const vec2 at = vec2(dot(taps.row_x, point), dot(taps.row_y, point)) * inverse + view.pixel_from_view.zw;
+  const vec2 middle = clamp(floor(at) + 0.5, vec2(0.5), view.size.xy - 0.5);
+  const float surface = textureLod(view_depth, middle * view.size.zw, 0.0).x;
   const float apart = surface - taps.depth;
-  // The point's view depth at the tap is point_depth / (1 + turned).
-  const vec2 at = uv * view.size.xy;
-  const vec2 aside = clamp(floor(at) + 0.5, vec2(0.5), view.size.xy - 0.5) - at;
-  const float turned = point_depth * dot(taps.slope, aside);
-  const float rounding = taps.rounding + taps.spread * (abs(aside.x) + abs(aside.y));
-  const float bias = taps.bias + point_depth * rounding;
-  // Linear range check: a surface nearer than the point is in range when it is not nearer than the
-  // pixel by the radius. The sky, depth 0, never is.
-  const bool nearer = apart + bias + turned * (surface + bias) < beyond && beyond > taps.least;
-  bool hit = nearer && apart > taps.nearest && surface > 0.0;
+  // The point's view depth there is point_depth / (1 + turned).
+#if SPHERE
+  const float turned = 0.0;
+#else
+  const float turned = point_depth * dot(taps.slope, middle - at);
+#endif
+  // Nothing is nearer than the near plane. Linear range check: a surface nearer than the point is in
+  // range when it is not nearer than the pixel by the radius. The sky, depth 0, never is.
+  const bool nearer = apart + taps.bias + turned * surface < beyond && beyond > taps.least;
+  bool hit = nearer && apart > taps.nearest;
   if (kRangeCheck == 1u) {
     hit = hit && abs(taps.raw - view.camera_fraction.w / surface) < settings.radius;
   }
@@ -97,12 +96,10 @@ float occlusionAt(ivec2 pixel, float depth) {
   const vec2 centre = vec2(pixel) + 0.5;
   const vec3 position = viewPosition(centre, depth);
   Taps taps;
+  taps.bias = settings.bias + depth * kDepthRounding;
+  taps.slope = vec2(0.0);
 #if SPHERE
   mat3 axes = mat3(1.0);
-  taps.bias = settings.bias;
-  taps.rounding = kDepthRounding;
-  taps.spread = 0.0;
-  taps.slope = vec2(0.0);
 #else
   const vec3 normal = viewNormal(textureLod(world_normal, centre * view.size.zw, 0.0).xyz);
   mat3 axes = basisAbout(normal);
@@ -112,17 +109,16 @@ float occlusionAt(ivec2 pixel, float depth) {
     const vec2 turn = textureLod(rotations, centre * 0.25, 0.0).xy;
     axes = mat3(axes[0] * turn.x + axes[1] * turn.y, axes[1] * turn.x - axes[0] * turn.y, axes[2]);
   }
-  // From kernel space to texture coordinates times view depth, and to view depth, at once: a sample
+  // From kernel space to pixels times view depth, and to view depth, at once: a sample
   // point then costs three dot products, one division and one fetch.
-  const vec2 scale = view.pixel_from_view.xy * view.size.zw;
+  const vec2 scale = view.pixel_from_view.xy;
   axes *= settings.radius;
   taps.row_x = vec4(vec3(axes[0].x, axes[1].x, axes[2].x) * scale.x, position.x * scale.x);
   taps.row_y = vec4(vec3(axes[0].y, axes[1].y, axes[2].y) * scale.y, position.y * scale.y);
   taps.row_beyond = -vec3(axes[0].z, axes[1].z, axes[2].z);
-  taps.offset = view.pixel_from_view.zw * view.size.zw;
   taps.depth = depth;
   taps.least = view.camera_fraction.w - depth;
-  taps.nearest = kRangeCheck == 0u ? -settings.radius : -1e30;
+  taps.nearest = kRangeCheck == 0u ? max(-settings.radius, -depth) : -depth;
   taps.raw = view.camera_fraction.w / depth;
 
   float occluded = 0.0;

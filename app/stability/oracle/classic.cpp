@@ -100,22 +100,21 @@ class Classic : public Occlusion {
 
   // What keeps a surface from occluding itself.
   struct Own {
-    double bias;                       // metres that another must be nearer than a point
-    double rounding = kDepthRounding;  // what that grows by, a metre of view depth
-    double spread = 0;                 // and a metre of view depth and pixel aside
-    glm::dvec2 slope{0};               // of its inverse view depth over the picture, a pixel
+    double bias;          // metres that another must be nearer than a point
+    glm::dvec2 slope{0};  // of its inverse view depth over the picture, a pixel
   };
 
   Own ownOf(const glm::ivec2& pixel) const {
-    if (settings_.sphere) return {.bias = settings_.bias};
+    const double depth = view_.depth(pixel), bias = settings_.bias + depth * kDepthRounding;
+    if (settings_.sphere) return {.bias = bias};
     const glm::dvec3 normal = view_.normal(pixel);
     const double facing = std::max(-glm::dot(normal, view_.ray(glm::dvec2(pixel) + 0.5)), 1e-3);
-    const double depth = view_.depth(pixel);
     const glm::dvec2 slope = -glm::dvec2(normal) / view_.focal() / (facing * depth);
-    const double place = glm::dot(glm::abs(slope), glm::dvec2(view_.size()));
-    return {.bias = settings_.bias + settings_.radius * kNormalRounding / facing,
-            .rounding = kDepthRounding + depth * kPlaceRounding * place,
-            .spread = kNormalRounding / view_.focal().x / (facing * facing),
+    const double turned = kNormalRounding / facing;
+    const double aside = turned / view_.focal().x / facing;
+    const double place =
+        depth * kPlaceRounding * glm::dot(glm::abs(slope), glm::dvec2(view_.size()));
+    return {.bias = bias + settings_.radius * (turned + aside) + depth * (aside + place),
             .slope = slope};
   }
 
@@ -132,10 +131,8 @@ class Classic : public Occlusion {
     if (surface <= 0) return false;
     // As the surface's plane goes, to the middle of the pixel that was seen.
     const glm::dvec2 tap = glm::clamp(whole + 0.5, glm::dvec2(0.5), glm::dvec2(view_.size()) - 0.5);
-    const double inverse = 1 / pointDepth + glm::dot(own.slope, tap - at);
-    const double aside = std::abs(tap.x - at.x) + std::abs(tap.y - at.y);
-    const double bias = own.bias + pointDepth * (own.rounding + own.spread * aside);
-    if (inverse > 0 && !(surface < 1 / inverse - bias)) return false;
+    const double turned = pointDepth * glm::dot(own.slope, tap - at);
+    if (!(surface * (1 + turned) < pointDepth - own.bias)) return false;
     using Range = OcclusionSettings::Range;
     const double near = view_.nearPlane();
     if (settings_.range == Range::kLinear) return surface > depth - settings_.radius;
