@@ -211,7 +211,7 @@ uint32_t Slices::tap(const Slice& slice, const glm::dvec3& position, const glm::
     const double d = b * b - beyond / length;
     const double root = std::sqrt(std::max(d, 0.0));
     const double near = std::max(0.0, -b - root), far = std::min(thickness_, root - b);
-    present = seen && depth > 0 && d > 0 && near < far;
+    present = seen && depth > 0 && d > 0 && near <= far;
     from = slice.below(front + near * ray, walk.side);
     const double last = slice.below(front + far * ray, walk.side);
     const double low = joined ? std::min(from, walk.share) : from;
