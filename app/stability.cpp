@@ -60,8 +60,7 @@ std::string commandOf(const StabilityOptions& options) {
 }
 
 // Does every case; those that an interrupted run of the same program has done are taken from there.
-void runCases(const fs::path& done, stability::Runner& runner,
-              stability::Sweep& sweep) {
+void runCases(const fs::path& done, stability::Runner& runner, stability::Sweep& sweep) {
   std::string machine = sweep.commit;
   for (const std::string& device : sweep.devices) machine += "\n" + device;
   truth::Progress progress("stability", isatty(STDERR_FILENO) == 1);

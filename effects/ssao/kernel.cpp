@@ -37,7 +37,8 @@ std::array<glm::vec4, kMaxKernelSize> makeKernel(uint32_t size, Sampling samplin
   // without the clumps and gaps that independent points have.
   constexpr double kPlastic = 1.2207440846057596;  // root of x^4 = x + 1
   Random random(seed, 0);
-  // Drawn one after another: the order in which a call's arguments are worked out is the compiler's.
+  // Drawn one after another: the order in which a call's arguments are worked out is the
+  // compiler's.
   glm::dvec3 start;
   for (const int axis : {2, 1, 0}) start[axis] = random.unit();
   std::array<glm::vec4, kMaxKernelSize> kernel{};
