@@ -88,8 +88,8 @@ std::vector<size_t> presetsOn(std::span<const Price> front) {
   const size_t reference = front.size() - 1;
   std::vector<size_t> chosen;
   for (size_t k = 1; k < std::size(kPresetNames); ++k) {
-    const double most = front[reference].cost /
-                        std::pow(kPresetRatio, static_cast<double>(std::size(kPresetNames) - k));
+    const auto below = static_cast<double>(std::size(kPresetNames) - 1 - k);  // `fine`
+    const double most = front[reference].cost / kReferenceRatio / std::pow(kPresetRatio, below);
     size_t i = 0;
     while (i + 1 < reference && front[i + 1].cost <= most) ++i;
     const size_t least = chosen.empty() ? 0 : chosen.back() + 1;
