@@ -36,7 +36,7 @@ struct ClaimsRunner::Run {
   std::vector<frame::ActiveEffect> effects;
   View* view = nullptr;
   std::vector<image::Image> shown;  // one a frame, one channel
-  image::Image color;               // composed, of the first frame
+  image::Image color;               // composed, of the last frame
   std::vector<double> milliseconds;
 };
 
@@ -182,7 +182,7 @@ void ClaimsRunner::Stage::showAll() {
   for (Run& run : runs_) {
     for (const scene::Camera& camera : run.view->cameras) {
       run.shown.push_back(shownBy(run, camera));
-      if (run.color.pixels.empty()) run.color = renderer_.read("color");
+      run.color = renderer_.read("color");
     }
   }
 }
@@ -274,7 +274,8 @@ std::vector<PictureRow> ClaimsRunner::Stage::pictures() {
   for (const auto& view : views_) {
     PictureRow row;
     if (desc.show != PictureKind::kChange) {
-      row.push_back({"truth", pictureOf(view->truth[0], desc)});
+      // Of the last frame, which knows those before.
+      row.push_back({"truth", pictureOf(view->truth.back(), desc)});
     }
     for (Run& run : runs_) {
       if (run.view != view.get()) continue;
@@ -289,7 +290,7 @@ std::vector<PictureRow> ClaimsRunner::Stage::pictures() {
         row.push_back({run.desc->name, changePicture(frames[0], frames[1], desc)});
       } else {
         const bool color = desc.show == PictureKind::kColor;
-        row.push_back({run.desc->name, pictureOf(color ? run.color : run.shown[0], desc)});
+        row.push_back({run.desc->name, pictureOf(color ? run.color : run.shown.back(), desc)});
       }
     }
     rows.push_back(std::move(row));

@@ -121,6 +121,27 @@ TEST_F(ClaimsTest, AReadersOwnClaims) {
   EXPECT_EQ(verdicts({"--only", "wrong"}), std::vector<std::string>{"does not hold"});
 }
 
+// What frames before leave is only to be seen in those after them.
+TEST_F(ClaimsTest, PicturesOfAPathAreOfItsEnd) {
+  const std::string file = folder_.write("walk.toml", R"([[claim]]
+key = "walk"
+text = "A history changes what a walk shows."
+source = "A test."
+camera = [{eye = [-6.5, 1.75, 1.9], target = [2.6, 2.35, -1.2]}, {eye = [-6.4, 1.75, 1.9], target = [2.6, 2.35, -1.2]}]
+frames = 4
+size = [96, 54]
+runs = [{name = "alone"}, {name = "averaged", set = ["ssao.history=8"]}]
+expect = ["averaged.flicker < alone.flicker"]
+)");
+  const Outcome outcome =
+      claims({file, "--samples", "16", "--rounds", "1", "--backend", "opengl", "--out", "out"});
+  ASSERT_EQ(outcome.status, 0) << outcome.err;
+  const std::string folder = folder_ / "out/pictures/claims/";
+  const std::string alone = readFile(folder + "walk-alone.png");
+  EXPECT_FALSE(alone.empty());
+  EXPECT_NE(alone, readFile(folder + "walk-averaged.png"));
+}
+
 TEST_F(ClaimsTest, MistakesAreOneLine) {
   const auto refused = [&](const std::vector<std::string>& arguments, const std::string& number) {
     const Outcome outcome = claims(arguments);
