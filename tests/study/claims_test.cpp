@@ -127,7 +127,8 @@ TEST_F(ClaimsTest, PicturesOfAPathAreOfItsEnd) {
 key = "walk"
 text = "A history changes what a walk shows."
 source = "A test."
-camera = [{eye = [-6.5, 1.75, 1.9], target = [2.6, 2.35, -1.2]}, {eye = [-6.4, 1.75, 1.9], target = [2.6, 2.35, -1.2]}]
+camera = [{eye = [-6.5, 1.75, 1.9], target = [2.6, 2.35, -1.2], fovy_degrees = 62},
+          {eye = [-6.4, 1.75, 1.9], target = [2.6, 2.35, -1.2], fovy_degrees = 62}]
 frames = 4
 size = [96, 54]
 runs = [{name = "alone"}, {name = "averaged", set = ["ssao.history=8"]}]
