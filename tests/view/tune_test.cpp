@@ -15,7 +15,7 @@ class TuneTest : public WindowTest {
  protected:
   // A narrow picture, which is soon traced.
   std::vector<std::string> narrow(std::vector<std::string> more = {}) const {
-    std::vector<std::string> all = {"--backend", GetParam(), "--size", "440x1560"};
+    std::vector<std::string> all = {"--backend", GetParam(), "--size", "440x1590"};
     all.insert(all.end(), more.begin(), more.end());
     return all;
   }
@@ -56,6 +56,8 @@ TEST_P(TuneTest, APresetIsOneStep) {
       const std::string shown = viewer.value("ssao." + std::string(key.str()));
       if (value.is_string()) {
         EXPECT_EQ(shown, value.value_or(""));
+      } else if (value.is_boolean()) {
+        EXPECT_EQ(shown, value.value_or(false) ? "true" : "false");
       } else {
         EXPECT_EQ(std::stod(shown), value.value_or(-1.0));
       }
