@@ -145,13 +145,7 @@ int grisaille_host_effect_create(grisaille_host_device* device,
 }
 
 int grisaille_host_effect_destroy(grisaille_host_effect* effect) {
-  return guarded([&] {
-    if (effect == nullptr) return;
-    grisaille_host_device& device = effect->device;
-    device.gpu->requireUsable();
-    delete effect;
-    --device.effects;
-  });
+  return ending(effect);
 }
 
 int grisaille_host_effect_set(grisaille_host_effect* effect, const char* key, double value) {

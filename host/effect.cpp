@@ -62,6 +62,7 @@ grisaille_host_effect::grisaille_host_effect(grisaille_host_device& of,
 
 grisaille_host_effect::~grisaille_host_effect() {
   drop(pictures_);
+  --device.effects;
 }
 
 uint32_t grisaille_host_effect::indexOf(std::string_view key) const {
