@@ -11,6 +11,7 @@
 #include "app/command.h"
 #include "app/driver_messages.h"
 #include "app/machine.h"
+#include "app/start_device.h"
 #include "app/study/claims_report.h"
 #include "app/truth/interruption.h"
 #include "app/viewer/command_line.h"
@@ -85,10 +86,7 @@ void claims(const ClaimsOptions& options) {
                              .backends = {}};
   choose(report.file, options.only);
   for (study::Claim& claim : report.file.claims) claim = study::scaled(claim, options.scale);
-  const std::vector<std::string> names = options.backend == "both"
-                                             ? std::vector<std::string>{"opengl", "vulkan"}
-                                             : std::vector<std::string>{options.backend};
-  for (const std::string& name : names) backends::find(name);
+  const std::vector<std::string> names = chosenBackends(options.backend);
   const study::ClaimsDesc desc{.registry = registry.get(),
                                .samples = options.samples,
                                .rounds = options.rounds,

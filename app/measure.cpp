@@ -9,6 +9,7 @@
 #include "app/command.h"
 #include "app/driver_messages.h"
 #include "app/machine.h"
+#include "app/start_device.h"
 #include "app/study/choose.h"
 #include "app/study/flicker_run.h"
 #include "app/study/report.h"
@@ -55,9 +56,7 @@ MeasureJob::MeasureJob(const MeasureOptions& options) {
   for (size_t i = 0; i < grid.size(); ++i) {
     if (shard.holds(i)) settings.push_back(grid[i]);
   }
-  backendNames = options.backend == "both" ? std::vector<std::string>{"opengl", "vulkan"}
-                                           : std::vector<std::string>{options.backend};
-  for (const std::string& name : backendNames) backends::find(name);
+  backendNames = chosenBackends(options.backend);
   subject = std::make_unique<LoadedSubject>(options.subject, std::move(registry), swept);
   if (options.path.empty()) return;
   path = scene::camerasOf(scene::loadCameraPath(options.path));

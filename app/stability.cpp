@@ -13,6 +13,7 @@
 #include "app/machine.h"
 #include "app/stability/report.h"
 #include "app/stability/runner.h"
+#include "app/start_device.h"
 #include "app/truth/interruption.h"
 #include "app/truth/progress.h"
 #include "app/viewer/command_line.h"
@@ -98,9 +99,7 @@ void runSweep(const StabilityOptions& options) {
                          .cases = chosenCases(options),
                          .results = {}};
   if (sweep.cases.empty()) throw Error(ErrorId::kUsage, "no case is left of what was chosen");
-  const std::vector<std::string> names = options.backend == "both"
-                                             ? std::vector<std::string>{"opengl", "vulkan"}
-                                             : std::vector<std::string>{options.backend};
+  const std::vector<std::string> names = chosenBackends(options.backend);
   DriverMessages messages;
   const truth::Interruption interruption;
   const fs::path done = fs::path(options.out) / "stability.part";

@@ -20,4 +20,10 @@ std::unique_ptr<gpu::Device> startDevice(const std::string& backend,
   throw Error(ErrorId::kNoDevice, "no backend starts: {}", reasons);
 }
 
+std::vector<std::string> chosenBackends(const std::string& text) {
+  if (text == "both") return {"opengl", "vulkan"};
+  backends::find(text);
+  return {text};
+}
+
 }  // namespace grisaille::app

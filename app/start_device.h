@@ -3,6 +3,7 @@
 
 #include <memory>
 #include <string>
+#include <vector>
 
 #include "core/gpu/device.h"
 
@@ -12,5 +13,8 @@ namespace grisaille::app {
 // as backends::create() does, and kNoDevice with every backend's reason.
 std::unique_ptr<gpu::Device> startDevice(const std::string& backend,
                                          const gpu::DeviceOptions& options);
+
+// The backends that "opengl", "vulkan" or "both" names. Throws as backends::find() does.
+std::vector<std::string> chosenBackends(const std::string& text);
 
 }  // namespace grisaille::app

@@ -138,12 +138,8 @@ void Runner::render(Stage& stage, const Case& one, const effect::Values& values,
     return;
   }
   picture.normal = std::move(picture.outputs.at("normal"));
-  picture.guard =
-      static_cast<uint32_t>(std::ceil(values.effect().guardBand(values.all().data()) * one.size.y));
-  if (picture.guard == 0 || one.scenery.isPicture()) {
-    picture.guard = 0;
-    return;
-  }
+  picture.guard = one.scenery.isPicture() ? 0 : frame::guardBand(values, one.size.y);
+  if (picture.guard == 0) return;
   // The same draw as that which the effect reads.
   draw(frame::widened(one.camera, one.size.y, picture.guard), one.size + 2 * picture.guard, {},
        {"depth", "normal"});

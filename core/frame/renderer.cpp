@@ -57,12 +57,6 @@ bool composed(std::span<const grisaille_output_desc> outputs, uint32_t role, Sur
          role == (tinted ? GRISAILLE_ROLE_TINT : GRISAILLE_ROLE_VISIBILITY);
 }
 
-// Of the guard band that an effect wants, pixels.
-uint32_t bandOf(const ActiveEffect& active, uint32_t height) {
-  return static_cast<uint32_t>(
-      std::ceil(active.effect().guardBand(active.values->all().data()) * height));
-}
-
 constexpr auto kDrawn = gpu::TextureUsage::kTarget | gpu::TextureUsage::kSampled;
 constexpr auto kComputed = gpu::TextureUsage::kStorage | gpu::TextureUsage::kSampled;
 
@@ -79,9 +73,14 @@ std::vector<std::string> outputNames(std::span<const effect::Effect* const> effe
   return all;
 }
 
+uint32_t guardBand(const effect::Values& values, uint32_t height) {
+  return static_cast<uint32_t>(std::ceil(values.effect().guardBand(values.all().data()) * height));
+}
+
 double guardShare(std::span<const ActiveEffect> effects, uint32_t width, uint32_t height) {
   double band = 0;
-  for (const ActiveEffect& active : effects) band = std::max<double>(band, bandOf(active, height));
+  for (const ActiveEffect& active : effects)
+    band = std::max<double>(band, guardBand(*active.values, height));
   return 1 - double{1} * width * height / ((width + 2 * band) * (height + 2 * band));
 }
 
@@ -139,7 +138,7 @@ struct Renderer::Plan {
       wanted.push_back(bits);
       if (bits == 0) continue;
       const uint32_t reads = active.effect().reads(active.values->all().data(), bits);
-      const uint32_t band = source.goesBeyond() ? bandOf(active, desc.height) : 0;
+      const uint32_t band = source.goesBeyond() ? guardBand(*active.values, desc.height) : 0;
       (band > 0 ? guarded : attachments) |= reads;
       guard = std::max(guard, band);
     }
@@ -267,7 +266,7 @@ void Renderer::recordEffects(gpu::Commands& commands, const FrameDesc& desc, con
     inputs.width = desc.width;
     inputs.height = desc.height;
     inputs.view = &view;
-    const bool band = plan.guard > 0 && bandOf(active, desc.height) > 0;
+    const bool band = plan.guard > 0 && guardBand(*active.values, desc.height) > 0;
     const SceneView& seen = band ? guarded : picture;
     inputs.guard = band ? plan.guard : 0;
     inputs.viewBlock = seen.block;

@@ -49,6 +49,8 @@ struct FrameDesc {
   effect::RayService* rays = nullptr;
 };
 
+// The guard band that an effect wants with these values about a picture so high, pixels.
+uint32_t guardBand(const effect::Values& values, uint32_t height);
 // Which share of the time of a pass that draws the scene with a guard band goes beyond the picture.
 // 0: no effect has one.
 double guardShare(std::span<const ActiveEffect> effects, uint32_t width, uint32_t height);
