@@ -167,17 +167,19 @@ bool Window::wait(double seconds) {
 // False where this event would hide one that this frame has already taken.
 bool Window::feed(const Event& event, std::vector<int>& touched) {
   ImGuiIO& io = ImGui::GetIO();
-  constexpr int kButtons = 1 << 16;  // beside the keys in `touched`
+  constexpr int kButtons = 1 << 16, kWheel = kButtons << 1;  // beside the keys in `touched`
   const int name = event.type == Event::Type::kKey ? event.code : kButtons + event.code;
   const bool again = std::ranges::find(touched, name) != touched.end();
-  const bool pressed = std::ranges::any_of(touched, [](int one) { return one >= kButtons; });
+  const bool pointed = std::ranges::any_of(touched, [](int one) { return one >= kButtons; });
   const bool isPress = event.type == Event::Type::kKey || event.type == Event::Type::kButton;
-  // A key that is let go may have been Ctrl, without which the press before means another thing.
-  if (isPress && !event.down && pressedNow_) return false;
-  pressedNow_ = pressedNow_ || (isPress && event.down);
+  const bool isModifier = event.type == Event::Type::kKey && event.code >= GLFW_KEY_LEFT_SHIFT &&
+                          event.code <= GLFW_KEY_RIGHT_SUPER;
+  // With or without Ctrl, what was pressed or turned before means another thing.
+  if (acted_ && (isModifier || (isPress && !event.down))) return false;
+  acted_ = acted_ || event.type == Event::Type::kWheel || (isPress && event.down);
   switch (event.type) {
     case Event::Type::kMove:
-      if (pressed) return false;  // a button went where the cursor was
+      if (pointed) return false;  // a button or the wheel went where the cursor was
       cursor_ = event.place;
       return true;
     case Event::Type::kButton:
@@ -186,6 +188,7 @@ bool Window::feed(const Event& event, std::vector<int>& touched) {
       if (event.code < 5) buttons_[static_cast<size_t>(event.code)] = event.down;
       return true;
     case Event::Type::kWheel:
+      touched.push_back(kWheel);
       io.MouseWheel += static_cast<float>(event.place.y);
       io.MouseWheelH += static_cast<float>(event.place.x);
       return true;
@@ -207,7 +210,7 @@ void Window::feedInterface() {
   ImGui_ImplGlfw_NewFrame();
   io.DeltaTime = std::min(io.DeltaTime, 0.05f);  // no slow frame makes a key repeat
   std::vector<int> touched;
-  pressedNow_ = false;
+  acted_ = false;
   while (!events_.empty() && feed(events_.front(), touched)) events_.pop_front();
   io.MousePos = ImVec2(static_cast<float>(cursor_.x), static_cast<float>(cursor_.y));
   std::ranges::copy(buttons_, io.MouseDown);

@@ -71,7 +71,7 @@ class Window {
   glm::ivec4 place_ = glm::ivec4(0);  // before it filled the screen
   glm::dvec2 cursor_ = glm::dvec2(-1e6);
   std::array<bool, 5> buttons_{};
-  bool pressedNow_ = false;  // something, in this frame
+  bool acted_ = false;  // something was pressed or turned in this frame
 };
 
 }  // namespace grisaille::app::viewer

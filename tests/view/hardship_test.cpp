@@ -94,6 +94,23 @@ TEST_P(HardshipTest, ABookmarkBringsTheCameraBack) {
   expectQuits(viewer);
 }
 
+// All of it is there when the next frame begins, as where frames are slow.
+TEST_P(HardshipTest, WhatIsHeldCountsForWhatWasTurned) {
+  DrivenViewer viewer(folder_, arguments());
+  const std::string camera = viewer.value("camera");
+  const Point at = viewer.at("picture", 0.5, 0.5);
+  const std::string window = "$(xdotool search --name Grisaille getwindowpid)";
+  viewer.send("mousemove " + std::to_string(at.x) + " " + std::to_string(at.y) + " keydown ctrl");
+  viewer.untilDrawn();
+  ASSERT_EQ(std::system(("kill -STOP " + window).c_str()), 0);
+  viewer.send("click --repeat 3 4 keyup ctrl");
+  ASSERT_EQ(std::system(("kill -CONT " + window).c_str()), 0);
+  viewer.untilChanged("zoom", "1");
+  EXPECT_EQ(viewer.value("zoom"), "1.953125");
+  EXPECT_EQ(viewer.value("camera"), camera);
+  expectQuits(viewer);
+}
+
 TEST_P(HardshipTest, NothingIsDrawnWhileNothingChanges) {
   DrivenViewer viewer(folder_, arguments());
   const std::string drawn = viewer.value("drawn");
