@@ -164,6 +164,7 @@ void addValues(Cases& cases) {
   };
   sweep("kernel", "kernel_size", {"classic", "classic, raw"}, {"1", "2", "16", "256"});
   sweep("slices", "slices", {"slices", "slices, raw"}, {"64", "2", "7"});
+  sweep("edge slices", "edge_slices", {"slices", "slices, raw"}, {"16", "1", "3"});
   sweep("steps", "steps", {"slices", "slices, raw"}, {"64", "1", "2"});
   sweep("radius, m", "radius", {"slices", "slices, raw", "slices, quarter", "classic", "sphere"},
         {"1e-06", "0.001", "10", "1000", "1000000"});

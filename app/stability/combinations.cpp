@@ -85,6 +85,7 @@ void drawOcclusion(Draws& draw, Case& one) {
   set("rotation", draw.of({"noise", "noise", "none"}));
   set("range_check", draw.of({"linear", "linear", "raw_depth", "none"}));
   set("blur", draw.of({"box", "edge_aware"}));
+  set("edge_slices", std::to_string(1 + draw.below(4)));
 }
 
 void drawPaint(Draws& draw, Case& one, uint32_t seed) {
@@ -188,11 +189,17 @@ const std::vector<Edge>& edges() {
        "On surfaces a place is told by its offset from the muzzle in single precision: from 10^5 m "
        "on "
        "that is centimetres, which move rims. Per shot it is told from the ray and holds."},
+      {"edges without normals", 0.005,
+       "Where normals are missing every surface is taken to face the camera: all slopes are near "
+       "what makes an edge, and a texel either is one or not."},
   };
   return kEdges;
 }
 
 std::string edgeOf(const Case& one) {
+  if (one.variant.starts_with("slices") &&
+      (one.scenery.kind == Kind::kNoNormals || one.scenery.kind == Kind::kNormless))
+    return "edges without normals";
   if (one.variant != "paint on surfaces") return "";
   if (one.scenery.kind == Kind::kWires) return "thin things before a muzzle";
   if (one.group == "at random") return "beside a muzzle's map";

@@ -26,6 +26,7 @@ OcclusionSettings occlusionOf(const effect::Values& values) {
   return {.classic = values.text("estimator") == "classic",
           .radius = single(values, "radius"),
           .slices = whole(values, "slices"),
+          .edgeSlices = whole(values, "edge_slices"),
           .steps = whole(values, "steps"),
           .thickness = single(values, "thickness"),
           .scale = 1 << whole(values, "resolution"),

@@ -1,7 +1,6 @@
 // SPDX-License-Identifier: MIT
 #include "classic.h"
 
-
 #include "dispatch.h"
 #include "finish.h"
 #include "kernel.h"

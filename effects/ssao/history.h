@@ -15,7 +15,7 @@ class History {
   explicit History(plugin::Host host);
 
   // Values that shape the estimate. What others made is forgotten.
-  using Values = std::array<double, 5>;
+  using Values = std::array<double, 6>;
   void keepOnly(const Values& values);
   void forget();
 

@@ -24,6 +24,7 @@ struct SlicesBlock {
   float thickness;
   float turn;
   uint32_t exchange;
+  float tolerance;
 };
 GRISAILLE_CHECK_BLOCK_ssao_slices_Settings(SlicesBlock);
 GRISAILLE_CHECK_BLOCK_ssao_slices_bent_Settings(SlicesBlock);
@@ -43,8 +44,12 @@ GRISAILLE_CHECK_BLOCK_ssao_upsample_bent_Settings(FilterBlock);
 // How far from the plane of a pixel's surface another may lie to be averaged with it, in radii.
 constexpr float kTolerance = 0.05f;
 
+float toleranceOf(const plugin::Frame& frame) {
+  return 1 / (kTolerance * frame.value<float>(kRadius));
+}
+
 FilterBlock filterBlock(const plugin::Frame& frame) {
-  return {.finish = finishOf(frame), .tolerance = 1 / (kTolerance * frame.value<float>(kRadius))};
+  return {.finish = finishOf(frame), .tolerance = toleranceOf(frame)};
 }
 
 }  // namespace
@@ -91,8 +96,8 @@ void Slices::record(const plugin::Frame& frame, Pair outputs) {
   };
   const uint32_t blur = std::max(frame.value<uint32_t>(kBlurSize), 1u);
   history_.keepOnly({frame.value<double>(kRadius), frame.value<double>(kSlices),
-                     frame.value<double>(kSteps), frame.value<double>(kThickness),
-                     frame.value<double>(kBackFaces)});
+                     frame.value<double>(kEdgeSlices), frame.value<double>(kSteps),
+                     frame.value<double>(kThickness), frame.value<double>(kBackFaces)});
   const uint32_t averaged = frame.value<uint32_t>(kHistory);
   if (averaged == 1) history_.forget();
 
@@ -134,13 +139,14 @@ void Slices::occlude(const plugin::Frame& frame, Kernels& kernels, Size size, Pa
   const SlicesBlock settings = {.radius = radius,
                                 .thickness = radius * frame.value<float>(kThickness),
                                 .turn = turn,
-                                .exchange = exchange};
+                                .exchange = exchange,
+                                .tolerance = toleranceOf(frame)};
   const bool back = frame.value<bool>(kBackFaces);
-  // Constants 0 ... 3 of shaders/ssao/slices.glsl.
-  const grisaille_constant constants[] = {plugin::specialize(0, frame.value<uint32_t>(kSlices)),
-                                          plugin::specialize(1, frame.value<uint32_t>(kSteps)),
-                                          plugin::specialize(2, size.scale),
-                                          plugin::specialize(3, back)};
+  // Constants 0 ... 4 of shaders/ssao/slices.glsl.
+  const grisaille_constant constants[] = {
+      plugin::specialize(0, frame.value<uint32_t>(kSlices)),
+      plugin::specialize(1, frame.value<uint32_t>(kSteps)), plugin::specialize(2, size.scale),
+      plugin::specialize(3, back), plugin::specialize(4, frame.value<uint32_t>(kEdgeSlices))};
   Bindings bindings = {
       plugin::uniform(0, frame.viewBlock()),
       plugin::uniform(1, frame.uniform(settings)),

@@ -48,8 +48,9 @@ void main() {
     depths[t] = textureLod(raw, (texel + 0.5) * inverse, 0.0).y;
     const vec3 normal = viewNormal(textureLod(world_normal, attachmentAt(pixel), 0.0).xyz);
     const Plane plane = planeOf(pixel, normal);
-    facing[t] = plane.facing * settings.tolerance;
-    slope[t] = dot(plane.slope, vec2(along)) * float(kScale) * settings.tolerance;
+    const float tolerance = toleranceAt(depths[t], settings.tolerance);
+    facing[t] = plane.facing * tolerance;
+    slope[t] = dot(plane.slope, vec2(along)) * float(kScale) * tolerance;
   }
   vec4 sum = vec4(0.0), weights = vec4(0.0);
 #if BENT

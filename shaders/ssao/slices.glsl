@@ -9,7 +9,9 @@
 // the slice's visibility. A tap is the surface that the depth buffer has there and so much matter
 // behind it, cut off at the sphere of the radius: no falloff.
 //
-// One texel of the target is one of kScale x kScale pixels: the top left one. With BENT, which is
+// One texel of the target is one of kScale x kScale pixels: the top left one. Where few texels about
+// it are of its surface, what denoises finds too little to average: there it takes kEdgeSlices times as
+// many slices. With BENT, which is
 // 0 or 1, the mean of the unoccluded directions is found as well.
 #include "common/view.glsl"
 #include "plane.glsl"
@@ -18,6 +20,7 @@ layout(constant_id = 0) const uint kSlices = 1u;
 layout(constant_id = 1) const uint kSteps = 8u;  // taps a side
 layout(constant_id = 2) const uint kScale = 1u;  // pixels a texel, each way
 layout(constant_id = 3) const bool kBack = false;  // the matter's back is known
+layout(constant_id = 4) const uint kEdgeSlices = 1u;  // times as many at edges
 
 layout(local_size_x = 8, local_size_y = 8) in;
 layout(UNIFORM(1), std140) uniform Settings {
@@ -25,6 +28,7 @@ layout(UNIFORM(1), std140) uniform Settings {
   float thickness;  // of the matter behind a surface, metres
   float turn;       // which pattern of slices is drawn, 0 to 1
   uint exchange;    // which of its points a texel draws, 0 to 15
+  float tolerance;  // 1 / metres
 } settings;
 layout(TEXTURE(0)) uniform sampler2D view_depth;  // nearest, clamped
 layout(TEXTURE(1)) uniform sampler2D world_normal;
@@ -222,11 +226,33 @@ float sliceOf(vec3 position, vec3 toward, vec3 normal, vec3 direction, vec2 pixe
                    max(shut_behind, lacks_behind * (1.0 - lacks_ahead) * shut_ahead), share);
 }
 
-float openAt(uvec2 texel, vec2 pixel, float depth, inout vec3 bent) {
+// Whether fewer than 5 of 8 texels, each two texels off, are in the plane of the pixel's surface,
+// within half of what counts as it when they are averaged.
+bool isEdge(vec2 pixel, float depth, vec3 normal) {
+  const Plane plane = planeOf(pixel, normal);
+  const float tolerance = toleranceAt(depth, settings.tolerance);
+  uint same = 0u;
+  for (uint k = 0u; k < 8u; ++k) {
+    const uint place = k + k / 4u;  // of 3 x 3, but for the middle
+    const vec2 across = (vec2(place % 3u, place / 3u) - 1.0) * float(2u * kScale);
+    const float other = textureLod(view_depth, attachmentAt(pixel + across), 0.0).x;
+    const float off = abs((other - depth) * plane.facing + other * dot(plane.slope, across));
+    same += off * tolerance < 0.5 ? 1u : 0u;
+  }
+  return same < 5u;
+}
+
+// `bent` is the mean of what slices say of the open direction.
+float openAt(uvec2 texel, vec2 pixel, float depth, out vec3 bent) {
+  bent = vec3(0.0);
   const vec3 position = viewPosition(pixel, depth);
   const vec3 toward = position * -inversesqrt(dot(position, position));
-  // Normals of bent surfaces may turn away from the eye: to the silhouette with them.
   vec3 normal = viewNormal(textureLod(world_normal, attachmentAt(pixel), 0.0).xyz);
+  uint count = kSlices;
+  if (kEdgeSlices > 1u) {
+    if (isEdge(pixel, depth, normal)) count = kSlices * kEdgeSlices;
+  }
+  // Normals of bent surfaces may turn away from the eye: to the silhouette with them.
   normal = normalize(normal - toward * min(dot(normal, toward) - 1e-3, 0.0));
   const mat3 axes = basisAbout(normal);
   // 16 texels, 4x4, hold the 16 points of a Hammersley set: an ordered dither's number of bits
@@ -237,14 +263,15 @@ float openAt(uvec2 texel, vec2 pixel, float depth, inout vec3 bent) {
   const uint reverse = bitfieldReverse(rank) >> 28u;
   const float turn = (float(rank) + settings.turn) / 16.0, jitter = (float(reverse) + 0.5) / 16.0;
   float open = 0.0;
-  for (uint k = 0u; k < kSlices; ++k) {
-    const float phi = (float(k) + turn) / float(kSlices) * 2.0 * kPi;
+  for (uint k = 0u; k < count; ++k) {
+    const float phi = (float(k) + turn) / float(count) * 2.0 * kPi;
     const float u = fract(jitter + float(k) * 0.618034);
     const float r = sqrt(u);
     const vec3 direction = axes * vec3(r * cos(phi), r * sin(phi), sqrt(1.0 - u));
     open += sliceOf(position, toward, normal, direction, pixel, u, bent);
   }
-  return open / float(kSlices);
+  bent /= float(count);
+  return open / float(count);
 }
 
 void main() {
@@ -257,6 +284,6 @@ void main() {
   if (depth > 0.0) open = openAt(uvec2(texel), pixel, depth, bent);
   imageStore(target, texel, vec4(open, depth, 0.0, 0.0));
 #if BENT
-  imageStore(bent_target, texel, vec4(bent / float(kSlices), 0.0));
+  imageStore(bent_target, texel, vec4(bent, 0.0));
 #endif
 }

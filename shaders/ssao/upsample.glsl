@@ -36,12 +36,13 @@ vec4 weightsAt(ivec2 place, ivec2 first, vec4 depths) {
   const vec2 part = vec2(place - first * int(kScale)) / float(kScale);
   vec4 weights = vec4(0.0);
   if (depth <= 0.0) return weights;
+  const float tolerance = toleranceAt(depth, settings.tolerance);
   vec4 off;
   [[unroll]] for (uint i = 0u; i < 4u; ++i) {
     const vec2 across = (vec2(i & 1u, i >> 1u) - part) * float(kScale);
     off[i] = abs((depths[i] - depth) * plane.facing + depths[i] * dot(plane.slope, across));
     // No texel: as far off as none can be, whose cube is still a number.
-    off[i] = depths[i] > 0.0 ? min(off[i] * settings.tolerance, 1e11) : 1e12;
+    off[i] = depths[i] > 0.0 ? min(off[i] * tolerance, 1e11) : 1e12;
   }
   // Past the tolerance what is left makes the nearest win where none is within it, however far off
   // that is.

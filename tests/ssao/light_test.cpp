@@ -58,10 +58,13 @@ TEST_P(LightTest, BentNormalsOfACornerAreTheAnalyticOnes) {
         EXPECT_GT(bent.y, 0.99) << resolution << ' ' << x << ' ' << y;
       }
     }
+    // At half resolution what is nearest the wall has its direction from a pixel further off.
+    const double most = resolution == std::string("half") ? 3.5 : 3;
     for (size_t bin = 0; bin < 5; ++bin) {
       const double cosine =
           glm::dot(glm::normalize(sums[bin]), openOverFloor((static_cast<double>(bin) + 0.5) / 5));
-      EXPECT_LT(glm::degrees(std::acos(std::min(cosine, 1.0))), 3) << resolution << ", bin " << bin;
+      EXPECT_LT(glm::degrees(std::acos(std::min(cosine, 1.0))), most)
+          << resolution << ", bin " << bin;
     }
   }
 }

@@ -14,7 +14,7 @@ namespace grisaille::app::stability {
 struct OcclusionSettings {
   bool classic = false;
   double radius = 0.5;
-  int slices = 1, steps = 6;
+  int slices = 1, edgeSlices = 1, steps = 6;
   double thickness = 0.7;  // radii
   int scale = 2;           // pixels a texel: 1, 2 or 4
   int blurSize = 4;

@@ -14,6 +14,7 @@ namespace {
 constexpr double kPi = glm::pi<double>();
 constexpr double kGolden = 0.618034;      // spreads slices, a part of the pattern
 constexpr double kPlaneTolerance = 0.05;  // radii
+constexpr double kPlanePixels = 2;        // and no more than so many pixels' width
 
 // A slice of the hemisphere over a surface. Angles run from the view vector, over 0 on the side of
 // `across`.
@@ -78,6 +79,7 @@ class Slices : public Occlusion {
 
  private:
   double estimate(const glm::ivec2& texel) const;
+  bool isEdge(const glm::ivec2& pixel) const;
   double openIn(const glm::dvec3& position, const glm::dvec3& normal, const glm::dvec3& direction,
                 const glm::ivec2& pixel, double dither) const;
   uint32_t tap(const Slice& slice, const glm::dvec3& position, const glm::ivec2& at, double dither,
@@ -89,7 +91,9 @@ class Slices : public Occlusion {
   // How far what a pixel shows, at another depth, lies from the plane of a surface; tolerances.
   double offPlane(const glm::ivec2& surface, const glm::ivec2& pixel, double depth) const {
     const glm::dvec3 apart = view_.position(pixel, depth) - view_.position(surface);
-    return std::abs(glm::dot(apart, view_.normal(surface))) / (kPlaneTolerance * settings_.radius);
+    const double pixel_width = view_.depth(surface) / std::abs(view_.focal().x);
+    return std::abs(glm::dot(apart, view_.normal(surface))) /
+           std::min(kPlaneTolerance * settings_.radius, kPlanePixels * pixel_width);
   }
 
   const View& view_;
@@ -107,6 +111,19 @@ uint32_t sectors(double low, double high, double dither) {
   return bits;
 }
 
+// Whether fewer than 5 of 8 texels, each two texels off, are in the plane of the pixel's surface,
+// within half of what counts as it when they are averaged.
+bool Slices::isEdge(const glm::ivec2& pixel) const {
+  int same = 0;
+  for (int y = -1; y <= 1; ++y) {
+    for (int x = -1; x <= 1; ++x) {
+      const glm::ivec2 other = pixel + glm::ivec2(x, y) * 2 * settings_.scale;
+      if (other != pixel && offPlane(pixel, other, view_.depth(other)) < 0.5) ++same;
+    }
+  }
+  return same < 5;
+}
+
 double Slices::estimate(const glm::ivec2& texel) const {
   const glm::ivec2 pixel = texel * settings_.scale;
   if (view_.depth(pixel) <= 0) return 1;
@@ -121,9 +138,11 @@ double Slices::estimate(const glm::ivec2& texel) const {
   for (int bit = 0; bit < 4; ++bit) reverse |= (rank >> bit & 1) << (3 - bit);
   const double turn = std::fmod(0.5 + settings_.seed * 0.6180339887498949, 1.0);
   const glm::dmat3 axes = axesAbout(normal);
+  const bool edge = settings_.edgeSlices > 1 && isEdge(pixel);
+  const int slices = settings_.slices * (edge ? settings_.edgeSlices : 1);
   double open = 0;
-  for (int k = 0; k < settings_.slices; ++k) {
-    const double phi = (k + (rank + turn) / 16) / settings_.slices * 2 * kPi;
+  for (int k = 0; k < slices; ++k) {
+    const double phi = (k + (rank + turn) / 16) / slices * 2 * kPi;
     const double place = (reverse + 0.5) / 16 + k * kGolden;
     const double u = place - std::floor(place);
     const double r = std::sqrt(u);
@@ -131,7 +150,7 @@ double Slices::estimate(const glm::ivec2& texel) const {
         axes * glm::dvec3(r * std::cos(phi), r * std::sin(phi), std::sqrt(1 - u));
     open += openIn(position, normal, direction, pixel, u);
   }
-  return open / settings_.slices;
+  return open / slices;
 }
 
 double Slices::openIn(const glm::dvec3& position, const glm::dvec3& normal,
