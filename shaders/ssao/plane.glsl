@@ -31,8 +31,8 @@ Plane planeOf(vec2 pixel, vec3 normal) {
 }
 
 // 1 / metres: how far off the plane of a surface at view depth `depth` another may lie to be taken for
-// the same: as far as `inverse` allows, 1 / metres, and two pixels' width there, past which grooves
+// the same: as far as `inverse` allows, 1 / metres, and four pixels' width there, past which grooves
 // and ledges of a few pixels are lost.
 float toleranceAt(float depth, float inverse) {
-  return max(inverse, 0.5 / max(depth * abs(view.view_from_pixel.x), 1e-30));
+  return max(inverse, 0.25 / max(depth * abs(view.view_from_pixel.x), 1e-30));
 }

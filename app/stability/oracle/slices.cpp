@@ -14,7 +14,7 @@ namespace {
 constexpr double kPi = glm::pi<double>();
 constexpr double kGolden = 0.618034;      // spreads slices, a part of the pattern
 constexpr double kPlaneTolerance = 0.05;  // radii
-constexpr double kPlanePixels = 2;        // and no more than so many pixels' width
+constexpr double kPlanePixels = 4;        // and no more than so many pixels' width
 
 // A slice of the hemisphere over a surface. Angles run from the view vector, over 0 on the side of
 // `across`.
