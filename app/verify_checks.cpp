@@ -237,7 +237,8 @@ class EffectCheck {
         drawWith(param, param.hard_min);
         drawWith(param, param.hard_max);
       } else {
-        for (double entry = 0; entry <= param.hard_max; ++entry) drawWith(param, entry);
+        const auto last = static_cast<uint32_t>(param.hard_max);
+        for (uint32_t entry = 0; entry <= last; ++entry) drawWith(param, entry);
       }
       least.set(param.key, param.hard_min);
       most.set(param.key, param.hard_max);

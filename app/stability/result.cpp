@@ -56,7 +56,7 @@ std::vector<std::string> faultsOf(const Case& one, const Result& result) {
   std::vector<std::string> faults;
   const double allowed = allowedShare(one);
   for (const BackendResult& b : result.backends) {
-    const auto fault = [&](std::string text) { faults.push_back(b.backend + ": " + text); };
+    const auto fault = [&](const std::string& text) { faults.push_back(b.backend + ": " + text); };
     if (!b.error.empty()) fault(b.error);
     if (b.nonFinite > 0) fault(fmt::format("{} values are not finite", b.nonFinite));
     if (b.outside > 0) fault(fmt::format("{} values are outside their range", b.outside));

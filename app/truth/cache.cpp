@@ -71,7 +71,7 @@ Cache::Cache(const fs::path& folder, std::string key) : key_(std::move(key)) {
 }
 
 Counts Cache::load(size_t pixels) const {
-  const Counts none{.samples = 0, .pixels = std::vector<trace::OcclusionCounts>(pixels)};
+  Counts none{.samples = 0, .pixels = std::vector<trace::OcclusionCounts>(pixels)};
   std::error_code failed;
   if (file_.empty() || !fs::exists(file_, failed)) return none;
   std::ifstream file(file_, std::ios::binary);

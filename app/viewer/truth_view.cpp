@@ -23,7 +23,7 @@ std::vector<uint32_t> packed(const image::Image& colors) {
     uint32_t texel = 0xff000000u;
     for (size_t c = 0; c < 3; ++c) {
       const float value = std::clamp(colors.pixels[i * 3 + c], 0.0f, 1.0f);
-      texel |= static_cast<uint32_t>(value * 255 + 0.5f) << (8 * c);
+      texel |= static_cast<uint32_t>(std::lround(value * 255)) << (8 * c);
     }
     texels[i] = texel;
   }

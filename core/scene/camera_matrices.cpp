@@ -12,17 +12,14 @@ namespace {
 // As glm has it, for points that are columns: the transpose, whose rows in memory are columns here.
 glm::dmat4 fromRows(const std::array<float, 16>& rows) {
   glm::dmat4 matrix;
-  for (int i = 0; i < 4; ++i) {
-    for (int j = 0; j < 4; ++j) matrix[i][j] = double{rows[static_cast<size_t>(4 * i + j)]};
-  }
+  for (int i = 0; i < 16; ++i) matrix[i / 4][i % 4] = double{rows[static_cast<size_t>(i)]};
   return matrix;
 }
 
 std::array<float, 16> toRows(const glm::dmat4& matrix) {
   std::array<float, 16> rows;
-  for (int i = 0; i < 4; ++i) {
-    for (int j = 0; j < 4; ++j)
-      rows[static_cast<size_t>(4 * i + j)] = static_cast<float>(matrix[i][j]);
+  for (int i = 0; i < 16; ++i) {
+    rows[static_cast<size_t>(i)] = static_cast<float>(matrix[i / 4][i % 4]);
   }
   return rows;
 }

@@ -89,7 +89,7 @@ void Classic::occlude(const plugin::Frame& frame, grisaille_texture target, bool
                        plugin::texture(0, frame.attachment(GRISAILLE_VIEW_DEPTH), clamped_),
                        plugin::texture(1, noise_, repeated_), plugin::image(0, target)};
   if (normals) {
-    bindings.push_back(plugin::texture(2, frame.attachment(GRISAILLE_NORMAL), clamped_));
+    bindings.add(plugin::texture(2, frame.attachment(GRISAILLE_NORMAL), clamped_));
   }
   dispatch(frame, (normals ? hemisphere_ : sphere_).get(constants), bindings, frame.width(),
            frame.height());

@@ -12,9 +12,9 @@ namespace grisaille::ssao {
 class Bindings {
  public:
   Bindings(std::initializer_list<grisaille_binding> first) {
-    for (const grisaille_binding& binding : first) push_back(binding);
+    for (const grisaille_binding& binding : first) add(binding);
   }
-  void push_back(const grisaille_binding& binding) { list_.at(count_++) = binding; }
+  void add(const grisaille_binding& binding) { list_.at(count_++) = binding; }
   operator std::span<const grisaille_binding>() const { return {list_.data(), count_}; }
 
  private:

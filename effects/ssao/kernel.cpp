@@ -39,7 +39,7 @@ std::array<glm::vec4, kMaxKernelSize> makeKernel(uint32_t size, Sampling samplin
   Random random(seed, 0);
   // Drawn one after another: the order in which a call's arguments are worked out is the
   // compiler's.
-  glm::dvec3 start;
+  glm::dvec3 start(0);
   for (const int axis : {2, 1, 0}) start[axis] = random.unit();
   std::array<glm::vec4, kMaxKernelSize> kernel{};
   for (uint32_t i = 0; i < size; ++i) {

@@ -155,7 +155,7 @@ void Slices::occlude(const plugin::Frame& frame, Kernels& kernels, Size size, Pa
       plugin::texture(2, frame.attachment(back ? GRISAILLE_BACK_DEPTH : GRISAILLE_VIEW_DEPTH),
                       clamped_),
       plugin::image(0, target.open)};
-  if (target.bent.id != 0) bindings.push_back(plugin::image(1, target.bent));
+  if (target.bent.id != 0) bindings.add(plugin::image(1, target.bent));
   dispatch(frame, kernels.occlusion.get(constants), bindings, size.width, size.height);
 }
 
@@ -171,8 +171,8 @@ void Slices::denoise(const plugin::Frame& frame, plugin::PipelineCache& pipeline
                        plugin::texture(1, frame.attachment(GRISAILLE_NORMAL), clamped_),
                        plugin::image(0, target.open)};
   if (target.bent.id != 0) {
-    bindings.push_back(plugin::texture(2, raw.bent, clamped_));
-    bindings.push_back(plugin::image(1, target.bent));
+    bindings.add(plugin::texture(2, raw.bent, clamped_));
+    bindings.add(plugin::image(1, target.bent));
   }
   // A run of texels an invocation, along the row or the column.
   constexpr uint32_t kRun = 4;
@@ -192,8 +192,8 @@ void Slices::upsample(const plugin::Frame& frame, Kernels& kernels, Size size, P
                        plugin::texture(2, frame.attachment(GRISAILLE_NORMAL), clamped_),
                        plugin::image(0, target.open)};
   if (target.bent.id != 0) {
-    bindings.push_back(plugin::texture(3, coarse.bent, clamped_));
-    bindings.push_back(plugin::image(1, target.bent));
+    bindings.add(plugin::texture(3, coarse.bent, clamped_));
+    bindings.add(plugin::image(1, target.bent));
   }
   dispatch(frame, kernels.upsample.get(constants), bindings, plugin::groupsFor(frame.width(), 2),
            plugin::groupsFor(frame.height(), 2));

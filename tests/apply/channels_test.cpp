@@ -10,10 +10,8 @@ namespace {
 
 // Two pixels; channel n holds n and 10 + n.
 image::Picture of(std::vector<std::string> channels) {
-  image::Picture picture{.image = {.width = 2,
-                                   .height = 1,
-                                   .channels = static_cast<uint32_t>(channels.size()),
-                                   .pixels = {}},
+  const auto count = static_cast<uint32_t>(channels.size());
+  image::Picture picture{.image = {.width = 2, .height = 1, .channels = count, .pixels = {}},
                          .channels = std::move(channels),
                          .matrices = {}};
   for (size_t i = 0; i < 2 * picture.channels.size(); ++i) {

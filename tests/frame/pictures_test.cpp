@@ -22,10 +22,8 @@ constexpr float kInfinity = std::numeric_limits<float>::infinity();
 constexpr float kNan = std::numeric_limits<float>::quiet_NaN();
 
 image::Image row(std::vector<float> values) {
-  return {.width = static_cast<uint32_t>(values.size()),
-          .height = 1,
-          .channels = 1,
-          .pixels = std::move(values)};
+  const auto width = static_cast<uint32_t>(values.size());
+  return {.width = width, .height = 1, .channels = 1, .pixels = std::move(values)};
 }
 
 std::vector<float> metres(std::vector<float> values, const DepthMeaning& meaning) {

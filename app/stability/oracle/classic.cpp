@@ -32,7 +32,7 @@ double wrappedToUnit(double value) {
 std::vector<glm::dvec3> samplePoints(const OcclusionSettings& settings) {
   constexpr double kPlastic = 1.2207440846057596;
   uint32_t state = pcg(settings.seed ^ pcg(0));
-  glm::dvec3 start;
+  glm::dvec3 start(0);
   for (const int axis : {2, 1, 0}) {
     state = pcg(state);
     start[axis] = state * 0x1p-32;
