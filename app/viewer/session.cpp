@@ -264,7 +264,8 @@ std::string Session::rescue(const fs::path& folder) {
   std::error_code failed;
   fs::create_directories(folder, failed);  // else the next line says so
   std::vector<std::string> words = {"grisaille", "view"};
-  if (!scenePath.empty()) words.push_back(plainPath(scenePath));
+  const std::string& path = scene ? scenePath : options_.scene;  // that was being read
+  if (!path.empty()) words.push_back(plainPath(path));
   const auto keep = [&](const char* option, const std::string& prefix, const fs::path& file) {
     words.insert(words.end(), {option, prefix + file.string()});
     return file.string();
@@ -275,8 +276,8 @@ std::string Session::rescue(const fs::path& folder) {
     shots::save(list.shots(), keep("--load", effect + "=", folder / (effect + ".shots")));
   }
   if (scene) scene::saveCamera(camera, keep("--camera", "", folder / "camera.json"));
-  for (const std::string& path : options_.pluginPaths) {
-    words.insert(words.end(), {"--plugin-path", plainPath(path)});
+  for (const std::string& plugins : options_.pluginPaths) {
+    words.insert(words.end(), {"--plugin-path", plainPath(plugins)});
   }
   std::string command;
   for (const std::string& word : words) command += (command.empty() ? "" : " ") + shellQuoted(word);

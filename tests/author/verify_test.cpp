@@ -105,6 +105,11 @@ TEST(FaultyEffects, ThatThrowEndTheRenderByAnError) {
     EXPECT_TRUE(holds(outcome.err, "thrown on purpose")) << outcome.err;
   }
   EXPECT_TRUE(folder.files().empty());
+  // The list of all effects says it of the one.
+  const Outcome list = runProgram({"effects", "--plugin-path", PLUGINS}, folder.path());
+  EXPECT_EQ(list.status, 0) << list.err;
+  EXPECT_TRUE(holds(list.out, "throws_reads lets an exception out of its reads()")) << list.out;
+  EXPECT_TRUE(holds(list.out, "throws_record")) << list.out;
   // Too late for the picture, which is whole.
   const Outcome outcome = render(folder, "throws_destroy", {"--write", "none=a.exr"});
   EXPECT_EQ(outcome.status, 0);
