@@ -167,9 +167,9 @@ void writeOutputs(const ApplyJob& job, int number, const scene::Camera& camera,
                   frame::Renderer& renderer) {
   for (const Output& output : job.outputs) {
     const image::Image picture = renderer.read(output.name);
-    image::write(picture, output.file.at(number),
-                 {.transfer = frame::transferOf(output.name),
-                  .matrices = scene::matricesOf(camera, picture.width, picture.height)});
+    writeOutput(picture, {.output = output.name, .file = output.file.at(number)},
+                {.transfer = frame::transferOf(output.name),
+                 .matrices = scene::matricesOf(camera, picture.width, picture.height)});
   }
 }
 

@@ -5,6 +5,9 @@
 
 #include <algorithm>
 #include <cstdio>
+#include <filesystem>
+#include <fstream>
+#include <iterator>
 #include <memory>
 
 #include "app/active_effects.h"
@@ -12,14 +15,18 @@
 #include "app/driver_messages.h"
 #include "app/machine.h"
 #include "app/start_device.h"
+#include "app/study/claims_part.h"
 #include "app/study/claims_report.h"
 #include "app/truth/interruption.h"
 #include "app/viewer/command_line.h"
 #include "backends/backends.h"
 #include "core/error.h"
+#include "core/image/write_aside.h"
 
 namespace grisaille::app {
 namespace {
+
+namespace fs = std::filesystem;
 
 struct ClaimsOptions {
   std::string file, out, backend = "both", device;
@@ -53,6 +60,23 @@ std::string commandOf(const ClaimsOptions& options) {
   return command + " --out " + viewer::shellQuoted(options.out);
 }
 
+fs::path partsOf(const ClaimsOptions& options) {
+  return fs::path(options.out) / "claims.part";
+}
+
+// All that a claim's result depends on, so that another run takes it up only where it is the same.
+std::string keyOf(const study::Claim& claim, const ClaimsOptions& options,
+                  const gpu::DeviceInfo& device) {
+  std::ifstream file(options.file, std::ios::binary);
+  const std::string text{std::istreambuf_iterator<char>(file), {}};
+  std::error_code none;  // the built-in scene has no time
+  const auto written = fs::last_write_time(claim.scene, none).time_since_epoch().count();
+  return fmt::format("{}\n{}\n{}\n{}\n{} samples, {} rounds, scale {}\nscene of {}\n{}\n{}",
+                     GRISAILLE_COMMIT, device.backend, device.name, device.driver, options.samples,
+                     options.rounds, options.scale, none ? 0 : written, claim.key, text);
+}
+
+// Those that an interrupted run has done are taken from there.
 study::ClaimsOfBackend runOn(const std::string& backend, const ClaimsOptions& options,
                              const study::ClaimsDesc& desc, const study::ClaimsFile& file,
                              DriverMessages& messages) {
@@ -69,10 +93,20 @@ study::ClaimsOfBackend runOn(const std::string& backend, const ClaimsOptions& op
                                 .results = {}};
   study::ClaimsRunner runner(desc, *device);
   for (const study::Claim& claim : file.claims) {
-    result.results.push_back(runner.run(claim));
-    fmt::print("{}: {} {}\n", info.backend, claim.key, study::verdictOf(result.results.back()));
+    const std::string key = keyOf(claim, options, info);
+    auto done = study::loadClaim(partsOf(options), key);
+    const char* whence = done ? " (measured before)" : "";
+    if (!done) {
+      done = runner.run(claim);
+      study::saveClaim(partsOf(options), key, *done);
+    }
+    result.results.push_back(std::move(*done));
+    fmt::print("{}: {} {}{}\n", info.backend, claim.key, study::verdictOf(result.results.back()),
+               whence);
     std::fflush(stdout);
-    if (truth::Interruption::asked()) throw truth::Interrupted();
+    if (!truth::Interruption::asked()) continue;
+    fmt::print(stderr, "note: interrupted; the same command goes on from here\n");
+    throw truth::Interrupted();
   }
   return result;
 }
@@ -91,12 +125,16 @@ void claims(const ClaimsOptions& options) {
                                .samples = options.samples,
                                .rounds = options.rounds,
                                .progress = isatty(STDERR_FILENO) == 1};
+  requireDevices(names, options.device);
+  image::requireWritableFolder(options.out);
   const truth::Interruption interruption;
   DriverMessages messages;
   for (const std::string& name : names) {
     report.backends.push_back(runOn(name, options, desc, report.file, messages));
   }
   study::writeClaims(options.out, report);
+  std::error_code failed;
+  fs::remove_all(partsOf(options), failed);
   fmt::print("wrote {}\n", options.out + "/claims.html");
   if (options.check) messages.throwIfAny();
 }
@@ -110,7 +148,9 @@ void addClaims(CLI::App& program) {
   command->add_option("file", options->file, "A study file, such as studies/claims.toml")
       ->type_name("FILE.toml")
       ->required();
-  command->add_option("--out", options->out, "The folder of the report")
+  command
+      ->add_option("--out", options->out,
+                   "The folder of the report; an interrupted run goes on from what it holds")
       ->type_name("DIR")
       ->required();
   command->add_option("--only", options->only, "These claims of the file alone")

@@ -33,12 +33,16 @@ std::string rangeText(const grisaille_param_desc& param) {
                      param.unit);
 }
 
-// With its defaults, for all outputs.
+// With its defaults, for all outputs; an effect that cannot tell does not keep the others from it.
 std::string readsText(const effect::Effect& effect) {
   std::vector<double> defaults;
   for (const grisaille_param_desc& param : effect.params()) defaults.push_back(param.default_value);
-  return fmt::format("{}",
-                     fmt::join(effect::attachmentNames(effect.reads(defaults.data(), ~0u)), ", "));
+  try {
+    const uint32_t reads = effect.reads(defaults.data(), ~0u);
+    return fmt::format("{}", fmt::join(effect::attachmentNames(reads), ", "));
+  } catch (const Error& error) {
+    return error.detail();
+  }
 }
 
 nlohmann::ordered_json jsonOf(const grisaille_param_desc& param) {

@@ -16,6 +16,7 @@ struct EffectsOptions {
   bool json = false;
   std::string markdown, verify;
   bool inProcess = false;
+  int patience = 120;  // seconds
   std::vector<std::string> pluginPaths;
 };
 
@@ -29,7 +30,9 @@ void listEffects(const EffectsOptions& options) {
 }
 
 void verify(const EffectsOptions& options) {
-  if (!options.inProcess) return verifyPlugin(options.verify);
+  if (!options.inProcess) {
+    return verifyPlugin(options.verify, std::chrono::seconds(options.patience));
+  }
   Report report;
   checkPlugin(options.verify, report);
   report.end();
@@ -60,6 +63,12 @@ void addEffects(CLI::App& program) {
       ->add_flag("--in-process", options->inProcess,
                  "Check it in this process, where a debugger sees it crash")
       ->needs(verified);
+  command
+      ->add_option("--patience", options->patience,
+                   "Seconds that one step of the check may take before it counts as endless")
+      ->needs(verified)
+      ->check(CLI::Range(1, 86400))
+      ->capture_default_str();
   command->callback(
       [options] { options->verify.empty() ? listEffects(*options) : verify(*options); });
 }

@@ -18,6 +18,7 @@
 #include "app/truth/interruption.h"
 #include "app/truth/progress.h"
 #include "backends/backends.h"
+#include "core/image/write_aside.h"
 
 namespace grisaille::app {
 namespace {
@@ -105,6 +106,9 @@ void report(const MeasureOptions& options) {
 void measure(const MeasureOptions& options) {
   if (options.reportOnly) return report(options);
   MeasureJob job(options);
+  requireDevices(job.backendNames, options.device);
+  image::requireWritableFolder(options.out);
+  if (!options.presets.empty()) image::requireWritable(options.presets);
   job.subject->loadScene();
   const truth::Interruption interruption;
   job.subject->trace();
@@ -119,8 +123,6 @@ void measure(const MeasureOptions& options) {
                               .commandOf = [&](const auto& setting, const std::string& backend) {
                                 return job.subject->renderCommand(setting, backend);
                               }};
-  std::error_code failed;
-  fs::create_directories(options.out, failed);
   DriverMessages messages;
   bool whole = true;
   for (const std::string& name : job.backendNames) {

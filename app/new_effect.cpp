@@ -111,7 +111,7 @@ void newEffect(const NewEffectOptions& options) {
   const fs::path folder = options.folder.empty() ? options.key : options.folder;
   checkFolder(folder);
   std::error_code failed;
-  fs::create_directories(folder, failed);
+  const bool isNew = fs::create_directories(folder, failed);
   if (failed) {
     throw Error(ErrorId::kFileUnwritable, "{}: {}", folder.string(), failed.message());
   }
@@ -122,10 +122,17 @@ void newEffect(const NewEffectOptions& options) {
       {options.key + (c ? ".c" : ".cpp"), c ? kProjectC : kProjectCpp},
       {options.key + ".comp", kProjectShader},
       {"README.md", kProjectReadme}};
-  for (const auto& [name, text] : files) {
-    image::writeFileAside(folder / name, filled(text, options));
-    fmt::print("wrote {}\n", (folder / name).string());
+  try {
+    for (const auto& [name, text] : files) {
+      image::writeFileAside(folder / name, filled(text, options));
+    }
+  } catch (const Error&) {
+    // A project that is not whole would be in the way of the next try.
+    for (const auto& [name, text] : files) fs::remove(folder / name, failed);
+    if (isNew) fs::remove(folder, failed);
+    throw;
   }
+  for (const auto& [name, text] : files) fmt::print("wrote {}\n", (folder / name).string());
   const fs::path prefix = libraryFolder().parent_path().parent_path();
   const std::string where = isFoundByCMake(prefix)
                                 ? ""

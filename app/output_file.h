@@ -33,4 +33,17 @@ inline std::vector<OutputFile> parseOutputFiles(const std::vector<std::string>& 
   return writes;
 }
 
+// Writes what an effect or the scene put out. What is not finite is written as it is, for whoever
+// looks for the fault, and a warning says so.
+inline void writeOutput(const image::Image& picture, const OutputFile& write,
+                        const image::WriteOptions& options) {
+  image::write(picture, write.file, options);
+  const size_t odd = image::countNonFinite(picture);
+  if (odd == 0) return;
+  fmt::print(stderr,
+             "warning: {} holds {} values that are no finite numbers; `grisaille effects --verify "
+             "FILE` checks an effect's plugin\n",
+             write.output, odd);
+}
+
 }  // namespace grisaille::app

@@ -50,6 +50,9 @@ struct RenderJob : ChosenEffects {
       throw Error(ErrorId::kUsage, "--timings and --coverage cannot both be standard output");
     }
     if (writes.empty()) writes.push_back({.output = "color", .file = "grisaille.png"});
+    for (const std::string& file : {options.timings, options.shots.coverage}) {
+      if (!file.empty() && file != "-") image::requireWritable(file);
+    }
     glm::uvec2 given(0);
     if (!options.size.empty()) given = parseSize(options.size);
     for (const OutputFile& write : writes) frame::checkOutput(write.output, active->effects());
@@ -141,9 +144,9 @@ void renderFrames(const RenderOptions& options, const RenderJob& job, gpu::Devic
     for (frame::ActiveEffect& active : effects) active.shotsKept = active.shots.size();
   }
   for (const OutputFile& write : job.writes) {
-    image::write(renderer.read(write.output), write.file,
-                 {.transfer = frame::transferOf(write.output),
-                  .matrices = scene::matricesOf(job.camera, job.size.x, job.size.y)});
+    writeOutput(renderer.read(write.output), write,
+                {.transfer = frame::transferOf(write.output),
+                 .matrices = scene::matricesOf(job.camera, job.size.x, job.size.y)});
     fmt::print(notesOf(options), "wrote {}\n", write.file);
   }
   if (job.painter) writeCoverage(options, job, renderer);

@@ -19,6 +19,7 @@
 #include "app/viewer/command_line.h"
 #include "backends/backends.h"
 #include "core/error.h"
+#include "core/image/write_aside.h"
 
 namespace grisaille::app {
 namespace {
@@ -100,6 +101,7 @@ void runSweep(const StabilityOptions& options) {
                          .results = {}};
   if (sweep.cases.empty()) throw Error(ErrorId::kUsage, "no case is left of what was chosen");
   const std::vector<std::string> names = chosenBackends(options.backend);
+  image::requireWritableFolder(options.out);
   DriverMessages messages;
   const truth::Interruption interruption;
   const fs::path done = fs::path(options.out) / "stability.part";

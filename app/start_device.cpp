@@ -20,6 +20,10 @@ std::unique_ptr<gpu::Device> startDevice(const std::string& backend,
   throw Error(ErrorId::kNoDevice, "no backend starts: {}", reasons);
 }
 
+void requireDevices(const std::vector<std::string>& backends, const std::string& device) {
+  for (const std::string& name : backends) backends::create(name, {.device = device});
+}
+
 std::vector<std::string> chosenBackends(const std::string& text) {
   if (text == "both") return {"opengl", "vulkan"};
   backends::find(text);

@@ -14,6 +14,10 @@ namespace grisaille::app {
 std::unique_ptr<gpu::Device> startDevice(const std::string& backend,
                                          const gpu::DeviceOptions& options);
 
+// Starts a device of each backend and lets go of it: what is missing says so before work that takes
+// long. Throws as backends::create() does.
+void requireDevices(const std::vector<std::string>& backends, const std::string& device);
+
 // The backends that "opengl", "vulkan" or "both" names. Throws as backends::find() does.
 std::vector<std::string> chosenBackends(const std::string& text);
 

@@ -281,6 +281,7 @@ void tune(const TuneOptions& options) {
   const std::vector<study::Axis> axes = axesOf(options, subject.subject());
   if (axes.empty()) throw Error(ErrorId::kUsage, "there is no parameter to vary");
   const std::vector<scene::Camera> given = givenCameras(options);
+  image::requireWritable(options.out);
   // What cannot start says so before truth is traced, which takes long.
   DriverMessages messages;
   const auto device = backends::create(

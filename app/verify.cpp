@@ -17,7 +17,6 @@ namespace grisaille::app {
 namespace {
 
 using Clock = std::chrono::steady_clock;
-constexpr std::chrono::seconds kPatience(120);  // without a word
 constexpr std::chrono::milliseconds kLook(10);
 
 // What the checking process has said.
@@ -51,15 +50,15 @@ std::string lastStep(const std::string& err) {
   return err.substr(from, err.find('\n', from) - from);
 }
 
-std::string endingOf(const viewer::Child& child, bool stalled) {
-  if (stalled) return fmt::format("no progress for {} s", kPatience.count());
+std::string endingOf(const viewer::Child& child, bool stalled, std::chrono::seconds patience) {
+  if (stalled) return fmt::format("no progress for {} s", patience.count());
   if (child.signal() != 0) return fmt::format("the process ended: {}", strsignal(child.signal()));
   return fmt::format("the process ended with exit status {}", child.status());
 }
 
 }  // namespace
 
-void verifyPlugin(const std::string& file) {
+void verifyPlugin(const std::string& file, std::chrono::seconds patience) {
   viewer::Child child({"/proc/self/exe", "effects", "--verify", file, "--in-process"});
   Transcript said;
   size_t heard = 0;
@@ -69,7 +68,7 @@ void verifyPlugin(const std::string& file) {
     said.take(child.out());
     const size_t words = child.out().size() + child.err().size();
     if (std::exchange(heard, words) != words) last = Clock::now();
-    if (Clock::now() - last > kPatience) {
+    if (Clock::now() - last > patience) {
       stalled = true;
       child.end();
     }
@@ -78,7 +77,8 @@ void verifyPlugin(const std::string& file) {
   said.take(child.out());
   if (!said.ended) {
     ++said.faults;
-    fmt::print("{}{} while: {}\n", Report::kFault, endingOf(child, stalled), lastStep(child.err()));
+    fmt::print("{}{} while: {}\n", Report::kFault, endingOf(child, stalled, patience),
+               lastStep(child.err()));
     said.summary = fmt::format("{} faults, the rest was not checked", said.faults);
   }
   if (said.faults > 0) throw Error(ErrorId::kEffectFaulty, "{}: {}", file, said.summary);

@@ -2,14 +2,16 @@
 // The whole check of a plugin, of one's own or another's: `grisaille effects --verify FILE`.
 #pragma once
 
+#include <chrono>
 #include <cstddef>
 #include <string>
 
 namespace grisaille::app {
 
 // Runs checkPlugin() in a process of its own, so that a plugin which crashes or never ends is a
-// fault in the report. Throws kEffectFaulty where there is one.
-void verifyPlugin(const std::string& file);
+// fault in the report; `patience` is how long one step of it may take. Throws kEffectFaulty where
+// there is a fault.
+void verifyPlugin(const std::string& file, std::chrono::seconds patience);
 
 // The report as the checks write it: on standard output a line each, which begins with one of the
 // words below, at the end how many there were; on standard error what is being done.

@@ -84,8 +84,7 @@ class EffectCheck {
       if (!create()) return;
       draw("made anew", kSize, values, names_);
     }
-    instance_.reset();
-    heardNothing("destroying it");
+    destroy();
     report_.conclude(title_ + "is destroyed and made anew");
   }
 
@@ -109,10 +108,21 @@ class EffectCheck {
     }
   }
 
+  void destroy() {
+    step("destroying it");
+    try {
+      if (instance_) instance_->end();
+    } catch (const Error& error) {
+      expect(false, error.detail());
+    }
+    instance_.reset();
+    heardNothing("destroying it");
+  }
+
   // Whether it can be made.
   bool create() {
+    destroy();
     step("creating it");
-    instance_.reset();
     shotsKept_ = 0;
     try {
       instance_ = std::make_unique<effect::Instance>(device_, effect_);
@@ -127,12 +137,16 @@ class EffectCheck {
   void checkReads() {
     step("asking what it reads");
     const effect::Values values(effect_);
-    for (uint32_t wanted = 1; wanted < 1u << names_.size(); wanted <<= 1) {
-      const uint32_t reads = effect_.reads(values.all().data(), wanted);
-      expect(reads < 1u << GRISAILLE_ATTACHMENT_COUNT,
-             fmt::format("it reads {:#x}, of which there is not all", reads));
-      expect(reads == effect_.reads(values.all().data(), wanted),
-             "what it reads differs for the same values");
+    try {
+      for (uint32_t wanted = 1; wanted < 1u << names_.size(); wanted <<= 1) {
+        const uint32_t reads = effect_.reads(values.all().data(), wanted);
+        expect(reads < 1u << GRISAILLE_ATTACHMENT_COUNT,
+               fmt::format("it reads {:#x}, of which there is not all", reads));
+        expect(reads == effect_.reads(values.all().data(), wanted),
+               "what it reads differs for the same values");
+      }
+    } catch (const Error& error) {
+      expect(false, error.detail());
     }
   }
 
@@ -150,6 +164,7 @@ class EffectCheck {
                         .rays = &rays_});
       shotsKept_ = shots_.size();
     } catch (const Error& error) {
+      if (error.id() == ErrorId::kDeviceLost) throw;
       expect(false, fmt::format("{}: {}", what, error.detail()));
       heardNothing(what);
       return false;
@@ -166,6 +181,7 @@ class EffectCheck {
       try {
         checkPicture(which, effect_.outputs()[static_cast<size_t>(index)], renderer_.read(name));
       } catch (const Error& error) {
+        if (error.id() == ErrorId::kDeviceLost) throw;
         expect(false, fmt::format("{} cannot be read: {}", which, error.detail()));
       }
     }
@@ -262,6 +278,17 @@ class EffectCheck {
   std::unique_ptr<effect::Instance> instance_;
 };
 
+// A device that is lost takes what is left of the check along.
+void checkEffect(Report& report, gpu::Device& device, Messages& messages, const scene::Scene& scene,
+                 const effect::Effect& effect, const std::string& backend) {
+  try {
+    EffectCheck(report, device, messages, scene, effect, backend).run();
+  } catch (const Error& error) {
+    report.fault(fmt::format("{}: {}: the rest is not checked: {}", backend, effect.desc->key,
+                             error.detail()));
+  }
+}
+
 // Loads it over and over; the last time it stays.
 bool checkLoading(const std::string& file, effect::Registry& registry, Report& report) {
   try {
@@ -310,7 +337,7 @@ void checkPlugin(const std::string& file, Report& report) {
     }
     ++devices;
     for (const effect::Effect& effect : registry.effects()) {
-      EffectCheck(report, *device, messages, scene, effect, backend.name).run();
+      checkEffect(report, *device, messages, scene, effect, backend.name);
     }
     device.reset();
     for (const std::string& text : messages.take()) {

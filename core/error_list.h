@@ -80,6 +80,8 @@ GRISAILLE_ERROR(kEffectRecord, 3203, "leave the effect out of --effects or repai
 GRISAILLE_ERROR(kEffectTwice, 3204, "name each effect once")
 GRISAILLE_ERROR(kEffectTakesNoShots, 3205, "name an active effect that takes shots, such as sspm")
 GRISAILLE_ERROR(kEffectFaulty, 3206, "repair what the report above calls a fault")
+GRISAILLE_ERROR(kEffectOutput, 3207,
+                "see what `grisaille effects --verify FILE` says of the effect's plugin")
 // --- 33xx: parameter values
 GRISAILLE_ERROR(kParameterUnknown, 3301, "see `grisaille effects` for the keys")
 GRISAILLE_ERROR(kParameterRange, 3302, "give a value inside the range")
@@ -138,7 +140,8 @@ GRISAILLE_ERROR(kSequence, 5507, "number the files with %04d or ####, the same f
 // --- 56xx: in other programs
 GRISAILLE_ERROR(kHostNull, 5601, "give what the message names")
 GRISAILLE_ERROR(kHostStruct, 5602, "set struct_size to the size of the struct")
-GRISAILLE_ERROR(kHostDevice, 5603, "give the handles of one device that has what the header asks for")
+GRISAILLE_ERROR(kHostDevice, 5603,
+                "give the handles of one device that has what the header asks for")
 GRISAILLE_ERROR(kHostContext, 5604, "make the OpenGL context current that the device was made in")
 GRISAILLE_ERROR(kHostTexture, 5605, "describe a 2D texture of one sample that shaders can sample")
 GRISAILLE_ERROR(kHostFrame, 5606, "count frames upwards and give the frame's command buffer")

@@ -169,6 +169,7 @@ BackendResult Runner::runOn(Stage& stage, const Case& one, const scene::Scene& s
                    picture.outputs.at("paint_coverage"), result);
     }
   } catch (const Error& error) {
+    if (error.id() == ErrorId::kDeviceLost) throw;  // no fault of this case, and the end of all
     result.error = error.what();
     stage.instances.erase(one.effect);
   }

@@ -21,6 +21,10 @@ image::Image onSurfaces(const image::Image& picture, const image::Image& truth, 
 }  // namespace
 
 image::Image oneChannel(image::Image picture, const std::string& name) {
+  const size_t odd = image::countNonFinite(picture);
+  if (odd > 0) {
+    throw Error(ErrorId::kEffectOutput, "{} holds {} values that are no finite numbers", name, odd);
+  }
   if (picture.channels == 1) return picture;
   if (picture.channels != 4) {
     throw Error(ErrorId::kSettingsInvalid, "output '{}' has {} channels, not 1 or 4", name,

@@ -60,9 +60,14 @@ void Study::writePictures(const Record& record, const View& view, const image::I
 
 void Study::measureErrors(Job& job) {
   job.running = measurer_.start(job.record.setting);
-  job.record.errors = measurer_.errors(
-      *job.running,
-      [&](const View& view, const image::Image& shown) { writePictures(job.record, view, shown); });
+  try {
+    job.record.errors =
+        measurer_.errors(*job.running, [&](const View& view, const image::Image& shown) {
+          writePictures(job.record, view, shown);
+        });
+  } catch (const Error& error) {
+    throw Error(error.id(), "{}: {}", nameOf(job.record.setting), error.detail());
+  }
   save(desc_.folder, job.record);
 }
 

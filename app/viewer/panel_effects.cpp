@@ -45,9 +45,13 @@ std::string tooltipOf(const EffectList::Entry& entry, const grisaille_param_desc
 }
 
 std::string readsOf(const EffectList::Entry& entry) {
-  const uint32_t reads = entry.values.effect().reads(entry.values.all().data(), ~0u);
-  const std::string text = fmt::format("{}", fmt::join(effect::attachmentNames(reads), ", "));
-  return text.empty() ? "nothing" : text;
+  try {
+    const uint32_t reads = entry.values.effect().reads(entry.values.all().data(), ~0u);
+    const std::string text = fmt::format("{}", fmt::join(effect::attachmentNames(reads), ", "));
+    return text.empty() ? "nothing" : text;
+  } catch (const Error& error) {
+    return error.detail();
+  }
 }
 
 std::string writesOf(const EffectList::Entry& entry) {

@@ -28,7 +28,6 @@ class Rebuild {
 
   // Watches the sources of these plugins and of no others.
   void watch(const effect::Registry& registry);
-  bool watches() const { return !plugins_.empty(); }
 
   // Looks at the files and starts a build where one has changed since the last look.
   void look();

@@ -260,6 +260,30 @@ void Session::saveSettings(const std::string& path) {
   say("settings to " + path);
 }
 
+std::string Session::rescue(const fs::path& folder) {
+  std::error_code failed;
+  fs::create_directories(folder, failed);  // else the next line says so
+  std::vector<std::string> words = {"grisaille", "view"};
+  const std::string& path = scene ? scenePath : options_.scene;  // that was being read
+  if (!path.empty()) words.push_back(plainPath(path));
+  const auto keep = [&](const char* option, const std::string& prefix, const fs::path& file) {
+    words.insert(words.end(), {option, prefix + file.string()});
+    return file.string();
+  };
+  saveSettings(keep("--config", "", folder / "settings.toml"));
+  for (const auto& [effect, list] : shots) {
+    if (list.shots().empty()) continue;
+    shots::save(list.shots(), keep("--load", effect + "=", folder / (effect + ".shots")));
+  }
+  if (scene) scene::saveCamera(camera, keep("--camera", "", folder / "camera.json"));
+  for (const std::string& plugins : options_.pluginPaths) {
+    words.insert(words.end(), {"--plugin-path", plainPath(plugins)});
+  }
+  std::string command;
+  for (const std::string& word : words) command += (command.empty() ? "" : " ") + shellQuoted(word);
+  return command;
+}
+
 std::string Session::commandLine(glm::uvec2 size, const std::string& backend,
                                  const std::string& device) {
   RenderCommand command;
@@ -295,6 +319,7 @@ void Session::attempt(const std::function<void()>& action) {
   try {
     action();
   } catch (const Error& error) {
+    if (error.id() == ErrorId::kDeviceLost) throw;  // nothing more is drawn
     say(error.what(), true);
   } catch (const fs::filesystem_error& error) {
     say(Error(ErrorId::kFileUnwritable, "{}", error.what()).what(), true);

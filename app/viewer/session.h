@@ -172,13 +172,17 @@ class Session {
   void loadSettings(const std::string& path);
   void saveSettings(const std::string& path);
 
+  // Writes what no file holds yet into a folder: settings, shots, camera. The command that goes on
+  // from there. Throws kFileUnwritable.
+  std::string rescue(const std::filesystem::path& folder);
+
   // The command that makes the picture on the screen; shots that no file holds are written to one.
   std::string commandLine(glm::uvec2 size, const std::string& backend, const std::string& device);
 
   // --- What there is to say
   std::deque<Message> messages;  // oldest first
   void say(std::string text, bool error = false);
-  // Does it, and says why it failed where it did.
+  // Does it, and says why it failed where it did. Throws kDeviceLost alone.
   void attempt(const std::function<void()>& action);
 
  private:

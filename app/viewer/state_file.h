@@ -14,6 +14,9 @@ namespace grisaille::app::viewer {
 std::filesystem::path stateFolder();
 std::filesystem::path configFolder();
 
+// Of now, for the names of files: "20261121-143000", local.
+std::string timeStamp();
+
 struct ViewerState {
   std::vector<std::string> recent;      // scenes, absolute paths, newest first, at most 12
   uint32_t width = 1600, height = 900;  // of the window, screen units, 1 ... 16384

@@ -3,9 +3,10 @@
 
 #include <algorithm>
 #include <filesystem>
+#include <functional>
 #include <thread>
 
-#include "core/image/write_aside.h"
+#include "app/truth/interruption.h"
 
 namespace grisaille::app::viewer {
 namespace fs = std::filesystem;
@@ -18,6 +19,15 @@ constexpr double kLeastFrame = 1.0 / 120;  // seconds, where the display does no
 
 fs::path stateFile() {
   return stateFolder() / "viewer.json";
+}
+
+// Where no window is left to say it.
+void orNote(const std::function<void()>& action) {
+  try {
+    action();
+  } catch (const Error& error) {
+    fmt::print(stderr, "note: {}\n", error.what());
+  }
 }
 
 }  // namespace
@@ -97,7 +107,30 @@ void Viewer::nameWindow() {
 }
 
 void Viewer::run() {
+  const truth::Interruption interruption;
+  try {
+    showFrames();
+  } catch (...) {
+    rescue();
+    throw;
+  }
+  if (!options_.screenshot.empty()) saveScreenshot();
+  orNote([&] { keepState(); });
+}
+
+// Before the program ends without being asked to by its window.
+void Viewer::rescue() {
+  orNote([&] { keepState(); });
+  orNote([&] {
+    const fs::path folder = stateFolder() / ("rescued-" + timeStamp());
+    fmt::print(stderr, "note: what was not saved is kept; go on with: {}\n",
+               session_.rescue(folder));
+  });
+}
+
+void Viewer::showFrames() {
   while (!window_->closing() && (options_.frames == 0 || complete_ < options_.frames)) {
+    if (truth::Interruption::asked()) throw truth::Interrupted();
     if (window_->wait(patience())) settle_ = kSettleFrames;
     // Frames that wait for the truth are no use.
     const bool hurry = options_.frames > 0 && !truth_->running();
@@ -118,8 +151,6 @@ void Viewer::run() {
       std::this_thread::sleep_for(std::chrono::duration<double>(kLeastFrame) - took);
     }
   }
-  if (!options_.screenshot.empty()) saveScreenshot();
-  keepState();
 }
 
 // How long to wait for something to happen, seconds.
@@ -130,7 +161,7 @@ double Viewer::patience() const {
   if (loading_.running() || !rebuild_.building().empty() || tune_.started() || truth_->running()) {
     return kWaitInterval;
   }
-  return rebuild_.watches() ? kLookInterval : 60;
+  return kLookInterval;  // also for signals
 }
 
 // At what runs beside the window. True where there is news.
@@ -268,7 +299,7 @@ void Viewer::keepState() {
       state_.height = std::min(size.y, 16384u);
     }
   }
-  session_.attempt([&] { saveState(state_, stateFile()); });
+  saveState(state_, stateFile());
 }
 
 }  // namespace grisaille::app::viewer

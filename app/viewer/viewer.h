@@ -38,13 +38,16 @@ class Viewer {
   Viewer(const Viewer&) = delete;
   Viewer& operator=(const Viewer&) = delete;
 
-  // Until the window is closed.
+  // Until the window is closed. Where it ends otherwise, by an error or a signal, what the user has
+  // not saved is written to a folder first. Throws Error and truth::Interrupted.
   void run();
 
  private:
   using Clock = std::chrono::steady_clock;
 
   // viewer.cpp
+  void showFrames();
+  void rescue();
   void openWindow();
   void tryBackend(const backends::Backend& backend);
   double patience() const;

@@ -1,9 +1,7 @@
 // SPDX-License-Identifier: MIT
 // What the viewer puts into its window, and into files.
 #include <algorithm>
-#include <array>
 #include <cmath>
-#include <ctime>
 #include <filesystem>
 
 #include "app/truth/error_map.h"
@@ -13,16 +11,6 @@
 
 namespace grisaille::app::viewer {
 namespace {
-
-// "20261121-143000".
-std::string timeStamp() {
-  const std::time_t now = std::time(nullptr);
-  std::tm local{};
-  localtime_r(&now, &local);
-  std::array<char, 32> text{};
-  std::strftime(text.data(), text.size(), "%Y%m%d-%H%M%S", &local);
-  return text.data();
-}
 
 constexpr const char* kPictureEndings[] = {".png", ".exr"};
 

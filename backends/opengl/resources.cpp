@@ -118,6 +118,12 @@ gpu::Buffer Resources::createMapped(uint64_t size, std::byte*& memory) {
 }
 
 gpu::Texture Resources::createTexture(const gpu::TextureDesc& desc) {
+  GLint most = 0;
+  glGetIntegerv(GL_MAX_TEXTURE_SIZE, &most);
+  if (std::max(desc.width, desc.height) > static_cast<uint32_t>(most)) {
+    throw Error(ErrorId::kTextureSize, "texture '{}' of {}x{} texels, where OpenGL takes {} a side",
+                desc.label, desc.width, desc.height, most);
+  }
   const bool array = desc.layers > 1;
   TextureResource texture{.object = Object::texture(targetOf(array)), .desc = desc, .views = {}};
   texture.desc.label = {};

@@ -68,7 +68,7 @@ void allocateStorage(const char* kind, std::string_view label, uint64_t bytes,
 
 class Resources {
  public:
-  // All throw kOutOfDeviceMemory, kTooManyResources.
+  // All throw kOutOfDeviceMemory, kTooManyResources, and kTextureSize over the limit.
   gpu::Buffer createBuffer(const gpu::BufferDesc& desc);
   gpu::Texture createTexture(const gpu::TextureDesc& desc);
   gpu::Sampler createSampler(const gpu::SamplerDesc& desc);

@@ -87,7 +87,12 @@ gpu::Commands& VulkanDevice::begin() {
 }
 
 void VulkanDevice::submit() {
-  current().done = current().commands.submit(timeline_);
+  try {
+    current().done = current().commands.submit(timeline_);
+  } catch (...) {
+    abandon();
+    throw;
+  }
   resources_.commit();
   endFrame();
   resources_.releaseUpTo(timeline_.completed());

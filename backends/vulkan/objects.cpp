@@ -35,6 +35,11 @@ void checkImageFits(const Context& context, const VkImageCreateInfo& info,
       context.physical, info.format, info.imageType, info.tiling, info.usage, info.flags, &limits);
   check(result, fmt::format("a texture of format {}", gpu::formatInfo(desc.format).name),
         ErrorId::kTextureFormat);
+  const VkExtent3D most = limits.maxExtent;
+  if (desc.width > most.width || desc.height > most.height) {
+    throw Error(ErrorId::kTextureSize, "texture '{}' of {}x{} texels, where {} takes {}x{}",
+                desc.label, desc.width, desc.height, context.info.name, most.width, most.height);
+  }
   uint64_t bytes = 0;
   for (uint32_t mip = 0; mip < desc.mips; ++mip) {
     bytes += uint64_t{std::max(1u, desc.width >> mip)} * std::max(1u, desc.height >> mip) *

@@ -73,6 +73,9 @@ struct HostFunctions {
         work(services);
         return GRISAILLE_OK;
       } catch (const Error& error) {
+        const bool device =
+            error.id() == ErrorId::kOutOfDeviceMemory || error.id() == ErrorId::kDeviceLost;
+        if (device) services.deviceFault_ = error.id();
         note(services,
              fmt::format("{}: E{}: {}", service, static_cast<int>(error.id()), error.detail()));
       } catch (const std::exception& error) {

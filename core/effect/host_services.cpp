@@ -34,6 +34,7 @@ void HostServices::open() {
   ownWords_.clear();
   refused_.clear();
   misuse_.clear();
+  deviceFault_.reset();
   inside_ = true;
 }
 

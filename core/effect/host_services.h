@@ -3,6 +3,7 @@
 // into the layer's, catches what the layer throws, and knows which resources are the effect's own.
 #pragma once
 
+#include <optional>
 #include <string>
 #include <string_view>
 #include <unordered_set>
@@ -37,6 +38,10 @@ class HostServices {
 
   // Why the call between open() and close() failed, in one line; "" when it did not.
   std::string failure(grisaille_result result) const;
+
+  // By what number: the device's where its memory ran out or it was lost, which is no fault of the
+  // effect's; else `otherwise`.
+  ErrorId failureId(ErrorId otherwise) const { return deviceFault_.value_or(otherwise); }
 
   // What the effect counted in the last frame.
   uint64_t waiting() const { return waiting_; }
@@ -91,6 +96,7 @@ class HostServices {
   std::string ownWords_;  // the effect's
   std::string refused_;   // the first service that was refused, and why
   std::string misuse_;    // the first fault that no result could tell the effect of
+  std::optional<ErrorId> deviceFault_;
 };
 
 }  // namespace grisaille::effect

@@ -2,6 +2,8 @@
 #include "core/effect/instance.h"
 
 #include <algorithm>
+#include <cstdio>
+#include <utility>
 
 #include "core/effect/host_services.h"
 
@@ -38,6 +40,7 @@ struct Instance::State {
   const grisaille_effect_desc& desc;
   HostServices services;
   void* effect = nullptr;  // what create() handed out
+  bool made = false;       // and destroy() has not been called
   // So many of the first shots have stayed since the last record() that worked.
   size_t shotsKept = 0;
 };
@@ -45,22 +48,33 @@ struct Instance::State {
 Instance::Instance(gpu::Maker& device, const Effect& effect)
     : state_(std::make_unique<State>(device, effect)) {
   HostServices& services = state_->services;
+  const grisaille_effect_desc& desc = state_->desc;
   services.open();
-  const grisaille_result result = state_->desc.create(services.table(), &state_->effect);
+  const grisaille_result result = foreignCall(ErrorId::kEffectCreate, desc.key, "create", [&] {
+    return desc.create(services.table(), &state_->effect);
+  });
   services.close();
+  state_->made = result == GRISAILLE_OK;
   const std::string failure = services.failure(result);
   if (failure.empty()) return;
-  if (result == GRISAILLE_OK) {
-    services.open();
-    state_->desc.destroy(state_->effect);
-    services.close();
-  }
-  throw Error(ErrorId::kEffectCreate, "{} cannot be created: {}", state_->desc.key, failure);
+  const ErrorId id = services.failureId(ErrorId::kEffectCreate);
+  end();
+  throw Error(id, "{} cannot be created: {}", desc.key, failure);
 }
 
 Instance::~Instance() {
+  try {
+    end();
+  } catch (const Error& error) {
+    fmt::print(stderr, "{}\n", error.what());
+  }
+}
+
+void Instance::end() {
+  if (!std::exchange(state_->made, false)) return;
   state_->services.open();
-  state_->desc.destroy(state_->effect);
+  foreignCall(ErrorId::kEffectRecord, state_->desc.key, "destroy",
+              [&] { state_->desc.destroy(state_->effect); });
   state_->services.close();
 }
 
@@ -68,11 +82,19 @@ void Instance::record(const FrameInputs& inputs) {
   HostServices& services = state_->services;
   limitShotsKept(inputs.shotsKept);
   const grisaille_frame* frame = services.openFrame(inputs, state_->shotsKept);
-  const grisaille_result result = state_->desc.record(state_->effect, frame);
+  grisaille_result result = GRISAILLE_FAILED;
+  try {
+    result = foreignCall(ErrorId::kEffectRecord, state_->desc.key, "record",
+                         [&] { return state_->desc.record(state_->effect, frame); });
+  } catch (...) {
+    services.close();  // with the pass that it left open
+    throw;
+  }
   services.close();
   const std::string failure = services.failure(result);
   if (!failure.empty()) {
-    throw Error(ErrorId::kEffectRecord, "{} cannot record: {}", state_->desc.key, failure);
+    throw Error(services.failureId(ErrorId::kEffectRecord), "{} cannot record: {}",
+                state_->desc.key, failure);
   }
   state_->shotsKept = std::numeric_limits<size_t>::max();
 }

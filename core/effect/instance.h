@@ -51,6 +51,10 @@ class Instance {
   Instance(const Instance&) = delete;
   Instance& operator=(const Instance&) = delete;
 
+  // Destroys the effect, which is of no use from then on. Throws kEffectRecord where the effect
+  // throws. The destructor, which calls it, prints that instead.
+  void end();
+
   // Records the effect's passes, labelled "<effect key>/<pass>". Throws kEffectRecord with the
   // effect's own words and the layer's error that made it fail, by its number; the frame is then to
   // be abandoned. At most once between the device's begin() and submit(): what the effect destroys

@@ -8,6 +8,7 @@
 #include <string_view>
 #include <vector>
 
+#include "core/effect/foreign_call.h"
 #include "core/error.h"
 #include "grisaille/effect.h"
 
@@ -24,11 +25,15 @@ struct Effect {
   }
   // Which attachments it reads with these values for these outputs, as reads_for() has them.
   uint32_t reads(const double* values, uint32_t wanted) const {
-    return desc->reads_for != nullptr ? desc->reads_for(values, wanted) : desc->reads(values);
+    return foreignCall(ErrorId::kEffectRecord, desc->key, "reads", [&] {
+      return desc->reads_for != nullptr ? desc->reads_for(values, wanted) : desc->reads(values);
+    });
   }
   // As guard_band() has it, 0 where the plugin's answer is no share.
   double guardBand(const double* values) const {
-    const double share = desc->guard_band != nullptr ? desc->guard_band(values) : 0;
+    if (desc->guard_band == nullptr) return 0;
+    const double share = foreignCall(ErrorId::kEffectRecord, desc->key, "guard_band",
+                                     [&] { return desc->guard_band(values); });
     return share > 0 && share <= 1 ? share : 0;
   }
   bool takesShots() const { return (desc->flags & GRISAILLE_EFFECT_TAKES_SHOTS) != 0; }

@@ -95,7 +95,12 @@ class CheckingDevice final : public Device {
     if (account_.inPass) {
       throw Error(ErrorId::kPassNesting, "submit() inside of pass '{}'", account_.pass);
     }
-    device_->submit();
+    try {
+      device_->submit();
+    } catch (...) {
+      abandon();
+      throw;
+    }
     account_.endFrame(false);
   }
   void abandon() override {

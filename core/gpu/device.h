@@ -93,6 +93,7 @@ class Device : public Maker {
 
   // Begins a frame; waits while too many are in flight. The commands are valid until submit().
   virtual Commands& begin() = 0;
+  // Where the device fails it, the frame is dropped as by abandon().
   virtual void submit() = 0;
 
   // Drops the frame being recorded, if there is one: for callers whose recording threw.

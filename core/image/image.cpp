@@ -4,6 +4,7 @@
 #include <dlfcn.h>
 
 #include <algorithm>
+#include <cmath>
 #include <filesystem>
 
 #include "core/error.h"
@@ -44,6 +45,12 @@ const Codecs& codecs() {
 
 void checkWritable(const std::string& path) {
   formatOf(path);
+  requireWritable(path);
+}
+
+size_t countNonFinite(const Image& image) {
+  const auto odd = [](float value) { return !std::isfinite(value); };
+  return static_cast<size_t>(std::ranges::count_if(image.pixels, odd));
 }
 
 void write(const Image& image, const std::string& path, const WriteOptions& options) {

@@ -54,8 +54,12 @@ struct WriteOptions {
 // older file as it was. Throws kImageFormat, kFileUnwritable, kNoCodecs.
 void write(const Image& image, const std::string& path, const WriteOptions& options = {});
 
-// Throws kImageFormat when `path` has an ending that write() does not take: ask before long work.
+// Throws kImageFormat when `path` has an ending that write() does not take, and kFileUnwritable
+// where nothing can be written there: ask before long work.
 void checkWritable(const std::string& path);
+
+// How many values are NaN or infinite.
+size_t countNonFinite(const Image& image);
 
 // Any format OpenImageIO reads; integers become [0, 1]. Throws kImageUnreadable, kNoCodecs.
 Image read(const std::string& path);

@@ -11,6 +11,13 @@
 #include "core/error.h"
 
 namespace grisaille::image {
+namespace {
+
+std::string partOf(const std::string& path) {
+  return fmt::format("{}.{}.part", path, getpid());
+}
+
+}  // namespace
 
 void writeAside(const std::string& path,
                 const std::function<void(const std::string& part)>& writer) {
@@ -18,8 +25,7 @@ void writeAside(const std::string& path,
   if (std::filesystem::is_directory(path, code)) {
     throw Error(ErrorId::kFileUnwritable, "{}: is a folder", path);
   }
-  const std::string part =
-      fmt::format("{}.{}.part{}", path, getpid(), std::filesystem::path(path).extension().string());
+  const std::string part = partOf(path);
   try {
     writer(part);
     std::filesystem::rename(part, path, code);
@@ -38,6 +44,26 @@ void writeFileAside(const std::string& path, std::string_view content) {
     file.close();
     if (!file) throw Error(ErrorId::kFileUnwritable, "{}: {}", path, std::strerror(errno));
   });
+}
+
+void requireWritable(const std::string& path) {
+  std::error_code code;
+  if (std::filesystem::is_directory(path, code)) {
+    throw Error(ErrorId::kFileUnwritable, "{}: is a folder", path);
+  }
+  const std::string part = partOf(path);
+  errno = 0;
+  const bool opened = std::ofstream(part, std::ios::binary).is_open();
+  const int why = errno;
+  std::filesystem::remove(part, code);
+  if (!opened) throw Error(ErrorId::kFileUnwritable, "{}: {}", path, std::strerror(why));
+}
+
+void requireWritableFolder(const std::string& folder) {
+  std::error_code code;
+  std::filesystem::create_directories(folder, code);
+  if (code) throw Error(ErrorId::kFileUnwritable, "{}: {}", folder, code.message());
+  requireWritable((std::filesystem::path(folder) / "grisaille").string());
 }
 
 }  // namespace grisaille::image

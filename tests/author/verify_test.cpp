@@ -3,6 +3,8 @@
 // shows, and one that ends the process is a fault like another.
 #include <gtest/gtest.h>
 
+#include <future>
+
 #include "tests/program/run.h"
 
 namespace grisaille::tests {
@@ -49,6 +51,92 @@ TEST(Verify, FaultsAreNamedWithTheStep) {
 TEST(Verify, WhatEndsTheProcessIsAFaultToo) {
   expectFault("crashes", "the process ended: Aborted while: opengl: crashes: level = 1");
   expectFault("exits", "the process ended with exit status 0 while: opengl: exits: level = 1");
+}
+
+// As an effect without the wrapper does it. The words are the plugin's own, read while it is
+// loaded.
+TEST(Verify, AnExceptionThatCrossesTheInterfaceIsAFault) {
+  for (const std::string function : {"create", "reads", "record", "destroy"}) {
+    const std::string name = "throws_" + function;
+    expectFault(name, "opengl: " + name);
+    const Outcome outcome = verify(fs::path(PLUGINS) / ("verified_" + name + ".so"));
+    EXPECT_TRUE(holds(outcome.out,
+                      name + " lets an exception out of its " + function + "(): thrown on purpose"))
+        << outcome.out;
+    EXPECT_FALSE(holds(outcome.out, "the process ended")) << outcome.out;
+  }
+}
+
+// Both wait for the limit at a time.
+TEST(Verify, WhatNeverReturnsIsAFault) {
+  const auto wait = [](const std::string& name) {
+    return std::async(std::launch::async, [name] {
+      return runProgram({"effects", "--verify", fs::path(PLUGINS) / ("verified_" + name + ".so"),
+                         "--patience", "5"},
+                        "/");
+    });
+  };
+  auto made = wait("unmade"), recorded = wait("hangs");
+  const Outcome unmade = made.get(), hangs = recorded.get();
+  EXPECT_TRUE(holds(unmade.out, "fault no progress for 5 s while: opengl: unmade: creating it"))
+      << unmade.out;
+  EXPECT_TRUE(holds(hangs.out, "fault no progress for 5 s while: opengl: hangs: level = 1"))
+      << hangs.out;
+  EXPECT_EQ(unmade.status, 1);
+  EXPECT_EQ(hangs.status, 1);
+}
+
+Outcome render(const TemporaryFolder& folder, const std::string& effect,
+               const std::vector<std::string>& more) {
+  std::vector<std::string> words = {"render", "--size",    "16x9", "--plugin-path",
+                                    PLUGINS,  "--effects", effect};
+  words.insert(words.end(), more.begin(), more.end());
+  return runProgram(words, folder.path());
+}
+
+TEST(FaultyEffects, ThatThrowEndTheRenderByAnError) {
+  const TemporaryFolder folder;
+  for (const std::string function : {"create", "reads", "record"}) {
+    const Outcome outcome = render(folder, "throws_" + function, {"--write", "none=a.exr"});
+    EXPECT_EQ(outcome.status, 1);
+    const std::string number = function == "create" ? "3202" : "3203";
+    EXPECT_EQ(outcome.err.rfind("error E" + number + ": throws_" + function + " lets", 0), 0u)
+        << outcome.err;
+    EXPECT_TRUE(holds(outcome.err, "thrown on purpose")) << outcome.err;
+  }
+  EXPECT_TRUE(folder.files().empty());
+  // The list of all effects says it of the one.
+  const Outcome list = runProgram({"effects", "--plugin-path", PLUGINS}, folder.path());
+  EXPECT_EQ(list.status, 0) << list.err;
+  EXPECT_TRUE(holds(list.out, "throws_reads lets an exception out of its reads()")) << list.out;
+  EXPECT_TRUE(holds(list.out, "throws_record")) << list.out;
+  // Too late for the picture, which is whole.
+  const Outcome outcome = render(folder, "throws_destroy", {"--write", "none=a.exr"});
+  EXPECT_EQ(outcome.status, 0);
+  EXPECT_TRUE(holds(outcome.err, "error E3203: throws_destroy lets")) << outcome.err;
+}
+
+// Written as it is, for whoever looks for the fault.
+TEST(FaultyEffects, WhatIsNotFiniteIsAWarningOfRender) {
+  const TemporaryFolder folder;
+  const Outcome sound = render(folder, "nan", {"--write", "first=a.exr"});
+  EXPECT_EQ(sound.status, 0);
+  EXPECT_EQ(sound.err, "");
+  const Outcome nan = render(folder, "nan", {"--set", "nan.level=1", "--write", "first=a.exr"});
+  EXPECT_EQ(nan.status, 0);
+  EXPECT_EQ(nan.err.rfind("warning: first holds 1 values that are no finite numbers", 0), 0u)
+      << nan.err;
+}
+
+// Else it would count as no error at all.
+TEST(FaultyEffects, WhatIsNotFiniteIsNotMeasured) {
+  const TemporaryFolder folder;
+  const Outcome outcome =
+      runProgram({"measure", "--plugin-path", PLUGINS, "--sweep", "nan.level=0.5,1", "--size",
+                  "16x9", "--samples", "16", "--rounds", "1", "--backend", "opengl", "--out", "m"},
+                 folder.path());
+  EXPECT_EQ(outcome.status, 1);
+  EXPECT_TRUE(holds(outcome.err, "error E3207: level=1: nan.first holds 1 values")) << outcome.err;
 }
 
 TEST(Verify, WhatIsNoPluginIsAFault) {

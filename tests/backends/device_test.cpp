@@ -64,6 +64,20 @@ TEST_P(Devices, ThatAreNotThereAreRefused) {
   }
 }
 
+// Without the checking layer, which asks the same: drivers need not refuse it, and some crash.
+TEST_P(Devices, TexturesOverTheLimitAreRefused) {
+  const std::unique_ptr<gpu::Device> unchecked = backend().create({});
+  const uint32_t most = unchecked->info().capabilities.maxTextureSize;
+  for (const auto& [width, height] : {std::pair{most + 1, 1u}, {1u, most + 1}, {~0u, ~0u}}) {
+    EXPECT_ERROR(ErrorId::kTextureSize,
+                 (void)unchecked->createTexture({.label = "over",
+                                                 .format = gpu::Format::kR8Unorm,
+                                                 .width = width,
+                                                 .height = height,
+                                                 .usage = gpu::TextureUsage::kSampled}));
+  }
+}
+
 TEST_P(Devices, TwoLiveSideBySide) {
   const std::unique_ptr<gpu::Device> other = openDevice(GetParam());
   gpu::Device* both[] = {&device(), other.get()};

@@ -134,7 +134,9 @@ TEST_F(ImageFiles, OtherEndingsAndShapesAreRefused) {
     EXPECT_ERROR(ErrorId::kImageFormat, write(image, file(name)));
     EXPECT_ERROR(ErrorId::kImageFormat, checkWritable(file(name)));
   }
-  checkWritable("/no/such/folder/a.exr");
+  EXPECT_ERROR(ErrorId::kFileUnwritable, checkWritable("/no/such/folder/a.exr"));
+  checkWritable(file("a.exr"));
+  EXPECT_FALSE(fs::exists(file("a.exr")));  // asking leaves nothing
   EXPECT_ERROR(ErrorId::kImageFormat, write(image, file("a.png"), {.pngBits = 12}));
   Image broken = image;
   broken.pixels.pop_back();
@@ -168,7 +170,7 @@ TEST_F(ImageFiles, AFailedWriterKeepsTheOlderFile) {
 
 TEST_F(ImageFiles, AFullDiskIsAnError) {
   if (!fs::exists("/dev/full")) GTEST_SKIP() << "no /dev/full here";
-  const std::string part = fmt::format("{}.{}.part.png", file("a.png"), getpid());
+  const std::string part = fmt::format("{}.{}.part", file("a.png"), getpid());
   fs::create_symlink("/dev/full", part);
   EXPECT_ERROR(ErrorId::kFileUnwritable, write(noiseIn(3, 0, 1), file("a.png")));
   EXPECT_TRUE(fs::is_empty(folder_));

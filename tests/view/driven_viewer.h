@@ -52,6 +52,8 @@ class DrivenViewer {
 
   // Ctrl+Q. Once.
   Outcome quit();
+  // Once it has ended by itself. Once.
+  Outcome ended() { return outcome_.get(); }
 
  private:
   void focus();

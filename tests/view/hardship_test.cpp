@@ -136,6 +136,79 @@ TEST_P(HardshipTest, ABackendThatIsMissingIsNamedOrReplaced) {
   EXPECT_EQ(outcome.status, 0) << outcome.err;
 }
 
+// What the user has not saved is in a folder, and the words that the viewer ends with show it
+// again.
+class RescueTest : public WindowTest {
+ protected:
+  std::vector<std::string> with(const std::string& bookmarks) const {
+    return arguments({"--effects", "ssao,sspm", "--bookmarks", bookmarks});
+  }
+  // A bookmark, a setting, a shot, each seen to be there.
+  void change(DrivenViewer& viewer) {
+    viewer.key("ctrl+4");
+    viewer.until("a bookmark", [](const nlohmann::json& now) {
+      return now.contains("message") && now["message"]["value"] == "bookmark 4 set";
+    });
+    viewer.drag(viewer.at("ssao.radius", 0.5, 0.5), viewer.at("ssao.radius", 0.7, 0.5));
+    viewer.untilChanged("ssao.radius", "0.5");
+    radius_ = viewer.value("ssao.radius");
+    viewer.key("b");
+    viewer.click(viewer.at("picture", 0.5, 0.5));
+    viewer.untilValue("shots", "1");
+  }
+  void expectRescued(const std::string& err) {
+    EXPECT_TRUE(std::filesystem::exists(folder_ / "marks/4.json"));
+    EXPECT_TRUE(std::filesystem::exists(folder_ / "state/grisaille/viewer.json"));
+    const std::string words = "go on with: grisaille view ";
+    const size_t at = err.find(words);
+    ASSERT_NE(at, std::string::npos) << err;
+    const size_t from = at + words.size();
+    // The same options are render's.
+    const Outcome outcome =
+        runShell("grisaille render --size 16x16 " + err.substr(from, err.find('\n', from) - from),
+                 folder_.path());
+    EXPECT_EQ(outcome.status, 0) << outcome.err;
+    for (const auto& entry :
+         std::filesystem::recursive_directory_iterator(folder_ / "state/grisaille")) {
+      if (entry.path().filename() != "settings.toml") continue;
+      EXPECT_NE(readFile(entry.path()).find("radius = " + radius_), std::string::npos)
+          << readFile(entry.path());
+      EXPECT_TRUE(std::filesystem::exists(entry.path().parent_path() / "sspm.shots"));
+      return;
+    }
+    ADD_FAILURE() << "no settings";
+  }
+
+  std::string radius_;
+};
+GRISAILLE_IN_WINDOWS(RescueTest);
+
+TEST_P(RescueTest, ALostDeviceLosesNothingElse) {
+  DrivenViewer viewer(
+      folder_, with(folder_ / "marks"),
+      {"LD_PRELOAD=" FAULTS, "FAULT=device_lost", "FAULT_WHEN=" + (folder_ / "now")});
+  change(viewer);
+  folder_.write("now", "");
+  viewer.send("mousemove_relative 3 3");
+  const Outcome outcome = viewer.ended();
+  EXPECT_EQ(outcome.status, 1);
+  EXPECT_NE(outcome.err.find("error E1006: "), std::string::npos) << outcome.err;
+  expectRescued(outcome.err);
+}
+
+// No matter of the backend.
+using SignalTest = RescueTest;
+INSTANTIATE_TEST_SUITE_P(Backends, SignalTest, testing::Values("opengl"));
+
+TEST_P(SignalTest, ASignalLosesNothing) {
+  DrivenViewer viewer(folder_, with(folder_ / "marks"));
+  change(viewer);
+  ASSERT_EQ(std::system("kill $(xdotool search --name Grisaille getwindowpid)"), 0);
+  const Outcome outcome = viewer.ended();
+  EXPECT_EQ(outcome.status, 130);
+  expectRescued(outcome.err);
+}
+
 TEST(NoDisplay, IsNamed) {
   const TemporaryFolder folder;
   const Outcome outcome = runProgram({"view"}, folder.path(),

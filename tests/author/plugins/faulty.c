@@ -1,7 +1,8 @@
 /* SPDX-License-Identifier: MIT
  *
  * An effect that `grisaille effects --verify` passes or, with -DFAULT_..., fails: each of them
- * while its parameter is at its most, but for the one that never writes. KEY is its key. */
+ * while its parameter is at its most, but for those that never write and never are made. KEY is its
+ * key. */
 #include <math.h>
 #include <signal.h>
 #include <stdlib.h>
@@ -16,6 +17,9 @@ static uint32_t reads(const double* values) {
 
 static grisaille_result create(const grisaille_host* host, void** out) {
   (void)host;
+#if defined(FAULT_UNMADE)
+  for (;;) pause();
+#endif
   *out = NULL;
   return GRISAILLE_OK;
 }
@@ -30,6 +34,8 @@ static float valueAt(double level) {
   return NAN;
 #elif defined(FAULT_RANGE)
   return 2;
+#elif defined(FAULT_HANGS)
+  for (;;) pause();
 #endif
   return 1;
 }
