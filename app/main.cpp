@@ -10,6 +10,7 @@
 #include <new>
 
 #include "app/command.h"
+#include "app/last_words.h"
 #include "app/truth/interruption.h"
 #include "core/error.h"
 
@@ -52,6 +53,7 @@ Error asError(const std::exception& error) {
 }  // namespace
 
 int main(int argc, char** argv) {
+  grisaille::app::nameCrashes();
   signal(SIGXFSZ, SIG_IGN);  // a limit of files' sizes is an error of the write, and has a line
   CLI::App program("Screen-space effects whose error is measured", "grisaille");
   program.set_version_flag("--version", GRISAILLE_VERSION);

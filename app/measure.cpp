@@ -123,6 +123,8 @@ void measure(const MeasureOptions& options) {
                               .commandOf = [&](const auto& setting, const std::string& backend) {
                                 return job.subject->renderCommand(setting, backend);
                               }};
+  std::error_code failed;
+  fs::create_directories(options.out, failed);  // for the report, where nothing is measured
   DriverMessages messages;
   bool whole = true;
   for (const std::string& name : job.backendNames) {

@@ -73,17 +73,14 @@ struct HostFunctions {
         work(services);
         return GRISAILLE_OK;
       } catch (const Error& error) {
-        const bool device =
-            error.id() == ErrorId::kOutOfDeviceMemory || error.id() == ErrorId::kDeviceLost;
-        if (device) services.deviceFault_ = error.id();
-        note(services,
-             fmt::format("{}: E{}: {}", service, static_cast<int>(error.id()), error.detail()));
+        services.noteDeviceFault(error.id());
+        const int number = static_cast<int>(error.id());
+        note(services, fmt::format("{}: E{}: {}", service, number, error.detail()));
       } catch (const std::exception& error) {
         note(services, fmt::format("{}: {}", service, error.what()));
       }
     } catch (...) {
-      // No memory for the words: failing without them is what is left.
-    }
+    }  // no memory for the words: failing without them is what is left
     return GRISAILLE_FAILED;
   }
 

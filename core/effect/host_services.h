@@ -58,6 +58,11 @@ class HostServices {
     std::vector<Handle> buried;        // destroyed during the frame that may use them still
   };
 
+  void noteDeviceFault(ErrorId id) {
+    const bool device = id == ErrorId::kOutOfDeviceMemory || id == ErrorId::kDeviceLost;
+    if (device) deviceFault_ = id;
+  }
+
   template <typename Handle>
   void destroyBuried(Kind<Handle>& kind);
   template <typename Handle>

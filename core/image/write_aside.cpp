@@ -61,9 +61,10 @@ void requireWritable(const std::string& path) {
 
 void requireWritableFolder(const std::string& folder) {
   std::error_code code;
-  std::filesystem::create_directories(folder, code);
+  const bool made = std::filesystem::create_directories(folder, code);
   if (code) throw Error(ErrorId::kFileUnwritable, "{}: {}", folder, code.message());
   requireWritable((std::filesystem::path(folder) / "grisaille").string());
+  if (made) std::filesystem::remove(folder, code);  // who only asked leaves nothing
 }
 
 }  // namespace grisaille::image

@@ -116,6 +116,16 @@ TEST(FaultyEffects, ThatThrowEndTheRenderByAnError) {
   EXPECT_TRUE(holds(outcome.err, "error E3203: throws_destroy lets")) << outcome.err;
 }
 
+TEST(FaultyEffects, ThatCrashAreNamedByTheLastWords) {
+  const TemporaryFolder folder;
+  const Outcome outcome =
+      render(folder, "crashes", {"--set", "crashes.level=1", "--write", "first=a.exr"});
+  EXPECT_EQ(outcome.status, -1);  // by its signal, as ever
+  EXPECT_EQ(outcome.err.rfind("error E3107: crashes crashes in its record(); ", 0), 0u)
+      << outcome.err;
+  EXPECT_TRUE(folder.files().empty());
+}
+
 // Written as it is, for whoever looks for the fault.
 TEST(FaultyEffects, WhatIsNotFiniteIsAWarningOfRender) {
   const TemporaryFolder folder;
