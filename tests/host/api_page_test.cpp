@@ -67,8 +67,8 @@ GRISAILLE_EXPORT int make(const part* of, thing** out);
         "#### `thing`\n\nOpaque. Somebody's.", "| `KIND_ONE = 1` | a \\| b |",
         "| `KIND_TWO = 2` | the last |", "| `double length` | metres, over 0 |",
         "| `int (*call)(int a, int b)` | Before it. |",
-        "#### `make()`\n\n```c\nint make(const part* of, thing** out);\n```\n\nMakes one.\n\n"
-        "**Errors:** 5601 (a null pointer).",
+        "#### `make()`\n\n```c\nint make(const part* of, thing** out);\n```\n\nMakes one.\n\n",
+        "Makes one.\n\n**Errors:** 5601 (a null pointer).",
         "| 5601 | give what the message names |"}) {
     EXPECT_NE(page.find(expected), std::string::npos) << expected << " is not in\n" << page;
   }

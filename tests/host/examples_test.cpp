@@ -74,10 +74,6 @@ struct Example {
   const char* space;    // of the normals
 };
 
-void PrintTo(const Example& example, std::ostream* to) {
-  *to << example.name;
-}
-
 class Examples : public ::testing::TestWithParam<Example> {
  protected:
   static void SetUpTestSuite() {

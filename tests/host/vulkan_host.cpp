@@ -1,4 +1,5 @@
 // SPDX-License-Identifier: MIT
+#include <cmath>
 #include <cstring>
 #include <deque>
 #include <glm/gtc/packing.hpp>
@@ -108,7 +109,7 @@ host::Texture VulkanHost::texture(const host::Device& device, Texels texels, uin
     std::memcpy(buffer.mapped, numbers.data(), numbers.size() * sizeof(float));
   } else {
     auto* bytes = static_cast<uint8_t*>(buffer.mapped);
-    for (const float number : numbers) *bytes++ = static_cast<uint8_t>(number * 255 + 0.5f);
+    for (const float number : numbers) *bytes++ = static_cast<uint8_t>(std::lround(number * 255));
   }
   submit([&] {
     example::transition(commands_, image.image, kind.aspects, VK_IMAGE_LAYOUT_UNDEFINED,
