@@ -55,9 +55,10 @@ void addEffects(CLI::App& program) {
       ->allow_extra_args(false);
   CLI::Option* verified =
       command
-          ->add_option("--verify", options->verify,
-                       "Check a plugin whole instead: its table, then on every backend, validated, "
-                       "sizes, parameters at their extremes, every pixel; print a report")
+          ->add_option(
+              "--verify", options->verify,
+              "Check a plugin whole instead: its table, then on every backend, validated, "
+              "sizes, parameters at their extremes and at random, every pixel; print a report")
           ->type_name("FILE.so");
   command
       ->add_flag("--in-process", options->inProcess,

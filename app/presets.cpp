@@ -3,7 +3,6 @@
 
 #include <fmt/format.h>
 #include <algorithm>
-#include <fstream>
 #include <set>
 
 #include "app/active_effects.h"
@@ -60,13 +59,11 @@ Presets loadPresets(const effect::Effect& effect) {
   Presets presets;
   const std::string path = presetsFile(effect);
   if (!std::filesystem::exists(path)) return presets;
-  std::ifstream file(path, std::ios::binary);
   toml::table table;
   try {
-    table = toml::parse(file, path);
-  } catch (const toml::parse_error& error) {
-    throw Error(ErrorId::kPresetFile, "{}:{}: {}", path, error.source().begin.line,
-                error.description());
+    table = parseTomlFile(path);
+  } catch (const Error& error) {
+    throw Error(ErrorId::kPresetFile, "{}", error.detail());
   }
   presets.study = table["study"].value_or(std::string());
   for (const char* name : kPresetNames) {

@@ -2,8 +2,6 @@
 #include "app/settings.h"
 
 #include <algorithm>
-#include <filesystem>
-#include <fstream>
 
 #include "app/active_effects.h"
 #include "app/toml_values.h"
@@ -77,18 +75,7 @@ std::string tableToml(const Settings& settings, const std::string& effect) {
 }  // namespace
 
 Settings readSettings(const std::string& path) {
-  std::ifstream file(path, std::ios::binary);
-  if (!file || std::filesystem::is_directory(path)) {
-    throw Error(ErrorId::kSettingsUnreadable, "cannot read settings '{}'", path);
-  }
-  const std::string text{std::istreambuf_iterator<char>(file), {}};
-  toml::table table;
-  try {
-    table = toml::parse(text, path);
-  } catch (const toml::parse_error& error) {
-    throw Error(ErrorId::kSettingsUnreadable, "{}:{}: {}", path, error.source().begin.line,
-                error.description());
-  }
+  const toml::table table = parseTomlFile(path);
   Settings settings;
   for (const auto& [key, node] : table) {
     if (key.str() == "effects") {

@@ -3,9 +3,12 @@
 
 #include <fmt/format.h>
 
+#include <algorithm>
 #include <array>
 #include <charconv>
 #include <cmath>
+#include <filesystem>
+#include <fstream>
 #include <sstream>
 
 #include "core/error.h"
@@ -19,7 +22,83 @@ std::string numberText(double value) {
   return {text.data(), std::to_chars(text.data(), text.data() + text.size(), value).ptr};
 }
 
+constexpr size_t kLargestFile = size_t{1} << 20;
+// Each part of a dotted key is a table in a table, which toml++ ends by recursion without a limit.
+// (Lists and tables in braces it refuses by itself from 256 on.)
+constexpr size_t kMostKeyParts = 16;
+
+// Of a file, a pipe or a device, which need not end.
+std::string contentOf(const std::string& path) {
+  std::error_code failed;
+  std::ifstream file(path, std::ios::binary);
+  if (!file || std::filesystem::is_directory(path, failed)) {
+    throw Error(ErrorId::kSettingsUnreadable, "cannot read '{}'", path);
+  }
+  std::string text;
+  for (std::array<char, 4096> chunk; file;) {
+    file.read(chunk.data(), chunk.size());
+    text.append(chunk.data(), static_cast<size_t>(file.gcount()));
+    if (text.size() > kLargestFile) {
+      throw Error(ErrorId::kSettingsUnreadable, "'{}' is over {} bytes", path, kLargestFile);
+    }
+  }
+  return text;
+}
+
+// The end of the string whose first quote is at `at`; of a line where it is not closed.
+size_t endOfString(std::string_view text, size_t at) {
+  const char quote = text[at];
+  const std::string three(3, quote);
+  const bool isLong = text.substr(at).starts_with(three);
+  for (at += isLong ? 3 : 1; at < text.size(); ++at) {
+    if (text[at] == '\\' && quote == '"') {
+      ++at;
+    } else if (!isLong && (text[at] == quote || text[at] == '\n')) {
+      return at + 1;
+    } else if (isLong && text.substr(at).starts_with(three)) {
+      // Up to two more quotes are the string's own.
+      const size_t end = std::min(text.find_first_not_of(quote, at + 3), at + 5);
+      return std::min(end, text.size());
+    }
+  }
+  return text.size();
+}
+
+void checkKeys(std::string_view text, const std::string& path) {
+  size_t line = 1, dots = 0;
+  for (size_t at = 0; at < text.size();) {
+    const char c = text[at];
+    size_t end = at + 1;
+    if (c == '"' || c == '\'') {
+      end = endOfString(text, at);
+    } else if (c == '#') {
+      end = std::min(text.find('\n', at), text.size());
+    } else if (c == '.') {
+      ++dots;
+    } else if (std::string_view("=,[]{}\n").find(c) != std::string_view::npos) {
+      dots = 0;
+    }
+    if (dots >= kMostKeyParts) {
+      throw Error(ErrorId::kSettingsUnreadable, "{}:{}: a key has over {} parts", path, line,
+                  kMostKeyParts);
+    }
+    line += static_cast<size_t>(std::ranges::count(text.substr(at, end - at), '\n'));
+    at = end;
+  }
+}
+
 }  // namespace
+
+toml::table parseTomlFile(const std::string& path) {
+  const std::string text = contentOf(path);
+  checkKeys(text, path);
+  try {
+    return toml::parse(text, path);
+  } catch (const toml::parse_error& error) {
+    throw Error(ErrorId::kSettingsUnreadable, "{}:{}: {}", path, error.source().begin.line,
+                error.description());
+  }
+}
 
 std::string tomlNodeText(const toml::node& node, std::string_view key, const std::string& place) {
   if (const auto* value = node.as_integer()) return fmt::format("{}", value->get());

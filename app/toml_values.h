@@ -13,6 +13,10 @@ namespace grisaille::app {
 // `place` for anything else.
 std::string tomlNodeText(const toml::node& node, std::string_view key, const std::string& place);
 
+// Parses a file. Throws kSettingsUnreadable where it cannot be read, is too large to be a person's
+// or is no TOML, with the line.
+toml::table parseTomlFile(const std::string& path);
+
 // The text as TOML: a number or a boolean where that reads back to the same text, else a string.
 std::string tomlValue(const std::string& text);
 

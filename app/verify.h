@@ -45,7 +45,8 @@ class Report {
 
 // Every check, in this process: that the plugin loads, that its tables fit, and on every backend
 // with all validation on that each of its effects draws whole pictures at any size and with every
-// parameter at its extremes. Faults are the report's; throws nothing for them.
+// parameter at its extremes and all of them at random. Faults are the report's; throws nothing for
+// them.
 void checkPlugin(const std::string& file, Report& report);
 
 }  // namespace grisaille::app

@@ -8,6 +8,7 @@
 #include <cstring>
 #include <filesystem>
 #include <memory>
+#include <random>
 #include <utility>
 #include <vector>
 
@@ -25,6 +26,30 @@ namespace {
 constexpr glm::uvec2 kSize(96, 54);
 // Odd, small, thin, and not a multiple of any group's size; then the first once more.
 constexpr glm::uvec2 kSizes[] = {{1, 1}, {33, 17}, {7, 129}, {257, 3}, {64, 64}, {96, 54}};
+
+// Vectors of values drawn at random, and the size that they are drawn at.
+constexpr uint32_t kRandomVectors = 20;
+constexpr glm::uvec2 kRandomSize(33, 21);
+
+// Anything that a parameter may be: half the time what its slider gives, else near its ends on
+// either scale, or an end itself. The same on every machine.
+double randomValue(const grisaille_param_desc& param, std::mt19937& random) {
+  const double share = static_cast<double>(random()) * 0x1p-32;
+  const double low = param.hard_min, high = param.hard_max;
+  const auto kind = random() % 6;
+  double value = share < 0.5 ? low : high;
+  if (param.type == GRISAILLE_PARAM_BOOL || param.type == GRISAILLE_PARAM_ENUM) {
+    value = low + share * (high - low + 1);
+  } else if (kind < 3) {
+    value = param.soft_min + share * (param.soft_max - param.soft_min);
+  } else if (kind == 3 && low > 0) {
+    value = low * std::pow(high / low, share);
+  } else if (kind < 5) {
+    value = (1 - share) * low + share * high;  // high - low need not be a number
+  }
+  if (param.type != GRISAILLE_PARAM_FLOAT) value = std::floor(value);
+  return std::clamp(value, low, high);
+}
 
 // What the driver and its validation say.
 class Messages {
@@ -80,6 +105,7 @@ class EffectCheck {
       draw("writing " + name + " alone", kSize, values, {name});
     report_.conclude(title_ + "writes what is wanted alone");
     checkExtremes();
+    checkRandom();
     for (int i = 0; i < 3; ++i) {
       if (!create()) return;
       draw("made anew", kSize, values, names_);
@@ -192,7 +218,7 @@ class EffectCheck {
   void checkPicture(const std::string& what, const grisaille_output_desc& output,
                     const image::Image& picture) {
     constexpr float kRounding = 1e-3f;
-    size_t odd = 0, outside = 0;
+    size_t odd = 0, outside = 0, nobodys = 0;
     for (size_t i = 0; i < picture.pixels.size(); ++i) {
       const float value = picture.pixels[i];
       if (!std::isfinite(value)) ++odd;
@@ -201,9 +227,12 @@ class EffectCheck {
                          (output.role == GRISAILLE_ROLE_TINT && channel < 3) ||
                          (output.role == GRISAILLE_ROLE_PAINT && channel == 3);
       if (share && (value < -kRounding || value > 1 + kRounding)) ++outside;
+      const auto shots = static_cast<float>(shots_.size());
+      if (output.role == GRISAILLE_ROLE_OWNER && value > shots) ++nobodys;
     }
     expect(odd == 0, fmt::format("{} holds {} values that are no finite numbers", what, odd));
     expect(outside == 0, fmt::format("{} holds {} values outside 0 to 1", what, outside));
+    expect(nobodys == 0, fmt::format("{} holds {} numbers of no shot", what, nobodys));
   }
 
   // Which bytes of an output it leaves as they were: `left` becomes 1 where they are.
@@ -262,6 +291,20 @@ class EffectCheck {
     draw("all parameters at their least", kSize, least, names_);
     draw("all parameters at their most", kSize, most, names_);
     report_.conclude(title_ + "draws with every parameter at its extremes");
+  }
+
+  void checkRandom() {
+    std::mt19937 random(1);
+    for (uint32_t i = 0; i < kRandomVectors; ++i) {
+      effect::Values values(effect_);
+      std::string what = "with";
+      for (const grisaille_param_desc& param : effect_.params()) {
+        values.set(param.key, randomValue(param, random));
+        what += fmt::format(" {}={}", param.key, values.text(param.key));
+      }
+      draw(what, kRandomSize, values, names_);
+    }
+    report_.conclude(title_ + "draws with values drawn at random");
   }
 
   Report& report_;

@@ -33,6 +33,11 @@ std::string nearest(std::string_view word, std::span<const std::string> candidat
   const std::string* best = nullptr;
   size_t least = word.size() / 3 + 2;  // one more than may be wrong
   for (const std::string& candidate : candidates) {
+    // The lengths' difference alone is too much: a file's key may be as long as the file.
+    if (std::max(word.size(), candidate.size()) - std::min(word.size(), candidate.size()) >=
+        least) {
+      continue;
+    }
     const size_t wrong = distance(word, candidate);
     if (wrong < least) {
       least = wrong;

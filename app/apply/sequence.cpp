@@ -14,6 +14,7 @@ namespace {
 namespace fs = std::filesystem;
 
 constexpr size_t kMostDigits = 9;  // what an int holds
+constexpr size_t kLongestName = 4096;
 
 bool isDigit(char c) {
   return c >= '0' && c <= '9';
@@ -34,6 +35,11 @@ std::optional<int> numberIn(std::string_view digits, size_t width) {
 }  // namespace
 
 FileName::FileName(const std::string& text) : text_(text), before_(text) {
+  // std::regex takes stack for every character.
+  if (text.size() > kLongestName) {
+    throw Error(ErrorId::kSequence, "'{}...' is longer than a path can be, {} bytes",
+                text.substr(0, 40), kLongestName);
+  }
   static const std::regex kNumber("##+|%(0([1-9]))?d");
   std::smatch match;
   if (!std::regex_search(text, match, kNumber)) return;

@@ -10,6 +10,7 @@
 #include "app/study/flicker_run.h"
 #include "app/study/metrics.h"
 #include "app/study/toml_table.h"
+#include "app/toml_values.h"
 #include "core/error.h"
 #include "core/scene/camera_path.h"
 #include "core/shots/shot.h"
@@ -249,7 +250,7 @@ Claim claimOf(TomlTable& table, const effect::Registry& registry) {
 }  // namespace
 
 ClaimsFile loadClaims(const std::string& path, const effect::Registry& registry) {
-  const toml::table document = parseToml(path);
+  const toml::table document = parseTomlFile(path);
   TomlTable table(path, document);
   ClaimsFile file{.title = table.text("title", "Claims"), .claims = {}};
   for (const toml::table* one : table.tables("claim")) {

@@ -5,9 +5,6 @@
 
 #include <algorithm>
 #include <cmath>
-#include <filesystem>
-#include <fstream>
-#include <iterator>
 
 #include "core/error.h"
 #include "core/nearest.h"
@@ -23,20 +20,6 @@ double numberOf(const toml::node& node) {
 }
 
 }  // namespace
-
-toml::table parseToml(const std::string& path) {
-  std::ifstream file(path, std::ios::binary);
-  if (!file || std::filesystem::is_directory(path)) {
-    throw Error(ErrorId::kSettingsUnreadable, "cannot read '{}'", path);
-  }
-  const std::string text{std::istreambuf_iterator<char>(file), {}};
-  try {
-    return toml::parse(text, path);
-  } catch (const toml::parse_error& error) {
-    throw Error(ErrorId::kSettingsUnreadable, "{}:{}: {}", path, error.source().begin.line,
-                error.description());
-  }
-}
 
 std::string TomlTable::placeOf(const toml::node& node) const {
   return fmt::format("{}:{}", file_, node.source().begin.line);

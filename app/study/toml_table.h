@@ -11,9 +11,6 @@
 
 namespace grisaille::app::study {
 
-// Parses a whole file. Throws kSettingsUnreadable.
-toml::table parseToml(const std::string& path);
-
 class TomlTable {
  public:
   // `file` is for messages; `table` outlives this.

@@ -9,6 +9,7 @@
 #include "core/error.h"
 #include "core/image/write_aside.h"
 #include "core/nearest.h"
+#include "core/scene/camera_json.h"
 
 namespace grisaille::scene {
 namespace {
@@ -126,8 +127,7 @@ std::string readCameraText(const std::string& path) {
   return {std::istreambuf_iterator<char>(file), {}};
 }
 
-Camera parseCamera(std::string_view text, const std::string& name) {
-  const json document = parse(text, name);
+Camera cameraFromJson(const json& document, const std::string& name) {
   try {
     if (!document.is_object()) refuse("the file", "holds no object");
     Camera camera;
@@ -140,6 +140,10 @@ Camera parseCamera(std::string_view text, const std::string& name) {
   } catch (const Error& error) {
     throw Error(error.id(), "{}: {}", name, error.detail());
   }
+}
+
+Camera parseCamera(std::string_view text, const std::string& name) {
+  return cameraFromJson(parse(text, name), name);
 }
 
 Camera loadCamera(const std::string& path) {

@@ -6,6 +6,7 @@
 #include <nlohmann/json.hpp>
 
 #include "core/error.h"
+#include "core/scene/camera_json.h"
 
 namespace grisaille::scene {
 namespace {
@@ -30,7 +31,7 @@ void setKey(CameraPath& path, const std::string& key, const json& value) {
   } else if (key == "cameras") {
     if (!value.is_array()) refuse("cameras is not an array");
     for (size_t i = 0; i < value.size(); ++i) {
-      path.keys.push_back(parseCamera(value[i].dump(), fmt::format("cameras[{}]", i)));
+      path.keys.push_back(cameraFromJson(value[i], fmt::format("cameras[{}]", i)));
     }
   } else {
     refuse(fmt::format("\"{}\" is no key of a camera path, which has cameras and frames", key));

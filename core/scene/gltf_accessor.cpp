@@ -146,9 +146,9 @@ Elements denseOf(const tinygltf::Model& model, int index, size_t elementSize) {
                       elementSize);
   }
   // No buffer bounds this count.
-  if (accessor.count > kMaxVertices) {
-    throw Error(ErrorId::kSceneTooLarge, "accessor {}: {} elements, at most {}", index,
-                accessor.count, kMaxVertices);
+  if (accessor.count > kMaxZeroElements) {
+    throw Error(ErrorId::kSceneTooLarge, "accessor {}: {} elements without a buffer, at most {}",
+                index, accessor.count, kMaxZeroElements);
   }
   if (accessor.count == 0) throw Error(ErrorId::kSceneInvalid, "accessor {} is empty", index);
   return {};

@@ -17,6 +17,8 @@ namespace grisaille::scene {
 constexpr uint64_t kMaxVertices = uint64_t{1} << 26;
 constexpr uint64_t kMaxIndices = uint64_t{1} << 28;
 constexpr uint64_t kMaxInstances = uint64_t{1} << 22;
+// Of one accessor that has no bytes in the file, which are zeros.
+constexpr uint64_t kMaxZeroElements = uint64_t{1} << 22;
 
 // Parses .gltf or .glb. Images are left where they are: see imageBytes(). Throws kSceneUnreadable,
 // kSceneInvalid, kSceneExtension, kSceneTooLarge.

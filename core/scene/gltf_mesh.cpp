@@ -202,7 +202,12 @@ void MeshLoader::appendTexCoords(const VertexKey& key, size_t count) {
   std::vector<glm::vec2> texCoords = readVec2(model_, key.texCoords);
   if (key.material > 0) {
     const glm::dmat3x2& transform = uses_[key.material - 1].transform;
-    for (glm::vec2& uv : texCoords) uv = glm::vec2(transform * glm::dvec3(uv, 1));
+    for (glm::vec2& uv : texCoords) {
+      uv = glm::vec2(transform * glm::dvec3(uv, 1));
+      if (std::isfinite(uv.x) && std::isfinite(uv.y)) continue;
+      throw Error(ErrorId::kSceneInvalid,
+                  "accessor {}: KHR_texture_transform leads beyond all numbers", key.texCoords);
+    }
   }
   scene_.texCoords.insert(scene_.texCoords.end(), texCoords.begin(), texCoords.end());
 }

@@ -21,6 +21,12 @@ TEST(FileName, NumbersStandWhereTheNameSays) {
   }
 }
 
+TEST(FileName, MayBeAsLongAsAPathCanBe) {
+  EXPECT_FALSE(FileName(std::string(4096, 'd')).numbered());
+  EXPECT_ERROR(ErrorId::kSequence, FileName(std::string(4096, '#')));
+  EXPECT_ERROR(ErrorId::kSequence, FileName(std::string(200000, '#')));
+}
+
 TEST(FileName, FindsTheFilesOfItsNumbersAlone) {
   const tests::TemporaryFolder folder;
   for (const char* name :

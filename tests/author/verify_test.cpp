@@ -34,12 +34,25 @@ TEST(Verify, ASoundPluginPassesOnBothBackends) {
     for (const char* line :
          {"draws whole pictures with its defaults", "writes every pixel", "is resized",
           "writes what is wanted alone", "draws with every parameter at its extremes",
-          "is destroyed and made anew"}) {
+          "draws with values drawn at random", "is destroyed and made anew"}) {
       EXPECT_TRUE(holds(outcome.out, std::string("ok    ") + backend + ": sound: " + line))
           << line << outcome.out;
     }
   }
   EXPECT_TRUE(holds(outcome.out, ": 0 faults in ")) << outcome.out;
+}
+
+// The program's own effects: with values at the ends of what is allowed and at random.
+TEST(Verify, TheProgramsOwnEffectsPassOnBothBackends) {
+  for (const std::string name : {"ssao", "sspm"}) {
+    const Outcome outcome = verify(fs::path(EFFECTS_FOLDER) / (name + ".so"));
+    EXPECT_EQ(outcome.status, 0) << outcome.out << outcome.err;
+    for (const std::string backend : {"opengl", "vulkan"}) {
+      const std::string line =
+          "ok    " + backend + ": " + name + ": draws with values drawn at random";
+      EXPECT_TRUE(holds(outcome.out, line)) << outcome.out;
+    }
+  }
 }
 
 TEST(Verify, FaultsAreNamedWithTheStep) {

@@ -68,6 +68,9 @@ TEST_F(CameraPathFiles, MistakesAreNamed) {
   refused(json::array(), ErrorId::kCameraInvalid, "object");
   EXPECT_ERROR(ErrorId::kCameraUnreadable, loadCameraPath(put("path.json", "{")));
   EXPECT_ERROR(ErrorId::kCameraUnreadable, loadCameraPath(file("missing.json")));
+  const std::string deep = std::string(200000, '[') + std::string(200000, ']');
+  EXPECT_ERROR(ErrorId::kCameraInvalid,
+               loadCameraPath(put("path.json", "{\"frames\": 2, \"cameras\": [" + deep + "]}")));
 }
 
 // The eye runs through the target.

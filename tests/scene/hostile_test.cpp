@@ -112,6 +112,33 @@ TEST_F(HostileFiles, SharedVerticesAreNotMultiplied) {
   EXPECT_EQ(loadGltf(put("a.glb", gltf.bytes())).positions.size(), 3000000u);
 }
 
+TEST_F(HostileFiles, FewBytesMakeNoHugeScene) {
+  Gltf gltf = Gltf::triangle();
+  gltf.document["accessors"][0].erase("bufferView");
+  gltf.document["accessors"][0]["count"] = 60000000;
+  gltf.primitive()["attributes"].erase("NORMAL");
+  EXPECT_ERROR(ErrorId::kSceneTooLarge, loadGltf(put("a.glb", gltf.bytes())));
+}
+
+TEST_F(HostileFiles, TextureTransformsStayWithinNumbers) {
+  Gltf gltf = Gltf::triangle();
+  gltf.primitive()["attributes"]["TEXCOORD_0"] = gltf.accessor<uint8_t>({0, 0, 255, 0, 0, 255}, 2);
+  gltf.primitive()["material"] = 0;
+  gltf.document["images"] = json::parse(R"([{"uri": "data:image/png;base64,AAAA"}])");
+  gltf.document["textures"] = json::parse(R"([{"source": 0}])");
+  const auto scaled = [&](double scale) {
+    json transform;
+    transform["KHR_texture_transform"]["scale"] = json::array({scale, 1});
+    json material;
+    material["pbrMetallicRoughness"]["baseColorTexture"] = {{"index", 0},
+                                                            {"extensions", transform}};
+    gltf.document["materials"] = json::array({material});
+    return put("a.glb", gltf.bytes());
+  };
+  EXPECT_NO_THROW(loadGltf(scaled(1e30)));
+  EXPECT_ERROR(ErrorId::kSceneInvalid, loadGltf(scaled(1e300)));
+}
+
 // Loads bytes that are probably broken; anything but an Error fails the test.
 void loadBroken(const std::string& path) {
   const auto start = std::chrono::steady_clock::now();

@@ -140,5 +140,29 @@ TEST_F(SettingsFile, RefusesWhatItCannotHold) {
   }
 }
 
+TEST_F(SettingsFile, WhatNeverEndsOrNestsDeepIsRefused) {
+  EXPECT_ERROR(ErrorId::kSettingsUnreadable, readSettings("/dev/zero"));
+  EXPECT_ERROR(ErrorId::kSettingsUnreadable, readSettings(file("")));
+  const auto dotted = [](size_t parts) {
+    std::string key = "a";
+    for (size_t i = 1; i < parts; ++i) key += i % 2 == 0 ? " . 'a.b'" : ".a";
+    return key;
+  };
+  for (const std::string& text :
+       {dotted(100000) + " = 1", "[" + dotted(100000) + "]", "x = [1.5, {" + dotted(17) + " = 1}]",
+        "x = {a = \"\"\"\"\"\"\"\", " + dotted(17) + " = 1}"}) {
+    EXPECT_ERROR(ErrorId::kSettingsUnreadable, readSettings(fileOf("deep.toml", text)));
+  }
+}
+
+TEST_F(SettingsFile, DotsOfNumbersTextsAndCommentsAreNoPartsOfKeys) {
+  std::string text = "# " + std::string(100, '.') + "\n[a]\nx = [";
+  for (int i = 0; i < 100; ++i) text += "1.5, ";
+  EXPECT_ERROR(ErrorId::kSettingsInvalid, readSettings(fileOf("x.toml", text + "]")));
+  const std::string dots(100, '.');
+  text = "# it's\n[a]\nb = \"\\\"" + dots + "\"\nc = '''\n'" + dots + "''' # \"\nd = '\\'\n";
+  EXPECT_EQ(readSettings(fileOf("x.toml", text)).values.size(), 3u);
+}
+
 }  // namespace
 }  // namespace grisaille::app::viewer

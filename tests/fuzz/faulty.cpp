@@ -1,0 +1,8 @@
+// SPDX-License-Identifier: MIT
+// A target with a fault, which must be found out.
+#include "tests/fuzz/fuzz.h"
+
+extern "C" int LLVMFuzzerTestOneInput(const uint8_t*, size_t) {
+  grisaille::fuzz::require(false);
+  return 0;
+}

@@ -1,0 +1,248 @@
+// SPDX-License-Identifier: MIT
+// A plugin's description: a sound one, and bytes that say which of its fields become what. Pointers
+// lead to memory that is there, as no host can check otherwise, and lists are as long as they say.
+#include <cstring>
+#include <deque>
+#include <vector>
+
+#include "tests/fuzz/check_values.h"
+#include "tests/fuzz/table.h"
+
+namespace grisaille::fuzz {
+namespace {
+
+// The bytes as numbers and texts; zeros and "" when they are used up.
+class Source {
+ public:
+  explicit Source(std::string_view bytes) : rest_(bytes) {}
+  bool ended() const { return rest_.empty(); }
+  template <typename T>
+  T number() {
+    T value{};
+    const size_t size = std::min(sizeof value, rest_.size());
+    if (size > 0) std::memcpy(&value, rest_.data(), size);
+    rest_.remove_prefix(size);
+    return value;
+  }
+  uint32_t below(size_t count) { return number<uint8_t>() % static_cast<uint32_t>(count); }
+  std::string_view text() { return cut(rest_, '\0'); }
+
+ private:
+  std::string_view rest_;
+};
+
+// More than any count may be, so that what is over the limit is there as well.
+constexpr size_t kMost = 260;
+
+struct Effect {
+  std::vector<grisaille_param_desc> params;
+  std::vector<grisaille_output_desc> outputs;
+  grisaille_effect_desc desc = kEffect;
+};
+
+class Plugin {
+ public:
+  explicit Plugin(Source source) : source_(source), effects_(2) {
+    for (Effect& effect : effects_) fill(effect);
+    effects_[1].desc.key = "second";
+    while (!source_.ended()) change();
+  }
+
+  void check() {
+    std::vector<const grisaille_effect_desc*> all;
+    for (size_t i = 0; i < kMost; ++i) {
+      all.push_back(i == absent_ ? nullptr : &effects_[i % effects_.size()].desc);
+    }
+    desc_.effects = hasEffects_ ? all.data() : nullptr;
+    if (!accepted({ErrorId::kPluginTable}, [&] { effect::checkTable(desc_); })) return;
+    for (uint32_t i = 0; i < desc_.effect_count; ++i) {
+      const grisaille_effect_desc desc = effect::whole(all[i]);
+      const effect::Effect effect{.desc = &desc, .path = ""};
+      requireSound(effect::Values(effect));
+      effect.reads(nullptr, 1);
+      effect.guardBand(nullptr);
+    }
+  }
+
+ private:
+  void fill(Effect& effect) {
+    for (size_t i = 0; i < kMost; ++i) {
+      effect.params.push_back(kParams[i % kParams.size()]);
+      effect.outputs.push_back(kOutputs[i % kOutputs.size()]);
+      if (i >= kParams.size()) effect.params.back().key = kept(fmt::format("p{}", i));
+      if (i >= kOutputs.size()) effect.outputs.back().key = kept(fmt::format("o{}", i));
+    }
+    effect.desc.params = effect.params.data();
+    effect.desc.outputs = effect.outputs.data();
+  }
+
+  void change() {
+    Effect& effect = effects_[source_.below(2)];
+    switch (source_.below(4)) {
+      case 0:
+        return changePlugin();
+      case 1:
+        return changeEffect(effect);
+      case 2:
+        return changeParam(effect.params[source_.below(kParams.size() + 1)]);
+      default:
+        return changeOutput(effect.outputs[source_.below(kOutputs.size() + 1)]);
+    }
+  }
+
+  void changePlugin() {
+    switch (source_.below(5)) {
+      case 0:
+        return take(desc_.struct_size);
+      case 1:
+        return take(desc_.effect_count);
+      case 2:
+        return take(desc_.reserved);
+      case 3:
+        absent_ = source_.below(4);
+        return;
+      default:
+        hasEffects_ = !hasEffects_;
+    }
+  }
+
+  void changeEffect(Effect& effect) {
+    grisaille_effect_desc& desc = effect.desc;
+    uint32_t* const words[] = {&desc.struct_size, &desc.param_count, &desc.output_count,
+                               &desc.reserved,    &desc.flags,       &desc.reserved2};
+    const char** const texts[] = {&desc.key, &desc.label, &desc.version, &desc.tooltip};
+    switch (source_.below(8)) {
+      case 0:
+      case 1:
+        return take(*words[source_.below(std::size(words))]);
+      case 2:
+      case 3:
+        return take(*texts[source_.below(std::size(texts))]);
+      case 4:
+        desc.params = desc.params == nullptr ? effect.params.data() : nullptr;
+        return;
+      case 5:
+        desc.outputs = desc.outputs == nullptr ? effect.outputs.data() : nullptr;
+        return;
+      case 6:
+        // Those of the versions before.
+        desc.struct_size =
+            static_cast<uint32_t>(source_.below(2) == 0 ? offsetof(grisaille_effect_desc, reads_for)
+                                                        : offsetof(grisaille_effect_desc, flags));
+        return;
+      default:
+        return dropFunction(desc);
+    }
+  }
+
+  void dropFunction(grisaille_effect_desc& desc) {
+    switch (source_.below(4)) {
+      case 0:
+        desc.reads = nullptr;
+        return;
+      case 1:
+        desc.create = nullptr;
+        return;
+      case 2:
+        desc.record = nullptr;
+        return;
+      default:
+        desc.destroy = nullptr;
+    }
+  }
+
+  void changeParam(grisaille_param_desc& param) {
+    uint32_t* const words[] = {&param.struct_size, &param.type, &param.flags};
+    const char** const texts[] = {&param.key, &param.label, &param.unit, &param.tooltip};
+    double* const numbers[] = {&param.hard_min, &param.hard_max,      &param.soft_min,
+                               &param.soft_max, &param.default_value, &param.step};
+    switch (source_.below(6)) {
+      case 0:
+        return take(*words[source_.below(std::size(words))]);
+      case 1:
+        return take(*texts[source_.below(std::size(texts))]);
+      case 2:
+      case 3:
+        *numbers[source_.below(std::size(numbers))] = number();
+        return;
+      case 4:
+        return makeEnum(param);
+      default:
+        param = kParams[source_.below(kParams.size())];
+        param.key = "other";
+    }
+  }
+
+  // Any number, or one that is likelier to fit.
+  double number() {
+    switch (source_.below(3)) {
+      case 0:
+        return source_.number<double>();
+      case 1:
+        return source_.number<int32_t>();
+      default:
+        return source_.number<int8_t>();
+    }
+  }
+
+  void makeEnum(grisaille_param_desc& param) {
+    param.type = GRISAILLE_PARAM_ENUM;
+    param.enum_count = source_.below(70);
+    param.hard_max = param.soft_max = param.enum_count - 1.0;
+    param.hard_min = param.soft_min = param.default_value = 0;
+    std::vector<const char*>& keys = lists_.emplace_back();
+    for (uint32_t i = 0; i < 70; ++i) keys.push_back(kept(fmt::format("e{}", i)));
+    const uint32_t changed = source_.below(70);
+    take(keys[changed]);
+    param.enum_keys = keys.data();
+    param.enum_labels = source_.below(8) == 0 ? nullptr : keys.data();
+  }
+
+  void changeOutput(grisaille_output_desc& output) {
+    switch (source_.below(5)) {
+      case 0:
+        return take(output.struct_size);
+      case 1:
+        return take(output.key);
+      case 2:
+        return take(output.tooltip);
+      case 3:
+        output.format = source_.below(12);
+        return;
+      default:
+        output.role = source_.below(8);
+    }
+  }
+
+  // Small numbers, which are likelier to fit, and any.
+  void take(uint32_t& word) {
+    word = source_.below(2) == 0 ? source_.number<uint8_t>() : source_.number<uint32_t>();
+  }
+  void take(const char*& text) {
+    text = source_.below(8) == 0 ? nullptr : kept(std::string(source_.text()));
+  }
+  const char* kept(const std::string& text) { return texts_.emplace_back(text).c_str(); }
+
+  Source source_;
+  std::deque<std::string> texts_;
+  std::deque<std::vector<const char*>> lists_;
+  std::vector<Effect> effects_;
+  size_t absent_ = kMost;
+  bool hasEffects_ = true;
+  grisaille_plugin_desc desc_ = {.magic = GRISAILLE_MAGIC,
+                                 .abi_major = GRISAILLE_ABI_MAJOR,
+                                 .abi_minor = GRISAILLE_ABI_MINOR,
+                                 .struct_size = sizeof(grisaille_plugin_desc),
+                                 .effect_count = 2,
+                                 .reserved = 0,
+                                 .effects = nullptr};
+};
+
+}  // namespace
+}  // namespace grisaille::fuzz
+
+extern "C" int LLVMFuzzerTestOneInput(const uint8_t* data, size_t size) {
+  using namespace grisaille;
+  fuzz::Plugin(fuzz::Source(fuzz::textOf(data, size))).check();
+  return 0;
+}

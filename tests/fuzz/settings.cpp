@@ -1,0 +1,64 @@
+// SPDX-License-Identifier: MIT
+// A file of settings and, after a zero byte, assignments as of --set, a line each; against the
+// table of an effect of the program.
+#include "app/settings.h"
+
+#include <algorithm>
+#include <tuple>
+
+#include "app/active_effects.h"
+#include "core/effect/registry.h"
+#include "tests/fuzz/check_values.h"
+
+namespace grisaille::fuzz {
+namespace {
+
+const std::initializer_list<ErrorId> kOfValues = {
+    ErrorId::kParameterUnknown, ErrorId::kParameterType, ErrorId::kParameterRange,
+    ErrorId::kEffectUnknown,    ErrorId::kEffectTwice,   ErrorId::kUsage};
+
+// What is written reads back the same.
+void requireRoundTrip(app::Settings settings) {
+  const std::string path = scratchFile("written.toml", app::settingsToml(settings));
+  app::Settings again = app::readSettings(path);
+  require(again.effects == settings.effects && again.surface == settings.surface);
+  const auto content = [](const app::Settings::Value& value) {
+    return std::tie(value.effect, value.key, value.text);
+  };
+  std::ranges::sort(settings.values, {}, content);
+  std::ranges::sort(again.values, {}, content);
+  require(std::ranges::equal(settings.values, again.values, {}, content, content));
+}
+
+void apply(const effect::Registry& registry, const app::Settings& settings,
+           std::string_view assignments) {
+  app::ActiveEffects active(registry, settings.effects.value_or(app::kDefaultEffects));
+  accepted(kOfValues, [&] { app::applySettings(settings, active); });
+  while (!assignments.empty()) {
+    const std::string assignment(cut(assignments, '\n'));
+    accepted(kOfValues, [&] { active.set(assignment); });
+  }
+  for (const effect::Effect* effect : active.effects()) {
+    requireSound(active.values(effect->desc->key));
+  }
+}
+
+}  // namespace
+}  // namespace grisaille::fuzz
+
+extern "C" int LLVMFuzzerTestOneInput(const uint8_t* data, size_t size) {
+  using namespace grisaille;
+  static const effect::Registry& registry = []() -> const effect::Registry& {
+    static effect::Registry effects;
+    effects.load(EFFECTS_FOLDER "/ssao.so");
+    return effects;
+  }();
+  std::string_view assignments = fuzz::textOf(data, size);
+  const std::string path = fuzz::scratchFile("a.toml", fuzz::cut(assignments, '\0'));
+  app::Settings settings;
+  const bool good = fuzz::accepted({ErrorId::kSettingsUnreadable, ErrorId::kSettingsInvalid},
+                                   [&] { settings = app::readSettings(path); });
+  if (good) fuzz::requireRoundTrip(settings);
+  fuzz::accepted(fuzz::kOfValues, [&] { fuzz::apply(registry, settings, assignments); });
+  return 0;
+}
