@@ -3,6 +3,7 @@
 // lead to memory that is there, as no host can check otherwise, and lists are as long as they say.
 #include <cstring>
 #include <deque>
+#include <nlohmann/json.hpp>
 #include <vector>
 
 #include "tests/fuzz/check_values.h"
@@ -40,6 +41,17 @@ struct Effect {
   grisaille_effect_desc desc = kEffect;
 };
 
+// What is shown and written of a table: as JSON, which refuses what is no UTF-8.
+void requireTexts(const effect::Effect& effect) {
+  nlohmann::json texts = {effect.desc->label, effect.desc->version, effect.desc->tooltip};
+  for (const grisaille_param_desc& param : effect.params()) {
+    texts.insert(texts.end(), {param.key, param.label, param.unit, param.tooltip});
+    for (uint32_t i = 0; i < param.enum_count; ++i) texts.push_back(param.enum_labels[i]);
+  }
+  for (const grisaille_output_desc& output : effect.outputs()) texts.push_back(output.tooltip);
+  require(texts.dump().find('\n') == std::string::npos);
+}
+
 class Plugin {
  public:
   explicit Plugin(Source source) : source_(source), effects_(2) {
@@ -59,6 +71,7 @@ class Plugin {
       const grisaille_effect_desc desc = effect::whole(all[i]);
       const effect::Effect effect{.desc = &desc, .path = ""};
       requireSound(effect::Values(effect));
+      requireTexts(effect);
       effect.reads(nullptr, 1);
       effect.guardBand(nullptr);
     }
