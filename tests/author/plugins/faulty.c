@@ -1,7 +1,8 @@
 /* SPDX-License-Identifier: MIT
  *
  * An effect that `grisaille effects --verify` passes or, with -DFAULT_..., fails: each of them
- * while its parameter is at its most, but for the one that never writes. KEY is its key. */
+ * while its parameter is at its most, but for the one that never writes and the one that fails
+ * between its parameter's default and its ends. KEY is its key. */
 #include <math.h>
 #include <signal.h>
 #include <stdlib.h>
@@ -21,6 +22,9 @@ static grisaille_result create(const grisaille_host* host, void** out) {
 }
 
 static float valueAt(double level) {
+#if defined(FAULT_BETWEEN)
+  if (level > 0.5 && level < 1) return NAN;
+#endif
   if (level < 1) return (float)level;
 #if defined(FAULT_CRASHES)
   raise(SIGABRT);
