@@ -35,6 +35,13 @@ class Source {
 // More than any count may be, so that what is over the limit is there as well.
 constexpr size_t kMost = 260;
 
+// KEY0, KEY1, ...: made once.
+std::vector<std::string> keysOf(char letter) {
+  std::vector<std::string> keys;
+  for (size_t i = 0; i < kMost; ++i) keys.push_back(fmt::format("{}{}", letter, i));
+  return keys;
+}
+
 struct Effect {
   std::vector<grisaille_param_desc> params;
   std::vector<grisaille_output_desc> outputs;
@@ -79,11 +86,12 @@ class Plugin {
 
  private:
   void fill(Effect& effect) {
+    static const std::vector<std::string> params = keysOf('p'), outputs = keysOf('o');
     for (size_t i = 0; i < kMost; ++i) {
       effect.params.push_back(kParams[i % kParams.size()]);
       effect.outputs.push_back(kOutputs[i % kOutputs.size()]);
-      if (i >= kParams.size()) effect.params.back().key = kept(fmt::format("p{}", i));
-      if (i >= kOutputs.size()) effect.outputs.back().key = kept(fmt::format("o{}", i));
+      if (i >= kParams.size()) effect.params.back().key = params[i].c_str();
+      if (i >= kOutputs.size()) effect.outputs.back().key = outputs[i].c_str();
     }
     effect.desc.params = effect.params.data();
     effect.desc.outputs = effect.outputs.data();
@@ -203,8 +211,9 @@ class Plugin {
     param.enum_count = source_.below(70);
     param.hard_max = param.soft_max = param.enum_count - 1.0;
     param.hard_min = param.soft_min = param.default_value = 0;
+    static const std::vector<std::string> entries = keysOf('e');
     std::vector<const char*>& keys = lists_.emplace_back();
-    for (uint32_t i = 0; i < 70; ++i) keys.push_back(kept(fmt::format("e{}", i)));
+    for (uint32_t i = 0; i < 70; ++i) keys.push_back(entries[i].c_str());
     const uint32_t changed = source_.below(70);
     take(keys[changed]);
     param.enum_keys = keys.data();
