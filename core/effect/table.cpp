@@ -65,7 +65,24 @@ void checkPresent(const std::string& field, Pointer pointer) {
   if (pointer == nullptr) refuse(field, "is null");
 }
 
-// One line for people.
+// Bytes of the UTF-8 character that `text` begins with; 0: it is none.
+size_t utf8Length(std::string_view text) {
+  const auto byte = [&](size_t i) { return i < text.size() ? static_cast<uint8_t>(text[i]) : 0u; };
+  const uint32_t first = byte(0);
+  if (first < 0x80) return 1;
+  const size_t length = first >= 0xf0 ? 4 : first >= 0xe0 ? 3 : 2;
+  uint32_t code = first & (0x7fu >> length);
+  for (size_t i = 1; i < length; ++i) {
+    if (byte(i) >> 6 != 2) return 0;
+    code = code << 6 | (byte(i) & 0x3f);
+  }
+  constexpr uint32_t kLeast[] = {0x80, 0x800, 0x10000};  // by length: shorter forms are wrong
+  const bool surrogate = code >= 0xd800 && code <= 0xdfff;
+  const bool good = first >= 0xc0 && first < 0xf8 && code >= kLeast[length - 2] && code <= 0x10ffff;
+  return good && !surrogate ? length : 0;
+}
+
+// One line for people, which is UTF-8: the panel shows it, and JSON holds nothing else.
 void checkLine(const std::string& field, const char* text) {
   checkPresent(field, text);
   if (*text == '\0') refuse(field, "is empty");
@@ -73,6 +90,14 @@ void checkLine(const std::string& field, const char* text) {
     if (static_cast<unsigned char>(*c) < 0x20 || *c == 0x7f) {
       refuse(field, "holds the control character {:#04x}", static_cast<unsigned char>(*c));
     }
+  }
+  for (std::string_view rest = text; !rest.empty();) {
+    const size_t length = utf8Length(rest);
+    if (length == 0) {
+      refuse(field, "holds the byte {:#04x}, which is no UTF-8 there",
+             static_cast<unsigned char>(rest.front()));
+    }
+    rest.remove_prefix(length);
   }
 }
 

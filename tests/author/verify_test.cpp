@@ -58,6 +58,7 @@ TEST(Verify, TheProgramsOwnEffectsPassOnBothBackends) {
 TEST(Verify, FaultsAreNamedWithTheStep) {
   expectFault("nan", "opengl: nan: level = 1: nan.first holds 1 values that are no finite numbers");
   expectFault("leaves", "vulkan: leaves: 5184 of 5184 pixels of leaves.first are not written");
+  expectFault("between", "opengl: between: with level=0.");
   expectFault("range", "vulkan: range: level = 1: range.first holds 1 values outside 0 to 1");
 }
 

@@ -137,6 +137,13 @@ const std::vector<Fault>& faults() {
       {"effects[0].version", [](Table& t) { t.first.version = ""; }},
       {"effects[0].tooltip", [](Table& t) { t.first.tooltip = "a\nb"; }},
       {"effects[0].tooltip", [](Table& t) { t.first.tooltip = "a\x1b[2J"; }},
+      {"effects[0].tooltip", [](Table& t) { t.first.tooltip = "a\xff"; }},
+      {"effects[0].tooltip", [](Table& t) { t.first.tooltip = "\xc3"; }},
+      {"effects[0].tooltip", [](Table& t) { t.first.tooltip = "\xc0\x80"; }},
+      {"effects[0].tooltip", [](Table& t) { t.first.tooltip = "\xe0\x9f\xbf"; }},
+      {"effects[0].tooltip", [](Table& t) { t.first.tooltip = "\xed\xa0\x80"; }},
+      {"effects[0].tooltip", [](Table& t) { t.first.tooltip = "\xf4\x90\x80\x80"; }},
+      {"effects[0].tooltip", [](Table& t) { t.first.tooltip = "\x80"; }},
       {"effects[0].reserved", [](Table& t) { t.first.reserved = 1; }},
       {"effects[0].reads", [](Table& t) { t.first.reads = nullptr; }},
       {"effects[0].create", [](Table& t) { t.first.create = nullptr; }},
@@ -229,6 +236,13 @@ TEST(Table, LimitsPass) {
   EXPECT_NO_THROW(checkTable(table.plugin));
   table.first.param_count = 0;
   table.first.params = nullptr;
+  EXPECT_NO_THROW(checkTable(table.plugin));
+}
+
+TEST(Table, TextsInAnyLanguagePass) {
+  Table table;
+  table.first.tooltip =
+      "\xc2\x80 \xdf\xbf \xe0\xa0\x80 \xed\x9f\xbf \xee\x80\x80 \xf0\x90\x80\x80 \xf4\x8f\xbf\xbf";
   EXPECT_NO_THROW(checkTable(table.plugin));
 }
 

@@ -68,7 +68,7 @@ std::string_view cut(std::string_view& rest, char end) {
 
 std::string scratchFile(const std::string& name, std::string_view content) {
   static const Folder folder;
-  const std::string path = folder.path() / name;
+  std::string path = folder.path() / name;
   std::ofstream(path, std::ios::binary | std::ios::trunc)
       .write(content.data(), static_cast<std::streamsize>(content.size()));
   return path;

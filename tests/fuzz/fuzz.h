@@ -11,6 +11,7 @@
 
 #include "core/error.h"
 
+// libFuzzer's name. NOLINTNEXTLINE(readability-identifier-naming)
 extern "C" int LLVMFuzzerTestOneInput(const uint8_t* data, size_t size);
 
 namespace grisaille::fuzz {

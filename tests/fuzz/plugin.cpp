@@ -3,6 +3,7 @@
 // lead to memory that is there, as no host can check otherwise, and lists are as long as they say.
 #include <cstring>
 #include <deque>
+#include <nlohmann/json.hpp>
 #include <vector>
 
 #include "tests/fuzz/check_values.h"
@@ -34,11 +35,29 @@ class Source {
 // More than any count may be, so that what is over the limit is there as well.
 constexpr size_t kMost = 260;
 
+// KEY0, KEY1, ...: made once.
+std::vector<std::string> keysOf(char letter) {
+  std::vector<std::string> keys;
+  for (size_t i = 0; i < kMost; ++i) keys.push_back(fmt::format("{}{}", letter, i));
+  return keys;
+}
+
 struct Effect {
   std::vector<grisaille_param_desc> params;
   std::vector<grisaille_output_desc> outputs;
   grisaille_effect_desc desc = kEffect;
 };
+
+// What is shown and written of a table: as JSON, which refuses what is no UTF-8.
+void requireTexts(const effect::Effect& effect) {
+  nlohmann::json texts = {effect.desc->label, effect.desc->version, effect.desc->tooltip};
+  for (const grisaille_param_desc& param : effect.params()) {
+    texts.insert(texts.end(), {param.key, param.label, param.unit, param.tooltip});
+    for (uint32_t i = 0; i < param.enum_count; ++i) texts.push_back(param.enum_labels[i]);
+  }
+  for (const grisaille_output_desc& output : effect.outputs()) texts.push_back(output.tooltip);
+  require(texts.dump().find('\n') == std::string::npos);
+}
 
 class Plugin {
  public:
@@ -59,6 +78,7 @@ class Plugin {
       const grisaille_effect_desc desc = effect::whole(all[i]);
       const effect::Effect effect{.desc = &desc, .path = ""};
       requireSound(effect::Values(effect));
+      requireTexts(effect);
       effect.reads(nullptr, 1);
       effect.guardBand(nullptr);
     }
@@ -66,11 +86,12 @@ class Plugin {
 
  private:
   void fill(Effect& effect) {
+    static const std::vector<std::string> params = keysOf('p'), outputs = keysOf('o');
     for (size_t i = 0; i < kMost; ++i) {
       effect.params.push_back(kParams[i % kParams.size()]);
       effect.outputs.push_back(kOutputs[i % kOutputs.size()]);
-      if (i >= kParams.size()) effect.params.back().key = kept(fmt::format("p{}", i));
-      if (i >= kOutputs.size()) effect.outputs.back().key = kept(fmt::format("o{}", i));
+      if (i >= kParams.size()) effect.params.back().key = params[i].c_str();
+      if (i >= kOutputs.size()) effect.outputs.back().key = outputs[i].c_str();
     }
     effect.desc.params = effect.params.data();
     effect.desc.outputs = effect.outputs.data();
@@ -190,8 +211,9 @@ class Plugin {
     param.enum_count = source_.below(70);
     param.hard_max = param.soft_max = param.enum_count - 1.0;
     param.hard_min = param.soft_min = param.default_value = 0;
+    static const std::vector<std::string> entries = keysOf('e');
     std::vector<const char*>& keys = lists_.emplace_back();
-    for (uint32_t i = 0; i < 70; ++i) keys.push_back(kept(fmt::format("e{}", i)));
+    for (uint32_t i = 0; i < 70; ++i) keys.push_back(entries[i].c_str());
     const uint32_t changed = source_.below(70);
     take(keys[changed]);
     param.enum_keys = keys.data();

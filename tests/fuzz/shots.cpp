@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: MIT
 // Files of shots, in either format. A binary one is read as it is and once more with its checksum
 // made right, which a fuzzer would hardly find.
-#include <cstring>
+#include <bit>
 #include <sstream>
 #include <vector>
 
@@ -23,15 +23,19 @@ Shots read(const std::string& bytes) {
   return binary ? shots::readBinary(in, bytes.size()) : shots::readJson(in);
 }
 
+uint64_t bits(double value) {
+  return std::bit_cast<uint64_t>(value);
+}
+
 void requireSame(const Shots& a, const Shots& b) {
   require(a.size() == b.size());
   for (size_t i = 0; i < a.size(); ++i) {
     for (size_t k = 0; k < 3; ++k) {
-      require(std::memcmp(&a[i].origin[k], &b[i].origin[k], sizeof(double)) == 0);
-      require(std::memcmp(&a[i].direction[k], &b[i].direction[k], sizeof(float)) == 0);
-      require(std::memcmp(&a[i].color[k], &b[i].color[k], sizeof(float)) == 0);
+      require(bits(a[i].origin[k]) == bits(b[i].origin[k]));
+      require(bits(a[i].direction[k]) == bits(b[i].direction[k]));
+      require(bits(a[i].color[k]) == bits(b[i].color[k]));
     }
-    require(std::memcmp(&a[i].range, &b[i].range, sizeof(float)) == 0);
+    require(bits(a[i].range) == bits(b[i].range));
   }
 }
 

@@ -1,8 +1,13 @@
 /* SPDX-License-Identifier: MIT
  *
  * An effect that `grisaille effects --verify` passes or, with -DFAULT_..., fails: each of them
+<<<<<<< HEAD
  * while its parameter is at its most, but for those that never write and never are made. KEY is its
  * key. */
+=======
+ * while its parameter is at its most, but for the one that never writes and the one that fails
+ * between its parameter's default and its ends. KEY is its key. */
+>>>>>>> fuzz
 #include <math.h>
 #include <signal.h>
 #include <stdlib.h>
@@ -25,6 +30,9 @@ static grisaille_result create(const grisaille_host* host, void** out) {
 }
 
 static float valueAt(double level) {
+#if defined(FAULT_BETWEEN)
+  if (level > 0.5 && level < 1) return NAN;
+#endif
   if (level < 1) return (float)level;
 #if defined(FAULT_CRASHES)
   raise(SIGABRT);
