@@ -1,13 +1,8 @@
 /* SPDX-License-Identifier: MIT
  *
  * An effect that `grisaille effects --verify` passes or, with -DFAULT_..., fails: each of them
-<<<<<<< HEAD
- * while its parameter is at its most, but for those that never write and never are made. KEY is its
- * key. */
-=======
- * while its parameter is at its most, but for the one that never writes and the one that fails
- * between its parameter's default and its ends. KEY is its key. */
->>>>>>> fuzz
+ * while its parameter is at its most, but for those that never write and never are made, and the
+ * one that fails between its parameter's default and its ends. KEY is its key. */
 #include <math.h>
 #include <signal.h>
 #include <stdlib.h>
