@@ -30,6 +30,11 @@ Plane planeOf(vec2 pixel, vec3 normal) {
   return Plane(normal.xy * view.view_from_pixel.xy, dot(normal.xy, ray) - normal.z);
 }
 
+// How far off the plane of a surface at view depth `depth` another is at `other`, `across` pixels on.
+float offPlane(Plane plane, float depth, float other, vec2 across) {
+  return abs((other - depth) * plane.facing + other * dot(plane.slope, across));
+}
+
 // 1 / metres: how far off the plane of a surface at view depth `depth` another may lie to be taken for
 // the same: as far as `inverse` allows, 1 / metres, and four pixels' width there, past which grooves
 // and ledges of a few pixels are lost.

@@ -11,8 +11,7 @@
 //
 // One texel of the target is one of kScale x kScale pixels: the top left one. Where few texels about
 // it are of its surface, what denoises finds too little to average: there it takes kEdgeSlices times as
-// many slices. With BENT, which is
-// 0 or 1, the mean of the unoccluded directions is found as well.
+// many slices. With BENT, which is 0 or 1, the mean of the unoccluded directions is found as well.
 #include "common/view.glsl"
 #include "plane.glsl"
 
@@ -236,8 +235,7 @@ bool isEdge(vec2 pixel, float depth, vec3 normal) {
     const uint place = k + k / 4u;  // of 3 x 3, but for the middle
     const vec2 across = (vec2(place % 3u, place / 3u) - 1.0) * float(2u * kScale);
     const float other = textureLod(view_depth, attachmentAt(pixel + across), 0.0).x;
-    const float off = abs((other - depth) * plane.facing + other * dot(plane.slope, across));
-    same += off * tolerance < 0.5 ? 1u : 0u;
+    same += offPlane(plane, depth, other, across) * tolerance < 0.5 ? 1u : 0u;
   }
   return same < 5u;
 }

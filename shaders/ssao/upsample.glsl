@@ -40,7 +40,7 @@ vec4 weightsAt(ivec2 place, ivec2 first, vec4 depths) {
   vec4 off;
   [[unroll]] for (uint i = 0u; i < 4u; ++i) {
     const vec2 across = (vec2(i & 1u, i >> 1u) - part) * float(kScale);
-    off[i] = abs((depths[i] - depth) * plane.facing + depths[i] * dot(plane.slope, across));
+    off[i] = offPlane(plane, depth, depths[i], across);
     // No texel: as far off as none can be, whose cube is still a number.
     off[i] = depths[i] > 0.0 ? min(off[i] * tolerance, 1e11) : 1e12;
   }

@@ -2,6 +2,7 @@
 // A part of the sweep, on every backend, with every call checked; `grisaille stability` does it
 // all.
 #include <gtest/gtest.h>
+#include <algorithm>
 
 #include <set>
 

@@ -91,9 +91,9 @@ class Slices : public Occlusion {
   // How far what a pixel shows, at another depth, lies from the plane of a surface; tolerances.
   double offPlane(const glm::ivec2& surface, const glm::ivec2& pixel, double depth) const {
     const glm::dvec3 apart = view_.position(pixel, depth) - view_.position(surface);
-    const double pixel_width = view_.depth(surface) / std::abs(view_.focal().x);
+    const double pixelWidth = view_.depth(surface) / std::abs(view_.focal().x);
     return std::abs(glm::dot(apart, view_.normal(surface))) /
-           std::min(kPlaneTolerance * settings_.radius, kPlanePixels * pixel_width);
+           std::min(kPlaneTolerance * settings_.radius, kPlanePixels * pixelWidth);
   }
 
   const View& view_;
