@@ -2,8 +2,8 @@
 // A part of the sweep, on every backend, with every call checked; `grisaille stability` does it
 // all.
 #include <gtest/gtest.h>
-#include <algorithm>
 
+#include <algorithm>
 #include <set>
 
 #include "app/stability/runner.h"
