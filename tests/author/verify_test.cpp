@@ -125,7 +125,7 @@ TEST(FaultyEffects, ThatThrowEndTheRenderByAnError) {
   EXPECT_TRUE(holds(list.out, "throws_reads lets an exception out of its reads()")) << list.out;
   EXPECT_TRUE(holds(list.out, "throws_record")) << list.out;
   // Too late for the picture, which is whole.
-  const Outcome outcome = render(folder, "throws_destroy", {"--write", "none=a.exr"});
+  const Outcome outcome = render(folder, "throws_destroy", {"--write", "depth=a.exr"});
   EXPECT_EQ(outcome.status, 0);
   EXPECT_TRUE(holds(outcome.err, "error E3203: throws_destroy lets")) << outcome.err;
 }
