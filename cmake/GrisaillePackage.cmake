@@ -46,5 +46,5 @@ set(CPACK_DEBIAN_PACKAGE_SHLIBDEPS ON)
 set(CPACK_DEBIAN_PACKAGE_DEPENDS "libegl1 | libvulkan1")
 set(CPACK_DEBIAN_PACKAGE_RECOMMENDS
   "libegl1, libgl1, libgl1-mesa-dri, libvulkan1, mesa-vulkan-drivers")
-set(CPACK_DEBIAN_PACKAGE_SUGGESTS "cmake, g++, glslc, ninja-build, vulkan-validationlayers")
+set(CPACK_DEBIAN_PACKAGE_SUGGESTS "cmake, g++, glslc, make, vulkan-validationlayers")
 include(CPack)
