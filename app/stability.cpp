@@ -33,10 +33,13 @@ struct StabilityOptions {
   bool quick = false, check = false;
 };
 
+constexpr const char* kMovement = "movement";  // a group that is no case
+
 std::vector<stability::Case> chosenCases(const StabilityOptions& options) {
   std::vector<stability::Case> cases = stability::sweepCases(options.combinations, options.seed);
   for (const std::string& group : options.only) {
-    if (std::ranges::find(cases, group, &stability::Case::group) == cases.end()) {
+    if (group != kMovement &&
+        std::ranges::find(cases, group, &stability::Case::group) == cases.end()) {
       throw Error(ErrorId::kUsage, "--only names '{}', which is no group of cases", group);
     }
   }
@@ -46,6 +49,10 @@ std::vector<stability::Case> chosenCases(const StabilityOptions& options) {
     return !named || (options.quick && !one.quick);
   });
   return cases;
+}
+
+bool wantsMovement(const StabilityOptions& options) {
+  return options.only.empty() || std::ranges::find(options.only, kMovement) != options.only.end();
 }
 
 std::string commandOf(const StabilityOptions& options) {
@@ -91,6 +98,22 @@ void runCases(const fs::path& done, stability::Runner& runner, stability::Sweep&
   }
 }
 
+void runMovements(stability::Runner& runner, bool quick, stability::Sweep& sweep) {
+  truth::Progress progress("movement", isatty(STDERR_FILENO) == 1);
+  std::vector<stability::MovementRow> rows = stability::movementRows(quick);
+  for (size_t i = 0; i < rows.size(); ++i) {
+    progress.show({static_cast<double>(i), static_cast<double>(rows.size()),
+                   fmt::format("{} of {}", i, rows.size())});
+    stability::measureMovement(runner, rows[i]);
+    for (const std::string& fault : stability::faultsOf(rows[i])) {
+      progress.clear();
+      fmt::print("{} degrees, {} m: {}\n", rows[i].degrees, rows[i].distance, fault);
+    }
+    if (truth::Interruption::asked()) throw truth::Interrupted();
+  }
+  sweep.movements = std::move(rows);
+}
+
 void runSweep(const StabilityOptions& options) {
   const auto registry = loadEffects({});
   stability::Sweep sweep{.command = commandOf(options),
@@ -98,8 +121,10 @@ void runSweep(const StabilityOptions& options) {
                          .commit = GRISAILLE_COMMIT,
                          .devices = {},
                          .cases = chosenCases(options),
-                         .results = {}};
-  if (sweep.cases.empty()) throw Error(ErrorId::kUsage, "no case is left of what was chosen");
+                         .results = {},
+                         .movements = {}};
+  if (sweep.cases.empty() && !wantsMovement(options))
+    throw Error(ErrorId::kUsage, "no case is left of what was chosen");
   const std::vector<std::string> names = chosenBackends(options.backend);
   image::requireWritableFolder(options.out);
   DriverMessages messages;
@@ -118,16 +143,16 @@ void runSweep(const StabilityOptions& options) {
     }
     stability::Runner runner(*registry, devices);
     runCases(done, runner, sweep);
+    if (wantsMovement(options)) runMovements(runner, options.quick, sweep);
   }
   stability::writeSweep(options.out, sweep);
   std::error_code failed;
   fs::remove_all(done, failed);
-  fmt::print("{} of {} cases hold\nwrote {}\n", sweep.cases.size() - sweep.failed(),
-             sweep.cases.size(), (fs::path(options.out) / "stability.md").string());
+  fmt::print("{} of {} cases hold\nwrote {}\n", sweep.count() - sweep.failed(), sweep.count(),
+             (fs::path(options.out) / "stability.md").string());
   if (options.check) messages.throwIfAny();
   if (sweep.failed() > 0) {
-    throw Error(ErrorId::kUnstable, "{} of {} cases break a limit", sweep.failed(),
-                sweep.cases.size());
+    throw Error(ErrorId::kUnstable, "{} of {} cases break a limit", sweep.failed(), sweep.count());
   }
 }
 

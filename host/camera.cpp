@@ -75,21 +75,18 @@ View viewOf(const grisaille_host_frame& frame, uint32_t width, uint32_t height, 
   const double near = camera.near_plane, far = farOf(camera);
   const double aspect = double{1} * width / height;
 
-  double back = 0;                                    // metres
-  double half = std::tan(camera.vertical_angle / 2);  // of the height, at a view depth of 1
-  if (orthographic) {
-    half = camera.orthographic_height / 2;
-    back = 64 * std::max({far - near, 2 * half, 2 * half * aspect});
-  }
-  const double seen = orthographic ? half / (back + (near + far) / 2) : half;
-  const glm::dvec3 eye(camera.position[0], camera.position[1], camera.position[2]);
-
   View view{};
-  view.camera.eye = eye + back * axes[2];
+  view.camera.eye = {camera.position[0], camera.position[1], camera.position[2]};
   view.camera.target = view.camera.eye - axes[2] * std::max(1.0, glm::length(view.camera.eye));
   view.camera.up = axes[1];
-  view.camera.fovyDegrees = glm::degrees(2 * std::atan(seen));
-  view.camera.nearPlane = near + back;
+  view.camera.fovyDegrees = glm::degrees(camera.vertical_angle);
+  view.camera.nearPlane = near;
+  double half = std::tan(camera.vertical_angle / 2);  // of the height, at a view depth of 1
+  if (orthographic) {
+    const double seen = camera.orthographic_height;
+    view.camera = scene::orthographicCamera(view.camera, seen, seen * aspect, far);
+    half = seen / 2;
+  }
 
   SourceBlock& source = view.source;
   source.world_from_view = glm::mat4(glm::mat3(axes));
@@ -98,7 +95,7 @@ View viewOf(const grisaille_host_frame& frame, uint32_t width, uint32_t height, 
       glm::vec4(glm::dvec4(2 * corner.x / width, -2 * corner.y / height, -corner.x, corner.y));
   source.planes = glm::vec4(
       glm::dvec4(near, std::min(far, kSky), std::isinf(far) ? 0 : near / far, std::min(far, kSky)));
-  source.shift = glm::vec4(glm::dvec4(back, near + back, 0, 0));
+  source.shift = glm::vec4(glm::dvec4(view.camera.nearPlane - near, view.camera.nearPlane, 0, 0));
   source.mode = glm::ivec4(frame.depth_kind, orthographic ? 1 : 0,
                            rows == GRISAILLE_HOST_ROWS_FROM_BOTTOM ? 1 : 0,
                            frame.normal_encoding | frame.normal_space << 1);

@@ -23,10 +23,8 @@ struct View {
   SourceBlock source;    // of this camera and these textures
 };
 
-// Effects know pinholes alone. An orthographic camera becomes one from so far behind that over the
-// depth between its planes no length is wrong by more than about 1 part in 128, and no direction by
-// more than about 0.6 degrees; view depths grow by the way back. Throws kHostCamera, kHostValue,
-// kHostNull, kHostStruct.
+// An orthographic camera becomes what scene::orthographicCamera() says. Throws kHostCamera,
+// kHostValue, kHostNull, kHostStruct.
 View viewOf(const grisaille_host_frame& frame, uint32_t width, uint32_t height, uint32_t rows);
 
 }  // namespace grisaille::host

@@ -47,6 +47,10 @@ struct Edge {
 };
 const std::vector<Edge>& edges();
 
+// Before a plane y = 0 through the world's origin, at `degrees` to it and a distance in metres,
+// slightly turned, so that no axis of the picture is the plane's.
+scene::Camera planeCamera(double degrees, double distance);
+
 // The cases of the sweep, each group's after one another, and so many combinations drawn at random.
 std::vector<Case> sweepCases(uint32_t combinations, uint32_t seed);
 

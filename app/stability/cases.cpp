@@ -64,12 +64,20 @@ void addCameras(Cases& cases) {
       one.quick = near == 1e-4;
     });
   }
-  for (const double fov : {1.0, 10.0, 120.0, 170.0}) {
+  for (const double fov : {0.01, 0.1, 1.0, 10.0, 120.0, 170.0}) {
     cases.add("field of view", number(fov) + " degrees", {"slices", "classic", "paint"},
               [&](Case& one) {
                 one.camera.fovyDegrees = fov;
-                one.quick = fov == 1 || fov == 170;
+                one.quick = fov == 0.01 || fov == 1 || fov == 170;
               });
+  }
+  for (const double height : {0.3, 2.5, 20.0}) {
+    cases.add(
+        "orthographic", number(height) + " m high", {"slices", "classic", "paint"}, [&](Case& one) {
+          one.camera =
+              scene::orthographicCamera(one.camera, height, height * one.size.x / one.size.y, 8);
+          one.quick = height == 2.5;
+        });
   }
   for (const double away : {1e3, 1e5, 1e6, 1e7}) {
     const Scenery scenery{.origin = {away, -0.3 * away, 0.7 * away}};
@@ -98,15 +106,6 @@ void addScales(Cases& cases) {
     cases.add("scene's scale", number(scale), {.kind = Kind::kCorner, .scale = scale},
               {"paint on surfaces"}, [&](Case& one) { one.quick = scale == 1e6; });
   }
-}
-
-// A plane seen at a tilt, from a distance; nothing occludes it.
-scene::Camera planeCamera(double degrees, double distance) {
-  const double tilt = glm::radians(degrees);
-  // Slightly turned, so that no axis of the picture is the plane's.
-  return {.eye = distance * glm::dvec3(0.1 * std::cos(tilt), std::sin(tilt), std::cos(tilt)),
-          .target = glm::dvec3(0),
-          .up = glm::normalize(glm::dvec3(0.3, std::cos(tilt), -std::sin(tilt)))};
 }
 
 void addPlanes(Cases& cases) {
@@ -250,6 +249,13 @@ void addPaint(Cases& cases) {
 }
 
 }  // namespace
+
+scene::Camera planeCamera(double degrees, double distance) {
+  const double tilt = glm::radians(degrees);
+  return {.eye = distance * glm::dvec3(0.1 * std::cos(tilt), std::sin(tilt), std::cos(tilt)),
+          .target = glm::dvec3(0),
+          .up = glm::normalize(glm::dvec3(0.3, std::cos(tilt), -std::sin(tilt)))};
+}
 
 std::vector<Case> sweepCases(uint32_t combinations, uint32_t seed) {
   Cases cases;

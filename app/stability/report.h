@@ -6,6 +6,7 @@
 #include <string>
 #include <vector>
 
+#include "app/stability/movement.h"
 #include "app/stability/result.h"
 
 namespace grisaille::app::stability {
@@ -15,8 +16,11 @@ struct Sweep {
   std::vector<std::string> devices;  // one a backend: name and driver
   std::vector<Case> cases;
   std::vector<Result> results;  // one a case
+  std::vector<MovementRow> movements;
 
-  // Cases with a fault.
+  // Cases, and planes under a moving camera.
+  size_t count() const { return cases.size() + movements.size(); }
+  // Those with a fault.
   size_t failed() const;
 };
 

@@ -65,6 +65,16 @@ void count(const image::Image& image, std::pair<double, double> range, BackendRe
   }
 }
 
+scene::Scene sceneOf(const Case& one) {
+  return one.scenery.isPicture() ? scene::Scene() : makeScene(one.scenery);
+}
+
+effect::Values valuesOf(const effect::Registry& registry, const Case& one) {
+  effect::Values values(registry.find(one.effect));
+  for (const auto& [key, value] : one.settings) values.set(key, value);
+  return values;
+}
+
 }  // namespace
 
 struct Runner::Stage {
@@ -90,8 +100,7 @@ Runner::~Runner() = default;
 Result Runner::run(const Case& one) {
   Result result{.key = keyOf(one), .backends = {}, .between = {}};
   std::vector<image::Image> compared;
-  scene::Scene scene;
-  if (!one.scenery.isPicture()) scene = makeScene(one.scenery);
+  const scene::Scene scene = sceneOf(one);
   for (const auto& stage : stages_) {
     Picture picture;
     result.backends.push_back(runOn(*stage, one, scene, picture));
@@ -100,6 +109,18 @@ Result Runner::run(const Case& one) {
   }
   if (compared.size() == 2) result.between = apartOf(differences(compared[0], compared[1]));
   return result;
+}
+
+const std::string& Runner::backend(size_t index) const {
+  return stages_.at(index)->device.info().backend;
+}
+
+Seen Runner::see(size_t backend, const Case& one) {
+  Picture picture;
+  render(*stages_.at(backend), one, valuesOf(registry_, one), sceneOf(one), picture);
+  return {.ao = std::move(picture.outputs.at("ao")),
+          .view = View(one.camera, one.size, picture.guard, std::move(picture.depth),
+                       std::move(picture.normal))};
 }
 
 void Runner::render(Stage& stage, const Case& one, const effect::Values& values,
@@ -153,8 +174,7 @@ BackendResult Runner::runOn(Stage& stage, const Case& one, const scene::Scene& s
   result.backend = stage.device.info().backend;
   const auto start = std::chrono::steady_clock::now();
   try {
-    effect::Values values(registry_.find(one.effect));
-    for (const auto& [key, value] : one.settings) values.set(key, value);
+    const effect::Values values = valuesOf(registry_, one);
     render(stage, one, values, scene, picture);
     for (const auto& [name, image] : picture.outputs) {
       if (!isAttachment(name)) count(image, rangeOf(name, one), result);

@@ -8,6 +8,7 @@
 #include <string>
 #include <vector>
 
+#include "app/stability/oracle/view.h"
 #include "app/stability/result.h"
 #include "core/effect/instance.h"
 #include "core/effect/registry.h"
@@ -15,6 +16,12 @@
 #include "core/gpu/device.h"
 
 namespace grisaille::app::stability {
+
+// A picture of visibility, and what the effect read to make it.
+struct Seen {
+  image::Image ao;
+  View view;
+};
 
 class Runner {
  public:
@@ -26,6 +33,11 @@ class Runner {
 
   // What fails on a backend is told in its result.
   Result run(const Case& one);
+
+  size_t backends() const { return stages_.size(); }
+  const std::string& backend(size_t index) const;
+  // Of a case of ssao, on one backend. Throws what the device and the effect do.
+  Seen see(size_t backend, const Case& one);
 
  private:
   struct Stage;

@@ -92,8 +92,8 @@ void validate(const Camera& camera) {
   requireFinite(camera.eye, "eye");
   requireFinite(camera.target, "target");
   requireFinite(camera.up, "up");
-  if (!(camera.fovyDegrees >= 1 && camera.fovyDegrees <= 170)) {
-    refuse("fovy_degrees", fmt::format("is {}, out of 1 to 170", camera.fovyDegrees));
+  if (!(camera.fovyDegrees >= 0.01 && camera.fovyDegrees <= 170)) {
+    refuse("fovy_degrees", fmt::format("is {}, out of 0.01 to 170", camera.fovyDegrees));
   }
   if (!(camera.nearPlane > 0 && camera.nearPlane <= 1e6)) {
     refuse("near", fmt::format("is {}, out of over 0 to 1e6", camera.nearPlane));
@@ -177,6 +177,18 @@ Camera overviewCamera(const Bounds& bounds) {
   camera.eye = centre + distance * glm::normalize(glm::dvec3(0.6, 0.45, 1));
   camera.nearPlane = std::min((distance - radius) / 2, 0.01 * distance);
   return camera;
+}
+
+Camera orthographicCamera(const Camera& camera, double height, double width, double far) {
+  const double near = camera.nearPlane;
+  const double back = 64 * std::max({far - near, height, width});
+  const glm::dvec3 backward = glm::normalize(camera.eye - camera.target);
+  Camera pinhole = camera;
+  pinhole.eye += back * backward;
+  pinhole.target = pinhole.eye - backward * std::max(1.0, glm::length(pinhole.eye));
+  pinhole.fovyDegrees = glm::degrees(2 * std::atan(height / 2 / (back + (near + far) / 2)));
+  pinhole.nearPlane = near + back;
+  return pinhole;
 }
 
 glm::dmat3 worldFromView(const Camera& camera) {

@@ -15,7 +15,7 @@ struct Camera {
   glm::dvec3 eye = glm::dvec3(0, 0, 1);
   glm::dvec3 target = glm::dvec3(0);
   glm::dvec3 up = glm::dvec3(0, 1, 0);
-  double fovyDegrees = 60;          // of the whole height, 1 ... 170
+  double fovyDegrees = 60;          // of the whole height, 0.01 ... 170
   glm::uvec2 size = glm::uvec2(0);  // pixels; 0: not given
   double nearPlane = 0.01;          // metres, over 0
 };
@@ -44,6 +44,13 @@ Camera atriumCamera();
 
 // A camera that sees the whole of any scene, from outside its bounds.
 Camera overviewCamera(const Bounds& bounds);
+
+// The pinhole that stands for an orthographic camera, since frames and effects know pinholes alone:
+// at the same axes, from so far behind that over the depth between the planes no length is wrong by
+// more than about 1 part in 128, and no direction by more than about 0.6 degrees. View depths grow
+// by what the near plane does. `height` and `width` of what is seen, metres; `far`: the far plane
+// of `camera`, metres, finite. Its angle of view may be less than validate() takes.
+Camera orthographicCamera(const Camera& camera, double height, double width, double far);
 
 // Columns are the view axes in world space: right, up, backward.
 glm::dmat3 worldFromView(const Camera& camera);

@@ -209,12 +209,13 @@ constexpr grisaille_param_desc kParams[] = {
                         .label = "Bias",
                         .unit = "m",
                         .tooltip = "Classic: how much nearer than a sample point the surface must "
-                                   "be to occlude it; hides self-occlusion, loses fine detail",
+                                   "be to occlude it, beyond what roundings and slopes need; "
+                                   "loses detail",
                         .hardMin = 0,
                         .hardMax = 1e6,
                         .softMin = 0,
                         .softMax = 0.1,
-                        .defaultValue = 0.01,
+                        .defaultValue = 0,
                         .step = 0.001}),
     plugin::enumParam(
         {.key = "sampling",

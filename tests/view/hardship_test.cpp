@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: MIT
 // What windows go through: any size, any input, nothing to do, a backend or a display that is
 // missing.
+#include <glm/glm.hpp>
 #include <random>
 #include <thread>
 
@@ -20,13 +21,13 @@ TEST_P(HardshipTest, EverySize) {
     viewer.send("search --name Grisaille windowsize " + std::to_string(width) + " " +
                 std::to_string(height));
   };
-  for (const auto& [width, height] : {std::pair{1, 1}, {4096, 4096}, {37, 4000}, {900, 1000}}) {
-    resize(width, height);
+  for (const glm::ivec2 size : {glm::ivec2(1, 1), {4096, 4096}, {37, 4000}, {900, 1000}}) {
+    resize(size.x, size.y);
     viewer.until("a frame", [&](const nlohmann::json& now) {
       const auto rect = now["picture"]["rect"].get<std::vector<int>>();
-      return rect[2] == width && rect[3] == height;
+      return rect[2] == size.x && rect[3] == size.y;
     });
-    if (width > 500) viewer.untilDrawn();
+    if (size.x > 500) viewer.untilDrawn();
   }
   expectSame(viewer.savePicture(), before);
   expectQuits(viewer);

@@ -2,6 +2,7 @@
 // Which preset values are, and what a search may change.
 #include "app/presets.h"
 
+#include <algorithm>
 #include <set>
 
 #include "tests/viewer/tables.h"

@@ -105,6 +105,7 @@ class Classic : public Occlusion {
   };
 
   Own ownOf(const glm::ivec2& pixel) const {
+    if (settings_.biasAlone) return {.bias = settings_.bias};
     const double depth = view_.depth(pixel), bias = settings_.bias + depth * kDepthRounding;
     if (settings_.sphere) return {.bias = bias};
     const glm::dvec3 normal = view_.normal(pixel);

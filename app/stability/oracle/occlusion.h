@@ -23,6 +23,7 @@ struct OcclusionSettings {
   uint32_t seed = 0;
   int kernelSize = 64;
   double bias = 0.01;
+  bool biasAlone = false;  // classic: without the roundings, points where they project
   bool sphere = false, rotated = true, edgeAware = false;
   enum class Range { kLinear, kRawDepth, kNone } range = Range::kLinear;
 };
