@@ -26,7 +26,9 @@ struct Case {
   scene::Camera camera;
   glm::uvec2 size = glm::uvec2(96, 64);
   std::string effect;
+  std::string output = "ao";  // of the effect, which is compared
   Settings settings;
+  std::vector<scene::Camera> before;  // frames that the effect draws first, with a history
   std::vector<grisaille_shot> shots;
   bool open = false;    // a flat plane: nothing is occluded anywhere
   bool corner = false;  // visibility is known: kCornerError holds in the middle of the picture

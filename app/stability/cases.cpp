@@ -45,8 +45,17 @@ class Cases {
 
  private:
   void finish(Case& one) {
-    one.every = one.size.x < 1000 && (one.group.starts_with("odd") || one.group == "size" ||
-                                      one.group == "scene's scale" || one.group == "near a wall");
+    if (one.variant == "history") {
+      // A walk of a few pixels a frame.
+      for (int i = 6; i > 0; --i) {
+        one.before.push_back(one.camera);
+        one.before.back().eye += i * one.scenery.scale * glm::dvec3(0.03, 0.004, -0.012);
+      }
+    }
+    one.every = one.size.x < 1000 &&
+                (one.group.starts_with("odd") || one.group == "size" ||
+                 one.group == "scene's scale" || one.group == "near a wall") &&
+                one.before.empty();
     one.edge = edgeOf(one);
     all_.push_back(std::move(one));
   }
@@ -59,10 +68,12 @@ std::string number(double value) {
 
 void addCameras(Cases& cases) {
   for (const double near : {1e-4, 1e-3, 1e-2, 0.1, 1.0, 2.5, 10.0}) {
-    cases.add("near plane", number(near) + " m", {"slices", "classic", "paint"}, [&](Case& one) {
-      one.camera.nearPlane = near;
-      one.quick = near == 1e-4;
-    });
+    cases.add("near plane", number(near) + " m",
+              {"slices", "slices, backs", "history", "open directions", "tint", "classic", "paint"},
+              [&](Case& one) {
+                one.camera.nearPlane = near;
+                one.quick = near == 1e-4;
+              });
   }
   for (const double fov : {0.01, 0.1, 1.0, 10.0, 120.0, 170.0}) {
     cases.add("field of view", number(fov) + " degrees", {"slices", "classic", "paint"},
@@ -82,7 +93,8 @@ void addCameras(Cases& cases) {
   for (const double away : {1e3, 1e5, 1e6, 1e7}) {
     const Scenery scenery{.origin = {away, -0.3 * away, 0.7 * away}};
     cases.add("camera far from the world's origin", number(away) + " m", scenery,
-              {"slices", "classic", "paint"}, [&](Case& one) { one.quick = away == 1e7; });
+              {"slices", "slices, backs", "history", "open directions", "tint", "classic", "paint"},
+              [&](Case& one) { one.quick = away == 1e7; });
     const Scenery corner{.kind = Kind::kCorner, .origin = scenery.origin};
     cases.add("camera far from the world's origin", number(away) + " m", corner,
               {"paint on surfaces"}, [&](Case& one) { one.quick = away == 1e7; });
@@ -101,7 +113,8 @@ void addCameras(Cases& cases) {
 void addScales(Cases& cases) {
   for (const double scale : kScales) {
     cases.add("scene's scale", number(scale), {.scale = scale},
-              {"slices", "slices, raw", "classic", "paint"},
+              {"slices", "slices, raw", "slices, backs", "history", "open directions", "tint",
+               "classic", "paint"},
               [&](Case& one) { one.quick = scale == 1e-4 || scale == 1e6; });
     cases.add("scene's scale", number(scale), {.kind = Kind::kCorner, .scale = scale},
               {"paint on surfaces"}, [&](Case& one) { one.quick = scale == 1e6; });
@@ -139,7 +152,9 @@ void addSizes(Cases& cases) {
       one.quick = size.x < 257 && size.y < 257;
     };
     const std::string name = fmt::format("{}x{}", size.x, size.y);
-    cases.add("size", name, {"slices", "slices, quarter", "classic", "paint"}, change);
+    cases.add("size", name, {"slices", "slices, quarter", "open directions", "classic", "paint"},
+              change);
+    if (size.x < 1000 && size.y < 1000) cases.add("size", name, {"history"}, change);
     cases.add("size", name, {.kind = Kind::kCorner}, {"paint on surfaces"}, change);
   }
   for (const double band : {0.05, 0.5, 1.0}) {
@@ -161,6 +176,8 @@ void addValues(Cases& cases) {
       });
     }
   };
+  sweep("history, frames", "history", {"history"}, {"2", "256"});
+  sweep("back faces: thickness, radii", "thickness", {"slices, backs"}, {"0", "1", "1000000"});
   sweep("kernel", "kernel_size", {"classic", "classic, raw"}, {"1", "2", "16", "256"});
   sweep("slices", "slices", {"slices", "slices, raw"}, {"64", "2", "7"});
   sweep("edge slices", "edge_slices", {"slices", "slices, raw"}, {"16", "1", "3"});
@@ -189,11 +206,13 @@ void addValues(Cases& cases) {
 void addOddScenes(Cases& cases) {
   for (const Kind kind : {Kind::kSky, Kind::kTriangle, Kind::kWires, Kind::kPair}) {
     cases.add("odd scene", nameOf(kind), {.kind = kind},
-              {"slices", "slices, raw", "classic", "paint", "paint on surfaces"},
+              {"slices", "slices, raw", "slices, backs", "history", "open directions", "classic",
+               "paint", "paint on surfaces"},
               [&](Case& one) { one.quick = true; });
   }
   for (const Kind kind : {Kind::kNoNormals, Kind::kBackNormals}) {
-    cases.add("odd scene", nameOf(kind), {.kind = kind}, {"slices", "slices, raw", "classic"},
+    cases.add("odd scene", nameOf(kind), {.kind = kind},
+              {"slices", "slices, raw", "slices, backs", "history", "open directions", "classic"},
               [&](Case& one) { one.quick = true; });
   }
   for (const Kind kind : {Kind::kAtNear, Kind::kAtFar, Kind::kMixed, Kind::kNormless}) {
@@ -272,10 +291,11 @@ std::vector<Case> sweepCases(uint32_t combinations, uint32_t seed) {
 }
 
 std::string keyOf(const Case& one) {
-  std::string key = fmt::format("{}\n{}\n{} {} {} {} {}\n{}\n{}x{}\n{}\n", one.group, one.name,
-                                nameOf(one.scenery.kind), one.scenery.scale, one.scenery.origin.x,
-                                one.scenery.origin.y, one.scenery.origin.z,
-                                scene::cameraJson(one.camera), one.size.x, one.size.y, one.effect);
+  std::string key = fmt::format(
+      "{}\n{}\n{} {} {} {} {}\n{}\n{}x{}\n{}\n", one.group, one.name, nameOf(one.scenery.kind),
+      one.scenery.scale, one.scenery.origin.x, one.scenery.origin.y, one.scenery.origin.z,
+      scene::cameraJson(one.camera), one.size.x, one.size.y, one.effect + "." + one.output);
+  for (const scene::Camera& camera : one.before) key += scene::cameraJson(camera) + "\n";
   for (const auto& [name, value] : one.settings) key += fmt::format("{}={}\n", name, value);
   key += fmt::format("{} shots {} {} {} {}\n", one.shots.size(), one.open, one.corner, one.edge,
                      one.variant);

@@ -17,28 +17,37 @@ using Kind = Scenery::Kind;
 struct Variant {
   const char* name;
   const char* effect;
+  const char* output;
   Settings settings;
 };
 
 const std::vector<Variant>& variants() {
   static const std::vector<Variant> kVariants = {
-      {"slices", "ssao", {}},
-      {"slices, raw", "ssao", {{"resolution", "full"}, {"blur_size", "0"}}},
-      {"slices, quarter", "ssao", {{"resolution", "quarter"}}},
+      {"slices", "ssao", "ao", {}},
+      {"slices, raw", "ssao", "ao", {{"resolution", "full"}, {"blur_size", "0"}}},
+      {"slices, quarter", "ssao", "ao", {{"resolution", "quarter"}}},
       {"slices, exact",
        "ssao",
+       "ao",
        {{"resolution", "full"},
         {"slices", "32"},
         {"steps", "64"},
         {"blur_size", "0"},
         {"thickness", "10"},
         {"guard_band", "0.2"}}},
-      {"classic", "ssao", {{"estimator", "classic"}}},
-      {"classic, raw", "ssao", {{"estimator", "classic"}, {"blur_size", "0"}}},
-      {"sphere", "ssao", {{"estimator", "classic"}, {"sampling", "sphere"}}},
-      {"edge-aware", "ssao", {{"estimator", "classic"}, {"blur", "edge_aware"}}},
-      {"paint", "sspm", {{"mode", "per_shot"}}},
-      {"paint on surfaces", "sspm", {{"mode", "surface"}}},
+      {"slices, backs",
+       "ssao",
+       "ao",
+       {{"resolution", "full"}, {"blur_size", "0"}, {"back_faces", "true"}}},
+      {"history", "ssao", "ao", {{"history", "4"}}},
+      {"open directions", "ssao", "bent_normal", {}},
+      {"tint", "ssao", "tint", {{"bounce", "base_colour"}}},
+      {"classic", "ssao", "ao", {{"estimator", "classic"}}},
+      {"classic, raw", "ssao", "ao", {{"estimator", "classic"}, {"blur_size", "0"}}},
+      {"sphere", "ssao", "ao", {{"estimator", "classic"}, {"sampling", "sphere"}}},
+      {"edge-aware", "ssao", "ao", {{"estimator", "classic"}, {"blur", "edge_aware"}}},
+      {"paint", "sspm", "paint", {{"mode", "per_shot"}}},
+      {"paint on surfaces", "sspm", "paint", {{"mode", "surface"}}},
   };
   return kVariants;
 }
@@ -86,6 +95,7 @@ void drawOcclusion(Draws& draw, Case& one) {
   set("range_check", draw.of({"linear", "linear", "raw_depth", "none"}));
   set("blur", draw.of({"box", "edge_aware"}));
   set("edge_slices", std::to_string(1 + draw.below(4)));
+  set("back_faces", draw.of({"false", "false", "true"}));
 }
 
 void drawPaint(Draws& draw, Case& one, uint32_t seed) {
@@ -149,6 +159,7 @@ Case usualCase(const std::string& variant, const Scenery& scenery) {
   one.variant = variant;
   one.scenery = scenery;
   one.effect = found->effect;
+  one.output = found->output;
   one.settings = found->settings;
   one.camera = {.eye = scenery.placed({0.5, 1.1, 2.6}),
                 .target = scenery.placed({0, 0.45, 0.2}),
@@ -189,6 +200,12 @@ const std::vector<Edge>& edges() {
        "On surfaces a place is told by its offset from the muzzle in single precision: from 10^5 m "
        "on "
        "that is centimetres, which move rims. Per shot it is told from the ray and holds."},
+      {"a direction between two sectors", 0.005,
+       "Open directions are looked up in 32 sectors, each shut or not: where a shut one ends at a "
+       "direction, it counts or not, and the texels averaged with it are turned by half a degree."},
+      {"a row on the near plane", 0.05,
+       "A row of pixels is cut by the near plane to within the rounding of its depth: one driver "
+       "draws it and the other does not, so that they see different scenes."},
       {"edges without normals", 0.005,
        "Where normals are missing every surface is taken to face the camera: all slopes are near "
        "what makes an edge, and a texel either is one or not."},
@@ -200,6 +217,10 @@ std::string edgeOf(const Case& one) {
   if (one.variant.starts_with("slices") &&
       (one.scenery.kind == Kind::kNoNormals || one.scenery.kind == Kind::kNormless))
     return "edges without normals";
+  if (one.variant == "open directions" &&
+      (one.scenery.kind == Kind::kNoNormals || one.scenery.kind == Kind::kBackNormals))
+    return "a direction between two sectors";
+  if (one.variant == "history" && one.camera.nearPlane == 2.5) return "a row on the near plane";
   if (one.variant != "paint on surfaces") return "";
   if (one.scenery.kind == Kind::kWires) return "thin things before a muzzle";
   if (one.group == "at random") return "beside a muzzle's map";

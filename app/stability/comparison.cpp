@@ -29,11 +29,14 @@ OcclusionSettings occlusionOf(const effect::Values& values) {
           .edgeSlices = whole(values, "edge_slices"),
           .steps = whole(values, "steps"),
           .thickness = single(values, "thickness"),
+          .backFaces = values.get("back_faces") != 0,
+          .history = whole(values, "history"),
           .scale = 1 << whole(values, "resolution"),
           .blurSize = whole(values, "blur_size"),
           .intensity = single(values, "intensity"),
           .power = single(values, "power"),
           .albedo = values.text("bounce") == "albedo" ? single(values, "albedo") : 0,
+          .baseColour = values.text("bounce") == "base_colour",
           .seed = static_cast<uint32_t>(values.get("seed")),
           .kernelSize = whole(values, "kernel_size"),
           .bias = single(values, "bias"),
@@ -144,20 +147,34 @@ std::vector<glm::ivec2> pixelsToCompare(const glm::ivec2& size) {
   return pixels;
 }
 
-void compareOcclusion(const Case& one, const effect::Values& values, const View& view,
-                      const image::Image& ao, BackendResult& result) {
+void compareOcclusion(const Case& one, const effect::Values& values, std::span<const View> views,
+                      const image::Image& picture, BackendResult& result) {
   const OcclusionSettings settings = occlusionOf(values);
-  const auto oracle = makeOcclusion(view, settings);
+  std::shared_ptr<const Past> past;
+  for (const View& view : views.first(views.size() - 1)) {
+    past = makeOcclusion(view, settings, past)->past();
+  }
+  const View& view = views.back();
+  const auto oracle = makeOcclusion(view, settings, past);
+  const auto expected = [&](const glm::ivec2& pixel) {
+    if (one.output == "bent_normal") return oracle->bentNormal(pixel);
+    if (one.output == "tint") return tintOf(*oracle, view, settings, pixel);
+    return glm::dvec3(oracle->visibility(pixel));
+  };
+  const uint32_t channels = std::min(picture.channels, 3u);
   std::vector<float> differences;
   for (const glm::ivec2& pixel : pixelsToCompare(view.size())) {
     const glm::uvec2 at(pixel);
-    differences.push_back(difference(ao.at(at.x, at.y), oracle->visibility(pixel)));
+    const glm::dvec3 value = expected(pixel);
+    float worst = 0;
+    for (uint32_t c = 0; c < channels; ++c) {
+      worst = std::max(worst, difference(picture.at(at.x, at.y, c), value[static_cast<int>(c)]));
+    }
+    differences.push_back(worst);
   }
   result.oracle = apartOf(std::move(differences));
-  if (one.open) {
-    result.leastOpen = *std::ranges::min_element(ao.pixels);
-  }
-  if (one.corner) result.cornerError = cornerErrorOf(one, view, ao, settings.radius);
+  if (one.open) result.leastOpen = *std::ranges::min_element(picture.pixels);
+  if (one.corner) result.cornerError = cornerErrorOf(one, view, picture, settings.radius);
 }
 
 void comparePaint(const Case& one, const effect::Values& values, const View& view,

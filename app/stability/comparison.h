@@ -2,6 +2,7 @@
 // A picture of an effect against its oracle.
 #pragma once
 
+#include <span>
 #include <vector>
 
 #include "app/stability/oracle/view.h"
@@ -17,10 +18,11 @@ std::vector<float> differences(const image::Image& a, const image::Image& b);
 // The pixels that are compared with an oracle: all, or those of tiles spread over a large picture.
 std::vector<glm::ivec2> pixelsToCompare(const glm::ivec2& size);
 
-// Sets result.oracle and, where the case knows more, leastOpen and cornerError. `view` is what the
-// effect read; `ao` what it made of it.
-void compareOcclusion(const Case& one, const effect::Values& values, const View& view,
-                      const image::Image& ao, BackendResult& result);
+// Sets result.oracle and, where the case knows more, leastOpen and cornerError. `views` are what
+// the effect read, of the frames before as well, and the case's own last; `picture` is what it made
+// of that.
+void compareOcclusion(const Case& one, const effect::Values& values, std::span<const View> views,
+                      const image::Image& picture, BackendResult& result);
 
 // Sets result.oracle. In the mode `surface` the view's normals are those of the facets.
 void comparePaint(const Case& one, const effect::Values& values, const View& view,

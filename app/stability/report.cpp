@@ -200,6 +200,7 @@ json jsonOf(const Case& one, const Result& result) {
                   {"touched", b.touched},
                   {"non_finite", b.nonFinite},
                   {"outside", b.outside},
+                  {"bits", fmt::format("{:016x}", b.bits)},
                   {"oracle", jsonOf(b.oracle)}};
     if (!b.error.empty()) entry["error"] = b.error;
     if (b.leastOpen) entry["least_open"] = *b.leastOpen;

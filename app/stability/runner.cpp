@@ -16,35 +16,46 @@
 namespace grisaille::app::stability {
 namespace {
 
-std::vector<std::string> outputsOf(const Case& one, const effect::Values& values) {
-  if (one.effect == "ssao") return {"depth", "normal", "ao"};
-  const bool surface = values.get("mode") == 0;
-  std::vector<std::string> all = {"depth", "paint", "paint_coverage"};
-  if (surface) all.emplace_back("facet_normal");
+// That an effect reads, of what its oracle needs.
+std::vector<std::string> attachmentsOf(const Case& one, const effect::Values& values) {
+  if (one.effect == "sspm") {
+    if (values.text("mode") == "surface") return {"depth", "facet_normal"};
+    return {"depth"};
+  }
+  std::vector<std::string> all = {"depth", "normal"};
+  if (values.get("back_faces") != 0) all.emplace_back("back_depth");
+  if (one.output == "tint") all.emplace_back("base_colour");
   return all;
 }
 
-std::vector<std::string> furtherOutputs(const Case& one) {
-  if (!one.every) return {};
-  if (one.effect == "ssao") return {"bent_normal", "tint"};
-  return {"paint_owner"};
+std::vector<std::string> outputsOf(const Case& one) {
+  if (one.effect == "ssao") return {one.output};
+  return {one.output, "paint_coverage"};
 }
 
-// Of visibility, or the alpha of paint.
-void describe(const image::Image& picture, BackendResult& result) {
-  const bool paint = picture.channels == 4;
+// Looked at, and not compared with an oracle.
+std::vector<std::string> furtherOutputs(const Case& one) {
+  if (!one.every) return {};
+  if (one.effect == "sspm") return {"paint_owner"};
+  std::vector<std::string> all = {"ao", "bent_normal", "tint"};
+  std::erase(all, one.output);
+  return all;
+}
+
+// Of visibility and tint, or the alpha of paint; what open directions touch is every surface.
+void describe(const image::Image& picture, const std::string& output, BackendResult& result) {
   uint64_t touched = 0;
   for (size_t i = 0; i < picture.pixels.size(); i += picture.channels) {
-    touched += (paint ? picture.pixels[i + 3] > 0 : picture.pixels[i] < 1) ? 1 : 0;
+    const float* pixel = &picture.pixels[i];
+    const bool surface =
+        output == "bent_normal" && glm::vec3(pixel[0], pixel[1], pixel[2]) != glm::vec3(0);
+    const bool paint = output == "paint" && pixel[3] > 0;
+    touched += surface || paint || (output != "bent_normal" && output != "paint" && pixel[0] < 1);
   }
   result.touched = static_cast<double>(touched) / (double{1} * picture.width * picture.height);
   truth::ContentHash hash;
   hash.add(std::span<const float>(picture.pixels));
   result.bits = hash.value();
-}
-
-bool isAttachment(const std::string& output) {
-  return output == "depth" || output == "normal" || output == "facet_normal";
 }
 
 // Owners are numbers of shots; directions have signs, and half floats round their length.
@@ -84,8 +95,7 @@ struct Runner::Stage {
 
 struct Runner::Picture {
   std::map<std::string, image::Image> outputs = {};
-  image::Image depth = {}, normal = {};  // with the guard band
-  uint32_t guard = 0;
+  std::vector<View> views = {};  // of all frames, the case's own last
 };
 
 Runner::Runner(const effect::Registry& registry, std::span<gpu::Device* const> devices)
@@ -105,7 +115,7 @@ Result Runner::run(const Case& one) {
     Picture picture;
     result.backends.push_back(runOn(*stage, one, scene, picture));
     if (!result.backends.back().error.empty()) continue;
-    compared.push_back(std::move(picture.outputs.at(one.effect == "ssao" ? "ao" : "paint")));
+    compared.push_back(std::move(picture.outputs.at(one.output)));
   }
   if (compared.size() == 2) result.between = apartOf(differences(compared[0], compared[1]));
   return result;
@@ -118,15 +128,14 @@ const std::string& Runner::backend(size_t index) const {
 Seen Runner::see(size_t backend, const Case& one) {
   Picture picture;
   render(*stages_.at(backend), one, valuesOf(registry_, one), sceneOf(one), picture);
-  return {.ao = std::move(picture.outputs.at("ao")),
-          .view = View(one.camera, one.size, picture.guard, std::move(picture.depth),
-                       std::move(picture.normal))};
+  return {.ao = std::move(picture.outputs.at("ao")), .view = std::move(picture.views.back())};
 }
 
 void Runner::render(Stage& stage, const Case& one, const effect::Values& values,
                     const scene::Scene& scene, Picture& picture) {
   auto& instance = stage.instances[one.effect];
-  if (!instance) {
+  // A history begins with the case.
+  if (!instance || !one.before.empty()) {
     instance = std::make_unique<effect::Instance>(stage.device, values.effect());
   }
   const std::array active = {frame::ActiveEffect{
@@ -148,24 +157,31 @@ void Runner::render(Stage& stage, const Case& one, const effect::Values& values,
                      .outputs = outputs,
                      .rays = one.scenery.isPicture() ? nullptr : &rays});
   };
-  for (const auto& outputs : {outputsOf(one, values), furtherOutputs(one)}) {
-    if (outputs.empty()) continue;
-    draw(one.camera, one.size, active, outputs);
+  const auto read = [&](const std::vector<std::string>& outputs) {
     for (const std::string& name : outputs) picture.outputs[name] = renderer.read(name);
+  };
+  const uint32_t guard = one.scenery.isPicture() ? 0 : frame::guardBand(values, one.size.y);
+  std::vector<scene::Camera> cameras = one.before;
+  cameras.push_back(one.camera);
+  for (const scene::Camera& camera : cameras) {
+    draw(camera, one.size, active, outputsOf(one));
+    read(outputsOf(one));
+    // Once more what the effect read: the same draw.
+    const std::vector<std::string> names = attachmentsOf(one, values);
+    draw(frame::widened(camera, one.size.y, guard), one.size + 2 * guard, {}, names);
+    Attachments seen;
+    for (const std::string& name : names) {
+      (name == "depth"         ? seen.depth
+       : name == "back_depth"  ? seen.back
+       : name == "base_colour" ? seen.colour
+                               : seen.normal) = renderer.read(name);
+    }
+    picture.views.emplace_back(camera, one.size, guard, std::move(seen));
   }
-  picture.depth = std::move(picture.outputs.at("depth"));
-  if (one.effect == "sspm") {
-    picture.normal = std::move(picture.outputs["facet_normal"]);
-    return;
-  }
-  picture.normal = std::move(picture.outputs.at("normal"));
-  picture.guard = one.scenery.isPicture() ? 0 : frame::guardBand(values, one.size.y);
-  if (picture.guard == 0) return;
-  // The same draw as that which the effect reads.
-  draw(frame::widened(one.camera, one.size.y, picture.guard), one.size + 2 * picture.guard, {},
-       {"depth", "normal"});
-  picture.depth = renderer.read("depth");
-  picture.normal = renderer.read("normal");
+  const std::vector<std::string> further = furtherOutputs(one);
+  if (further.empty()) return;
+  draw(one.camera, one.size, active, further);
+  read(further);
 }
 
 BackendResult Runner::runOn(Stage& stage, const Case& one, const scene::Scene& scene,
@@ -176,16 +192,12 @@ BackendResult Runner::runOn(Stage& stage, const Case& one, const scene::Scene& s
   try {
     const effect::Values values = valuesOf(registry_, one);
     render(stage, one, values, scene, picture);
-    for (const auto& [name, image] : picture.outputs) {
-      if (!isAttachment(name)) count(image, rangeOf(name, one), result);
-    }
-    describe(picture.outputs.at(one.effect == "ssao" ? "ao" : "paint"), result);
-    const View view(one.camera, one.size, picture.guard, std::move(picture.depth),
-                    std::move(picture.normal));
+    for (const auto& [name, image] : picture.outputs) count(image, rangeOf(name, one), result);
+    describe(picture.outputs.at(one.output), one.output, result);
     if (one.effect == "ssao") {
-      compareOcclusion(one, values, view, picture.outputs.at("ao"), result);
+      compareOcclusion(one, values, picture.views, picture.outputs.at(one.output), result);
     } else {
-      comparePaint(one, values, view, scene, picture.outputs.at("paint"),
+      comparePaint(one, values, picture.views.back(), scene, picture.outputs.at("paint"),
                    picture.outputs.at("paint_coverage"), result);
     }
   } catch (const Error& error) {

@@ -58,7 +58,7 @@ void addWall(scene::Scene& scene, float from, float to, float z) {
 }
 
 void addBox(scene::Scene& scene, const glm::dvec3& low, const glm::dvec3& high) {
-  scene::addPrimitive(scene, scene::box(low, high), 0, 0.9);
+  scene::addPrimitive(scene, scene::box(low, high), 1, 0.9);
 }
 
 void addRoom(scene::Scene& scene) {
@@ -109,6 +109,7 @@ scene::Scene makeScene(const Scenery& scenery) {
   scene::Scene scene;
   scene.name = nameOf(scenery.kind);
   scene.materials.push_back({.name = "white", .doubleSided = true});
+  scene.materials.push_back({.name = "solid", .baseColor = {0.8f, 0.35f, 0.1f, 1}});
   addFaces(scene, scenery.kind);
   for (glm::vec3& normal : scene.normals) {
     if (scenery.kind == Kind::kNoNormals) normal = glm::vec3(0);

@@ -20,7 +20,7 @@ struct Scenery {
   enum class Kind {
     kPlane,        // y = 0, facing up, 2000 a side
     kCorner,       // a floor and the wall z = 0 that rises from it
-    kRoom,         // the corner with boxes and a pole
+    kRoom,         // the corner with boxes and a pole, which are coloured and have insides
     kWires,        // before a wall, 0.2 mm and 2 mm thick
     kPair,         // a wall, and half before it a sheet 1 micrometre nearer
     kTriangle,     // one, alone

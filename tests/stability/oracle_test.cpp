@@ -3,7 +3,9 @@
 #include <gtest/gtest.h>
 
 #include <cmath>
+#include <memory>
 #include <random>
+#include <vector>
 
 #include "app/stability/comparison.h"
 #include "app/stability/oracle/occlusion.h"
@@ -32,7 +34,7 @@ View viewOf(const scene::Camera& camera, bool wall) {
       normal.pixels.insert(normal.pixels.end(), {n.x, n.y, n.z});
     }
   }
-  return {camera, kSize, 0, depth, normal};
+  return {camera, kSize, 0, {.depth = depth, .normal = normal, .back = {}, .colour = {}}};
 }
 
 const scene::Camera kCamera = {.eye = glm::dvec3(0.3, 1.2, 2), .target = glm::dvec3(0, 0.1, 0)};
@@ -95,6 +97,69 @@ TEST(Oracle, SlicesFindACorner) {
     }
   }
   EXPECT_LT(std::sqrt(sum / count), 0.03);
+}
+
+TEST(Oracle, OpenDirectionsOfAPlaneAreItsNormal) {
+  const View view = viewOf(kCamera, false);
+  const auto oracle = makeOcclusion(view, {.slices = 16, .scale = 1});
+  for (const glm::ivec2& pixel : pixelsToCompare(view.size())) {
+    if (view.depth(pixel) == 0) continue;
+    EXPECT_GT(oracle->bentNormal(pixel).y, 0.999) << pixel.x << ", " << pixel.y;
+  }
+}
+
+TEST(Oracle, AHistoryAveragesNoiseAndForgetsWhatIsOld) {
+  const View view = viewOf(kCamera, true);
+  const OcclusionSettings settings{.history = 16, .scale = 1, .blurSize = 0};
+  const OcclusionSettings still{.slices = 64, .scale = 1, .blurSize = 0};
+  const auto exact = makeOcclusion(view, still);
+  std::shared_ptr<const Past> past;
+  std::vector<double> errors;
+  for (int frame = 0; frame < 8; ++frame) {
+    const auto oracle = makeOcclusion(view, settings, past);
+    double sum = 0;
+    for (const glm::ivec2& pixel : pixelsToCompare(view.size())) {
+      const double error = oracle->visibility(pixel) - exact->visibility(pixel);
+      sum += error * error;
+    }
+    errors.push_back(std::sqrt(sum));
+    past = oracle->past();
+  }
+  EXPECT_LT(errors[1], errors[0]);
+  EXPECT_LT(errors[7], 0.5 * errors[0]);
+  // What the frames before looked away from has no history.
+  scene::Camera away = kCamera;
+  away.target = kCamera.eye + (kCamera.eye - kCamera.target) + glm::dvec3(0, -3, 0);
+  const View other = viewOf(away, false);
+  const auto after = makeOcclusion(other, settings, past);
+  const auto first = makeOcclusion(other, {.history = 1, .scale = 1, .blurSize = 0});
+  EXPECT_NEAR(after->visibility({24, 28}), first->visibility({24, 28}), 1e-12);
+}
+
+TEST(Oracle, MatterEndsAtItsBack) {
+  const View plain = viewOf(kCamera, true);
+  image::Image depth{.width = kSize.x, .height = kSize.y, .channels = 1, .pixels = {}};
+  image::Image normal{.width = kSize.x, .height = kSize.y, .channels = 3, .pixels = {}};
+  image::Image back = depth;
+  for (int y = 0; y < plain.size().y; ++y) {
+    for (int x = 0; x < plain.size().x; ++x) {
+      depth.pixels.push_back(static_cast<float>(plain.depth({x, y})));
+      back.pixels.push_back(static_cast<float>(plain.depth({x, y})) * 1.0001f);
+      const glm::vec3 n(plain.worldNormal({x, y}));
+      normal.pixels.insert(normal.pixels.end(), {n.x, n.y, n.z});
+    }
+  }
+  const View thin(kCamera, kSize, 0,
+                  {.depth = depth, .normal = normal, .back = back, .colour = {}});
+  const auto sum = [](const View& view, bool backFaces) {
+    const auto oracle = makeOcclusion(
+        view, {.slices = 8, .thickness = 0.7, .backFaces = backFaces, .scale = 1, .blurSize = 0});
+    double all = 0;
+    for (const glm::ivec2& pixel : pixelsToCompare(view.size())) all += oracle->visibility(pixel);
+    return all;
+  };
+  EXPECT_GT(sum(thin, true), sum(plain, false) + 1);
+  EXPECT_EQ(sum(thin, false), sum(plain, false));
 }
 
 TEST(Oracle, TheClassicFindsACorner) {

@@ -76,6 +76,11 @@ class Classic : public Occlusion {
     if (settings_.blurSize > 1) open = blurred(pixel);
     return finished(open, settings_);
   }
+  glm::dvec3 bentNormal(const glm::ivec2& pixel) override {
+    if (!slices_) slices_ = makeSlices(view_, settings_, nullptr);
+    return slices_->bentNormal(pixel);
+  }
+  std::shared_ptr<const Past> past() override { return nullptr; }
 
  private:
   double estimate(const glm::ivec2& pixel) const {
@@ -161,7 +166,8 @@ class Classic : public Occlusion {
   OcclusionSettings settings_;
   std::vector<glm::dvec3> points_;
   std::array<int, 16> rotations_;
-  Lazy raw_;
+  Lazy<double> raw_;
+  std::unique_ptr<Occlusion> slices_;  // open directions are theirs alone
 };
 
 }  // namespace

@@ -3,9 +3,11 @@
 #include <algorithm>
 #include <bit>
 #include <cmath>
+#include <functional>
 #include <glm/gtc/constants.hpp>
 #include <optional>
 
+#include "app/stability/oracle/history.h"
 #include "app/stability/oracle/occlusion.h"
 
 namespace grisaille::app::stability {
@@ -33,6 +35,18 @@ struct Slice {
     const double part = between(angle);
     return (behind + (angle < 0 ? -part : part)) / (behind + ahead);
   }
+  // The cosine-weighted mean of 16 of its directions, less those in sectors that are shut.
+  glm::dvec3 meanOpen(const glm::dvec3& across, const glm::dvec3& toward, uint32_t shut) const {
+    glm::dvec3 sum(0);
+    for (int i = 0; i < 16; ++i) {
+      const double angle = normal + ((i + 0.5) / 16 - 0.5) * kPi;
+      const int sector = std::clamp(static_cast<int>(below(angle) * 32), 0, 31);
+      if ((shut >> sector & 1) != 0) continue;
+      const double weight = std::abs(std::sin(angle)) * std::cos(angle - normal);
+      sum += weight * (across * std::sin(angle) + toward * std::cos(angle));
+    }
+    return sum * (kPi / 16 / (between(normal - kPi / 2) + between(normal + kPi / 2)));
+  }
   // The share of the slice below the direction of a point on one side (1 or -1) of the view vector.
   double below(const glm::dvec3& point, double side) const {
     const double height = glm::dot(point, up);
@@ -56,37 +70,59 @@ struct Walk {
   int seen = 0;
 };
 
+// What is known of a texel: the mean open direction in view space, of any length, and visibility.
+using Texel = glm::dvec4;
+const Texel kSky(0, 0, 0, 1);
+
 class Slices : public Occlusion {
  public:
-  Slices(const View& view, const OcclusionSettings& settings)
+  Slices(const View& view, const OcclusionSettings& settings, std::shared_ptr<const PastFrame> past)
       : view_(view),
         settings_(settings),
         thickness_(static_cast<float>(settings.radius) * static_cast<float>(settings.thickness)),
         texels_((view.size() + settings.scale - 1) / settings.scale),
+        past_(std::move(past)),
+        frames_(past_ ? past_->frames : 0),
         raw_(texels_, [this](const glm::ivec2& t) { return estimate(t); }),
+        means_(texels_, [this](const glm::ivec2& t) { return mean(t); }),
         rows_(texels_,
               [this](const glm::ivec2& t) {
-                return denoised(raw_, t, {1, 0});
+                return denoised([this](const glm::ivec2& at) { return averaged(at); }, t, {1, 0});
               }),
         columns_(texels_, [this](const glm::ivec2& t) {
-          return denoised(rows_, t, {0, 1});
+          return denoised([this](const glm::ivec2& at) { return rows_(at); }, t, {0, 1});
         }) {}
 
-  double visibility(const glm::ivec2& pixel) override {
-    if (view_.depth(pixel) <= 0) return finished(1, settings_);
-    return finished(settings_.scale == 1 ? columns_(pixel) : upsampled(pixel), settings_);
+  double visibility(const glm::ivec2& pixel) override { return finished(at(pixel).w, settings_); }
+  glm::dvec3 bentNormal(const glm::ivec2& pixel) override {
+    const glm::dvec3 mean(at(pixel));
+    if (!(glm::dot(mean, mean) > 1e-8)) return view_.worldNormal(pixel);
+    return glm::transpose(view_.viewFromWorld()) * glm::normalize(mean);
+  }
+  std::shared_ptr<const Past> past() override {
+    return std::make_shared<PastFrame>(view_, settings_.scale, frames_ + 1, means_);
   }
 
  private:
-  double estimate(const glm::ivec2& texel) const;
+  Texel at(const glm::ivec2& pixel) {
+    if (view_.depth(pixel) <= 0) return kSky;
+    return settings_.scale == 1 ? columns_(pixel) : upsampled(pixel);
+  }
+  // As it is denoised: histories are of visibility alone.
+  Texel averaged(const glm::ivec2& texel) {
+    return settings_.history > 1 ? Texel(glm::dvec3(raw_(texel)), means_(texel).open) : raw_(texel);
+  }
+  Texel estimate(const glm::ivec2& texel) const;
+  Mean mean(const glm::ivec2& texel);
   bool isEdge(const glm::ivec2& pixel) const;
-  double openIn(const glm::dvec3& position, const glm::dvec3& normal, const glm::dvec3& direction,
+  Texel sliceOf(const glm::dvec3& position, const glm::dvec3& normal, const glm::dvec3& direction,
                 const glm::ivec2& pixel, double dither) const;
   uint32_t tap(const Slice& slice, const glm::dvec3& position, const glm::ivec2& at, double dither,
                Walk& walk) const;
   glm::dvec3 leavesAt(const Walk& walk, const glm::dvec3& step) const;
-  double denoised(Lazy& from, const glm::ivec2& texel, const glm::ivec2& along) const;
-  double upsampled(const glm::ivec2& pixel);
+  Texel denoised(const std::function<Texel(const glm::ivec2&)>& from, const glm::ivec2& texel,
+                 const glm::ivec2& along) const;
+  Texel upsampled(const glm::ivec2& pixel);
 
   // How far what a pixel shows, at another depth, lies from the plane of a surface; tolerances.
   double offPlane(const glm::ivec2& surface, const glm::ivec2& pixel, double depth) const {
@@ -100,8 +136,23 @@ class Slices : public Occlusion {
   OcclusionSettings settings_;
   double thickness_;  // metres
   glm::ivec2 texels_;
-  Lazy raw_, rows_, columns_;
+  std::shared_ptr<const PastFrame> past_;
+  int frames_;  // averaged before this one
+  Lazy<Texel> raw_;
+  Lazy<Mean> means_;
+  Lazy<Texel> rows_, columns_;
 };
+
+Mean Slices::mean(const glm::ivec2& texel) {
+  const double now = raw_(texel).w;
+  const glm::ivec2 pixel = texel * settings_.scale;
+  if (!past_ || view_.depth(pixel) <= 0) return {.open = now};
+  const glm::dvec3 place =
+      view_.eye() + glm::transpose(view_.viewFromWorld()) * view_.position(pixel);
+  const Mean old = past_->seenAt(place, view_.worldNormal(pixel));
+  const double frames = std::min(old.frames, settings_.history - 1.0);
+  return {.open = (old.open * frames + now) / (frames + 1), .frames = frames + 1};
+}
 
 uint32_t sectors(double low, double high, double dither) {
   const auto from = static_cast<uint32_t>(std::clamp(low * 32 + dither, 0.0, 32.0));
@@ -124,23 +175,28 @@ bool Slices::isEdge(const glm::ivec2& pixel) const {
   return same < 5;
 }
 
-double Slices::estimate(const glm::ivec2& texel) const {
+Texel Slices::estimate(const glm::ivec2& texel) const {
   const glm::ivec2 pixel = texel * settings_.scale;
-  if (view_.depth(pixel) <= 0) return 1;
+  if (view_.depth(pixel) <= 0) return kSky;
   const glm::dvec3 position = view_.position(pixel);
   const glm::dvec3 toward = -glm::normalize(position);
   glm::dvec3 normal = view_.normal(pixel);
   normal = glm::normalize(normal - toward * std::min(glm::dot(normal, toward) - 1e-3, 0.0));
   // The 16 points of a Hammersley set on 4x4 texels.
   const glm::ivec2 low = texel & 1, high = texel >> 1 & 1;
-  const int rank = (low.x ^ low.y) * 8 + low.y * 4 + (high.x ^ high.y) * 2 + high.y;
+  int rank = (low.x ^ low.y) * 8 + low.y * 4 + (high.x ^ high.y) * 2 + high.y;
+  // Each frame of a history another of them, far ones after one another.
+  constexpr int kFarApart[] = {0b0101, 0b1010, 0b0010, 0b0001};
+  for (int bit = 0; bit < 4; ++bit) {
+    if ((frames_ >> bit & 1) != 0) rank ^= kFarApart[bit];
+  }
   int reverse = 0;
   for (int bit = 0; bit < 4; ++bit) reverse |= (rank >> bit & 1) << (3 - bit);
-  const double turn = std::fmod(0.5 + settings_.seed * 0.6180339887498949, 1.0);
+  const double turn = std::fmod(0.5 + (settings_.seed + frames_ / 16) * 0.6180339887498949, 1.0);
   const glm::dmat3 axes = axesAbout(normal);
   const bool edge = settings_.edgeSlices > 1 && isEdge(pixel);
   const int slices = settings_.slices * (edge ? settings_.edgeSlices : 1);
-  double open = 0;
+  Texel sum(0);
   for (int k = 0; k < slices; ++k) {
     const double phi = (k + (rank + turn) / 16) / slices * 2 * kPi;
     const double place = (reverse + 0.5) / 16 + k * kGolden;
@@ -148,12 +204,12 @@ double Slices::estimate(const glm::ivec2& texel) const {
     const double r = std::sqrt(u);
     const glm::dvec3 direction =
         axes * glm::dvec3(r * std::cos(phi), r * std::sin(phi), std::sqrt(1 - u));
-    open += openIn(position, normal, direction, pixel, u);
+    sum += sliceOf(position, normal, direction, pixel, u);
   }
-  return open / slices;
+  return sum / static_cast<double>(slices);
 }
 
-double Slices::openIn(const glm::dvec3& position, const glm::dvec3& normal,
+Texel Slices::sliceOf(const glm::dvec3& position, const glm::dvec3& normal,
                       const glm::dvec3& direction, const glm::ivec2& pixel, double dither) const {
   const glm::dvec3 toward = -glm::normalize(position);
   glm::dvec3 across = direction - toward * glm::dot(direction, toward);
@@ -188,14 +244,17 @@ double Slices::openIn(const glm::dvec3& position, const glm::dvec3& normal,
     const double share = slice.below(leavesAt(*walk, walk->step), walk->side);
     shut |= sectors(std::min(walk->share, share), std::max(walk->share, share), dither);
   }
+  const glm::dvec3 bent = slice.meanOpen(across, toward, shut);
   // A side that leaves the picture takes the other's share for the taps that it lacks.
   const int low = std::clamp(static_cast<int>(std::lround(slice.below(0) * 32)), 1, 31);
   const double shutBehind = static_cast<double>(std::popcount(shut & ((1u << low) - 1))) / low;
   const double shutAhead = static_cast<double>(std::popcount(shut >> low)) / (32 - low);
   const double lacksAhead = 1 - static_cast<double>(ahead.seen) / settings_.steps;
   const double lacksBehind = 1 - static_cast<double>(behind.seen) / settings_.steps;
-  return 1 - glm::mix(std::max(shutAhead, lacksAhead * (1 - lacksBehind) * shutBehind),
-                      std::max(shutBehind, lacksBehind * (1 - lacksAhead) * shutAhead), low / 32.0);
+  const double shutAll =
+      glm::mix(std::max(shutAhead, lacksAhead * (1 - lacksBehind) * shutBehind),
+               std::max(shutBehind, lacksBehind * (1 - lacksAhead) * shutAhead), low / 32.0);
+  return {bent, 1 - shutAll};
 }
 
 // Where a surface that goes on from the tap before by `step` leaves the sphere; at most a step on.
@@ -225,11 +284,13 @@ uint32_t Slices::tap(const Slice& slice, const glm::dvec3& position, const glm::
     const double last = slice.below(leavesAt(walk, step), walk.side);
     bits = sectors(std::min(walk.share, last), std::max(walk.share, last), dither);
   } else {
-    // The part of front + k ray, k in [0, thickness], inside the sphere.
+    // The part of front + k ray, k in [0, matter], inside the sphere.
+    double matter = thickness_;
+    if (settings_.backFaces && view_.back(at) > 0) matter = std::max(view_.back(at) - depth, 0.0);
     const double length = glm::dot(ray, ray), b = glm::dot(ray, front) / length;
     const double d = b * b - beyond / length;
     const double root = std::sqrt(std::max(d, 0.0));
-    const double near = std::max(0.0, -b - root), far = std::min(thickness_, root - b);
+    const double near = std::max(0.0, -b - root), far = std::min(matter, root - b);
     present = seen && depth > 0 && d > 0 && near <= far;
     from = slice.below(front + near * ray, walk.side);
     const double last = slice.below(front + far * ray, walk.side);
@@ -245,11 +306,13 @@ uint32_t Slices::tap(const Slice& slice, const glm::dvec3& position, const glm::
   return present ? bits : 0;
 }
 
-double Slices::denoised(Lazy& from, const glm::ivec2& texel, const glm::ivec2& along) const {
+Texel Slices::denoised(const std::function<Texel(const glm::ivec2&)>& from, const glm::ivec2& texel,
+                       const glm::ivec2& along) const {
   const int reach = std::max(settings_.blurSize, 1);
   const glm::ivec2 surface = texel * settings_.scale;
-  if (view_.depth(surface) <= 0) return 1;
-  double sum = 0, weights = 0;
+  if (view_.depth(surface) <= 0) return kSky;
+  Texel sum(0);
+  double weights = 0;
   for (int i = 1 - reach; i < reach; ++i) {
     const glm::ivec2 other = texel + along * i;
     const glm::ivec2 inside = glm::clamp(other, glm::ivec2(0), texels_ - 1);
@@ -263,13 +326,13 @@ double Slices::denoised(Lazy& from, const glm::ivec2& texel, const glm::ivec2& a
   return sum / weights;
 }
 
-double Slices::upsampled(const glm::ivec2& pixel) {
+Texel Slices::upsampled(const glm::ivec2& pixel) {
   const int scale = settings_.scale;
-  Lazy& texels = settings_.blurSize > 1 ? columns_ : raw_;
   // Two by two pixels lie between the same four texels.
   const glm::ivec2 first = pixel / 2 * 2 / scale;
   const glm::dvec2 part = glm::dvec2(pixel - first * scale) / static_cast<double>(scale);
-  double sum = 0, weights = 0;
+  Texel sum(0);
+  double weights = 0;
   for (int i = 0; i < 4; ++i) {
     const glm::ivec2 corner(i & 1, i >> 1), texel = first + corner;
     const double depth = view_.depth(glm::clamp(texel, glm::ivec2(0), texels_ - 1) * scale);
@@ -278,16 +341,18 @@ double Slices::upsampled(const glm::ivec2& pixel) {
     const double share =
         (corner.x != 0 ? part.x : 1 - part.x) * (corner.y != 0 ? part.y : 1 - part.y);
     const double weight = share * std::max(0.0, 1 - off) + 1e-4 / (1 + off * off * off);
-    sum += weight * texels(texel);
+    sum += weight * (settings_.blurSize > 1 ? columns_(texel) : averaged(texel));
     weights += weight;
   }
-  return weights > 0 ? sum / weights : 1;
+  return weights > 0 ? sum / weights : kSky;
 }
 
 }  // namespace
 
-std::unique_ptr<Occlusion> makeSlices(const View& view, const OcclusionSettings& settings) {
-  return std::make_unique<Slices>(view, settings);
+std::unique_ptr<Occlusion> makeSlices(const View& view, const OcclusionSettings& settings,
+                                      std::shared_ptr<const Past> past) {
+  return std::make_unique<Slices>(view, settings,
+                                  std::dynamic_pointer_cast<const PastFrame>(std::move(past)));
 }
 
 }  // namespace grisaille::app::stability

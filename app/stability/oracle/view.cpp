@@ -5,16 +5,24 @@
 #include <utility>
 
 namespace grisaille::app::stability {
+namespace {
 
-View::View(const scene::Camera& camera, const glm::uvec2& size, uint32_t guard, image::Image depth,
-           image::Image normal)
+// The first three channels.
+glm::dvec3 colourOf(const image::Image& image, const glm::uvec2& at) {
+  return {image.at(at.x, at.y, 0), image.at(at.x, at.y, 1), image.at(at.x, at.y, 2)};
+}
+
+}  // namespace
+
+View::View(const scene::Camera& camera, const glm::uvec2& size, uint32_t guard,
+           Attachments attachments)
     : size_(size),
       guard_(static_cast<int>(guard)),
       // As the shaders have it: what lies on the near plane must not be cut by a rounding.
       nearPlane_(static_cast<float>(camera.nearPlane)),
+      eye_(camera.eye),
       viewFromWorld_(glm::transpose(scene::worldFromView(camera))),
-      depth_(std::move(depth)),
-      normal_(std::move(normal)) {
+      attachments_(std::move(attachments)) {
   const double focal = size_.y / (2 * std::tan(glm::radians(camera.fovyDegrees) / 2));
   focal_ = {focal, -focal};
 }
@@ -30,13 +38,24 @@ glm::ivec2 View::nearest(const glm::ivec2& pixel) const {
 
 double View::depth(const glm::ivec2& pixel) const {
   const glm::uvec2 at(nearest(pixel));
-  return depth_.at(at.x, at.y);
+  return attachments_.depth.at(at.x, at.y);
+}
+
+double View::back(const glm::ivec2& pixel) const {
+  const glm::uvec2 at(nearest(pixel));
+  return attachments_.back.at(at.x, at.y);
+}
+
+glm::dvec3 View::colour(const glm::ivec2& pixel) const {
+  return colourOf(attachments_.colour, glm::uvec2(nearest(pixel)));
+}
+
+glm::dvec3 View::worldNormal(const glm::ivec2& pixel) const {
+  return colourOf(attachments_.normal, glm::uvec2(nearest(pixel)));
 }
 
 glm::dvec3 View::normal(const glm::ivec2& pixel) const {
-  const glm::uvec2 at(nearest(pixel));
-  const glm::dvec3 world(normal_.at(at.x, at.y, 0), normal_.at(at.x, at.y, 1),
-                         normal_.at(at.x, at.y, 2));
+  const glm::dvec3 world = worldNormal(pixel);
   return glm::dot(world, world) < 0.25 ? glm::dvec3(0, 0, 1) : viewFromWorld_ * world;
 }
 

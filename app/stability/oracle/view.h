@@ -13,16 +13,25 @@
 
 namespace grisaille::app::stability {
 
+// As they were read back, all of one size. What is not read may be empty.
+struct Attachments {
+  image::Image depth;   // view depth, metres; 0: sky
+  image::Image normal;  // three channels, world
+  image::Image back;    // view depth where the matter that is seen ends, metres; 0: none
+  image::Image colour;  // base colour
+};
+
 class View {
  public:
-  // `depth`: one channel, view depth, metres; 0: sky. `normal`: three channels, world; may be
-  // empty. Both go beyond a picture of this size by `guard` pixels on each side. `camera` is the
-  // picture's.
-  View(const scene::Camera& camera, const glm::uvec2& size, uint32_t guard, image::Image depth,
-       image::Image normal);
+  // The attachments go beyond a picture of this size by `guard` pixels on each side. `camera` is
+  // the picture's.
+  View(const scene::Camera& camera, const glm::uvec2& size, uint32_t guard,
+       Attachments attachments);
 
   glm::ivec2 size() const { return size_; }
   double nearPlane() const { return nearPlane_; }
+  const glm::dvec3& eye() const { return eye_; }
+  const glm::dmat3& viewFromWorld() const { return viewFromWorld_; }
 
   // Whether the attachments hold this pixel of the picture.
   bool holds(const glm::ivec2& pixel) const;
@@ -31,6 +40,11 @@ class View {
   double depth(const glm::ivec2& pixel) const;
   // In view space; what has no direction faces the camera.
   glm::dvec3 normal(const glm::ivec2& pixel) const;
+  // In the world, as it was read.
+  glm::dvec3 worldNormal(const glm::ivec2& pixel) const;
+  // As depth(); 0: none.
+  double back(const glm::ivec2& pixel) const;
+  glm::dvec3 colour(const glm::ivec2& pixel) const;
 
   // Through a point of the picture, (0, 0) its top left corner; z is -1.
   glm::dvec3 ray(const glm::dvec2& point) const;
@@ -48,8 +62,9 @@ class View {
   int guard_;
   double nearPlane_;
   glm::dvec2 focal_;  // y is negative: pixels go down
+  glm::dvec3 eye_;    // world
   glm::dmat3 viewFromWorld_;
-  image::Image depth_, normal_;
+  Attachments attachments_;
 };
 
 // Axes with z along n, a unit vector: Duff et al. 2017, "Building an Orthonormal Basis, Revisited".
