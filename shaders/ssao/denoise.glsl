@@ -31,6 +31,25 @@ layout(IMAGE(0), r16f) writeonly uniform image2D target;
 layout(IMAGE(0), rg32f) writeonly uniform image2D target;  // as raw
 #endif
 
+// By how much a facet's slope may differ from that of the interpolated normal, as the tangent of an
+// angle, and an eighth of that the slopes to both sides from one another.
+const float kMostBent = 0.5;
+
+float depthAt(ivec2 texel, vec2 inverse) {
+  return textureLod(raw, (vec2(texel) + 0.5) * inverse, 0.0).y;
+}
+
+// Surfaces are made of facets, whose planes interpolated normals miss: weights that follow the normal
+// would leave the noise's pattern. Where a texel and its neighbours before and after it lie on a line,
+// and that not far off the normal's plane, theirs is the slope.
+vec4 facetSlope(vec4 depths, float before, float after, vec4 facing, vec4 slope, vec4 most) {
+  const vec4 back = vec4(before, depths.xyz), on = vec4(depths.yzw, after);
+  const vec4 one = (back - depths) * facing / max(back, 1e-30);
+  const vec4 two = (depths - on) * facing / max(on, 1e-30);
+  const vec4 both = 0.5 * (one + two);
+  return mix(slope, both, lessThan(max(8.0 * abs(one - two), abs(both - slope)), most));
+}
+
 void main() {
   // By branches: lavapipe takes a vector chosen by a specialization constant for the default's.
   ivec2 along = ivec2(1, 0);
@@ -41,17 +60,21 @@ void main() {
   const vec2 inverse = 1.0 / vec2(size);
 
   // One component for each texel of the run; planes in tolerances, and the slope a texel.
-  vec4 depths, facing, slope;
+  vec4 depths, facing, slope, most;
   [[unroll]] for (int t = 0; t < 4; ++t) {
     const vec2 texel = vec2(first + along * t);
     const vec2 pixel = texel * float(kScale) + 0.5;
-    depths[t] = textureLod(raw, (texel + 0.5) * inverse, 0.0).y;
+    depths[t] = depthAt(first + along * t, inverse);
     const vec3 normal = viewNormal(textureLod(world_normal, attachmentAt(pixel), 0.0).xyz);
     const Plane plane = planeOf(pixel, normal);
     const float tolerance = toleranceAt(depths[t], settings.tolerance);
     facing[t] = plane.facing * tolerance;
     slope[t] = dot(plane.slope, vec2(along)) * float(kScale) * tolerance;
+    most[t] = kMostBent * abs(view.view_from_pixel.x) * float(kScale) * tolerance /
+                 max(abs(plane.facing), 0.5);
   }
+  slope = facetSlope(depths, depthAt(first - along, inverse), depthAt(first + along * 4, inverse),
+                     facing, slope, most);
   vec4 sum = vec4(0.0), weights = vec4(0.0);
 #if BENT
   mat4x3 bent = mat4x3(0.0);

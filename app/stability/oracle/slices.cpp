@@ -17,6 +17,7 @@ constexpr double kPi = glm::pi<double>();
 constexpr double kGolden = 0.618034;      // spreads slices, a part of the pattern
 constexpr double kPlaneTolerance = 0.05;  // radii
 constexpr double kPlanePixels = 4;        // and no more than so many pixels' width
+constexpr double kMostBent = 0.5;         // of facets from normals, tangent
 
 // A slice of the hemisphere over a surface. Angles run from the view vector, over 0 on the side of
 // `across`.
@@ -127,10 +128,13 @@ class Slices : public Occlusion {
   // How far what a pixel shows, at another depth, lies from the plane of a surface; tolerances.
   double offPlane(const glm::ivec2& surface, const glm::ivec2& pixel, double depth) const {
     const glm::dvec3 apart = view_.position(pixel, depth) - view_.position(surface);
-    const double pixelWidth = view_.depth(surface) / std::abs(view_.focal().x);
-    return std::abs(glm::dot(apart, view_.normal(surface))) /
-           std::min(kPlaneTolerance * settings_.radius, kPlanePixels * pixelWidth);
+    return std::abs(glm::dot(apart, view_.normal(surface))) / toleranceAt(surface);
   }
+  double toleranceAt(const glm::ivec2& surface) const {  // metres
+    const double pixelWidth = view_.depth(surface) / std::abs(view_.focal().x);
+    return std::min(kPlaneTolerance * settings_.radius, kPlanePixels * pixelWidth);
+  }
+  double slopeAlong(const glm::ivec2& texel, const glm::ivec2& along) const;
 
   const View& view_;
   OcclusionSettings settings_;
@@ -306,11 +310,34 @@ uint32_t Slices::tap(const Slice& slice, const glm::dvec3& position, const glm::
   return present ? bits : 0;
 }
 
+// Off a surface's plane at a view depth of 1, metres a texel. Of the texel's own facet where its
+// neighbours lie on a line with it, and near enough to the normal's plane; else the normal's.
+double Slices::slopeAlong(const glm::ivec2& texel, const glm::ivec2& along) const {
+  const auto depthAt = [&](const glm::ivec2& at) {
+    return view_.depth(glm::clamp(at, glm::ivec2(0), texels_ - 1) * settings_.scale);
+  };
+  const glm::ivec2 pixel = texel * settings_.scale;
+  const double depth = view_.depth(pixel), before = depthAt(texel - along),
+               after = depthAt(texel + along);
+  const glm::dvec3 normal = view_.normal(pixel);
+  const double facing = glm::dot(normal, view_.ray(glm::dvec2(pixel) + 0.5));
+  const double byNormal =
+      glm::dot(glm::dvec2(normal) / view_.focal(), glm::dvec2(along)) * settings_.scale;
+  if (before <= 0 || after <= 0) return byNormal;
+  const double one = (before - depth) * facing / before, two = (depth - after) * facing / after;
+  const double both = (one + two) / 2, width = settings_.scale / std::abs(view_.focal().x);
+  const double most = kMostBent * width / std::max(std::abs(facing), 0.5);
+  return std::max(8 * std::abs(one - two), std::abs(both - byNormal)) < most ? both : byNormal;
+}
+
 Texel Slices::denoised(const std::function<Texel(const glm::ivec2&)>& from, const glm::ivec2& texel,
                        const glm::ivec2& along) const {
   const int reach = std::max(settings_.blurSize, 1);
   const glm::ivec2 surface = texel * settings_.scale;
-  if (view_.depth(surface) <= 0) return kSky;
+  const double own = view_.depth(surface);
+  if (own <= 0) return kSky;
+  const double facing = glm::dot(view_.normal(surface), view_.ray(glm::dvec2(surface) + 0.5));
+  const double slope = slopeAlong(texel, along);
   Texel sum(0);
   double weights = 0;
   for (int i = 1 - reach; i < reach; ++i) {
@@ -318,7 +345,7 @@ Texel Slices::denoised(const std::function<Texel(const glm::ivec2&)>& from, cons
     const glm::ivec2 inside = glm::clamp(other, glm::ivec2(0), texels_ - 1);
     const double depth = view_.depth(inside * settings_.scale);
     if (depth <= 0) continue;
-    const double off = offPlane(surface, other * settings_.scale, depth);
+    const double off = std::abs((depth - own) * facing + depth * i * slope) / toleranceAt(surface);
     const double weight = (reach - std::abs(i)) * std::max(1 - off, 0.0);
     sum += weight * from(inside);
     weights += weight;
