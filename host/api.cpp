@@ -167,6 +167,24 @@ int grisaille_host_effect_get(const grisaille_host_effect* effect, const char* k
   });
 }
 
+int grisaille_host_effect_set_shots(grisaille_host_effect* effect, const grisaille_shot* shots,
+                                    uint64_t count) {
+  return guarded([&] {
+    grisaille_host_effect& one = present(effect, "effect");
+    if (count > 0) present(shots, "shots");
+    one.setShots({shots, static_cast<size_t>(count)});
+  });
+}
+
+int grisaille_host_device_set_rays(grisaille_host_device* device, const grisaille_host_rays* rays) {
+  return guarded([&] {
+    grisaille_host_device& one = present(device, "device");
+    if (rays == nullptr) return one.rays.set({});
+    checkReserved(whole(rays, "rays").reserved, "rays.reserved");
+    one.rays.set(*rays);
+  });
+}
+
 int grisaille_host_effect_resize(grisaille_host_effect* effect, uint32_t width, uint32_t height) {
   return guarded([&] {
     grisaille_host_effect& one = present(effect, "effect");

@@ -3,7 +3,10 @@
 
 #include <dlfcn.h>
 
+#include <algorithm>
+#include <cmath>
 #include <filesystem>
+#include <glm/glm.hpp>
 
 #include "host/checks.h"
 
@@ -21,7 +24,27 @@ fs::path ownEffects() {
   return failed ? fs::path() : file.parent_path() / "grisaille" / "effects";
 }
 
+bool isHit(const grisaille_hit& hit) {
+  if (hit.kind == GRISAILLE_HIT_NONE || hit.kind == GRISAILLE_HIT_UNKNOWN) return true;
+  const glm::vec3 normal(hit.normal[0], hit.normal[1], hit.normal[2]);
+  return hit.kind == GRISAILLE_HIT_SURFACE && hit.distance >= 0 && std::isfinite(hit.distance) &&
+         std::abs(glm::length(normal) - 1) < 1e-3f;
+}
+
 }  // namespace
+
+void Rays::cast(std::span<const grisaille_ray> rays, std::span<grisaille_hit> hits) {
+  std::ranges::fill(hits, grisaille_hit{});
+  rays_.cast(rays_.context, rays.data(), rays.size(), hits.data());
+  const auto wrong = std::ranges::find_if_not(hits, isHit);
+  if (wrong == hits.end()) return;
+  throw Error(
+      ErrorId::kHostValue,
+      "hit {} of {} of the host's rays has the kind {}, a distance of {}, a normal of {}, {}, {}",
+      wrong - hits.begin(), hits.size(), wrong->kind, wrong->distance, wrong->normal[0],
+      wrong->normal[1], wrong->normal[2]);
+}
+
 }  // namespace grisaille::host
 
 grisaille_host_device::grisaille_host_device(std::unique_ptr<grisaille::gpu::HostDevice> made,

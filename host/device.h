@@ -5,10 +5,28 @@
 #include <memory>
 #include <vector>
 
+#include "core/effect/instance.h"
 #include "core/effect/registry.h"
 #include "core/gpu/host_device.h"
 #include "grisaille/host.h"
 #include "host/attachments.h"
+
+namespace grisaille::host {
+
+// What the host casts.
+class Rays : public effect::RayService {
+ public:
+  void set(const grisaille_host_rays& rays) { rays_ = rays; }
+  explicit operator bool() const { return rays_.cast != nullptr; }
+
+  // Throws kHostValue where a hit is none.
+  void cast(std::span<const grisaille_ray> rays, std::span<grisaille_hit> hits) override;
+
+ private:
+  grisaille_host_rays rays_ = {};
+};
+
+}  // namespace grisaille::host
 
 struct grisaille_host_device {
   // The effects beside the library, and those of a further folder, which may be null. Throws
@@ -20,6 +38,7 @@ struct grisaille_host_device {
   std::unique_ptr<grisaille::gpu::HostDevice> gpu;
   grisaille::host::Kernels kernels;
   uint32_t textures = 0, effects = 0;  // that live
+  grisaille::host::Rays rays;
 };
 
 struct grisaille_host_texture {

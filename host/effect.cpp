@@ -1,9 +1,12 @@
 // SPDX-License-Identifier: MIT
 #include "host/effect.h"
 
+#include <algorithm>
 #include <array>
+#include <cstring>
 
 #include "core/frame/view_block.h"
+#include "core/shots/shot.h"
 #include "host/checks.h"
 
 using grisaille::Error;
@@ -133,6 +136,19 @@ void grisaille_host_effect::resize(uint32_t newWidth, uint32_t newHeight) {
   attachments_.resize(width, height);
 }
 
+void grisaille_host_effect::setShots(std::span<const grisaille_shot> shots) {
+  if (!values.effect().takesShots()) {
+    throw Error(ErrorId::kEffectTakesNoShots, "{} takes no shots", values.effect().desc->key);
+  }
+  std::vector<grisaille_shot> checked = grisaille::shots::checked(shots);
+  const auto same = [](const grisaille_shot& a, const grisaille_shot& b) {
+    return std::memcmp(&a, &b, sizeof(a)) == 0;
+  };
+  const auto differ = std::ranges::mismatch(shots_, checked, same);
+  shotsKept_ = std::min(shotsKept_, static_cast<size_t>(differ.in1 - shots_.begin()));
+  shots_ = std::move(checked);
+}
+
 host::Textures grisaille_host_effect::texturesOf(const grisaille_host_frame& frame,
                                                  uint32_t reads) const {
   host::Textures textures;
@@ -193,7 +209,12 @@ void grisaille_host_effect::recordInto(gpu::Commands& commands, const host::View
   }
   inputs.outputs = made_;
   inputs.values = values.all();
+  inputs.shots = shots_;
+  inputs.shotsKept = shotsKept_;
+  if (device.rays) inputs.rays = &device.rays;
+  shotsKept_ = 0;  // unless it works
   instance_.record(inputs);
+  shotsKept_ = shots_.size();
   if (rows_ == GRISAILLE_HOST_ROWS_FROM_TOP) return;
   const gpu::BufferRange source = commands.uniform(std::as_bytes(std::span(&view.source, 1)));
   const auto outputs = values.effect().outputs();

@@ -2,6 +2,7 @@
 // What grisaille_host_effect points to.
 #pragma once
 
+#include <span>
 #include <string_view>
 #include <vector>
 
@@ -17,6 +18,8 @@ struct grisaille_host_effect {
   grisaille_host_effect& operator=(const grisaille_host_effect&) = delete;
 
   void resize(uint32_t width, uint32_t height);
+  // Throws as grisaille_host_effect_set_shots() has it.
+  void setShots(std::span<const grisaille_shot> shots);
   void record(const grisaille_host_frame& frame);
   grisaille::gpu::NativeTexture output(std::string_view key, uint32_t& format) const;
 
@@ -43,4 +46,6 @@ struct grisaille_host_effect {
   std::vector<grisaille::gpu::Texture> made_, shown_;
   grisaille::host::Attachments attachments_;
   grisaille::effect::Instance instance_;
+  std::vector<grisaille_shot> shots_;
+  size_t shotsKept_ = 0;  // of the first, those of the last recording
 };

@@ -222,6 +222,21 @@ TEST_P(Errors, OfParametersSizesAndOutputs) {
   expectError(grisaille_host_effect_get(one, nullptr, &value), 5601, "key is null");
   expectError(grisaille_host_effect_get(one, "radius", nullptr), 5601, "value is null");
   expectError(grisaille_host_effect_get(one, "radus", &value), 3301, "radius");
+  expectError(grisaille_host_effect_set_shots(nullptr, nullptr, 0), 5601, "effect is null");
+  expectError(grisaille_host_effect_set_shots(one, nullptr, 0), 3205, "ssao takes no shots");
+  expectError(grisaille_host_device_set_rays(nullptr, nullptr), 5601, "device is null");
+  auto rays = sized<grisaille_host_rays>();
+  rays.reserved = 1;
+  expectError(grisaille_host_device_set_rays(device_.handle(), &rays), 5611, "rays.reserved");
+  rays.struct_size = 1;
+  expectError(grisaille_host_device_set_rays(device_.handle(), &rays), 5602, "struct_size is 1");
+  host::Effect paint(device_, {.effect = "sspm", .width = kSide, .height = kSide});
+  grisaille_shot shot{
+      .origin = {0, 0, 0}, .direction = {0, 0, -1}, .color = {1, 0, 0}, .range = 0, .reserved = 0};
+  EXPECT_EQ(grisaille_host_effect_set_shots(paint.handle(), &shot, 1), 0);
+  expectError(grisaille_host_effect_set_shots(paint.handle(), nullptr, 1), 5601, "shots is null");
+  shot.range = -1;
+  expectError(grisaille_host_effect_set_shots(paint.handle(), &shot, 1), 3404, "range");
   expectError(grisaille_host_effect_resize(nullptr, 1, 1), 5601, "effect is null");
   expectError(grisaille_host_effect_resize(one, 0, 1), 1105, "0 x 1");
   auto output = sized<grisaille_host_output>();

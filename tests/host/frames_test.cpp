@@ -160,6 +160,107 @@ TEST_P(Frames, EveryOutputIsThere) {
   EXPECT_NE(host_->read(effect.output("ao")), open);
 }
 
+// The world's own rays, and how many were asked for.
+void castWorld(void* context, const grisaille_ray* rays, uint64_t count, grisaille_hit* hits) {
+  *static_cast<uint64_t*>(context) += count;
+  for (uint64_t i = 0; i < count; ++i) {
+    const glm::dvec3 origin(rays[i].origin[0], rays[i].origin[1], rays[i].origin[2]);
+    const glm::dvec3 way(rays[i].direction[0], rays[i].direction[1], rays[i].direction[2]);
+    const Met met = meet(origin, way);
+    if (!(met.along < rays[i].reach)) continue;
+    const glm::dvec3 normal = glm::dot(met.normal, way) > 0 ? -met.normal : met.normal;
+    hits[i] = {.kind = GRISAILLE_HIT_SURFACE,
+               .distance = static_cast<float>(met.along),
+               .normal = {static_cast<float>(normal.x), static_cast<float>(normal.y),
+                          static_cast<float>(normal.z)}};
+  }
+}
+
+void castNonsense(void*, const grisaille_ray*, uint64_t count, grisaille_hit* hits) {
+  for (uint64_t i = 0; i < count; ++i) hits[i].kind = 7;
+}
+
+grisaille_shot shotAt(const glm::dvec3& origin, const glm::dvec3& target) {
+  const glm::vec3 way(glm::normalize(target - origin));
+  return {.origin = {origin.x, origin.y, origin.z},
+          .direction = {way.x, way.y, way.z},
+          .color = {1, 0.2f, 0},
+          .range = 0.25f,
+          .reserved = 0};
+}
+
+// Paint lies where a shot's muzzle sees the world: on the ball, and not on the wall behind it.
+TEST_P(Frames, ShotsPaintWhatTheHostsRaysFind) {
+  host::Effect effect(device_, {.effect = "sspm", .width = 96, .height = 72});
+  effect.set("edge_fade", 0.0);
+  const Seen world = see(eye(), 96, 72);
+  const host::Texture seen = depth(96, 72);
+  const glm::dmat4 placed = glm::inverse(eye().viewFromWorld);
+  const auto painted = [&](const glm::dvec3& axisOrigin, const glm::dvec3& way) {
+    record(effect, seen);
+    const std::vector<float> paint = host_->read(effect.output("paint"));
+    std::pair<size_t, size_t> count = {0, 0};  // on what the muzzle sees; elsewhere
+    for (size_t i = 0; i < world.view.size(); ++i) {
+      if (paint[4 * i + 3] < 0.5f) continue;
+      const double half = std::tan(0.4);
+      const glm::dvec3 ray(2 * half / 72 * (static_cast<double>(i % 96) + 0.5 - 48),
+                           2 * half / 72 * (36 - static_cast<double>(i / 96) - 0.5), -1);
+      const glm::dvec3 place(placed * glm::dvec4(ray * world.view[i], 1));
+      const glm::dvec3 from = place - axisOrigin;
+      const bool near = glm::length(from - way * glm::dot(from, way)) < 0.3;
+      const bool sees = meet(axisOrigin, from).along > 0.98;
+      ++(near && sees ? count.first : count.second);
+    }
+    return count;
+  };
+  const grisaille_shot shot = shotAt({0.3, 0.6, 2.5}, {0.2, 0.5, -0.2});
+  const glm::dvec3 origin(shot.origin[0], shot.origin[1], shot.origin[2]);
+  const glm::dvec3 way(shot.direction[0], shot.direction[1], shot.direction[2]);
+  effect.setShots({shot});
+  EXPECT_EQ(painted(origin, way).first, 0u) << "nobody casts rays yet";
+  uint64_t asked = 0;
+  device_.setRays(castWorld, &asked);
+  auto [on, off] = painted(origin, way);
+  EXPECT_GT(on, 20u);
+  EXPECT_EQ(off, 0u);
+  EXPECT_GT(asked, 0u);
+  // What is added at the end leaves what was there, and no shots leave nothing.
+  const uint64_t first = asked;
+  effect.setShots({shot, shotAt({-1, 1, 2}, {-0.8, 0, 0.2})});
+  EXPECT_EQ(painted(origin, way).first, on);
+  EXPECT_GT(asked, first);
+  const uint64_t second = asked;
+  record(effect, seen);
+  EXPECT_EQ(asked, second);
+  effect.setShots({});
+  EXPECT_EQ(painted(origin, way), std::pair(size_t{0}, size_t{0}));
+  // Whatever lies in the range, per shot, asks no rays.
+  effect.set("mode", "per_shot");
+  effect.setShots({shot});
+  EXPECT_GE(painted(origin, way).first, on);
+  EXPECT_EQ(asked, second);
+}
+
+TEST_P(Frames, RaysThatTellNonsenseAreRefused) {
+  host::Effect effect(device_, {.effect = "sspm", .width = 32, .height = 24});
+  effect.setShots({shotAt({0.3, 0.6, 2.5}, {0.2, 0.5, -0.2})});
+  device_.setRays(castNonsense, nullptr);
+  const host::Texture seen = depth(32, 24);
+  // The command buffer is submitted all the same.
+  host_->frame([&](void* commands, uint64_t number) {
+    EXPECT_THROW(effect.record({.number = number,
+                                .commandBuffer = commands,
+                                .camera = camera_,
+                                .depth = seen,
+                                .depthKind = GRISAILLE_HOST_DEPTH_VIEW}),
+                 host::Failure);
+    EXPECT_NE(std::string(grisaille_host_last_error()).find("has the kind 7"), std::string::npos)
+        << grisaille_host_last_error();
+  });
+  device_.setRays(nullptr, nullptr);
+  record(effect, seen);
+}
+
 // From the second frame on: neither memory of the host's nor any object of the API's, which would
 // come with memory of the host's.
 class UnwatchedFrames : public Frames {

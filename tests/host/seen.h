@@ -22,6 +22,32 @@ struct Seen {
   std::vector<glm::dvec3> normal;      // world
 };
 
+// What a ray hits first, and how far along in its own lengths; 1e30: nothing. The floor ends
+// nowhere.
+struct Met {
+  double along = 1e30;
+  glm::dvec3 normal = glm::dvec3(0);  // world, out of the world's solids
+};
+
+inline Met meet(const glm::dvec3& origin, const glm::dvec3& ray) {
+  Met met;
+  const auto plane = [&](int axis, double at) {
+    const double t = (at - origin[axis]) / ray[axis];
+    if (!(t > 0 && t < met.along)) return;
+    met.along = t;
+    met.normal = glm::dvec3(0);
+    met.normal[axis] = 1;
+  };
+  plane(1, 0);
+  plane(2, -1);
+  const glm::dvec3 centre(0.2, 0.5, -0.2), to = origin - centre;
+  const double radius = 0.5, a = glm::dot(ray, ray), b = glm::dot(to, ray),
+               c = glm::dot(to, to) - radius * radius, root = b * b - a * c;
+  const double t = root > 0 ? (-b - std::sqrt(root)) / a : -1;
+  if (t > 0 && t < met.along) met = {t, (origin + t * ray - centre) / radius};
+  return met;
+}
+
 inline Seen see(const Eye& eye, uint32_t width, uint32_t height) {
   Seen seen{.width = width, .height = height, .view = {}, .distance = {}, .normal = {}};
   const glm::dmat4 world = glm::inverse(eye.viewFromWorld);
@@ -33,28 +59,12 @@ inline Seen see(const Eye& eye, uint32_t width, uint32_t height) {
       const glm::dvec3 from = eye.angle > 0 ? glm::dvec3(0) : glm::dvec3(place, 0);
       const glm::dvec3 along = eye.angle > 0 ? glm::dvec3(place, -1) : glm::dvec3(0, 0, -1);
       const glm::dvec3 origin(world * glm::dvec4(from, 1)), ray(world * glm::dvec4(along, 0));
-      double best = 1e30;
-      glm::dvec3 normal(0);
-      const auto plane = [&](int axis, double at) {
-        const double t = (at - origin[axis]) / ray[axis];
-        if (!(t > 0 && t < best)) return;
-        best = t;
-        normal = glm::dvec3(0);
-        normal[axis] = 1;
-      };
-      plane(1, 0);
-      plane(2, -1);
-      const glm::dvec3 centre(0.2, 0.5, -0.2), to = origin - centre;
-      const double radius = 0.5, a = glm::dot(ray, ray), b = glm::dot(to, ray),
-                   c = glm::dot(to, to) - radius * radius, root = b * b - a * c;
-      if (root > 0 && (-b - std::sqrt(root)) / a < best) {
-        best = (-b - std::sqrt(root)) / a;
-        normal = (origin + best * ray - centre) / radius;
-      }
+      const Met met = meet(origin, ray);
+      const double best = met.along;
       const bool sky = best > 1e6 || (origin + best * ray).y > 2.5;
       seen.view.push_back(sky ? 0 : best);
       seen.distance.push_back(sky ? 0 : best * glm::length(ray));
-      seen.normal.push_back(sky ? glm::dvec3(0) : normal);
+      seen.normal.push_back(sky ? glm::dvec3(0) : met.normal);
     }
   }
   return seen;

@@ -44,7 +44,7 @@
 extern "C" {
 #endif
 
-#define GRISAILLE_HOST_VERSION 1u /* grows when functions or fields are added */
+#define GRISAILLE_HOST_VERSION 2u /* grows when functions or fields are added */
 
 /* What the library makes of the host's device or context, and on it. */
 typedef struct grisaille_host_device grisaille_host_device;
@@ -138,6 +138,22 @@ GRISAILLE_EXPORT int grisaille_host_texture_wrap(grisaille_host_device* device,
  * current). */
 GRISAILLE_EXPORT int grisaille_host_texture_destroy(grisaille_host_texture* texture);
 
+/* Since 2. Who casts rays through the host's scene. */
+typedef struct grisaille_host_rays {
+  uint32_t struct_size;
+  uint32_t reserved; /* 0 */
+  void* context;     /* the host's, handed on as it is */
+  /* Fills in one hit a ray, on the calling thread, inside grisaille_host_effect_record(); what it
+   * leaves alone is GRISAILLE_HIT_NONE. It does not call the library. */
+  void (*cast)(void* context, const grisaille_ray* rays, uint64_t count, grisaille_hit* hits);
+} grisaille_host_rays;
+
+/* Since 2. Sets who casts rays for the device's effects from the next recording on. Null: nobody,
+ * as at first; paint on surfaces, which asks what a muzzle sees, then stays away. Errors: 5611
+ * (reserved). */
+GRISAILLE_EXPORT int grisaille_host_device_set_rays(grisaille_host_device* device,
+                                                    const grisaille_host_rays* rays);
+
 /* ---- Effects --------------------------------------------------------------------------------- */
 
 typedef enum grisaille_host_rows {
@@ -156,10 +172,9 @@ typedef struct grisaille_host_effect_desc {
   const char* const* outputs; /* keys of the outputs that are wanted: "ao" */
 } grisaille_host_effect_desc;
 
-/* Makes an effect with its parameters' defaults. Effects that take shots get none, and no ray is
- * cast for any. Errors: 3201 (no such effect), 5102 (no such output), 3202 (the effect's own
- * words), 1105 (width or height), 5611 (rows), 1007 (no device memory), 1008 (the driver refuses a
- * shader), 5604 (the context is not current). */
+/* Makes an effect with its parameters' defaults and no shots. Errors: 3201 (no such effect), 5102
+ * (no such output), 3202 (the effect's own words), 1105 (width or height), 5611 (rows), 1007 (no
+ * device memory), 1008 (the driver refuses a shader), 5604 (the context is not current). */
 GRISAILLE_EXPORT int grisaille_host_effect_create(grisaille_host_device* device,
                                                   const grisaille_host_effect_desc* desc,
                                                   grisaille_host_effect** out);
@@ -190,6 +205,14 @@ GRISAILLE_EXPORT int grisaille_host_effect_get(const grisaille_host_effect* effe
  * context is not current). */
 GRISAILLE_EXPORT int grisaille_host_effect_resize(grisaille_host_effect* effect, uint32_t width,
                                                   uint32_t height);
+
+/* Since 2. What an effect that takes shots works on from the next recording on, instead of the
+ * shots that it had: `count` of them, oldest first, copied; null with a count of 0. Those that
+ * begin as the ones before did are not worked out again, so that shots are best added at the end.
+ * Errors: 3205 (the effect takes none), 3401 to 3404 (a shot's origin, direction, color, range;
+ * nothing is changed). */
+GRISAILLE_EXPORT int grisaille_host_effect_set_shots(grisaille_host_effect* effect,
+                                                     const grisaille_shot* shots, uint64_t count);
 
 /* ---- A frame --------------------------------------------------------------------------------- */
 
@@ -257,8 +280,8 @@ typedef struct grisaille_host_frame {
  *
  * Errors: 5606 (the frame's number falls, or the command buffer), 5607 (the camera), 5605 (a
  * texture's size or channels), 5609 (a texture of another device), 5610 (base colours are read, and
- * none are given), 5611 (an enum's value), 3203 (the effect's own words), 1007, 1008, 5604 (the
- * context is not current). */
+ * none are given), 5611 (an enum's value, or a hit of the host's rays), 3203 (the effect's own
+ * words), 1007, 1008, 5604 (the context is not current). */
 GRISAILLE_EXPORT int grisaille_host_effect_record(grisaille_host_effect* effect,
                                                   const grisaille_host_frame* frame);
 

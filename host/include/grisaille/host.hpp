@@ -99,6 +99,13 @@ class Device {
     return {list, count};
   }
 
+  // `context` outlives the recordings.
+  void setRays(decltype(grisaille_host_rays::cast) cast, void* context) const {
+    const grisaille_host_rays rays = {
+        .struct_size = sizeof(rays), .reserved = 0, .context = context, .cast = cast};
+    require(grisaille_host_device_set_rays(device_.get(), cast != nullptr ? &rays : nullptr));
+  }
+
   grisaille_host_device* handle() const { return device_.get(); }
 
  private:
@@ -223,6 +230,10 @@ class Effect {
     double value = 0;
     require(grisaille_host_effect_get(effect_.get(), key, &value));
     return value;
+  }
+
+  void setShots(const std::vector<grisaille_shot>& shots) {
+    require(grisaille_host_effect_set_shots(effect_.get(), shots.data(), shots.size()));
   }
 
   void resize(uint32_t width, uint32_t height) {
