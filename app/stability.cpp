@@ -11,6 +11,7 @@
 #include "app/command.h"
 #include "app/driver_messages.h"
 #include "app/machine.h"
+#include "app/stability/edge_pictures.h"
 #include "app/stability/report.h"
 #include "app/stability/runner.h"
 #include "app/start_device.h"
@@ -144,6 +145,7 @@ void runSweep(const StabilityOptions& options) {
     stability::Runner runner(*registry, devices);
     runCases(done, runner, sweep);
     if (wantsMovement(options)) runMovements(runner, options.quick, sweep);
+    stability::writeEdgePictures(options.out, runner, sweep);
   }
   stability::writeSweep(options.out, sweep);
   std::error_code failed;

@@ -4,6 +4,7 @@
 #include <algorithm>
 #include <cmath>
 #include <glm/gtc/constants.hpp>
+#include <limits>
 #include <optional>
 
 #include "app/stability/oracle/occlusion.h"
@@ -58,6 +59,27 @@ PaintSettings paintSettingsOf(const effect::Values& values) {
 
 float difference(double a, double b) {
   return std::isfinite(a) ? static_cast<float>(std::abs(a - b)) : 1;
+}
+
+// A picture of the same shape, of no numbers.
+image::Image likeOf(const image::Image& picture) {
+  image::Image like = picture;
+  std::ranges::fill(like.pixels, std::numeric_limits<float>::quiet_NaN());
+  return like;
+}
+
+// The largest difference of the first `channels` of a pixel from what is expected, which is noted.
+float compareAt(const image::Image& picture, const glm::ivec2& pixel, const glm::dvec4& value,
+                uint32_t channels, image::Image& expected) {
+  const glm::uvec2 at(pixel);
+  float worst = 0;
+  for (uint32_t c = 0; c < channels; ++c) {
+    const double one = value[static_cast<int>(c)];
+    worst = std::max(worst, difference(picture.at(at.x, at.y, c), one));
+    expected.pixels[(size_t{at.y} * picture.width + at.x) * picture.channels + c] =
+        static_cast<float>(one);
+  }
+  return worst;
 }
 
 glm::dvec3 placeOf(const Case& one, const View& view, const glm::ivec2& pixel) {
@@ -147,8 +169,9 @@ std::vector<glm::ivec2> pixelsToCompare(const glm::ivec2& size) {
   return pixels;
 }
 
-void compareOcclusion(const Case& one, const effect::Values& values, std::span<const View> views,
-                      const image::Image& picture, BackendResult& result) {
+image::Image compareOcclusion(const Case& one, const effect::Values& values,
+                              std::span<const View> views, const image::Image& picture,
+                              BackendResult& result) {
   const OcclusionSettings settings = occlusionOf(values);
   std::shared_ptr<const Past> past;
   for (const View& view : views.first(views.size() - 1)) {
@@ -156,30 +179,27 @@ void compareOcclusion(const Case& one, const effect::Values& values, std::span<c
   }
   const View& view = views.back();
   const auto oracle = makeOcclusion(view, settings, past);
-  const auto expected = [&](const glm::ivec2& pixel) {
+  const auto valueAt = [&](const glm::ivec2& pixel) {
     if (one.output == "bent_normal") return oracle->bentNormal(pixel);
     if (one.output == "tint") return tintOf(*oracle, view, settings, pixel);
     return glm::dvec3(oracle->visibility(pixel));
   };
   const uint32_t channels = std::min(picture.channels, 3u);
+  image::Image expected = likeOf(picture);
   std::vector<float> differences;
   for (const glm::ivec2& pixel : pixelsToCompare(view.size())) {
-    const glm::uvec2 at(pixel);
-    const glm::dvec3 value = expected(pixel);
-    float worst = 0;
-    for (uint32_t c = 0; c < channels; ++c) {
-      worst = std::max(worst, difference(picture.at(at.x, at.y, c), value[static_cast<int>(c)]));
-    }
-    differences.push_back(worst);
+    const glm::dvec4 value(valueAt(pixel), 0);
+    differences.push_back(compareAt(picture, pixel, value, channels, expected));
   }
   result.oracle = apartOf(std::move(differences));
   if (one.open) result.leastOpen = *std::ranges::min_element(picture.pixels);
   if (one.corner) result.cornerError = cornerErrorOf(one, view, picture, settings.radius);
+  return expected;
 }
 
-void comparePaint(const Case& one, const effect::Values& values, const View& view,
-                  const scene::Scene& scene, const image::Image& paint,
-                  const image::Image& coverage, BackendResult& result) {
+image::Image comparePaint(const Case& one, const effect::Values& values, const View& view,
+                          const scene::Scene& scene, const image::Image& paint,
+                          const image::Image& coverage, BackendResult& result) {
   const PaintSettings settings = paintSettingsOf(values);
   const bool surface = values.text("mode") == "surface";
   std::optional<Sights> sights;
@@ -190,6 +210,7 @@ void comparePaint(const Case& one, const effect::Values& values, const View& vie
   std::span<const grisaille_shot> shots = one.shots;
   constexpr size_t kCounted = 4096;
   if (shots.size() > kCounted) shots = shots.last(kCounted);
+  image::Image expected = likeOf(paint);
   std::vector<float> differences;
   for (const glm::ivec2& pixel : pixelsToCompare(view.size())) {
     const glm::dvec3 place = placeOf(one, view, pixel);
@@ -198,16 +219,13 @@ void comparePaint(const Case& one, const effect::Values& values, const View& vie
       sight = Sight{.facet = worldFromView * view.normal(pixel)};
       if (sights) sight->sees = [&](const auto& shot) { return sights->sees(shot, place); };
     }
-    const PaintPixel expected = paintOf(place, view.depth(pixel), slope, shots, settings, sight);
+    const PaintPixel value = paintOf(place, view.depth(pixel), slope, shots, settings, sight);
     const glm::uvec2 at(pixel);
-    float worst = difference(coverage.at(at.x, at.y), expected.coverage);
-    for (uint32_t c = 0; c < 4; ++c) {
-      worst =
-          std::max(worst, difference(paint.at(at.x, at.y, c), expected.paint[static_cast<int>(c)]));
-    }
-    differences.push_back(worst);
+    differences.push_back(std::max(difference(coverage.at(at.x, at.y), value.coverage),
+                                   compareAt(paint, pixel, value.paint, 4, expected)));
   }
   result.oracle = apartOf(std::move(differences));
+  return expected;
 }
 
 }  // namespace grisaille::app::stability

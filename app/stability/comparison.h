@@ -21,13 +21,15 @@ std::vector<glm::ivec2> pixelsToCompare(const glm::ivec2& size);
 // Sets result.oracle and, where the case knows more, leastOpen and cornerError. `views` are what
 // the effect read, of the frames before as well, and the case's own last; `picture` is what it made
 // of that.
-void compareOcclusion(const Case& one, const effect::Values& values, std::span<const View> views,
-                      const image::Image& picture, BackendResult& result);
+image::Image compareOcclusion(const Case& one, const effect::Values& values,
+                              std::span<const View> views, const image::Image& picture,
+                              BackendResult& result);
 
-// Sets result.oracle. In the mode `surface` the view's normals are those of the facets.
-void comparePaint(const Case& one, const effect::Values& values, const View& view,
-                  const scene::Scene& scene, const image::Image& paint,
-                  const image::Image& coverage, BackendResult& result);
+// Sets result.oracle, and returns the oracle's paint. In the mode `surface` the view's normals are
+// those of the facets.
+image::Image comparePaint(const Case& one, const effect::Values& values, const View& view,
+                          const scene::Scene& scene, const image::Image& paint,
+                          const image::Image& coverage, BackendResult& result);
 
 // What rays would find beside a right-angled corner, at a distance from its edge in radii: of the
 // cosine-weighted hemisphere the part is blocked whose directions come nearer to the other wall

@@ -8,6 +8,7 @@
 #include <nlohmann/json.hpp>
 #include <set>
 
+#include "app/stability/edge_pictures.h"
 #include "core/image/write_aside.h"
 
 namespace grisaille::app::stability {
@@ -67,16 +68,26 @@ std::string rowOf(const Case& one, const Result& result) {
 std::string edgesOf(const Sweep& sweep) {
   std::set<std::string> used;
   for (const Case& one : sweep.cases) used.insert(one.edge);
-  std::string text;
+  std::string text, pictures;
   for (const Edge& edge : edges()) {
     if (!used.contains(edge.key)) continue;
     text += fmt::format("| {} | {} | {} |\n", edge.key, percent(edge.share), edge.why);
+    const auto worst = worstOf(sweep, edge.key);
+    if (!worst) continue;
+    pictures +=
+        fmt::format("\n{} ({}, {} % off):\n\n![{}]({})\n", edge.key, sweep.cases[*worst].title(),
+                    percent(sweep.results[*worst].backends.at(0).oracle.shareOver), edge.key,
+                    edgePictureName(edge.key));
   }
   if (text.empty()) return "";
   return "\n## Edges\n\nWhere more pixels may differ, and why. What is listed here the arithmetic "
          "cannot mend: the method has a step there.\n\n| edge | at most, % | why "
          "|\n|---|---|---|\n" +
-         text;
+         text +
+         "\nOf each the case that differs most: what the effect made, the same in double "
+         "precision, "
+         "and black where they are over 2/255 apart.\n" +
+         pictures;
 }
 
 // Of every backend at once: what is told of one of them.

@@ -96,6 +96,7 @@ struct Runner::Stage {
 struct Runner::Picture {
   std::map<std::string, image::Image> outputs = {};
   std::vector<View> views = {};  // of all frames, the case's own last
+  image::Image expected = {};    // the oracle's
 };
 
 Runner::Runner(const effect::Registry& registry, std::span<gpu::Device* const> devices)
@@ -123,6 +124,13 @@ Result Runner::run(const Case& one) {
 
 const std::string& Runner::backend(size_t index) const {
   return stages_.at(index)->device.info().backend;
+}
+
+Compared Runner::compare(const Case& one) {
+  Picture picture;
+  runOn(*stages_.at(0), one, sceneOf(one), picture);
+  return {.picture = std::move(picture.outputs.at(one.output)),
+          .expected = std::move(picture.expected)};
 }
 
 Seen Runner::see(size_t backend, const Case& one) {
@@ -195,10 +203,12 @@ BackendResult Runner::runOn(Stage& stage, const Case& one, const scene::Scene& s
     for (const auto& [name, image] : picture.outputs) count(image, rangeOf(name, one), result);
     describe(picture.outputs.at(one.output), one.output, result);
     if (one.effect == "ssao") {
-      compareOcclusion(one, values, picture.views, picture.outputs.at(one.output), result);
+      picture.expected =
+          compareOcclusion(one, values, picture.views, picture.outputs.at(one.output), result);
     } else {
-      comparePaint(one, values, picture.views.back(), scene, picture.outputs.at("paint"),
-                   picture.outputs.at("paint_coverage"), result);
+      picture.expected =
+          comparePaint(one, values, picture.views.back(), scene, picture.outputs.at("paint"),
+                       picture.outputs.at("paint_coverage"), result);
     }
   } catch (const Error& error) {
     if (error.id() == ErrorId::kDeviceLost) throw;  // no fault of this case, and the end of all

@@ -23,6 +23,11 @@ struct Seen {
   View view;
 };
 
+// A case's picture and the oracle's, NaN where that was not asked.
+struct Compared {
+  image::Image picture, expected;
+};
+
 class Runner {
  public:
   // Both outlive this; `devices` are of different backends.
@@ -33,6 +38,9 @@ class Runner {
 
   // What fails on a backend is told in its result.
   Result run(const Case& one);
+
+  // On the first backend, of a case that it can run.
+  Compared compare(const Case& one);
 
   size_t backends() const { return stages_.size(); }
   const std::string& backend(size_t index) const;

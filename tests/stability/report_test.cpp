@@ -124,6 +124,32 @@ TEST(Stability, TheProgramWritesItsTable) {
   EXPECT_EQ(std::distance(std::filesystem::directory_iterator(folder.path() / "out"), {}), 3);
 }
 
+TEST(Stability, TheProgramShowsEdgesAndMovement) {
+  const TemporaryFolder folder;
+  const Outcome outcome = runProgram({"stability", "--only", "odd scene", "--only", "movement",
+                                      "--quick", "--backend", "opengl", "--out", "out"},
+                                     folder.path());
+  ASSERT_EQ(outcome.status, 0) << outcome.out << outcome.err;
+  const json all = json::parse(readFile(folder.path() / "out/stability.json"));
+  EXPECT_EQ(all["movements"].size(), 2u);
+  for (const json& row : all["movements"]) EXPECT_GT(row["safe_bias_alone"], -1) << row;
+  const std::string text = readFile(folder.path() / "out/stability.md");
+  EXPECT_NE(text.find("## Bias under a moving camera"), std::string::npos);
+  const std::string picture = "pictures/stability/thin-things-before-a-muzzle.png";
+  EXPECT_NE(text.find("](" + picture + ")"), std::string::npos);
+  // Two times 96 pixels are alike but for few.
+  const image::Image shown = image::read((folder.path() / "out" / picture).string());
+  ASSERT_EQ(shown.width, 3u * 96 * 4 + 16);
+  size_t off = 0;
+  for (uint32_t y = 0; y < shown.height; ++y) {
+    for (uint32_t x = 0; x < 96 * 4; ++x) {
+      off += std::abs(shown.at(x, y) - shown.at(x + 96 * 4 + 8, y)) > 0.1f ? 1 : 0;
+    }
+  }
+  EXPECT_GT(off, 0u);
+  EXPECT_LT(off, size_t{shown.height} * 96 * 4 / 50);
+}
+
 TEST(Stability, WhatIsNotThereIsNotRun) {
   const TemporaryFolder folder;
   const Outcome outcome =
