@@ -101,12 +101,13 @@ std::vector<size_t> presetsOn(std::span<const Price> front) {
 
 std::vector<size_t> distinct(std::span<const Price> prices, std::span<const size_t> front) {
   std::vector<size_t> kept;
-  for (size_t i = 0; i < front.size(); ++i) {
-    const bool last = i + 1 == front.size();
-    if (last || prices[front[i + 1]].cost > kDistinct * prices[front[i]].cost) {
+  for (size_t i = front.size(); i-- > 0;) {
+    const bool last = kept.empty();
+    if (last || prices[kept.back()].cost > kDistinct * prices[front[i]].cost) {
       kept.push_back(front[i]);
     }
   }
+  std::ranges::reverse(kept);
   return kept;
 }
 

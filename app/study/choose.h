@@ -23,8 +23,9 @@ struct Choice {
 // Those settings that every backend of the records has measured, in the order of the records.
 std::vector<Choice> choicesOf(std::span<const Record> records);
 
-// A front without those whose dearer neighbour costs less than this much more: clocks do not tell
-// such settings apart, and the dearer one errs less. `front`: as frontOf() gives it.
+// A front without those than which the next dearer one that stays costs less than this much more:
+// clocks do not tell such settings apart, and the dearer one errs less. `front`: as frontOf() gives
+// it.
 constexpr double kDistinct = 1.1;
 std::vector<size_t> distinct(std::span<const Price> prices, std::span<const size_t> front);
 

@@ -57,6 +57,21 @@ TEST(Presets, SettingsThatClocksDoNotTellApartAreOne) {
   EXPECT_EQ(distinct(prices, frontOf(prices)), (std::vector<size_t>{1, 4, 5}));
 }
 
+// Each of these is near the next one: what is left is apart, and no gap is left that was not there.
+TEST(Presets, AChainOfNearCostsIsThinnedOut) {
+  std::vector<Price> prices;
+  double cost = 1;
+  for (int i = 0; i < 40; ++i, cost *= 1.05) prices.push_back({.cost = cost, .error = 1 / cost});
+  const std::vector<size_t> kept = distinct(prices, frontOf(prices));
+  ASSERT_GT(kept.size(), 10u);
+  EXPECT_EQ(kept.back(), 39u);
+  for (size_t i = 1; i < kept.size(); ++i) {
+    const double ratio = prices[kept[i]].cost / prices[kept[i - 1]].cost;
+    EXPECT_GT(ratio, kDistinct);
+    EXPECT_LT(ratio, kDistinct * kDistinct);
+  }
+}
+
 TEST(Presets, CostsOfTwoBackendsAreShares) {
   // One backend is ten times as slow; a setting that it did not measure is no choice.
   const std::vector<Record> records = {
