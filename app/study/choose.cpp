@@ -92,6 +92,7 @@ std::vector<size_t> presetsOn(std::span<const Price> front) {
     const double most = front[reference].cost / kReferenceRatio / std::pow(kPresetRatio, below);
     size_t i = 0;
     while (i + 1 < reference && front[i + 1].cost <= most) ++i;
+    if (front[0].cost > most) i = ((k - 1) * reference + 1) / (std::size(kPresetNames) - 1);
     const size_t least = chosen.empty() ? 0 : chosen.back() + 1;
     chosen.push_back(std::clamp(i, least, reference - std::size(kPresetNames) + k));
   }

@@ -31,8 +31,8 @@ std::vector<size_t> distinct(std::span<const Price> prices, std::span<const size
 
 // Indices into a front (by cost, ascending) of kPresetNames. `reference` errs least, at any cost;
 // `fine` is the dearest that costs at most 1 / kReferenceRatio of it, and going down from there
-// each is the dearest that costs at most 1 / kPresetRatio of what the one above may cost, or the
-// nearest that is left where the front is too short for that. (Knees of the front would be the
+// each is the dearest that costs at most 1 / kPresetRatio of what the one above may cost. Where
+// nothing is so cheap they are spread evenly over the front. (Knees of the front would be the
 // natural choice, but a front is nearly straight in error and logarithm of cost, and its knees jump
 // from one end to the other with the noise of the clock.) Throws kFrontSmall for fewer than four
 // points.
