@@ -36,6 +36,7 @@ using Clock = std::chrono::steady_clock;
 struct Options : CommonOptions {
   Options() { rounds = 9; }
   uint32_t samples = 256;
+  bool larger = false;
   std::string only;
   std::vector<std::string> settings;
 };
@@ -288,15 +289,66 @@ void runBackend(const std::string& backend, const Subject& subject,
   if (options.only.empty() && options.settings.empty()) printLinearity(rows);
 }
 
+// What a setting costs at 1.5 times the width and height, in turn with its own size: a line of its
+// own, since only what was measured in one run is to be compared.
+void runLarger(const std::string& backend, const Subject& subject, const effect::Registry& registry,
+               const Options& options) {
+  Options larger = options;
+  larger.width = options.width * 3 / 2;
+  larger.height = options.height * 3 / 2;
+  Bench bench(backend, subject, registry, options), large(backend, subject, registry, larger);
+  const double pixels = double{1} * larger.width * larger.height / options.width / options.height;
+  fmt::print(
+      "## {}: {}\n\n{} rounds, in turn. {:.2f} times the pixels.\n\n"
+      "| setting | {}x{}, ms | {}x{}, ms | ratio, median | least to most "
+      "|\n|---|---|---|---|---|\n",
+      backend, bench.device().info().name, options.rounds, pixels, options.width, options.height,
+      larger.width, larger.height);
+  const std::vector<Setting> all = settings(options, registry.find("ssao"));
+  for (size_t i = 0; i < all.size(); ++i) {
+    std::vector<double> small, big, ratios;
+    for (uint32_t round = 0; round <= options.rounds; ++round) {
+      const double a = bench.timeSetting(i), b = large.timeSetting(i);
+      if (round == 0) continue;  // its pipelines are made then
+      small.push_back(a);
+      big.push_back(b);
+      ratios.push_back(b / a);
+    }
+    fmt::print("| {} | {:.2f} | {:.2f} | {:.2f} | {:.2f} to {:.2f} |\n", all[i].name, median(small),
+               median(big), median(ratios), *std::ranges::min_element(ratios),
+               *std::ranges::max_element(ratios));
+  }
+  fmt::print("\n");
+}
+
+// On every backend that is here, or the one that was asked for.
+template <typename F>
+void onBackends(const Options& options, const F& work) {
+  for (const backends::Backend& backend : backends::all()) {
+    if (!options.backend.empty() && options.backend != backend.name) continue;
+    try {
+      work(backend.name);
+    } catch (const Error& error) {
+      if (error.id() != ErrorId::kBackendMissing && error.id() != ErrorId::kNoDevice) throw;
+      fmt::print("## {}\n\nNot here: {}\n\n", backend.name, error.detail());
+    }
+  }
+}
+
 void run(const Options& options) {
   const Subject subject = loadSubject();
+  effect::Registry registry;
+  registry.scan(EFFECTS_FOLDER);
+  if (options.larger) {
+    fmt::print("# What SSAO costs in larger pictures\n\nOn {}.\n\n", subject.name);
+    onBackends(options, [&](const char* name) { runLarger(name, subject, registry, options); });
+    return;
+  }
   std::vector<Truth> truths;
   for (const scene::Camera& camera : subject.cameras) {
     fmt::print(stderr, "tracing truth {} of {}\n", truths.size() + 1, subject.cameras.size());
     truths.push_back(traceTruth(subject, camera, options));
   }
-  effect::Registry registry;
-  registry.scan(EFFECTS_FOLDER);
   fmt::print(
       "# What SSAO costs and how wrong it is\n\nMade by `./dev bench` on {}, {}x{}, radius "
       "0.5 m, {} hardware threads.\n\n",
@@ -312,15 +364,8 @@ void run(const Options& options) {
       "every\n"
       "tenth pixel both ways), averaged over {} cameras.\n\n",
       options.samples, subject.cameras.size());
-  for (const backends::Backend& backend : backends::all()) {
-    if (!options.backend.empty() && options.backend != backend.name) continue;
-    try {
-      runBackend(backend.name, subject, truths, registry, options);
-    } catch (const Error& error) {
-      if (error.id() != ErrorId::kBackendMissing && error.id() != ErrorId::kNoDevice) throw;
-      fmt::print("## {}\n\nNot here: {}\n\n", backend.name, error.detail());
-    }
-  }
+  onBackends(options,
+             [&](const char* name) { runBackend(name, subject, truths, registry, options); });
 }
 
 }  // namespace
@@ -332,6 +377,8 @@ int main(int argc, char** argv) {
   program.add_option("--samples", options.samples, "Rays a pixel of the truth")
       ->check(CLI::Range(1u, 65536u));
   program.add_option("--setting", options.settings, "Measure these: \"KEY=VALUE KEY=VALUE\", ...");
+  program.add_flag("--larger", options.larger,
+                   "Costs alone, each in turn with 1.5 times the width and height");
   program.add_option("--only", options.only, "Settings whose name holds this");
   return grisaille::bench::runCommand(program, options, argc, argv,
                                       [&] { grisaille::bench::run(options); });
