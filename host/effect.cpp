@@ -3,7 +3,6 @@
 
 #include <algorithm>
 #include <array>
-#include <cstring>
 
 #include "core/frame/view_block.h"
 #include "core/shots/shot.h"
@@ -142,7 +141,8 @@ void grisaille_host_effect::setShots(std::span<const grisaille_shot> shots) {
   }
   std::vector<grisaille_shot> checked = grisaille::shots::checked(shots);
   const auto same = [](const grisaille_shot& a, const grisaille_shot& b) {
-    return std::memcmp(&a, &b, sizeof(a)) == 0;
+    return std::ranges::equal(a.origin, b.origin) && std::ranges::equal(a.direction, b.direction) &&
+           std::ranges::equal(a.color, b.color) && a.range == b.range;
   };
   const auto differ = std::ranges::mismatch(shots_, checked, same);
   shotsKept_ = std::min(shotsKept_, static_cast<size_t>(differ.in1 - shots_.begin()));
