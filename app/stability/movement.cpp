@@ -78,7 +78,7 @@ std::vector<glm::uvec2> middleOf(const MovementRow& row) {
   return pixels;
 }
 
-// One channel, not a number but at `pixels`.
+// One channel, not a number but in the middle.
 image::Image pictureOf(const MovementRow& row, const std::function<float(const glm::uvec2&)>& at) {
   const glm::uvec2 size = sizeOf(row);
   image::Image image{.width = size.x, .height = size.y, .channels = 1, .pixels = {}};
@@ -195,7 +195,7 @@ void measureMovement(Runner& runner, MovementRow& row) {
         Seen picture = runner.see(backend, caseOf(row, movement, static_cast<int>(frame)));
         frames[frame].ao = pictureOf(row, [&](const glm::uvec2& pixel) {
           const float open = picture.ao.at(pixel.x, pixel.y);
-          now.leastOpen = std::fmin(now.leastOpen, open);
+          now.leastOpen = std::min(now.leastOpen, std::isfinite(open) ? double{open} : 0.0);
           return open;
         });
         seen.push_back(std::move(picture.view));
