@@ -188,16 +188,18 @@ void addValues(Cases& cases) {
         {"0", "1e-06", "0.1", "1", "1000000"});
   sweep("thickness, radii", "thickness", {"slices", "slices, raw"},
         {"0", "0.001", "10", "1000000"});
-  sweep("blur, px", "blur_size", {"slices", "slices, quarter", "classic", "edge-aware"},
-        {"0", "1", "2", "16"});
-  for (const std::string value : {"2", "16"}) {
-    cases.add("blur larger than the picture, px", value,
-              {"slices", "slices, quarter", "classic", "edge-aware"}, [&](Case& one) {
-                one.size = {9, 5};
-                one.settings.emplace_back("blur_size", value);
-                one.quick = true;
-              });
-  }
+  const auto filter = [&](const char* key, std::initializer_list<const char*> variants) {
+    sweep("blur, px", key, variants, {"0", "1", "2", "16"});
+    for (const std::string value : {"2", "16"}) {
+      cases.add("blur larger than the picture, px", value, variants, [&](Case& one) {
+        one.size = {9, 5};
+        one.settings.emplace_back(key, value);
+        one.quick = true;
+      });
+    }
+  };
+  filter("denoise_size", {"slices", "slices, quarter"});
+  filter("blur_size", {"classic", "edge-aware"});
   sweep("range check", "range_check", {"classic", "sphere"}, {"raw_depth", "none"});
   sweep("intensity", "intensity", {"slices", "classic"}, {"0", "10"});
   sweep("power", "power", {"slices", "classic"}, {"0.1", "10"});

@@ -24,7 +24,7 @@ struct Variant {
 const std::vector<Variant>& variants() {
   static const std::vector<Variant> kVariants = {
       {"slices", "ssao", "ao", {}},
-      {"slices, raw", "ssao", "ao", {{"resolution", "full"}, {"blur_size", "0"}}},
+      {"slices, raw", "ssao", "ao", {{"resolution", "full"}, {"denoise_size", "0"}}},
       {"slices, quarter", "ssao", "ao", {{"resolution", "quarter"}}},
       {"slices, exact",
        "ssao",
@@ -32,13 +32,13 @@ const std::vector<Variant>& variants() {
        {{"resolution", "full"},
         {"slices", "32"},
         {"steps", "64"},
-        {"blur_size", "0"},
+        {"denoise_size", "0"},
         {"thickness", "10"},
         {"guard_band", "0.2"}}},
       {"slices, backs",
        "ssao",
        "ao",
-       {{"resolution", "full"}, {"blur_size", "0"}, {"back_faces", "true"}}},
+       {{"resolution", "full"}, {"denoise_size", "0"}, {"back_faces", "true"}}},
       {"history", "ssao", "ao", {{"history", "4"}}},
       {"open directions", "ssao", "bent_normal", {}},
       {"tint", "ssao", "tint", {{"bounce", "base_colour"}}},
@@ -96,6 +96,7 @@ void drawOcclusion(Draws& draw, Case& one) {
   set("blur", draw.of({"box", "edge_aware"}));
   set("edge_slices", std::to_string(1 + draw.below(4)));
   set("back_faces", draw.of({"false", "false", "true"}));
+  set("denoise_size", std::to_string(draw.of({0, 2, 5, 5, 8, 10})));
 }
 
 void drawPaint(Draws& draw, Case& one, uint32_t seed) {

@@ -33,6 +33,7 @@ OcclusionSettings occlusionOf(const effect::Values& values) {
           .backFaces = values.get("back_faces") != 0,
           .history = whole(values, "history"),
           .scale = 1 << whole(values, "resolution"),
+          .denoiseSize = whole(values, "denoise_size"),
           .blurSize = whole(values, "blur_size"),
           .intensity = single(values, "intensity"),
           .power = single(values, "power"),

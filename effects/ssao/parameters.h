@@ -18,7 +18,7 @@ enum Parameter {
   kResolution,
   kGuardBand,
   kHistory,
-  kBlurSize,
+  kDenoiseSize,
   kIntensity,
   kPower,
   kBounce,
@@ -26,6 +26,7 @@ enum Parameter {
   kSeed,
   kKernelSize,
   kBias,
+  kBlurSize,
   kSampling,
   kRotation,
   kRangeCheck,
@@ -140,17 +141,17 @@ constexpr grisaille_param_desc kParams[] = {
                       .softMax = 32,
                       .defaultValue = 1,
                       .log = true}),
-    plugin::intParam({.key = "blur_size",
-                      .label = "Blur size",
+    plugin::intParam({.key = "denoise_size",
+                      .label = "Denoise size",
                       .unit = "px",
-                      .tooltip =
-                          "Width of the blur at half its height, in pixels of the estimator's "
-                          "resolution; 0 and 1: none; 4 and 8 remove the noise's pattern exactly",
+                      .tooltip = "Slices: width of the denoiser at half its height, in pixels of "
+                                 "their resolution; 0 and 1: none; 5, 10 and 15 remove the noise's "
+                                 "pattern exactly",
                       .hardMin = 0,
                       .hardMax = 16,
                       .softMin = 0,
-                      .softMax = 8,
-                      .defaultValue = 4}),
+                      .softMax = 10,
+                      .defaultValue = 5}),
     plugin::floatParam({.key = "intensity",
                         .label = "Intensity",
                         .tooltip = "Multiplies the occlusion before it is clamped to 1; 1: as "
@@ -217,6 +218,16 @@ constexpr grisaille_param_desc kParams[] = {
                         .softMax = 0.1,
                         .defaultValue = 0,
                         .step = 0.001}),
+    plugin::intParam({.key = "blur_size",
+                      .label = "Blur size",
+                      .unit = "px",
+                      .tooltip = "Classic: width of the blur; 0 and 1: none; 4, 8, 12 and 16 "
+                                 "average every rotation",
+                      .hardMin = 0,
+                      .hardMax = 16,
+                      .softMin = 0,
+                      .softMax = 8,
+                      .defaultValue = 4}),
     plugin::enumParam(
         {.key = "sampling",
          .label = "Sampling",

@@ -23,8 +23,8 @@ struct SlicesBlock {
   float radius;
   float thickness;
   float turn;
-  uint32_t exchange;
   float tolerance;
+  glm::uvec2 exchange;
 };
 GRISAILLE_CHECK_BLOCK_ssao_slices_Settings(SlicesBlock);
 GRISAILLE_CHECK_BLOCK_ssao_slices_bent_Settings(SlicesBlock);
@@ -94,7 +94,7 @@ void Slices::record(const plugin::Frame& frame, Pair outputs) {
     return Pair{.open = texture(open, GRISAILLE_FORMAT_RG32F),
                 .bent = bent ? texture(direction, GRISAILLE_FORMAT_RGBA16F) : grisaille_texture{0}};
   };
-  const uint32_t blur = std::max(frame.value<uint32_t>(kBlurSize), 1u);
+  const uint32_t blur = std::max(frame.value<uint32_t>(kDenoiseSize), 1u);
   history_.keepOnly({frame.value<double>(kRadius), frame.value<double>(kSlices),
                      frame.value<double>(kEdgeSlices), frame.value<double>(kSteps),
                      frame.value<double>(kThickness), frame.value<double>(kBackFaces)});
@@ -127,20 +127,17 @@ void Slices::record(const plugin::Frame& frame, Pair outputs) {
 
 void Slices::occlude(const plugin::Frame& frame, Kernels& kernels, Size size, Pair target) {
   const float radius = frame.value<float>(kRadius);
-  // In 16 frames a texel draws each of the pattern's 16 points, far ones after one another. Seeds
-  // turn the pattern, and so does what follows; the golden ratio spreads them.
-  constexpr uint32_t kBits[] = {0b0101, 0b1010, 0b0010, 0b0001};
-  uint32_t exchange = 0;
-  for (uint32_t bit = 0; bit < 4; ++bit) {
-    if ((history_.frames() >> bit & 1) != 0) exchange ^= kBits[bit];
-  }
-  const double turns = frame.value<double>(kSeed) + static_cast<double>(history_.frames() / 16);
-  const float turn = static_cast<float>(std::fmod(0.5 + turns * 0.6180339887498949, 1.0));
+  // In 25 frames a texel draws each of the pattern's 25 points, far ones after one another. Seeds
+  // turn the pattern, and so does what follows; the golden ratio spreads them, and three
+  // eighths keep the first off the axes, where roundings would decide.
+  const auto drawn = static_cast<uint32_t>(history_.frames() % 25);
+  const double turns = frame.value<double>(kSeed) + static_cast<double>(history_.frames() / 25);
+  const float turn = static_cast<float>(std::fmod(0.375 + turns * 0.6180339887498949, 1.0));
   const SlicesBlock settings = {.radius = radius,
                                 .thickness = radius * frame.value<float>(kThickness),
                                 .turn = turn,
-                                .exchange = exchange,
-                                .tolerance = toleranceOf(frame)};
+                                .tolerance = toleranceOf(frame),
+                                .exchange = {2 * drawn % 5, (drawn + 2 * (drawn / 5)) % 5}};
   const bool back = frame.value<bool>(kBackFaces);
   // Constants 0 ... 4 of shaders/ssao/slices.glsl.
   const grisaille_constant constants[] = {

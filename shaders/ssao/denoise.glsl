@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: MIT
 // Averages along a row or a column with the weights 1, 2 ... kSize ... 2, 1: after both, every slice
-// of the pattern has the same weight where kSize is a multiple of the pattern's 4 texels. Only
+// of the pattern has the same weight where kSize is a multiple of the pattern's 5 texels. Only
 // what lies in the plane of the texel's surface counts: the weight falls to 0 at the tolerance.
 // LAST is 1 where intensity and power follow and nothing else. With BENT, which is 0 or 1, the mean
 // open directions are averaged alike, and LAST turns them to the world.
@@ -10,7 +10,7 @@
 #include "finish.glsl"
 #include "plane.glsl"
 
-layout(constant_id = 0) const uint kSize = 4u;       // half the width, texels, 1 ... 16
+layout(constant_id = 0) const uint kSize = 5u;       // half the width, texels, 1 ... 16
 layout(constant_id = 1) const uint kScale = 1u;      // pixels a texel, each way
 layout(constant_id = 2) const bool kColumn = false;  // down a column, not along a row
 

@@ -26,8 +26,8 @@ layout(UNIFORM(1), std140) uniform Settings {
   float radius;     // metres
   float thickness;  // of the matter behind a surface, metres
   float turn;       // which pattern of slices is drawn, 0 to 1
-  uint exchange;    // which of its points a texel draws, 0 to 15
   float tolerance;  // 1 / metres
+  uvec2 exchange;   // which of its points a texel draws, 0 to 4
 } settings;
 layout(TEXTURE(0)) uniform sampler2D view_depth;  // nearest, clamped
 layout(TEXTURE(1)) uniform sampler2D world_normal;
@@ -166,6 +166,14 @@ uint bitsBeyond(Slice s, Side last, float side, float dither) {
   return last.depth > 0.0 ? bitsBetween(min(last.share, share), max(last.share, share), dither) : 0u;
 }
 
+// The pixel of the tap so many pixels on. Far ones fall on a grid, as wide as an eighth to a sixteenth
+// of the way: neighbours then find what they share in the cache, and differ less.
+vec2 tapAt(vec2 pixel, vec2 way, float pixels) {
+  const float below = uintBitsToFloat(floatBitsToUint(pixels) & 0x7f800000u);  // a power of two
+  const float grid = max(0.125 * below, 1.0);
+  return floor((pixel + way * pixels - 0.5) / grid + 0.5) * grid + 0.5;
+}
+
 // Visibility of one slice; what it has to say of the mean open direction is added to `bent`.
 float sliceOf(vec3 position, vec3 toward, vec3 normal, vec3 direction, vec2 pixel, float jitter,
               inout vec3 bent) {
@@ -204,10 +212,10 @@ float sliceOf(vec3 position, vec3 toward, vec3 normal, vec3 direction, vec2 pixe
     const float one = (float(i) + jitter) / float(kSteps);
     const float two = (float(i) + 1.0 - jitter) / float(kSteps);
     const float least = float(i) + 1.0;
-    const vec2 to = way * max(one * sqrt(sqrt(one)) * reach, least);
-    const vec2 back = way * max(two * sqrt(sqrt(two)) * reach, least);
-    bits |= tapBits(s, floor(pixel + to) + 0.5, 1.0, jitter, ahead);
-    bits |= tapBits(s, floor(pixel - back) + 0.5, -1.0, jitter, behind);
+    const float to = max(one * sqrt(sqrt(one)) * reach, least);
+    const float back = max(two * sqrt(sqrt(two)) * reach, least);
+    bits |= tapBits(s, tapAt(pixel, way, to), 1.0, jitter, ahead);
+    bits |= tapBits(s, tapAt(pixel, -way, back), -1.0, jitter, behind);
   }
   bits |= bitsBeyond(s, ahead, 1.0, jitter) | bitsBeyond(s, behind, -1.0, jitter);
 #if BENT
@@ -225,7 +233,7 @@ float sliceOf(vec3 position, vec3 toward, vec3 normal, vec3 direction, vec2 pixe
                    max(shut_behind, lacks_behind * (1.0 - lacks_ahead) * shut_ahead), share);
 }
 
-// Whether fewer than 5 of 8 texels, each two texels off, are in the plane of the pixel's surface,
+// Whether fewer than 7 of 8 texels, each two texels off, are in the plane of the pixel's surface,
 // within half of what counts as it when they are averaged.
 bool isEdge(vec2 pixel, float depth, vec3 normal) {
   const Plane plane = planeOf(pixel, normal);
@@ -237,7 +245,7 @@ bool isEdge(vec2 pixel, float depth, vec3 normal) {
     const float other = textureLod(view_depth, attachmentAt(pixel + across), 0.0).x;
     same += offPlane(plane, depth, other, across) * tolerance < 0.5 ? 1u : 0u;
   }
-  return same < 5u;
+  return same < 7u;
 }
 
 // `bent` is the mean of what slices say of the open direction.
@@ -250,16 +258,18 @@ float openAt(uvec2 texel, vec2 pixel, float depth, out vec3 bent) {
   if (kEdgeSlices > 1u) {
     if (isEdge(pixel, depth, normal)) count = kSlices * kEdgeSlices;
   }
-  // Normals of bent surfaces may turn away from the eye: to the silhouette with them.
-  normal = normalize(normal - toward * min(dot(normal, toward) - 1e-3, 0.0));
+  // Normals of bent surfaces may turn away from the eye: to the silhouette with them, and a little
+  // over it where they do so by more than their rounding, since what is edge-on hangs on roundings.
+  const float facing = dot(normal, toward);
+  normal = normalize(normal + toward * max((facing < -1e-3 ? 1e-2 : 1e-3) - facing, 0.0));
   const mat3 axes = basisAbout(normal);
-  // 16 texels, 4x4, hold the 16 points of a Hammersley set: an ordered dither's number of bits
-  // x0^y0, y0, x1^y1, y1, and the same bits in reverse.
-  const uvec2 high = texel >> 1u & 1u, low = texel & 1u;
-  const uint rank = ((low.x ^ low.y) * 8u + low.y * 4u + (high.x ^ high.y) * 2u + high.y) ^
-                    settings.exchange;
-  const uint reverse = bitfieldReverse(rank) >> 28u;
-  const float turn = (float(rank) + settings.turn) / 16.0, jitter = (float(reverse) + 0.5) / 16.0;
+  // 25 texels, 5x5, hold the 25 points of a Hammersley set. Every row, column and diagonal of five
+  // has each fifth of the circle once, so that little is left of the pattern where what denoises finds
+  // no more than a strip.
+  const uint first = (2u * texel.x + texel.y + settings.exchange.x) % 5u;
+  const uint second = (texel.x + 2u * texel.y + settings.exchange.y) % 5u;
+  const float turn = (float(first * 5u + second) + settings.turn) / 25.0;
+  const float jitter = (float(second * 5u + first) + 0.5) / 25.0;
   float open = 0.0;
   for (uint k = 0u; k < count; ++k) {
     const float phi = (float(k) + turn) / float(count) * 2.0 * kPi;

@@ -120,17 +120,17 @@ TEST_F(PlanTest, NoBlurRecordsNoBlurPass) {
 TEST_F(PlanTest, SlicesRecordWhatTheirResolutionAndBlurNeed) {
   const auto passes = [&](const char* resolution, const char* blur) {
     values_->set("resolution", resolution);
-    values_->set("blur_size", blur);
+    values_->set("denoise_size", blur);
     const Recording recording = record({"ao"}, true);
     EXPECT_EQ(recording.renders.at(0).targets, (Labels{"normal", "clip depth"}));
     return Labels(recording.passes.begin() + 2, recording.passes.end());
   };
   EXPECT_EQ(passes("full", "1"), (Labels{"ssao/occlusion", "ssao/denoise columns"}));
-  EXPECT_EQ(passes("full", "4"),
+  EXPECT_EQ(passes("full", "5"),
             (Labels{"ssao/occlusion", "ssao/denoise rows", "ssao/denoise columns"}));
   for (const char* coarse : {"half", "quarter"}) {
     EXPECT_EQ(passes(coarse, "0"), (Labels{"ssao/occlusion", "ssao/upsample"}));
-    EXPECT_EQ(passes(coarse, "4"), (Labels{"ssao/occlusion", "ssao/denoise rows",
+    EXPECT_EQ(passes(coarse, "5"), (Labels{"ssao/occlusion", "ssao/denoise rows",
                                            "ssao/denoise columns", "ssao/upsample"}));
   }
 }
@@ -142,7 +142,7 @@ TEST_F(PlanTest, HistoryOpenDirectionsAndTintCostNothingUnlessAskedFor) {
     return Labels(recording.passes.begin() + 2, recording.passes.end());
   };
   values_->set("resolution", "full");
-  values_->set("blur_size", "0");
+  values_->set("denoise_size", "0");
   const Labels visibility = {"ssao/occlusion", "ssao/denoise columns"};
   const Labels tinted = {"ssao/occlusion", "ssao/denoise columns", "ssao/tint"};
   EXPECT_EQ(passes({"bent_normal"}), visibility);

@@ -14,7 +14,7 @@ using tests::Settings;
 
 constexpr uint32_t kWidth = 96, kHeight = 72;
 // Without a blur the noise of a frame is plain to see.
-const Settings kNoisy = {{"blur_size", "0"}, {"resolution", "full"}, {"history", "32"}};
+const Settings kNoisy = {{"denoise_size", "0"}, {"resolution", "full"}, {"history", "32"}};
 
 class HistoryTest : public tests::BackendTest {
  protected:
@@ -22,7 +22,7 @@ class HistoryTest : public tests::BackendTest {
   image::Image still(const scene::Camera& camera, uint32_t width = kWidth,
                      uint32_t height = kHeight) {
     return tests::renderAo(device(), scene_, camera,
-                           {{"blur_size", "0"}, {"resolution", "full"}, {"slices", "32"}}, width,
+                           {{"denoise_size", "0"}, {"resolution", "full"}, {"slices", "32"}}, width,
                            height);
   }
   // Root mean square.

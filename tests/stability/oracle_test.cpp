@@ -83,7 +83,7 @@ TEST(Oracle, ACornersVisibilityIsThatOfRays) {
 TEST(Oracle, SlicesFindACorner) {
   const View view = viewOf(kCamera, true);
   const OcclusionSettings settings{
-      .slices = 64, .steps = 64, .thickness = 10, .scale = 1, .blurSize = 0};
+      .slices = 64, .steps = 64, .thickness = 10, .scale = 1, .denoiseSize = 0};
   const auto oracle = makeOcclusion(view, settings);
   const glm::dmat3 axes = scene::worldFromView(kCamera);
   double sum = 0, count = 0;
@@ -110,8 +110,8 @@ TEST(Oracle, OpenDirectionsOfAPlaneAreItsNormal) {
 
 TEST(Oracle, AHistoryAveragesNoiseAndForgetsWhatIsOld) {
   const View view = viewOf(kCamera, true);
-  const OcclusionSettings settings{.history = 16, .scale = 1, .blurSize = 0};
-  const OcclusionSettings still{.slices = 64, .scale = 1, .blurSize = 0};
+  const OcclusionSettings settings{.history = 16, .scale = 1, .denoiseSize = 0};
+  const OcclusionSettings still{.slices = 64, .scale = 1, .denoiseSize = 0};
   const auto exact = makeOcclusion(view, still);
   std::shared_ptr<const Past> past;
   std::vector<double> errors;
@@ -132,7 +132,7 @@ TEST(Oracle, AHistoryAveragesNoiseAndForgetsWhatIsOld) {
   away.target = kCamera.eye + (kCamera.eye - kCamera.target) + glm::dvec3(0, -3, 0);
   const View other = viewOf(away, false);
   const auto after = makeOcclusion(other, settings, past);
-  const auto first = makeOcclusion(other, {.history = 1, .scale = 1, .blurSize = 0});
+  const auto first = makeOcclusion(other, {.history = 1, .scale = 1, .denoiseSize = 0});
   EXPECT_NEAR(after->visibility({24, 28}), first->visibility({24, 28}), 1e-12);
 }
 
@@ -153,7 +153,8 @@ TEST(Oracle, MatterEndsAtItsBack) {
                   {.depth = depth, .normal = normal, .back = back, .colour = {}});
   const auto sum = [](const View& view, bool backFaces) {
     const auto oracle = makeOcclusion(
-        view, {.slices = 8, .thickness = 0.7, .backFaces = backFaces, .scale = 1, .blurSize = 0});
+        view,
+        {.slices = 8, .thickness = 0.7, .backFaces = backFaces, .scale = 1, .denoiseSize = 0});
     double all = 0;
     for (const glm::ivec2& pixel : pixelsToCompare(view.size())) all += oracle->visibility(pixel);
     return all;

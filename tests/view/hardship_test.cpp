@@ -15,7 +15,7 @@ GRISAILLE_IN_WINDOWS(HardshipTest);
 
 TEST_P(HardshipTest, EverySize) {
   DrivenViewer viewer(folder_, {"--backend", GetParam(), "--size", "900x1000", "--set",
-                                "ssao.steps=1", "--set", "ssao.blur_size=0"});
+                                "ssao.steps=1", "--set", "ssao.denoise_size=0"});
   const std::string before = viewer.savePicture();
   const auto resize = [&](int width, int height) {
     viewer.send("search --name Grisaille windowsize " + std::to_string(width) + " " +

@@ -22,7 +22,7 @@ class TuneTest : public WindowTest {
 
   static std::map<std::string, std::string> values(const DrivenViewer& viewer) {
     std::map<std::string, std::string> all;
-    for (const char* key : {"resolution", "slices", "steps", "thickness", "radius", "blur_size",
+    for (const char* key : {"resolution", "slices", "steps", "thickness", "radius", "denoise_size",
                             "intensity", "power"}) {
       all[key] = viewer.value(std::string("ssao.") + key);
     }

@@ -18,11 +18,11 @@ struct OcclusionSettings {
   bool classic = false;
   double radius = 0.5;
   int slices = 1, edgeSlices = 1, steps = 6;
-  double thickness = 0.7;  // radii
-  bool backFaces = false;  // the thickness is the view's where it has one
-  int history = 1;         // frames; needs a Past from the second frame on
-  int scale = 2;           // pixels a texel: 1, 2 or 4
-  int blurSize = 4;
+  double thickness = 0.7;             // radii
+  bool backFaces = false;             // the thickness is the view's where it has one
+  int history = 1;                    // frames; needs a Past from the second frame on
+  int scale = 2;                      // pixels a texel: 1, 2 or 4
+  int denoiseSize = 5, blurSize = 4;  // slices and classic
   double intensity = 1, power = 1;
   double albedo = 0;        // of the bounce; 0: none
   bool baseColour = false;  // the tint bounces light off the view's

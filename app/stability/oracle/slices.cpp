@@ -166,7 +166,7 @@ uint32_t sectors(double low, double high, double dither) {
   return bits;
 }
 
-// Whether fewer than 5 of 8 texels, each two texels off, are in the plane of the pixel's surface,
+// Whether fewer than 7 of 8 texels, each two texels off, are in the plane of the pixel's surface,
 // within half of what counts as it when they are averaged.
 bool Slices::isEdge(const glm::ivec2& pixel) const {
   int same = 0;
@@ -176,7 +176,7 @@ bool Slices::isEdge(const glm::ivec2& pixel) const {
       if (other != pixel && offPlane(pixel, other, view_.depth(other)) < 0.5) ++same;
     }
   }
-  return same < 5;
+  return same < 7;
 }
 
 Texel Slices::estimate(const glm::ivec2& texel) const {
@@ -185,25 +185,20 @@ Texel Slices::estimate(const glm::ivec2& texel) const {
   const glm::dvec3 position = view_.position(pixel);
   const glm::dvec3 toward = -glm::normalize(position);
   glm::dvec3 normal = view_.normal(pixel);
-  normal = glm::normalize(normal - toward * std::min(glm::dot(normal, toward) - 1e-3, 0.0));
-  // The 16 points of a Hammersley set on 4x4 texels.
-  const glm::ivec2 low = texel & 1, high = texel >> 1 & 1;
-  int rank = (low.x ^ low.y) * 8 + low.y * 4 + (high.x ^ high.y) * 2 + high.y;
-  // Each frame of a history another of them, far ones after one another.
-  constexpr int kFarApart[] = {0b0101, 0b1010, 0b0010, 0b0001};
-  for (int bit = 0; bit < 4; ++bit) {
-    if ((frames_ >> bit & 1) != 0) rank ^= kFarApart[bit];
-  }
-  int reverse = 0;
-  for (int bit = 0; bit < 4; ++bit) reverse |= (rank >> bit & 1) << (3 - bit);
-  const double turn = std::fmod(0.5 + (settings_.seed + frames_ / 16) * 0.6180339887498949, 1.0);
+  const double facing = glm::dot(normal, toward);
+  normal = glm::normalize(normal + toward * std::max((facing < -1e-3 ? 1e-2 : 1e-3) - facing, 0.0));
+  // The 25 points of a Hammersley set on 5x5 texels; each frame of a history another of them.
+  const int drawn = static_cast<int>(frames_ % 25);
+  const int first = (2 * texel.x + texel.y + 2 * drawn) % 5;
+  const int second = (texel.x + 2 * texel.y + drawn + 2 * (drawn / 5)) % 5;
+  const double turn = std::fmod(0.375 + (settings_.seed + frames_ / 25) * 0.6180339887498949, 1.0);
   const glm::dmat3 axes = axesAbout(normal);
   const bool edge = settings_.edgeSlices > 1 && isEdge(pixel);
   const int slices = settings_.slices * (edge ? settings_.edgeSlices : 1);
   Texel sum(0);
   for (int k = 0; k < slices; ++k) {
-    const double phi = (k + (rank + turn) / 16) / slices * 2 * kPi;
-    const double place = (reverse + 0.5) / 16 + k * kGolden;
+    const double phi = (k + (first * 5 + second + turn) / 25) / slices * 2 * kPi;
+    const double place = (second * 5 + first + 0.5) / 25 + k * kGolden;
     const double u = place - std::floor(place);
     const double r = std::sqrt(u);
     const glm::dvec3 direction =
@@ -225,7 +220,7 @@ Texel Slices::sliceOf(const glm::dvec3& position, const glm::dvec3& normal,
   slice.up = normal / std::sqrt(std::max(out * out + up * up, 1e-4));
 
   // The slice's line in the picture, and the taps on it: as far as the view ray that touches the
-  // sphere, no fewer pixels out than their number.
+  // sphere, no fewer pixels out than their number, far ones on a grid.
   const double depth = -position.z, square = settings_.radius * settings_.radius;
   glm::dvec2 way = (glm::dvec2(across) * depth + glm::dvec2(position) * across.z) * view_.focal();
   const double stretch = glm::dot(way, way);
@@ -234,13 +229,15 @@ Texel Slices::sliceOf(const glm::dvec3& position, const glm::dvec3& normal,
   const double reach = settings_.radius / (depth * depth) * std::sqrt(stretch / cut);
   Walk ahead{.side = 1, .share = 1}, behind{.side = -1, .share = 0};
   uint32_t shut = 0;
-  const glm::dvec2 centre = glm::dvec2(pixel) + 0.5;
   for (int i = 0; i < settings_.steps; ++i) {
     for (Walk* walk : {&ahead, &behind}) {
       const double at = (i + (walk->side > 0 ? dither : 1 - dither)) / settings_.steps;
       const double pixels = std::max(std::pow(at, 1.25) * reach, i + 1.0);
-      const glm::dvec2 place = glm::clamp(centre + walk->side * pixels * way, -1e6, 1e6);
-      shut |= tap(slice, position, glm::ivec2(glm::floor(place)), dither, *walk);
+      const double grid = std::max(std::exp2(std::floor(std::log2(pixels))) / 8, 1.0);
+      const glm::dvec2 place = glm::clamp(
+          glm::floor((glm::dvec2(pixel) + walk->side * pixels * way) / grid + 0.5) * grid, -1e6,
+          1e6);
+      shut |= tap(slice, position, glm::ivec2(place), dither, *walk);
     }
   }
   for (const Walk* walk : {&ahead, &behind}) {
@@ -332,7 +329,7 @@ double Slices::slopeAlong(const glm::ivec2& texel, const glm::ivec2& along) cons
 
 Texel Slices::denoised(const std::function<Texel(const glm::ivec2&)>& from, const glm::ivec2& texel,
                        const glm::ivec2& along) const {
-  const int reach = std::max(settings_.blurSize, 1);
+  const int reach = std::max(settings_.denoiseSize, 1);
   const glm::ivec2 surface = texel * settings_.scale;
   const double own = view_.depth(surface);
   if (own <= 0) return kSky;
@@ -368,7 +365,7 @@ Texel Slices::upsampled(const glm::ivec2& pixel) {
     const double share =
         (corner.x != 0 ? part.x : 1 - part.x) * (corner.y != 0 ? part.y : 1 - part.y);
     const double weight = share * std::max(0.0, 1 - off) + 1e-4 / (1 + off * off * off);
-    sum += weight * (settings_.blurSize > 1 ? columns_(texel) : averaged(texel));
+    sum += weight * (settings_.denoiseSize > 1 ? columns_(texel) : averaged(texel));
     weights += weight;
   }
   return weights > 0 ? sum / weights : kSky;
