@@ -36,7 +36,7 @@ std::vector<size_t> distinct(std::span<const Price> prices, std::span<const size
 // natural choice, but a front is nearly straight in error and logarithm of cost, and its knees jump
 // from one end to the other with the noise of the clock.) Throws kFrontSmall for fewer than four
 // points.
-constexpr double kReferenceRatio = 5.5, kPresetRatio = 2.3;
+constexpr double kReferenceRatio = 5.5, kPresetRatio = 2.25;
 std::vector<size_t> presetsOn(std::span<const Price> front);
 
 // Writes the presets of the one effect that the settings are of. Throws kFrontSmall, kUsage where
