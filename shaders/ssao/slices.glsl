@@ -167,10 +167,12 @@ uint bitsBeyond(Slice s, Side last, float side, float dither) {
 }
 
 // The pixel of the tap so many pixels on. Far ones fall on a grid, as wide as an eighth to a sixteenth
-// of the way: neighbours then find what they share in the cache, and differ less.
+// of the way: neighbours then find what they share in the cache, and differ less. Of more than 16 steps
+// two would fall on one pixel: it is finer for them.
 vec2 tapAt(vec2 pixel, vec2 way, float pixels) {
   const float below = uintBitsToFloat(floatBitsToUint(pixels) & 0x7f800000u);  // a power of two
-  const float grid = max(0.125 * below, 1.0);
+  const uint finer = max(8u, (1u << uint(findMSB(kSteps - 1u) + 1)) / 2u);
+  const float grid = max(below / float(finer), 1.0);
   return floor((pixel + way * pixels - 0.5) / grid + 0.5) * grid + 0.5;
 }
 

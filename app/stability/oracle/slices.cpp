@@ -229,11 +229,12 @@ Texel Slices::sliceOf(const glm::dvec3& position, const glm::dvec3& normal,
   const double reach = settings_.radius / (depth * depth) * std::sqrt(stretch / cut);
   Walk ahead{.side = 1, .share = 1}, behind{.side = -1, .share = 0};
   uint32_t shut = 0;
+  const uint32_t finer = std::max(8u, std::bit_ceil(static_cast<uint32_t>(settings_.steps)) / 2);
   for (int i = 0; i < settings_.steps; ++i) {
     for (Walk* walk : {&ahead, &behind}) {
       const double at = (i + (walk->side > 0 ? dither : 1 - dither)) / settings_.steps;
       const double pixels = std::max(std::pow(at, 1.25) * reach, i + 1.0);
-      const double grid = std::max(std::exp2(std::floor(std::log2(pixels))) / 8, 1.0);
+      const double grid = std::max(std::exp2(std::floor(std::log2(pixels))) / finer, 1.0);
       const glm::dvec2 place = glm::clamp(
           glm::floor((glm::dvec2(pixel) + walk->side * pixels * way) / grid + 0.5) * grid, -1e6,
           1e6);
