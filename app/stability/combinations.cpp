@@ -210,6 +210,9 @@ const std::vector<Edge>& edges() {
       {"edges without normals", 0.005,
        "Where normals are missing every surface is taken to face the camera: all slopes are near "
        "what makes an edge, and a texel either is one or not."},
+      {"ten times the occlusion", 0.005,
+       "An intensity of 10 is as far as it goes: where a rounding decides whether one of 32 sectors "
+       "is shut, or whether a texel is an edge, ten times that is seen about it."},
   };
   return kEdges;
 }
@@ -218,6 +221,8 @@ std::string edgeOf(const Case& one) {
   if (one.variant.starts_with("slices") &&
       (one.scenery.kind == Kind::kNoNormals || one.scenery.kind == Kind::kNormless))
     return "edges without normals";
+  if (one.variant.starts_with("slices") && one.group == "intensity")
+    return "ten times the occlusion";
   if (one.variant == "open directions" &&
       (one.scenery.kind == Kind::kNoNormals || one.scenery.kind == Kind::kBackNormals))
     return "a direction between two sectors";
