@@ -212,8 +212,7 @@ const std::vector<Edge>& edges() {
        "what makes an edge, and a texel either is one or not."},
       {"ten times the occlusion", 0.005,
        "An intensity of 10 is as far as it goes: where a rounding decides whether one of 32 "
-       "sectors "
-       "is shut, or whether a texel is an edge, ten times that is seen about it."},
+       "sectors is shut, or whether a texel is an edge, ten times that is seen about it."},
   };
   return kEdges;
 }
