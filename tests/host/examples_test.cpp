@@ -139,13 +139,16 @@ TEST_P(Examples, AmbientOcclusionIsWhatTheProgramMakes) {
   shell("cd " + out.string() + " && grisaille render scene.gltf --size 320x180" + effect +
         " --set ssao.guard_band=0 --write ao=rendered.exr");
   const image::Image ao = image::read(out / "ao.exr");
-  const image::Difference applied = image::compare(ao, image::read(out / "applied.exr"));
+  const image::Image fromFiles = image::read(out / "applied.exr");
+  const image::Difference applied = image::compare(ao, fromFiles);
   const image::Difference rendered = image::compare(ao, image::read(out / "rendered.exr"));
   std::printf("%s: largest difference from apply %.5f, from render %.5f (rmse %.6f)\n",
               example.name, applied.largest, rendered.largest, rendered.rmse);
   EXPECT_EQ(applied.nonFinite + rendered.nonFinite, 0u);
-  EXPECT_LE(applied.largest, 1.0 / 255);
   EXPECT_LE(rendered.largest, 1.0 / 255);
+  // What is applied has rounded the normals once more: a sector at its edge may come out shut.
+  EXPECT_LE(applied.largest, 2.0 / 255);
+  EXPECT_LT(image::shareOver(ao, fromFiles, 1.0 / 255), 0.001);
   image::Image open = ao;
   std::ranges::fill(open.pixels, 1.0f);
   EXPECT_GT(image::shareOver(ao, open, 0.2), 0.05) << "nothing is dark";

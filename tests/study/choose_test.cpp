@@ -44,16 +44,16 @@ TEST(Presets, AreOnTheFrontAndInOrder) {
 TEST(Presets, EachCostsAtMostItsShareOfTheNext) {
   std::vector<Price> front;
   for (int i = 0; i <= 10; ++i) front.push_back({std::exp2(i), 1 - 0.05 * i});
-  // Of 1024: at most 43.0, 98.9 and 227.6.
-  EXPECT_EQ(presetsOn(front), (std::vector<size_t>{5, 6, 7, 10}));
+  // Of 1024: at most 29.8, 74.5 and 186.2.
+  EXPECT_EQ(presetsOn(front), (std::vector<size_t>{4, 6, 7, 10}));
   // Where nothing is so cheap, spread evenly.
   front = {{40, 0.9}, {45, 0.8}, {50, 0.7}, {60, 0.6}, {100, 0.5}};
   EXPECT_EQ(presetsOn(front), (std::vector<size_t>{0, 1, 3, 4}));
 }
 
 TEST(Presets, SettingsThatClocksDoNotTellApartAreOne) {
-  const std::vector<Price> prices = {{1, 0.9},    {1.05, 0.8}, {2, 0.7},
-                                     {2.1, 0.69}, {2.2, 0.68}, {4, 0.5}};
+  const std::vector<Price> prices = {{1, 0.9},    {1.05, 0.8},  {2, 0.7},
+                                     {2.1, 0.69}, {2.15, 0.68}, {4, 0.5}};
   EXPECT_EQ(distinct(prices, frontOf(prices)), (std::vector<size_t>{1, 4, 5}));
 }
 
