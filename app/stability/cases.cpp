@@ -19,8 +19,8 @@ class Cases {
  public:
   // Of every variant the case that `change` makes of it.
   template <typename F>
-  void add(const char* group, const std::string& name, std::initializer_list<const char*> variants,
-           const F& change) {
+  void add(const std::string& group, const std::string& name,
+           std::initializer_list<const char*> variants, const F& change) {
     for (const char* variant : variants) {
       Case one = usualCase(variant, {});
       one.group = group;
@@ -31,7 +31,7 @@ class Cases {
   }
   // The same of a scenery, in which lengths are in proportion to its scale.
   template <typename F>
-  void add(const char* group, const std::string& name, const Scenery& scenery,
+  void add(const std::string& group, const std::string& name, const Scenery& scenery,
            std::initializer_list<const char*> variants, const F& change) {
     for (const char* variant : variants) {
       Case one = usualCase(variant, scenery);
@@ -166,7 +166,7 @@ void addSizes(Cases& cases) {
 }
 
 void addValues(Cases& cases) {
-  const auto sweep = [&](const char* group, const char* key,
+  const auto sweep = [&](const std::string& group, const char* key,
                          std::initializer_list<const char*> variants,
                          std::initializer_list<const char*> values) {
     for (const std::string value : values) {
@@ -188,18 +188,20 @@ void addValues(Cases& cases) {
         {"0", "1e-06", "0.1", "1", "1000000"});
   sweep("thickness, radii", "thickness", {"slices", "slices, raw"},
         {"0", "0.001", "10", "1000000"});
-  const auto filter = [&](const char* key, std::initializer_list<const char*> variants) {
-    sweep("blur, px", key, variants, {"0", "1", "2", "16"});
+  const auto filter = [&](const std::string& group, const char* key,
+                          std::initializer_list<const char*> variants) {
+    sweep(group + ", px", key, variants, {"0", "1", "2", "16"});
     for (const std::string value : {"2", "16"}) {
-      cases.add("blur larger than the picture, px", value, variants, [&](Case& one) {
+      cases.add(group + " larger than the picture, px", value, variants, [&](Case& one) {
         one.size = {9, 5};
         one.settings.emplace_back(key, value);
         one.quick = true;
       });
     }
   };
-  filter("denoise_size", {"slices", "slices, quarter"});
-  filter("blur_size", {"classic", "edge-aware"});
+  filter("blur", "denoise_size", {"slices", "slices, quarter"});
+  filter("blur along edges", "edge_denoise", {"slices", "slices, quarter"});
+  filter("blur", "blur_size", {"classic", "edge-aware"});
   sweep("range check", "range_check", {"classic", "sphere"}, {"raw_depth", "none"});
   sweep("intensity", "intensity", {"slices", "classic"}, {"0", "10"});
   sweep("power", "power", {"slices", "classic"}, {"0.1", "10"});

@@ -97,6 +97,7 @@ void drawOcclusion(Draws& draw, Case& one) {
   set("edge_slices", std::to_string(1 + draw.below(4)));
   set("back_faces", draw.of({"false", "false", "true"}));
   set("denoise_size", std::to_string(draw.of({0, 2, 5, 5, 8, 10})));
+  set("edge_denoise", std::to_string(draw.of({0, 1, 6, 6, 9, 32})));
 }
 
 void drawPaint(Draws& draw, Case& one, uint32_t seed) {

@@ -35,6 +35,7 @@ OcclusionSettings occlusionOf(const effect::Values& values) {
           .scale = 1 << whole(values, "resolution"),
           .denoiseSize = whole(values, "denoise_size"),
           .blurSize = whole(values, "blur_size"),
+          .edgeDenoise = whole(values, "edge_denoise"),
           .intensity = single(values, "intensity"),
           .power = single(values, "power"),
           .albedo = values.text("bounce") == "albedo" ? single(values, "albedo") : 0,

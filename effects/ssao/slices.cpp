@@ -10,6 +10,10 @@
 #include "shaders/ssao_denoise_bent.h"
 #include "shaders/ssao_denoise_last.h"
 #include "shaders/ssao_denoise_last_bent.h"
+#include "shaders/ssao_edges.h"
+#include "shaders/ssao_edges_bent.h"
+#include "shaders/ssao_edges_last.h"
+#include "shaders/ssao_edges_last_bent.h"
 #include "shaders/ssao_slices.h"
 #include "shaders/ssao_slices_bent.h"
 #include "shaders/ssao_upsample.h"
@@ -29,7 +33,7 @@ struct SlicesBlock {
 GRISAILLE_CHECK_BLOCK_ssao_slices_Settings(SlicesBlock);
 GRISAILLE_CHECK_BLOCK_ssao_slices_bent_Settings(SlicesBlock);
 
-// shaders/ssao/denoise.glsl and upsample.glsl, std140.
+// shaders/ssao/denoise.glsl, edges.glsl and upsample.glsl, std140.
 struct FilterBlock {
   glm::vec4 finish;
   float tolerance;
@@ -38,6 +42,10 @@ GRISAILLE_CHECK_BLOCK_ssao_denoise_Settings(FilterBlock);
 GRISAILLE_CHECK_BLOCK_ssao_denoise_bent_Settings(FilterBlock);
 GRISAILLE_CHECK_BLOCK_ssao_denoise_last_Settings(FilterBlock);
 GRISAILLE_CHECK_BLOCK_ssao_denoise_last_bent_Settings(FilterBlock);
+GRISAILLE_CHECK_BLOCK_ssao_edges_Settings(FilterBlock);
+GRISAILLE_CHECK_BLOCK_ssao_edges_bent_Settings(FilterBlock);
+GRISAILLE_CHECK_BLOCK_ssao_edges_last_Settings(FilterBlock);
+GRISAILLE_CHECK_BLOCK_ssao_edges_last_bent_Settings(FilterBlock);
 GRISAILLE_CHECK_BLOCK_ssao_upsample_Settings(FilterBlock);
 GRISAILLE_CHECK_BLOCK_ssao_upsample_bent_Settings(FilterBlock);
 
@@ -52,12 +60,19 @@ FilterBlock filterBlock(const plugin::Frame& frame) {
   return {.finish = finishOf(frame), .tolerance = toleranceOf(frame)};
 }
 
+// How far the denoiser goes along edges, texels; 0: it does not.
+uint32_t edgeReach(const plugin::Frame& frame) {
+  return frame.value<uint32_t>(kDenoiseSize) > 1 ? frame.value<uint32_t>(kEdgeDenoise) : 0;
+}
+
 }  // namespace
 
 Slices::Kernels::Kernels(plugin::Host host)
     : occlusion(host, "slices", grisaille_shader_ssao_slices),
       denoise(host, "denoise", grisaille_shader_ssao_denoise),
       denoiseLast(host, "denoise", grisaille_shader_ssao_denoise_last),
+      edges(host, "edges", grisaille_shader_ssao_edges),
+      edgesLast(host, "edges", grisaille_shader_ssao_edges_last),
       upsample(host, "upsample", grisaille_shader_ssao_upsample) {}
 
 Slices::Kernels Slices::Kernels::withBent(plugin::Host host) {
@@ -65,6 +80,8 @@ Slices::Kernels Slices::Kernels::withBent(plugin::Host host) {
   kernels.occlusion = {host, "slices, bent", grisaille_shader_ssao_slices_bent};
   kernels.denoise = {host, "denoise, bent", grisaille_shader_ssao_denoise_bent};
   kernels.denoiseLast = {host, "denoise, bent", grisaille_shader_ssao_denoise_last_bent};
+  kernels.edges = {host, "edges, bent", grisaille_shader_ssao_edges_bent};
+  kernels.edgesLast = {host, "edges, bent", grisaille_shader_ssao_edges_last_bent};
   kernels.upsample = {host, "upsample, bent", grisaille_shader_ssao_upsample_bent};
   return kernels;
 }
@@ -95,6 +112,7 @@ void Slices::record(const plugin::Frame& frame, Pair outputs) {
                 .bent = bent ? texture(direction, GRISAILLE_FORMAT_RGBA16F) : grisaille_texture{0}};
   };
   const uint32_t blur = std::max(frame.value<uint32_t>(kDenoiseSize), 1u);
+  const uint32_t reach = edgeReach(frame);
   history_.keepOnly({frame.value<double>(kRadius), frame.value<double>(kSlices),
                      frame.value<double>(kEdgeSlices), frame.value<double>(kSteps),
                      frame.value<double>(kThickness), frame.value<double>(kBackFaces)});
@@ -106,13 +124,14 @@ void Slices::record(const plugin::Frame& frame, Pair outputs) {
   frame.pass("occlusion", [&] { occlude(frame, kernels, size, raw); });
   Pair from = raw;
   if (averaged > 1) from.open = history_.accumulate(frame, scale, averaged - 1, raw.open);
+  Pair spare = from;
   if (blur > 1) {
-    const Pair rows = pair("visibility denoised along rows", "open direction denoised along rows");
+    spare = pair("visibility denoised", "open direction denoised");
     frame.pass("denoise rows",
-               [&] { denoise(frame, kernels.denoise, size, false, blur, from, rows); });
-    from = rows;
+               [&] { denoise(frame, kernels.denoise, size, false, blur, from, spare); });
+    from = spare;
   }
-  if (scale == 1) {
+  if (scale == 1 && reach == 0) {
     frame.pass("denoise columns",
                [&] { denoise(frame, kernels.denoiseLast, size, true, blur, from, outputs); });
     return;
@@ -121,6 +140,14 @@ void Slices::record(const plugin::Frame& frame, Pair outputs) {
     frame.pass("denoise columns",
                [&] { denoise(frame, kernels.denoise, size, true, blur, from, raw); });
     from = raw;
+  }
+  if (reach > 0) {
+    Pair target = scale == 1 ? outputs : spare;
+    frame.pass("denoise edges", [&] {
+      alongEdges(frame, scale == 1 ? kernels.edgesLast : kernels.edges, size, reach, from, target);
+    });
+    if (scale == 1) return;
+    from = target;
   }
   frame.pass("upsample", [&] { upsample(frame, kernels, size, from, outputs); });
 }
@@ -158,10 +185,10 @@ void Slices::occlude(const plugin::Frame& frame, Kernels& kernels, Size size, Pa
 
 void Slices::denoise(const plugin::Frame& frame, plugin::PipelineCache& pipelines, Size size,
                      bool columns, uint32_t blur, Pair raw, Pair target) {
-  // Constants 0 ... 2 of shaders/ssao/denoise.glsl.
-  const grisaille_constant constants[] = {plugin::specialize(0, blur),
-                                          plugin::specialize(1, size.scale),
-                                          plugin::specialize(2, columns)};
+  // Constants 0 ... 3 of shaders/ssao/denoise.glsl.
+  const grisaille_constant constants[] = {
+      plugin::specialize(0, blur), plugin::specialize(1, size.scale),
+      plugin::specialize(2, columns), plugin::specialize(3, edgeReach(frame) > 0)};
   Bindings bindings = {plugin::uniform(0, frame.viewBlock()),
                        plugin::uniform(1, frame.uniform(filterBlock(frame))),
                        plugin::texture(0, raw.open, clamped_),
@@ -176,6 +203,23 @@ void Slices::denoise(const plugin::Frame& frame, plugin::PipelineCache& pipeline
   dispatch(frame, pipelines.get(constants), bindings,
            columns ? size.width : plugin::groupsFor(size.width, kRun),
            columns ? plugin::groupsFor(size.height, kRun) : size.height);
+}
+
+void Slices::alongEdges(const plugin::Frame& frame, plugin::PipelineCache& pipelines, Size size,
+                        uint32_t reach, Pair denoised, Pair target) {
+  // Constants 0 and 1 of shaders/ssao/edges.glsl.
+  const grisaille_constant constants[] = {plugin::specialize(0, reach),
+                                          plugin::specialize(1, size.scale)};
+  Bindings bindings = {plugin::uniform(0, frame.viewBlock()),
+                       plugin::uniform(1, frame.uniform(filterBlock(frame))),
+                       plugin::texture(0, denoised.open, clamped_),
+                       plugin::texture(1, frame.attachment(GRISAILLE_NORMAL), clamped_),
+                       plugin::image(0, target.open)};
+  if (target.bent.id != 0) {
+    bindings.add(plugin::texture(2, denoised.bent, clamped_));
+    bindings.add(plugin::image(1, target.bent));
+  }
+  dispatch(frame, pipelines.get(constants), bindings, size.width, size.height);
 }
 
 void Slices::upsample(const plugin::Frame& frame, Kernels& kernels, Size size, Pair coarse,

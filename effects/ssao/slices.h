@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: MIT
 // Visibility by slices and a bitmask of sectors: occlusion, accumulate where frames are averaged,
-// and denoise, at the resolution that is asked for, then upsample where that is not the picture's.
+// denoise and edges, at the resolution that is asked for, then upsample where that is not the
+// picture's.
 #pragma once
 
 #include "grisaille/effect.hpp"
@@ -31,12 +32,14 @@ class Slices {
   struct Kernels {
     explicit Kernels(plugin::Host host);
     static Kernels withBent(plugin::Host host);
-    plugin::PipelineCache occlusion, denoise, denoiseLast, upsample;
+    plugin::PipelineCache occlusion, denoise, denoiseLast, edges, edgesLast, upsample;
   };
 
   void occlude(const plugin::Frame& frame, Kernels& kernels, Size size, Pair target);
   void denoise(const plugin::Frame& frame, plugin::PipelineCache& pipelines, Size size,
                bool columns, uint32_t blur, Pair raw, Pair target);
+  void alongEdges(const plugin::Frame& frame, plugin::PipelineCache& pipelines, Size size,
+                  uint32_t reach, Pair denoised, Pair target);
   void upsample(const plugin::Frame& frame, Kernels& kernels, Size size, Pair coarse, Pair target);
 
   Kernels open_, openAndBent_;

@@ -45,5 +45,5 @@ void main() {
     }
     open = sum / weights;
   }
-  imageStore(visibility, pixel, vec4(finished(open, settings.finish)));
+  imageStore(visibility, pixel, finished(vec4(open), settings.finish));
 }

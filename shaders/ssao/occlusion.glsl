@@ -135,6 +135,6 @@ void main() {
   const float depth = textureLod(view_depth, (vec2(pixel) + 0.5) * view.size.zw, 0.0).x;
   float open = 1.0;
   if (depth > 0.0) open -= occlusionAt(pixel, depth);
-  if (kFinish) open = finished(open, settings.finish);
+  if (kFinish) open = finished(vec4(open), settings.finish).x;
   imageStore(visibility, pixel, vec4(open));
 }

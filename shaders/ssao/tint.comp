@@ -19,5 +19,5 @@ void main() {
   const vec2 at = vec2(pixel) + 0.5;
   const float open = textureLod(visibility, at * view.size.zw, 0.0).x;
   const vec3 albedo = textureLod(base_colour, attachmentAt(at), 0.0).rgb;
-  imageStore(tint, pixel, vec4(kColoured ? bounced(open, albedo) : vec3(open), 1.0));
+  imageStore(tint, pixel, vec4(kColoured ? bounced(vec4(open), vec4(albedo, 0.0)).rgb : vec3(open), 1.0));
 }

@@ -76,16 +76,22 @@ void main() {
     bent[i] = textureLod(coarse_bent, at, 0.0).xyz;
 #endif
   }
+  // At half resolution the first of the pixels is the first texel's own.
+  mat4 weights = mat4(vec4(depths.x > 0.0 ? 1.0 : 0.0, 0.0, 0.0, 0.0), vec4(0.0), vec4(0.0), vec4(0.0));
+  [[unroll]] for (uint i = kScale == 2u ? 1u : 0u; i < 4u; ++i) {
+    weights[i] = weightsAt(place + ivec2(i & 1u, i >> 1u), first, depths);
+  }
+  // Nothing shuts what has no surface.
+  const vec4 none = vec4(equal(vec4(1.0) * weights, vec4(0.0)));
+  const vec4 value = finished(open * weights + none, settings.finish);
   [[unroll]] for (uint i = 0u; i < 4u; ++i) {
     const ivec2 at = place + ivec2(i & 1u, i >> 1u);
-    const vec4 weights = weightsAt(at, first, depths);
-    // Nothing shuts what has no surface.
-    const float value = dot(weights, open) + (weights == vec4(0.0) ? 1.0 : 0.0);
-    if (any(greaterThanEqual(at, size))) continue;
-    imageStore(visibility, at, vec4(finished(value, settings.finish)));
+    if (all(lessThan(at, size))) {
+      imageStore(visibility, at, vec4(value[i]));
 #if BENT
-    const vec3 normal = textureLod(world_normal, attachmentAt(vec2(at) + 0.5), 0.0).xyz;
-    imageStore(bent_normal, at, vec4(bentNormal(bent * weights, normal), 0.0));
+      const vec3 normal = textureLod(world_normal, attachmentAt(vec2(at) + 0.5), 0.0).xyz;
+      imageStore(bent_normal, at, vec4(bentNormal(bent * weights[i], normal), 0.0));
 #endif
+    }
   }
 }

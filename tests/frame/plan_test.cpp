@@ -126,13 +126,19 @@ TEST_F(PlanTest, SlicesRecordWhatTheirResolutionAndBlurNeed) {
     return Labels(recording.passes.begin() + 2, recording.passes.end());
   };
   EXPECT_EQ(passes("full", "1"), (Labels{"ssao/occlusion", "ssao/denoise columns"}));
-  EXPECT_EQ(passes("full", "5"),
-            (Labels{"ssao/occlusion", "ssao/denoise rows", "ssao/denoise columns"}));
+  EXPECT_EQ(passes("full", "5"), (Labels{"ssao/occlusion", "ssao/denoise rows",
+                                         "ssao/denoise columns", "ssao/denoise edges"}));
   for (const char* coarse : {"half", "quarter"}) {
     EXPECT_EQ(passes(coarse, "0"), (Labels{"ssao/occlusion", "ssao/upsample"}));
-    EXPECT_EQ(passes(coarse, "5"), (Labels{"ssao/occlusion", "ssao/denoise rows",
-                                           "ssao/denoise columns", "ssao/upsample"}));
+    EXPECT_EQ(passes(coarse, "5"),
+              (Labels{"ssao/occlusion", "ssao/denoise rows", "ssao/denoise columns",
+                      "ssao/denoise edges", "ssao/upsample"}));
   }
+  values_->set("edge_denoise", "0");
+  EXPECT_EQ(passes("full", "5"),
+            (Labels{"ssao/occlusion", "ssao/denoise rows", "ssao/denoise columns"}));
+  EXPECT_EQ(passes("half", "5"), (Labels{"ssao/occlusion", "ssao/denoise rows",
+                                         "ssao/denoise columns", "ssao/upsample"}));
 }
 
 TEST_F(PlanTest, HistoryOpenDirectionsAndTintCostNothingUnlessAskedFor) {
@@ -278,7 +284,7 @@ TEST_F(PlanTest, BadCameraIsAnErrorAndTheNextFrameWorks) {
   camera_.target = camera_.eye;
   EXPECT_ERROR(ErrorId::kCameraInvalid, record({"ao"}, true));
   camera_ = good;
-  EXPECT_EQ(record({"ao"}, true).passes.size(), 6u);
+  EXPECT_EQ(record({"ao"}, true).passes.size(), 7u);
 }
 
 }  // namespace

@@ -243,6 +243,71 @@ TEST_P(SlicesTest, TheDenoiserRemovesThePattern) {
   }
 }
 
+// A floor that meets a wall with a ledge a few texels wide between them.
+scene::Scene ledgeScene() {
+  scene::Scene scene = tests::cornerScene();
+  tests::addQuad(scene,
+                 {glm::vec3(-3, 0, 0.03f), {3, 0, 0.03f}, {3, 0.08f, 0.03f}, {-3, 0.08f, 0.03f}},
+                 {0, 0, 1});
+  tests::addQuad(scene,
+                 {glm::vec3(-3, 0.08f, 0.03f), {3, 0.08f, 0.03f}, {3, 0.08f, 0}, {-3, 0.08f, 0}},
+                 {0, 1, 0});
+  return scene;
+}
+
+TEST_P(SlicesTest, EdgesThatRunAslantAreFreeOfThePattern) {
+  const scene::Scene scene = ledgeScene();
+  scene::Camera camera = {.eye = glm::dvec3(0, 1.2, 3), .target = glm::dvec3(0, 0, 0)};
+  for (const double degrees : {27.0, 45.0, 63.0}) {
+    const double roll = glm::radians(degrees);
+    camera.up = {std::sin(roll), std::cos(roll), 0};
+    for (const char* resolution : {"full", "half"}) {
+      // What is left of the noise is what sets a frame off from the mean of the pattern's 25.
+      const auto noise = [&](const char* reach) {
+        tests::AoFrames frames(device(), scene,
+                               {{"resolution", resolution},
+                                {"edge_slices", "1"},
+                                {"edge_denoise", reach},
+                                {"history", "25"}});
+        const image::Image one = frames.show(camera, 240, 180);
+        for (int k = 0; k < 23; ++k) frames.show(camera, 240, 180);
+        return image::compare(one, frames.show(camera, 240, 180)).rmse;
+      };
+      EXPECT_LT(noise("6"), 0.8 * noise("0")) << resolution << ", " << degrees << " degrees";
+    }
+  }
+}
+
+TEST_P(SlicesTest, EdgesAreDenoisedAndNothingElse) {
+  for (const char* resolution : kResolutions) {
+    const auto rendered = [&](const char* reach) {
+      const tests::Settings settings = {{"resolution", resolution}, {"edge_denoise", reach}};
+      return tests::renderAo(device(), tests::cornerScene(), kCorner, settings, 320, 240);
+    };
+    const image::Image with = rendered("6"), without = rendered("0");
+    // The crease is about the middle; next to it, and to the picture's border, all within what a
+    // denoiser reaches.
+    size_t changed = 0;
+    for (uint32_t y = 0; y < with.height; ++y) {
+      for (uint32_t x = 0; x < with.width; ++x) {
+        const bool far =
+            std::abs(y - with.height / 2.0) > 60 && y > 40 && y < 200 && x > 40 && x < 280;
+        const bool same = with.at(x, y) == without.at(x, y);
+        changed += same ? 0 : 1;
+        ASSERT_TRUE(same || !far) << resolution << " at " << x << ", " << y;
+      }
+    }
+    EXPECT_GT(changed, 0u) << resolution;
+    // Nor anywhere where nothing is denoised.
+    const auto raw = [&](const char* reach) {
+      const tests::Settings settings = {
+          {"resolution", resolution}, {"denoise_size", "0"}, {"edge_denoise", reach}};
+      return tests::renderAo(device(), tests::cornerScene(), kCorner, settings).pixels;
+    };
+    EXPECT_EQ(raw("6"), raw("0")) << resolution;
+  }
+}
+
 TEST(SlicesBackends, Agree) {
   const std::vector<std::string> backends = tests::presentBackends();
   if (backends.size() < 2) GTEST_SKIP() << "one backend alone is present";

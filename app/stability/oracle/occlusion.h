@@ -23,6 +23,7 @@ struct OcclusionSettings {
   int history = 1;                    // frames; needs a Past from the second frame on
   int scale = 2;                      // pixels a texel: 1, 2 or 4
   int denoiseSize = 5, blurSize = 4;  // slices and classic
+  int edgeDenoise = 6;
   double intensity = 1, power = 1;
   double albedo = 0;        // of the bounce; 0: none
   bool baseColour = false;  // the tint bounces light off the view's

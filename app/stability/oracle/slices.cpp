@@ -18,6 +18,7 @@ constexpr double kGolden = 0.618034;      // spreads slices, a part of the patte
 constexpr double kPlaneTolerance = 0.05;  // radii
 constexpr double kPlanePixels = 4;        // and no more than so many pixels' width
 constexpr double kMostBent = 0.5;         // of facets from normals, tangent
+constexpr double kFound = 0.97;           // of the weights, less than which is found at edges
 
 // A slice of the hemisphere over a surface. Angles run from the view vector, over 0 on the side of
 // `across`.
@@ -90,9 +91,11 @@ class Slices : public Occlusion {
               [this](const glm::ivec2& t) {
                 return denoised([this](const glm::ivec2& at) { return averaged(at); }, t, {1, 0});
               }),
-        columns_(texels_, [this](const glm::ivec2& t) {
-          return denoised([this](const glm::ivec2& at) { return rows_(at); }, t, {0, 1});
-        }) {}
+        columns_(texels_,
+                 [this](const glm::ivec2& t) {
+                   return denoised([this](const glm::ivec2& at) { return rows_(at); }, t, {0, 1});
+                 }),
+        edges_(texels_, [this](const glm::ivec2& t) { return alongEdge(t); }) {}
 
   double visibility(const glm::ivec2& pixel) override { return finished(at(pixel).w, settings_); }
   glm::dvec3 bentNormal(const glm::ivec2& pixel) override {
@@ -107,11 +110,14 @@ class Slices : public Occlusion {
  private:
   Texel at(const glm::ivec2& pixel) {
     if (view_.depth(pixel) <= 0) return kSky;
-    return settings_.scale == 1 ? columns_(pixel) : upsampled(pixel);
+    return settings_.scale == 1 ? filtered(pixel) : upsampled(pixel);
   }
   // As it is denoised: histories are of visibility alone.
   Texel averaged(const glm::ivec2& texel) {
     return settings_.history > 1 ? Texel(glm::dvec3(raw_(texel)), means_(texel).open) : raw_(texel);
+  }
+  Texel filtered(const glm::ivec2& texel) {
+    return settings_.denoiseSize > 1 && settings_.edgeDenoise > 0 ? edges_(texel) : columns_(texel);
   }
   Texel estimate(const glm::ivec2& texel) const;
   Mean mean(const glm::ivec2& texel);
@@ -123,6 +129,11 @@ class Slices : public Occlusion {
   glm::dvec3 leavesAt(const Walk& walk, const glm::dvec3& step) const;
   Texel denoised(const std::function<Texel(const glm::ivec2&)>& from, const glm::ivec2& texel,
                  const glm::ivec2& along) const;
+  // Calls for each texel that counts, with its weight; what they weigh together.
+  double weigh(const glm::ivec2& texel, const glm::ivec2& along,
+               const std::function<void(const glm::ivec2&, double)>& add) const;
+  bool isMarked(const glm::ivec2& texel) const;
+  Texel alongEdge(const glm::ivec2& texel);
   Texel upsampled(const glm::ivec2& pixel);
 
   // How far what a pixel shows, at another depth, lies from the plane of a surface; tolerances.
@@ -144,7 +155,7 @@ class Slices : public Occlusion {
   int frames_;  // averaged before this one
   Lazy<Texel> raw_;
   Lazy<Mean> means_;
-  Lazy<Texel> rows_, columns_;
+  Lazy<Texel> rows_, columns_, edges_;
 };
 
 Mean Slices::mean(const glm::ivec2& texel) {
@@ -328,27 +339,77 @@ double Slices::slopeAlong(const glm::ivec2& texel, const glm::ivec2& along) cons
   return std::max(8 * std::abs(one - two), std::abs(both - byNormal)) < most ? both : byNormal;
 }
 
-Texel Slices::denoised(const std::function<Texel(const glm::ivec2&)>& from, const glm::ivec2& texel,
-                       const glm::ivec2& along) const {
+double Slices::weigh(const glm::ivec2& texel, const glm::ivec2& along,
+                     const std::function<void(const glm::ivec2&, double)>& add) const {
   const int reach = std::max(settings_.denoiseSize, 1);
   const glm::ivec2 surface = texel * settings_.scale;
   const double own = view_.depth(surface);
-  if (own <= 0) return kSky;
   const double facing = glm::dot(view_.normal(surface), view_.ray(glm::dvec2(surface) + 0.5));
   const double slope = slopeAlong(texel, along);
-  Texel sum(0);
   double weights = 0;
   for (int i = 1 - reach; i < reach; ++i) {
-    const glm::ivec2 other = texel + along * i;
-    const glm::ivec2 inside = glm::clamp(other, glm::ivec2(0), texels_ - 1);
+    const glm::ivec2 inside = glm::clamp(texel + along * i, glm::ivec2(0), texels_ - 1);
     const double depth = view_.depth(inside * settings_.scale);
     if (depth <= 0) continue;
     const double off = std::abs((depth - own) * facing + depth * i * slope) / toleranceAt(surface);
     const double weight = (reach - std::abs(i)) * std::max(1 - off, 0.0);
-    sum += weight * from(inside);
+    add(inside, weight);
     weights += weight;
   }
+  return weights;
+}
+
+Texel Slices::denoised(const std::function<Texel(const glm::ivec2&)>& from, const glm::ivec2& texel,
+                       const glm::ivec2& along) const {
+  if (view_.depth(texel * settings_.scale) <= 0) return kSky;
+  Texel sum(0);
+  const double weights =
+      weigh(texel, along, [&](const glm::ivec2& at, double weight) { sum += weight * from(at); });
   return sum / weights;
+}
+
+// Whether a row or a column finds too little.
+bool Slices::isMarked(const glm::ivec2& texel) const {
+  const double all = settings_.denoiseSize * settings_.denoiseSize;
+  const auto nothing = [](const glm::ivec2&, double) {};
+  return std::min(weigh(texel, {1, 0}, nothing), weigh(texel, {0, 1}, nothing)) < kFound * all;
+}
+
+// The mean along the line that what is off the plane lies beside, as far as there is one.
+Texel Slices::alongEdge(const glm::ivec2& texel) {
+  const glm::ivec2 surface = texel * settings_.scale;
+  const Texel own = columns_(texel);
+  if (view_.depth(surface) <= 0 || !isMarked(texel)) return own;
+  const auto offAt = [&](const glm::ivec2& across) {
+    const glm::ivec2 at = glm::clamp(texel + across, glm::ivec2(0), texels_ - 1);
+    const double depth = view_.depth(at * settings_.scale);
+    return depth > 0 ? offPlane(surface, (texel + across) * settings_.scale, depth) : 1e9;
+  };
+  glm::dvec2 moments(0);  // cosine and sine of twice the angle
+  for (const glm::ivec2 way : {glm::ivec2(1, 2), {2, 1}, {-1, 2}, {-2, 1}}) {
+    const double off = std::min(2 * offAt(way), 1.0) + std::min(2 * offAt(-way), 1.0);
+    const double angle = 2 * std::atan2(way.y, way.x);
+    moments += off * glm::dvec2(std::cos(angle), std::sin(angle));
+  }
+  const double clear = std::clamp(2 * glm::length(moments) - 0.5, 0.0, 1.0);
+  if (clear == 0) return own;
+  const double angle = (std::atan2(moments.y, moments.x) + kPi) / 2;
+  glm::dvec2 along(std::cos(angle), std::sin(angle));
+  along /= std::max(std::abs(along.x), std::abs(along.y));
+  // Which of the two ways is meant decides ties.
+  if (moments.x < 0 ? along.x < 0 : along.y < 0) along = -along;
+  const int reach = settings_.edgeDenoise;
+  double weights = reach + 1;
+  Texel sum = weights * own;
+  for (int i = 2; i <= reach; i += 2) {
+    for (const double way : {1.0, -1.0}) {
+      const glm::ivec2 across(glm::floor(along * (way * i) + 0.501));
+      const double weight = (reach + 1 - i) * std::max(1 - offAt(across), 0.0);
+      sum += weight * columns_(glm::clamp(texel + across, glm::ivec2(0), texels_ - 1));
+      weights += weight;
+    }
+  }
+  return glm::mix(own, sum / weights, clear);
 }
 
 Texel Slices::upsampled(const glm::ivec2& pixel) {
@@ -366,7 +427,7 @@ Texel Slices::upsampled(const glm::ivec2& pixel) {
     const double share =
         (corner.x != 0 ? part.x : 1 - part.x) * (corner.y != 0 ? part.y : 1 - part.y);
     const double weight = share * std::max(0.0, 1 - off) + 1e-4 / (1 + off * off * off);
-    sum += weight * (settings_.denoiseSize > 1 ? columns_(texel) : averaged(texel));
+    sum += weight * (settings_.denoiseSize > 1 ? filtered(texel) : averaged(texel));
     weights += weight;
   }
   return weights > 0 ? sum / weights : kSky;
