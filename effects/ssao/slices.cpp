@@ -60,11 +60,6 @@ FilterBlock filterBlock(const plugin::Frame& frame) {
   return {.finish = finishOf(frame), .tolerance = toleranceOf(frame)};
 }
 
-// How far the denoiser goes along edges, texels; 0: it does not.
-uint32_t edgeReach(const plugin::Frame& frame) {
-  return frame.value<uint32_t>(kDenoiseSize) > 1 ? frame.value<uint32_t>(kEdgeDenoise) : 0;
-}
-
 }  // namespace
 
 Slices::Kernels::Kernels(plugin::Host host)
@@ -112,7 +107,7 @@ void Slices::record(const plugin::Frame& frame, Pair outputs) {
                 .bent = bent ? texture(direction, GRISAILLE_FORMAT_RGBA16F) : grisaille_texture{0}};
   };
   const uint32_t blur = std::max(frame.value<uint32_t>(kDenoiseSize), 1u);
-  const uint32_t reach = edgeReach(frame);
+  const uint32_t reach = blur > 1 ? frame.value<uint32_t>(kEdgeDenoise) : 0;
   history_.keepOnly({frame.value<double>(kRadius), frame.value<double>(kSlices),
                      frame.value<double>(kEdgeSlices), frame.value<double>(kSteps),
                      frame.value<double>(kThickness), frame.value<double>(kBackFaces)});
@@ -185,10 +180,10 @@ void Slices::occlude(const plugin::Frame& frame, Kernels& kernels, Size size, Pa
 
 void Slices::denoise(const plugin::Frame& frame, plugin::PipelineCache& pipelines, Size size,
                      bool columns, uint32_t blur, Pair raw, Pair target) {
-  // Constants 0 ... 3 of shaders/ssao/denoise.glsl.
-  const grisaille_constant constants[] = {
-      plugin::specialize(0, blur), plugin::specialize(1, size.scale),
-      plugin::specialize(2, columns), plugin::specialize(3, edgeReach(frame) > 0)};
+  // Constants 0 ... 2 of shaders/ssao/denoise.glsl.
+  const grisaille_constant constants[] = {plugin::specialize(0, blur),
+                                          plugin::specialize(1, size.scale),
+                                          plugin::specialize(2, columns)};
   Bindings bindings = {plugin::uniform(0, frame.viewBlock()),
                        plugin::uniform(1, frame.uniform(filterBlock(frame))),
                        plugin::texture(0, raw.open, clamped_),

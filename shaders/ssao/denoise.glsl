@@ -13,7 +13,6 @@
 layout(constant_id = 0) const uint kSize = 5u;       // half the width, texels, 1 ... 16
 layout(constant_id = 1) const uint kScale = 1u;      // pixels a texel, each way
 layout(constant_id = 2) const bool kColumn = false;  // down a column, not along a row
-layout(constant_id = 3) const bool kMark = false;    // see kFound
 
 layout(local_size_x = 8, local_size_y = 8) in;
 layout(UNIFORM(1), std140) uniform Settings {
@@ -32,15 +31,10 @@ layout(IMAGE(0), r16f) writeonly uniform image2D target;
 layout(IMAGE(0), rg32f) writeonly uniform image2D target;  // as raw
 #endif
 
-// Texels that find less than this share of the weights, in their row or their column, are marked for
-// edges.glsl: by a view depth under 0.
-const float kFound = 0.97;
-
 // By how much a facet's slope may differ from that of the interpolated normal, as the tangent of an
 // angle, and an eighth of that the slopes to both sides from one another.
 const float kMostBent = 0.5;
 
-// Under 0 where the texel is marked.
 float depthAt(ivec2 texel, vec2 inverse) {
   return textureLod(raw, (vec2(texel) + 0.5) * inverse, 0.0).y;
 }
@@ -66,13 +60,11 @@ void main() {
   const vec2 inverse = 1.0 / vec2(size);
 
   // One component for each texel of the run; planes in tolerances, and the slope a texel.
-  vec4 depths, marks, facing, slope, most;
+  vec4 depths, facing, slope, most;
   [[unroll]] for (int t = 0; t < 4; ++t) {
     const vec2 texel = vec2(first + along * t);
     const vec2 pixel = texel * float(kScale) + 0.5;
-    const float marked = depthAt(first + along * t, inverse);
-    depths[t] = abs(marked);
-    marks[t] = marked < 0.0 ? -1.0 : 1.0;
+    depths[t] = depthAt(first + along * t, inverse);
     const vec3 normal = viewNormal(textureLod(world_normal, attachmentAt(pixel), 0.0).xyz);
     const Plane plane = planeOf(pixel, normal);
     const float tolerance = toleranceAt(depths[t], settings.tolerance);
@@ -81,8 +73,8 @@ void main() {
     most[t] = kMostBent * abs(view.view_from_pixel.x) * float(kScale) * tolerance /
                  max(abs(plane.facing), 0.5);
   }
-  slope = facetSlope(depths, abs(depthAt(first - along, inverse)),
-                     abs(depthAt(first + along * 4, inverse)), facing, slope, most);
+  slope = facetSlope(depths, depthAt(first - along, inverse), depthAt(first + along * 4, inverse),
+                     facing, slope, most);
   vec4 sum = vec4(0.0), weights = vec4(0.0);
 #if BENT
   mat4x3 bent = mat4x3(0.0);
@@ -90,8 +82,7 @@ void main() {
   const int reach = int(kSize) - 1;
   [[unroll]] for (int i = -reach; i < 4 + reach; ++i) {
     const vec2 from = (vec2(first + along * i) + 0.5) * inverse;
-    vec2 other = textureLod(raw, from, 0.0).xy;
-    other.y = abs(other.y);
+    const vec2 other = textureLod(raw, from, 0.0).xy;
     const vec4 k = float(i) - vec4(0.0, 1.0, 2.0, 3.0);
     const vec4 off = abs((other.y - depths) * facing + other.y * (k * slope));
     const vec4 share = max(float(kSize) - abs(k), 0.0) * max(1.0 - off, 0.0);
@@ -106,13 +97,10 @@ void main() {
 #if LAST
   open = finished(open, settings.finish);
 #endif
-  if (kMark) {
-    marks = mix(marks, vec4(-1.0), lessThan(weights, vec4(kFound * float(kSize * kSize))));
-  }
   [[unroll]] for (int t = 0; t < 4; ++t) {
     const ivec2 texel = first + along * t;
     if (any(greaterThanEqual(texel, size))) continue;
-    imageStore(target, texel, vec4(open[t], depths[t] * marks[t], 0.0, 0.0));
+    imageStore(target, texel, vec4(open[t], depths[t], 0.0, 0.0));
 #if BENT
     vec3 mean = bent[t] / max(weights[t], 1e-6);
 #if LAST

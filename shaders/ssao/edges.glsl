@@ -1,8 +1,8 @@
 // SPDX-License-Identifier: MIT
 // Averages what is at an edge along it, where rows and columns find too little of its surface: on a
 // ledge a few texels wide, or next to a crease. Weights fall with the distance, and to 0 at the
-// tolerance as in denoise.glsl, which marks these texels. How much of it counts grows with how clearly
-// what is off the surface's plane lies to the sides of a line.
+// tolerance as in denoise.glsl. How much of it counts grows with how clearly what is off the surface's
+// plane lies to the sides of a line: in a plane nothing changes.
 // LAST is 1 where intensity and power follow and nothing else. With BENT, which is 0 or 1, the mean
 // open directions are averaged alike, and LAST turns them to the world.
 #include "common/view.glsl"
@@ -17,8 +17,7 @@ layout(UNIFORM(1), std140) uniform Settings {
   vec4 finish;
   float tolerance;  // 1 / metres
 } settings;
-// Visibility and view depth, which is under 0 where the texel is marked; nearest, clamped.
-layout(TEXTURE(0)) uniform sampler2D denoised;
+layout(TEXTURE(0)) uniform sampler2D denoised;  // visibility and view depth; nearest, clamped
 layout(TEXTURE(1)) uniform sampler2D world_normal;
 #if BENT
 layout(TEXTURE(2)) uniform sampler2D denoised_bent;
@@ -27,7 +26,7 @@ layout(IMAGE(1), rgba16f) writeonly uniform image2D bent_target;
 #if LAST
 layout(IMAGE(0), r16f) writeonly uniform image2D target;
 #else
-layout(IMAGE(0), rg32f) writeonly uniform image2D target;  // visibility and view depth
+layout(IMAGE(0), rg32f) writeonly uniform image2D target;  // as denoised
 #endif
 
 // The plane of the texel's surface, in tolerances.
@@ -44,19 +43,15 @@ float offSurface(Surface s, float other, vec2 across) {
 }
 
 float depthAt(vec2 at) {
-  return abs(textureLod(denoised, at, 0.0).y);
+  return textureLod(denoised, at, 0.0).y;
 }
 
-// The way along the edge that a marked surface has near by, its larger part 1, and how clear that is, 0
-// to 1: the lesser axis of the second moments of the directions to what is off the plane by half a
-// tolerance, of eight texels a knight's move away.
-//
-// What does nothing is a loop of no rounds, not a branch: software drivers go through the branches that
-// no texel takes.
-vec3 edgeOf(Surface s, bool marked) {
+// The way along the edge that a surface has near by, its larger part 1, and how clear that is, 0 to 1:
+// the lesser axis of the second moments of the directions to what is off the plane by half a tolerance,
+// of eight texels a knight's move away.
+vec3 edgeOf(Surface s) {
   vec2 moments = vec2(0.0);  // cosine and sine of twice the angle
-  const int pairs = marked ? 4 : 0;
-  for (int k = 0; k < pairs; ++k) {
+  [[unroll]] for (int k = 0; k < 4; ++k) {
     const vec2 way = vec2((k & 1) + 1, 2 - (k & 1)) * vec2(1 - (k & 2), 1);
     const float on = offSurface(s, depthAt(s.at + way * s.texel), way);
     const float back = offSurface(s, depthAt(s.at - way * s.texel), -way);
@@ -88,6 +83,7 @@ vec4 alongEdge(Surface s, vec3 edge, vec4 own) {
   float weights = float(kReach + 1u);
   vec4 sum = weights * own;
   const vec2 way = edge.xy;
+  // Not a branch: software drivers go through those that no texel takes.
   const uint reach = edge.z > 0.0 ? kReach : 0u;
   for (uint i = 2u; i <= reach; i += 2u) {
     // Half a texel, and a little, so that no slope of small numbers hangs on a rounding.
@@ -95,8 +91,8 @@ vec4 alongEdge(Surface s, vec3 edge, vec4 own) {
     const vec2 there = s.at + on * s.texel, behind = s.at + back * s.texel;
     const vec2 a = textureLod(denoised, there, 0.0).xy, b = textureLod(denoised, behind, 0.0).xy;
     const float share = float(kReach + 1u - i);
-    const float weightA = weightOf(s, abs(a.y), on, share);
-    const float weightB = weightOf(s, abs(b.y), back, share);
+    const float weightA = weightOf(s, a.y, on, share);
+    const float weightB = weightOf(s, b.y, back, share);
     sum += weightA * texelAt(there, a.x) + weightB * texelAt(behind, b.x);
     weights += weightA + weightB;
   }
@@ -114,14 +110,14 @@ void main() {
   const vec2 pixel = vec2(texel) * float(kScale) + 0.5;
   const vec3 world = textureLod(world_normal, attachmentAt(pixel), 0.0).xyz;
   const Plane plane = planeOf(pixel, viewNormal(world));
-  const float tolerance = toleranceAt(abs(own.y), settings.tolerance);
-  const Surface s = Surface(at, inverse, abs(own.y), plane.facing * tolerance,
+  const float tolerance = toleranceAt(own.y, settings.tolerance);
+  const Surface s = Surface(at, inverse, own.y, plane.facing * tolerance,
                             plane.slope * float(kScale) * tolerance);
-  value = alongEdge(s, edgeOf(s, own.y < 0.0), value);
+  if (own.y > 0.0) value = alongEdge(s, edgeOf(s), value);
 #if LAST
   value.w = finished(vec4(value.w), settings.finish).x;
 #endif
-  imageStore(target, texel, vec4(value.w, abs(own.y), 0.0, 0.0));
+  imageStore(target, texel, vec4(value.w, own.y, 0.0, 0.0));
 #if BENT
 #if LAST
   value.xyz = bentNormal(value.xyz, world);

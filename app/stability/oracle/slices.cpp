@@ -18,7 +18,6 @@ constexpr double kGolden = 0.618034;      // spreads slices, a part of the patte
 constexpr double kPlaneTolerance = 0.05;  // radii
 constexpr double kPlanePixels = 4;        // and no more than so many pixels' width
 constexpr double kMostBent = 0.5;         // of facets from normals, tangent
-constexpr double kFound = 0.97;           // of the weights, less than which is found at edges
 
 // A slice of the hemisphere over a surface. Angles run from the view vector, over 0 on the side of
 // `across`.
@@ -129,10 +128,6 @@ class Slices : public Occlusion {
   glm::dvec3 leavesAt(const Walk& walk, const glm::dvec3& step) const;
   Texel denoised(const std::function<Texel(const glm::ivec2&)>& from, const glm::ivec2& texel,
                  const glm::ivec2& along) const;
-  // Calls for each texel that counts, with its weight; what they weigh together.
-  double weigh(const glm::ivec2& texel, const glm::ivec2& along,
-               const std::function<void(const glm::ivec2&, double)>& add) const;
-  bool isMarked(const glm::ivec2& texel) const;
   Texel alongEdge(const glm::ivec2& texel);
   Texel upsampled(const glm::ivec2& pixel);
 
@@ -339,47 +334,34 @@ double Slices::slopeAlong(const glm::ivec2& texel, const glm::ivec2& along) cons
   return std::max(8 * std::abs(one - two), std::abs(both - byNormal)) < most ? both : byNormal;
 }
 
-double Slices::weigh(const glm::ivec2& texel, const glm::ivec2& along,
-                     const std::function<void(const glm::ivec2&, double)>& add) const {
+Texel Slices::denoised(const std::function<Texel(const glm::ivec2&)>& from, const glm::ivec2& texel,
+                       const glm::ivec2& along) const {
   const int reach = std::max(settings_.denoiseSize, 1);
   const glm::ivec2 surface = texel * settings_.scale;
   const double own = view_.depth(surface);
+  if (own <= 0) return kSky;
   const double facing = glm::dot(view_.normal(surface), view_.ray(glm::dvec2(surface) + 0.5));
   const double slope = slopeAlong(texel, along);
+  Texel sum(0);
   double weights = 0;
   for (int i = 1 - reach; i < reach; ++i) {
-    const glm::ivec2 inside = glm::clamp(texel + along * i, glm::ivec2(0), texels_ - 1);
+    const glm::ivec2 other = texel + along * i;
+    const glm::ivec2 inside = glm::clamp(other, glm::ivec2(0), texels_ - 1);
     const double depth = view_.depth(inside * settings_.scale);
     if (depth <= 0) continue;
     const double off = std::abs((depth - own) * facing + depth * i * slope) / toleranceAt(surface);
     const double weight = (reach - std::abs(i)) * std::max(1 - off, 0.0);
-    add(inside, weight);
+    sum += weight * from(inside);
     weights += weight;
   }
-  return weights;
-}
-
-Texel Slices::denoised(const std::function<Texel(const glm::ivec2&)>& from, const glm::ivec2& texel,
-                       const glm::ivec2& along) const {
-  if (view_.depth(texel * settings_.scale) <= 0) return kSky;
-  Texel sum(0);
-  const double weights =
-      weigh(texel, along, [&](const glm::ivec2& at, double weight) { sum += weight * from(at); });
   return sum / weights;
-}
-
-// Whether a row or a column finds too little.
-bool Slices::isMarked(const glm::ivec2& texel) const {
-  const double all = settings_.denoiseSize * settings_.denoiseSize;
-  const auto nothing = [](const glm::ivec2&, double) {};
-  return std::min(weigh(texel, {1, 0}, nothing), weigh(texel, {0, 1}, nothing)) < kFound * all;
 }
 
 // The mean along the line that what is off the plane lies beside, as far as there is one.
 Texel Slices::alongEdge(const glm::ivec2& texel) {
   const glm::ivec2 surface = texel * settings_.scale;
   const Texel own = columns_(texel);
-  if (view_.depth(surface) <= 0 || !isMarked(texel)) return own;
+  if (view_.depth(surface) <= 0) return own;
   const auto offAt = [&](const glm::ivec2& across) {
     const glm::ivec2 at = glm::clamp(texel + across, glm::ivec2(0), texels_ - 1);
     const double depth = view_.depth(at * settings_.scale);
