@@ -100,15 +100,11 @@ std::vector<size_t> presetsOn(std::span<const Price> front) {
   return chosen;
 }
 
-std::vector<size_t> distinct(std::span<const Price> prices, std::span<const size_t> front) {
+std::vector<size_t> thinned(std::span<const Price> prices, std::span<const size_t> front) {
   std::vector<size_t> kept;
-  for (size_t i = front.size(); i-- > 0;) {
-    const bool last = kept.empty();
-    if (last || prices[kept.back()].cost > kDistinct * prices[front[i]].cost) {
-      kept.push_back(front[i]);
-    }
+  for (const size_t i : front) {
+    if (kept.empty() || prices[i].error < kWorth * prices[kept.back()].error) kept.push_back(i);
   }
-  std::ranges::reverse(kept);
   return kept;
 }
 
@@ -117,7 +113,7 @@ void writePresets(std::span<const Record> records, const std::string& file) {
   const std::string effect = effectOf(choices);
   std::vector<Price> prices, front;
   for (const Choice& choice : choices) prices.push_back(choice.price);
-  const std::vector<size_t> order = distinct(prices, frontOf(prices));
+  const std::vector<size_t> order = thinned(prices, frontOf(prices));
   for (const size_t i : order) front.push_back(prices[i]);
   const std::vector<size_t> chosen = presetsOn(front);
   Presets presets{.study = sentenceOf(records), .all = {}};

@@ -23,11 +23,11 @@ struct Choice {
 // Those settings that every backend of the records has measured, in the order of the records.
 std::vector<Choice> choicesOf(std::span<const Record> records);
 
-// A front without those than which the next dearer one that stays costs less than this much more:
-// clocks do not tell such settings apart, and the dearer one errs less. `front`: as frontOf() gives
-// it.
-constexpr double kDistinct = 1.08;
-std::vector<size_t> distinct(std::span<const Price> prices, std::span<const size_t> front);
+// A front without those that err less than the next cheaper one that stays, but not by a hundredth:
+// they are not worth their price, and which of them is on a front at all, clocks decide. `front`:
+// as frontOf() gives it.
+constexpr double kWorth = 0.99;
+std::vector<size_t> thinned(std::span<const Price> prices, std::span<const size_t> front);
 
 // Indices into a front (by cost, ascending) of kPresetNames. `reference` errs least, at any cost;
 // `fine` is the dearest that costs at most 1 / kReferenceRatio of it, and going down from there
@@ -36,7 +36,7 @@ std::vector<size_t> distinct(std::span<const Price> prices, std::span<const size
 // natural choice, but a front is nearly straight in error and logarithm of cost, and its knees jump
 // from one end to the other with the noise of the clock.) Throws kFrontSmall for fewer than four
 // points.
-constexpr double kReferenceRatio = 5.5, kPresetRatio = 2.5;
+constexpr double kReferenceRatio = 3, kPresetRatio = 2.6;
 std::vector<size_t> presetsOn(std::span<const Price> front);
 
 // Writes the presets of the one effect that the settings are of. Throws kFrontSmall, kUsage where

@@ -156,8 +156,9 @@ constexpr grisaille_param_desc kParams[] = {
     plugin::intParam({.key = "edge_denoise",
                       .label = "Edge denoise",
                       .unit = "px",
-                      .tooltip = "Slices: how far the denoiser goes along edges, where it finds "
-                                 "little to average, in pixels of their resolution; 0: not at all",
+                      .tooltip =
+                          "Slices: how far the denoiser goes along edges, where it finds "
+                          "little to average, in pixels of their resolution; 0 and 1: not at all",
                       .hardMin = 0,
                       .hardMax = 32,
                       .softMin = 0,

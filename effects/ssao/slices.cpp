@@ -107,7 +107,7 @@ void Slices::record(const plugin::Frame& frame, Pair outputs) {
                 .bent = bent ? texture(direction, GRISAILLE_FORMAT_RGBA16F) : grisaille_texture{0}};
   };
   const uint32_t blur = std::max(frame.value<uint32_t>(kDenoiseSize), 1u);
-  const uint32_t reach = blur > 1 ? frame.value<uint32_t>(kEdgeDenoise) : 0;
+  const bool edges = blur > 1 && frame.value<uint32_t>(kEdgeDenoise) > 1;
   history_.keepOnly({frame.value<double>(kRadius), frame.value<double>(kSlices),
                      frame.value<double>(kEdgeSlices), frame.value<double>(kSteps),
                      frame.value<double>(kThickness), frame.value<double>(kBackFaces)});
@@ -126,7 +126,7 @@ void Slices::record(const plugin::Frame& frame, Pair outputs) {
                [&] { denoise(frame, kernels.denoise, size, false, blur, from, spare); });
     from = spare;
   }
-  if (scale == 1 && reach == 0) {
+  if (scale == 1 && !edges) {
     frame.pass("denoise columns",
                [&] { denoise(frame, kernels.denoiseLast, size, true, blur, from, outputs); });
     return;
@@ -136,10 +136,10 @@ void Slices::record(const plugin::Frame& frame, Pair outputs) {
                [&] { denoise(frame, kernels.denoise, size, true, blur, from, raw); });
     from = raw;
   }
-  if (reach > 0) {
-    Pair target = scale == 1 ? outputs : spare;
+  if (edges) {
+    const Pair target = scale == 1 ? outputs : spare;
     frame.pass("denoise edges", [&] {
-      alongEdges(frame, scale == 1 ? kernels.edgesLast : kernels.edges, size, reach, from, target);
+      alongEdges(frame, scale == 1 ? kernels.edgesLast : kernels.edges, size, from, target);
     });
     if (scale == 1) return;
     from = target;
@@ -201,10 +201,11 @@ void Slices::denoise(const plugin::Frame& frame, plugin::PipelineCache& pipeline
 }
 
 void Slices::alongEdges(const plugin::Frame& frame, plugin::PipelineCache& pipelines, Size size,
-                        uint32_t reach, Pair denoised, Pair target) {
+                        Pair denoised, Pair target) {
   // Constants 0 and 1 of shaders/ssao/edges.glsl.
-  const grisaille_constant constants[] = {plugin::specialize(0, reach),
-                                          plugin::specialize(1, size.scale)};
+  const grisaille_constant constants[] = {
+      plugin::specialize(0, frame.value<uint32_t>(kEdgeDenoise)),
+      plugin::specialize(1, size.scale)};
   Bindings bindings = {plugin::uniform(0, frame.viewBlock()),
                        plugin::uniform(1, frame.uniform(filterBlock(frame))),
                        plugin::texture(0, denoised.open, clamped_),

@@ -39,7 +39,7 @@ class Slices {
   void denoise(const plugin::Frame& frame, plugin::PipelineCache& pipelines, Size size,
                bool columns, uint32_t blur, Pair raw, Pair target);
   void alongEdges(const plugin::Frame& frame, plugin::PipelineCache& pipelines, Size size,
-                  uint32_t reach, Pair denoised, Pair target);
+                  Pair denoised, Pair target);
   void upsample(const plugin::Frame& frame, Kernels& kernels, Size size, Pair coarse, Pair target);
 
   Kernels open_, openAndBent_;

@@ -9,7 +9,7 @@
 #include "finish.glsl"
 #include "plane.glsl"
 
-layout(constant_id = 0) const uint kReach = 6u;  // texels to each side, 1 ... 32; every other counts
+layout(constant_id = 0) const uint kReach = 6u;  // texels to each side, 2 ... 32; every other counts
 layout(constant_id = 1) const uint kScale = 1u;  // pixels a texel, each way
 
 layout(local_size_x = 8, local_size_y = 8) in;
@@ -29,17 +29,15 @@ layout(IMAGE(0), r16f) writeonly uniform image2D target;
 layout(IMAGE(0), rg32f) writeonly uniform image2D target;  // as denoised
 #endif
 
-// The plane of the texel's surface, in tolerances.
 struct Surface {
   vec2 at, texel;  // its texture coordinates, and a texel's size in them
-  float depth, facing;
-  vec2 slope;      // a texel
+  float depth;
+  Plane plane;     // in tolerances, and its slope a texel
 };
 
 // How far off the plane what is `across` texels on lies; sky is far off.
 float offSurface(Surface s, float other, vec2 across) {
-  const float off = abs((other - s.depth) * s.facing + other * dot(s.slope, across));
-  return other > 0.0 ? off : 1e9;
+  return other > 0.0 ? offPlane(s.plane, s.depth, other, across) : 1e9;
 }
 
 float depthAt(vec2 at) {
@@ -111,8 +109,8 @@ void main() {
   const vec3 world = textureLod(world_normal, attachmentAt(pixel), 0.0).xyz;
   const Plane plane = planeOf(pixel, viewNormal(world));
   const float tolerance = toleranceAt(own.y, settings.tolerance);
-  const Surface s = Surface(at, inverse, own.y, plane.facing * tolerance,
-                            plane.slope * float(kScale) * tolerance);
+  const Surface s = Surface(at, inverse, own.y, Plane(plane.slope * float(kScale) * tolerance,
+                                                      plane.facing * tolerance));
   if (own.y > 0.0) value = alongEdge(s, edgeOf(s), value);
 #if LAST
   value.w = finished(vec4(value.w), settings.finish).x;

@@ -76,12 +76,13 @@ void main() {
     bent[i] = textureLod(coarse_bent, at, 0.0).xyz;
 #endif
   }
-  // At half resolution the first of the pixels is the first texel's own.
-  mat4 weights = mat4(vec4(depths.x > 0.0 ? 1.0 : 0.0, 0.0, 0.0, 0.0), vec4(0.0), vec4(0.0), vec4(0.0));
+  // A column for each pixel. At half resolution the first pixel is the first texel's own.
+  mat4 weights = mat4(0.0);
+  weights[0].x = depths.x > 0.0 ? 1.0 : 0.0;
   [[unroll]] for (uint i = kScale == 2u ? 1u : 0u; i < 4u; ++i) {
     weights[i] = weightsAt(place + ivec2(i & 1u, i >> 1u), first, depths);
   }
-  // Nothing shuts what has no surface.
+  // Nothing shuts what has no surface, and no weights.
   const vec4 none = vec4(equal(vec4(1.0) * weights, vec4(0.0)));
   const vec4 value = finished(open * weights + none, settings.finish);
   [[unroll]] for (uint i = 0u; i < 4u; ++i) {

@@ -44,31 +44,31 @@ TEST(Presets, AreOnTheFrontAndInOrder) {
 TEST(Presets, EachCostsAtMostItsShareOfTheNext) {
   std::vector<Price> front;
   for (int i = 0; i <= 10; ++i) front.push_back({std::exp2(i), 1 - 0.05 * i});
-  // Of 1024: at most 29.8, 74.5 and 186.2.
-  EXPECT_EQ(presetsOn(front), (std::vector<size_t>{4, 6, 7, 10}));
+  // Of 1024: at most 50.5, 131.3 and 341.3.
+  EXPECT_EQ(presetsOn(front), (std::vector<size_t>{5, 7, 8, 10}));
   // Where nothing is so cheap, spread evenly.
   front = {{40, 0.9}, {45, 0.8}, {50, 0.7}, {60, 0.6}, {100, 0.5}};
   EXPECT_EQ(presetsOn(front), (std::vector<size_t>{0, 1, 3, 4}));
 }
 
-TEST(Presets, SettingsThatClocksDoNotTellApartAreOne) {
-  const std::vector<Price> prices = {{1, 0.9},    {1.05, 0.8},  {2, 0.7},
-                                     {2.1, 0.69}, {2.15, 0.68}, {4, 0.5}};
-  EXPECT_EQ(distinct(prices, frontOf(prices)), (std::vector<size_t>{1, 4, 5}));
+TEST(Presets, WhatErrsHardlyLessIsNotWorthItsPrice) {
+  const std::vector<Price> prices = {{1, 0.9}, {1.05, 0.8},   {2, 0.797},
+                                     {3, 0.6}, {3.1, 0.5999}, {4, 0.5941}};
+  EXPECT_EQ(thinned(prices, frontOf(prices)), (std::vector<size_t>{0, 1, 3}));
 }
 
-// Each of these is near the next one: what is left is apart, and no gap is left that was not there.
-TEST(Presets, AChainOfNearCostsIsThinnedOut) {
+// Each of these errs a little less than the one before: together they are worth their price.
+TEST(Presets, AChainOfNearErrorsIsThinnedOut) {
   std::vector<Price> prices;
-  double cost = 1;
-  for (int i = 0; i < 40; ++i, cost *= 1.05) prices.push_back({.cost = cost, .error = 1 / cost});
-  const std::vector<size_t> kept = distinct(prices, frontOf(prices));
+  double error = 1;
+  for (int i = 0; i < 40; ++i, error *= 0.994) prices.push_back({1.0 + i, error});
+  const std::vector<size_t> kept = thinned(prices, frontOf(prices));
   ASSERT_GT(kept.size(), 10u);
-  EXPECT_EQ(kept.back(), 39u);
+  EXPECT_EQ(kept.front(), 0u);
   for (size_t i = 1; i < kept.size(); ++i) {
-    const double ratio = prices[kept[i]].cost / prices[kept[i - 1]].cost;
-    EXPECT_GT(ratio, kDistinct);
-    EXPECT_LT(ratio, kDistinct * kDistinct);
+    const double ratio = prices[kept[i]].error / prices[kept[i - 1]].error;
+    EXPECT_LT(ratio, kWorth);
+    EXPECT_GT(ratio, kWorth * kWorth);
   }
 }
 
