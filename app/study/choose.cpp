@@ -6,6 +6,7 @@
 #include <algorithm>
 #include <cmath>
 #include <map>
+#include <ranges>
 #include <set>
 
 #include "core/error.h"
@@ -101,10 +102,14 @@ std::vector<size_t> presetsOn(std::span<const Price> front) {
 }
 
 std::vector<size_t> thinned(std::span<const Price> prices, std::span<const size_t> front) {
-  std::vector<size_t> kept;
+  std::vector<size_t> worth, kept;
   for (const size_t i : front) {
-    if (kept.empty() || prices[i].error < kWorth * prices[kept.back()].error) kept.push_back(i);
+    if (worth.empty() || prices[i].error < kWorth * prices[worth.back()].error) worth.push_back(i);
   }
+  for (const size_t i : std::views::reverse(worth)) {
+    if (kept.empty() || prices[kept.back()].cost > kDistinct * prices[i].cost) kept.push_back(i);
+  }
+  std::ranges::reverse(kept);
   return kept;
 }
 

@@ -23,10 +23,11 @@ struct Choice {
 // Those settings that every backend of the records has measured, in the order of the records.
 std::vector<Choice> choicesOf(std::span<const Record> records);
 
-// A front without those that err less than the next cheaper one that stays, but not by a hundredth:
-// they are not worth their price, and which of them is on a front at all, clocks decide. `front`:
-// as frontOf() gives it.
-constexpr double kWorth = 0.99;
+// A front without the settings that are not worth their price, which err less than the next cheaper
+// one that stays by under a hundredth; and, of those left, without those than which the next dearer
+// one that stays costs less than kDistinct more, since clocks do not tell these apart. `front`: as
+// frontOf() gives it.
+constexpr double kWorth = 0.99, kDistinct = 1.08;
 std::vector<size_t> thinned(std::span<const Price> prices, std::span<const size_t> front);
 
 // Indices into a front (by cost, ascending) of kPresetNames. `reference` errs least, at any cost;

@@ -52,21 +52,35 @@ TEST(Presets, EachCostsAtMostItsShareOfTheNext) {
 }
 
 TEST(Presets, WhatErrsHardlyLessIsNotWorthItsPrice) {
-  const std::vector<Price> prices = {{1, 0.9}, {1.05, 0.8},   {2, 0.797},
-                                     {3, 0.6}, {3.1, 0.5999}, {4, 0.5941}};
+  const std::vector<Price> prices = {{1, 0.9}, {2, 0.8}, {3, 0.797}, {4, 0.6}, {5, 0.5999}};
   EXPECT_EQ(thinned(prices, frontOf(prices)), (std::vector<size_t>{0, 1, 3}));
 }
 
-// Each of these errs a little less than the one before: together they are worth their price.
-TEST(Presets, AChainOfNearErrorsIsThinnedOut) {
-  std::vector<Price> prices;
-  double error = 1;
-  for (int i = 0; i < 40; ++i, error *= 0.994) prices.push_back({1.0 + i, error});
-  const std::vector<size_t> kept = thinned(prices, frontOf(prices));
-  ASSERT_GT(kept.size(), 10u);
-  EXPECT_EQ(kept.front(), 0u);
-  for (size_t i = 1; i < kept.size(); ++i) {
-    const double ratio = prices[kept[i]].error / prices[kept[i - 1]].error;
+TEST(Presets, SettingsThatClocksDoNotTellApartAreOne) {
+  const std::vector<Price> prices = {{1, 0.9},    {1.05, 0.8},  {2, 0.7},
+                                     {2.1, 0.69}, {2.15, 0.68}, {4, 0.5}};
+  EXPECT_EQ(thinned(prices, frontOf(prices)), (std::vector<size_t>{1, 4, 5}));
+}
+
+// Each of these is near the next one: what is left is apart, and no gap is left that was not there.
+TEST(Presets, AChainOfNearPricesIsThinnedOut) {
+  std::vector<Price> costs, errors;
+  for (int i = 0; i < 40; ++i) {
+    costs.push_back({.cost = std::pow(1.05, i), .error = std::pow(1.05, -i)});
+    errors.push_back({.cost = std::pow(1.2, i), .error = std::pow(0.994, i)});
+  }
+  const std::vector<size_t> apart = thinned(costs, frontOf(costs));
+  const std::vector<size_t> worth = thinned(errors, frontOf(errors));
+  ASSERT_GT(std::min(apart.size(), worth.size()), 10u);
+  EXPECT_EQ(apart.back(), 39u);
+  for (size_t i = 1; i < apart.size(); ++i) {
+    const double ratio = costs[apart[i]].cost / costs[apart[i - 1]].cost;
+    EXPECT_GT(ratio, kDistinct);
+    EXPECT_LT(ratio, kDistinct * kDistinct);
+  }
+  EXPECT_EQ(worth.front(), 0u);
+  for (size_t i = 1; i < worth.size(); ++i) {
+    const double ratio = errors[worth[i]].error / errors[worth[i - 1]].error;
     EXPECT_LT(ratio, kWorth);
     EXPECT_GT(ratio, kWorth * kWorth);
   }

@@ -15,7 +15,7 @@ class TuneTest : public WindowTest {
  protected:
   // A narrow picture, which is soon traced.
   std::vector<std::string> narrow(std::vector<std::string> more = {}) const {
-    std::vector<std::string> all = {"--backend", GetParam(), "--size", "440x1640"};
+    std::vector<std::string> all = {"--backend", GetParam(), "--size", "440x1680"};
     all.insert(all.end(), more.begin(), more.end());
     return all;
   }

@@ -11,7 +11,7 @@
 namespace grisaille::tests {
 
 // High enough for the whole panel, with a narrow picture beside it: software draws it.
-inline constexpr const char* kWindow = "500x1640";
+inline constexpr const char* kWindow = "500x1680";
 
 class WindowTest : public testing::TestWithParam<std::string> {
  protected:
