@@ -6,7 +6,6 @@
 #include <algorithm>
 #include <cmath>
 #include <map>
-#include <ranges>
 #include <set>
 
 #include "core/error.h"
@@ -106,7 +105,8 @@ std::vector<size_t> thinned(std::span<const Price> prices, std::span<const size_
   for (const size_t i : front) {
     if (worth.empty() || prices[i].error < kWorth * prices[worth.back()].error) worth.push_back(i);
   }
-  for (const size_t i : std::views::reverse(worth)) {
+  for (size_t k = worth.size(); k-- > 0;) {
+    const size_t i = worth[k];
     if (kept.empty() || prices[kept.back()].cost > kDistinct * prices[i].cost) kept.push_back(i);
   }
   std::ranges::reverse(kept);

@@ -37,8 +37,8 @@ TEST(Sweep, HasEveryKindOfCase) {
   for (const char* group :
        {"near plane", "field of view", "orthographic", "camera far from the world's origin",
         "near a wall", "scene's scale", "plane", "right angle", "size", "kernel", "radius, m",
-        "bias, m", "blur larger than the picture, px", "blur along edges, px", "odd scene", "odd depths", "paint range, m",
-        "shot", "at random"}) {
+        "bias, m", "blur larger than the picture, px", "blur along edges, px", "odd scene",
+        "odd depths", "paint range, m", "shot", "at random"}) {
     EXPECT_TRUE(groups.contains(group)) << group;
   }
 }

@@ -172,8 +172,8 @@ TEST_P(TuneTest, ASearchEndsWithTheWindow) {
   for (const std::string& name : folder_.files()) EXPECT_FALSE(name.starts_with("grisaille-tune"));
   // Its arguments name the test's folder; the brackets keep the search from finding itself. What
   // ends while it is read is passed over: grep would say so with a status of its own.
-  const std::string search = "cat /proc/[0-9]*/cmdline 2>&- | grep -qa '" +
-                             folder_.path().string() + "/grisaille-[t]une'";
+  const std::string search =
+      "cat /proc/[0-9]*/cmdline 2>&- | grep -qa '" + folder_.path().string() + "/grisaille-[t]une'";
   EXPECT_EQ(runShell(search, folder_.path()).status, 1);
 }
 
