@@ -178,24 +178,29 @@ void Slices::occlude(const plugin::Frame& frame, Kernels& kernels, Size size, Pa
   dispatch(frame, kernels.occlusion.get(constants), bindings, size.width, size.height);
 }
 
+// As shaders/ssao/denoise.glsl and edges.glsl have them.
+Bindings Slices::filterBindings(const plugin::Frame& frame, Pair from, Pair target) const {
+  Bindings bindings = {plugin::uniform(0, frame.viewBlock()),
+                       plugin::uniform(1, frame.uniform(filterBlock(frame))),
+                       plugin::texture(0, from.open, clamped_),
+                       plugin::texture(1, frame.attachment(GRISAILLE_NORMAL), clamped_),
+                       plugin::image(0, target.open)};
+  if (target.bent.id != 0) {
+    bindings.add(plugin::texture(2, from.bent, clamped_));
+    bindings.add(plugin::image(1, target.bent));
+  }
+  return bindings;
+}
+
 void Slices::denoise(const plugin::Frame& frame, plugin::PipelineCache& pipelines, Size size,
                      bool columns, uint32_t blur, Pair raw, Pair target) {
   // Constants 0 ... 2 of shaders/ssao/denoise.glsl.
   const grisaille_constant constants[] = {plugin::specialize(0, blur),
                                           plugin::specialize(1, size.scale),
                                           plugin::specialize(2, columns)};
-  Bindings bindings = {plugin::uniform(0, frame.viewBlock()),
-                       plugin::uniform(1, frame.uniform(filterBlock(frame))),
-                       plugin::texture(0, raw.open, clamped_),
-                       plugin::texture(1, frame.attachment(GRISAILLE_NORMAL), clamped_),
-                       plugin::image(0, target.open)};
-  if (target.bent.id != 0) {
-    bindings.add(plugin::texture(2, raw.bent, clamped_));
-    bindings.add(plugin::image(1, target.bent));
-  }
   // A run of texels an invocation, along the row or the column.
   constexpr uint32_t kRun = 4;
-  dispatch(frame, pipelines.get(constants), bindings,
+  dispatch(frame, pipelines.get(constants), filterBindings(frame, raw, target),
            columns ? size.width : plugin::groupsFor(size.width, kRun),
            columns ? plugin::groupsFor(size.height, kRun) : size.height);
 }
@@ -206,16 +211,8 @@ void Slices::alongEdges(const plugin::Frame& frame, plugin::PipelineCache& pipel
   const grisaille_constant constants[] = {
       plugin::specialize(0, frame.value<uint32_t>(kEdgeDenoise)),
       plugin::specialize(1, size.scale)};
-  Bindings bindings = {plugin::uniform(0, frame.viewBlock()),
-                       plugin::uniform(1, frame.uniform(filterBlock(frame))),
-                       plugin::texture(0, denoised.open, clamped_),
-                       plugin::texture(1, frame.attachment(GRISAILLE_NORMAL), clamped_),
-                       plugin::image(0, target.open)};
-  if (target.bent.id != 0) {
-    bindings.add(plugin::texture(2, denoised.bent, clamped_));
-    bindings.add(plugin::image(1, target.bent));
-  }
-  dispatch(frame, pipelines.get(constants), bindings, size.width, size.height);
+  dispatch(frame, pipelines.get(constants), filterBindings(frame, denoised, target), size.width,
+           size.height);
 }
 
 void Slices::upsample(const plugin::Frame& frame, Kernels& kernels, Size size, Pair coarse,

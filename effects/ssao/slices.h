@@ -4,6 +4,7 @@
 // picture's.
 #pragma once
 
+#include "dispatch.h"
 #include "grisaille/effect.hpp"
 #include "history.h"
 
@@ -36,6 +37,7 @@ class Slices {
   };
 
   void occlude(const plugin::Frame& frame, Kernels& kernels, Size size, Pair target);
+  Bindings filterBindings(const plugin::Frame& frame, Pair from, Pair target) const;
   void denoise(const plugin::Frame& frame, plugin::PipelineCache& pipelines, Size size,
                bool columns, uint32_t blur, Pair raw, Pair target);
   void alongEdges(const plugin::Frame& frame, plugin::PipelineCache& pipelines, Size size,
