@@ -58,14 +58,19 @@ std::string resultsOf(std::span<const Record> records) {
 }
 
 std::string pageOf(const fs::path& folder, std::span<const Record> records) {
-  json all = json::array();
+  json all = json::array(), kinds = json::array();
+  for (const Kind& kind : kindsOf(records)) {
+    kinds.push_back({{"name", kind.name}, {"records", kind.records}});
+  }
   for (const Record& r : records) {
     json one = jsonOf(r);
     one["picture"] = pictureUrl(pictureOf(folder, r));
     one["error_map"] = pictureUrl(errorMapOf(folder, r));
     all.push_back(std::move(one));
   }
-  std::string data = json{{"records", all}, {"truth", pictureUrl(truthPictureOf(folder))}}.dump();
+  std::string data =
+      json{{"records", all}, {"kinds", kinds}, {"truth", pictureUrl(truthPictureOf(folder))}}
+          .dump();
   // Nothing in it may end the script element.
   for (size_t at = 0; (at = data.find("</", at)) != std::string::npos; at += 3) {
     data.replace(at, 2, "<\\/");

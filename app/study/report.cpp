@@ -29,7 +29,7 @@ std::string plotScript(const fs::path& folder, std::span<const Record> records) 
   constexpr const char* kColours[] = {"#0072B2", "#D55E00"};
   std::string script =
       "set logscale x\nset xlabel 'cost of the effects, ms'\n"
-      "set ylabel 'RMSE against ray-traced truth'\nset grid\nset key top right\n";
+      "set ylabel 'RMSE against ray-traced truth'\nset grid\nset key top right noenhanced\n";
   std::string plot = "plot ", data;
   size_t number = 0;
   for (const std::string& backend : backendsOf(records)) {
@@ -45,6 +45,13 @@ std::string plotScript(const fs::path& folder, std::span<const Record> records) 
         "'-' with linespoints pt 7 lw 2 lc rgb '{}' title '{}: front'",
         number > 1 ? ", " : "", colour, backend, colour, backend);
     data += rows(records, all) + rows(records, paretoFront(records, backend));
+    for (const Kind& kind : kindsOf(records)) {
+      const std::vector<size_t> own = ownFront(records, backend, kind);
+      if (own.empty()) continue;
+      plot += fmt::format(", '-' with linespoints pt 7 ps 0.5 dt 2 lc rgb '{}' title '{}: {}'",
+                          colour, backend, kind.name);
+      data += rows(records, own);
+    }
   }
   if (number == 0) return "";
   for (const auto& [terminal, file] :
@@ -153,6 +160,50 @@ std::vector<size_t> paretoFront(std::span<const Record> records, const std::stri
     prices.push_back({.cost = known ? r.cost() : 0, .error = r.rmse()});
   }
   return frontOf(prices);
+}
+
+std::vector<Kind> kindsOf(std::span<const Record> records) {
+  std::vector<std::pair<std::vector<std::string>, Kind>> kinds;
+  std::vector<Setting> shared;  // of each kind, and of all
+  const auto keepShared = [](Setting& all, const Setting& one) {
+    std::erase_if(all, [&](const auto& value) { return !std::ranges::count(one, value); });
+  };
+  Setting everywhere = records.empty() ? Setting() : records.front().setting;
+  for (size_t i = 0; i < records.size(); ++i) {
+    const Setting& setting = records[i].setting;
+    std::vector<std::string> names;
+    for (const auto& [name, value] : setting) names.push_back(name);
+    std::ranges::sort(names);
+    auto own = std::ranges::find(kinds, names, [](const auto& kind) { return kind.first; });
+    if (own == kinds.end()) {
+      shared.push_back(setting);
+      own = kinds.insert(kinds.end(), {names, {}});
+    }
+    own->second.records.push_back(i);
+    keepShared(shared[static_cast<size_t>(own - kinds.begin())], setting);
+    keepShared(everywhere, setting);
+  }
+  std::vector<Kind> all;
+  for (size_t k = 0; k < kinds.size(); ++k) {
+    std::erase_if(shared[k], [&](const auto& v) { return std::ranges::count(everywhere, v) > 0; });
+    kinds[k].second.name =
+        shared[k].empty() ? fmt::format("{}", fmt::join(kinds[k].first, ", ")) : nameOf(shared[k]);
+    all.push_back(std::move(kinds[k].second));
+  }
+  return all;
+}
+
+std::vector<size_t> ownFront(std::span<const Record> records, const std::string& backend,
+                             const Kind& kind) {
+  std::vector<Price> prices(records.size());
+  for (const size_t i : kind.records) {
+    const Record& r = records[i];
+    if (r.backend != backend || r.errors.empty()) continue;
+    prices[i] = {.cost = r.cost(), .error = r.rmse()};
+  }
+  const std::vector<size_t> own = frontOf(prices), whole = paretoFront(records, backend);
+  const auto isOnWhole = [&](size_t i) { return std::ranges::count(whole, i) > 0; };
+  return std::ranges::all_of(own, isOnWhole) ? std::vector<size_t>() : own;
 }
 
 void writeReport(const fs::path& folder) {

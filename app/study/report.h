@@ -5,6 +5,7 @@
 
 #include <filesystem>
 #include <span>
+#include <string>
 #include <vector>
 
 #include "app/study/record.h"
@@ -26,7 +27,22 @@ std::vector<size_t> frontOf(std::span<const Price> prices);
 // Of one backend's records, by cost() and rmse().
 std::vector<size_t> paretoFront(std::span<const Record> records, const std::string& backend);
 
-// Of one folder's records; each backend has a front of its own. Throws kFileUnwritable. Without
+// Records whose settings name the same parameters, as those of one estimator do.
+struct Kind {
+  std::string name;  // what they share of their settings and others do not, else the parameters
+  std::vector<size_t> records;
+};
+
+// In the order they first come.
+std::vector<Kind> kindsOf(std::span<const Record> records);
+
+// The front of one backend's records of a kind, by cost() and rmse(). Empty where the backend's
+// whole front holds it, which then says as much.
+std::vector<size_t> ownFront(std::span<const Record> records, const std::string& backend,
+                             const Kind& kind);
+
+// Of one folder's records; each backend has a front of its own, and
+// each kind of setting that is not on it. Throws kFileUnwritable. Without
 // gnuplot there are no plots, and a note on standard error says so.
 void writeReport(const std::filesystem::path& folder);
 

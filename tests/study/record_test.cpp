@@ -78,5 +78,30 @@ TEST(ParetoFront, HoldsAllThatNothingBeats) {
   EXPECT_TRUE(paretoFront({}, "null").empty());
 }
 
+// Another estimator's settings have a front of their own, unless it is the whole one.
+TEST(ParetoFront, EachKindOfSettingHasItsOwn) {
+  std::vector<Record> records;
+  const auto add = [&](Setting setting, double cost, double error) {
+    setting.emplace_back("ssao.radius", "1");
+    records.push_back(record(cost, error));
+    records.back().setting = std::move(setting);
+  };
+  add({{"ssao.estimator", "new"}, {"ssao.steps", "1"}}, 1, 0.5);
+  add({{"ssao.estimator", "old"}, {"ssao.size", "1"}, {"ssao.blur", "box"}}, 2, 0.75);
+  add({{"ssao.steps", "2"}, {"ssao.estimator", "new"}}, 2, 0.25);
+  add({{"ssao.estimator", "old"}, {"ssao.size", "2"}, {"ssao.blur", "box"}}, 4, 0.625);
+  add({{"ssao.estimator", "old"}, {"ssao.size", "3"}, {"ssao.blur", "box"}}, 5, 0.875);
+  const std::vector<Kind> kinds = kindsOf(records);
+  ASSERT_EQ(kinds.size(), 2u);
+  EXPECT_EQ(kinds[0].name, "estimator=new");
+  EXPECT_EQ(kinds[1].name, "estimator=old blur=box");
+  EXPECT_EQ(kinds[1].records, (std::vector<size_t>{1, 3, 4}));
+  EXPECT_EQ(paretoFront(records, "null"), (std::vector<size_t>{0, 2}));
+  EXPECT_TRUE(ownFront(records, "null", kinds[0]).empty());
+  EXPECT_EQ(ownFront(records, "null", kinds[1]), (std::vector<size_t>{1, 3}));
+  EXPECT_TRUE(ownFront(records, "vulkan", kinds[1]).empty());
+  EXPECT_TRUE(kindsOf({}).empty());
+}
+
 }  // namespace
 }  // namespace grisaille::app::study
