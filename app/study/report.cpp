@@ -24,12 +24,23 @@ std::string rows(std::span<const Record> records, const std::vector<size_t>& cho
   return text + "e\n";
 }
 
+// No price: the record is another backend's, or not whole.
+std::vector<Price> pricesOn(std::span<const Record> records, const std::string& backend) {
+  std::vector<Price> prices;
+  for (const Record& r : records) {
+    const bool known = r.backend == backend && !r.errors.empty();
+    prices.push_back({.cost = known ? r.cost() : 0, .error = r.rmse()});
+  }
+  return prices;
+}
+
 // A script that draws both pictures.
 std::string plotScript(const fs::path& folder, std::span<const Record> records) {
   constexpr const char* kColours[] = {"#0072B2", "#D55E00"};
   std::string script =
       "set logscale x\nset xlabel 'cost of the effects, ms'\n"
       "set ylabel 'RMSE against ray-traced truth'\nset grid\nset key top right noenhanced\n";
+  const std::vector<Kind> kinds = kindsOf(records);
   std::string plot = "plot ", data;
   size_t number = 0;
   for (const std::string& backend : backendsOf(records)) {
@@ -45,7 +56,7 @@ std::string plotScript(const fs::path& folder, std::span<const Record> records) 
         "'-' with linespoints pt 7 lw 2 lc rgb '{}' title '{}: front'",
         number > 1 ? ", " : "", colour, backend, colour, backend);
     data += rows(records, all) + rows(records, paretoFront(records, backend));
-    for (const Kind& kind : kindsOf(records)) {
+    for (const Kind& kind : kinds) {
       const std::vector<size_t> own = ownFront(records, backend, kind);
       if (own.empty()) continue;
       plot += fmt::format(", '-' with linespoints pt 7 ps 0.5 dt 2 lc rgb '{}' title '{}: {}'",
@@ -154,17 +165,12 @@ std::vector<size_t> frontOf(std::span<const Price> prices) {
 }
 
 std::vector<size_t> paretoFront(std::span<const Record> records, const std::string& backend) {
-  std::vector<Price> prices;
-  for (const Record& r : records) {
-    const bool known = r.backend == backend && !r.errors.empty();
-    prices.push_back({.cost = known ? r.cost() : 0, .error = r.rmse()});
-  }
-  return frontOf(prices);
+  return frontOf(pricesOn(records, backend));
 }
 
 std::vector<Kind> kindsOf(std::span<const Record> records) {
   std::vector<std::pair<std::vector<std::string>, Kind>> kinds;
-  std::vector<Setting> shared;  // of each kind, and of all
+  std::vector<Setting> shared;  // of each kind
   const auto keepShared = [](Setting& all, const Setting& one) {
     std::erase_if(all, [&](const auto& value) { return !std::ranges::count(one, value); });
   };
@@ -187,7 +193,7 @@ std::vector<Kind> kindsOf(std::span<const Record> records) {
   for (size_t k = 0; k < kinds.size(); ++k) {
     std::erase_if(shared[k], [&](const auto& v) { return std::ranges::count(everywhere, v) > 0; });
     kinds[k].second.name =
-        shared[k].empty() ? fmt::format("{}", fmt::join(kinds[k].first, ", ")) : nameOf(shared[k]);
+        shared[k].empty() ? fmt::to_string(fmt::join(kinds[k].first, ", ")) : nameOf(shared[k]);
     all.push_back(std::move(kinds[k].second));
   }
   return all;
@@ -195,13 +201,10 @@ std::vector<Kind> kindsOf(std::span<const Record> records) {
 
 std::vector<size_t> ownFront(std::span<const Record> records, const std::string& backend,
                              const Kind& kind) {
-  std::vector<Price> prices(records.size());
-  for (const size_t i : kind.records) {
-    const Record& r = records[i];
-    if (r.backend != backend || r.errors.empty()) continue;
-    prices[i] = {.cost = r.cost(), .error = r.rmse()};
-  }
-  const std::vector<size_t> own = frontOf(prices), whole = paretoFront(records, backend);
+  const std::vector<Price> all = pricesOn(records, backend);
+  std::vector<Price> prices(all.size());
+  for (const size_t i : kind.records) prices[i] = all[i];
+  const std::vector<size_t> own = frontOf(prices), whole = frontOf(all);
   const auto isOnWhole = [&](size_t i) { return std::ranges::count(whole, i) > 0; };
   return std::ranges::all_of(own, isOnWhole) ? std::vector<size_t>() : own;
 }

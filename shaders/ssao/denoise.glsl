@@ -6,37 +6,18 @@
 // open directions are averaged alike, and LAST turns them to the world.
 //
 // One invocation does a run of 4 texels, which share most of what they average.
-#include "common/view.glsl"
-#include "finish.glsl"
-#include "plane.glsl"
+#include "filter.glsl"
 
 layout(constant_id = 0) const uint kSize = 5u;       // half the width, texels, 1 ... 16
 layout(constant_id = 1) const uint kScale = 1u;      // pixels a texel, each way
 layout(constant_id = 2) const bool kColumn = false;  // down a column, not along a row
-
-layout(local_size_x = 8, local_size_y = 8) in;
-layout(UNIFORM(1), std140) uniform Settings {
-  vec4 finish;
-  float tolerance;  // 1 / metres
-} settings;
-layout(TEXTURE(0)) uniform sampler2D raw;  // visibility and view depth; nearest, clamped
-layout(TEXTURE(1)) uniform sampler2D world_normal;
-#if BENT
-layout(TEXTURE(2)) uniform sampler2D raw_bent;
-layout(IMAGE(1), rgba16f) writeonly uniform image2D bent_target;
-#endif
-#if LAST
-layout(IMAGE(0), r16f) writeonly uniform image2D target;
-#else
-layout(IMAGE(0), rg32f) writeonly uniform image2D target;  // as raw
-#endif
 
 // By how much a facet's slope may differ from that of the interpolated normal, as the tangent of an
 // angle, and an eighth of that the slopes to both sides from one another.
 const float kMostBent = 0.5;
 
 float depthAt(ivec2 texel, vec2 inverse) {
-  return textureLod(raw, (vec2(texel) + 0.5) * inverse, 0.0).y;
+  return textureLod(source, (vec2(texel) + 0.5) * inverse, 0.0).y;
 }
 
 // Surfaces are made of facets, whose planes interpolated normals miss: weights that follow the normal
@@ -82,7 +63,7 @@ void main() {
   const int reach = int(kSize) - 1;
   [[unroll]] for (int i = -reach; i < 4 + reach; ++i) {
     const vec2 from = (vec2(first + along * i) + 0.5) * inverse;
-    const vec2 other = textureLod(raw, from, 0.0).xy;
+    const vec2 other = textureLod(source, from, 0.0).xy;
     const vec4 k = float(i) - vec4(0.0, 1.0, 2.0, 3.0);
     const vec4 off = abs((other.y - depths) * facing + other.y * (k * slope));
     const vec4 share = max(float(kSize) - abs(k), 0.0) * max(1.0 - off, 0.0);
@@ -90,7 +71,7 @@ void main() {
     sum += weight * other.x;
     weights += weight;
 #if BENT
-    bent += outerProduct(textureLod(raw_bent, from, 0.0).xyz, weight);
+    bent += outerProduct(textureLod(source_bent, from, 0.0).xyz, weight);
 #endif
   }
   vec4 open = mix(vec4(1.0), sum / max(weights, 1e-6), greaterThan(depths, vec4(0.0)));

@@ -5,29 +5,10 @@
 // plane lies to the sides of a line: in a plane nothing changes.
 // LAST is 1 where intensity and power follow and nothing else. With BENT, which is 0 or 1, the mean
 // open directions are averaged alike, and LAST turns them to the world.
-#include "common/view.glsl"
-#include "finish.glsl"
-#include "plane.glsl"
+#include "filter.glsl"
 
 layout(constant_id = 0) const uint kReach = 6u;  // texels to each side, 2 ... 32; every other counts
 layout(constant_id = 1) const uint kScale = 1u;  // pixels a texel, each way
-
-layout(local_size_x = 8, local_size_y = 8) in;
-layout(UNIFORM(1), std140) uniform Settings {
-  vec4 finish;
-  float tolerance;  // 1 / metres
-} settings;
-layout(TEXTURE(0)) uniform sampler2D denoised;  // visibility and view depth; nearest, clamped
-layout(TEXTURE(1)) uniform sampler2D world_normal;
-#if BENT
-layout(TEXTURE(2)) uniform sampler2D denoised_bent;
-layout(IMAGE(1), rgba16f) writeonly uniform image2D bent_target;
-#endif
-#if LAST
-layout(IMAGE(0), r16f) writeonly uniform image2D target;
-#else
-layout(IMAGE(0), rg32f) writeonly uniform image2D target;  // as denoised
-#endif
 
 struct Surface {
   vec2 at, texel;  // its texture coordinates, and a texel's size in them
@@ -41,7 +22,7 @@ float offSurface(Surface s, float other, vec2 across) {
 }
 
 float depthAt(vec2 at) {
-  return textureLod(denoised, at, 0.0).y;
+  return textureLod(source, at, 0.0).y;
 }
 
 // The way along the edge that a surface has near by, its larger part 1, and how clear that is, 0 to 1:
@@ -71,7 +52,7 @@ float weightOf(Surface s, float other, vec2 across, float share) {
 // Visibility there, and the open direction where it is asked for.
 vec4 texelAt(vec2 at, float open) {
 #if BENT
-  return vec4(textureLod(denoised_bent, at, 0.0).xyz, open);
+  return vec4(textureLod(source_bent, at, 0.0).xyz, open);
 #else
   return vec4(0.0, 0.0, 0.0, open);
 #endif
@@ -87,7 +68,7 @@ vec4 alongEdge(Surface s, vec3 edge, vec4 own) {
     // Half a texel, and a little, so that no slope of small numbers hangs on a rounding.
     const vec2 on = floor(way * float(i) + 0.501), back = floor(way * -float(i) + 0.501);
     const vec2 there = s.at + on * s.texel, behind = s.at + back * s.texel;
-    const vec2 a = textureLod(denoised, there, 0.0).xy, b = textureLod(denoised, behind, 0.0).xy;
+    const vec2 a = textureLod(source, there, 0.0).xy, b = textureLod(source, behind, 0.0).xy;
     const float share = float(kReach + 1u - i);
     const float weightA = weightOf(s, a.y, on, share);
     const float weightB = weightOf(s, b.y, back, share);
@@ -103,7 +84,7 @@ void main() {
   if (any(greaterThanEqual(texel, size))) return;
   const vec2 inverse = 1.0 / vec2(size);
   const vec2 at = (vec2(texel) + 0.5) * inverse;
-  const vec2 own = textureLod(denoised, at, 0.0).xy;
+  const vec2 own = textureLod(source, at, 0.0).xy;
   vec4 value = texelAt(at, own.x);
   const vec2 pixel = vec2(texel) * float(kScale) + 0.5;
   const vec3 world = textureLod(world_normal, attachmentAt(pixel), 0.0).xyz;

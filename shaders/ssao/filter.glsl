@@ -1,0 +1,22 @@
+// SPDX-License-Identifier: MIT
+// What denoise.glsl and edges.glsl read and write.
+#include "common/view.glsl"
+#include "finish.glsl"
+#include "plane.glsl"
+
+layout(local_size_x = 8, local_size_y = 8) in;
+layout(UNIFORM(1), std140) uniform Settings {
+  vec4 finish;
+  float tolerance;  // 1 / metres
+} settings;
+layout(TEXTURE(0)) uniform sampler2D source;  // visibility and view depth; nearest, clamped
+layout(TEXTURE(1)) uniform sampler2D world_normal;
+#if BENT
+layout(TEXTURE(2)) uniform sampler2D source_bent;
+layout(IMAGE(1), rgba16f) writeonly uniform image2D bent_target;
+#endif
+#if LAST
+layout(IMAGE(0), r16f) writeonly uniform image2D target;
+#else
+layout(IMAGE(0), rg32f) writeonly uniform image2D target;  // as source
+#endif
