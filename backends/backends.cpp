@@ -10,8 +10,8 @@ namespace grisaille::backends {
 namespace {
 
 constexpr Backend kBackends[] = {
-    {"opengl", "OpenGL", opengl::listDevices, opengl::createDevice, opengl::hintWindow},
-    {"vulkan", "Vulkan", vulkan::listDevices, vulkan::createDevice, vulkan::hintWindow}};
+    {"opengl", "OpenGL", opengl::listDevices, opengl::createDevice},
+    {"vulkan", "Vulkan", vulkan::listDevices, vulkan::createDevice}};
 
 #ifdef NDEBUG
 constexpr bool kAlwaysCheck = false;

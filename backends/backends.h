@@ -18,10 +18,6 @@ struct Backend {
   // Both throw kBackendMissing where the driver library is not there.
   std::vector<gpu::ListedDevice> (*list)();
   std::unique_ptr<gpu::Device> (*create)(const gpu::DeviceOptions& options);
-  // Sets all of GLFW's hints to what the window of a device of this backend needs. `check` as in
-  // DeviceOptions. The caller adds its own hints, makes the window and destroys it after the
-  // device.
-  void (*hintWindow)(bool check);
 };
 
 std::span<const Backend> all();

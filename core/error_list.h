@@ -113,6 +113,7 @@ GRISAILLE_ERROR(kSettingsInvalid, 5104, "correct the line that the message names
 GRISAILLE_ERROR(kViewerState, 5105, "nothing needs doing; the viewer starts with its defaults")
 GRISAILLE_ERROR(kTruthUnknown, 5106,
                 "name ao, ao_error, ceiling, ceiling_error, depth, normal or mask")
+GRISAILLE_ERROR(kLeftOut, 5107, "build it again with the option that the message names")
 // --- 52xx: the viewer
 GRISAILLE_ERROR(kNoDisplay, 5201, "start it on a desktop, or use `grisaille render`")
 GRISAILLE_ERROR(kWindowFailed, 5202, "update the driver or choose another --backend")

@@ -87,7 +87,7 @@ void Viewer::tryBackend(const backends::Backend& backend) {
   device.check = options_.check;
   device.timed = true;
   device.message = options_.message;
-  device.window = window->handle();
+  device.window = window->surface();
   device_ = backends::create(backend.name, device);
   window_ = std::move(window);
   backend_ = backend.name;

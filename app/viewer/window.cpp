@@ -35,12 +35,13 @@ WindowLibrary::~WindowLibrary() {
 }
 
 Window::Window(const backends::Backend& backend, bool check, glm::uvec2 size) {
-  backend.hintWindow(check);
+  glfw::hintWindow(backend.name, check);
   window_ = glfwCreateWindow(static_cast<int>(size.x), static_cast<int>(size.y), "Grisaille",
                              nullptr, nullptr);
   if (window_ == nullptr) {
     throw Error(ErrorId::kWindowFailed, "no window for {}: {}", backend.label, lastError());
   }
+  surface_.emplace(window_);
   glfwSetWindowUserPointer(window_, this);
   setCallbacks();
 }

@@ -5,10 +5,12 @@
 #include <array>
 #include <deque>
 #include <glm/glm.hpp>
+#include <optional>
 #include <string>
 #include <vector>
 
 #include "backends/backends.h"
+#include "backends/glfw/window.h"
 
 struct GLFWwindow;
 
@@ -31,7 +33,8 @@ class Window {
   Window(const Window&) = delete;
   Window& operator=(const Window&) = delete;
 
-  GLFWwindow* handle() const { return window_; }
+  // As a device sees it.
+  backends::Window* surface() { return &*surface_; }
   glm::uvec2 pixels() const;  // of the picture that fills it; 0 while it is minimised
   glm::uvec2 size() const;    // in the desktop's units
   float scale() const;        // the display's: text and measures are to be so much larger
@@ -65,6 +68,7 @@ class Window {
   bool feed(const Event& event, std::vector<int>& touched);
 
   GLFWwindow* window_ = nullptr;
+  std::optional<glfw::Window> surface_;
   std::deque<Event> events_;
   std::vector<std::string> dropped_;
   bool woken_ = true;

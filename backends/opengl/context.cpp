@@ -3,11 +3,6 @@
 
 #include <epoxy/egl.h>
 
-#define GLFW_EXPOSE_NATIVE_EGL
-#define GLFW_INCLUDE_NONE
-#include <GLFW/glfw3.h>
-#include <GLFW/glfw3native.h>
-
 #include <vector>
 
 #include "core/error.h"
@@ -55,17 +50,15 @@ Context::Context(void* display, ContextKind kind) : display_(display) {
   }
 }
 
-Context::Context(GLFWwindow* window)
-    : display_(glfwGetEGLDisplay()),
-      context_(glfwGetEGLContext(window)),
-      surface_(glfwGetEGLSurface(window)) {
+Context::Context(backends::Window& window) {
+  const backends::Window::EglHandles handles = window.makeEglCurrent();
+  display_ = handles.display;
+  context_ = handles.context;
+  surface_ = handles.surface;
   if (display_ == EGL_NO_DISPLAY || context_ == EGL_NO_CONTEXT || surface_ == EGL_NO_SURFACE) {
     throw Error(ErrorId::kDeviceFailed, "the window has no OpenGL context of EGL");
   }
-  // Not by EGL alone, since GLFW has to know it for the swap interval.
-  glfwMakeContextCurrent(window);
   makeCurrent();
-  glfwSwapInterval(1);
 }
 
 Context::~Context() {

@@ -3,7 +3,7 @@
 // API header: EGL's handles are pointers and OpenGL's names 32-bit numbers.
 #pragma once
 
-struct GLFWwindow;
+#include "backends/window.h"
 
 namespace grisaille::opengl {
 
@@ -20,7 +20,7 @@ class Context {
   // Throws kDeviceFailed. `display` is an initialised EGLDisplay.
   Context(void* display, ContextKind kind);
   // Borrows the window's own, of EGL, and makes it current. Throws kDeviceFailed.
-  explicit Context(GLFWwindow* window);
+  explicit Context(backends::Window& window);
   ~Context();
   Context(const Context&) = delete;
   Context& operator=(const Context&) = delete;

@@ -107,7 +107,7 @@ GlDevice::GlDevice(const Adapter& adapter, const gpu::DeviceOptions& options)
 GlDevice::GlDevice(const gpu::DeviceOptions& options)
     : sink_(orStandardError(options.message)),
       check_(options.check),
-      context_(options.window),
+      context_(*options.window),
       window_(options.window) {
   const Adapter adapter = currentAdapter();
   requireVersion(adapter);

@@ -18,7 +18,4 @@ std::unique_ptr<gpu::Device> createDevice(const gpu::DeviceOptions& options);
 // In the context that is current, another program's. Throws kHostContext, kDeviceTooOld.
 std::unique_ptr<gpu::HostDevice> createHostDevice();
 
-// Sets GLFW's hints for the window of such a device.
-void hintWindow(bool check);
-
 }  // namespace grisaille::opengl

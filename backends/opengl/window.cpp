@@ -3,29 +3,9 @@
 
 #include <epoxy/gl.h>
 
-#define GLFW_INCLUDE_NONE
-#include <GLFW/glfw3.h>
-
 #include <algorithm>
 
-#include "backends/opengl/opengl.h"
-
 namespace grisaille::opengl {
-
-void hintWindow(bool check) {
-  glfwDefaultWindowHints();
-  glfwWindowHint(GLFW_CLIENT_API, GLFW_OPENGL_API);
-  glfwWindowHint(GLFW_CONTEXT_CREATION_API, GLFW_EGL_CONTEXT_API);
-  glfwWindowHint(GLFW_CONTEXT_VERSION_MAJOR, 4);
-  glfwWindowHint(GLFW_CONTEXT_VERSION_MINOR, 5);
-  glfwWindowHint(GLFW_OPENGL_PROFILE, GLFW_OPENGL_CORE_PROFILE);
-  glfwWindowHint(GLFW_OPENGL_DEBUG_CONTEXT, check ? GLFW_TRUE : GLFW_FALSE);
-  glfwWindowHint(GLFW_ALPHA_BITS, 0);  // what is drawn shows nothing of what is behind
-  glfwWindowHint(GLFW_DEPTH_BITS, 0);
-  glfwWindowHint(GLFW_STENCIL_BITS, 0);
-  glfwWindowHint(GLFW_SRGB_CAPABLE, GLFW_FALSE);  // pictures come encoded
-  glfwWindowHint(GLFW_DOUBLEBUFFER, GLFW_TRUE);
-}
 
 namespace {
 
@@ -57,10 +37,9 @@ bool Window::show(Context& context, Resources& resources, gpu::Texture picture) 
   constexpr int kAttempts = 3;  // while the size goes on changing
   bool settled = false;
   for (int i = 0; i < kAttempts && !settled; ++i) {
-    int width = 0, height = 0;
-    glfwGetFramebufferSize(window_, &width, &height);
-    const bool iconified = glfwGetWindowAttrib(window_, GLFW_ICONIFIED) != 0;
-    if (width <= 0 || height <= 0 || iconified) return false;
+    const backends::Window::Size size = window_->size();
+    if (size.width == 0 || size.height == 0) return false;
+    const int width = static_cast<int>(size.width), height = static_cast<int>(size.height);
     copy(resources, picture, width, height);
     if (!context.swap()) return false;
     settled = width == width_ && height == height_;

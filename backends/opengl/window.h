@@ -4,18 +4,19 @@
 
 #include "backends/opengl/context.h"
 #include "backends/opengl/resources.h"
+#include "backends/window.h"
 
 namespace grisaille::opengl {
 
 class Window {
  public:
-  explicit Window(GLFWwindow* window) : window_(window) {}
+  explicit Window(backends::Window* window) : window_(window) {}
 
   // Device::present(), in the window's context, which is current.
   bool show(Context& context, Resources& resources, gpu::Texture picture);
 
  private:
-  GLFWwindow* window_;
+  backends::Window* window_;
   int width_ = 0, height_ = 0;  // pixels, at the last swap
 };
 

@@ -7,9 +7,9 @@
 
 namespace grisaille::vulkan {
 
-Context::Context(bool check, const gpu::MessageSink& message, GLFWwindow* window)
+Context::Context(bool check, const gpu::MessageSink& message, backends::Window* window)
     : instance_(check, message,
-                window == nullptr ? std::span<const char* const>() : surfaceExtensions()) {
+                window == nullptr ? std::span<const char* const>() : surfaceExtensions(*window)) {
   if (window != nullptr) surface_.emplace(instance_, window);
 }
 

@@ -55,7 +55,7 @@ class Context {
 
  private:
   // Delegated to, so that the destructor runs when the public constructor throws.
-  Context(bool check, const gpu::MessageSink& message, GLFWwindow* window);
+  Context(bool check, const gpu::MessageSink& message, backends::Window* window);
   void open(const Candidate& chosen);
   void describe(const Candidate& chosen);
   void setName(VkObjectType type, uint64_t object, std::string_view label) const;

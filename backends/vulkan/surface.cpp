@@ -1,30 +1,17 @@
 // SPDX-License-Identifier: MIT
 #include "backends/vulkan/surface.h"
 
-#define GLFW_INCLUDE_NONE
-#include <GLFW/glfw3.h>
-
-#include <algorithm>
-
-#include "backends/vulkan/vulkan.h"
-
 namespace grisaille::vulkan {
 
-void hintWindow(bool /*check*/) {
-  glfwDefaultWindowHints();
-  glfwWindowHint(GLFW_CLIENT_API, GLFW_NO_API);
-}
-
-std::span<const char* const> surfaceExtensions() {
-  uint32_t count = 0;
-  const char** names = glfwGetRequiredInstanceExtensions(&count);
-  if (names == nullptr) {
+std::span<const char* const> surfaceExtensions(const backends::Window& window) {
+  const std::span<const char* const> names = window.instanceExtensions();
+  if (names.empty()) {
     throw Error(ErrorId::kBackendMissing, "no Vulkan driver here shows pictures in a window");
   }
-  return {names, count};
+  return names;
 }
 
-Surface::Surface(const Instance& instance, GLFWwindow* window)
+Surface::Surface(const Instance& instance, backends::Window* window)
     : instance_(instance), window_(window) {
   renew();
 }
@@ -36,15 +23,13 @@ Surface::~Surface() {
 void Surface::renew() {
   if (surface_ != VK_NULL_HANDLE) functions().destroy(instance_.handle(), surface_, nullptr);
   surface_ = VK_NULL_HANDLE;
-  check(glfwCreateWindowSurface(instance_.handle(), window_, nullptr, &surface_),
-        "glfwCreateWindowSurface (was the window made for Vulkan?)");
+  check(static_cast<VkResult>(window_->createSurface(instance_.handle(), &surface_)),
+        "making the window's surface (was the window made for Vulkan?)");
 }
 
 VkExtent2D Surface::size() const {
-  int width = 0, height = 0;
-  glfwGetFramebufferSize(window_, &width, &height);
-  if (width <= 0 || height <= 0 || glfwGetWindowAttrib(window_, GLFW_ICONIFIED) != 0) return {};
-  return {static_cast<uint32_t>(width), static_cast<uint32_t>(height)};
+  const backends::Window::Size size = window_->size();
+  return {size.width, size.height};
 }
 
 }  // namespace grisaille::vulkan

@@ -5,18 +5,17 @@
 #include <span>
 
 #include "backends/vulkan/instance.h"
-
-struct GLFWwindow;
+#include "backends/window.h"
 
 namespace grisaille::vulkan {
 
-// The instance extensions that GLFW's windows need. Throws kBackendMissing.
-std::span<const char* const> surfaceExtensions();
+// The instance extensions that the window's surface needs. Throws kBackendMissing.
+std::span<const char* const> surfaceExtensions(const backends::Window& window);
 
 class Surface {
  public:
-  // The window was made with hintWindow(). Throws kDeviceFailed.
-  Surface(const Instance& instance, GLFWwindow* window);
+  // The window was made for Vulkan. Throws kDeviceFailed.
+  Surface(const Instance& instance, backends::Window* window);
   ~Surface();
   Surface(const Surface&) = delete;
   Surface& operator=(const Surface&) = delete;
@@ -32,7 +31,7 @@ class Surface {
 
  private:
   const Instance& instance_;
-  GLFWwindow* window_;
+  backends::Window* window_;
   VkSurfaceKHR surface_ = VK_NULL_HANDLE;
 };
 

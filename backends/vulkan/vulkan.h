@@ -30,7 +30,4 @@ struct HostHandles {
 // Throws kHostDevice, kBackendMissing, kDeviceTooOld, kDeviceFailed.
 std::unique_ptr<gpu::HostDevice> createHostDevice(const HostHandles& handles);
 
-// Sets GLFW's hints for the window of such a device.
-void hintWindow(bool check);
-
 }  // namespace grisaille::vulkan

@@ -15,7 +15,9 @@
 
 #include "core/gpu/types.h"
 
-struct GLFWwindow;
+namespace grisaille::backends {
+class Window;  // backends/window.h
+}
 
 namespace grisaille::gpu {
 
@@ -35,8 +37,8 @@ struct DeviceOptions {
   bool check = false;        // the API's own validation, where it is installed
   bool timed = false;        // time every pass; on software drivers this waits for each
   MessageSink message = {};  // none: standard error
-  // Made after the backend's hintWindow(); outlives the device, which then is of the main thread.
-  GLFWwindow* window = nullptr;  // null: a device that needs no display
+  // Outlives the device, which then belongs to the main thread.
+  backends::Window* window = nullptr;  // null: a device that needs no display
 };
 
 class Commands {

@@ -17,7 +17,7 @@ constexpr float kBehind = 0x1p-10f;
 
 // What a query's filter needs to know. Embree hands back the base.
 struct Query {
-  RTCIntersectContext base;
+  embree::Context base;
   float margin = 0;
   const ThinRay* rays = nullptr;  // by the rays' ids
   Met* met = nullptr;
@@ -64,8 +64,7 @@ void traceTogether(RTCScene world, Query& query, uint32_t firstId, size_t count)
     packet.hit.geomID[i] = RTC_INVALID_GEOMETRY_ID;
     packet.hit.instID[0][i] = RTC_INVALID_GEOMETRY_ID;
   }
-  query.base.flags = RTC_INTERSECT_CONTEXT_FLAG_COHERENT;
-  rtcIntersect16(valid.data(), world, &query.base, &packet);
+  embree::intersect16(valid.data(), world, query.base, keepNearest, packet);
 }
 
 // Of the first rays, those that are worth tracing with the very first.
@@ -80,17 +79,10 @@ size_t together(std::span<const ThinRay> rays, float spread) {
   return count;
 }
 
-Query makeQuery(float margin, const ThinRay* rays, Met* met) {
-  Query query = {.base = {}, .margin = margin, .rays = rays, .met = met};
-  rtcInitIntersectContext(&query.base);
-  query.base.filter = keepNearest;
-  return query;
-}
-
 }  // namespace
 
 void NearestTriangles::findAll(std::span<const ThinRay> rays, std::span<Met> met) const {
-  Query query = makeQuery(margin_, rays.data(), met.data());
+  Query query = {.base = {}, .margin = margin_, .rays = rays.data(), .met = met.data()};
   std::ranges::fill(met, Met());
   uint32_t first = 0;
   while (first < rays.size()) {
@@ -102,7 +94,7 @@ void NearestTriangles::findAll(std::span<const ThinRay> rays, std::span<Met> met
 
 Met NearestTriangles::find(const ThinRay& ray) const {
   Met met;
-  Query query = makeQuery(margin_, &ray, &met);
+  Query query = {.base = {}, .margin = margin_, .rays = &ray, .met = &met};
   traceTogether(world_, query, 0, 1);
   return met;
 }

@@ -3,12 +3,12 @@
 // are traced together, which costs a fraction of tracing each alone.
 #pragma once
 
-#include <embree3/rtcore.h>
-
 #include <cmath>
 #include <cstdint>
 #include <glm/glm.hpp>
 #include <span>
+
+#include "core/trace/embree.h"
 
 namespace grisaille::trace {
 

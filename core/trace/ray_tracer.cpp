@@ -1,8 +1,6 @@
 // SPDX-License-Identifier: MIT
 #include "core/trace/ray_tracer.h"
 
-#include <embree3/rtcore.h>
-
 #include <algorithm>
 #include <array>
 #include <cmath>
@@ -133,10 +131,8 @@ std::vector<Hit> RayTracer::castPrimary(const scene::Camera& camera, uint32_t wi
     RTCRayHit ray =
         makeRay(glm::vec3(eye), glm::vec3(direction), static_cast<float>(camera.nearPlane),
                 std::numeric_limits<float>::infinity());
-    RTCIntersectContext context;
-    rtcInitIntersectContext(&context);
-    context.filter = TracedScene::passBackFaces;
-    rtcIntersect1(impl_->traced.world(), &context, &ray);
+    embree::Context context;
+    embree::intersect1(impl_->traced.world(), context, TracedScene::passBackFaces, ray);
     if (ray.hit.geomID == RTC_INVALID_GEOMETRY_ID) return;
     impl_->see(impl_->traced.triangle(ray.hit.geomID, ray.hit.primID), eye, direction, hit);
   });
@@ -268,12 +264,11 @@ void RayTracer::addOcclusion(std::span<const Hit> hits, double radius, uint32_t 
     const double reach = glm::max(glm::max(std::abs(position.x), std::abs(position.y)),
                                   glm::max(std::abs(position.z), double{hit.facetReach}));
     const glm::vec3 start(position + 2e-6 * reach * hit.facetNormal);
-    RTCIntersectContext context;
-    rtcInitIntersectContext(&context);
+    embree::Context context;
     countRays(hit, seed, from, to, counts[i], [&](const glm::vec3& direction) {
       RTCRayHit ray = makeRay(start, direction, 0.0f, static_cast<float>(radius));
-      rtcOccluded1(impl_->traced.world(), &context, &ray.ray);
-      return ray.ray.tfar >= 0;  // Embree makes it minus infinity when blocked
+      embree::occluded1(impl_->traced.world(), context, ray.ray);
+      return ray.ray.tfar >= 0;
     });
   });
 }

@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: MIT
 #include "core/trace/traced_scene.h"
 
+#include <algorithm>
 #include <cmath>
 
 #include "core/error.h"
@@ -45,8 +46,8 @@ TracedScene::TracedScene(const scene::Scene& scene, const glm::dvec3& origin)
   try {
     throwOnFailure("start for");
     world_ = rtcNewScene(device_);
-    rtcSetSceneFlags(world_, static_cast<RTCSceneFlags>(RTC_SCENE_FLAG_ROBUST |
-                                                        RTC_SCENE_FLAG_CONTEXT_FILTER_FUNCTION));
+    rtcSetSceneFlags(world_,
+                     static_cast<RTCSceneFlags>(RTC_SCENE_FLAG_ROBUST | embree::kFilterOfQuery));
     rtcSetSceneBuildQuality(world_, RTC_BUILD_QUALITY_HIGH);
     for (uint32_t id = 0; id < buckets_.size(); ++id) attach(id, buckets_[id]);
     rtcCommitScene(world_);

@@ -2,8 +2,6 @@
 // A scene inside Embree, and the double precision truth about each of its triangles.
 #pragma once
 
-#include <embree3/rtcore.h>
-
 #include <array>
 #include <glm/glm.hpp>
 #include <optional>
@@ -11,6 +9,7 @@
 
 #include "core/scene/scene.h"
 #include "core/trace/alpha_mask.h"
+#include "core/trace/embree.h"
 
 namespace grisaille::trace {
 
@@ -46,7 +45,7 @@ class TracedScene {
   TracedScene(const TracedScene&) = delete;
   TracedScene& operator=(const TracedScene&) = delete;
 
-  // Holes let every ray through. Back faces block unless a query's context asks for passBackFaces.
+  // Holes let every ray through. Back faces block, except in a query whose filter is passBackFaces.
   RTCScene world() const { return world_; }
   static void passBackFaces(const RTCFilterFunctionNArguments* args);
 

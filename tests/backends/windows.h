@@ -6,9 +6,11 @@
 #include <GLFW/glfw3.h>
 
 #include <chrono>
+#include <deque>
 #include <thread>
 
 #include "backends/backends.h"
+#include "backends/glfw/window.h"
 #include "tests/support/devices.h"
 #include "tests/support/display.h"
 
@@ -34,7 +36,7 @@ class WindowTest : public ::testing::TestWithParam<std::string> {
   }
 
   GLFWwindow* makeWindow(uint32_t width, uint32_t height, const std::string& backend = GetParam()) {
-    backends::find(backend).hintWindow(true);
+    glfw::hintWindow(backend, true);
     glfwWindowHint(GLFW_DECORATED, GLFW_FALSE);
     GLFWwindow* window = glfwCreateWindow(static_cast<int>(width), static_cast<int>(height), "test",
                                           nullptr, nullptr);
@@ -42,13 +44,13 @@ class WindowTest : public ::testing::TestWithParam<std::string> {
     glfwSetWindowPos(window, 0, 0);
     return window;
   }
-  static gpu::DeviceOptions optionsFor(GLFWwindow* window) {
+  gpu::DeviceOptions optionsFor(GLFWwindow* window) {
     gpu::DeviceOptions options;
     options.check = true;
     options.message = [](gpu::Severity severity, std::string_view text) {
       ADD_FAILURE() << "severity " << static_cast<int>(severity) << ": " << text;
     };
-    options.window = window;
+    options.window = &surfaces_.emplace_back(window);
     return options;
   }
 
@@ -131,6 +133,7 @@ class WindowTest : public ::testing::TestWithParam<std::string> {
  private:
   std::unique_ptr<Display> display_;
   GLFWwindow* window_ = nullptr;
+  std::deque<glfw::Window> surfaces_;  // as devices see windows; both kinds outlive devices
   std::unique_ptr<gpu::Device> device_;
 };
 

@@ -34,8 +34,9 @@ const std::vector<Room>& rooms() {
       {"core/frame",
        {"core/effect/", "core/gpu/", "core/image/", "core/scene/", "grisaille/", "shaders/"}},
       {"backends", {"backends/opengl/opengl.h", "backends/vulkan/vulkan.h", "core/gpu/"}},
-      {"backends/opengl", {"core/gpu/"}},
-      {"backends/vulkan", {"core/gpu/"}},
+      {"backends/glfw", {"backends/window.h"}},
+      {"backends/opengl", {"backends/window.h", "core/gpu/"}},
+      {"backends/vulkan", {"backends/window.h", "core/gpu/"}},
       {"host",
        {"backends/opengl/opengl.h", "backends/vulkan/vulkan.h", "core/effect/", "core/gpu/",
         "core/frame/view_block.h", "core/scene/camera.h", "core/shots/shot.h", "grisaille/",
@@ -47,7 +48,8 @@ const std::vector<Room>& rooms() {
       {"app/stability", {"core/", "grisaille/", "app/"}},
       {"app/stability/oracle", {"core/image/", "core/scene/", "grisaille/"}},
       {"app/study", {"core/", "grisaille/", "app/", "backends/backends.h"}},
-      {"app/viewer", {"backends/backends.h", "core/", "grisaille/", "app/", "shaders/"}},
+      {"app/viewer",
+       {"backends/backends.h", "backends/glfw/window.h", "core/", "grisaille/", "app/", "shaders/"}},
   };
   return kRooms;
 }

@@ -1,0 +1,93 @@
+# SPDX-License-Identifier: MIT
+# The libraries and tools that a build needs. All that is missing is named at once, each with what
+# needs it and the Debian package that holds it; then CMake stops.
+
+set_property(GLOBAL PROPERTY GRISAILLE_MISSING "")
+
+# grisaille_found(VARIABLE NAME PACKAGE REASON): notes NAME as missing unless the variable is true.
+function(grisaille_found variable name package reason)
+  if(NOT ${variable})
+    set_property(GLOBAL APPEND_STRING PROPERTY GRISAILLE_MISSING
+      "\n  ${name}, for ${reason}: Debian's ${package}")
+    set_property(GLOBAL APPEND PROPERTY GRISAILLE_MISSING_PACKAGES ${package})
+  endif()
+endfunction()
+
+# A CMake package. Its targets are visible to the folder that calls.
+macro(grisaille_package name package reason)
+  find_package(${name} QUIET ${ARGN})
+  grisaille_found(${name}_FOUND ${name} ${package} "${reason}")
+endmacro()
+
+# A pkg-config module, as the target PkgConfig::PREFIX.
+macro(grisaille_module prefix module package reason)
+  if(PKG_CONFIG_FOUND)
+    pkg_check_modules(${prefix} QUIET IMPORTED_TARGET ${module})
+  endif()
+  grisaille_found(${prefix}_FOUND ${module} ${package} "${reason}")
+endmacro()
+
+# A header of a library that has no file for CMake or pkg-config.
+function(grisaille_header variable header package reason)
+  find_path(${variable} ${header})
+  mark_as_advanced(${variable})
+  grisaille_found(${variable} ${header} ${package} "${reason}")
+endfunction()
+
+# Stops where anything is missing.
+function(grisaille_require_found)
+  get_property(missing GLOBAL PROPERTY GRISAILLE_MISSING)
+  get_property(packages GLOBAL PROPERTY GRISAILLE_MISSING_PACKAGES)
+  if(NOT missing)
+    return()
+  endif()
+  list(REMOVE_DUPLICATES packages)
+  list(JOIN packages " " packages)
+  message(FATAL_ERROR
+    "Grisaille does not find on this machine:${missing}\n"
+    "On Debian or Ubuntu: sudo apt install ${packages}\n"
+    "Or leave parts out: -DGRISAILLE_VIEWER=OFF, -DGRISAILLE_TRUTH=OFF, -DGRISAILLE_TESTS=OFF.")
+endfunction()
+
+grisaille_package(PkgConfig pkg-config "the build, which finds libraries with it")
+grisaille_package(Threads libc6-dev "threads")
+grisaille_package(fmt libfmt-dev "text")
+grisaille_package(glm libglm-dev "vectors")
+grisaille_package(CLI11 libcli11-dev "the command line")
+grisaille_package(nlohmann_json nlohmann-json3-dev "JSON")
+grisaille_package(TinyGLTF libtinygltf-dev "glTF scenes")
+grisaille_package(TBB libtbb-dev "work on all cores")
+grisaille_module(EPOXY epoxy libepoxy-dev "the OpenGL backend")
+grisaille_module(EGL egl libegl-dev "the OpenGL backend")
+grisaille_header(VOLK_HEADER volk.h libvulkan-volk-dev "the Vulkan backend")
+grisaille_header(VULKAN_HEADER vulkan/vulkan.h libvulkan-dev "the Vulkan backend")
+grisaille_module(TOMLPLUSPLUS tomlplusplus libtomlplusplus-dev "settings files")
+# OpenImageIO's CMake config names a folder that Debian does not have; its pkg-config file is sound.
+grisaille_module(OPENIMAGEIO OpenImageIO libopenimageio-dev "pictures")
+grisaille_module(SPIRV_CROSS spirv-cross-c-shared libspirv-cross-c-shared-dev "compiling shaders")
+find_program(GRISAILLE_GLSLC glslc)
+grisaille_found(GRISAILLE_GLSLC glslc glslc "compiling shaders")
+
+if(GRISAILLE_TRUTH)
+  # Either major release will do: core/trace/embree.h knows both.
+  find_package(embree 4 QUIET)
+  if(NOT embree_FOUND)
+    find_package(embree 3.13 QUIET)
+  endif()
+  grisaille_found(embree_FOUND "Embree 3.13 or 4" libembree-dev "rays through the scene (GRISAILLE_TRUTH)")
+endif()
+
+if(GRISAILLE_VIEWER)
+  grisaille_package(glfw3 libglfw3-dev "windows (GRISAILLE_VIEWER)" 3.3)
+  grisaille_module(IMGUI imgui libimgui-dev "the panel (GRISAILLE_VIEWER)")
+  # Debian's libimgui leaves it to its users to link stb; elsewhere Dear ImGui has its own copy.
+  find_library(STB_LIBRARY stb)
+  mark_as_advanced(STB_LIBRARY)
+endif()
+
+if(GRISAILLE_TESTS)
+  grisaille_package(GTest libgtest-dev "the tests (GRISAILLE_TESTS)")
+  grisaille_module(XCB xcb libxcb1-dev "windows in tests (GRISAILLE_TESTS)")
+endif()
+
+grisaille_require_found()

@@ -1,0 +1,86 @@
+// SPDX-License-Identifier: MIT
+// Embree 3 or 4: the one place that knows which. Everything else of Embree that this room uses is
+// the same in both. CMake defines GRISAILLE_EMBREE_MAJOR.
+#pragma once
+
+#if GRISAILLE_EMBREE_MAJOR >= 4
+#include <embree4/rtcore.h>
+#else
+#include <embree3/rtcore.h>
+#endif
+
+namespace grisaille::trace::embree {
+
+#if GRISAILLE_EMBREE_MAJOR >= 4
+
+using Context = RTCRayQueryContext;
+// The scene calls the filter of a query, after the filter of the geometry.
+constexpr RTCSceneFlags kFilterOfQuery = RTC_SCENE_FLAG_FILTER_FUNCTION_IN_ARGUMENTS;
+
+template <typename Arguments>
+void fill(Arguments& arguments, Context& context, RTCFilterFunctionN filter) {
+  rtcInitRayQueryContext(&context);
+  arguments.context = &context;
+  arguments.filter = filter;
+  if (filter != nullptr) arguments.flags = RTC_RAY_QUERY_FLAG_INVOKE_ARGUMENT_FILTER;
+}
+
+#else
+
+using Context = RTCIntersectContext;
+constexpr RTCSceneFlags kFilterOfQuery = RTC_SCENE_FLAG_CONTEXT_FILTER_FUNCTION;
+
+inline void fill(Context& context, RTCFilterFunctionN filter) {
+  rtcInitIntersectContext(&context);
+  context.filter = filter;
+}
+
+#endif
+
+// The three queries. Each sets up `context`, which Embree hands to `filter`: put it first in a
+// struct to hand over more. `filter` may be null.
+
+inline void intersect1(RTCScene scene, Context& context, RTCFilterFunctionN filter,
+                       RTCRayHit& ray) {
+#if GRISAILLE_EMBREE_MAJOR >= 4
+  RTCIntersectArguments arguments;
+  rtcInitIntersectArguments(&arguments);
+  fill(arguments, context, filter);
+  rtcIntersect1(scene, &ray, &arguments);
+#else
+  fill(context, filter);
+  rtcIntersect1(scene, &context, &ray);
+#endif
+}
+
+// Rays that run close together. `valid`: 16 values, -1 for each ray that counts, else 0; aligned to
+// 64 bytes.
+inline void intersect16(const int* valid, RTCScene scene, Context& context,
+                        RTCFilterFunctionN filter, RTCRayHit16& rays) {
+#if GRISAILLE_EMBREE_MAJOR >= 4
+  RTCIntersectArguments arguments;
+  rtcInitIntersectArguments(&arguments);
+  fill(arguments, context, filter);
+  arguments.flags = static_cast<RTCRayQueryFlags>(arguments.flags | RTC_RAY_QUERY_FLAG_COHERENT);
+  rtcIntersect16(valid, scene, &rays, &arguments);
+#else
+  fill(context, filter);
+  context.flags = RTC_INTERSECT_CONTEXT_FLAG_COHERENT;
+  rtcIntersect16(valid, scene, &context, &rays);
+#endif
+}
+
+// Embree makes `ray.tfar` minus infinity where something blocks the ray.
+inline void occluded1(RTCScene scene, Context& context, RTCRay& ray) {
+#if GRISAILLE_EMBREE_MAJOR >= 4
+  RTCOccludedArguments arguments;
+  rtcInitOccludedArguments(&arguments);
+  fill(arguments, context, nullptr);
+  rtcOccluded1(scene, &ray, &arguments);
+#else
+  fill(context, nullptr);
+  rtcOccluded1(scene, &context, &ray);
+#endif
+}
+
+}  // namespace grisaille::trace::embree

@@ -1,0 +1,43 @@
+// SPDX-License-Identifier: MIT
+// In place of ray_tracer.cpp where a build has no Embree: a tracer cannot be made.
+#include "core/error.h"
+#include "core/trace/ray_tracer.h"
+
+namespace grisaille::trace {
+
+struct RayTracer::Impl {};
+
+RayTracer::RayTracer(const scene::Scene& /*scene*/, const glm::dvec3& /*origin*/) {
+  throw Error(ErrorId::kLeftOut,
+              "this build casts no rays through the scene: GRISAILLE_TRUTH was off");
+}
+
+RayTracer::~RayTracer() = default;
+
+// Never called, since there is no tracer.
+
+std::vector<Hit> RayTracer::castPrimary(const scene::Camera& /*camera*/, uint32_t /*width*/,
+                                        uint32_t /*height*/,
+                                        std::span<const glm::uvec2> /*pixels*/) const {
+  return {};
+}
+
+std::vector<Hit> RayTracer::castPrimary(const scene::Camera& /*camera*/, uint32_t /*width*/,
+                                        uint32_t /*height*/) const {
+  return {};
+}
+
+void RayTracer::castRays(std::span<const grisaille_ray> /*rays*/,
+                         std::span<grisaille_hit> /*hits*/) const {}
+
+void RayTracer::addOcclusion(std::span<const Hit> /*hits*/, double /*radius*/, uint32_t /*seed*/,
+                             uint32_t /*from*/, uint32_t /*to*/,
+                             std::span<OcclusionCounts> /*counts*/) const {}
+
+std::vector<Visibility> RayTracer::ambientOcclusion(std::span<const Hit> /*hits*/,
+                                                    double /*radius*/, uint32_t /*samples*/,
+                                                    uint32_t /*seed*/) const {
+  return {};
+}
+
+}  // namespace grisaille::trace
