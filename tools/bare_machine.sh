@@ -1,47 +1,68 @@
 #!/usr/bin/env bash
 # SPDX-License-Identifier: MIT
-# bare_machine.sh package|run [FOLDER]: what this project does on a bare Debian 12, in a root folder
-# of its own that debootstrap makes in FOLDER (default: a temporary one, removed afterwards; one that
-# is there is used again).
-#   package  installs build/grisaille_*.deb with apt and nothing else, renders on both backends from
-#            several folders, then adds what the package suggests and takes the time from
-#            `new-effect` to a picture of the new effect
-#   run      adds git, clones what is committed here and calls `./dev run`
-# Needs root, the network, and debootstrap; downloads 200 to 600 MB.
+# bare_machine.sh run|test|package [SUITE [FOLDER]]: what this project does on a bare Debian SUITE
+# (bookworm, the default, or trixie), in a root folder of its own that debootstrap makes in FOLDER.
+# Default: a temporary folder, removed afterwards; a FOLDER that is given stays and is used again.
+#   run      adds git, clones what is committed here, calls `./dev run`
+#   test     the same with `./dev test`
+#   package  the same with `./dev package`; then, in a second bare root, installs that .deb with apt
+#            and nothing else, renders on both backends from several folders, adds what the package
+#            suggests and takes the time from `new-effect` to a picture of the new effect
+# Each prints how many packages came in, and seconds by part. Needs root, the network and
+# debootstrap; downloads 200 to 900 MB.
 set -euo pipefail
 cd "$(dirname "${BASH_SOURCE[0]}")/.."
 
 what=${1:-}
-[[ $what =~ ^(package|run)$ ]] || { sed -n '3,11s/^# //p' "$0" >&2; exit 2; }
+suite=${2:-bookworm}
+[[ $what =~ ^(run|test|package)$ && $suite =~ ^[a-z]+$ ]] || { sed -n '3,13s/^# \{0,1\}//p' "$0" >&2; exit 2; }
 ((EUID == 0)) || { echo "bare_machine.sh: needs root, for debootstrap and chroot" >&2; exit 1; }
 command -v debootstrap >/dev/null || { echo "bare_machine.sh: apt install debootstrap" >&2; exit 1; }
 
-folder=${2:-$(mktemp -d)}
-root=$folder/root
+folder=${3:-$(mktemp -d)}
+mkdir -p "$folder"
+roots=()
 leave() {
-  umount -q "$root/dev" "$root/proc" || true
+  local root
+  for root in "${roots[@]}"; do umount -q "$root/dev" "$root/proc" || true; done
   [[ -n ${keep:-} ]] || rm -rf --one-file-system "$folder"
 }
-[[ -z ${2:-} ]] || keep=1
+[[ -z ${3:-} ]] || keep=1
 trap leave EXIT
-[[ -x $root/usr/bin/apt-get ]] || debootstrap --variant=minbase bookworm "$root" >/dev/null
-mount -t proc proc "$root/proc"
-mount --bind /dev "$root/dev"
-cp /etc/resolv.conf "$root/etc/"
-cat >"$root/root/install.sh" <<'EOF'
-apt-get update -q >/dev/null
-DEBIAN_FRONTEND=noninteractive apt-get install -y -q "$@" >/root/apt.log 2>&1 || {
-  tail -n 20 /root/apt.log
-  exit 1
+
+# make_root NAME: a bare system in $folder/NAME, with git and certificates alone.
+make_root() {
+  root=$folder/$1
+  [[ -x $root/usr/bin/apt-get ]] ||
+    debootstrap --variant=minbase --include=git,ca-certificates "$suite" "$root" >/dev/null
+  roots+=("$root")
+  mount -t proc proc "$root/proc"
+  mount --bind /dev "$root/dev"
+  cp /etc/resolv.conf "$root/etc/"
 }
-grep 'newly installed' /root/apt.log
-EOF
 
 inside() { env -i HOME=/root PATH=/usr/sbin:/usr/bin:/sbin:/bin TERM=dumb chroot "$root" bash -euo pipefail -c "$1"; }
 
-package() {
-  cp build/grisaille_*.deb "$root/root/grisaille.deb"
-  inside 'bash /root/install.sh /root/grisaille.deb'
+# dev COMMAND: clones what is committed here and calls `./dev COMMAND`.
+dev() {
+  make_root "$1"
+  rm -rf "$root/root/grisaille"
+  git clone -q --no-local . "$root/root/grisaille"
+  local before after
+  before=$(inside "dpkg-query -W | wc -l")
+  inside "cd /root/grisaille && time ./dev $1"
+  after=$(inside "dpkg-query -W | wc -l")
+  echo "== $suite: ./dev $1 passes; $((after - before)) packages came in"
+}
+
+install_package() {
+  make_root installed
+  cp "$folder"/package/root/grisaille/build/grisaille_*.deb "$root/root/grisaille.deb"
+  inside 'dpkg-deb -f /root/grisaille.deb Depends
+    apt-get update -q >/dev/null
+    DEBIAN_FRONTEND=noninteractive apt-get install -y -q /root/grisaille.deb >/root/apt.log 2>&1 ||
+      { tail -n 20 /root/apt.log; exit 1; }
+    grep -E "newly installed" /root/apt.log'
   # shellcheck disable=SC2016  # for the shell inside
   inside 'for folder in / /root /tmp /usr/share; do
       cd "$folder"
@@ -49,20 +70,15 @@ package() {
         grisaille render --backend "$backend" --write ao=/tmp/$backend.png --write color=/tmp/color.png
       done
     done'
-  inside 'bash /root/install.sh --no-install-recommends cmake g++ glslc make'
-  inside 'cd /tmp && rm -rf glow glow.png
+  inside 'DEBIAN_FRONTEND=noninteractive apt-get install -y -q --no-install-recommends cmake g++ glslc make >/dev/null 2>&1
+    cd /tmp && rm -rf glow glow.png
     time {
       grisaille new-effect glow
       (cd glow && cmake --workflow --preset effect) | tail -n 3
       grisaille render --plugin-path glow/build/lib/grisaille/effects --effects glow --write visibility=glow.png
     }'
+  echo "== $suite: the package installs, renders and builds an effect"
 }
 
-run() {
-  inside 'bash /root/install.sh --no-install-recommends git ca-certificates'
-  rm -rf "$root/root/grisaille"
-  git clone -q --no-local . "$root/root/grisaille"
-  inside 'cd /root/grisaille && time ./dev run && ls -l grisaille.png'
-}
-
-"$what"
+dev "$what"
+if [[ $what == package ]]; then install_package; fi

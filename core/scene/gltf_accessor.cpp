@@ -8,6 +8,7 @@
 #include <cstring>
 #include <limits>
 #include <type_traits>
+#include <utility>
 
 #include "core/error.h"
 #include "core/scene/gltf_file.h"
@@ -115,7 +116,7 @@ Replacement replacementOf(const tinygltf::Model& model, int index, size_t elemen
   const auto& sparse = accessor.sparse;
   if (!sparse.isSparse) return {};
   if (sparse.count < 1 || static_cast<uint64_t>(sparse.count) > accessor.count ||
-      sparse.indices.byteOffset < 0 || sparse.values.byteOffset < 0) {
+      std::cmp_less(sparse.indices.byteOffset, 0) || std::cmp_less(sparse.values.byteOffset, 0)) {
     throw Error(ErrorId::kSceneInvalid, "accessor {}: a sparse count or offset is out of range",
                 index);
   }

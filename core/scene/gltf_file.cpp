@@ -208,6 +208,25 @@ size_t externalBuffers(const json& document) {
   return external;
 }
 
+// tinygltf 2.9 takes all callbacks or none, and has one more than 2.5. readForTinygltf() limits
+// sizes, so none is told.
+template <typename Callbacks>
+Callbacks callbacksFor(Files& files) {
+  Callbacks callbacks{};
+  callbacks.FileExists = [](const std::string&, void*) { return true; };
+  callbacks.ExpandFilePath = [](const std::string& name, void*) { return name; };
+  callbacks.ReadWholeFile = readForTinygltf;
+  callbacks.WriteWholeFile = [](auto&&...) { return false; };
+  if constexpr (requires { callbacks.GetFileSizeInBytes; }) {
+    callbacks.GetFileSizeInBytes = [](size_t* bytes, auto&&...) {
+      *bytes = 0;
+      return true;
+    };
+  }
+  callbacks.user_data = &files;
+  return callbacks;
+}
+
 }  // namespace
 
 void readModel(const std::string& path, tinygltf::Model& model) {
@@ -222,11 +241,7 @@ void readModel(const std::string& path, tinygltf::Model& model) {
   }
   tinygltf::TinyGLTF loader;
   loader.SetImageLoader(keepImage, nullptr);
-  loader.SetFsCallbacks({.FileExists = [](const std::string&, void*) { return true; },
-                         .ExpandFilePath = [](const std::string& name, void*) { return name; },
-                         .ReadWholeFile = readForTinygltf,
-                         .WriteWholeFile = nullptr,
-                         .user_data = &files});
+  loader.SetFsCallbacks(callbacksFor<tinygltf::FsCallbacks>(files));
   std::string error, warning;
   bool good = false;
   const auto size = static_cast<unsigned>(bytes.size());

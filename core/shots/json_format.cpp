@@ -11,6 +11,7 @@
 #include <nlohmann/json.hpp>
 #include <optional>
 #include <ostream>
+#include <span>
 #include <string>
 
 #include "core/error.h"
@@ -149,7 +150,7 @@ class Handler : public nlohmann::json_sax<json> {
       endShot();
       inside_ = Inside::kShots;
     } else {
-      requireMembers(chars_.place(), kFileMembers, fileMembers_, kFileMembers.size());
+      requireMembers(chars_.place(), kFileMembers, fileMembers_);
     }
     return true;
   }
@@ -236,7 +237,7 @@ class Handler : public nlohmann::json_sax<json> {
   }
 
   void endShot() {
-    requireMembers(shotPlace_, kShotMembers, shotMembers_, kRangeMember);
+    requireMembers(shotPlace_, kShotMembers, std::span(shotMembers_).first<kRangeMember>());
     try {
       shots_.push_back(makeShot(values_));
     } catch (const Error& error) {
@@ -244,11 +245,10 @@ class Handler : public nlohmann::json_sax<json> {
     }
   }
 
-  // The first `needed` of the members are present.
-  template <size_t count>
-  void requireMembers(Place place, const std::array<std::string_view, count>& members,
-                      const std::array<bool, count>& present, size_t needed) const {
-    for (size_t i = 0; i < needed; ++i) {
+  // `present`: of the first members, whether each was there. All must be.
+  void requireMembers(Place place, std::span<const std::string_view> members,
+                      std::span<const bool> present) const {
+    for (size_t i = 0; i < present.size(); ++i) {
       if (present[i]) continue;
       refuse(place, fmt::format("{} has no \"{}\"", owner(), members[i]));
     }

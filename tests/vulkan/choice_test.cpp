@@ -25,8 +25,9 @@ std::vector<Candidate> several() {
 
 TEST(Choice, PrefersTheStrongestThatFits) {
   std::vector<Candidate> list = several();
+  const std::string any;
   for (const char* expected : {"GeForce", "Intel Arc", "virtio", "llvmpipe (LLVM)"}) {
-    const Candidate& chosen = choose(list, "");
+    const Candidate& chosen = choose(list, any);
     EXPECT_EQ(chosen.listed.name, expected);
     list.erase(list.begin() + (&chosen - list.data()));
   }
