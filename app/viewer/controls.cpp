@@ -8,6 +8,7 @@
 #include <cmath>
 
 #include "app/viewer/camera_control.h"
+#include "app/viewer/input.h"
 
 namespace grisaille::app::viewer {
 namespace {
@@ -17,14 +18,6 @@ constexpr int kMostSprayed = 8;              // a frame
 constexpr double kSprayRadius = 12;          // pixels
 constexpr double kLineReach = 6;             // pixels on either side, to take hold of the line
 constexpr double kArrowStep = 24;            // pixels of a drag
-
-bool pressed(int key, bool repeats = false) {
-  return ImGui::IsKeyPressed(key, repeats);
-}
-
-bool held(int key) {
-  return ImGui::IsKeyDown(key);
-}
 
 }  // namespace
 
@@ -148,7 +141,7 @@ void Controls::scroll(const Place& place) {
 
 bool Controls::updateFlight(double seconds) {
   const auto axis = [](int plus, int minus) {
-    return (held(plus) ? 1.0 : 0.0) - (held(minus) ? 1.0 : 0.0);
+    return (isKeyDown(plus) ? 1.0 : 0.0) - (isKeyDown(minus) ? 1.0 : 0.0);
   };
   const glm::dvec3 axes(axis(GLFW_KEY_D, GLFW_KEY_A), axis(GLFW_KEY_E, GLFW_KEY_Q),
                         axis(GLFW_KEY_W, GLFW_KEY_S));
@@ -161,61 +154,65 @@ bool Controls::updateFlight(double seconds) {
 // Those that mean nothing in a text field.
 void Controls::updateKeysAnywhere(Requests& requests) {
   const bool ctrl = ImGui::GetIO().KeyCtrl;
-  if (pressed(GLFW_KEY_F1)) panel_.help = !panel_.help;
-  if (pressed(GLFW_KEY_F2)) panel_.shown = !panel_.shown;
-  if (pressed(GLFW_KEY_F5)) requests.rescan = true;
-  if (pressed(GLFW_KEY_F11)) wantsFullScreen = true;
-  if (pressed(GLFW_KEY_F12)) requests.picture = true;
-  if (ctrl && pressed(GLFW_KEY_Q)) requests.quit = true;
-  if (ctrl && pressed(GLFW_KEY_S)) panel_.saveSettings();
-  if (ctrl && (pressed(GLFW_KEY_EQUAL) || pressed(GLFW_KEY_KP_ADD))) state_.textScale *= 1.1;
-  if (ctrl && (pressed(GLFW_KEY_MINUS) || pressed(GLFW_KEY_KP_SUBTRACT))) state_.textScale /= 1.1;
-  if (ctrl && pressed(GLFW_KEY_0)) state_.textScale = 1;
+  if (isKeyPressed(GLFW_KEY_F1)) panel_.help = !panel_.help;
+  if (isKeyPressed(GLFW_KEY_F2)) panel_.shown = !panel_.shown;
+  if (isKeyPressed(GLFW_KEY_F5)) requests.rescan = true;
+  if (isKeyPressed(GLFW_KEY_F11)) wantsFullScreen = true;
+  if (isKeyPressed(GLFW_KEY_F12)) requests.picture = true;
+  if (ctrl && isKeyPressed(GLFW_KEY_Q)) requests.quit = true;
+  if (ctrl && isKeyPressed(GLFW_KEY_S)) panel_.saveSettings();
+  if (ctrl && (isKeyPressed(GLFW_KEY_EQUAL) || isKeyPressed(GLFW_KEY_KP_ADD)))
+    state_.textScale *= 1.1;
+  if (ctrl && (isKeyPressed(GLFW_KEY_MINUS) || isKeyPressed(GLFW_KEY_KP_SUBTRACT)))
+    state_.textScale /= 1.1;
+  if (ctrl && isKeyPressed(GLFW_KEY_0)) state_.textScale = 1;
   state_.textScale = std::clamp(state_.textScale, 0.5, 4.0);
 }
 
 void Controls::updateKeys(const Place& place, Requests& requests) {
   const ImGuiIO& io = ImGui::GetIO();
-  if (pressed(GLFW_KEY_ESCAPE)) {
+  if (isKeyPressed(GLFW_KEY_ESCAPE)) {
     panel_.help = false;
     ImGui::SetWindowFocus(nullptr);
   }
   updateBookmarkKeys();
   if (io.KeyCtrl) {
-    if (pressed(GLFW_KEY_Z, true)) io.KeyShift ? session_.redo() : session_.undo();
-    if (pressed(GLFW_KEY_Y, true)) session_.redo();
-    if (pressed(GLFW_KEY_C)) requests.copyCommand = true;
+    if (isKeyPressed(GLFW_KEY_Z, true)) io.KeyShift ? session_.redo() : session_.undo();
+    if (isKeyPressed(GLFW_KEY_Y, true)) session_.redo();
+    if (isKeyPressed(GLFW_KEY_C)) requests.copyCommand = true;
     return;
   }
   updateViewKeys();
   if (io.WantCaptureKeyboard) return;  // the panel has them
-  if (pressed(GLFW_KEY_TAB) && panel_.shown) ImGui::SetWindowFocus("Grisaille");
-  if (pressed(GLFW_KEY_SPACE)) {
+  if (isKeyPressed(GLFW_KEY_TAB) && panel_.shown) ImGui::SetWindowFocus("Grisaille");
+  if (isKeyPressed(GLFW_KEY_SPACE)) {
     session_.attempt([&] { session_.fire(0.5 * glm::dvec2(place.size), place.size, false); });
   }
-  const double x = (pressed(GLFW_KEY_RIGHT, true) ? 1 : 0) - (pressed(GLFW_KEY_LEFT, true) ? 1 : 0);
-  const double y = (pressed(GLFW_KEY_DOWN, true) ? 1 : 0) - (pressed(GLFW_KEY_UP, true) ? 1 : 0);
+  const double x =
+      (isKeyPressed(GLFW_KEY_RIGHT, true) ? 1 : 0) - (isKeyPressed(GLFW_KEY_LEFT, true) ? 1 : 0);
+  const double y =
+      (isKeyPressed(GLFW_KEY_DOWN, true) ? 1 : 0) - (isKeyPressed(GLFW_KEY_UP, true) ? 1 : 0);
   if (x != 0 || y != 0) orbit(session_.camera, kArrowStep * glm::dvec2(x, y), place.size.y);
 }
 
 void Controls::updateViewKeys() {
-  if (pressed(GLFW_KEY_B)) session_.painting = !session_.painting;
-  if (pressed(GLFW_KEY_X)) session_.split = !session_.split;
-  if (pressed(GLFW_KEY_LEFT_BRACKET)) session_.line = std::max(session_.line - 0.05f, 0.0f);
-  if (pressed(GLFW_KEY_RIGHT_BRACKET)) session_.line = std::min(session_.line + 0.05f, 1.0f);
-  if (pressed(GLFW_KEY_T)) session_.compareWithTruth(!session_.comparing.on);
-  if (pressed(GLFW_KEY_I)) session_.inspecting = !session_.inspecting;
-  if (pressed(GLFW_KEY_P)) session_.paused = !session_.paused;
-  if (pressed(GLFW_KEY_N)) session_.step = true;
-  if (pressed(GLFW_KEY_HOME)) session_.camera = session_.homeCamera;
-  if (pressed(GLFW_KEY_KP_ADD, true) || pressed(GLFW_KEY_EQUAL, true)) {
+  if (isKeyPressed(GLFW_KEY_B)) session_.painting = !session_.painting;
+  if (isKeyPressed(GLFW_KEY_X)) session_.split = !session_.split;
+  if (isKeyPressed(GLFW_KEY_LEFT_BRACKET)) session_.line = std::max(session_.line - 0.05f, 0.0f);
+  if (isKeyPressed(GLFW_KEY_RIGHT_BRACKET)) session_.line = std::min(session_.line + 0.05f, 1.0f);
+  if (isKeyPressed(GLFW_KEY_T)) session_.compareWithTruth(!session_.comparing.on);
+  if (isKeyPressed(GLFW_KEY_I)) session_.inspecting = !session_.inspecting;
+  if (isKeyPressed(GLFW_KEY_P)) session_.paused = !session_.paused;
+  if (isKeyPressed(GLFW_KEY_N)) session_.step = true;
+  if (isKeyPressed(GLFW_KEY_HOME)) session_.camera = session_.homeCamera;
+  if (isKeyPressed(GLFW_KEY_KP_ADD, true) || isKeyPressed(GLFW_KEY_EQUAL, true)) {
     session_.zoom = std::min(session_.zoom * 1.25f, 64.0f);
   }
-  if (pressed(GLFW_KEY_KP_SUBTRACT, true) || pressed(GLFW_KEY_MINUS, true)) {
+  if (isKeyPressed(GLFW_KEY_KP_SUBTRACT, true) || isKeyPressed(GLFW_KEY_MINUS, true)) {
     session_.zoom = std::max(session_.zoom / 1.25f, 1.0f);
     if (session_.zoom == 1) session_.centre = glm::vec2(0.5f);
   }
-  if (pressed(GLFW_KEY_V)) {
+  if (isKeyPressed(GLFW_KEY_V)) {
     const std::vector<Viewable> all = session_.views(false);
     const auto now = std::ranges::find(all, session_.left, &Viewable::output);
     const size_t index = now == all.end() ? 0 : static_cast<size_t>(now - all.begin());
@@ -226,7 +223,7 @@ void Controls::updateViewKeys() {
 
 void Controls::updateBookmarkKeys() {
   for (int digit = 1; digit <= 9; ++digit) {
-    if (!pressed(GLFW_KEY_0 + digit)) continue;
+    if (!isKeyPressed(GLFW_KEY_0 + digit)) continue;
     const std::string name = std::to_string(digit);
     session_.attempt([&] {
       if (ImGui::GetIO().KeyCtrl) {

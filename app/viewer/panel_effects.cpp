@@ -8,6 +8,7 @@
 #include <algorithm>
 #include <cmath>
 
+#include "app/viewer/input.h"
 #include "app/viewer/panel.h"
 
 namespace grisaille::app::viewer {
@@ -171,7 +172,7 @@ void Panel::drawParameter(EffectList::Entry& entry, const grisaille_param_desc& 
     if (edited) typed_ = {name, value};
     edited = false;
   } else if (typed_ && typed_->first == name) {
-    edited = !ImGui::IsKeyPressed(GLFW_KEY_ESCAPE);
+    edited = !isKeyPressed(GLFW_KEY_ESCAPE);
     value = typed_->second;
     typed_.reset();
   }

@@ -9,6 +9,7 @@
 #include <algorithm>
 #include <utility>
 
+#include "app/viewer/input.h"
 #include "core/error.h"
 
 namespace grisaille::app::viewer {
@@ -97,9 +98,8 @@ void Window::setCallbacks() {
     if (focused != GLFW_FALSE) return;
     // What is let go elsewhere is not told.
     for (int key = 0; key <= GLFW_KEY_LAST; ++key) {
-      if (ImGui::GetCurrentContext() != nullptr && ImGui::GetIO().KeysDown[key]) {
-        self.events_.push_back({.type = Event::Type::kKey, .code = key, .down = false});
-      }
+      if (!self.keys_[static_cast<size_t>(key)]) continue;
+      self.events_.push_back({.type = Event::Type::kKey, .code = key, .down = false});
     }
   });
 }
@@ -167,7 +167,6 @@ bool Window::wait(double seconds) {
 
 // False where this event would hide one that this frame has already taken.
 bool Window::feed(const Event& event, std::vector<int>& touched) {
-  ImGuiIO& io = ImGui::GetIO();
   constexpr int kButtons = 1 << 16, kWheel = kButtons << 1;  // beside the keys in `touched`
   const int name = event.type == Event::Type::kKey ? event.code : kButtons + event.code;
   const bool again = std::ranges::find(touched, name) != touched.end();
@@ -190,16 +189,17 @@ bool Window::feed(const Event& event, std::vector<int>& touched) {
       return true;
     case Event::Type::kWheel:
       touched.push_back(kWheel);
-      io.MouseWheel += static_cast<float>(event.place.y);
-      io.MouseWheelH += static_cast<float>(event.place.x);
+      sendWheel(event.place);
       return true;
     case Event::Type::kKey:
       if (again) return false;
       touched.push_back(name);
-      if (event.code <= GLFW_KEY_LAST) io.KeysDown[event.code] = event.down;
+      if (event.code > GLFW_KEY_LAST) return true;
+      keys_[static_cast<size_t>(event.code)] = event.down;
+      sendKey(event.code, event.down);
       return true;
     case Event::Type::kText:
-      io.AddInputCharacter(event.text);
+      ImGui::GetIO().AddInputCharacter(event.text);
       return true;
   }
   return true;
@@ -207,19 +207,22 @@ bool Window::feed(const Event& event, std::vector<int>& touched) {
 
 void Window::feedInterface() {
   ImGuiIO& io = ImGui::GetIO();
-  if (io.BackendPlatformUserData == nullptr) ImGui_ImplGlfw_InitForOther(window_, false);
+  if (io.BackendPlatformUserData == nullptr) {
+    ImGui_ImplGlfw_InitForOther(window_, false);
+    prepareInput();
+  }
   ImGui_ImplGlfw_NewFrame();
   io.DeltaTime = std::min(io.DeltaTime, 0.05f);  // no slow frame makes a key repeat
   std::vector<int> touched;
   acted_ = false;
   while (!events_.empty() && feed(events_.front(), touched)) events_.pop_front();
-  io.MousePos = ImVec2(static_cast<float>(cursor_.x), static_cast<float>(cursor_.y));
-  std::ranges::copy(buttons_, io.MouseDown);
-  const auto down = [&](int left, int right) { return io.KeysDown[left] || io.KeysDown[right]; };
-  io.KeyCtrl = down(GLFW_KEY_LEFT_CONTROL, GLFW_KEY_RIGHT_CONTROL);
-  io.KeyShift = down(GLFW_KEY_LEFT_SHIFT, GLFW_KEY_RIGHT_SHIFT);
-  io.KeyAlt = down(GLFW_KEY_LEFT_ALT, GLFW_KEY_RIGHT_ALT);
-  io.KeySuper = down(GLFW_KEY_LEFT_SUPER, GLFW_KEY_RIGHT_SUPER);
+  sendPointer(cursor_);
+  for (size_t i = 0; i < buttons_.size(); ++i) sendButton(static_cast<int>(i), buttons_[i]);
+  const auto down = [&](size_t left, size_t right) { return keys_[left] || keys_[right]; };
+  sendModifiers(down(GLFW_KEY_LEFT_CONTROL, GLFW_KEY_RIGHT_CONTROL),
+                down(GLFW_KEY_LEFT_SHIFT, GLFW_KEY_RIGHT_SHIFT),
+                down(GLFW_KEY_LEFT_ALT, GLFW_KEY_RIGHT_ALT),
+                down(GLFW_KEY_LEFT_SUPER, GLFW_KEY_RIGHT_SUPER));
 }
 
 std::vector<std::string> Window::takeDropped() {

@@ -3,6 +3,7 @@
 #pragma once
 
 #include <array>
+#include <bitset>
 #include <deque>
 #include <glm/glm.hpp>
 #include <optional>
@@ -75,7 +76,8 @@ class Window {
   glm::ivec4 place_ = glm::ivec4(0);  // before it filled the screen
   glm::dvec2 cursor_ = glm::dvec2(-1e6);
   std::array<bool, 5> buttons_{};
-  bool acted_ = false;  // something was pressed or turned in this frame
+  std::bitset<512> keys_;  // held down, by GLFW's numbers
+  bool acted_ = false;     // something was pressed or turned in this frame
 };
 
 }  // namespace grisaille::app::viewer

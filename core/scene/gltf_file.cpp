@@ -216,9 +216,11 @@ Callbacks callbacksFor(Files& files) {
   callbacks.FileExists = [](const std::string&, void*) { return true; };
   callbacks.ExpandFilePath = [](const std::string& name, void*) { return name; };
   callbacks.ReadWholeFile = readForTinygltf;
-  callbacks.WriteWholeFile = [](auto&&...) { return false; };
+  callbacks.WriteWholeFile = [](std::string*, const std::string&, const Bytes&, void*) {
+    return false;
+  };
   if constexpr (requires { callbacks.GetFileSizeInBytes; }) {
-    callbacks.GetFileSizeInBytes = [](size_t* bytes, auto&&...) {
+    callbacks.GetFileSizeInBytes = [](size_t* bytes, std::string*, const std::string&, void*) {
       *bytes = 0;
       return true;
     };

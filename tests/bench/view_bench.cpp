@@ -15,6 +15,7 @@
 #include <thread>
 #include <vector>
 
+#include "app/viewer/input.h"
 #include "app/viewer/interface.h"
 #include "app/viewer/panel.h"
 #include "core/gpu/null_device.h"
@@ -58,7 +59,7 @@ struct Subject {
     ImGuiIO& io = ImGui::GetIO();
     io.DisplaySize = ImVec2(static_cast<float>(kWindow.x), static_cast<float>(kWindow.y));
     io.DeltaTime = 1.0f / 60;
-    for (int key = 0; key < ImGuiKey_COUNT; ++key) io.KeyMap[key] = key;
+    viewer::prepareInput();
     for (int i = 0; i < 8; ++i) {
       status.passes.push_back(
           {fmt::format("effect/pass {}", i), std::vector<float>(240, 1.0f), 1, 1});

@@ -83,7 +83,8 @@ TEST_F(SettingsFile, BringsBackAnyTextAndName) {
                                "-9223372036854775808",
                                "100000000000000000000",
                                "1979-05-27"};
-  Settings settings{.effects = {{}}, .surface = {}, .values = {}};
+  Settings settings;
+  settings.effects.emplace();
   size_t count = 0;
   for (const std::string& text : texts) {
     settings.effects->push_back(text);
