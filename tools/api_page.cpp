@@ -5,6 +5,7 @@
 // enums, structs, functions that begin with GRISAILLE_EXPORT.
 #include <fmt/format.h>
 
+#include <algorithm>
 #include <cctype>
 #include <cstdio>
 #include <filesystem>

@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: MIT
 #include "app/study/metrics.h"
 
+#include <algorithm>
 #include <array>
 #include <cmath>
 #include <limits>

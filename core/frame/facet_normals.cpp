@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: MIT
 #include "core/frame/facet_normals.h"
 
+#include <algorithm>
 #include <cmath>
 #include <limits>
 #include <optional>

@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: MIT
 #include "core/frame/picture_depth.h"
 
+#include <algorithm>
 #include <cmath>
 
 #include "core/error.h"

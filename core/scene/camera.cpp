@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: MIT
 #include "core/scene/camera.h"
 
+#include <algorithm>
 #include <cmath>
 #include <filesystem>
 #include <fstream>

@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: MIT
 #include "core/trace/depth_field.h"
 
+#include <algorithm>
 #include <limits>
 
 #include "core/trace/occlusion_rays.h"

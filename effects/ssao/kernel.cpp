@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: MIT
 #include "kernel.h"
 
+#include <algorithm>
 #include <cmath>
 #include <glm/gtc/constants.hpp>
 #include <utility>

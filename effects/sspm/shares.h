@@ -2,6 +2,7 @@
 // Which cells of the world a shot's paint reaches, and which parts of them: a cell has 4x4x4.
 #pragma once
 
+#include <algorithm>
 #include <cmath>
 #include <cstdint>
 #include <glm/glm.hpp>

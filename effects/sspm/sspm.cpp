@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: MIT
 // Screen-space paint mapping: paint shot into a scene, without touching its geometry or its texture
 // coordinates. The shaders say how, README.md says why.
+#include <algorithm>
 #include <cmath>
 #include <glm/glm.hpp>
 #include <limits>

@@ -1,4 +1,5 @@
 // SPDX-License-Identifier: MIT
+#include <algorithm>
 #include <numeric>
 
 #include "shaders/fill_comp.h"

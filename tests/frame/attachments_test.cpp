@@ -2,6 +2,7 @@
 // What the attachments hold, on every backend.
 #include <gtest/gtest.h>
 
+#include <algorithm>
 #include <array>
 #include <cmath>
 

@@ -2,6 +2,7 @@
 // What `grisaille apply` takes of pictures made elsewhere, but for their pixels: a line each for
 // the file's name, the frames, the names of channels to take and those that there are; then the
 // floats of the matrices.
+#include <algorithm>
 #include <cmath>
 #include <cstring>
 

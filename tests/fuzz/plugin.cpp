@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: MIT
 // A plugin's description: a sound one, and bytes that say which of its fields become what. Pointers
 // lead to memory that is there, as no host can check otherwise, and lists are as long as they say.
+#include <algorithm>
 #include <cstring>
 #include <deque>
 #include <nlohmann/json.hpp>

@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: MIT
 // Values of parameters: a line each, KEY=TEXT as on the command line, or KEY and after a zero byte
 // the eight bytes of a number.
+#include <algorithm>
 #include <cstring>
 
 #include "tests/fuzz/check_values.h"

@@ -2,6 +2,8 @@
 // The command line: what it lists, what it takes, and how it says no.
 #include <gtest/gtest.h>
 
+#include <algorithm>
+
 #include <nlohmann/json.hpp>
 
 #include "tests/program/run.h"

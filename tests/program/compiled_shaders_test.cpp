@@ -4,6 +4,8 @@
 // leave that empty.
 #include <gtest/gtest.h>
 
+#include <algorithm>
+
 #include <fmt/format.h>
 
 #include "tests/program/run.h"

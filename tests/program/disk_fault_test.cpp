@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: MIT
 // A disk that is full, a folder that is read-only, and a run that is killed in the middle of a
 // write: what was saved stays as it was, and the same command goes on.
+#include <algorithm>
 #include <filesystem>
 #include <nlohmann/json.hpp>
 

@@ -2,6 +2,7 @@
 // Shots on the command line: fired, saved, loaded, counted, refused.
 #include <gtest/gtest.h>
 
+#include <algorithm>
 #include <sstream>
 
 #include "core/image/image.h"

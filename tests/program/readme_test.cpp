@@ -2,6 +2,7 @@
 // The manual tells the truth: its commands run, its tables are the effects' own.
 #include <gtest/gtest.h>
 
+#include <algorithm>
 #include <sstream>
 
 #include "tests/program/run.h"

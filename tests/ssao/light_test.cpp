@@ -2,6 +2,8 @@
 // Open directions and bounced light, on every backend.
 #include <gtest/gtest.h>
 
+#include <algorithm>
+
 #include "tests/ssao/render_ao.h"
 #include "tests/support/devices.h"
 #include "tests/support/scenes.h"

@@ -2,6 +2,8 @@
 // Slices: what must hold at every resolution, on every backend.
 #include <gtest/gtest.h>
 
+#include <algorithm>
+
 #include <glm/gtc/constants.hpp>
 
 #include "core/frame/view_block.h"

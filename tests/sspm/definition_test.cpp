@@ -2,6 +2,8 @@
 // Paint against its definition in double precision, on every backend.
 #include <gtest/gtest.h>
 
+#include <algorithm>
+
 #include "app/stability/oracle/paint.h"
 #include "tests/sspm/paint_frame.h"
 #include "tests/support/devices.h"

@@ -2,6 +2,7 @@
 // Paint on surfaces against the ray-traced mask: in range, and the segment to the muzzle unblocked.
 #include <gtest/gtest.h>
 
+#include <algorithm>
 #include <filesystem>
 
 #include "core/trace/paint_mask.h"

@@ -2,6 +2,7 @@
 // What painters rely on, on every backend.
 #include <gtest/gtest.h>
 
+#include <algorithm>
 #include <cmath>
 
 #include "app/stability/oracle/paint.h"

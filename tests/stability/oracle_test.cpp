@@ -2,6 +2,7 @@
 // The oracles by themselves: what is known of a scene without any shader.
 #include <gtest/gtest.h>
 
+#include <algorithm>
 #include <cmath>
 #include <memory>
 #include <random>

@@ -2,6 +2,7 @@
 // What makes a case fail, what is kept of an interrupted sweep, and the program as it is run.
 #include <gtest/gtest.h>
 
+#include <algorithm>
 #include <cmath>
 #include <fstream>
 #include <limits>

@@ -1,6 +1,8 @@
 // SPDX-License-Identifier: MIT
 #include "tests/support/devices.h"
 
+#include <algorithm>
+
 #include "backends/backends.h"
 #include "core/error.h"
 

@@ -2,6 +2,7 @@
 // Rays of any origin against every triangle, one by one, in double precision.
 #include <gtest/gtest.h>
 
+#include <algorithm>
 #include <cmath>
 #include <random>
 

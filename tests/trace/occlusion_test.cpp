@@ -2,6 +2,7 @@
 // Ambient visibility over many pixels against closed forms, within the error that it states.
 #include <gtest/gtest.h>
 
+#include <algorithm>
 #include <cmath>
 #include <functional>
 #include <numbers>

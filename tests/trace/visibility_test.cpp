@@ -2,6 +2,7 @@
 // Ambient visibility against closed forms, and its statistics.
 #include <gtest/gtest.h>
 
+#include <algorithm>
 #include <cmath>
 #include <cstdlib>
 #include <filesystem>

@@ -2,6 +2,8 @@
 // Settings: dragged, typed, reset, undone, compared, saved and copied.
 #include "tests/view/window_test.h"
 
+#include <algorithm>
+
 namespace grisaille::tests {
 namespace {
 

@@ -4,6 +4,8 @@
 
 #include <gtest/gtest.h>
 
+#include <algorithm>
+
 #include "core/image/image.h"
 #include "tests/support/display.h"
 #include "tests/view/driven_viewer.h"

@@ -101,7 +101,8 @@ TEST_F(SettingsFile, WhatIsNotGivenIsNotThere) {
   EXPECT_EQ(settingsToml({}), "");
   EXPECT_FALSE(back({}).effects);
   EXPECT_FALSE(back({}).surface);
-  const Settings none{.effects = {{}}, .surface = "base", .values = {}};
+  const Settings none{
+      .effects = std::vector<std::string>(), .surface = "base", .values = {}};
   EXPECT_EQ(back(none).effects, none.effects);
   EXPECT_EQ(back(none).surface, "base");
 }

@@ -1,0 +1,71 @@
+// SPDX-License-Identifier: MIT
+// `cmake -S . -B build` on machines that lack libraries.
+#include <gtest/gtest.h>
+
+#include <string>
+#include <vector>
+
+#include "tests/program/run.h"
+
+namespace grisaille::tests {
+namespace {
+
+class Configure : public ::testing::Test {
+ protected:
+  // With these libraries hidden from CMake.
+  Outcome configure(const std::vector<std::string>& hidden, const std::string& options,
+                    const std::string& environment = "") const {
+    std::string command =
+        environment + " '" + CMAKE + "' -S '" + SOURCE_FOLDER + "' -B build " + options;
+    for (const std::string& name : hidden)
+      command += " -DCMAKE_DISABLE_FIND_PACKAGE_" + name + "=ON";
+    return runShell(command + " 2>&1", folder_.path());
+  }
+
+  const std::filesystem::path& folder() const { return folder_.path(); }
+
+ private:
+  TemporaryFolder folder_;
+};
+
+TEST_F(Configure, NamesAllThatIsMissingByDebiansPackages) {
+  const Outcome outcome = configure({"fmt", "TinyGLTF", "embree", "glfw3"}, "");
+  EXPECT_NE(outcome.status, 0);
+  for (const char* package : {"libfmt-dev", "libtinygltf-dev", "libembree-dev", "libglfw3-dev"}) {
+    EXPECT_NE(outcome.out.find(package), std::string::npos) << package << ": " << outcome.out;
+  }
+  EXPECT_EQ(outcome.out.find("libepoxy-dev"), std::string::npos) << outcome.out;
+}
+
+TEST_F(Configure, NamesModulesThatPkgConfigLacks) {
+  const Outcome outcome = configure({}, "", "PKG_CONFIG_LIBDIR=/nonexistent");
+  EXPECT_NE(outcome.status, 0);
+  for (const char* package : {"libepoxy-dev", "libopenimageio-dev", "libtomlplusplus-dev",
+                              "libspirv-cross-c-shared-dev", "libimgui-dev"}) {
+    EXPECT_NE(outcome.out.find(package), std::string::npos) << package << ": " << outcome.out;
+  }
+}
+
+TEST_F(Configure, PartsCanBeLeftOut) {
+  const Outcome outcome =
+      configure({"embree", "glfw3", "GTest"}, "-DGRISAILLE_VIEWER=OFF -DGRISAILLE_TRUTH=OFF");
+  EXPECT_EQ(outcome.status, 0) << outcome.out;
+}
+
+TEST_F(Configure, TestsNeedAllParts) {
+  const Outcome outcome = configure({}, "-DGRISAILLE_TESTS=ON -DGRISAILLE_VIEWER=OFF");
+  EXPECT_NE(outcome.status, 0);
+  EXPECT_NE(outcome.out.find("GRISAILLE_TESTS needs GRISAILLE_VIEWER"), std::string::npos)
+      << outcome.out;
+}
+
+// Whoever builds it with plain CMake has a compiler that nobody here has tried.
+TEST_F(Configure, AWarningStopsDevelopersAlone) {
+  ASSERT_EQ(configure({}, "-DCMAKE_EXPORT_COMPILE_COMMANDS=ON").status, 0);
+  EXPECT_EQ(runShell("grep -c Werror build/compile_commands.json", folder()).out, "0\n");
+  ASSERT_EQ(configure({}, "-DGRISAILLE_WARNINGS_AS_ERRORS=ON").status, 0);
+  EXPECT_NE(runShell("grep -c Werror build/compile_commands.json", folder()).out, "0\n");
+}
+
+}  // namespace
+}  // namespace grisaille::tests
