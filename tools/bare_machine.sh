@@ -24,7 +24,7 @@ mkdir -p "$folder"
 roots=()
 leave() {
   local root
-  for root in "${roots[@]}"; do umount -q "$root/dev" "$root/proc" || true; done
+  for root in "${roots[@]}"; do umount -q "$root/dev/pts" "$root/dev/shm" "$root/dev" "$root/proc" || true; done
   [[ -n ${keep:-} ]] || rm -rf --one-file-system "$folder"
 }
 [[ -z ${3:-} ]] || keep=1
@@ -37,7 +37,9 @@ make_root() {
     debootstrap --variant=minbase --include=git,ca-certificates "$suite" "$root" >/dev/null
   roots+=("$root")
   mount -t proc proc "$root/proc"
-  mount --bind /dev "$root/dev"
+  # Private, so that what is mounted below does not show in the machine's own /dev.
+  mount --bind --make-private /dev "$root/dev"
+  for below in pts shm; do mount --bind "/dev/$below" "$root/dev/$below"; done
   cp /etc/resolv.conf "$root/etc/"
 }
 

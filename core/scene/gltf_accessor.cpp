@@ -8,7 +8,6 @@
 #include <cstring>
 #include <limits>
 #include <type_traits>
-#include <utility>
 
 #include "core/error.h"
 #include "core/scene/gltf_file.h"
@@ -115,10 +114,8 @@ Replacement replacementOf(const tinygltf::Model& model, int index, size_t elemen
   const tinygltf::Accessor& accessor = accessorAt(model, index);
   const auto& sparse = accessor.sparse;
   if (!sparse.isSparse) return {};
-  if (sparse.count < 1 || static_cast<uint64_t>(sparse.count) > accessor.count ||
-      std::cmp_less(sparse.indices.byteOffset, 0) || std::cmp_less(sparse.values.byteOffset, 0)) {
-    throw Error(ErrorId::kSceneInvalid, "accessor {}: a sparse count or offset is out of range",
-                index);
+  if (sparse.count < 1 || static_cast<uint64_t>(sparse.count) > accessor.count) {
+    throw Error(ErrorId::kSceneInvalid, "accessor {}: its sparse count is out of range", index);
   }
   const auto count = static_cast<uint64_t>(sparse.count);
   size_t indexSize = 0;

@@ -175,6 +175,31 @@ void checkAsset(const json& document) {
   }
 }
 
+// tinygltf takes a negative or broken number for one that is absent, which then is 0.
+void checkSizes(const json& object, const std::string& place) {
+  if (!object.is_object()) return;
+  for (const char* key : {"byteOffset", "byteLength", "byteStride", "count"}) {
+    const auto size = object.find(key);
+    if (size == object.end() || size->is_number_unsigned()) continue;
+    throw Error(ErrorId::kSceneInvalid, "{}.{} is {}, not a whole number from 0", place, key,
+                oneLine(size->dump()));
+  }
+  for (const char* key : {"sparse", "indices", "values"}) {
+    const auto inner = object.find(key);
+    if (inner != object.end()) checkSizes(*inner, fmt::format("{}.{}", place, key));
+  }
+}
+
+void checkSizes(const json& document) {
+  for (const char* list : {"buffers", "bufferViews", "accessors"}) {
+    const auto found = document.find(list);
+    if (found == document.end() || !found->is_array()) continue;
+    for (size_t i = 0; i < found->size(); ++i) {
+      checkSizes((*found)[i], fmt::format("{}[{}]", list, i));
+    }
+  }
+}
+
 void checkExtensions(const json& document) {
   const auto required = document.find("extensionsRequired");
   if (required == document.end()) return;
@@ -240,6 +265,7 @@ void readModel(const std::string& path, tinygltf::Model& model) {
     const json document = parseJson(jsonOf(bytes));
     checkAsset(document);
     checkExtensions(document);
+    checkSizes(document);
     files.buffersLeft = externalBuffers(document);
   }
   tinygltf::TinyGLTF loader;

@@ -175,6 +175,13 @@ TEST_F(AccessorFiles, RangesAreChecked) {
   for (const char* bad : {"VEC2", "VEC4", "MAT4", "SCALAR", "VEC9", ""}) {
     refused("accessors", 0, "type", bad);
   }
+  for (const json& bad : {json(-4), json(4.5), json("4"), json(nullptr)}) {
+    for (const char* key : {"byteOffset", "byteLength", "byteStride"}) {
+      refused("bufferViews", 0, key, bad);
+    }
+    refused("accessors", 0, "byteOffset", bad);
+    refused("accessors", 0, "count", bad);
+  }
   refused("bufferViews", 0, "byteStride", 8);
   refused("bufferViews", 0, "byteStride", 16);
 }
