@@ -54,12 +54,12 @@ void SceneAttachments::viewDepth(gpu::Commands& commands, gpu::Texture clipDepth
       gpu::textureBinding(0, {.texture = clipDepth}, nearest_),
       gpu::imageBinding(0, to),
   };
-  constexpr uint32_t kGroup = 8;  // threads a side
+  constexpr uint32_t kViewDepthGroup = 8;  // threads a side
   commands.beginPass(std::string(passes) + "view_depth");
-  commands.dispatch(
-      {.pipeline = viewDepth_,
-       .bindings = bindings,
-       .groups = {(size.x + kGroup - 1) / kGroup, (size.y + kGroup - 1) / kGroup, 1}});
+  commands.dispatch({.pipeline = viewDepth_,
+                     .bindings = bindings,
+                     .groups = {(size.x + kViewDepthGroup - 1) / kViewDepthGroup,
+                                (size.y + kViewDepthGroup - 1) / kViewDepthGroup, 1}});
   commands.endPass();
 }
 
