@@ -35,10 +35,13 @@ void checkImageFits(const Context& context, const VkImageCreateInfo& info,
       context.physical, info.format, info.imageType, info.tiling, info.usage, info.flags, &limits);
   check(result, fmt::format("a texture of format {}", gpu::formatInfo(desc.format).name),
         ErrorId::kTextureFormat);
-  const VkExtent3D most = limits.maxExtent;
-  if (desc.width > most.width || desc.height > most.height) {
+  // A format's limit may lie over the device's, which also holds for targets and their viewports.
+  const uint32_t most = context.info.capabilities.maxTextureSize;
+  const uint32_t width = std::min(limits.maxExtent.width, most);
+  const uint32_t height = std::min(limits.maxExtent.height, most);
+  if (desc.width > width || desc.height > height) {
     throw Error(ErrorId::kTextureSize, "texture '{}' of {}x{} texels, where {} takes {}x{}",
-                desc.label, desc.width, desc.height, context.info.name, most.width, most.height);
+                desc.label, desc.width, desc.height, context.info.name, width, height);
   }
   uint64_t bytes = 0;
   for (uint32_t mip = 0; mip < desc.mips; ++mip) {
