@@ -105,6 +105,9 @@ void PipelineCache::save() const {
   std::string data(size, '\0');
   if (get(context_.device, cache_, &size, data.data()) != VK_SUCCESS) return;
   data.resize(size);
+  // A header alone helps nobody. SwiftShader keeps no pipelines, and answers loaded data with that
+  // data and one more header: its file would grow from run to run.
+  if (size <= sizeof(VkPipelineCacheHeaderVersionOne)) return;
   if (hashOf(data) == loadedHash_) return;
 
   std::error_code failed;
