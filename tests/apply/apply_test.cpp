@@ -10,6 +10,7 @@
 #include "core/scene/camera.h"
 #include "core/scene/camera_matrices.h"
 #include "tests/program/run.h"
+#include "tests/support/test_device.h"
 
 namespace grisaille::tests {
 namespace {
@@ -24,7 +25,7 @@ class ApplyOnce : public ::testing::Test {
     std::istringstream words(line);
     std::vector<std::string> arguments;
     for (std::string word; words >> word;) arguments.push_back(word == "@" ? kCamera : word);
-    return runProgram(arguments, folder_.path());
+    return runProgram(arguments, folder_.path(), environment_);
   }
   void run(const std::string& line) {
     const Outcome outcome = grisaille(line);
@@ -48,14 +49,21 @@ class ApplyOnce : public ::testing::Test {
   }
 
   TemporaryFolder folder_;
+  std::vector<std::string> environment_;
 };
 
-class Apply : public ApplyOnce, public ::testing::WithParamInterface<std::string> {};
-INSTANTIATE_TEST_SUITE_P(, Apply, ::testing::Values("opengl", "vulkan"),
-                         [](const auto& test) { return test.param; });
+class Apply : public ApplyOnce, public ::testing::WithParamInterface<TestDevice> {
+ protected:
+  void SetUp() override {
+    const std::string missing = whyMissing(GetParam());
+    if (!missing.empty()) GTEST_SKIP() << missing;
+    environment_ = driverEnvironment(GetParam());
+  }
+};
+INSTANTIATE_TEST_SUITE_P(, Apply, ::testing::ValuesIn(testDevices()), GRISAILLE_DEVICE_NAME);
 
 TEST_P(Apply, EqualsTheFrameThatThePicturesAreOf) {
-  const std::string backend = " --check --backend " + GetParam();
+  const std::string backend = " --check --backend " + GetParam().backend;
   for (const std::string size : {"161x91", "64x129"}) {
     render("--write color=color.exr" + backend, size);
     run("apply --depth depth.exr --normal normal.exr --camera @ --write ao=again.exr --write "

@@ -11,7 +11,7 @@ namespace {
 using gpu::BufferUsage;
 
 class Buffers : public BackendTest {};
-GRISAILLE_ON_EVERY_BACKEND(Buffers);
+GRISAILLE_ON_EVERY_DEVICE(Buffers);
 
 std::vector<uint32_t> counting(size_t count, uint32_t first = 0) {
   std::vector<uint32_t> values(count);

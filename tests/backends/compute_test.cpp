@@ -18,7 +18,7 @@ using gpu::Format;
 using gpu::TextureUsage;
 
 class Compute : public BackendTest {};
-GRISAILLE_ON_EVERY_BACKEND(Compute);
+GRISAILLE_ON_EVERY_DEVICE(Compute);
 
 uint32_t stepped(uint32_t value, int times) {
   for (int i = 0; i < times; ++i) value = value * 3 + 1;

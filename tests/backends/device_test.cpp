@@ -13,23 +13,23 @@ namespace {
 using gpu::BufferUsage;
 
 TEST(Backends, AtLeastOneIsPresent) {
-  EXPECT_FALSE(presentBackends().empty());
+  EXPECT_FALSE(presentDevices().empty());
 }
 
 class Devices : public BackendTest {
  protected:
   const backends::Backend& backend() {
     for (const backends::Backend& one : backends::all()) {
-      if (one.name == GetParam()) return one;
+      if (one.name == GetParam().backend) return one;
     }
     throw std::logic_error("a backend that is not listed");
   }
 };
-GRISAILLE_ON_EVERY_BACKEND(Devices);
+GRISAILLE_ON_EVERY_DEVICE(Devices);
 
 TEST_P(Devices, SayWhatTheyAre) {
   const gpu::DeviceInfo& info = device().info();
-  EXPECT_EQ(info.backend, GetParam());
+  EXPECT_EQ(info.backend, GetParam().backend);
   EXPECT_FALSE(info.name.empty());
   EXPECT_FALSE(info.driver.empty());
   EXPECT_EQ(info.clock, info.software ? gpu::Clock::kWall : gpu::Clock::kGpu);
@@ -128,7 +128,7 @@ TEST_P(Devices, WithoutAWindowShowNothing) {
 TEST_P(Devices, RefuseABrokenShader) {
   gpu::Shader broken = grisaille_shader_fill_comp;
   broken.glsl = "#version 450\nthis is no shader\n";
-  if (GetParam() == "vulkan") GTEST_SKIP() << "Vulkan drivers may trust their SPIR-V";
+  if (GetParam().backend == "vulkan") GTEST_SKIP() << "Vulkan drivers may trust their SPIR-V";
   EXPECT_ERROR(ErrorId::kShaderRefused,
                (void)device().createComputePipeline({.label = "broken", .shader = &broken}));
 }

@@ -29,7 +29,7 @@ class Frames : public BackendTest {
     commands.endPass();
   }
 };
-GRISAILLE_ON_EVERY_BACKEND(Frames);
+GRISAILLE_ON_EVERY_DEVICE(Frames);
 
 TEST_P(Frames, UniformsOfFramesInFlightStayApart) {
   constexpr uint32_t kFrames = 300, kPerFrame = 7;

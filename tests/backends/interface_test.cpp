@@ -60,7 +60,7 @@ class Interface : public RasterTest {
   }
   gpu::Buffer triangle_;
 };
-GRISAILLE_ON_EVERY_BACKEND(Interface);
+GRISAILLE_ON_EVERY_DEVICE(Interface);
 
 TEST_P(Interface, OverIsByStraightAlpha) {
   constexpr Color kHeld = {0.2f, 0.4f, 0.8f, 0.6f}, kNew = {0.8f, 0, 0.4f, 0.25f};

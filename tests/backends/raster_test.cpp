@@ -27,7 +27,7 @@ class Raster : public RasterTest {
     return readTexture<uint8_t>(texture);
   }
 };
-GRISAILLE_ON_EVERY_BACKEND(Raster);
+GRISAILLE_ON_EVERY_DEVICE(Raster);
 
 TEST_P(Raster, YPointsUp) {
   const std::vector<uint8_t> texels = coverage({-1, 0, 0.5f, 1, 0, 0.5f, 0, 1, 0.5f});
@@ -80,6 +80,16 @@ TEST_P(Raster, TheNearPlaneClips) {
   EXPECT_EQ(at(0.001f), all);
   EXPECT_EQ(at(1.001f), none);
   EXPECT_EQ(at(-0.001f), none);
+}
+
+// Vulkan requires 4 bits of sub-pixel position. Depth comes from no farther than a vertex snaps.
+TEST_P(Raster, VerticesSnapToNoMoreThanASixteenthOfAPixel) {
+  const Snapping& found = snapping();
+  std::printf("%s: %d bits, depth from up to %.4f pixels away\n", GetParam().label.c_str(),
+              found.bits, found.depthShift);
+  EXPECT_GE(found.bits, 4);
+  EXPECT_LE(found.bits, 12);
+  EXPECT_LE(found.depthShift, 1.1 * found.halfStep());
 }
 
 TEST_P(Raster, IndicesBeginWhereTheDrawSays) {

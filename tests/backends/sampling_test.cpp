@@ -65,7 +65,7 @@ class Sampling : public BackendTest {
     return readBuffer<Vec4>({.buffer = out});
   }
 };
-GRISAILLE_ON_EVERY_BACKEND(Sampling);
+GRISAILLE_ON_EVERY_DEVICE(Sampling);
 
 TEST_P(Sampling, NearestAndLinearWithEveryAddressMode) {
   const gpu::Texture source = texture();

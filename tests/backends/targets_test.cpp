@@ -46,7 +46,7 @@ class Targets : public RasterTest {
     return readTexture<float>(color)[0];
   }
 };
-GRISAILLE_ON_EVERY_BACKEND(Targets);
+GRISAILLE_ON_EVERY_DEVICE(Targets);
 
 TEST_P(Targets, TheNearerWinsAndTheEqualLoses) {
   EXPECT_EQ(winner({0.25f, 0.75f}), 2.0f);

@@ -39,7 +39,7 @@ class Textures : public BackendTest {
     return bytes;
   }
 };
-GRISAILLE_ON_EVERY_BACKEND(Textures);
+GRISAILLE_ON_EVERY_DEVICE(Textures);
 
 constexpr Format kAllFormats[] = {Format::kR8Unorm,   Format::kRgba8Unorm,  Format::kRgba8Srgb,
                                   Format::kR16Float,  Format::kRgba16Float, Format::kR32Float,
@@ -118,7 +118,7 @@ class RowOrder : public BackendTest {
     return readBuffer<float>({.buffer = out});
   }
 };
-GRISAILLE_ON_EVERY_BACKEND(RowOrder);
+GRISAILLE_ON_EVERY_DEVICE(RowOrder);
 
 TEST_P(RowOrder, OfUploads) {
   const gpu::Texture texture = makeTexture({.format = Format::kR32Float,

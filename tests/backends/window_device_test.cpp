@@ -11,15 +11,15 @@ class WindowDevices : public WindowTest {
   std::unique_ptr<gpu::Device> create(GLFWwindow* window, const std::string& device) {
     gpu::DeviceOptions options = optionsFor(window);
     options.device = device;
-    return backends::create(GetParam(), options);
+    return backends::create(GetParam().backend, options);
   }
 };
-GRISAILLE_ON_EVERY_BACKEND(WindowDevices);
+GRISAILLE_ON_EVERY_DEVICE(WindowDevices);
 
 TEST_P(WindowDevices, SayWhatTheyAre) {
   open(32, 32);
   const gpu::DeviceInfo& info = device().info();
-  EXPECT_EQ(info.backend, GetParam());
+  EXPECT_EQ(info.backend, GetParam().backend);
   EXPECT_FALSE(info.name.empty());
   EXPECT_FALSE(info.driver.empty());
   EXPECT_GE(info.capabilities.maxTextureSize, 4096u);
@@ -29,7 +29,7 @@ TEST_P(WindowDevices, AreChosenByNumberOrPartOfTheirName) {
   GLFWwindow* window = makeWindow(32, 32);
   const std::string name = create(window, "")->info().name;
   EXPECT_EQ(create(window, name.substr(0, 6))->info().name, name);
-  const std::vector<gpu::ListedDevice> listed = backends::find(GetParam()).list();
+  const std::vector<gpu::ListedDevice> listed = backends::find(GetParam().backend).list();
   for (size_t i = 0; i < listed.size(); ++i) {
     if (listed[i].name != name) continue;
     EXPECT_EQ(create(window, std::to_string(i))->info().name, name);
@@ -45,7 +45,7 @@ TEST_P(WindowDevices, FollowEachOtherOnOneWindow) {
   for (const bool timed : {false, true, false}) {
     gpu::DeviceOptions options = optionsFor(window);
     options.timed = timed;
-    const std::unique_ptr<gpu::Device> device = backends::create(GetParam(), options);
+    const std::unique_ptr<gpu::Device> device = backends::create(GetParam().backend, options);
     const gpu::Texture picture = makePicture(*device, 64, 48);
     for (int i = 0; i < 5; ++i) EXPECT_TRUE(device->present(picture));
     expectPicture(64, 48, 64, 48);
@@ -54,13 +54,13 @@ TEST_P(WindowDevices, FollowEachOtherOnOneWindow) {
   glfwDestroyWindow(window);
 }
 
-// A device without a window, of either backend, takes turns with the window's.
+// A device without a window, of any driver, takes turns with the window's.
 TEST_P(WindowDevices, LiveBesideOthers) {
   open(50, 40);
   const gpu::Texture picture = makePicture(device(), 50, 40);
-  for (const std::string& backend : presentBackends()) {
-    SCOPED_TRACE(backend);
-    const std::unique_ptr<gpu::Device> other = openDevice(backend);
+  for (const TestDevice& one : presentDevices()) {
+    SCOPED_TRACE(one);
+    const std::unique_ptr<gpu::Device> other = openDevice(one);
     for (int round = 0; round < 5; ++round) {
       show(picture);
       const gpu::Texture second = makePicture(*other, 20, 10);
@@ -80,7 +80,8 @@ TEST_P(WindowDevices, ShowPicturesInSeveralWindows) {
   open(50, 40);
   GLFWwindow* second = makeWindow(30, 20);
   glfwSetWindowPos(second, 100, 0);
-  const std::unique_ptr<gpu::Device> other = backends::create(GetParam(), optionsFor(second));
+  const std::unique_ptr<gpu::Device> other =
+      backends::create(GetParam().backend, optionsFor(second));
   const gpu::Texture picture = makePicture(device(), 50, 40), small = makePicture(*other, 30, 20);
   for (int i = 0; i < 5; ++i) {
     EXPECT_TRUE(device().present(picture));
@@ -95,9 +96,9 @@ TEST_P(WindowDevices, ShowPicturesInSeveralWindows) {
 }
 
 TEST_P(WindowDevices, RefuseTheOtherBackendsWindow) {
-  for (const std::string& backend : presentBackends()) {
-    if (backend == GetParam()) continue;
-    GLFWwindow* window = makeWindow(32, 32, backend);
+  for (const TestDevice& other : presentSystemDevices()) {
+    if (other.backend == GetParam().backend) continue;
+    GLFWwindow* window = makeWindow(32, 32, other.backend);
     glfwSetErrorCallback(nullptr);  // GLFW says it, too
     EXPECT_ERROR(ErrorId::kDeviceFailed, (void)create(window, ""));
     glfwDestroyWindow(window);

@@ -18,7 +18,7 @@ class Windows : public WindowTest {
     expectPicture(width, height, pictureWidth, pictureHeight);
   }
 };
-GRISAILLE_ON_EVERY_BACKEND(Windows);
+GRISAILLE_ON_EVERY_DEVICE(Windows);
 
 TEST_P(Windows, ShowAPictureUpright) {
   open(301, 203);

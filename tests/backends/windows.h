@@ -17,15 +17,14 @@
 
 namespace grisaille::tests {
 
-class WindowTest : public ::testing::TestWithParam<std::string> {
+class WindowTest : public ::testing::TestWithParam<TestDevice> {
  protected:
   static constexpr uint32_t kScreen = 4096;  // pixels a side
 
   void SetUp() override {
-    const std::vector<std::string> present = presentBackends();
-    if (std::find(present.begin(), present.end(), GetParam()) == present.end()) {
-      GTEST_SKIP() << "this machine has no device for " << GetParam();
-    }
+    const std::string why = whyAbsent(GetParam());
+    if (!why.empty()) GTEST_SKIP() << why;
+    driver_ = std::make_unique<DriverScope>(GetParam());
     display_ = std::make_unique<Display>(kScreen, kScreen);
     glfwSetErrorCallback([](int, const char* text) { ADD_FAILURE() << "GLFW says: " << text; });
     ASSERT_EQ(glfwInit(), GLFW_TRUE);
@@ -34,9 +33,11 @@ class WindowTest : public ::testing::TestWithParam<std::string> {
     close();
     glfwTerminate();
     display_.reset();
+    driver_.reset();
   }
 
-  GLFWwindow* makeWindow(uint32_t width, uint32_t height, const std::string& backend = GetParam()) {
+  GLFWwindow* makeWindow(uint32_t width, uint32_t height,
+                         const std::string& backend = GetParam().backend) {
     glfw::hintWindow(backend, true);
     glfwWindowHint(GLFW_DECORATED, GLFW_FALSE);
     GLFWwindow* window = glfwCreateWindow(static_cast<int>(width), static_cast<int>(height), "test",
@@ -58,7 +59,7 @@ class WindowTest : public ::testing::TestWithParam<std::string> {
   // The test's window and its device.
   void open(uint32_t width, uint32_t height) {
     window_ = makeWindow(width, height);
-    device_ = backends::create(GetParam(), optionsFor(window_));
+    device_ = backends::create(GetParam().backend, optionsFor(window_));
   }
   void close() {
     device_.reset();
@@ -132,6 +133,7 @@ class WindowTest : public ::testing::TestWithParam<std::string> {
   }
 
  private:
+  std::unique_ptr<DriverScope> driver_;
   std::unique_ptr<Display> display_;
   GLFWwindow* window_ = nullptr;
   std::deque<glfw::Window> surfaces_;  // as devices see windows; both kinds outlive devices

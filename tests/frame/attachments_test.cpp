@@ -30,36 +30,67 @@ class AttachmentsTest : public tests::BackendTest {
     return images;
   }
 };
-GRISAILLE_ON_EVERY_BACKEND(AttachmentsTest);
+GRISAILLE_ON_EVERY_DEVICE(AttachmentsTest);
 
-// View depth of the floor under a pixel, from the pinhole's own geometry.
+// How far off the depth of a floor is, relative to what the pinhole's own geometry finds at each
+// pixel's centre, less what it changes within `shift` pixels. The floor y = 0 is a square of `size`
+// metres about `middle`.
+double floorError(const image::Image& depth, const scene::Camera& camera, const glm::dvec3& middle,
+                  double size, double shift) {
+  const glm::dmat3 axes = scene::worldFromView(camera);
+  const double half = std::tan(glm::radians(camera.fovyDegrees) / 2);
+  const auto rayThrough = [&](double x, double y) {
+    return axes * glm::dvec3(half * (2 * x - depth.width) / depth.height,
+                             half * (depth.height - 2 * y) / depth.height, -1);
+  };
+  double worst = 0;
+  uint32_t seen = 0;
+  for (uint32_t y = 0; y < depth.height; ++y) {
+    for (uint32_t x = 0; x < depth.width; ++x) {
+      const glm::dvec3 ray = rayThrough(x + 0.5, y + 0.5);
+      const double expected = ray.y < 0 ? -camera.eye.y / ray.y : 0;
+      const glm::dvec3 hit = camera.eye + ray * expected;
+      const double out = std::max(std::abs(hit.x - middle.x), std::abs(hit.z - middle.z));
+      if (expected == 0) {
+        EXPECT_EQ(depth.at(x, y), 0.0f) << x << " " << y;
+      }
+      if (expected == 0 || out > 0.49 * size) continue;
+      // The camera does not roll: the floor's depth varies with y alone.
+      const double moved = ray.y / rayThrough(x + 0.5, y + 0.5 - shift).y;
+      worst = std::max(worst, std::abs(depth.at(x, y) / expected - 1) - std::abs(moved - 1));
+      ++seen;
+    }
+  }
+  EXPECT_GT(seen, 50u);
+  return worst;
+}
+
+// A tile that is seen whole: exact, within what snapping moves.
+TEST_P(AttachmentsTest, ATilesDepthIsExact) {
+  for (const glm::dvec3 eye : {glm::dvec3(0, 1.5, 0), glm::dvec3(12345.678, 1.5, -9876.5)}) {
+    const scene::Camera camera = {.eye = eye, .target = eye + glm::dvec3(1, -1.5, -2)};
+    scene::Scene scene = tests::floorScene(1);
+    scene.instances[0].worldFromObject[3] = glm::dvec4(camera.target.x, 0, camera.target.z, 1);
+    const image::Image depth = render(scene, camera, {"depth"}, 96, 72)[0];
+    const double shift = snapping().isCoarse() ? 1.1 * snapping().depthShift : 0;
+    EXPECT_LT(floorError(depth, camera, camera.target, 1, shift), 2e-6);
+  }
+}
+
+// A floor that the near plane and the picture's sides cut. SwiftShader, which snaps vertices to a
+// 16th of a pixel, is off by some hundredths there: after clipping it interpolates between corners
+// that lie hundreds of pixels outside of the picture.
 TEST_P(AttachmentsTest, FloorDepthIsExact) {
   for (const glm::dvec3 eye : {glm::dvec3(0, 1.5, 0), glm::dvec3(12345.678, 1.5, -9876.5)}) {
+    const scene::Camera camera = {.eye = eye, .target = eye + glm::dvec3(1, -0.5, -2)};
     scene::Scene scene = tests::floorScene();
     scene.instances[0].worldFromObject[3] = glm::dvec4(eye.x, 0, eye.z, 1);
-    const scene::Camera camera = {.eye = eye, .target = eye + glm::dvec3(1, -0.5, -2)};
     const image::Image depth = render(scene, camera, {"depth"})[0];
-    const glm::dmat3 axes = scene::worldFromView(camera);
-    const double half = std::tan(glm::radians(camera.fovyDegrees) / 2);
-    uint32_t seen = 0;
-    for (uint32_t y = 0; y < depth.height; ++y) {
-      for (uint32_t x = 0; x < depth.width; ++x) {
-        const glm::dvec3 ray =
-            axes * glm::dvec3(half * (2 * (x + 0.5) - depth.width) / depth.height,
-                              half * (depth.height - 2 * (y + 0.5)) / depth.height, -1);
-        const double expected = ray.y < 0 ? -eye.y / ray.y : 0;
-        const glm::dvec3 hit = ray * expected;
-        const bool edge = std::max(std::abs(hit.x), std::abs(hit.z)) > 49;
-        if (edge) continue;
-        if (expected == 0) {
-          EXPECT_EQ(depth.at(x, y), 0.0f) << x << " " << y;
-        } else {
-          EXPECT_NEAR(depth.at(x, y) / expected, 1, 2e-6) << x << " " << y;
-          ++seen;
-        }
-      }
+    if (snapping().isCoarse()) {
+      EXPECT_LT(floorError(depth, camera, eye, 4, 1.1 * snapping().depthShift), 0.05);
+    } else {
+      EXPECT_LT(floorError(depth, camera, eye, 100, 0), 2e-6);
     }
-    EXPECT_GT(seen, 300u);
   }
 }
 

@@ -111,8 +111,9 @@ class DepthRaysTest : public tests::BackendTest {
         ++tally.unknown;
       }
     }
-    std::printf("%s: none %zu (%zu wrong), hits %zu (%zu wrong), unknown %zu\n", GetParam().c_str(),
-                tally.none, tally.wrongNone, tally.hits, tally.wrongHits, tally.unknown);
+    std::printf("%s: none %zu (%zu wrong), hits %zu (%zu wrong), unknown %zu\n",
+                GetParam().label.c_str(), tally.none, tally.wrongNone, tally.hits, tally.wrongHits,
+                tally.unknown);
     return tally;
   }
 
@@ -123,7 +124,7 @@ class DepthRaysTest : public tests::BackendTest {
   std::optional<trace::RayTracer> tracer_;
   std::mt19937 random_{5};
 };
-GRISAILLE_ON_EVERY_BACKEND(DepthRaysTest);
+GRISAILLE_ON_EVERY_DEVICE(DepthRaysTest);
 
 TEST_P(DepthRaysTest, TheEyeSeesWhatThePixelShows) {
   // Through the pixel's centre, and anywhere in the pixel: there an edge may be half a pixel off.
@@ -149,7 +150,8 @@ TEST_P(DepthRaysTest, RaysThroughTheViewAgreeWithTheScene) {
   EXPECT_GT(tally.none, kCount / 4);
   EXPECT_GT(tally.hits, kCount / 20);
   EXPECT_LE(tally.wrongNone, tally.none / 1000);
-  EXPECT_LE(tally.wrongHits, tally.hits / 200);
+  // Where vertices snap coarsely, depths on slopes are off by more than a short ray's 2e-3.
+  EXPECT_LE(tally.wrongHits, tally.hits / (snapping().isCoarse() ? 40 : 200));
 }
 
 TEST_P(DepthRaysTest, BehindWallsNothingIsKnown) {

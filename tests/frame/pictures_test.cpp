@@ -203,7 +203,7 @@ class PictureFrames : public tests::BackendTest {
 
   effect::Registry registry_;
 };
-GRISAILLE_ON_EVERY_BACKEND(PictureFrames);
+GRISAILLE_ON_EVERY_DEVICE(PictureFrames);
 
 TEST_P(PictureFrames, AFrameFromItsOwnPicturesIsTheFrame) {
   const scene::Scene atrium = scene::makeAtrium();

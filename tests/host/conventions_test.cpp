@@ -76,7 +76,7 @@ std::vector<float> normalsOf(const Seen& seen, const Way& way, const Eye& eye) {
   return turned(numbers, seen, way.rows);
 }
 
-class Conventions : public ::testing::TestWithParam<std::string> {
+class Conventions : public ::testing::TestWithParam<TestDevice> {
  protected:
   Conventions() : host_(makeHost(GetParam())), device_(host_->device()) {}
   ~Conventions() override { EXPECT_EQ(host_->complaints(), 0); }
@@ -119,8 +119,7 @@ class Conventions : public ::testing::TestWithParam<std::string> {
   std::unique_ptr<Host> host_;
   host::Device device_;
 };
-INSTANTIATE_TEST_SUITE_P(, Conventions, ::testing::Values("vulkan", "opengl"),
-                         [](const auto& test) { return test.param; });
+GRISAILLE_IN_EVERY_HOST(Conventions);
 
 TEST_P(Conventions, AllComeToTheSame) {
   const image::Image expected = visibility(pinhole(), {.name = "metres"});
@@ -169,8 +168,8 @@ TEST_P(Conventions, WithoutNormalsThoseOfTheFacetsAreTaken) {
   camera.nearPlane = kNear;
   const Outcome outcome =
       runProgram({"apply", "--depth", "depth.exr", "--camera", scene::cameraJson(camera), "--set",
-                  "ssao.radius=0.6", "--backend", GetParam(), "--write", "ao=ao.exr"},
-                 folder.path());
+                  "ssao.radius=0.6", "--backend", GetParam().backend, "--write", "ao=ao.exr"},
+                 folder.path(), driverEnvironment(GetParam()));
   ASSERT_EQ(outcome.status, 0) << outcome.err;
   const image::Image expected = image::read(folder / "ao.exr");
   // Where two triples of pixels are as near to a line, rounding chooses.

@@ -27,7 +27,7 @@ void expectError(int result, int number, const std::string& mention) {
   EXPECT_NE(line.find(mention), std::string::npos) << line;
 }
 
-class Errors : public ::testing::TestWithParam<std::string> {
+class Errors : public ::testing::TestWithParam<TestDevice> {
  protected:
   Errors()
       : host_(makeHost(GetParam())),
@@ -64,8 +64,7 @@ class Errors : public ::testing::TestWithParam<std::string> {
   host::Texture depth_;
   grisaille_host_camera camera_;
 };
-INSTANTIATE_TEST_SUITE_P(, Errors, ::testing::Values("vulkan", "opengl"),
-                         [](const auto& test) { return test.param; });
+GRISAILLE_IN_EVERY_HOST(Errors);
 
 TEST_P(Errors, OfTheLibrary) {
   EXPECT_EQ(grisaille_host_version(), GRISAILLE_HOST_VERSION);
@@ -102,7 +101,7 @@ TEST_P(Errors, OfDevices) {
 }
 
 TEST_P(Errors, OfVulkanDevices) {
-  if (GetParam() != "vulkan") GTEST_SKIP();
+  if (GetParam().backend != "vulkan") GTEST_SKIP();
   host::VulkanSpec spec = vulkanSpec(*host_);
   const auto expectRefused = [&](int number, const std::string& mention) {
     try {
@@ -144,8 +143,8 @@ TEST_P(Errors, OfTextures) {
   desc.reserved = 1;
   expectRefused(5611, "reserved");
   desc.image = 0;
-  expectRefused(5605, GetParam() == "vulkan" ? "VK_NULL_HANDLE" : "0 names no texture");
-  if (GetParam() == "vulkan") {
+  expectRefused(5605, GetParam().backend == "vulkan" ? "VK_NULL_HANDLE" : "0 names no texture");
+  if (GetParam().backend == "vulkan") {
     desc.format = 99999;
     expectRefused(5605, "VkFormat 99999");
     desc.layout = 0;

@@ -18,11 +18,18 @@ Eye eye() {
           .angle = 0.8};
 }
 
+TEST(HostDevices, AreInstalled) {
+  for (const TestDevice& device : testDevices()) {
+    const std::string why = whyMissing(device);
+    if (!why.empty()) GTEST_SKIP() << why;
+  }
+}
+
 std::vector<float> viewOf(const Seen& seen) {
   return {seen.view.begin(), seen.view.end()};
 }
 
-class Frames : public ::testing::TestWithParam<std::string> {
+class Frames : public ::testing::TestWithParam<TestDevice> {
  protected:
   explicit Frames(bool validate = true)
       : host_(makeHost(GetParam(), validate)), device_(host_->device()) {}
@@ -54,8 +61,7 @@ class Frames : public ::testing::TestWithParam<std::string> {
   host::Device device_;
   host::Camera camera_ = host::Camera::pinhole(&eye().viewFromWorld[0][0], 0.8, 0.25);
 };
-INSTANTIATE_TEST_SUITE_P(, Frames, ::testing::Values("vulkan", "opengl"),
-                         [](const auto& test) { return test.param; });
+GRISAILLE_IN_EVERY_HOST(Frames);
 
 TEST_P(Frames, EffectsAreListedWithTheirTables) {
   ASSERT_EQ(device_.effects().size(), 2u);
@@ -267,8 +273,7 @@ class UnwatchedFrames : public Frames {
  protected:
   UnwatchedFrames() : Frames(false) {}
 };
-INSTANTIATE_TEST_SUITE_P(, UnwatchedFrames, ::testing::Values("vulkan", "opengl"),
-                         [](const auto& test) { return test.param; });
+GRISAILLE_IN_EVERY_HOST(UnwatchedFrames);
 
 TEST_P(UnwatchedFrames, RecordingAgainAllocatesNothing) {
   if (SANITIZED) GTEST_SKIP() << "the sanitizers allocate themselves";

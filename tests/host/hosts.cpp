@@ -6,8 +6,9 @@
 
 namespace grisaille::tests {
 
-std::unique_ptr<Host> makeHost(const std::string& api, bool validate) {
-  return api == "vulkan" ? makeVulkanHost(validate) : makeOpenGlHost();
+std::unique_ptr<Host> makeHost(const TestDevice& device, bool validate) {
+  const DriverScope scope(device);
+  return device.backend == "vulkan" ? makeVulkanHost(validate) : makeOpenGlHost();
 }
 
 }  // namespace grisaille::tests

@@ -9,6 +9,7 @@
 #include <vector>
 
 #include "grisaille/host.hpp"
+#include "tests/support/test_device.h"
 
 namespace grisaille::tests {
 
@@ -38,7 +39,13 @@ class Host {
   virtual int complaints() const = 0;
 };
 
-// "vulkan" or "opengl". Validation layers allocate themselves.
-std::unique_ptr<Host> makeHost(const std::string& api, bool validate = true);
+// A host on this device. Validation layers allocate themselves.
+std::unique_ptr<Host> makeHost(const TestDevice& device, bool validate = true);
 
 }  // namespace grisaille::tests
+
+// Runs a suite in a host of every device that is installed: hosts are made before a suite can be
+// skipped. HostDevices.AreInstalled is skipped where one is missing.
+#define GRISAILLE_IN_EVERY_HOST(Suite)                                                            \
+  INSTANTIATE_TEST_SUITE_P(, Suite, ::testing::ValuesIn(::grisaille::tests::installedDevices()), \
+                           GRISAILLE_DEVICE_NAME)

@@ -32,7 +32,7 @@ class HistoryTest : public tests::BackendTest {
 
   const scene::Scene scene_ = tests::cornerScene();
 };
-GRISAILLE_ON_EVERY_BACKEND(HistoryTest);
+GRISAILLE_ON_EVERY_DEVICE(HistoryTest);
 
 scene::Camera cameraAt(double x, double z = 1.5) {
   return {.eye = glm::dvec3(x, 1.2, z), .target = glm::dvec3(x, 0, 0)};

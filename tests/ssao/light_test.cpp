@@ -18,7 +18,7 @@ constexpr uint32_t kLitWidth = 320, kLitHeight = 240;
 const scene::Camera kCreaseView = {.eye = glm::dvec3(0, 1.2, 1.5), .target = glm::dvec3(0, 0, 0)};
 
 class LightTest : public tests::BackendTest {};
-GRISAILLE_ON_EVERY_BACKEND(LightTest);
+GRISAILLE_ON_EVERY_DEVICE(LightTest);
 
 glm::dvec3 vectorAt(const image::Image& image, uint32_t x, uint32_t y) {
   return {image.at(x, y, 0), image.at(x, y, 1), image.at(x, y, 2)};

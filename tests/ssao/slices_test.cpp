@@ -18,7 +18,7 @@ constexpr const char* kResolutions[] = {"full", "half", "quarter"};
 const scene::Camera kCorner = {.eye = glm::dvec3(0, 1.2, 1.5), .target = glm::dvec3(0, 0, 0)};
 
 class SlicesTest : public tests::BackendTest {};
-GRISAILLE_ON_EVERY_BACKEND(SlicesTest);
+GRISAILLE_ON_EVERY_DEVICE(SlicesTest);
 
 std::string join(const tests::Settings& settings) {
   std::string all;
@@ -88,6 +88,8 @@ TEST_P(SlicesTest, ACornerIsWithinTwoHundredthsOfItsAnalyticValue) {
   renderer.render(
       {.camera = kCorner, .width = 640, .height = 480, .effects = {}, .outputs = outputs});
   const image::Image depth = renderer.read("depth");
+  // The near plane cuts floor and wall: where vertices snap coarsely, their depth is off.
+  const double allowed = snapping().isCoarse() ? 0.03 : 0.02;
   for (const tests::Settings& settings :
        std::vector<tests::Settings>{{{"resolution", "full"}},
                                     {{"resolution", "half"}},
@@ -97,7 +99,7 @@ TEST_P(SlicesTest, ACornerIsWithinTwoHundredthsOfItsAnalyticValue) {
         cornerErrors(tests::renderAo(device(), scene, kCorner, settings, 640, 480), depth);
     for (size_t w = 0; w < 2; ++w) {
       for (size_t bin = 0; bin < 5; ++bin) {
-        EXPECT_NEAR(errors[w][bin], 0, 0.02)
+        EXPECT_NEAR(errors[w][bin], 0, allowed)
             << join(settings) << (w == 0 ? "floor" : "wall") << " at " << bin << " fifths";
       }
     }
@@ -311,7 +313,7 @@ TEST_P(SlicesTest, EdgesAreDenoisedAndNothingElse) {
 }
 
 TEST(SlicesBackends, Agree) {
-  const std::vector<std::string> backends = tests::presentBackends();
+  const std::vector<tests::TestDevice> backends = tests::presentSystemDevices();
   if (backends.size() < 2) GTEST_SKIP() << "one backend alone is present";
   for (const tests::Settings& settings :
        std::vector<tests::Settings>{{{"resolution", "full"}},
@@ -319,7 +321,7 @@ TEST(SlicesBackends, Agree) {
                                     {{"resolution", "quarter"}},
                                     {{"slices", "3"}, {"denoise_size", "0"}}}) {
     std::vector<image::Image> images;
-    for (const std::string& backend : backends) {
+    for (const tests::TestDevice& backend : backends) {
       const auto device = tests::openDevice(backend);
       images.push_back(tests::renderAo(*device, tests::cornerScene(), kCorner, settings));
     }

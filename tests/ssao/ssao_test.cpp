@@ -27,7 +27,7 @@ const scene::Camera kDown = {.eye = glm::dvec3(0, 2, 0), .target = glm::dvec3(0,
 const scene::Camera kCrease = {.eye = glm::dvec3(0, 2, 2), .target = glm::dvec3(0, 0, 0)};
 
 class SsaoTest : public tests::BackendTest {};
-GRISAILLE_ON_EVERY_BACKEND(SsaoTest);
+GRISAILLE_ON_EVERY_DEVICE(SsaoTest);
 
 TEST_P(SsaoTest, EverySettingGivesVisibilities) {
   const scene::Scene scene = tests::cornerScene();
@@ -144,12 +144,12 @@ TEST_P(SsaoTest, EdgeAwareBlurKeepsTheSkylineAndBoxDoesNotDarkenIt) {
 }
 
 TEST(SsaoBackends, Agree) {
-  const std::vector<std::string> backends = tests::presentBackends();
+  const std::vector<tests::TestDevice> backends = tests::presentSystemDevices();
   if (backends.size() < 2) GTEST_SKIP() << "one backend alone is present";
   for (const tests::Settings& settings :
        std::vector<tests::Settings>{{}, {{"sampling", "sphere"}}, {{"blur_size", "0"}}}) {
     std::vector<image::Image> images;
-    for (const std::string& backend : backends) {
+    for (const tests::TestDevice& backend : backends) {
       const auto device = tests::openDevice(backend);
       images.push_back(renderClassic(*device, tests::cornerScene(), kCrease, settings));
     }

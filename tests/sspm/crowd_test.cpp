@@ -19,13 +19,17 @@ using namespace app::stability;
 const scene::Camera kWall = {.eye = glm::dvec3(0, 0, 3), .target = glm::dvec3(0, 0, 0)};
 
 class CrowdTest : public BackendTest {};
-GRISAILLE_ON_EVERY_BACKEND(CrowdTest);
+GRISAILLE_ON_EVERY_DEVICE(CrowdTest);
 
 // What newer paint hides is dropped, which nobody may see: in a crease that every muzzle sees
-// whole, dozens of layers deep, the picture is the definition's with all shots.
+// whole, dozens of layers deep, the picture is the definition's with all shots. Places are those of
+// rays: in so small a picture, a rasteriser that snaps vertices to a 16th of a pixel puts places
+// farther off their surface than paint on surfaces allows.
 TEST_P(CrowdTest, HidingChangesNothing) {
   const scene::Scene scene = cornerScene();
   TracedRays rays(scene);
+  frame::PictureAttachments places;
+  places.show(tracedPictures(rays.tracer(), kCrease, kWidth, kHeight));
   for (uint32_t seed = 0; seed < 4; ++seed) {
     std::mt19937 random(seed);
     std::uniform_real_distribution<double> unit(0, 1);
@@ -42,7 +46,7 @@ TEST_P(CrowdTest, HidingChangesNothing) {
                          {"edge_fade", seed < 2 ? "0.5" : "0"},
                          {"splat_sharpness", "1"},
                          {"shot_limit", "65536"}};
-    PaintFrame frame(device(), scene);
+    PaintFrame frame(device(), places);
     frame.setRays(&rays);
     frame.set(settings);
     frame.render(kCrease, kWidth, kHeight, shots);

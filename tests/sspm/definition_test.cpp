@@ -57,7 +57,7 @@ double pixelSlope(const scene::Camera& camera) {
 }
 
 class DefinitionTest : public BackendTest {};
-GRISAILLE_ON_EVERY_BACKEND(DefinitionTest);
+GRISAILLE_ON_EVERY_DEVICE(DefinitionTest);
 
 TEST_P(DefinitionTest, PerShotIsTheDefinition) {
   const scene::Scene scene = cornerScene();

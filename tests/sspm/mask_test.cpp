@@ -50,7 +50,7 @@ Agreement compare(const Mask& mask, const image::Image& coverage) {
 }
 
 class MaskTest : public BackendTest {};
-GRISAILLE_ON_EVERY_BACKEND(MaskTest);
+GRISAILLE_ON_EVERY_DEVICE(MaskTest);
 
 TEST_P(MaskTest, PaintLandsWhereTheMuzzleSees) {
   const std::filesystem::path shared = SHARED_FOLDER;
@@ -94,7 +94,7 @@ TEST_P(MaskTest, PaintLandsWhereTheMuzzleSees) {
       sum.stray += one.stray;
     }
   }
-  std::printf("%s: %zu px, intersection over union %.4f, %zu px astray\n", GetParam().c_str(),
+  std::printf("%s: %zu px, intersection over union %.4f, %zu px astray\n", GetParam().label.c_str(),
               sum.traced, sum.iou(), sum.stray);
   EXPECT_GE(sum.iou(), 0.99);
   // Edges that are thinner than a map's finest squares hide from it.

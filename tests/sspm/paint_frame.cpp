@@ -18,6 +18,11 @@ PaintFrame::PaintFrame(gpu::Device& device, const scene::Scene& scene)
       instance_(device, registry_.find("sspm")),
       renderer_(device, scene) {}
 
+PaintFrame::PaintFrame(gpu::Device& device, frame::AttachmentSource& source)
+    : values_(scanned(registry_).find("sspm")),
+      instance_(device, registry_.find("sspm")),
+      renderer_(device, source) {}
+
 void PaintFrame::set(const Settings& settings) {
   values_ = effect::Values(registry_.find("sspm"));
   for (const auto& [key, value] : settings) values_.set(key, value);
@@ -34,6 +39,13 @@ void PaintFrame::render(const scene::Camera& camera, uint32_t width, uint32_t he
                     .effects = effects,
                     .outputs = outputs,
                     .rays = rays_});
+}
+
+frame::Pictures tracedPictures(const trace::RayTracer& tracer, const scene::Camera& camera,
+                               uint32_t width, uint32_t height) {
+  return {.viewDepth = trace::depthImage(tracer.castPrimary(camera, width, height), width, height),
+          .normal = {},
+          .baseColour = {}};
 }
 
 grisaille_shot shotAt(const glm::dvec3& origin, const glm::dvec3& target, const glm::vec3& color,

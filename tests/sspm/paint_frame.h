@@ -9,6 +9,7 @@
 #include <vector>
 
 #include "core/effect/registry.h"
+#include "core/frame/picture_attachments.h"
 #include "core/frame/renderer.h"
 #include "tests/support/traced_rays.h"
 
@@ -25,6 +26,8 @@ inline const scene::Camera kCrease = {.eye = glm::dvec3(0.3, 1.5, 2.5),
 class PaintFrame {
  public:
   PaintFrame(gpu::Device& device, const scene::Scene& scene);
+  // Of attachments from elsewhere. `source` outlives this.
+  PaintFrame(gpu::Device& device, frame::AttachmentSource& source);
 
   // nullptr: this host casts none.
   void setRays(effect::RayService* rays) { rays_ = rays; }
@@ -44,6 +47,10 @@ class PaintFrame {
   frame::Renderer renderer_;
   effect::RayService* rays_ = nullptr;
 };
+
+// The depth that rays find, which no rasteriser's snapping moves off the surfaces.
+frame::Pictures tracedPictures(const trace::RayTracer& tracer, const scene::Camera& camera,
+                               uint32_t width, uint32_t height);
 
 // A shot from `origin` at `target`.
 grisaille_shot shotAt(const glm::dvec3& origin, const glm::dvec3& target, const glm::vec3& color,

@@ -44,7 +44,7 @@ class PaintTest : public BackendTest {
                  {"paint", "paint_coverage", "paint_owner", "depth"});
   }
 };
-GRISAILLE_ON_EVERY_BACKEND(PaintTest);
+GRISAILLE_ON_EVERY_DEVICE(PaintTest);
 
 TEST_P(PaintTest, TheNewestWins) {
   const scene::Scene scene = cornerScene();

@@ -50,7 +50,7 @@ class ResolutionTest : public BackendTest {
             frame.read("facet_normal")};
   }
 };
-GRISAILLE_ON_EVERY_BACKEND(ResolutionTest);
+GRISAILLE_ON_EVERY_DEVICE(ResolutionTest);
 
 // Whether all pixels within `reach` of one have its facet's normal, its coverage and its owner.
 bool isEven(const Shown& full, uint32_t x, uint32_t y, uint32_t reach) {

@@ -8,44 +8,60 @@
 
 namespace grisaille::tests {
 
-std::vector<std::string> backendNames() {
-  std::vector<std::string> names;
-  for (const backends::Backend& backend : backends::all()) names.emplace_back(backend.name);
-  return names;
-}
+namespace {
 
-std::vector<std::string> presentBackends() {
-  std::vector<std::string> present;
-  for (const backends::Backend& backend : backends::all()) {
-    try {
-      if (!backend.list().empty()) present.emplace_back(backend.name);
-    } catch (const Error& error) {
-      if (error.id() != ErrorId::kBackendMissing) throw;
-    }
+bool hasDevice(const TestDevice& device) {
+  const DriverScope scope(device);
+  try {
+    return !backends::find(device.backend).list().empty();
+  } catch (const Error& error) {
+    if (error.id() != ErrorId::kBackendMissing) throw;
+    return false;
   }
-  return present;
 }
 
-std::unique_ptr<gpu::Device> openDevice(const std::string& backend, bool timed) {
+std::vector<TestDevice> presentOf(std::vector<TestDevice> list) {
+  std::erase_if(list, [](const TestDevice& device) { return !whyAbsent(device).empty(); });
+  return list;
+}
+
+}  // namespace
+
+std::vector<TestDevice> presentDevices() {
+  return presentOf(testDevices());
+}
+
+std::vector<TestDevice> presentSystemDevices() {
+  return presentOf({systemOpenGl(), systemVulkan()});
+}
+
+std::string whyAbsent(const TestDevice& device) {
+  std::string why = whyMissing(device);
+  if (why.empty() && !hasDevice(device)) why = "this machine has no device for " + device.label;
+  return why;
+}
+
+std::unique_ptr<gpu::Device> openDevice(const TestDevice& device, bool timed) {
+  const DriverScope scope(device);
   gpu::DeviceOptions options;
   options.check = true;
   options.timed = timed;
-  options.message = [backend](gpu::Severity severity, std::string_view text) {
-    ADD_FAILURE() << backend << " says (severity " << static_cast<int>(severity) << "): " << text;
+  options.message = [label = device.label](gpu::Severity severity, std::string_view text) {
+    ADD_FAILURE() << label << " says (severity " << static_cast<int>(severity) << "): " << text;
   };
-  return backends::create(backend, options);
+  return backends::create(device.backend, options);
 }
 
 void BackendTest::SetUp() {
-  const std::vector<std::string> present = presentBackends();
-  if (std::find(present.begin(), present.end(), GetParam()) == present.end()) {
-    GTEST_SKIP() << "this machine has no device for " << GetParam();
-  }
+  const std::string why = whyAbsent(GetParam());
+  if (!why.empty()) GTEST_SKIP() << why;
+  driver_ = std::make_unique<DriverScope>(GetParam());
   device_ = openDevice(GetParam());
 }
 
 void BackendTest::TearDown() {
   closeDevice();
+  driver_.reset();
 }
 
 void BackendTest::closeDevice() {
@@ -60,6 +76,11 @@ void BackendTest::closeDevice() {
 void BackendTest::reopenTimed() {
   closeDevice();
   device_ = openDevice(GetParam(), true);
+}
+
+const Snapping& BackendTest::snapping() {
+  if (!snapping_) snapping_ = measureSnapping(device());
+  return *snapping_;
 }
 
 gpu::Buffer BackendTest::makeBuffer(uint64_t size, gpu::BufferUsage usage) {

@@ -7,30 +7,39 @@
 #include <algorithm>
 #include <functional>
 #include <memory>
+#include <optional>
 #include <string>
 #include <vector>
 
 #include "core/gpu/device.h"
+#include "tests/support/snapping.h"
+#include "tests/support/test_device.h"
 
 namespace grisaille::tests {
 
-// The backends that have a device on this machine.
-std::vector<std::string> presentBackends();
+// Of all test devices, those that this machine has.
+std::vector<TestDevice> presentDevices();
 
-// The names of all backends of the program, for INSTANTIATE_TEST_SUITE_P.
-std::vector<std::string> backendNames();
+// The system's OpenGL and Vulkan devices, of which this machine may lack one.
+std::vector<TestDevice> presentSystemDevices();
+
+// Why a test of this device is skipped here, or "".
+std::string whyAbsent(const TestDevice& device);
 
 // A checked device whose messages fail the current test.
-std::unique_ptr<gpu::Device> openDevice(const std::string& backend, bool timed = false);
+std::unique_ptr<gpu::Device> openDevice(const TestDevice& device, bool timed = false);
 
-// A test that runs on every backend that is present, on a device of its own. What it makes through
-// the functions below is destroyed at its end.
-class BackendTest : public ::testing::TestWithParam<std::string> {
+// A test that runs on every device that is present, and is skipped on the others. The functions
+// below make what the test destroys at its end. During a test, every new Vulkan instance of the
+// process has the test's driver alone.
+class BackendTest : public ::testing::TestWithParam<TestDevice> {
  protected:
   void SetUp() override;
   void TearDown() override;
 
   gpu::Device& device() { return *device_; }
+  // Of the test's device, measured once a test.
+  const Snapping& snapping();
   // Replaces the device by one that times its passes.
   void reopenTimed();
 
@@ -87,13 +96,15 @@ class BackendTest : public ::testing::TestWithParam<std::string> {
   }
   void closeDevice();
 
+  std::unique_ptr<DriverScope> driver_;
   std::unique_ptr<gpu::Device> device_;
+  std::optional<Snapping> snapping_;
   std::vector<std::function<void(gpu::Device&)>> destroy_;
 };
 
 }  // namespace grisaille::tests
 
-// Runs the tests of a BackendTest on every backend.
-#define GRISAILLE_ON_EVERY_BACKEND(Suite)                                                    \
-  INSTANTIATE_TEST_SUITE_P(, Suite, ::testing::ValuesIn(::grisaille::tests::backendNames()), \
-                           [](const auto& test) { return test.param; })
+// Runs the tests of a BackendTest on every device.
+#define GRISAILLE_ON_EVERY_DEVICE(Suite)                                                    \
+  INSTANTIATE_TEST_SUITE_P(, Suite, ::testing::ValuesIn(::grisaille::tests::testDevices()), \
+                           GRISAILLE_DEVICE_NAME)

@@ -17,6 +17,7 @@ class Cache : public WithDevice {
  protected:
   void SetUp() override {
     WithDevice::SetUp();
+    if (IsSkipped()) return;
     const char* old = std::getenv("XDG_CACHE_HOME");
     if (old != nullptr) old_ = old;
     folder_ = fs::temp_directory_path() / fmt::format("grisaille-cache-test-{}", getpid());
@@ -30,6 +31,7 @@ class Cache : public WithDevice {
       setenv("XDG_CACHE_HOME", old_.c_str(), 1);
     }
     if (!folder_.empty()) fs::remove_all(folder_);
+    WithDevice::TearDown();
   }
 
   // Opens a device, compiles a pipeline and closes it, which writes the file.
@@ -54,14 +56,19 @@ class Cache : public WithDevice {
     std::ofstream(path, std::ios::binary | std::ios::trunc) << text;
   }
 
+  // SwiftShader's cache data is a header without pipelines, which is not written.
+  bool keepsPipelines() const { return GetParam().driver.empty() || !files().empty(); }
+
   fs::path folder_;
 
  private:
   std::string old_;
 };
+GRISAILLE_ON_EVERY_VULKAN_DEVICE(Cache);
 
-TEST_F(Cache, IsOneFileThatIsWrittenOnceAndLeftAlone) {
+TEST_P(Cache, IsOneFileThatIsWrittenOnceAndLeftAlone) {
   run();
+  if (!keepsPipelines()) GTEST_SKIP() << "the driver keeps no pipelines";
   ASSERT_EQ(files().size(), 1u);
   const fs::path file = files()[0];
   const auto longAgo = fs::file_time_type::clock::now() - std::chrono::hours(24);
@@ -71,8 +78,21 @@ TEST_F(Cache, IsOneFileThatIsWrittenOnceAndLeftAlone) {
   EXPECT_EQ(fs::last_write_time(file), longAgo) << "unchanged contents were written again";
 }
 
-TEST_F(Cache, ADamagedFileIsReplaced) {
+// Whatever a driver makes of its own data, no file grows from run to run.
+TEST_P(Cache, DoesNotGrow) {
+  uintmax_t first = 0;
+  for (int i = 0; i < 3; ++i) {
+    run();
+    uintmax_t bytes = 0;
+    for (const fs::path& file : files()) bytes += fs::file_size(file);
+    if (i == 0) first = bytes;
+    EXPECT_EQ(bytes, first) << "run " << i;
+  }
+}
+
+TEST_P(Cache, ADamagedFileIsReplaced) {
   run();
+  if (!keepsPipelines()) GTEST_SKIP() << "the driver keeps no pipelines";
   ASSERT_EQ(files().size(), 1u);
   const fs::path file = files()[0];
   const std::string whole = contents(file);
@@ -96,7 +116,7 @@ TEST_F(Cache, ADamagedFileIsReplaced) {
   }
 }
 
-TEST_F(Cache, AnUnusableFolderIsNoError) {
+TEST_P(Cache, AnUnusableFolderIsNoError) {
   replace(folder_ / "grisaille", "a file where the folder would be");
   EXPECT_NO_THROW(run());
   const fs::path blocked = folder_ / "blocked";

@@ -1,17 +1,22 @@
 // SPDX-License-Identifier: MIT
-// A Vulkan device whose messages fail the test; tests are skipped where there is none.
+// A Vulkan device whose messages fail the test, once with each driver; tests are skipped where there
+// is none.
 #pragma once
 
 #include <gtest/gtest.h>
 
 #include "backends/vulkan/vulkan.h"
 #include "core/error.h"
+#include "tests/support/test_device.h"
 
 namespace grisaille::vulkan {
 
-class WithDevice : public ::testing::Test {
+class WithDevice : public ::testing::TestWithParam<tests::TestDevice> {
  protected:
   void SetUp() override {
+    const std::string missing = tests::whyMissing(GetParam());
+    if (!missing.empty()) GTEST_SKIP() << missing;
+    driver_ = std::make_unique<tests::DriverScope>(GetParam());
     try {
       if (!listDevices().empty()) return;
     } catch (const Error& error) {
@@ -19,6 +24,7 @@ class WithDevice : public ::testing::Test {
     }
     GTEST_SKIP() << "this machine has no Vulkan device";
   }
+  void TearDown() override { driver_.reset(); }
 
   static std::unique_ptr<gpu::Device> open(bool check = true) {
     gpu::DeviceOptions options;
@@ -28,6 +34,14 @@ class WithDevice : public ::testing::Test {
     };
     return createDevice(options);
   }
+
+ private:
+  std::unique_ptr<tests::DriverScope> driver_;
 };
+
+// Runs the tests of a WithDevice with every driver.
+#define GRISAILLE_ON_EVERY_VULKAN_DEVICE(Suite)                                                    \
+  INSTANTIATE_TEST_SUITE_P(, Suite, ::testing::ValuesIn(::grisaille::tests::vulkanTestDevices()), \
+                           GRISAILLE_DEVICE_NAME)
 
 }  // namespace grisaille::vulkan

@@ -8,10 +8,11 @@
 namespace grisaille::vulkan {
 namespace {
 
-using Layouts = WithDevice;
+class Layouts : public WithDevice {};
+GRISAILLE_ON_EVERY_VULKAN_DEVICE(Layouts);
 
 // The sampled views and the image share subresources, so that one layout must serve both.
-TEST_F(Layouts, OneCallReadsATextureBothWays) {
+TEST_P(Layouts, OneCallReadsATextureBothWays) {
   const std::unique_ptr<gpu::Device> device = open();
   const gpu::Texture texture =
       device->createTexture({.label = "both",
