@@ -1,0 +1,80 @@
+// SPDX-License-Identifier: MIT
+// How far drivers agree: the same depth and normals given to the effects on each, and whole frames
+// that each draws itself.
+#pragma once
+
+#include <map>
+#include <memory>
+#include <optional>
+#include <string>
+#include <utility>
+#include <vector>
+
+#include "core/effect/registry.h"
+#include "core/frame/picture_attachments.h"
+#include "core/frame/renderer.h"
+#include "core/trace/ray_tracer.h"
+#include "tests/support/devices.h"
+#include "tests/support/traced_rays.h"
+
+namespace grisaille::tests {
+
+// A view of a scene, with paint to place in it and truth to compare with.
+class DriverSubject {
+ public:
+  // The built-in atrium, and Crytek Sponza where GRISAILLE_SPONZA names it or the project keeps it;
+  // null where Sponza is missing.
+  static std::unique_ptr<DriverSubject> atrium(uint32_t width, uint32_t height);
+  static std::unique_ptr<DriverSubject> sponza(uint32_t width, uint32_t height);
+
+  // RMSE of a visibility picture against rays, at every fourth pixel both ways.
+  double rmse(const image::Image& ao);
+
+  std::string name;
+  scene::Scene scene;
+  scene::Camera camera;
+  uint32_t width = 0, height = 0;  // pixels
+  std::unique_ptr<TracedRays> rays;
+  std::vector<grisaille_shot> shots;  // from about the camera at surfaces that it sees
+
+ private:
+  DriverSubject(std::string name, scene::Scene scene, const scene::Camera& camera, uint32_t width,
+                uint32_t height);
+  void traceTruth();
+
+  std::vector<trace::Hit> truthHits_;
+  std::vector<trace::Visibility> truth_;  // traced by the first rmse()
+};
+
+// The attachments of one view, drawn by one driver.
+struct SharedAttachments {
+  frame::Pictures pictures;  // without base colours
+  image::Image backDepth;
+};
+SharedAttachments drawShared(gpu::Device& device, const DriverSubject& subject);
+
+// An effect with a preset's values.
+struct PresetOf {
+  std::string effect;  // key
+  std::string preset;  // name
+};
+effect::Values valuesOf(const effect::Registry& registry, const PresetOf& preset);
+// Of both effects.
+std::vector<PresetOf> allPresets(const effect::Registry& registry);
+
+// What is compared of an effect: "ao" or "paint".
+std::string outputOf(const std::string& effect);
+
+// That output by a device from the shared attachments. `grisaille apply` gives an effect the same,
+// but no depth of back faces, and no shots.
+image::Image applyShared(gpu::Device& device, const DriverSubject& subject,
+                         const effect::Values& values, const SharedAttachments& shared);
+
+// That output, and "depth", of a frame that the device draws itself.
+std::pair<image::Image, image::Image> drawWhole(gpu::Device& device, const DriverSubject& subject,
+                                                const effect::Values& values);
+
+// Share of pixels with a channel that differs by more than 2/255. Pictures of one size.
+double shareApart(const image::Image& a, const image::Image& b);
+
+}  // namespace grisaille::tests
