@@ -96,7 +96,9 @@ Candidate named(VkPhysicalDevice device) {
   VkPhysicalDeviceProperties2 properties{
       VK_STRUCTURE_TYPE_PHYSICAL_DEVICE_PROPERTIES_2, &driver, {}};
   vkGetPhysicalDeviceProperties2(device, &properties);
-  candidate.listed.driver = oneLine(fmt::format("{} {}", driver.driverName, driver.driverInfo));
+  candidate.listed.driver = oneLine(driver.driverName);
+  // SwiftShader has none.
+  if (driver.driverInfo[0] != '\0') candidate.listed.driver += " " + oneLine(driver.driverInfo);
   if (old.limits.maxUniformBufferRange < 65536) {
     candidate.lacks = "uniform ranges of 65536 bytes";
   }
