@@ -14,8 +14,8 @@ namespace grisaille::tests {
 namespace {
 
 constexpr size_t kShots = 100;
-constexpr uint32_t kTruthStride = 4;  // pixels
-constexpr uint32_t kTruthRays = 128;  // a pixel
+constexpr uint32_t kTruthStride = 2;  // pixels
+constexpr uint32_t kTruthRays = 64;   // a pixel
 constexpr double kTruthRadius = 0.5;  // metres, the effect's default
 
 // Pictures, with back faces behind them.
@@ -129,17 +129,24 @@ void DriverSubject::traceTruth() {
   truth_ = rays->tracer().ambientOcclusion(truthHits_, kTruthRadius, kTruthRays, 1);
 }
 
-double DriverSubject::rmse(const image::Image& ao) {
+DriverSubject::Errors DriverSubject::errors(const image::Image& ao, const image::Image& depth) {
   if (truth_.empty()) traceTruth();
-  double squares = 0, count = 0;
+  double squares = 0, sameSquares = 0, count = 0, same = 0;
   for (size_t i = 0; i < truthHits_.size(); ++i) {
     if (std::isnan(truth_[i].mean)) continue;
     const glm::uvec2 pixel = truthHits_[i].pixel;
     const double off = ao.at(pixel.x, pixel.y) - truth_[i].mean;
-    squares += off * off;
+    // Less what the truth's own noise adds.
+    const double square = off * off - std::pow(truth_[i].standardError, 2);
+    squares += square;
     count += 1;
+    if (std::abs(depth.at(pixel.x, pixel.y) / truthHits_[i].viewDepth - 1) > 0.01) continue;
+    sameSquares += square;
+    same += 1;
   }
-  return std::sqrt(squares / count);
+  return {.whole = std::sqrt(squares / count),
+          .sameSurface = std::sqrt(sameSquares / same),
+          .otherSurface = 1 - same / count};
 }
 
 SharedAttachments drawShared(gpu::Device& device, const DriverSubject& subject) {

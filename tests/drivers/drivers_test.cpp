@@ -3,6 +3,7 @@
 // effects make the same picture on each, and errors against rays are the same.
 #include <gtest/gtest.h>
 
+#include <algorithm>
 #include <cstdio>
 
 #include "tests/drivers/agreement.h"
@@ -10,7 +11,7 @@
 namespace grisaille::tests {
 namespace {
 
-constexpr uint32_t kWidth = 480, kHeight = 270;
+constexpr uint32_t kWidth = 640, kHeight = 360;
 
 struct Run {
   std::string scene, effect, preset;
@@ -87,28 +88,37 @@ TEST_P(SameInputs, MakeTheSamePicture) {
       // The picture has something to compare: it is neither open nor bare nearly everywhere.
       image::Image nothing = first;
       std::ranges::fill(nothing.pixels, GetParam().effect == "ssao" ? 1.0f : 0.0f);
-      EXPECT_GT(shareApart(first, nothing), 0.2);
+      EXPECT_GT(shareApart(first, nothing), 0.1);
       continue;
     }
     expectAgree(first, picture, devices_.front().label + " and " + device.label);
   }
 }
 
-class WholeFrames : public DriversTest {};
+class WholeFrames : public DriversTest {
+ protected:
+  static void expectWithin(const std::vector<double>& errors, double share) {
+    const auto [least, most] = std::ranges::minmax(errors);
+    EXPECT_GT(least, 0.01);
+    EXPECT_LE(most, (1 + share) * least);
+  }
+};
 INSTANTIATE_TEST_SUITE_P(, WholeFrames, ::testing::ValuesIn(runs({"ssao"})),
                          ::testing::PrintToStringParamName());
 
 TEST_P(WholeFrames, AreAsFarFromRays) {
-  double least = 1, most = 0;
+  std::vector<double> whole, sameSurface;
   for (const TestDevice& device : devices_) {
-    const double rmse =
-        stage_->subject->rmse(drawWhole(*openDevice(device), *stage_->subject, values()).first);
-    std::printf("%s: RMSE %.5f\n", device.label.c_str(), rmse);
-    least = std::min(least, rmse);
-    most = std::max(most, rmse);
+    const auto [ao, depth] = drawWhole(*openDevice(device), *stage_->subject, values());
+    const DriverSubject::Errors errors = stage_->subject->errors(ao, depth);
+    std::printf("%s: RMSE %.5f, where the ray's surface is seen %.5f (not on %.3f %%)\n",
+                device.label.c_str(), errors.whole, errors.sameSurface, 100 * errors.otherSurface);
+    whole.push_back(errors.whole);
+    sameSurface.push_back(errors.sameSurface);
   }
-  EXPECT_GT(least, 0.01);
-  EXPECT_LE(most, 1.02 * least);
+  // At edges a driver that snaps coarsely draws another surface than the ray meets.
+  expectWithin(whole, 0.02);
+  expectWithin(sameSurface, 0.01);
 }
 
 TEST(Drivers, AreInstalled) {

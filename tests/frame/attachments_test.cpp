@@ -77,9 +77,9 @@ TEST_P(AttachmentsTest, ATilesDepthIsExact) {
   }
 }
 
-// A floor that the near plane and the picture's sides cut. SwiftShader, which snaps vertices to a
-// 16th of a pixel, is off by some hundredths there: after clipping it interpolates between corners
-// that lie hundreds of pixels outside of the picture.
+// A floor that the near plane and the picture's sides cut: clipping makes corners that lie hundreds
+// of pixels outside of the picture. SwiftShader, which snaps vertices to a 16th of a pixel, is off
+// by some hundredths there.
 TEST_P(AttachmentsTest, FloorDepthIsExact) {
   for (const glm::dvec3 eye : {glm::dvec3(0, 1.5, 0), glm::dvec3(12345.678, 1.5, -9876.5)}) {
     const scene::Camera camera = {.eye = eye, .target = eye + glm::dvec3(1, -0.5, -2)};
