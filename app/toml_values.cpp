@@ -7,11 +7,10 @@
 #include <array>
 #include <charconv>
 #include <cmath>
-#include <filesystem>
-#include <fstream>
 #include <sstream>
 
 #include "core/error.h"
+#include "core/regular_file.h"
 
 namespace grisaille::app {
 namespace {
@@ -26,24 +25,6 @@ constexpr size_t kLargestFile = size_t{1} << 20;
 // Each part of a dotted key is a table in a table, which toml++ ends by recursion without a limit.
 // (Lists and tables in braces it refuses by itself from 256 on.)
 constexpr size_t kMostKeyParts = 16;
-
-// Of a file, a pipe or a device, which need not end.
-std::string contentOf(const std::string& path) {
-  std::error_code failed;
-  std::ifstream file(path, std::ios::binary);
-  if (!file || std::filesystem::is_directory(path, failed)) {
-    throw Error(ErrorId::kSettingsUnreadable, "cannot read '{}'", path);
-  }
-  std::string text;
-  for (std::array<char, 4096> chunk; file;) {
-    file.read(chunk.data(), chunk.size());
-    text.append(chunk.data(), static_cast<size_t>(file.gcount()));
-    if (text.size() > kLargestFile) {
-      throw Error(ErrorId::kSettingsUnreadable, "'{}' is over {} bytes", path, kLargestFile);
-    }
-  }
-  return text;
-}
 
 // The end of the string whose first quote is at `at`; of a line where it is not closed.
 size_t endOfString(std::string_view text, size_t at) {
@@ -90,7 +71,7 @@ void checkKeys(std::string_view text, const std::string& path) {
 }  // namespace
 
 toml::table parseTomlFile(const std::string& path) {
-  const std::string text = contentOf(path);
+  const std::string text = readRegularFile(path, ErrorId::kSettingsUnreadable, kLargestFile);
   checkKeys(text, path);
   try {
     return toml::parse(text, path);

@@ -113,7 +113,8 @@ GRISAILLE_ERROR(kSettingsInvalid, 5104, "correct the line that the message names
 GRISAILLE_ERROR(kViewerState, 5105, "nothing needs doing; the viewer starts with its defaults")
 GRISAILLE_ERROR(kTruthUnknown, 5106,
                 "name ao, ao_error, ceiling, ceiling_error, depth, normal or mask")
-GRISAILLE_ERROR(kLeftOut, 5107, "build it again with the option that the message names")
+GRISAILLE_ERROR(kTruthCache, 5107, "remove it; the truth is traced again")
+GRISAILLE_ERROR(kLeftOut, 5108, "build it again with the option that the message names")
 // --- 52xx: the viewer
 GRISAILLE_ERROR(kNoDisplay, 5201, "start it on a desktop, or use `grisaille render`")
 GRISAILLE_ERROR(kWindowFailed, 5202, "update the driver or choose another --backend")
@@ -137,6 +138,8 @@ GRISAILLE_ERROR(kPictureChannels, 5505,
                 "name the channels with --depth-channel or --normal-channels")
 GRISAILLE_ERROR(kPictureMissing, 5506,
                 "give the picture that the message names, or leave out what reads it")
+GRISAILLE_ERROR(kPictureDeep, 5508,
+                "flatten it, for example with `oiiotool DEEP.exr --flatten -o FLAT.exr`")
 GRISAILLE_ERROR(kSequence, 5507, "number the files with %04d or ####, the same frames in each")
 // --- 56xx: in other programs
 GRISAILLE_ERROR(kHostNull, 5601, "give what the message names")

@@ -10,6 +10,7 @@
 
 #include "app/truth/content_hash.h"
 #include "core/image/write_aside.h"
+#include "core/regular_file.h"
 
 namespace grisaille::app::stability {
 namespace fs = std::filesystem;
@@ -96,8 +97,10 @@ void saveResult(const fs::path& folder, const Result& result) {
 }
 
 std::optional<Result> loadResult(const fs::path& folder, const std::string& key) {
-  std::ifstream stream(fileOf(folder, key), std::ios::binary);
-  if (!stream) return std::nullopt;
+  const fs::path file = fileOf(folder, key);
+  std::error_code failed;
+  if (!fs::exists(file, failed)) return std::nullopt;
+  std::ifstream stream = openRegularFile(file, ErrorId::kStudyRecord);
   try {
     const json j = json::parse(stream);
     Result result{.key = j.at("key"), .backends = {}, .between = {}};

@@ -51,7 +51,7 @@ std::vector<std::string> faultsOf(const Case& one, const Result& result);
 
 // FOLDER/<hash of the key>.json, written aside. Throws kFileUnwritable.
 void saveResult(const std::filesystem::path& folder, const Result& result);
-// None: there is none of this key.
+// None: there is no whole file of this key. Throws kStudyRecord where it is no regular file.
 std::optional<Result> loadResult(const std::filesystem::path& folder, const std::string& key);
 
 }  // namespace grisaille::app::stability

@@ -9,6 +9,7 @@
 #include "app/truth/content_hash.h"
 #include "core/error.h"
 #include "core/image/write_aside.h"
+#include "core/regular_file.h"
 
 namespace grisaille::app::study {
 namespace fs = std::filesystem;
@@ -61,8 +62,10 @@ void saveClaim(const fs::path& folder, const std::string& key, const ClaimResult
 }
 
 std::optional<ClaimResult> loadClaim(const fs::path& folder, const std::string& key) {
-  std::ifstream stream(partOf(folder, key), std::ios::binary);
-  if (!stream) return std::nullopt;
+  const fs::path file = partOf(folder, key);
+  std::error_code failed;
+  if (!fs::exists(file, failed)) return std::nullopt;
+  std::ifstream stream = openRegularFile(file, ErrorId::kStudyRecord);
   try {
     const json j = json::from_cbor(stream);
     if (j.at("key") != key) return std::nullopt;

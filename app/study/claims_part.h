@@ -14,7 +14,8 @@ namespace grisaille::app::study {
 void saveClaim(const std::filesystem::path& folder, const std::string& key,
                const ClaimResult& result);
 
-// None where there is no whole result of this key.
+// None where there is no whole result of this key. Throws kStudyRecord where its file is no regular
+// file.
 std::optional<ClaimResult> loadClaim(const std::filesystem::path& folder, const std::string& key);
 
 }  // namespace grisaille::app::study

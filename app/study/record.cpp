@@ -10,6 +10,7 @@
 #include "app/truth/content_hash.h"
 #include "core/error.h"
 #include "core/image/write_aside.h"
+#include "core/regular_file.h"
 
 namespace grisaille::app::study {
 namespace fs = std::filesystem;
@@ -86,8 +87,9 @@ void save(const fs::path& folder, const Record& r) {
 }
 
 std::optional<Record> load(const fs::path& file) {
-  std::ifstream stream(file, std::ios::binary);
-  if (!stream) return std::nullopt;
+  std::error_code failed;
+  if (!fs::exists(file, failed)) return std::nullopt;
+  std::ifstream stream = openRegularFile(file, ErrorId::kStudyRecord);
   try {
     const json j = json::parse(stream);
     if (j.at("version") != kVersion) {

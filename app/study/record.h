@@ -47,7 +47,8 @@ std::filesystem::path fileOf(const std::filesystem::path& folder, const Record& 
 
 void save(const std::filesystem::path& folder, const Record& record);
 
-// None: there is no file, or it is of another study. Throws kStudyRecord where it is damaged.
+// None: there is no file, or it is of another study. Throws kStudyRecord where it is damaged
+// or no regular file.
 std::optional<Record> load(const std::filesystem::path& file);
 
 // All of a folder, by the name of their files.

@@ -6,11 +6,11 @@
 #include <cstdio>
 #include <cstdlib>
 #include <cstring>
-#include <fstream>
 
 #include "app/truth/content_hash.h"
 #include "core/error.h"
 #include "core/image/write_aside.h"
+#include "core/regular_file.h"
 
 namespace grisaille::app::truth {
 namespace {
@@ -74,8 +74,7 @@ Counts Cache::load(size_t pixels) const {
   Counts none{.samples = 0, .pixels = std::vector<trace::OcclusionCounts>(pixels)};
   std::error_code failed;
   if (file_.empty() || !fs::exists(file_, failed)) return none;
-  std::ifstream file(file_, std::ios::binary);
-  const std::string bytes{std::istreambuf_iterator<char>(file), {}};
+  const std::string bytes = readRegularFile(file_, ErrorId::kTruthCache);
   Counts counts;
   if (parse(bytes, headOf(key_), pixels, counts)) return counts;
   fmt::print(stderr, "note: {} is damaged and is thrown away\n", file_.string());

@@ -30,7 +30,7 @@ struct Counts {
 // path.
 std::filesystem::path cacheFolder();
 
-// What cannot be read or written is a note on standard error and nothing worse.
+// A damaged file or one that cannot be written is a note on standard error and nothing worse.
 class Cache {
  public:
   // `folder` "": nothing is kept. `key` names all that the counts depend on, but how many they are.
@@ -39,6 +39,7 @@ class Cache {
   const std::filesystem::path& file() const { return file_; }  // "": nothing is kept
 
   // What is kept of a picture of so many pixels, else none. A damaged file is thrown away.
+  // Throws kTruthCache where the file is a folder, a device or a named pipe, or may not be read.
   Counts load(size_t pixels) const;
 
   // Whether it was written, aside and then renamed. After a failure no more is tried.

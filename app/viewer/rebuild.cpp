@@ -6,6 +6,8 @@
 #include <nlohmann/json.hpp>
 #include <set>
 
+#include "core/regular_file.h"
+
 namespace grisaille::app::viewer {
 namespace fs = std::filesystem;
 namespace {
@@ -41,6 +43,7 @@ Rebuild::~Rebuild() {
 }
 
 std::optional<Rebuild::Plugin> Rebuild::read(const fs::path& description) {
+  if (!whyNotRegular(description).empty()) return std::nullopt;
   std::ifstream file(description);
   const nlohmann::json json = nlohmann::json::parse(file, nullptr, false);
   if (!json.is_object() || !json.contains("build") || !json.contains("target") ||

@@ -10,6 +10,7 @@
 #include "app/viewer/camera_control.h"
 #include "app/viewer/command_line.h"
 #include "app/viewer/state_file.h"
+#include "core/regular_file.h"
 #include "core/shots/shot_file.h"
 
 namespace grisaille::app::viewer {
@@ -46,7 +47,7 @@ EffectList asked(const effect::Registry& registry, const SessionOptions& options
 
 // What a .json file holds: "shots" or "eye", whichever comes first.
 bool holdsShots(const std::string& path) {
-  std::ifstream file(path, std::ios::binary);
+  std::ifstream file = openRegularFile(path, ErrorId::kShotFileUnreadable);
   std::string head(4096, '\0');
   file.read(head.data(), static_cast<std::streamsize>(head.size()));
   const size_t eye = head.find("\"eye\"");

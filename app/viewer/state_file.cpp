@@ -14,6 +14,7 @@
 
 #include "core/error.h"
 #include "core/image/write_aside.h"
+#include "core/regular_file.h"
 
 namespace grisaille::app::viewer {
 namespace {
@@ -53,7 +54,8 @@ double numberOf(const json& value, const char* key, double least, double most) {
 
 std::string contentOf(const fs::path& file) {
   std::error_code failed;
-  if (!fs::is_regular_file(file, failed)) refuse("it is no regular file");
+  const std::string why = whyNotRegular(file);
+  if (!why.empty()) refuse(why);
   if (fs::file_size(file, failed) > kLargestFile || failed) refuse("it is too large");
   std::ifstream stream(file, std::ios::binary);
   if (!stream) refuse("it cannot be opened");

@@ -9,6 +9,8 @@
 #include <functional>
 #include <string>
 
+#include "core/regular_file.h"
+
 namespace grisaille::vulkan {
 namespace {
 
@@ -52,6 +54,7 @@ bool madeFor(const VkPhysicalDeviceProperties& properties, const std::string& da
 
 // The driver's data, or "" for a file that is not whole or another device's.
 std::string load(const fs::path& path, const VkPhysicalDeviceProperties& properties) {
+  if (!whyNotRegular(path).empty()) return "";
   std::ifstream file(path, std::ios::binary);
   Preamble preamble;
   const Preamble expected;

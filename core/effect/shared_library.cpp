@@ -11,6 +11,7 @@
 #include <vector>
 
 #include "core/error.h"
+#include "core/regular_file.h"
 
 namespace grisaille::effect {
 namespace {
@@ -65,10 +66,8 @@ void CloseLibrary::operator()(void* library) const {
 
 Library openLibrary(const std::string& path) {
   std::error_code failed;
-  // Also keeps a pipe from holding the program up.
-  if (!std::filesystem::is_regular_file(path, failed)) {
-    throw Error(ErrorId::kPluginUnloadable, "{}", failed ? failed.message() : "it is no file");
-  }
+  const std::string why = whyNotRegular(path);
+  if (!why.empty()) throw Error(ErrorId::kPluginUnloadable, "{}", why);
   const uint64_t bytes = std::filesystem::file_size(path, failed);
   if (failed) throw Error(ErrorId::kPluginUnloadable, "{}", failed.message());
   if (isCutShort(path, bytes)) {

@@ -15,6 +15,7 @@
 #include <mutex>
 
 #include "core/error.h"
+#include "core/regular_file.h"
 
 namespace grisaille::image {
 namespace {
@@ -202,16 +203,16 @@ std::vector<uint8_t> toRgba(const std::vector<uint8_t>& from, size_t channels) {
 }
 
 std::unique_ptr<OIIO::ImageInput> openPicture(const std::string& path) {
-  std::error_code code;
-  if (!std::filesystem::is_regular_file(path, code)) {
-    throw Error(ErrorId::kImageUnreadable, "{}: {}", path,
-                code ? code.message() : "not a regular file");
-  }
+  requireRegularFile(path, ErrorId::kImageUnreadable);
   const OIIO::ImageSpec config = readConfig();
   auto input = OIIO::ImageInput::open(path, &config);
   if (!input) {
     throw Error(ErrorId::kImageUnreadable, "{}: {}", path,
                 errorOf(static_cast<OIIO::ImageInput*>(nullptr)));
+  }
+  if (input->spec().deep) {
+    throw Error(ErrorId::kPictureDeep,
+                "{}: it is a deep picture, with any number of samples a pixel", path);
   }
   return input;
 }

@@ -61,7 +61,8 @@ void checkWritable(const std::string& path);
 // How many values are NaN or infinite.
 size_t countNonFinite(const Image& image);
 
-// Any format OpenImageIO reads; integers become [0, 1]. Throws kImageUnreadable, kNoCodecs.
+// Any format OpenImageIO reads; integers become [0, 1]. Throws kImageUnreadable, kPictureDeep,
+// kNoCodecs.
 Image read(const std::string& path);
 
 // A picture with what its file says of it.

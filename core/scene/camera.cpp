@@ -10,6 +10,7 @@
 #include "core/error.h"
 #include "core/image/write_aside.h"
 #include "core/nearest.h"
+#include "core/regular_file.h"
 #include "core/scene/camera_json.h"
 
 namespace grisaille::scene {
@@ -115,17 +116,7 @@ void validate(const Camera& camera) {
 }
 
 std::string readCameraText(const std::string& path) {
-  std::error_code code;
-  if (!std::filesystem::is_regular_file(path, code)) {
-    throw Error(ErrorId::kCameraUnreadable, "{}: {}", path,
-                code ? code.message() : "not a regular file");
-  }
-  if (std::filesystem::file_size(path, code) > kLargestFile || code) {
-    throw Error(ErrorId::kCameraUnreadable, "{}: larger than a camera file can be", path);
-  }
-  std::ifstream file(path, std::ios::binary);
-  if (!file) throw Error(ErrorId::kCameraUnreadable, "{}: cannot be opened", path);
-  return {std::istreambuf_iterator<char>(file), {}};
+  return readRegularFile(path, ErrorId::kCameraUnreadable, kLargestFile);
 }
 
 Camera cameraFromJson(const json& document, const std::string& name) {

@@ -13,6 +13,7 @@
 #include <string_view>
 
 #include "core/error.h"
+#include "core/regular_file.h"
 #include "core/scene/gltf_accessor.h"
 
 namespace grisaille::scene {
@@ -32,10 +33,8 @@ Bytes readFile(const std::filesystem::path& path, const std::string& name, uint6
                ErrorId id) {
   std::error_code code;
   const std::string subject = name.empty() ? "" : fmt::format("file \"{}\": ", name);
-  const bool regular = std::filesystem::is_regular_file(path, code);
-  if (code) throw Error(id, "{}{}", subject, code.message());
-  // A pipe or a device could block or never end.
-  if (!regular) throw Error(id, "{}not a regular file", subject);
+  const std::string why = whyNotRegular(path);
+  if (!why.empty()) throw Error(id, "{}{}", subject, why);
   const uintmax_t size = std::filesystem::file_size(path, code);
   if (code) throw Error(id, "{}{}", subject, code.message());
   if (size > mostBytes) {

@@ -2,13 +2,13 @@
 #include "core/shots/shot_file.h"
 
 #include <algorithm>
-#include <cerrno>
-#include <cstring>
 #include <filesystem>
 #include <fstream>
+#include <sstream>
 
 #include "core/error.h"
 #include "core/image/write_aside.h"
+#include "core/regular_file.h"
 #include "core/shots/formats.h"
 #include "core/shots/shot.h"
 
@@ -36,28 +36,16 @@ void checkEnding(const std::string& path) {
 void save(std::span<const grisaille_shot> shots, const std::string& path) {
   const Writer write = writerOf(path);
   const std::vector<grisaille_shot> sound = checked(shots);
-  image::writeAside(path, [&](const std::string& part) {
-    errno = 0;
-    std::ofstream file(part, std::ios::binary);
-    write(sound, file);
-    file.close();
-    if (!file) throw Error(ErrorId::kFileUnwritable, "{}: {}", path, std::strerror(errno));
-  });
+  std::ostringstream text;
+  write(sound, text);
+  image::writeFileAside(path, text.view());
 }
 
 std::vector<grisaille_shot> load(const std::string& path) {
+  std::ifstream file = openRegularFile(path, ErrorId::kShotFileUnreadable);
   std::error_code code;
-  if (!std::filesystem::is_regular_file(path, code)) {
-    throw Error(ErrorId::kShotFileUnreadable, "{}: {}", path,
-                code ? code.message() : "not a regular file");
-  }
-  errno = 0;
-  std::ifstream file(path, std::ios::binary);
-  const uintmax_t bytes = file ? std::filesystem::file_size(path, code) : 0;
-  if (!file || code) {
-    throw Error(ErrorId::kShotFileUnreadable, "{}: {}", path,
-                code ? code.message() : std::strerror(errno));
-  }
+  const uintmax_t bytes = std::filesystem::file_size(path, code);
+  if (code) throw Error(ErrorId::kShotFileUnreadable, "{}: {}", path, code.message());
   try {
     return file.peek() == kBinaryMark ? readBinary(file, bytes) : readJson(file);
   } catch (const Error& error) {

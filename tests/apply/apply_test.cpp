@@ -9,7 +9,9 @@
 #include "core/image/image.h"
 #include "core/scene/camera.h"
 #include "core/scene/camera_matrices.h"
+#include "tests/apply/deep_picture.h"
 #include "tests/program/run.h"
+#include "tests/support/expect_error.h"
 #include "tests/support/test_device.h"
 
 namespace grisaille::tests {
@@ -186,6 +188,15 @@ TEST_F(ApplyOnce, WhatDoesNotFitIsRefused) {
   expectError(with + "depth.exr --write nothing=y.exr", "E5102", "nothing");
   expectError("apply --depth depth.exr", "E5101", "--write");
   EXPECT_FALSE(std::filesystem::exists(folder_ / "x.exr"));
+}
+
+TEST_F(ApplyOnce, DeepPicturesAreRefusedAsDeep) {
+  render();
+  writeDeepPicture(folder_ / "deep.exr");
+  const std::string with = "apply --camera @ --write ao=x.exr --depth ";
+  expectError(with + "deep.exr", "E5508", "deep.exr: it is a deep picture");
+  expectError(with + "depth.exr --normal deep.exr", "E5508", "deep.exr: it is a deep picture");
+  EXPECT_ERROR(ErrorId::kPictureDeep, read("deep.exr"));
 }
 
 TEST_F(ApplyOnce, BaseColoursAndPicturesWithoutNormals) {

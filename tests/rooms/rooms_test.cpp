@@ -86,7 +86,8 @@ bool allowed(const std::string& folder, const std::string& header, bool quoted) 
   // A library's header, or one that lies beside the file.
   if (!quoted || header.find('/') == std::string::npos) return true;
   if (header == "core/error.h" || header == "core/error_list.h" ||
-      header == "core/library_folder.h" || header == "core/nearest.h") {
+      header == "core/library_folder.h" || header == "core/nearest.h" ||
+      header == "core/regular_file.h") {
     return !startsWith(folder, "effects") && folder.find("include/grisaille") == std::string::npos;
   }
   // An effect's own folder is the second level: one effect never sees another.
