@@ -9,8 +9,12 @@
 #include <sys/wait.h>
 #include <unistd.h>
 
+#include <algorithm>
 #include <cerrno>
+#include <charconv>
 #include <cstring>
+#include <iterator>
+#include <string_view>
 
 #include "core/error.h"
 #include "core/library_folder.h"
@@ -20,13 +24,44 @@ extern char** environ;
 namespace grisaille::effect {
 namespace {
 
+constexpr size_t kLongestAnswer = 4096;  // bytes: what a pipe takes at once
+
+// The pipe through which the process answers.
+class Answer {
+ public:
+  Answer() {
+    if (pipe2(ends_, O_CLOEXEC | O_NONBLOCK) == 0) return;
+    throw Error(ErrorId::kPluginCrashes, "it cannot be tried out: {}", std::strerror(errno));
+  }
+  ~Answer() {
+    close(ends_[0]);
+    close(ends_[1]);
+  }
+  Answer(const Answer&) = delete;
+  Answer& operator=(const Answer&) = delete;
+
+  int writingEnd() const { return ends_[1]; }
+
+  // Does not wait: a process that the plugin started may hold the other end open.
+  std::string text() const {
+    std::string text(kLongestAnswer, '\0');
+    const ssize_t count = read(ends_[0], text.data(), text.size());
+    text.resize(count > 0 ? static_cast<size_t>(count) : 0);
+    return text;
+  }
+
+ private:
+  int ends_[2] = {-1, -1};
+};
+
 // Its output is nobody's: what the plugin says while it loads, it says again to the host.
-pid_t start(const std::string& program, const std::string& plugin) {
+pid_t start(const std::string& program, const std::string& plugin, const Answer& answer) {
   posix_spawn_file_actions_t actions;
   posix_spawn_file_actions_init(&actions);
   posix_spawn_file_actions_addopen(&actions, STDIN_FILENO, "/dev/null", O_RDONLY, 0);
   posix_spawn_file_actions_addopen(&actions, STDOUT_FILENO, "/dev/null", O_WRONLY, 0);
   posix_spawn_file_actions_addopen(&actions, STDERR_FILENO, "/dev/null", O_WRONLY, 0);
+  posix_spawn_file_actions_adddup2(&actions, answer.writingEnd(), kProbeAnswer);
   std::string words[] = {program, plugin};
   char* const arguments[] = {words[0].data(), words[1].data(), nullptr};
   pid_t process = 0;
@@ -51,10 +86,23 @@ bool ends(pid_t process, std::chrono::milliseconds patience) {
   return ready != 0;
 }
 
+// Throws the refusal that the process answered with. Returns where that is no error of plugins.
+void throwRefusal(const std::string& answer) {
+  int number = 0;
+  const char* end = answer.data() + answer.size();
+  const auto [rest, status] = std::from_chars(answer.data(), end, number);
+  const ErrorId known[] = {ErrorId::kPluginUnloadable, ErrorId::kPluginSymbol, ErrorId::kPluginAbi,
+                           ErrorId::kPluginTable, ErrorId::kPluginDuplicate};
+  const auto found = std::ranges::find(known, static_cast<ErrorId>(number));
+  if (status != std::errc() || rest == end || found == std::end(known)) return;
+  throw Error(*found, std::string_view(rest + 1, end));
+}
+
 }  // namespace
 
 void probe(const std::string& path, std::chrono::milliseconds patience) {
-  const pid_t process = start(libraryFolder() / "grisaille_probe_plugin", path);
+  const Answer answer;
+  const pid_t process = start(libraryFolder() / "grisaille_probe_plugin", path, answer);
   const bool ended = ends(process, patience);
   if (!ended) kill(process, SIGKILL);
   int status = 0;
@@ -67,7 +115,8 @@ void probe(const std::string& path, std::chrono::milliseconds patience) {
     throw Error(ErrorId::kPluginCrashes, "loading it ends the process: {}",
                 strsignal(WTERMSIG(status)));
   }
-  if (WEXITSTATUS(status) != kProbeSurvived) {
+  if (WEXITSTATUS(status) == kProbeRefused) throwRefusal(answer.text());
+  if (WEXITSTATUS(status) != kProbeAccepted) {
     throw Error(ErrorId::kPluginCrashes, "loading it ends the process with exit status {}",
                 WEXITSTATUS(status));
   }

@@ -8,11 +8,15 @@
 
 namespace grisaille::effect {
 
-// Loads, checks and unloads the plugin in another process. Throws kPluginCrashes unless that
-// process lives through it in time; what else is wrong with the plugin is for the registry to say.
+// Loads and checks the plugin at `path` in another process, and unloads it there if it is accepted.
+// Throws the error by which the registry of that process refuses the plugin, so that nothing of it
+// is loaded here. Throws kPluginCrashes if that process crashes, exits early or takes longer than
+// `patience`.
 void probe(const std::string& path, std::chrono::milliseconds patience = std::chrono::seconds(10));
 
-// How that process says that it came to its end: no plugin is likely to exit with this.
-constexpr int kProbeSurvived = 83;
+// Exit statuses of that process, which no plugin is likely to exit with. A refusing process writes
+// the error's number, a space and its detail to kProbeAnswer.
+constexpr int kProbeAccepted = 83, kProbeRefused = 84;
+constexpr int kProbeAnswer = 3;  // file descriptor
 
 }  // namespace grisaille::effect

@@ -1,11 +1,26 @@
 // SPDX-License-Identifier: MIT
-// grisaille_probe_plugin FILE: loads, checks and unloads a plugin, and says by its exit status that
-// it got as far as that. See probe.h.
+// grisaille_probe_plugin FILE: loads and checks a plugin, unloads it if it is accepted, and says by
+// its exit status that it got as far as that. See probe.h.
 #include <sys/resource.h>
 #include <unistd.h>
 
+#include <string>
+
 #include "core/effect/probe.h"
 #include "core/effect/registry.h"
+
+namespace {
+
+using grisaille::Error;
+
+// The registry puts the path first, as the host's registry does with the path that it was given.
+std::string answerOf(const Error& error, const std::string& path) {
+  std::string detail = error.detail();
+  if (detail.starts_with(path + ": ")) detail.erase(0, path.size() + 2);
+  return fmt::format("{} {}", static_cast<int>(error.id()), grisaille::oneLine(detail));
+}
+
+}  // namespace
 
 int main(int argc, char** argv) {
   if (argc != 2) return 2;
@@ -13,8 +28,11 @@ int main(int argc, char** argv) {
   setrlimit(RLIMIT_CORE, &none);  // nobody looks into a crash that was expected
   try {
     grisaille::effect::Registry().load(argv[1]);
-  } catch (const grisaille::Error&) {
-    // Refused in good order.
+  } catch (const Error& error) {
+    const std::string answer = answerOf(error, argv[1]);
+    const ssize_t written = write(grisaille::effect::kProbeAnswer, answer.data(), answer.size());
+    const bool whole = written == static_cast<ssize_t>(answer.size());
+    _exit(whole ? grisaille::effect::kProbeRefused : 1);
   }
-  _exit(grisaille::effect::kProbeSurvived);  // past what the plugin left for the end
+  _exit(grisaille::effect::kProbeAccepted);  // past what the plugin left for the end
 }

@@ -49,6 +49,7 @@ struct Registry::State {
   std::set<fs::path> loadedFiles;   // real paths
   std::set<fs::path> refusedFiles;  // real paths, by scan()
 
+  void take(const Library& library, const std::string& path);
   void add(const std::string& path, Origin origin);
 };
 
@@ -63,6 +64,18 @@ void Registry::State::add(const std::string& path, Origin origin) {
 
   if (origin == Origin::kForeign) probe(real);
   Library library = openLibrary(real.string());
+  try {
+    take(library, path);
+  } catch (...) {
+    // A refused plugin stays loaded: a thread that its loading started may still run its code.
+    static_cast<void>(library.release());
+    throw;
+  }
+  libraries.push_back(std::move(library));
+  loadedFiles.insert(real);
+}
+
+void Registry::State::take(const Library& library, const std::string& path) {
   const auto& plugin =
       *static_cast<const grisaille_plugin_desc*>(symbolOf(library, GRISAILLE_PLUGIN_SYMBOL));
   checkAbi(plugin);
@@ -81,8 +94,6 @@ void Registry::State::add(const std::string& path, Origin origin) {
     effects.push_back({descs.back().get(), path});
   }
   std::ranges::sort(effects, {}, [](const Effect& e) { return std::string_view(e.desc->key); });
-  libraries.push_back(std::move(library));
-  loadedFiles.insert(real);
 }
 
 void Registry::scan(const std::string& folder, Origin origin) {

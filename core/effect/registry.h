@@ -70,7 +70,9 @@ class Registry {
   void scan(const std::string& folder, Origin origin = Origin::kOwn);
 
   // Loads one plugin: all its effects or none. A file that is loaded already, by whatever path, is
-  // passed over. Throws kPlugin*; what is already registered stays.
+  // passed over. Throws kPlugin*; what is already registered stays. A refused plugin is never
+  // unloaded, as its threads may still run; a foreign one is mostly refused by probe(), before
+  // anything of it is loaded here.
   void load(const std::string& path, Origin origin = Origin::kOwn);
 
   std::span<const Effect> effects() const;  // by key; good until the next scan() or load()

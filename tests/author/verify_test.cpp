@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: MIT
 // `grisaille effects --verify`: sound plugins pass, each fault is named with the step at which it
 // shows, and one that ends the process is a fault like another.
+#include <fmt/format.h>
 #include <gtest/gtest.h>
 
 #include <future>
@@ -65,6 +66,32 @@ TEST(Verify, FaultsAreNamedWithTheStep) {
 TEST(Verify, WhatEndsTheProcessIsAFaultToo) {
   expectFault("crashes", "the process ended: Aborted while: opengl: crashes: level = 1");
   expectFault("exits", "the process ended with exit status 0 while: opengl: exits: level = 1");
+}
+
+// Its thread needs the plugin's code after the refusal.
+TEST(Verify, ARefusedPluginWhoseThreadRunsOnIsAFault) {
+  const fs::path folder = THREADED_PLUGINS;
+  for (const auto& [name, reason] : {std::pair{"major", "it is made for version "},
+                                     std::pair{"range", "effects[0].params[0]."}}) {
+    const Outcome outcome = verify(folder / fmt::format("threaded_{}.so", name));
+    EXPECT_EQ(outcome.status, 1);
+    EXPECT_TRUE(holds(outcome.out, reason)) << outcome.out;
+    EXPECT_FALSE(holds(outcome.out, "the process ended")) << outcome.out;
+  }
+}
+
+TEST(FaultyEffects, ThatAreRefusedLeaveTheProgramRunning) {
+  const TemporaryFolder folder;
+  const Outcome list = runProgram({"effects", "--plugin-path", THREADED_PLUGINS}, folder.path());
+  EXPECT_EQ(list.status, 0) << list.err;
+  EXPECT_TRUE(holds(list.out, "E3103")) << list.out;
+  EXPECT_TRUE(holds(list.out, "E3104")) << list.out;
+  for (const char* backend : {"opengl", "vulkan"}) {
+    const Outcome render = runProgram({"render", "--size", "16x9", "--backend", backend,
+                                       "--plugin-path", THREADED_PLUGINS, "--write", "ao=a.exr"},
+                                      folder.path());
+    EXPECT_EQ(render.status, 0) << render.err;
+  }
 }
 
 // As an effect without the wrapper does it. The words are the plugin's own, read while it is

@@ -2,6 +2,7 @@
 // Plugins of others that take a process along are refused, and this process goes on.
 #include "core/effect/probe.h"
 
+#include <dlfcn.h>
 #include <gtest/gtest.h>
 #include <unistd.h>
 
@@ -50,12 +51,16 @@ TEST(Probe, NamesWhatEndedTheProcess) {
   EXPECT_EQ(words("hang", std::chrono::milliseconds(300)), "loading it does not end within 300 ms");
 }
 
-// Files that are no plugin are the registry's to refuse, in its own words.
-TEST(Probe, LetsThroughWhatEndsInGoodOrder) {
+TEST(Probe, RefusesInTheRegistrysWords) {
   probe(fs::path(PLUGIN_DIR) / "sound" / "copy.so");
-  probe(fs::path(PLUGIN_DIR) / "faulty" / "magic.so");
-  probe("/dev/null");
-  probe("/nothing/there.so");
+  EXPECT_ERROR(ErrorId::kPluginAbi, probe(fs::path(PLUGIN_DIR) / "faulty" / "magic.so"));
+  EXPECT_ERROR(ErrorId::kPluginUnloadable, probe("/dev/null"));
+  EXPECT_ERROR(ErrorId::kPluginUnloadable, probe("/nothing/there.so"));
+  try {
+    probe("/dev/null");
+  } catch (const Error& error) {
+    EXPECT_EQ(error.detail(), "it is a device; only regular files are read");
+  }
 }
 
 TEST(Probe, TheRegistryAsksItForForeignPluginsAlone) {
@@ -72,6 +77,41 @@ TEST(Probe, TheRegistryAsksItForForeignPluginsAlone) {
   EXPECT_ERROR(ErrorId::kPluginCrashes,
                registry.load(kFolder / "crash_table.so", Origin::kForeign));
   EXPECT_EXIT(Registry().load(kFolder / "crash_load.so"), testing::KilledBySignal(SIGABRT), "");
+}
+
+// Loads a plugin that starts a thread and is refused, and lives on for a while.
+[[noreturn]] void outliveRefusal(const fs::path& plugin, Origin origin, ErrorId expected) {
+  constexpr int kOther = 1;
+  try {
+    Registry().load(plugin, origin);
+  } catch (const Error& error) {
+    usleep(100'000);
+    _exit(error.id() == expected ? 0 : kOther);
+  }
+  _exit(kOther);
+}
+
+TEST(Probe, ARefusedPluginKeepsTheCodeOfItsThreads) {
+  for (const Origin origin : {Origin::kOwn, Origin::kForeign}) {
+    const fs::path folder = fs::path(PLUGIN_DIR) / "threaded";
+    EXPECT_EXIT(outliveRefusal(folder / "threaded_major.so", origin, ErrorId::kPluginAbi),
+                testing::ExitedWithCode(0), "");
+    EXPECT_EXIT(outliveRefusal(folder / "threaded_range.so", origin, ErrorId::kPluginTable),
+                testing::ExitedWithCode(0), "");
+  }
+}
+
+// Nothing of a foreign plugin runs in this process unless it is accepted.
+TEST(Probe, WhatItRefusesIsNotLoadedHere) {
+  const std::string plugin = fs::path(PLUGIN_DIR) / "threaded" / "threaded_range.so";
+  try {
+    Registry().load(plugin, Origin::kForeign);
+    ADD_FAILURE() << "nothing was thrown";
+  } catch (const Error& error) {
+    EXPECT_EQ(error.id(), ErrorId::kPluginTable);
+    EXPECT_EQ(error.detail().rfind(plugin + ": effects[0].", 0), 0u) << error.detail();
+  }
+  EXPECT_EQ(dlopen(plugin.c_str(), RTLD_LAZY | RTLD_NOLOAD), nullptr);
 }
 
 }  // namespace

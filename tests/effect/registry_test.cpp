@@ -100,7 +100,6 @@ TEST_F(RegistryTest, FaultyOnesAreRefusedByReasonAndTheRestGoesOn) {
     ASSERT_TRUE(expected.contains(name)) << name;
     EXPECT_EQ(refused.reason.id(), expected.at(name)) << refused.reason.what();
     EXPECT_NE(refused.reason.detail().find(refused.path), std::string::npos);
-    EXPECT_FALSE(isLoaded(kPlugins / "faulty" / (name + ".so"))) << name;
     EXPECT_ERROR(expected.at(name), Registry().load(refused.path));
   }
   registry.scan(folder);  // again: nothing twice
@@ -259,9 +258,11 @@ TEST_F(RegistryTest, LoadingAndUnloadingAThousandTimesLeaksNothing) {
   EXPECT_EQ(after.maps, before.maps);
 #endif
   EXPECT_EQ(after.files, before.files);
-  for (const char* name : {"sound/copy.so", "sound/plain.so", "faulty/range.so"}) {
+  for (const char* name : {"sound/copy.so", "sound/plain.so"}) {
     EXPECT_FALSE(isLoaded(kPlugins / name)) << name;
   }
+  // A refused plugin stays, once: its threads may run on.
+  EXPECT_TRUE(isLoaded(kPlugins / "faulty/range.so"));
 }
 
 }  // namespace

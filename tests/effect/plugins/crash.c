@@ -17,11 +17,15 @@ __attribute__((constructor)) static void load(void) {
 #endif
 }
 
-__attribute__((destructor)) static void unload(void) {
 #if defined(CRASH_UNLOAD)
+/* Only an accepted plugin is unloaded. */
+#define KEY "crash_unload"
+#include "plain.c"
+
+__attribute__((destructor)) static void unload(void) {
   raise(SIGABRT);
-#endif
 }
+#else
 
 static const grisaille_effect_desc kEffect = {.struct_size = sizeof kEffect};
 
@@ -36,3 +40,4 @@ static const grisaille_effect_desc* const kEffects[] = {FIRST};
 GRISAILLE_EXPORT const grisaille_plugin_desc grisaille_plugin = {
     GRISAILLE_MAGIC, GRISAILLE_ABI_MAJOR, GRISAILLE_ABI_MINOR, sizeof(grisaille_plugin_desc), 1, 0,
     kEffects};
+#endif
