@@ -1,70 +1,191 @@
 // SPDX-License-Identifier: MIT
 #include "core/image/write_aside.h"
 
+#include <fcntl.h>
+#include <sys/stat.h>
 #include <unistd.h>
 
 #include <cerrno>
+#include <cstdio>
 #include <cstring>
-#include <filesystem>
-#include <fstream>
+#include <optional>
+#include <utility>
 
 #include "core/error.h"
 
 namespace grisaille::image {
 namespace {
 
-std::string partOf(const std::string& path) {
-  return fmt::format("{}.{}.part", path, getpid());
+namespace fs = std::filesystem;
+
+[[noreturn]] void refuse(const std::string& path, const std::string& why) {
+  throw Error(ErrorId::kFileUnwritable, "{}: {}", path, why);
 }
 
-}  // namespace
+[[noreturn]] void refuse(const std::string& path, int number) {
+  refuse(path, std::strerror(number));
+}
 
-void writeAside(const std::string& path,
-                const std::function<void(const std::string& part)>& writer) {
-  std::error_code code;
-  if (std::filesystem::is_directory(path, code)) {
-    throw Error(ErrorId::kFileUnwritable, "{}: is a folder", path);
+// An open file of this process.
+class File {
+ public:
+  File(const std::string& path, int flags, mode_t mode = 0)
+      : number_(open(path.c_str(), flags | O_CLOEXEC | O_NOCTTY, mode)) {}
+  ~File() {
+    if (number_ >= 0) ::close(number_);
   }
-  const std::string part = partOf(path);
+  File(const File&) = delete;
+  File& operator=(const File&) = delete;
+
+  bool isOpen() const { return number_ >= 0; }
+  int number() const { return number_; }
+  // False where the file system tells only now that something was not written.
+  bool close() { return ::close(std::exchange(number_, -1)) == 0; }
+
+ private:
+  int number_;
+};
+
+// False with errno.
+bool writeAll(int file, std::string_view content) {
+  while (!content.empty()) {
+    const ssize_t count = ::write(file, content.data(), content.size());
+    if (count < 0 && errno == EINTR) continue;
+    if (count < 0) return false;
+    content.remove_prefix(static_cast<size_t>(count));
+  }
+  return true;
+}
+
+// What `path` leads to; none where nothing is there.
+std::optional<struct stat> statusOf(const std::string& path) {
+  struct stat status = {};
+  if (stat(path.c_str(), &status) == 0) return status;
+  return std::nullopt;
+}
+
+// Standard output or standard error where it goes to this file, else -1.
+int streamOf(const struct stat& status) {
+  for (const int stream : {STDOUT_FILENO, STDERR_FILENO}) {
+    struct stat own = {};
+    if (fstat(stream, &own) == 0 && own.st_dev == status.st_dev && own.st_ino == status.st_ino) {
+      return stream;
+    }
+  }
+  return -1;
+}
+
+// `path`, or where its links lead. The last file need not be there.
+fs::path followed(const std::string& path) {
+  constexpr int kMostLinks = 40;  // as in Linux
+  fs::path target = path;
+  std::error_code failed;
+  for (int links = 0; fs::is_symlink(target, failed); ++links) {
+    if (links == kMostLinks) refuse(path, ELOOP);
+    const fs::path next = fs::read_symlink(target, failed);
+    if (failed) refuse(path, failed.message());
+    target = target.parent_path() / next;  // `next` alone where it is absolute
+  }
+  return target;
+}
+
+std::string partOf(const std::string& target) {
+  return fmt::format("{}.{}.part", target, getpid());
+}
+
+// Gives a part the owner, group and permission bits of the file that it replaces. Bits that were
+// meant for an owner or a group that cannot be kept are left out.
+void takeOver(int part, const struct stat& old) {
+  constexpr auto kSame = static_cast<uid_t>(-1);
+  struct stat own = {};
+  if (fstat(part, &own) != 0 || !S_ISREG(own.st_mode)) return;
+  const bool all = (own.st_uid == old.st_uid && own.st_gid == old.st_gid) ||
+                   fchown(part, old.st_uid, old.st_gid) == 0;
+  const bool group = all || own.st_gid == old.st_gid || fchown(part, kSame, old.st_gid) == 0;
+  mode_t bits = old.st_mode & (all ? 07777 : 0777);
+  if (!group) bits = (bits & 0707) | (bits & 07) << 3;
+  if (fchmod(part, bits) != 0) return;  // a file system without permissions
+}
+
+void writePart(const std::string& path, const std::string& part, const struct stat* old,
+               std::string_view content) {
+  constexpr mode_t kNew = 0666;
+  File file(part, O_WRONLY | O_CREAT | O_TRUNC, old != nullptr ? old->st_mode & kNew : kNew);
+  if (!file.isOpen()) refuse(path, errno);
+  if (!writeAll(file.number(), content)) refuse(path, errno);
+  if (old != nullptr) takeOver(file.number(), *old);
+  if (!file.close()) refuse(path, errno);
+}
+
+void replace(const std::string& path, const struct stat* old, std::string_view content) {
+  const std::string target = followed(path).string();
+  const std::string part = partOf(target);
+  std::error_code failed;
   try {
-    writer(part);
-    std::filesystem::rename(part, path, code);
-    if (code) throw Error(ErrorId::kFileUnwritable, "{}: {}", path, code.message());
+    writePart(path, part, old, content);
+    fs::rename(part, target, failed);
+    if (failed) refuse(path, failed.message());
   } catch (...) {
-    std::filesystem::remove(part, code);
+    fs::remove(part, failed);
     throw;
   }
 }
 
+// To a file that stays in its place.
+void writeInto(const std::string& path, std::string_view content) {
+  File file(path, O_WRONLY);
+  if (!file.isOpen()) refuse(path, errno);
+  if (!writeAll(file.number(), content)) refuse(path, errno);
+  if (!file.close()) refuse(path, errno);
+}
+
+}  // namespace
+
 void writeFileAside(const std::string& path, std::string_view content) {
-  writeAside(path, [&](const std::string& part) {
-    errno = 0;
-    std::ofstream file(part, std::ios::binary);
-    file.write(content.data(), static_cast<std::streamsize>(content.size()));
-    file.close();
-    if (!file) throw Error(ErrorId::kFileUnwritable, "{}: {}", path, std::strerror(errno));
-  });
+  const std::optional<struct stat> there = statusOf(path);
+  if (there && S_ISDIR(there->st_mode)) refuse(path, "is a folder");
+  const int stream = there ? streamOf(*there) : -1;
+  if (stream >= 0 && !S_ISCHR(there->st_mode)) {
+    std::fflush(stream == STDOUT_FILENO ? stdout : stderr);
+    if (!writeAll(stream, content)) refuse(path, errno);
+  } else if (there && !S_ISREG(there->st_mode)) {
+    writeInto(path, content);
+  } else {
+    replace(path, there ? &*there : nullptr, content);
+  }
 }
 
 void requireWritable(const std::string& path) {
-  std::error_code code;
-  if (std::filesystem::is_directory(path, code)) {
-    throw Error(ErrorId::kFileUnwritable, "{}: is a folder", path);
+  if (const auto there = statusOf(path)) {
+    if (S_ISDIR(there->st_mode)) refuse(path, "is a folder");
+    if (streamOf(*there) >= 0) return;
+    if (!S_ISREG(there->st_mode)) {
+      if (access(path.c_str(), W_OK) != 0) refuse(path, errno);
+      return;
+    }
   }
-  const std::string part = partOf(path);
-  errno = 0;
-  const bool opened = std::ofstream(part, std::ios::binary).is_open();
+  const std::string part = partOf(followed(path).string());
+  const bool opened = File(part, O_WRONLY | O_CREAT | O_TRUNC, 0600).isOpen();
   const int why = errno;
-  std::filesystem::remove(part, code);
-  if (!opened) throw Error(ErrorId::kFileUnwritable, "{}: {}", path, std::strerror(why));
+  std::error_code failed;
+  fs::remove(part, failed);
+  if (!opened) refuse(path, why);
 }
 
 void requireWritableFolder(const std::string& folder) {
   std::error_code code;
-  const bool made = std::filesystem::create_directories(folder, code);
-  if (code) throw Error(ErrorId::kFileUnwritable, "{}: {}", folder, code.message());
-  requireWritable((std::filesystem::path(folder) / "grisaille").string());
-  if (made) std::filesystem::remove(folder, code);  // who only asked leaves nothing
+  const bool made = fs::create_directories(folder, code);
+  if (code) refuse(folder, code.message());
+  requireWritable((fs::path(folder) / "grisaille").string());
+  // What is refused for another reason leaves no empty folder behind.
+  if (made) fs::remove(folder, code);
+}
+
+fs::path targetOf(const std::string& path) {
+  const fs::path target = followed(path);
+  std::error_code failed;
+  const fs::path whole = fs::weakly_canonical(fs::absolute(target, failed), failed);
+  return failed ? target.lexically_normal() : whole;
 }
 
 }  // namespace grisaille::image

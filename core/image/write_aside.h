@@ -1,26 +1,33 @@
 // SPDX-License-Identifier: MIT
-// Output files that are whole or not there.
+// Output files that are whole or not there (atomic writes).
 #pragma once
 
-#include <functional>
+#include <filesystem>
 #include <string>
 #include <string_view>
 
 namespace grisaille::image {
 
-// Calls `writer` with the name of a part file beside `path`, "<path>.<pid>.part", then renames the
-// part to `path`. Whatever fails, the part is removed and an older `path` stays as it was. A
-// process that is killed meanwhile leaves its part: no ending that anything is looked for by.
-// Throws kFileUnwritable, and what `writer` throws.
-void writeAside(const std::string& path,
-                const std::function<void(const std::string& part)>& writer);
-
-// The same for content that is in memory already.
+// Writes `content` to a part file beside the target, "<target>.<pid>.part", then renames the part
+// to the target. The target is `path`, or what its symbolic links lead to: the links stay, and a
+// missing target is created. If anything fails, the part is removed and an older target stays as it
+// was. A process that is killed meanwhile leaves its part, whose ending no reader looks for.
+//
+// A replaced target keeps its permission bits and, where the system allows it, its owner and group;
+// a new one gets 0666 less the umask. A device, named pipe or socket is never replaced: `content`
+// is written to it, which waits for the reader of a named pipe. The file that standard output or
+// standard error goes to is written through that stream, after what was printed before.
+//
+// Throws kFileUnwritable.
 void writeFileAside(const std::string& path, std::string_view content);
 
 // Before work that takes long: throws kFileUnwritable where nothing can be written at `path`, or
 // into a folder that is there or can be made. What is there stays as it is.
 void requireWritable(const std::string& path);
 void requireWritableFolder(const std::string& folder);
+
+// The file that writeFileAside() writes, with an absolute path and no links in it: equal for two
+// paths exactly if they name the same file. Throws kFileUnwritable where the links go in a circle.
+std::filesystem::path targetOf(const std::string& path);
 
 }  // namespace grisaille::image

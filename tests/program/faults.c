@@ -73,6 +73,30 @@ EXPORT FILE* fopen64(const char* path, const char* mode) {
   return NEXT(fopen64)(path, mode);
 }
 
+static int changes(int flags) {
+  return (flags & (O_WRONLY | O_RDWR | O_CREAT)) != 0;
+}
+
+static mode_t modeOf(int flags, va_list rest) {
+  return (flags & O_CREAT) != 0 ? va_arg(rest, mode_t) : 0;
+}
+
+EXPORT int open(const char* path, int flags, ...) {
+  va_list rest;
+  va_start(rest, flags);
+  const mode_t mode = modeOf(flags, rest);
+  va_end(rest);
+  return changes(flags) && refuses(path) ? -1 : NEXT(open)(path, flags, mode);
+}
+
+EXPORT int open64(const char* path, int flags, ...) {
+  va_list rest;
+  va_start(rest, flags);
+  const mode_t mode = modeOf(flags, rest);
+  va_end(rest);
+  return changes(flags) && refuses(path) ? -1 : NEXT(open64)(path, flags, mode);
+}
+
 EXPORT int mkdir(const char* path, mode_t mode) {
   return refuses(path) ? -1 : NEXT(mkdir)(path, mode);
 }
