@@ -17,6 +17,7 @@
 #include "app/command.h"
 #include "app/driver_messages.h"
 #include "app/effect_options.h"
+#include "app/option_checks.h"
 #include "app/output_file.h"
 #include "app/start_device.h"
 #include "app/truth/progress.h"
@@ -67,13 +68,27 @@ struct ApplyJob : ChosenEffects {
     }
     for (const Output& output : outputs) frame::checkOutput(output.name, active->effects());
     findFrames();
+    requireDistinctOutputs();
   }
 
   scene::Camera cameraOf(int number, const image::Picture& depthPicture) const;
 
  private:
   void findFrames();
+  void requireDistinctOutputs() const;
 };
+
+// Of all frames.
+void ApplyJob::requireDistinctOutputs() const {
+  std::vector<NamedOutput> all;
+  for (const int number : frames) {
+    for (const Output& output : outputs) {
+      const std::string file = output.file.at(number);
+      all.push_back({fmt::format("--write {}={}", output.name, file), file});
+    }
+  }
+  requireDistinct(all);
+}
 
 // Every file of every frame is there before the first is worked on.
 void ApplyJob::findFrames() {
@@ -248,11 +263,11 @@ void addPictures(CLI::App& command, ApplyOptions& options) {
       ->check(CLI::IsMember({"view", "distance", "clip", "clip-reversed"}))
       ->capture_default_str();
   command.add_option("--near", options.near, "Near plane, metres; default: the camera file's")
-      ->check(CLI::PositiveNumber);
+      ->check(positiveNumber());
   command
       .add_option("--far", options.far,
                   "Far plane, metres; of depths in metres what is as far is sky; default: none")
-      ->check(CLI::PositiveNumber);
+      ->check(positiveNumber(Infinite::kTaken));
   command.add_option("--normal-space", options.normalSpace, "Axes of the normals")
       ->check(CLI::IsMember({"world", "view"}))
       ->capture_default_str();

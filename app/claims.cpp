@@ -6,14 +6,13 @@
 #include <algorithm>
 #include <cstdio>
 #include <filesystem>
-#include <fstream>
-#include <iterator>
 #include <memory>
 
 #include "app/active_effects.h"
 #include "app/command.h"
 #include "app/driver_messages.h"
 #include "app/machine.h"
+#include "app/option_checks.h"
 #include "app/start_device.h"
 #include "app/study/claims_part.h"
 #include "app/study/claims_report.h"
@@ -22,6 +21,7 @@
 #include "backends/backends.h"
 #include "core/error.h"
 #include "core/image/write_aside.h"
+#include "core/regular_file.h"
 
 namespace grisaille::app {
 namespace {
@@ -67,8 +67,7 @@ fs::path partsOf(const ClaimsOptions& options) {
 // All that a claim's result depends on, so that another run takes it up only where it is the same.
 std::string keyOf(const study::Claim& claim, const ClaimsOptions& options,
                   const gpu::DeviceInfo& device) {
-  std::ifstream file(options.file, std::ios::binary);
-  const std::string text{std::istreambuf_iterator<char>(file), {}};
+  const std::string text = readRegularFile(options.file, ErrorId::kSettingsUnreadable);
   std::error_code none;  // the built-in scene has no time
   const auto written = fs::last_write_time(claim.scene, none).time_since_epoch().count();
   return fmt::format("{}\n{}\n{}\n{}\n{} samples, {} rounds, scale {}\nscene of {}\n{}\n{}",
@@ -162,13 +161,13 @@ void addClaims(CLI::App& program) {
   command
       ->add_option("--scale", options->scale,
                    "Multiplies the pictures' sizes, to no less than 16 pixels")
-      ->check(CLI::Range(0.05, 4.0))
+      ->check(numberFrom(0.05, 4))
       ->capture_default_str();
   command->add_option("--samples", options->samples, "The truth's rays a pixel")
-      ->check(CLI::Range(16u, 65536u))
+      ->check(wholeNumberFrom(16, 65536))
       ->capture_default_str();
   command->add_option("--rounds", options->rounds, "How often each run's cost is measured")
-      ->check(CLI::Range(1u, 1000u))
+      ->check(wholeNumberFrom(1, 1000))
       ->capture_default_str();
   command->add_option("--plugin-path", options->pluginPaths, "A further folder of effects")
       ->type_name("DIR")

@@ -6,6 +6,7 @@
 #include "app/active_effects.h"
 #include "app/command.h"
 #include "app/effect_tables.h"
+#include "app/option_checks.h"
 #include "app/verify.h"
 #include "core/error.h"
 
@@ -68,7 +69,7 @@ void addEffects(CLI::App& program) {
       ->add_option("--patience", options->patience,
                    "Seconds that one step of the check may take before it counts as endless")
       ->needs(verified)
-      ->check(CLI::Range(1, 86400))
+      ->check(wholeNumberFrom(1, 86400))
       ->capture_default_str();
   command->callback(
       [options] { options->verify.empty() ? listEffects(*options) : verify(*options); });

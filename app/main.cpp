@@ -1,6 +1,8 @@
 // SPDX-License-Identifier: MIT
 // grisaille: screen-space effects whose error is measured. See README.md.
+#include <fcntl.h>
 #include <signal.h>
+#include <unistd.h>
 
 #include <cerrno>
 #include <cstdio>
@@ -11,6 +13,7 @@
 
 #include "app/command.h"
 #include "app/last_words.h"
+#include "app/option_checks.h"
 #include "app/truth/interruption.h"
 #include "core/error.h"
 
@@ -18,6 +21,8 @@ namespace {
 
 using grisaille::Error;
 using grisaille::ErrorId;
+
+constexpr int kUsageStatus = 2;  // of E5101, whoever finds the mistake
 
 void addCommands(CLI::App& program) {
   grisaille::app::addRender(program);
@@ -33,6 +38,19 @@ void addCommands(CLI::App& program) {
   grisaille::app::addStability(program);
   grisaille::app::addScene(program);
   grisaille::app::addCompletion(program);
+  for (CLI::App* command : program.get_subcommands({})) {
+    grisaille::app::refuseEmptyValues(*command);
+  }
+}
+
+// A stream that is closed at the start becomes /dev/null: a file that is opened later would else
+// take its number, and messages would go into that file. Standard output becomes one that cannot be
+// written, since a table that nobody gets is an error.
+void occupyClosedStreams() {
+  constexpr int kModes[] = {O_RDONLY, O_RDONLY, O_WRONLY};
+  for (const int stream : {STDIN_FILENO, STDOUT_FILENO, STDERR_FILENO}) {
+    if (fcntl(stream, F_GETFD) < 0) open("/dev/null", kModes[stream]);  // the lowest free number
+  }
 }
 
 // Tables go there: a full disk behind it must not pass for success.
@@ -40,7 +58,9 @@ void requireStandardOutput() {
   errno = 0;
   if (std::fflush(stdout) == 0 && std::ferror(stdout) == 0) return;
   throw Error(ErrorId::kFileUnwritable, "standard output: {}",
-              errno != 0 ? std::strerror(errno) : "not all of it was taken");
+              errno == EBADF ? "it is closed"
+              : errno != 0   ? std::strerror(errno)
+                             : "not all of it was taken");
 }
 
 // What fmt throws where it prints to a file that takes no more is no fault of the program's.
@@ -50,9 +70,29 @@ Error asError(const std::exception& error) {
   return {ErrorId::kUnexpected, error.what()};
 }
 
+// Not by fmt::print(), which throws where standard error takes no more.
+void tell(const Error& error) {
+  std::fputs(error.what(), stderr);
+  std::fputc('\n', stderr);
+}
+
+// Runs the command. Returns the exit status.
+int run(CLI::App& program, int argc, char** argv) {
+  int status = 0;
+  try {
+    program.parse(argc, argv);
+  } catch (const CLI::ParseError& error) {
+    // Help and version come this way too, with status 0.
+    status = program.exit(error) == 0 ? 0 : kUsageStatus;
+  }
+  if (status == 0) requireStandardOutput();
+  return status;
+}
+
 }  // namespace
 
 int main(int argc, char** argv) {
+  occupyClosedStreams();
   grisaille::app::nameCrashes();
   signal(SIGXFSZ, SIG_IGN);  // a limit of files' sizes is an error of the write, and has a line
   CLI::App program("Screen-space effects whose error is measured", "grisaille");
@@ -63,22 +103,18 @@ int main(int argc, char** argv) {
   });
   addCommands(program);
   try {
-    program.parse(argc, argv);
-    requireStandardOutput();
-    return 0;
-  } catch (const CLI::ParseError& error) {
-    // Help and version come this way too, with status 0.
-    return program.exit(error) == 0 ? 0 : 2;
+    return run(program, argc, argv);
   } catch (const grisaille::app::truth::Interrupted&) {
     return grisaille::app::truth::Interrupted::kStatus;
   } catch (const Error& error) {
-    fmt::print(stderr, "{}\n", error.what());
+    tell(error);
+    if (error.id() == ErrorId::kUsage) return kUsageStatus;
   } catch (const std::bad_alloc&) {
-    fmt::print(stderr, "{}\n", Error(ErrorId::kOutOfMemory, "memory ran out").what());
+    tell({ErrorId::kOutOfMemory, "memory ran out"});
   } catch (const std::filesystem::filesystem_error& error) {
-    fmt::print(stderr, "{}\n", Error(ErrorId::kFileUnwritable, error.what()).what());
+    tell({ErrorId::kFileUnwritable, error.what()});
   } catch (const std::exception& error) {
-    fmt::print(stderr, "{}\n", asError(error).what());
+    tell(asError(error));
   }
   return 1;
 }

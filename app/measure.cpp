@@ -9,6 +9,8 @@
 #include "app/command.h"
 #include "app/driver_messages.h"
 #include "app/machine.h"
+#include "app/option_checks.h"
+#include "app/output_file.h"
 #include "app/start_device.h"
 #include "app/study/choose.h"
 #include "app/study/flicker_run.h"
@@ -95,6 +97,16 @@ bool measureOn(const std::string& backend, const MeasureOptions& options, const 
       truth::Interruption::asked);
 }
 
+// The report's files and the presets.
+void requireDistinctOutputs(const MeasureOptions& options) {
+  std::vector<NamedOutput> outputs = {{"--presets " + options.presets, options.presets}};
+  for (const char* name : study::kReportFiles) {
+    const std::string file = fs::path(options.out) / name;
+    outputs.push_back({fmt::format("--out {} (its {})", options.out, name), file});
+  }
+  requireDistinct(outputs);
+}
+
 void report(const MeasureOptions& options) {
   study::writeReport(options.out);
   fmt::print("wrote {}\n", (fs::path(options.out) / "index.html").string());
@@ -104,6 +116,7 @@ void report(const MeasureOptions& options) {
 }
 
 void measure(const MeasureOptions& options) {
+  requireDistinctOutputs(options);
   if (options.reportOnly) return report(options);
   MeasureJob job(options);
   requireDevices(job.backendNames, options.device);
@@ -145,15 +158,14 @@ void addMeasure(CLI::App& program) {
   auto options = std::make_shared<MeasureOptions>();
   CLI::App* command = program.add_subcommand(
       "measure", "Measure what settings cost and how far they are from the truth");
-  command
-      ->add_option("--scene", options->subject.scene, "A .gltf or .glb file; default: the atrium")
-      ->type_name("FILE");
+  command->add_option("scene", options->subject.scene,
+                      "A .gltf or .glb file; without one, the built-in atrium");
   command->add_option("--sweep", options->sweeps, "A parameter and its values; several make a grid")
       ->type_name("EFFECT.PARAMETER=VALUE,...")
       ->allow_extra_args(false);
   options->subject.addTo(*command);
   command->add_option("--rounds", options->rounds, "How often each setting's cost is measured")
-      ->check(CLI::Range(1u, 1000u))
+      ->check(wholeNumberFrom(1, 1000))
       ->capture_default_str();
   command->add_option("--backend", options->backend, "opengl, vulkan or both")
       ->capture_default_str();

@@ -2,6 +2,7 @@
 // What to write where, as the command line gives it: NAME=FILE.
 #pragma once
 
+#include <span>
 #include <string>
 #include <vector>
 
@@ -13,6 +14,19 @@ namespace grisaille::app {
 struct OutputFile {
   std::string output, file;
 };
+
+// A file that a command is to write, with the words of the command line that name it.
+struct NamedOutput {
+  std::string words;  // "--write ao=x.exr"
+  std::string file;   // "": none
+};
+
+// Throws kUsage where two of these name the same file, by whatever path. Character devices, such as
+// /dev/null, take any number of outputs.
+void requireDistinct(std::span<const NamedOutput> outputs);
+
+// With the words of --write.
+std::vector<NamedOutput> namedOutputs(std::span<const OutputFile> writes);
 
 // Throws Error(kUsage).
 inline OutputFile parseOutputFile(const std::string& text) {

@@ -11,6 +11,7 @@
 #include "app/coverage.h"
 #include "app/driver_messages.h"
 #include "app/effect_options.h"
+#include "app/option_checks.h"
 #include "app/output_file.h"
 #include "app/scene_rays.h"
 #include "app/shot_options.h"
@@ -50,6 +51,7 @@ struct RenderJob : ChosenEffects {
       throw Error(ErrorId::kUsage, "--timings and --coverage cannot both be standard output");
     }
     if (writes.empty()) writes.push_back({.output = "color", .file = "grisaille.png"});
+    requireDistinctOutputs(options);
     for (const std::string& file : {options.timings, options.shots.coverage}) {
       if (!file.empty() && file != "-") image::requireWritable(file);
     }
@@ -72,7 +74,21 @@ struct RenderJob : ChosenEffects {
                   "--coverage is given, but no active effect tells whose its paint is");
     }
   }
+
+ private:
+  void requireDistinctOutputs(const RenderOptions& options) const;
 };
+
+void RenderJob::requireDistinctOutputs(const RenderOptions& options) const {
+  std::vector<NamedOutput> outputs = namedOutputs(writes);
+  for (const std::string& text : options.shots.saves) {
+    outputs.push_back({"--save " + text, text.substr(text.find('=') + 1)});
+  }
+  if (options.timings != "-") outputs.push_back({"--timings " + options.timings, options.timings});
+  const std::string& coverage = options.shots.coverage;
+  if (coverage != "-") outputs.push_back({"--coverage " + coverage, coverage});
+  requireDistinct(outputs);
+}
 
 // Standard output is for a table where one was asked for there.
 std::FILE* notesOf(const RenderOptions& options) {
@@ -190,7 +206,7 @@ void addRender(CLI::App& program) {
       "color, depth and back_depth (metres, 0 = sky), normal and facet_normal (world), base_colour "
       "or an effect's output, as .exr or .png; default: color=grisaille.png");
   command->add_option("--frames", options->frames, "How often to render; the last one is written")
-      ->check(CLI::Range(1u, 1000000u))
+      ->check(wholeNumberFrom(1, 1000000))
       ->capture_default_str();
   command
       ->add_option("--timings", options->timings, "CSV of every pass's time; -: to standard output")

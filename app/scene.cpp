@@ -6,6 +6,7 @@
 #include <memory>
 
 #include "app/command.h"
+#include "app/output_file.h"
 #include "core/scene/camera.h"
 #include "core/scene/scene.h"
 
@@ -17,6 +18,9 @@ struct SceneOptions {
 };
 
 void showScene(const SceneOptions& options) {
+  const NamedOutput outputs[] = {{"--write " + options.write, options.write},
+                                 {"--write-camera " + options.writeCamera, options.writeCamera}};
+  requireDistinct(outputs);
   const scene::Scene scene =
       options.scene.empty() ? scene::makeAtrium() : scene::loadGltf(options.scene);
   const scene::Bounds& b = scene.bounds;

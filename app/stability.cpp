@@ -11,6 +11,7 @@
 #include "app/command.h"
 #include "app/driver_messages.h"
 #include "app/machine.h"
+#include "app/option_checks.h"
 #include "app/stability/edge_pictures.h"
 #include "app/stability/report.h"
 #include "app/stability/runner.h"
@@ -177,7 +178,7 @@ void addStability(CLI::App& program) {
       ->allow_extra_args(false);
   command->add_flag("--quick", options->quick, "A part of the cases, for a first look");
   command->add_option("--combinations", options->combinations, "Cases drawn at random")
-      ->check(CLI::Range(0u, 100000u))
+      ->check(wholeNumberFrom(0, 100000))
       ->capture_default_str();
   command->add_option("--seed", options->seed, "Of those cases")->capture_default_str();
   command->add_flag("--check", options->check,

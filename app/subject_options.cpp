@@ -9,6 +9,7 @@
 #include <limits>
 
 #include "app/camera_option.h"
+#include "app/option_checks.h"
 #include "app/settings.h"
 #include "app/size.h"
 #include "app/truth/content_hash.h"
@@ -55,7 +56,8 @@ void SubjectOptions::addTo(CLI::App& command) {
       ->type_name("EFFECT.PARAMETER=VALUE")
       ->allow_extra_args(false);
   command.add_option("--effects", effects, "Effects that run, in order; default: ssao")
-      ->delimiter(',');
+      ->delimiter(',')
+      ->allow_extra_args(false);
   command.add_option("--output", output,
                      "What is compared with the truth; default: the first visibility");
   command
@@ -63,10 +65,10 @@ void SubjectOptions::addTo(CLI::App& command) {
                   "Shots with ranges: the truth is the mask of what their muzzles see")
       ->type_name("FILE");
   command.add_option("--radius", radius, "Length of the truth's rays, metres")
-      ->check(CLI::Range(1e-6, 1e6))
+      ->check(numberFrom(1e-6, 1e6))
       ->capture_default_str();
   command.add_option("--samples", samples, "The truth's rays a pixel")
-      ->check(CLI::Range(16u, 65536u))
+      ->check(wholeNumberFrom(16, 65536))
       ->capture_default_str();
   command.add_option("--size", size, "Pixels")->type_name("WxH")->capture_default_str();
   command.add_option("--plugin-path", pluginPaths, "A further folder of effects")

@@ -5,12 +5,14 @@
 
 #include <algorithm>
 #include <array>
+#include <cmath>
 #include <cstdio>
 #include <memory>
 #include <optional>
 
 #include "app/camera_option.h"
 #include "app/command.h"
+#include "app/option_checks.h"
 #include "app/output_file.h"
 #include "app/size.h"
 #include "app/truth/content_hash.h"
@@ -51,7 +53,7 @@ OutputFile parseWrite(const std::string& text) {
 
 void requireLength(const char* option, double metres) {
   if (!(metres > 0 && metres <= kFarthest)) {
-    throw Error(ErrorId::kUsage, "{} is {}, not metres over 0 and up to {}", option, metres,
+    throw Error(ErrorId::kUsage, "{} is {:g}, not metres over 0 and up to {:g}", option, metres,
                 kFarthest);
   }
 }
@@ -68,9 +70,11 @@ struct TruthJob {
   explicit TruthJob(const TruthOptions& options)
       : thickness(options.thickness > 0 ? options.thickness : options.radius / 5) {
     for (const std::string& text : options.writes) writes.push_back(parseWrite(text));
+    requireDistinct(namedOutputs(writes));
     requireLength("--radius", options.radius);
-    if (!(options.error >= 0)) {
-      throw Error(ErrorId::kUsage, "--error is {}, not 0 or more", options.error);
+    if (!(options.error >= 0 && std::isfinite(options.error))) {
+      throw Error(ErrorId::kUsage, "--error is {:g}, not a finite number of 0 or more",
+                  options.error);
     }
     checkUse("--thickness", options.thickness != 0, "ceiling");
     checkUse("--paint", !options.paint.empty(), "mask");
@@ -232,7 +236,7 @@ void addTruth(CLI::App& program) {
       ->type_name("R")
       ->capture_default_str();
   command->add_option("--samples", options->samples, "Occlusion rays a pixel, at most")
-      ->check(CLI::Range(16u, trace::kMostOcclusionRays))
+      ->check(wholeNumberFrom(16, trace::kMostOcclusionRays))
       ->capture_default_str();
   command
       ->add_option("--error", options->error,

@@ -11,6 +11,7 @@
 #include "app/camera_option.h"
 #include "app/command.h"
 #include "app/driver_messages.h"
+#include "app/option_checks.h"
 #include "app/presets.h"
 #include "app/settings.h"
 #include "app/study/random_cameras.h"
@@ -343,29 +344,30 @@ void addTune(CLI::App& program) {
   command
       ->add_option("--max-error", options->maxError,
                    "The cheapest setting with this RMSE against the truth or less")
-      ->check(CLI::PositiveNumber);
+      ->check(positiveNumber());
   command
       ->add_option("--budget-ms", options->budget,
                    "The most accurate setting whose effects take so many milliseconds or less")
-      ->check(CLI::PositiveNumber);
+      ->check(positiveNumber());
   options->subject.addTo(*command);
   command
       ->add_option("--vary", options->vary,
                    "Parameters that may change; default: those of the presets and all that are "
                    "not advanced")
       ->type_name("EFFECT.PARAMETER,...")
-      ->delimiter(',');
+      ->delimiter(',')
+      ->allow_extra_args(false);
   command->add_option("--validate", options->validate, "Cameras to validate on, not tuned on")
       ->type_name("FILE|{...}")
       ->allow_extra_args(false);
   command
       ->add_option("--random", options->random,
                    "Without --validate: so many random cameras inside the scene")
-      ->check(CLI::Range(0u, 64u))
+      ->check(wholeNumberFrom(0, 64))
       ->capture_default_str();
   command->add_option("--seed", options->seed, "Of the random cameras")->capture_default_str();
   command->add_option("--evaluations", options->evaluations, "Settings that are tried at most")
-      ->check(CLI::Range(1u, 100000u))
+      ->check(wholeNumberFrom(1, 100000))
       ->capture_default_str();
   command->add_option("--backend", options->backend, "opengl or vulkan")->capture_default_str();
   command->add_option("--device", options->device, "Number or part of a device's name");

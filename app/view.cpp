@@ -5,6 +5,8 @@
 
 #include "app/command.h"
 #include "app/driver_messages.h"
+#include "app/option_checks.h"
+#include "app/output_file.h"
 #include "app/size.h"
 #include "app/viewer/viewer.h"
 #include "core/image/image.h"
@@ -53,9 +55,10 @@ void addView(CLI::App& program) {
   command
       ->add_option("--truth-radius", session.truthRadius,
                    "Length of its rays, metres; default: the effect's own radius")
-      ->type_name("R");
+      ->type_name("R")
+      ->check(positiveNumber());
   command->add_option("--truth-rays", session.truthRays, "Rays a pixel in the end; default: 256")
-      ->check(CLI::Range(viewer::TruthSettings::kLeastRays, viewer::TruthSettings::kMostRays));
+      ->check(wholeNumberFrom(viewer::TruthSettings::kLeastRays, viewer::TruthSettings::kMostRays));
   command->add_option("--load", session.loads, "Shots for an effect that takes them")
       ->type_name("EFFECT=FILE")
       ->allow_extra_args(false);
@@ -78,6 +81,9 @@ void addView(CLI::App& program) {
     options->session.effectsGiven = effects->count() > 0;
     if (!options->windowSize.empty()) options->size = parseSize(options->windowSize);
     if (!options->screenshot.empty()) image::checkWritable(options->screenshot);
+    const NamedOutput outputs[] = {{"--screenshot " + options->screenshot, options->screenshot},
+                                   {"--layout " + options->layoutFile, options->layoutFile}};
+    requireDistinct(outputs);
     DriverMessages messages;
     options->message = messages.sink();
     viewer::Viewer(*options).run();

@@ -3,6 +3,7 @@
 // (by gnuplot), and index.html, which holds everything, pictures and all.
 #pragma once
 
+#include <array>
 #include <filesystem>
 #include <span>
 #include <string>
@@ -40,6 +41,10 @@ std::vector<Kind> kindsOf(std::span<const Record> records);
 // whole front holds it, which then says as much.
 std::vector<size_t> ownFront(std::span<const Record> records, const std::string& backend,
                              const Kind& kind);
+
+// The names of the files that writeReport() always or, with gnuplot, mostly writes.
+inline constexpr std::array kReportFiles = {"index.html", "results.csv", "results.json",
+                                            "front.gp"};
 
 // Of one folder's records; each backend has a front of its own, and
 // each kind of setting that is not on it. Throws kFileUnwritable. Without

@@ -31,7 +31,7 @@ TEST_F(NewEffect, BadNamesAreRefusedAndNothingIsWritten) {
                                  "a23456789012345678901234567890123456789012"}) {
     expectRefused({name}, "E5401", "cannot be the key");
   }
-  expectRefused({""}, "E5401", "cannot be the key");
+  expectRefused({""}, "E5101", "the value is empty");
   expectRefused({"ssao"}, "E5401", "ssao.so");
   expectRefused({"effects"}, "E5401", "settings files");
   expectRefused({"fine", "folder", "--language", "rust"}, "E5101", "--language");

@@ -155,7 +155,7 @@ TEST(Stability, WhatIsNotThereIsNotRun) {
   const TemporaryFolder folder;
   const Outcome outcome =
       runProgram({"stability", "--only", "kernels", "--out", "out"}, folder.path());
-  EXPECT_EQ(outcome.status, 1);
+  EXPECT_EQ(outcome.status, 2);
   EXPECT_NE(outcome.err.find("E5101"), std::string::npos) << outcome.err;
   EXPECT_NE(outcome.err.find("'kernels'"), std::string::npos) << outcome.err;
 }

@@ -73,7 +73,7 @@ TEST(Tune, SponzaErrsLess) {
   for (const char* name : {"atrium", "gallery", "arcade", "lion"}) {
     subject += " --camera " + sponzaCamera(name);
   }
-  const Outcome usual = runShell("XDG_CACHE_HOME=$PWD grisaille measure --scene " + sponza() +
+  const Outcome usual = runShell("XDG_CACHE_HOME=$PWD grisaille measure " + sponza() +
                                      " --rounds 1 --backend opengl --out usual" + subject,
                                  folder.path());
   ASSERT_EQ(usual.status, 0) << usual.err;
