@@ -130,7 +130,7 @@ TEST_P(TruthTest, IsRefusedWithoutAVisibility) {
   const Outcome outcome =
       runProgram({"view", "--backend", GetParam(), "--effects", "sspm", "--compare-truth"},
                  folder_.path(), {"XDG_STATE_HOME=" + (folder_ / "state")});
-  EXPECT_EQ(outcome.status, 1) << outcome.err;
+  EXPECT_EQ(outcome.status, 2) << outcome.err;
   EXPECT_NE(outcome.err.find("visibility"), std::string::npos) << outcome.err;
 }
 
