@@ -85,8 +85,12 @@ PipelineCache::PipelineCache(Context& context, CacheFile file)
   const std::string data = path_.empty() ? "" : load(path_, context.properties);
   if (!data.empty()) loadedHash_ = hashOf(data);
   VkPipelineCacheCreateInfo info{VK_STRUCTURE_TYPE_PIPELINE_CACHE_CREATE_INFO};
-  info.initialDataSize = data.size();
-  info.pInitialData = data.data();
+  // A header alone helps no driver. SwiftShader answers one with that and another one: its file
+  // would grow from run to run.
+  if (data.size() > sizeof(VkPipelineCacheHeaderVersionOne)) {
+    info.initialDataSize = data.size();
+    info.pInitialData = data.data();
+  }
   check(context_.vk.vkCreatePipelineCache(context_.device, &info, nullptr, &cache_),
         "vkCreatePipelineCache");
 }
@@ -108,9 +112,6 @@ void PipelineCache::save() const {
   std::string data(size, '\0');
   if (get(context_.device, cache_, &size, data.data()) != VK_SUCCESS) return;
   data.resize(size);
-  // A header alone helps nobody. SwiftShader keeps no pipelines, and answers loaded data with that
-  // data and one more header: its file would grow from run to run.
-  if (size <= sizeof(VkPipelineCacheHeaderVersionOne)) return;
   if (hashOf(data) == loadedHash_) return;
 
   std::error_code failed;

@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: MIT
-// A Vulkan device whose messages fail the test, once with each driver; tests are skipped where there
-// is none.
+// A Vulkan device whose messages fail the test, once with each driver; tests are skipped where
+// there is none.
 #pragma once
 
 #include <gtest/gtest.h>
@@ -40,7 +40,7 @@ class WithDevice : public ::testing::TestWithParam<tests::TestDevice> {
 };
 
 // Runs the tests of a WithDevice with every driver.
-#define GRISAILLE_ON_EVERY_VULKAN_DEVICE(Suite)                                                    \
+#define GRISAILLE_ON_EVERY_VULKAN_DEVICE(Suite)                                                   \
   INSTANTIATE_TEST_SUITE_P(, Suite, ::testing::ValuesIn(::grisaille::tests::vulkanTestDevices()), \
                            GRISAILLE_DEVICE_NAME)
 
