@@ -45,6 +45,6 @@ set(CPACK_DEBIAN_PACKAGE_SHLIBDEPS ON)
 # Drivers are loaded while the program runs, so that no library tells of them; one is enough.
 set(CPACK_DEBIAN_PACKAGE_DEPENDS "libegl1 | libvulkan1")
 set(CPACK_DEBIAN_PACKAGE_RECOMMENDS
-  "libegl1, libgl1, libgl1-mesa-dri, libvulkan1, mesa-vulkan-drivers")
+  "fonts-dejavu-core, libegl1, libgl1, libgl1-mesa-dri, libvulkan1, mesa-vulkan-drivers")
 set(CPACK_DEBIAN_PACKAGE_SUGGESTS "cmake, g++, glslc, make, vulkan-validationlayers")
 include(CPack)

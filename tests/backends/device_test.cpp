@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: MIT
-#include "backends/backends.h"
-
 #include <algorithm>
+
+#include "backends/backends.h"
 #include "shaders/fill_comp.h"
 #include "shaders/step_comp.h"
 #include "tests/support/devices.h"

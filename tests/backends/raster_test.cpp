@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: MIT
-#include "shaders/derivative_frag.h"
-
 #include <algorithm>
+
+#include "shaders/derivative_frag.h"
 #include "shaders/fragcoord_frag.h"
 #include "tests/backends/scene.h"
 

@@ -2,11 +2,10 @@
 // Shaders are compiled for what is set, not for each frame and each shot: some drivers compile one
 // anew for each value that a uniform in a condition takes. Counted in Mesa's cache; other drivers
 // leave that empty.
+#include <fmt/format.h>
 #include <gtest/gtest.h>
 
 #include <algorithm>
-
-#include <fmt/format.h>
 
 #include "tests/program/run.h"
 
@@ -14,6 +13,8 @@ namespace grisaille::tests {
 namespace {
 
 namespace fs = std::filesystem;
+
+constexpr const char* kNoCache = "the driver keeps no shaders in Mesa's cache, so none are counted";
 
 class CompiledShaders : public ::testing::TestWithParam<const char*> {
  protected:
@@ -46,6 +47,7 @@ TEST_P(CompiledShaders, AreNoMoreForMoreShots) {
       }
       const ptrdiff_t compiled = compiledBy(fmt::format("{}-{}", mode, shots), arguments);
       if (shots == 2) few = compiled;
+      if (compiled == 0) GTEST_SKIP() << kNoCache;
       EXPECT_EQ(compiled, few) << mode;
     }
   }
@@ -63,6 +65,7 @@ TEST_P(CompiledShaders, AreNoMoreForMoreFrames) {
         name, {"measure", "--sweep", "ssao.history=8", "--sweep", "ssao.steps=2", "--size", "96x54",
                "--samples", "16", "--rounds", "1", "--path", path, "--out", "study-" + name});
     if (frames == 3) few = compiled;
+    if (compiled == 0) GTEST_SKIP() << kNoCache;
     EXPECT_EQ(compiled, few);
   }
 }

@@ -74,14 +74,18 @@ TEST_F(ClaimsTest, TheStudyHoldsWhatItReports) {
 TEST(ClaimsReport, TheManualsIsOfThisStudy) {
   const fs::path docs = fs::path(SOURCE_FOLDER) / "docs";
   const std::string report = readFile(docs / "claims.md"), study = readFile(kStudy);
-  for (size_t at = 0; (at = study.find("\ntext = \"", at)) != std::string::npos; ++at) {
+  size_t texts = 0, pictures = 0;
+  for (size_t at = 0; (at = study.find("\ntext = \"", at)) != std::string::npos; ++at, ++texts) {
     const std::string text = study.substr(at + 9, study.find("\"\n", at + 9) - at - 9);
     EXPECT_NE(report.find(text), std::string::npos) << text;
   }
-  for (size_t at = 0; (at = report.find("](pictures/", at)) != std::string::npos; ++at) {
+  for (size_t at = 0; (at = report.find("](pictures/", at)) != std::string::npos;
+       ++at, ++pictures) {
     const std::string file = report.substr(at + 2, report.find(')', at) - at - 2);
     EXPECT_TRUE(fs::exists(docs / file)) << file;
   }
+  EXPECT_GT(texts, 5u);
+  EXPECT_GT(pictures, 5u);
 }
 
 constexpr const char* kSmall = R"([[claim]]
