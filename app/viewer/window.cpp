@@ -28,6 +28,7 @@ Window& windowOf(GLFWwindow* window) {
 }  // namespace
 
 WindowLibrary::WindowLibrary() {
+  glfw::choosePlatform();
   if (glfwInit() != GLFW_TRUE) throw Error(ErrorId::kNoDisplay, "no window opens: {}", lastError());
 }
 

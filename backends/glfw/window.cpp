@@ -9,6 +9,8 @@
 #include <GLFW/glfw3.h>
 #include <GLFW/glfw3native.h>
 
+#include <cstdlib>
+
 namespace grisaille::glfw {
 namespace {
 
@@ -27,6 +29,16 @@ void hintOpenGl(bool check) {
 }
 
 }  // namespace
+
+void choosePlatform() {
+#ifdef GLFW_PLATFORM_X11  // since 3.4; before, there is one platform
+  const char* wayland = std::getenv("WAYLAND_DISPLAY");
+  const bool none = wayland == nullptr || *wayland == '\0';
+  if (none && std::getenv("DISPLAY") != nullptr) {
+    glfwInitHint(GLFW_PLATFORM, GLFW_PLATFORM_X11);
+  }
+#endif
+}
 
 void hintWindow(std::string_view backend, bool check) {
   glfwDefaultWindowHints();

@@ -10,6 +10,10 @@ struct GLFWwindow;
 
 namespace grisaille::glfw {
 
+// Before glfwInit(): GLFW 3.4 looks for a Wayland compositor first, and libwayland prints an error
+// where there is none. Without WAYLAND_DISPLAY, X11 is taken at once.
+void choosePlatform();
+
 // Sets all of GLFW's hints to what the window of a device of this backend needs. `check` as in
 // DeviceOptions. The caller adds its own hints and makes the window.
 void hintWindow(std::string_view backend, bool check);

@@ -27,6 +27,7 @@ class WindowTest : public ::testing::TestWithParam<TestDevice> {
     driver_ = std::make_unique<DriverScope>(GetParam());
     display_ = std::make_unique<Display>(kScreen, kScreen);
     glfwSetErrorCallback([](int, const char* text) { ADD_FAILURE() << "GLFW says: " << text; });
+    glfw::choosePlatform();
     ASSERT_EQ(glfwInit(), GLFW_TRUE);
   }
   void TearDown() override {
