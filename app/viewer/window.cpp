@@ -181,10 +181,12 @@ bool Window::feed(const Event& event, std::vector<int>& touched) {
   switch (event.type) {
     case Event::Type::kMove:
       if (pointed) return false;  // a button or the wheel went where the cursor was
+      moved_ = moved_ || cursor_ != event.place;
       cursor_ = event.place;
       return true;
     case Event::Type::kButton:
-      if (again) return false;
+      // Since 1.89.7 a control under others takes a press only if it was hovered the frame before.
+      if (again || (event.down && moved_)) return false;
       touched.push_back(name);
       if (event.code < 5) buttons_[static_cast<size_t>(event.code)] = event.down;
       return true;
@@ -215,7 +217,7 @@ void Window::feedInterface() {
   ImGui_ImplGlfw_NewFrame();
   io.DeltaTime = std::min(io.DeltaTime, 0.05f);  // no slow frame makes a key repeat
   std::vector<int> touched;
-  acted_ = false;
+  acted_ = moved_ = false;
   while (!events_.empty() && feed(events_.front(), touched)) events_.pop_front();
   sendPointer(cursor_);
   for (size_t i = 0; i < buttons_.size(); ++i) sendButton(static_cast<int>(i), buttons_[i]);

@@ -78,6 +78,7 @@ class Window {
   std::array<bool, 5> buttons_{};
   std::bitset<512> keys_;  // held down, by GLFW's numbers
   bool acted_ = false;     // something was pressed or turned in this frame
+  bool moved_ = false;     // the cursor, in this frame
 };
 
 }  // namespace grisaille::app::viewer
