@@ -9,9 +9,8 @@
 namespace grisaille::backends {
 namespace {
 
-constexpr Backend kBackends[] = {
-    {"opengl", "OpenGL", opengl::listDevices, opengl::createDevice},
-    {"vulkan", "Vulkan", vulkan::listDevices, vulkan::createDevice}};
+constexpr Backend kBackends[] = {{"opengl", "OpenGL", opengl::listDevices, opengl::createDevice},
+                                 {"vulkan", "Vulkan", vulkan::listDevices, vulkan::createDevice}};
 
 #ifdef NDEBUG
 constexpr bool kAlwaysCheck = false;

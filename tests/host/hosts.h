@@ -46,6 +46,6 @@ std::unique_ptr<Host> makeHost(const TestDevice& device, bool validate = true);
 
 // Runs a suite in a host of every device that is installed: hosts are made before a suite can be
 // skipped. HostDevices.AreInstalled is skipped where one is missing.
-#define GRISAILLE_IN_EVERY_HOST(Suite)                                                            \
+#define GRISAILLE_IN_EVERY_HOST(Suite)                                                           \
   INSTANTIATE_TEST_SUITE_P(, Suite, ::testing::ValuesIn(::grisaille::tests::installedDevices()), \
                            GRISAILLE_DEVICE_NAME)

@@ -49,7 +49,8 @@ const std::vector<Room>& rooms() {
       {"app/stability/oracle", {"core/image/", "core/scene/", "grisaille/"}},
       {"app/study", {"core/", "grisaille/", "app/", "backends/backends.h"}},
       {"app/viewer",
-       {"backends/backends.h", "backends/glfw/window.h", "core/", "grisaille/", "app/", "shaders/"}},
+       {"backends/backends.h", "backends/glfw/window.h", "core/", "grisaille/", "app/",
+        "shaders/"}},
   };
   return kRooms;
 }

@@ -101,8 +101,7 @@ TEST_F(SettingsFile, WhatIsNotGivenIsNotThere) {
   EXPECT_EQ(settingsToml({}), "");
   EXPECT_FALSE(back({}).effects);
   EXPECT_FALSE(back({}).surface);
-  const Settings none{
-      .effects = std::vector<std::string>(), .surface = "base", .values = {}};
+  const Settings none{.effects = std::vector<std::string>(), .surface = "base", .values = {}};
   EXPECT_EQ(back(none).effects, none.effects);
   EXPECT_EQ(back(none).surface, "base");
 }
