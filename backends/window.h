@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: MIT
-// What a device needs of a window, whatever library opened it. No API header is seen here: handles
-// of EGL are pointers, and Vulkan's types are named beside the parameters.
+// The window as a device sees it. The library that opened the window implements this interface.
+// It includes no API header: handles are void pointers, and comments name their types.
 #pragma once
 
 #include <cstdint>

@@ -52,6 +52,12 @@ std::ifstream openRegularFile(const fs::path& path, ErrorId id) {
   return file;
 }
 
+std::optional<std::ifstream> openRegularFileIfThere(const fs::path& path, ErrorId id) {
+  std::error_code failed;
+  if (!fs::exists(path, failed)) return std::nullopt;
+  return openRegularFile(path, id);
+}
+
 std::string readRegularFile(const fs::path& path, ErrorId id, uintmax_t mostBytes) {
   std::ifstream file = openRegularFile(path, id);
   std::error_code failed;

@@ -1,19 +1,20 @@
 // SPDX-License-Identifier: MIT
-// Files that are read by path. A named pipe would hold the program up, a device need not end, and a
-// folder holds no text: each is refused at once, by name.
+// Readers of files that users name. They refuse a named pipe, which may block, a device, which may
+// never end, and a folder.
 #pragma once
 
 #include <cstdint>
 #include <filesystem>
 #include <fstream>
+#include <optional>
 #include <string>
 
 #include "core/error.h"
 
 namespace grisaille {
 
-// What is at `path` where that is no regular file, for messages: "it is a named pipe; only regular
-// files are read", or why nothing is known of it. "" for a regular file.
+// Why the file at `path` cannot be read as a regular file, for messages: "it is a named pipe; only
+// regular files are read", or the system's reason, as when it is missing. "" for a regular file.
 std::string whyNotRegular(const std::filesystem::path& path);
 
 // Throws Error(id, "PATH: why") unless `path` names a regular file, directly or through links.
@@ -21,6 +22,9 @@ void requireRegularFile(const std::filesystem::path& path, ErrorId id);
 
 // Opens a regular file for reading, as bytes. Throws Error(id, "PATH: why").
 std::ifstream openRegularFile(const std::filesystem::path& path, ErrorId id);
+
+// The same where something is at `path`, else none.
+std::optional<std::ifstream> openRegularFileIfThere(const std::filesystem::path& path, ErrorId id);
 
 // The whole of a regular file of at most `mostBytes`. Throws Error(id, "PATH: why").
 std::string readRegularFile(const std::filesystem::path& path, ErrorId id,

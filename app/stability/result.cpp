@@ -97,12 +97,10 @@ void saveResult(const fs::path& folder, const Result& result) {
 }
 
 std::optional<Result> loadResult(const fs::path& folder, const std::string& key) {
-  const fs::path file = fileOf(folder, key);
-  std::error_code failed;
-  if (!fs::exists(file, failed)) return std::nullopt;
-  std::ifstream stream = openRegularFile(file, ErrorId::kStudyRecord);
+  auto stream = openRegularFileIfThere(fileOf(folder, key), ErrorId::kStudyRecord);
+  if (!stream) return std::nullopt;
   try {
-    const json j = json::parse(stream);
+    const json j = json::parse(*stream);
     Result result{.key = j.at("key"), .backends = {}, .between = {}};
     if (result.key != key) return std::nullopt;
     for (const json& one : j.at("backends")) {

@@ -62,12 +62,10 @@ void saveClaim(const fs::path& folder, const std::string& key, const ClaimResult
 }
 
 std::optional<ClaimResult> loadClaim(const fs::path& folder, const std::string& key) {
-  const fs::path file = partOf(folder, key);
-  std::error_code failed;
-  if (!fs::exists(file, failed)) return std::nullopt;
-  std::ifstream stream = openRegularFile(file, ErrorId::kStudyRecord);
+  auto stream = openRegularFileIfThere(partOf(folder, key), ErrorId::kStudyRecord);
+  if (!stream) return std::nullopt;
   try {
-    const json j = json::from_cbor(stream);
+    const json j = json::from_cbor(*stream);
     if (j.at("key") != key) return std::nullopt;
     ClaimResult result;
     result.values = j.at("values").get<decltype(result.values)>();

@@ -87,11 +87,10 @@ void save(const fs::path& folder, const Record& r) {
 }
 
 std::optional<Record> load(const fs::path& file) {
-  std::error_code failed;
-  if (!fs::exists(file, failed)) return std::nullopt;
-  std::ifstream stream = openRegularFile(file, ErrorId::kStudyRecord);
+  auto stream = openRegularFileIfThere(file, ErrorId::kStudyRecord);
+  if (!stream) return std::nullopt;
   try {
-    const json j = json::parse(stream);
+    const json j = json::parse(*stream);
     if (j.at("version") != kVersion) {
       throw Error(ErrorId::kStudyRecord, "{} is of version {}, not {}", file.string(),
                   j.at("version").dump(), kVersion);

@@ -42,9 +42,9 @@ std::vector<Kind> kindsOf(std::span<const Record> records);
 std::vector<size_t> ownFront(std::span<const Record> records, const std::string& backend,
                              const Kind& kind);
 
-// The names of the files that writeReport() always or, with gnuplot, mostly writes.
+// The names of all files that writeReport() may write.
 inline constexpr std::array kReportFiles = {"index.html", "results.csv", "results.json",
-                                            "front.gp"};
+                                            "front.gp",   "front.svg",   "front.png"};
 
 // Of one folder's records; each backend has a front of its own, and
 // each kind of setting that is not on it. Throws kFileUnwritable. Without

@@ -110,9 +110,7 @@ void sendPointer(glm::dvec2 place) {
 }
 
 void sendButton(int button, bool down) {
-  if (button >= 0 && button < ImGuiMouseButton_COUNT) {
-    ImGui::GetIO().AddMouseButtonEvent(button, down);
-  }
+  ImGui::GetIO().AddMouseButtonEvent(button, down);
 }
 
 void sendWheel(glm::dvec2 notches) {
@@ -138,7 +136,7 @@ void prepareInput() {
 }
 
 void sendKey(int key, bool down) {
-  if (key >= 0 && key <= GLFW_KEY_LAST) ImGui::GetIO().KeysDown[key] = down;
+  ImGui::GetIO().KeysDown[key] = down;
 }
 
 void sendModifiers(bool ctrl, bool shift, bool alt, bool super) {
@@ -154,7 +152,7 @@ void sendPointer(glm::dvec2 place) {
 }
 
 void sendButton(int button, bool down) {
-  if (button >= 0 && button < ImGuiMouseButton_COUNT) ImGui::GetIO().MouseDown[button] = down;
+  ImGui::GetIO().MouseDown[button] = down;
 }
 
 void sendWheel(glm::dvec2 notches) {

@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: MIT
-// Embree 3 or 4: the one place that knows which. Everything else of Embree that this room uses is
-// the same in both. CMake defines GRISAILLE_EMBREE_MAJOR.
+// The calls that differ between Embree 3 and 4. Everything else that this room calls is the same in
+// both. CMake defines GRISAILLE_EMBREE_MAJOR.
 #pragma once
 
 #if GRISAILLE_EMBREE_MAJOR >= 4
@@ -37,8 +37,8 @@ inline void fill(Context& context, RTCFilterFunctionN filter) {
 
 #endif
 
-// The three queries. Each sets up `context`, which Embree hands to `filter`: put it first in a
-// struct to hand over more. `filter` may be null.
+// Each query initialises `context` and passes it to Embree, which passes it on to `filter`. To give
+// a filter more data, make the context the first member of a struct. `filter` may be null.
 
 inline void intersect1(RTCScene scene, Context& context, RTCFilterFunctionN filter,
                        RTCRayHit& ray) {
