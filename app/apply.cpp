@@ -21,7 +21,7 @@
 #include "app/output_file.h"
 #include "app/start_device.h"
 #include "app/truth/progress.h"
-#include "core/error.h"
+#include "core/base/error.h"
 #include "core/frame/picture_attachments.h"
 #include "core/frame/picture_depth.h"
 #include "core/scene/camera_matrices.h"

@@ -8,7 +8,7 @@
 
 #include "app/command.h"
 #include "backends/backends.h"
-#include "core/error.h"
+#include "core/base/error.h"
 
 namespace grisaille::app {
 namespace {

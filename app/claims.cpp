@@ -19,9 +19,10 @@
 #include "app/truth/interruption.h"
 #include "app/viewer/command_line.h"
 #include "backends/backends.h"
-#include "core/error.h"
-#include "core/image/write_aside.h"
-#include "core/regular_file.h"
+#include "core/base/atomic_file.h"
+#include "core/base/error.h"
+#include "core/base/quote.h"
+#include "core/base/regular_file.h"
 
 namespace grisaille::app {
 namespace {
@@ -50,14 +51,14 @@ void choose(study::ClaimsFile& file, const std::vector<std::string>& only) {
 }
 
 std::string commandOf(const ClaimsOptions& options) {
-  std::string command = "grisaille claims " + viewer::shellQuoted(options.file);
+  std::string command = "grisaille claims " + shellQuoted(options.file);
   const ClaimsOptions usual;
   if (options.backend != usual.backend) command += " --backend " + options.backend;
   if (!options.only.empty()) command += fmt::format(" --only {}", fmt::join(options.only, ","));
   if (options.scale != usual.scale) command += fmt::format(" --scale {}", options.scale);
   if (options.samples != usual.samples) command += fmt::format(" --samples {}", options.samples);
   if (options.rounds != usual.rounds) command += fmt::format(" --rounds {}", options.rounds);
-  return command + " --out " + viewer::shellQuoted(options.out);
+  return command + " --out " + shellQuoted(options.out);
 }
 
 fs::path partsOf(const ClaimsOptions& options) {
@@ -125,7 +126,7 @@ void claims(const ClaimsOptions& options) {
                                .rounds = options.rounds,
                                .progress = isatty(STDERR_FILENO) == 1};
   requireDevices(names, options.device);
-  image::requireWritableFolder(options.out);
+  requireWritableFolder(options.out);
   const truth::Interruption interruption;
   DriverMessages messages;
   for (const std::string& name : names) {

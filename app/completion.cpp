@@ -9,7 +9,7 @@
 #include "app/active_effects.h"
 #include "app/command.h"
 #include "app/presets.h"
-#include "core/error.h"
+#include "core/base/error.h"
 
 namespace grisaille::app {
 namespace {

@@ -6,7 +6,7 @@
 
 #include <cstdio>
 
-#include "core/error.h"
+#include "core/base/error.h"
 #include "core/gpu/device.h"
 
 namespace grisaille::app {

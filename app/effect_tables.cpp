@@ -7,7 +7,7 @@
 #include <vector>
 
 #include "app/presets.h"
-#include "core/error.h"
+#include "core/base/error.h"
 
 namespace grisaille::app {
 namespace {

@@ -8,7 +8,7 @@
 #include "app/effect_tables.h"
 #include "app/option_checks.h"
 #include "app/verify.h"
-#include "core/error.h"
+#include "core/base/error.h"
 
 namespace grisaille::app {
 namespace {

@@ -12,10 +12,10 @@
 #include <new>
 
 #include "app/command.h"
-#include "app/last_words.h"
+#include "app/crash_report.h"
 #include "app/option_checks.h"
 #include "app/truth/interruption.h"
-#include "core/error.h"
+#include "core/base/error.h"
 
 namespace {
 

@@ -20,7 +20,7 @@
 #include "app/truth/interruption.h"
 #include "app/truth/progress.h"
 #include "backends/backends.h"
-#include "core/image/write_aside.h"
+#include "core/base/atomic_file.h"
 
 namespace grisaille::app {
 namespace {
@@ -120,8 +120,8 @@ void measure(const MeasureOptions& options) {
   if (options.reportOnly) return report(options);
   MeasureJob job(options);
   requireDevices(job.backendNames, options.device);
-  image::requireWritableFolder(options.out);
-  if (!options.presets.empty()) image::requireWritable(options.presets);
+  requireWritableFolder(options.out);
+  if (!options.presets.empty()) requireWritable(options.presets);
   job.subject->loadScene();
   const truth::Interruption interruption;
   job.subject->trace();

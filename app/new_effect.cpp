@@ -12,9 +12,10 @@
 #include "app/command.h"
 #include "app/new_effect_files.h"
 #include "app/viewer/command_line.h"
-#include "core/error.h"
-#include "core/image/write_aside.h"
-#include "core/library_folder.h"
+#include "core/base/atomic_file.h"
+#include "core/base/error.h"
+#include "core/base/library_folder.h"
+#include "core/base/quote.h"
 
 namespace grisaille::app {
 namespace {
@@ -124,7 +125,7 @@ void newEffect(const NewEffectOptions& options) {
       {"README.md", kProjectReadme}};
   try {
     for (const auto& [name, text] : files) {
-      image::writeFileAside(folder / name, filled(text, options));
+      writeFileAtomically(folder / name, filled(text, options));
     }
   } catch (const Error&) {
     // A project that is not whole would be in the way of the next try.
@@ -134,11 +135,10 @@ void newEffect(const NewEffectOptions& options) {
   }
   for (const auto& [name, text] : files) fmt::print("wrote {}\n", (folder / name).string());
   const fs::path prefix = libraryFolder().parent_path().parent_path();
-  const std::string where = isFoundByCMake(prefix)
-                                ? ""
-                                : "CMAKE_PREFIX_PATH=" + viewer::shellQuoted(prefix.string()) + " ";
+  const std::string where =
+      isFoundByCMake(prefix) ? "" : "CMAKE_PREFIX_PATH=" + shellQuoted(prefix.string()) + " ";
   fmt::print("build and test it: cd {} && {}cmake --workflow --preset effect\n",
-             viewer::shellQuoted(folder.string()), where);
+             shellQuoted(folder.string()), where);
 }
 
 }  // namespace

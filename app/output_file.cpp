@@ -4,7 +4,7 @@
 #include <filesystem>
 #include <map>
 
-#include "core/image/write_aside.h"
+#include "core/base/atomic_file.h"
 
 namespace grisaille::app {
 
@@ -13,7 +13,7 @@ void requireDistinct(std::span<const NamedOutput> outputs) {
   for (const NamedOutput& output : outputs) {
     std::error_code failed;
     if (output.file.empty() || std::filesystem::is_character_file(output.file, failed)) continue;
-    const auto [twin, fresh] = known.emplace(image::targetOf(output.file), &output);
+    const auto [twin, fresh] = known.emplace(targetOf(output.file), &output);
     if (fresh) continue;
     throw Error(ErrorId::kUsage, "{} and {} name the same file; give each output a file of its own",
                 twin->second->words, output.words);

@@ -7,7 +7,7 @@
 
 #include "app/active_effects.h"
 #include "app/toml_values.h"
-#include "core/error.h"
+#include "core/base/error.h"
 
 namespace grisaille::app {
 namespace {

@@ -18,11 +18,11 @@
 #include "app/size.h"
 #include "app/start_device.h"
 #include "app/timings.h"
+#include "core/base/atomic_file.h"
+#include "core/base/error.h"
 #include "core/effect/rays_in_turn.h"
-#include "core/error.h"
 #include "core/frame/depth_rays.h"
 #include "core/image/image.h"
-#include "core/image/write_aside.h"
 #include "core/scene/camera_matrices.h"
 
 namespace grisaille::app {
@@ -53,7 +53,7 @@ struct RenderJob : ChosenEffects {
     if (writes.empty()) writes.push_back({.output = "color", .file = "grisaille.png"});
     requireDistinctOutputs(options);
     for (const std::string& file : {options.timings, options.shots.coverage}) {
-      if (!file.empty() && file != "-") image::requireWritable(file);
+      if (!file.empty() && file != "-") requireWritable(file);
     }
     glm::uvec2 given(0);
     if (!options.size.empty()) given = parseSize(options.size);
@@ -99,7 +99,7 @@ void writeText(const std::string& file, const std::string& text) {
   if (file == "-") {
     std::fputs(text.c_str(), stdout);
   } else {
-    image::writeFileAside(file, text);
+    writeFileAtomically(file, text);
   }
 }
 

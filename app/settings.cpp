@@ -5,8 +5,8 @@
 
 #include "app/active_effects.h"
 #include "app/toml_values.h"
-#include "core/error.h"
-#include "core/image/write_aside.h"
+#include "core/base/atomic_file.h"
+#include "core/base/error.h"
 
 namespace grisaille::app {
 namespace {
@@ -118,7 +118,7 @@ std::string settingsToml(const Settings& settings) {
 }
 
 void writeSettings(const Settings& settings, const std::string& path) {
-  image::writeFileAside(path, settingsToml(settings));
+  writeFileAtomically(path, settingsToml(settings));
 }
 
 void applySettings(const Settings& settings, ActiveEffects& active) {

@@ -4,7 +4,7 @@
 #include <charconv>
 #include <glm/gtc/color_space.hpp>
 
-#include "core/error.h"
+#include "core/base/error.h"
 #include "core/shots/shot_file.h"
 
 namespace grisaille::app {

@@ -20,8 +20,9 @@
 #include "app/truth/progress.h"
 #include "app/viewer/command_line.h"
 #include "backends/backends.h"
-#include "core/error.h"
-#include "core/image/write_aside.h"
+#include "core/base/atomic_file.h"
+#include "core/base/error.h"
+#include "core/base/quote.h"
 
 namespace grisaille::app {
 namespace {
@@ -61,13 +62,13 @@ std::string commandOf(const StabilityOptions& options) {
   const StabilityOptions usual;
   std::string command = "grisaille stability";
   if (options.backend != usual.backend) command += " --backend " + options.backend;
-  for (const std::string& group : options.only) command += " --only " + viewer::shellQuoted(group);
+  for (const std::string& group : options.only) command += " --only " + shellQuoted(group);
   if (options.quick) command += " --quick";
   if (options.combinations != usual.combinations) {
     command += fmt::format(" --combinations {}", options.combinations);
   }
   if (options.seed != usual.seed) command += fmt::format(" --seed {}", options.seed);
-  return command + " --out " + viewer::shellQuoted(options.out);
+  return command + " --out " + shellQuoted(options.out);
 }
 
 // Does every case; those that an interrupted run of the same program has done are taken from there.
@@ -128,7 +129,7 @@ void runSweep(const StabilityOptions& options) {
   if (sweep.cases.empty() && !wantsMovement(options))
     throw Error(ErrorId::kUsage, "no case is left of what was chosen");
   const std::vector<std::string> names = chosenBackends(options.backend);
-  image::requireWritableFolder(options.out);
+  requireWritableFolder(options.out);
   DriverMessages messages;
   const truth::Interruption interruption;
   const fs::path done = fs::path(options.out) / "stability.part";

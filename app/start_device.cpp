@@ -2,7 +2,7 @@
 #include "app/start_device.h"
 
 #include "backends/backends.h"
-#include "core/error.h"
+#include "core/base/error.h"
 
 namespace grisaille::app {
 

@@ -15,7 +15,8 @@
 #include "app/truth/content_hash.h"
 #include "app/truth/occlusion_truth.h"
 #include "app/viewer/command_line.h"
-#include "core/error.h"
+#include "core/base/error.h"
+#include "core/base/quote.h"
 #include "core/shots/shot_file.h"
 #include "core/trace/paint_mask.h"
 
@@ -179,7 +180,7 @@ std::string LoadedSubject::key() const {
 std::string LoadedSubject::renderCommand(const study::Setting& setting,
                                          const std::string& backend) const {
   std::string command = "grisaille render";
-  const auto add = [&](const std::string& word) { command += " " + viewer::shellQuoted(word); };
+  const auto add = [&](const std::string& word) { command += " " + shellQuoted(word); };
   if (!options_.scene.empty()) add(options_.scene);
   add("--backend"), add(backend), add("--camera"), add(scene::cameraJson(subject_.views[0].camera));
   add("--size"), add(fmt::format("{}x{}", subject_.size.x, subject_.size.y));

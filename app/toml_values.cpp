@@ -9,8 +9,8 @@
 #include <cmath>
 #include <sstream>
 
-#include "core/error.h"
-#include "core/regular_file.h"
+#include "core/base/error.h"
+#include "core/base/regular_file.h"
 
 namespace grisaille::app {
 namespace {

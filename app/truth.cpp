@@ -18,7 +18,7 @@
 #include "app/truth/content_hash.h"
 #include "app/truth/occlusion_truth.h"
 #include "app/truth/refine.h"
-#include "core/error.h"
+#include "core/base/error.h"
 #include "core/image/image.h"
 #include "core/scene/camera.h"
 #include "core/shots/shot_file.h"

@@ -20,8 +20,8 @@
 #include "app/truth/interruption.h"
 #include "app/truth/progress.h"
 #include "backends/backends.h"
-#include "core/error.h"
-#include "core/image/write_aside.h"
+#include "core/base/atomic_file.h"
+#include "core/base/error.h"
 
 namespace grisaille::app {
 namespace {
@@ -256,7 +256,7 @@ void writeSetting(const TuneOptions& options, const LoadedSubject& subject,
     add(set.substr(0, equals), set.substr(equals + 1));
   }
   for (const auto& [name, value] : setting) add(name, value);
-  image::writeFileAside(options.out, story + settingsToml(settings));
+  writeFileAtomically(options.out, story + settingsToml(settings));
 }
 
 // The mean RMSE of cameras that were not tuned on; 0: there are none.
@@ -282,7 +282,7 @@ void tune(const TuneOptions& options) {
   const std::vector<study::Axis> axes = axesOf(options, subject.subject());
   if (axes.empty()) throw Error(ErrorId::kUsage, "there is no parameter to vary");
   const std::vector<scene::Camera> given = givenCameras(options);
-  image::requireWritable(options.out);
+  requireWritable(options.out);
   // What cannot start says so before truth is traced, which takes long.
   DriverMessages messages;
   const auto device = backends::create(

@@ -11,7 +11,7 @@
 #include <utility>
 
 #include "app/viewer/child.h"
-#include "core/error.h"
+#include "core/base/error.h"
 
 namespace grisaille::app {
 namespace {

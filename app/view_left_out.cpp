@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: MIT
 // In place of view.cpp where a build has no viewer.
 #include "app/command.h"
-#include "core/error.h"
+#include "core/base/error.h"
 
 namespace grisaille::app {
 

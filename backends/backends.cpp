@@ -3,7 +3,7 @@
 
 #include "backends/opengl/opengl.h"
 #include "backends/vulkan/vulkan.h"
-#include "core/error.h"
+#include "core/base/error.h"
 #include "core/gpu/checking_device.h"
 
 namespace grisaille::backends {

@@ -19,7 +19,7 @@
 #include <utility>
 #include <vector>
 
-#include "core/error.h"
+#include "core/base/error.h"
 
 namespace grisaille {
 namespace {
@@ -245,7 +245,7 @@ std::string errorsOf(const std::string& page) {
     if (named.contains(id)) rows += fmt::format("| {} | {} |\n", id, remedy);
   };
 #define GRISAILLE_ERROR(name, id, remedy) row(id, remedy);
-#include "core/error_list.h"
+#include "core/base/error_list.h"
 #undef GRISAILLE_ERROR
   return "\n## Errors\n\nThose that the functions above name.\n\n| number | what to do "
          "|\n|---|---|\n" +

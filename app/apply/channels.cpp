@@ -5,7 +5,7 @@
 #include <optional>
 #include <vector>
 
-#include "core/error.h"
+#include "core/base/error.h"
 
 namespace grisaille::app {
 namespace {

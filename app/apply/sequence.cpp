@@ -6,7 +6,7 @@
 #include <filesystem>
 #include <regex>
 
-#include "core/error.h"
+#include "core/base/error.h"
 
 namespace grisaille::app {
 namespace {

@@ -7,7 +7,7 @@
 #include <cmath>
 #include <random>
 
-#include "core/error.h"
+#include "core/base/error.h"
 
 namespace grisaille::app::stability {
 namespace {

@@ -9,7 +9,7 @@
 #include <set>
 
 #include "app/stability/edge_pictures.h"
-#include "core/image/write_aside.h"
+#include "core/base/atomic_file.h"
 
 namespace grisaille::app::stability {
 namespace fs = std::filesystem;
@@ -262,7 +262,7 @@ void writeSweep(const std::string& folder, const Sweep& sweep) {
   std::error_code failed;
   fs::create_directories(folder, failed);
   const auto write = [&](const char* name, const std::string& text) {
-    image::writeFileAside((fs::path(folder) / name).string(), text);
+    writeFileAtomically((fs::path(folder) / name).string(), text);
   };
   json cases = json::array();
   for (size_t i = 0; i < sweep.cases.size(); ++i) {

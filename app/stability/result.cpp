@@ -9,8 +9,8 @@
 #include <nlohmann/json.hpp>
 
 #include "app/truth/content_hash.h"
-#include "core/image/write_aside.h"
-#include "core/regular_file.h"
+#include "core/base/atomic_file.h"
+#include "core/base/regular_file.h"
 
 namespace grisaille::app::stability {
 namespace fs = std::filesystem;
@@ -93,7 +93,7 @@ void saveResult(const fs::path& folder, const Result& result) {
   if (result.between) all["between"] = toJson(*result.between);
   std::error_code failed;
   fs::create_directories(folder, failed);
-  image::writeFileAside(fileOf(folder, result.key).string(), all.dump(1) + "\n");
+  writeFileAtomically(fileOf(folder, result.key).string(), all.dump(1) + "\n");
 }
 
 std::optional<Result> loadResult(const fs::path& folder, const std::string& key) {

@@ -10,7 +10,7 @@
 #include "app/scene_rays.h"
 #include "app/stability/comparison.h"
 #include "app/truth/content_hash.h"
-#include "core/error.h"
+#include "core/base/error.h"
 #include "core/frame/view_block.h"
 
 namespace grisaille::app::stability {

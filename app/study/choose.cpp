@@ -8,8 +8,8 @@
 #include <map>
 #include <set>
 
-#include "core/error.h"
-#include "core/image/write_aside.h"
+#include "core/base/atomic_file.h"
+#include "core/base/error.h"
 
 namespace grisaille::app::study {
 namespace {
@@ -133,7 +133,7 @@ void writePresets(std::span<const Record> records, const std::string& file) {
     }
     presets.all.push_back(std::move(preset));
   }
-  image::writeFileAside(file, presetsToml(presets));
+  writeFileAtomically(file, presetsToml(presets));
 }
 
 }  // namespace grisaille::app::study

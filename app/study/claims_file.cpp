@@ -11,7 +11,7 @@
 #include "app/study/metrics.h"
 #include "app/study/toml_table.h"
 #include "app/toml_values.h"
-#include "core/error.h"
+#include "core/base/error.h"
 #include "core/scene/camera_path.h"
 #include "core/shots/shot.h"
 #include "core/shots/shot_file.h"

@@ -7,9 +7,9 @@
 #include <nlohmann/json.hpp>
 
 #include "app/truth/content_hash.h"
-#include "core/error.h"
-#include "core/image/write_aside.h"
-#include "core/regular_file.h"
+#include "core/base/atomic_file.h"
+#include "core/base/error.h"
+#include "core/base/regular_file.h"
 
 namespace grisaille::app::study {
 namespace fs = std::filesystem;
@@ -57,8 +57,8 @@ void saveClaim(const fs::path& folder, const std::string& key, const ClaimResult
   const std::vector<uint8_t> bytes = json::to_cbor(all);
   std::error_code failed;
   fs::create_directories(folder, failed);  // else the next line says so
-  image::writeFileAside(partOf(folder, key).string(),
-                        {reinterpret_cast<const char*>(bytes.data()), bytes.size()});
+  writeFileAtomically(partOf(folder, key).string(),
+                      {reinterpret_cast<const char*>(bytes.data()), bytes.size()});
 }
 
 std::optional<ClaimResult> loadClaim(const fs::path& folder, const std::string& key) {

@@ -10,7 +10,7 @@
 #include "app/study/data_url.h"
 #include "app/study/metrics.h"
 #include "app/study/regions.h"
-#include "core/image/write_aside.h"
+#include "core/base/atomic_file.h"
 
 namespace grisaille::app::study {
 namespace fs = std::filesystem;
@@ -312,9 +312,8 @@ void writeClaims(const fs::path& folder, const ClaimsReport& report) {
     for (size_t r = 0; r < rows.size(); ++r) {
       for (const ClaimPicture& picture : rows[r]) {
         const std::vector<std::byte> png = image::encodePng(picture.picture);
-        image::writeFileAside(
-            (folder / pictureFile(report.file.claims[i], r, picture.name)).string(),
-            {reinterpret_cast<const char*>(png.data()), png.size()});
+        writeFileAtomically((folder / pictureFile(report.file.claims[i], r, picture.name)).string(),
+                            {reinterpret_cast<const char*>(png.data()), png.size()});
       }
     }
   }
@@ -324,10 +323,10 @@ void writeClaims(const fs::path& folder, const ClaimsReport& report) {
       "td,th{padding:.2em .7em;text-align:left;vertical-align:top;border-bottom:1px solid #ddd}"
       "img{max-width:100%;image-rendering:pixelated}pre{background:#eee;padding:.6em}"
       "</style></head><body>\n";
-  image::writeFileAside((folder / "claims.html").string(),
-                        kStyle + reportText(report, Html()) + "</body></html>\n");
-  image::writeFileAside((folder / "claims.md").string(), reportText(report, Markdown()));
-  image::writeFileAside((folder / "claims.json").string(), jsonOf(report).dump(1) + "\n");
+  writeFileAtomically((folder / "claims.html").string(),
+                      kStyle + reportText(report, Html()) + "</body></html>\n");
+  writeFileAtomically((folder / "claims.md").string(), reportText(report, Markdown()));
+  writeFileAtomically((folder / "claims.json").string(), jsonOf(report).dump(1) + "\n");
 }
 
 }  // namespace grisaille::app::study

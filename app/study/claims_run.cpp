@@ -14,7 +14,7 @@
 #include "app/study/record.h"
 #include "app/study/regions.h"
 #include "app/study/screen_splats.h"
-#include "core/error.h"
+#include "core/base/error.h"
 #include "core/trace/paint_mask.h"
 #include "core/trace/projection.h"
 

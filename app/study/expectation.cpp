@@ -9,8 +9,8 @@
 
 #include "app/study/metrics.h"
 #include "app/study/regions.h"
-#include "core/error.h"
-#include "core/nearest.h"
+#include "core/base/error.h"
+#include "core/base/nearest.h"
 
 namespace grisaille::app::study {
 namespace {

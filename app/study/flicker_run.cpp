@@ -4,7 +4,7 @@
 #include <limits>
 
 #include "app/truth/occlusion_truth.h"
-#include "core/error.h"
+#include "core/base/error.h"
 
 namespace grisaille::app::study {
 

@@ -8,9 +8,9 @@
 #include <nlohmann/json.hpp>
 
 #include "app/truth/content_hash.h"
-#include "core/error.h"
-#include "core/image/write_aside.h"
-#include "core/regular_file.h"
+#include "core/base/atomic_file.h"
+#include "core/base/error.h"
+#include "core/base/regular_file.h"
 
 namespace grisaille::app::study {
 namespace fs = std::filesystem;
@@ -83,7 +83,7 @@ void save(const fs::path& folder, const Record& r) {
   const fs::path file = fileOf(folder, r);
   std::error_code failed;
   fs::create_directories(file.parent_path(), failed);
-  image::writeFileAside(file.string(), all.dump(1) + "\n");
+  writeFileAtomically(file.string(), all.dump(1) + "\n");
 }
 
 std::optional<Record> load(const fs::path& file) {

@@ -10,7 +10,8 @@
 
 #include "app/study/page.h"
 #include "app/viewer/command_line.h"
-#include "core/image/write_aside.h"
+#include "core/base/atomic_file.h"
+#include "core/base/quote.h"
 
 namespace grisaille::app::study {
 namespace fs = std::filesystem;
@@ -211,14 +212,14 @@ std::vector<size_t> ownFront(std::span<const Record> records, const std::string&
 
 void writeReport(const fs::path& folder) {
   const std::vector<Record> records = loadAll(folder);
-  image::writeFileAside((folder / "results.csv").string(), csvOf(records));
-  image::writeFileAside((folder / "results.json").string(), resultsOf(records));
-  image::writeFileAside((folder / "index.html").string(), pageOf(folder, records));
+  writeFileAtomically((folder / "results.csv").string(), csvOf(records));
+  writeFileAtomically((folder / "results.json").string(), resultsOf(records));
+  writeFileAtomically((folder / "index.html").string(), pageOf(folder, records));
   const std::string script = plotScript(folder, records);
   if (script.empty()) return;
   const fs::path file = folder / "front.gp";
-  image::writeFileAside(file.string(), script);
-  const std::string command = "gnuplot " + viewer::shellQuoted(file.string());
+  writeFileAtomically(file.string(), script);
+  const std::string command = "gnuplot " + shellQuoted(file.string());
   if (std::system(command.c_str()) != 0) {
     fmt::print(stderr, "note: no plots: gnuplot fails or is not installed\n");
   }

@@ -4,8 +4,8 @@
 #include <algorithm>
 #include <charconv>
 
+#include "core/base/error.h"
 #include "core/effect/values.h"
-#include "core/error.h"
 
 namespace grisaille::app::study {
 

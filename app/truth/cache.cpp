@@ -8,9 +8,9 @@
 #include <cstring>
 
 #include "app/truth/content_hash.h"
-#include "core/error.h"
-#include "core/image/write_aside.h"
-#include "core/regular_file.h"
+#include "core/base/atomic_file.h"
+#include "core/base/error.h"
+#include "core/base/regular_file.h"
 
 namespace grisaille::app::truth {
 namespace {
@@ -94,7 +94,7 @@ bool Cache::save(const Counts& counts) {
   try {
     std::error_code failed;  // shows when the file is written
     fs::create_directories(file_.parent_path(), failed);
-    image::writeFileAside(file_.string(), bytes);
+    writeFileAtomically(file_.string(), bytes);
     return true;
   } catch (const Error& error) {
     fmt::print(stderr, "note: nothing is kept for another run: {}\n", error.detail());

@@ -9,7 +9,7 @@
 
 #include "app/truth/interruption.h"
 #include "app/truth/progress.h"
-#include "core/error.h"
+#include "core/base/error.h"
 
 namespace grisaille::app::truth {
 namespace {

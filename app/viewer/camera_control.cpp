@@ -5,7 +5,7 @@
 #include <cmath>
 #include <glm/gtc/constants.hpp>
 
-#include "core/error.h"
+#include "core/base/error.h"
 
 namespace grisaille::app::viewer {
 namespace {

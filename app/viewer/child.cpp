@@ -12,7 +12,7 @@
 #include <cstring>
 #include <thread>
 
-#include "core/error.h"
+#include "core/base/error.h"
 
 namespace grisaille::app::viewer {
 namespace {

@@ -39,7 +39,4 @@ void addEffects(const EffectList& effects, const std::vector<std::string>& leftO
 // A path that no command line takes for an option.
 std::string plainPath(const std::string& path);
 
-// A word that a POSIX shell takes as `text`, in single quotes where that is needed.
-std::string shellQuoted(std::string_view text);
-
 }  // namespace grisaille::app::viewer

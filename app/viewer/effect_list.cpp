@@ -6,7 +6,7 @@
 
 #include "app/active_effects.h"
 #include "app/presets.h"
-#include "core/error.h"
+#include "core/base/error.h"
 
 namespace grisaille::app::viewer {
 

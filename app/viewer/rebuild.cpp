@@ -6,7 +6,7 @@
 #include <nlohmann/json.hpp>
 #include <set>
 
-#include "core/regular_file.h"
+#include "core/base/regular_file.h"
 
 namespace grisaille::app::viewer {
 namespace fs = std::filesystem;

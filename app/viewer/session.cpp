@@ -10,7 +10,8 @@
 #include "app/viewer/camera_control.h"
 #include "app/viewer/command_line.h"
 #include "app/viewer/state_file.h"
-#include "core/regular_file.h"
+#include "core/base/quote.h"
+#include "core/base/regular_file.h"
 #include "core/shots/shot_file.h"
 
 namespace grisaille::app::viewer {

@@ -17,7 +17,7 @@
 #include "app/viewer/history.h"
 #include "app/viewer/stage.h"
 #include "app/viewer/tune_run.h"
-#include "core/error.h"
+#include "core/base/error.h"
 #include "core/scene/camera.h"
 
 namespace grisaille::app::viewer {

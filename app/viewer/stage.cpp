@@ -3,7 +3,7 @@
 
 #include <algorithm>
 
-#include "core/error.h"
+#include "core/base/error.h"
 #include "core/frame/texture_image.h"
 #include "shaders/keep_output.h"
 

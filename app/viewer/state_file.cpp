@@ -12,9 +12,9 @@
 #include <fstream>
 #include <nlohmann/json.hpp>
 
-#include "core/error.h"
-#include "core/image/write_aside.h"
-#include "core/regular_file.h"
+#include "core/base/atomic_file.h"
+#include "core/base/error.h"
+#include "core/base/regular_file.h"
 
 namespace grisaille::app::viewer {
 namespace {
@@ -149,7 +149,7 @@ void saveState(const ViewerState& state, const fs::path& file) {
   document["text_scale"] = state.textScale;
   std::error_code failed;
   fs::create_directories(file.parent_path(), failed);  // else the next line says so
-  image::writeFileAside(file.string(), document.dump(2) + "\n");
+  writeFileAtomically(file.string(), document.dump(2) + "\n");
 }
 
 std::vector<SavedSettings> savedSettings(const fs::path& folder) {

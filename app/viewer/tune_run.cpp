@@ -9,7 +9,7 @@
 #include <cstring>
 
 #include "app/viewer/command_line.h"
-#include "core/error.h"
+#include "core/base/error.h"
 
 namespace grisaille::app::viewer {
 namespace fs = std::filesystem;

@@ -6,8 +6,8 @@
 
 #include "app/truth/error_map.h"
 #include "app/viewer/viewer.h"
+#include "core/base/atomic_file.h"
 #include "core/frame/texture_image.h"
-#include "core/image/write_aside.h"
 
 namespace grisaille::app::viewer {
 namespace {
@@ -251,7 +251,7 @@ void Viewer::writeLayout() {
   }
   std::string text = panel_.layout.json();
   if (text == layoutWritten_) return;
-  session_.attempt([&] { image::writeFileAside(options_.layoutFile, text); });
+  session_.attempt([&] { writeFileAtomically(options_.layoutFile, text); });
   layoutWritten_ = std::move(text);
 }
 

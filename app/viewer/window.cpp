@@ -10,7 +10,7 @@
 #include <utility>
 
 #include "app/viewer/input.h"
-#include "core/error.h"
+#include "core/base/error.h"
 
 namespace grisaille::app::viewer {
 namespace {

@@ -11,7 +11,7 @@
 #include <optional>
 
 #include "backends/opengl/context.h"
-#include "core/error.h"
+#include "core/base/error.h"
 
 namespace grisaille::opengl {
 namespace {

@@ -3,7 +3,7 @@
 
 #include <epoxy/gl.h>
 
-#include "core/error.h"
+#include "core/base/error.h"
 
 namespace grisaille::opengl {
 namespace {

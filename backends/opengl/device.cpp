@@ -14,7 +14,7 @@
 #include "backends/opengl/pipelines.h"
 #include "backends/opengl/readback.h"
 #include "backends/opengl/window.h"
-#include "core/error.h"
+#include "core/base/error.h"
 
 namespace grisaille::opengl {
 namespace {

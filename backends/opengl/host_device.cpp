@@ -13,7 +13,7 @@
 #include "backends/opengl/info.h"
 #include "backends/opengl/opengl.h"
 #include "backends/opengl/pipelines.h"
-#include "core/error.h"
+#include "core/base/error.h"
 
 namespace grisaille::opengl {
 namespace {

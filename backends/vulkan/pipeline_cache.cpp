@@ -9,7 +9,7 @@
 #include <functional>
 #include <string>
 
-#include "core/regular_file.h"
+#include "core/base/regular_file.h"
 
 namespace grisaille::vulkan {
 namespace {

@@ -5,7 +5,7 @@
 
 #include <exception>
 
-#include "core/error.h"
+#include "core/base/error.h"
 
 namespace grisaille::effect {
 

@@ -16,8 +16,8 @@
 #include <iterator>
 #include <string_view>
 
-#include "core/error.h"
-#include "core/library_folder.h"
+#include "core/base/error.h"
+#include "core/base/library_folder.h"
 
 extern char** environ;
 

@@ -6,10 +6,10 @@
 #include <filesystem>
 #include <set>
 
+#include "core/base/nearest.h"
 #include "core/effect/probe.h"
 #include "core/effect/shared_library.h"
 #include "core/effect/values.h"
-#include "core/nearest.h"
 
 namespace grisaille::effect {
 namespace fs = std::filesystem;

@@ -8,8 +8,8 @@
 #include <string_view>
 #include <vector>
 
+#include "core/base/error.h"
 #include "core/effect/foreign_call.h"
-#include "core/error.h"
 #include "grisaille/effect.h"
 
 namespace grisaille::effect {

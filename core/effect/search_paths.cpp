@@ -2,8 +2,8 @@
 #include <algorithm>
 #include <cstdlib>
 
+#include "core/base/library_folder.h"
 #include "core/effect/registry.h"
-#include "core/library_folder.h"
 
 namespace grisaille::effect {
 

@@ -10,8 +10,8 @@
 #include <fstream>
 #include <vector>
 
-#include "core/error.h"
-#include "core/regular_file.h"
+#include "core/base/error.h"
+#include "core/base/regular_file.h"
 
 namespace grisaille::effect {
 namespace {

@@ -8,8 +8,8 @@
 #include <numeric>
 #include <utility>
 
-#include "core/error.h"
-#include "core/nearest.h"
+#include "core/base/error.h"
+#include "core/base/nearest.h"
 
 namespace grisaille::effect {
 namespace {

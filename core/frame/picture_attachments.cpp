@@ -7,7 +7,7 @@
 #include <glm/gtc/color_space.hpp>
 #include <glm/gtc/packing.hpp>
 
-#include "core/error.h"
+#include "core/base/error.h"
 #include "core/frame/facet_normals.h"
 
 namespace grisaille::frame {

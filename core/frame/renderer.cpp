@@ -5,11 +5,11 @@
 #include <array>
 #include <cmath>
 
-#include "core/error.h"
+#include "core/base/error.h"
+#include "core/base/nearest.h"
 #include "core/frame/scene_attachments.h"
 #include "core/frame/texture_image.h"
 #include "core/frame/view_block.h"
-#include "core/nearest.h"
 #include "shaders/compose.h"
 
 namespace grisaille::frame {

@@ -4,7 +4,7 @@
 #include <algorithm>
 #include <bit>
 
-#include "core/error.h"
+#include "core/base/error.h"
 
 namespace grisaille::gpu {
 namespace {

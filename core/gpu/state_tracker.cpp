@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: MIT
 #include "core/gpu/state_tracker.h"
 
-#include "core/error.h"
+#include "core/base/error.h"
 
 namespace grisaille::gpu {
 namespace {

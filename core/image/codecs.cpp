@@ -14,8 +14,8 @@
 #include <filesystem>
 #include <mutex>
 
-#include "core/error.h"
-#include "core/regular_file.h"
+#include "core/base/error.h"
+#include "core/base/regular_file.h"
 
 namespace grisaille::image {
 namespace {

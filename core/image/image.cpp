@@ -7,10 +7,10 @@
 #include <cmath>
 #include <filesystem>
 
-#include "core/error.h"
+#include "core/base/atomic_file.h"
+#include "core/base/error.h"
+#include "core/base/library_folder.h"
 #include "core/image/codecs.h"
-#include "core/image/write_aside.h"
-#include "core/library_folder.h"
 
 namespace grisaille::image {
 namespace {
@@ -66,7 +66,7 @@ void write(const Image& image, const std::string& path, const WriteOptions& opti
   }
   const std::vector<unsigned char> bytes =
       format == Format::kExr ? codecs().exrOf(image, options) : codecs().pngOf(image, options);
-  writeFileAside(path, {reinterpret_cast<const char*>(bytes.data()), bytes.size()});
+  writeFileAtomically(path, {reinterpret_cast<const char*>(bytes.data()), bytes.size()});
 }
 
 Image read(const std::string& path) {

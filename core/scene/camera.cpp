@@ -7,10 +7,10 @@
 #include <fstream>
 #include <nlohmann/json.hpp>
 
-#include "core/error.h"
-#include "core/image/write_aside.h"
-#include "core/nearest.h"
-#include "core/regular_file.h"
+#include "core/base/atomic_file.h"
+#include "core/base/error.h"
+#include "core/base/nearest.h"
+#include "core/base/regular_file.h"
 #include "core/scene/camera_json.h"
 
 namespace grisaille::scene {
@@ -154,7 +154,7 @@ std::string cameraJson(const Camera& camera) {
 }
 
 void saveCamera(const Camera& camera, const std::string& path) {
-  image::writeFileAside(path, cameraJson(camera) + "\n");
+  writeFileAtomically(path, cameraJson(camera) + "\n");
 }
 
 Camera overviewCamera(const Bounds& bounds) {

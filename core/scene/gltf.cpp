@@ -6,7 +6,7 @@
 #include <glm/gtc/quaternion.hpp>
 #include <set>
 
-#include "core/error.h"
+#include "core/base/error.h"
 #include "core/scene/gltf_file.h"
 #include "core/scene/gltf_material.h"
 #include "core/scene/gltf_mesh.h"

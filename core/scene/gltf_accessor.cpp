@@ -9,7 +9,7 @@
 #include <limits>
 #include <type_traits>
 
-#include "core/error.h"
+#include "core/base/error.h"
 #include "core/scene/gltf_file.h"
 
 namespace grisaille::scene {

@@ -12,8 +12,8 @@
 #include <span>
 #include <string_view>
 
-#include "core/error.h"
-#include "core/regular_file.h"
+#include "core/base/error.h"
+#include "core/base/regular_file.h"
 #include "core/scene/gltf_accessor.h"
 
 namespace grisaille::scene {

@@ -7,7 +7,7 @@
 #include <map>
 #include <tuple>
 
-#include "core/error.h"
+#include "core/base/error.h"
 #include "core/scene/gltf_file.h"
 
 namespace grisaille::scene {

@@ -6,7 +6,7 @@
 #include <cmath>
 #include <numeric>
 
-#include "core/error.h"
+#include "core/base/error.h"
 #include "core/scene/gltf_accessor.h"
 #include "core/scene/gltf_file.h"
 

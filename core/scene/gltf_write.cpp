@@ -3,8 +3,8 @@
 #include <limits>
 #include <nlohmann/json.hpp>
 
-#include "core/error.h"
-#include "core/image/write_aside.h"
+#include "core/base/atomic_file.h"
+#include "core/base/error.h"
 #include "core/scene/scene.h"
 
 namespace grisaille::scene {
@@ -181,7 +181,7 @@ void writeGlb(const Scene& scene, const std::string& path) {
   if (scene.positions.empty() || scene.instances.empty()) {
     throw Error(ErrorId::kSceneEmpty, "{}: there is nothing to write", path);
   }
-  image::writeFileAside(path, GlbWriter(scene).write());
+  writeFileAtomically(path, GlbWriter(scene).write());
 }
 
 }  // namespace grisaille::scene

@@ -14,8 +14,8 @@
 #include <span>
 #include <string>
 
-#include "core/error.h"
-#include "core/nearest.h"
+#include "core/base/error.h"
+#include "core/base/nearest.h"
 #include "core/shots/formats.h"
 #include "core/shots/shot.h"
 

@@ -6,9 +6,9 @@
 #include <fstream>
 #include <sstream>
 
-#include "core/error.h"
-#include "core/image/write_aside.h"
-#include "core/regular_file.h"
+#include "core/base/atomic_file.h"
+#include "core/base/error.h"
+#include "core/base/regular_file.h"
 #include "core/shots/formats.h"
 #include "core/shots/shot.h"
 
@@ -38,7 +38,7 @@ void save(std::span<const grisaille_shot> shots, const std::string& path) {
   const std::vector<grisaille_shot> sound = checked(shots);
   std::ostringstream text;
   write(sound, text);
-  image::writeFileAside(path, text.view());
+  writeFileAtomically(path, text.view());
 }
 
 std::vector<grisaille_shot> load(const std::string& path) {

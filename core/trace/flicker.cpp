@@ -6,7 +6,7 @@
 #include <limits>
 #include <optional>
 
-#include "core/error.h"
+#include "core/base/error.h"
 #include "core/trace/projection.h"
 
 namespace grisaille::trace {

@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: MIT
 // In place of ray_tracer.cpp where a build has no Embree: a tracer cannot be made.
-#include "core/error.h"
+#include "core/base/error.h"
 #include "core/trace/ray_tracer.h"
 
 namespace grisaille::trace {

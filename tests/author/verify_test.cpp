@@ -157,7 +157,7 @@ TEST(FaultyEffects, ThatThrowEndTheRenderByAnError) {
   EXPECT_TRUE(holds(outcome.err, "error E3203: throws_destroy lets")) << outcome.err;
 }
 
-TEST(FaultyEffects, ThatCrashAreNamedByTheLastWords) {
+TEST(FaultyEffects, ThatCrashAreNamed) {
   const TemporaryFolder folder;
   const Outcome outcome =
       render(folder, "crashes", {"--set", "crashes.level=1", "--write", "first=a.exr"});

@@ -15,10 +15,10 @@
 
 #include "app/presets.h"
 #include "backends/backends.h"
+#include "core/base/error.h"
 #include "core/effect/instance.h"
 #include "core/effect/registry.h"
 #include "core/effect/values.h"
-#include "core/error.h"
 #include "core/frame/renderer.h"
 #include "core/frame/texture_image.h"
 #include "core/scene/camera.h"

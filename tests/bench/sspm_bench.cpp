@@ -18,9 +18,9 @@
 #include <thread>
 
 #include "backends/backends.h"
+#include "core/base/error.h"
 #include "core/effect/registry.h"
 #include "core/effect/values.h"
-#include "core/error.h"
 #include "core/frame/renderer.h"
 #include "tests/bench/command.h"
 #include "tests/bench/subject.h"

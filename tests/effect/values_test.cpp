@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: MIT
 #include "core/effect/values.h"
-#include "core/nearest.h"
+#include "core/base/nearest.h"
 
 #include <gtest/gtest.h>
 

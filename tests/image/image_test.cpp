@@ -12,8 +12,8 @@
 #include <limits>
 #include <random>
 
-#include "core/error.h"
-#include "core/image/write_aside.h"
+#include "core/base/atomic_file.h"
+#include "core/base/error.h"
 #include "tests/support/expect_error.h"
 
 namespace grisaille::image {
@@ -156,9 +156,9 @@ TEST_F(ImageFiles, AFailureLeavesNothingBehind) {
 
 TEST_F(ImageFiles, AFailedWriteKeepsTheOlderFile) {
   if (!fs::exists("/dev/full")) GTEST_SKIP() << "no /dev/full here";
-  writeFileAside(file("a.txt"), "old");
+  writeFileAtomically(file("a.txt"), "old");
   fs::create_symlink("/dev/full", fmt::format("{}.{}.part", file("a.txt"), getpid()));
-  EXPECT_ERROR(ErrorId::kFileUnwritable, writeFileAside(file("a.txt"), "new"));
+  EXPECT_ERROR(ErrorId::kFileUnwritable, writeFileAtomically(file("a.txt"), "new"));
   std::string text;
   std::getline(std::ifstream(file("a.txt")), text);
   EXPECT_EQ(text, "old");
@@ -174,8 +174,8 @@ TEST_F(ImageFiles, AFullDiskIsAnError) {
 }
 
 TEST_F(ImageFiles, WhatIsNoImageCannotBeRead) {
-  writeFileAside(file("text.png"), "no image at all");
-  writeFileAside(file("empty.exr"), "");
+  writeFileAtomically(file("text.png"), "no image at all");
+  writeFileAtomically(file("empty.exr"), "");
   mkfifo(file("pipe.png").c_str(), 0600);
   for (const char* name : {"text.png", "empty.exr", "missing.exr", "pipe.png", "."}) {
     EXPECT_ERROR(ErrorId::kImageUnreadable, read(file(name)));

@@ -5,7 +5,7 @@
 #include <limits>
 #include <random>
 
-#include "core/error.h"
+#include "core/base/error.h"
 #include "core/image/image.h"
 #include "tests/support/expect_error.h"
 

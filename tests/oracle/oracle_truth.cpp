@@ -9,7 +9,7 @@
 #include <map>
 #include <string>
 
-#include "core/error.h"
+#include "core/base/error.h"
 #include "core/trace/ray_tracer.h"
 
 namespace {

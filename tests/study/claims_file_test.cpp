@@ -5,7 +5,7 @@
 #include <algorithm>
 
 #include "app/study/claims.h"
-#include "core/error.h"
+#include "core/base/error.h"
 #include "tests/program/run.h"
 
 namespace grisaille::app::study {

@@ -4,7 +4,7 @@
 #include <algorithm>
 
 #include "backends/backends.h"
-#include "core/error.h"
+#include "core/base/error.h"
 
 namespace grisaille::tests {
 

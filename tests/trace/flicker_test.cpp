@@ -6,7 +6,7 @@
 #include <cmath>
 #include <limits>
 
-#include "core/error.h"
+#include "core/base/error.h"
 #include "tests/support/expect_error.h"
 #include "tests/trace/scene_builder.h"
 

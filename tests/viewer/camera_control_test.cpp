@@ -8,7 +8,7 @@
 #include <limits>
 #include <random>
 
-#include "core/error.h"
+#include "core/base/error.h"
 
 namespace grisaille::app::viewer {
 namespace {

@@ -1,5 +1,6 @@
 // SPDX-License-Identifier: MIT
 #include "app/viewer/command_line.h"
+#include "core/base/quote.h"
 
 #include <cstdio>
 

@@ -6,7 +6,7 @@
 #include <gtest/gtest.h>
 
 #include "backends/vulkan/vulkan.h"
-#include "core/error.h"
+#include "core/base/error.h"
 #include "tests/support/test_device.h"
 
 namespace grisaille::vulkan {

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: MIT
-#include "core/regular_file.h"
+#include "core/base/regular_file.h"
 
 #include <cerrno>
 #include <cstring>

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: MIT
-#include "core/error.h"
+#include "core/base/error.h"
 
 namespace grisaille {
 namespace {
@@ -15,7 +15,7 @@ std::string_view remedyOf(ErrorId id) {
 #define GRISAILLE_ERROR(name, number, remedy) \
   case ErrorId::name:                         \
     return remedy;
-#include "core/error_list.h"
+#include "core/base/error_list.h"
 #undef GRISAILLE_ERROR
   }
   return "this number is not in the list; report it";

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: MIT
-#include "core/nearest.h"
+#include "core/base/nearest.h"
 
 #include <algorithm>
 #include <numeric>

@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: MIT
-// Errors with a number. Every failure of the program is an entry of core/error_list.h and reaches
-// the user as one line: "error E2101: <what and why>; <what to do>".
+// Errors with a number. Every failure of the program is an entry of core/base/error_list.h and
+// reaches the user as one line: "error E2101: <what and why>; <what to do>".
 #pragma once
 
 #include <fmt/format.h>
@@ -13,7 +13,7 @@ namespace grisaille {
 
 enum class ErrorId : int {
 #define GRISAILLE_ERROR(name, number, remedy) name = number,
-#include "core/error_list.h"
+#include "core/base/error_list.h"
 #undef GRISAILLE_ERROR
 };
 

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: MIT
-#include "core/image/write_aside.h"
+#include "core/base/atomic_file.h"
 
 #include <fcntl.h>
 #include <sys/stat.h>
@@ -11,9 +11,9 @@
 #include <optional>
 #include <utility>
 
-#include "core/error.h"
+#include "core/base/error.h"
 
-namespace grisaille::image {
+namespace grisaille {
 namespace {
 
 namespace fs = std::filesystem;
@@ -141,7 +141,7 @@ void writeInto(const std::string& path, std::string_view content) {
 
 }  // namespace
 
-void writeFileAside(const std::string& path, std::string_view content) {
+void writeFileAtomically(const std::string& path, std::string_view content) {
   const std::optional<struct stat> there = statusOf(path);
   if (there && S_ISDIR(there->st_mode)) refuse(path, "is a folder");
   const int stream = there ? streamOf(*there) : -1;
@@ -188,4 +188,4 @@ fs::path targetOf(const std::string& path) {
   return failed ? target.lexically_normal() : whole;
 }
 
-}  // namespace grisaille::image
+}  // namespace grisaille

@@ -6,7 +6,7 @@
 #include <string>
 #include <string_view>
 
-namespace grisaille::image {
+namespace grisaille {
 
 // Writes `content` to a part file beside the target, "<target>.<pid>.part", then renames the part
 // to the target. The target is `path`, or what its symbolic links lead to: the links stay, and a
@@ -19,15 +19,16 @@ namespace grisaille::image {
 // standard error goes to is written through that stream, after what was printed before.
 //
 // Throws kFileUnwritable.
-void writeFileAside(const std::string& path, std::string_view content);
+void writeFileAtomically(const std::string& path, std::string_view content);
 
 // Before work that takes long: throws kFileUnwritable where nothing can be written at `path`, or
 // into a folder that is there or can be made. What is there stays as it is.
 void requireWritable(const std::string& path);
 void requireWritableFolder(const std::string& folder);
 
-// The file that writeFileAside() writes, with an absolute path and no links in it: equal for two
-// paths exactly if they name the same file. Throws kFileUnwritable where the links go in a circle.
+// The file that writeFileAtomically() writes, with an absolute path and no links in it: equal for
+// two paths exactly if they name the same file. Throws kFileUnwritable where the links go in a
+// circle.
 std::filesystem::path targetOf(const std::string& path);
 
-}  // namespace grisaille::image
+}  // namespace grisaille

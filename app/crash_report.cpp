@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: MIT
-#include "app/last_words.h"
+#include "app/crash_report.h"
 
 #include <signal.h>
 #include <unistd.h>
