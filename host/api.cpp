@@ -6,6 +6,7 @@
 
 #include "backends/opengl/opengl.h"
 #include "backends/vulkan/vulkan.h"
+#include "core/objects/object_file.h"
 #include "host/checks.h"
 #include "host/effect.h"
 
@@ -149,30 +150,53 @@ int grisaille_host_effect_destroy(grisaille_host_effect* effect) {
 }
 
 int grisaille_host_effect_set(grisaille_host_effect* effect, const char* key, double value) {
-  return guarded([&] { present(effect, "effect").values.set(&present(key, "key"), value); });
+  return guarded([&] { present(effect, "effect").values().set(&present(key, "key"), value); });
 }
 
 int grisaille_host_effect_set_text(grisaille_host_effect* effect, const char* key,
                                    const char* text) {
   return guarded([&] {
     present(effect, "effect")
-        .values.set(&present(key, "key"), std::string_view(&present(text, "text")));
+        .values()
+        .set(&present(key, "key"), std::string_view(&present(text, "text")));
   });
 }
 
 int grisaille_host_effect_get(const grisaille_host_effect* effect, const char* key, double* value) {
   return guarded([&] {
     double& to = present(value, "value");
-    to = present(effect, "effect").values.get(&present(key, "key"));
+    to = present(effect, "effect").values().get(&present(key, "key"));
   });
 }
 
-int grisaille_host_effect_set_shots(grisaille_host_effect* effect, const grisaille_shot* shots,
-                                    uint64_t count) {
+int grisaille_host_effect_set_objects(grisaille_host_effect* effect, const void* objects,
+                                      uint32_t object_size, uint64_t count) {
   return guarded([&] {
-    grisaille_host_effect& one = present(effect, "effect");
-    if (count > 0) present(shots, "shots");
-    one.setShots({shots, static_cast<size_t>(count)});
+    objects::ObjectList& list = present(effect, "effect").objects();
+    if (object_size != list.table().object_size) {
+      throw Error(ErrorId::kHostValue, "object_size is {}, the effect's table says {}", object_size,
+                  list.table().object_size);
+    }
+    const auto* bytes = static_cast<const std::byte*>(objects);
+    if (count > 0) present(bytes, "objects");
+    list.assign({&list.table(), bytes, static_cast<size_t>(count)});
+  });
+}
+
+int grisaille_host_effect_load_objects(grisaille_host_effect* effect, const char* path) {
+  return guarded([&] {
+    objects::ObjectList& list = present(effect, "effect").objects();
+    list.assign(objects::load(list.table(), &present(path, "path")).view());
+  });
+}
+
+int grisaille_host_device_set_pictures(grisaille_host_device* device,
+                                       const grisaille_host_pictures* pictures) {
+  return guarded([&] {
+    grisaille_host_device& one = present(device, "device");
+    if (pictures == nullptr) return one.pictures.set({});
+    checkReserved(whole(pictures, "pictures").reserved, "pictures.reserved");
+    one.pictures.set(*pictures);
   });
 }
 

@@ -45,6 +45,19 @@ void Rays::cast(std::span<const grisaille_ray> rays, std::span<grisaille_hit> hi
       wrong->normal[1], wrong->normal[2]);
 }
 
+void Pictures::read(const char* path, grisaille_picture& out) {
+  grisaille_picture picture = {};
+  picture.struct_size = sizeof(picture);
+  if (pictures_.read(pictures_.context, path, &picture) != GRISAILLE_OK) {
+    throw Error(ErrorId::kHostValue, "the host reads no picture from {}", oneLine(path));
+  }
+  if (picture.width == 0 || picture.height == 0 || picture.rgba == nullptr) {
+    throw Error(ErrorId::kHostValue, "the host's picture of {} has {} x {} pixels{}", oneLine(path),
+                picture.width, picture.height, picture.rgba == nullptr ? ", and none given" : "");
+  }
+  out = picture;
+}
+
 }  // namespace grisaille::host
 
 grisaille_host_device::grisaille_host_device(std::unique_ptr<grisaille::gpu::HostDevice> made,

@@ -26,6 +26,19 @@ class Rays : public effect::RayService {
   grisaille_host_rays rays_ = {};
 };
 
+// What the host decodes.
+class Pictures : public effect::PictureService {
+ public:
+  void set(const grisaille_host_pictures& pictures) { pictures_ = pictures; }
+  explicit operator bool() const { return pictures_.read != nullptr; }
+
+  // Throws kHostValue where the host reads none, or what it says is no picture.
+  void read(const char* path, grisaille_picture& out) override;
+
+ private:
+  grisaille_host_pictures pictures_ = {};
+};
+
 }  // namespace grisaille::host
 
 struct grisaille_host_device {
@@ -39,6 +52,7 @@ struct grisaille_host_device {
   grisaille::host::Kernels kernels;
   uint32_t textures = 0, effects = 0;  // that live
   grisaille::host::Rays rays;
+  grisaille::host::Pictures pictures;
 };
 
 struct grisaille_host_texture {

@@ -5,7 +5,6 @@
 #include <array>
 
 #include "core/frame/view_block.h"
-#include "core/shots/shot.h"
 #include "host/checks.h"
 
 using grisaille::Error;
@@ -41,16 +40,19 @@ gpu::Texture checked(const grisaille_host_texture* texture, const grisaille_host
   return texture->texture;
 }
 
+effect::Chain chainOf(const grisaille_host_device& device, const grisaille_host_effect_desc& desc) {
+  const std::string keys[] = {&present(desc.effect, "desc.effect")};
+  return effect::Chain(effect::Selection(device.registry, keys));
+}
+
 }  // namespace
 }  // namespace grisaille::host
 
 grisaille_host_effect::grisaille_host_effect(grisaille_host_device& of,
                                              const grisaille_host_effect_desc& desc)
-    : device(of),
-      values(of.registry.find(&host::present(desc.effect, "desc.effect"))),
-      rows_(desc.rows),
-      attachments_(*of.gpu, of.kernels),
-      instance_((of.gpu->requireUsable(), *of.gpu), values.effect()) {
+    : device(of), rows_(desc.rows), chain_(chainOf(of, desc)), attachments_(*of.gpu, of.kernels) {
+  of.gpu->requireUsable();
+  chain_.start(*of.gpu);
   host::checkEnum(desc.rows, 2, "desc.rows");
   host::checkReserved(desc.reserved, "desc.reserved");
   if (desc.output_count > 0) host::present(desc.outputs, "desc.outputs");
@@ -68,7 +70,7 @@ grisaille_host_effect::~grisaille_host_effect() {
 }
 
 uint32_t grisaille_host_effect::indexOf(std::string_view key) const {
-  const auto outputs = values.effect().outputs();
+  const auto outputs = values().effect().outputs();
   for (uint32_t i = 0; i < outputs.size(); ++i) {
     if (key == outputs[i].key) return i;
   }
@@ -77,7 +79,7 @@ uint32_t grisaille_host_effect::indexOf(std::string_view key) const {
     all += (all.empty() ? "" : ", ") + std::string(output.key);
   }
   throw Error(ErrorId::kOutputUnknown, "effect {} has no output '{}'; it has {}",
-              values.effect().desc->key, grisaille::oneLine(key), all);
+              values().effect().desc->key, grisaille::oneLine(key), all);
 }
 
 void grisaille_host_effect::drop(std::vector<Picture>& pictures) {
@@ -90,7 +92,7 @@ void grisaille_host_effect::drop(std::vector<Picture>& pictures) {
 
 void grisaille_host_effect::makePictures(std::vector<Picture>& pictures, uint32_t ofWidth,
                                          uint32_t ofHeight) {
-  const auto outputs = values.effect().outputs();
+  const auto outputs = values().effect().outputs();
   for (uint32_t i = 0; i < outputs.size(); ++i) {
     if ((wanted_ & (1u << i)) == 0) continue;
     const gpu::TextureDesc desc = {
@@ -114,7 +116,7 @@ void grisaille_host_effect::makePictures(std::vector<Picture>& pictures, uint32_
 void grisaille_host_effect::resize(uint32_t newWidth, uint32_t newHeight) {
   host::checkSize(device, newWidth, newHeight);
   if (newWidth == width && newHeight == height) return;
-  std::vector<Picture> pictures(values.effect().outputs().size());
+  std::vector<Picture> pictures(values().effect().outputs().size());
   std::vector<gpu::Texture> made, shown;
   try {
     makePictures(pictures, newWidth, newHeight);
@@ -135,18 +137,11 @@ void grisaille_host_effect::resize(uint32_t newWidth, uint32_t newHeight) {
   attachments_.resize(width, height);
 }
 
-void grisaille_host_effect::setShots(std::span<const grisaille_shot> shots) {
-  if (!values.effect().takesShots()) {
-    throw Error(ErrorId::kEffectTakesNoShots, "{} takes no shots", values.effect().desc->key);
-  }
-  std::vector<grisaille_shot> checked = grisaille::shots::checked(shots);
-  const auto same = [](const grisaille_shot& a, const grisaille_shot& b) {
-    return std::ranges::equal(a.origin, b.origin) && std::ranges::equal(a.direction, b.direction) &&
-           std::ranges::equal(a.color, b.color) && a.range == b.range;
-  };
-  const auto differ = std::ranges::mismatch(shots_, checked, same);
-  shotsKept_ = std::min(shotsKept_, static_cast<size_t>(differ.in1 - shots_.begin()));
-  shots_ = std::move(checked);
+grisaille::objects::ObjectList& grisaille_host_effect::objects() {
+  grisaille::objects::ObjectList* list = chain_.objects(values().effect().key());
+  if (list != nullptr) return *list;
+  throw Error(ErrorId::kEffectTakesNoObjects, "the table of {} declares no objects",
+              values().effect().key());
 }
 
 host::Textures grisaille_host_effect::texturesOf(const grisaille_host_frame& frame,
@@ -164,14 +159,14 @@ host::Textures grisaille_host_effect::texturesOf(const grisaille_host_frame& fra
     textures.baseColour = {};
   } else if (!textures.baseColour) {
     throw Error(ErrorId::kHostMissing, "{} reads base colours, and frame.base_colour is null",
-                values.effect().desc->key);
+                values().effect().desc->key);
   }
   return textures;
 }
 
 void grisaille_host_effect::record(const grisaille_host_frame& frame) {
   device.gpu->requireUsable();
-  const uint32_t reads = values.effect().reads(values.all().data(), wanted_);
+  const uint32_t reads = values().effect().reads(values().all().data(), wanted_);
   const host::View view = host::viewOf(frame, width, height, rows_);
   const host::Textures textures = texturesOf(frame, reads);
   attachments_.prepare(reads, static_cast<bool>(textures.normal));
@@ -208,16 +203,12 @@ void grisaille_host_effect::recordInto(gpu::Commands& commands, const host::View
     inputs.attachments[i] = attachments_.get(static_cast<grisaille_attachment>(i));
   }
   inputs.outputs = made_;
-  inputs.values = values.all();
-  inputs.shots = shots_;
-  inputs.shotsKept = shotsKept_;
-  if (device.rays) inputs.rays = &device.rays;
-  shotsKept_ = 0;  // unless it works
-  instance_.record(inputs);
-  shotsKept_ = shots_.size();
+  if (device.rays) inputs.services.rays = &device.rays;
+  if (device.pictures) inputs.services.pictures = &device.pictures;
+  chain_.record(chain_.selection.entries()[0], inputs);
   if (rows_ == GRISAILLE_HOST_ROWS_FROM_TOP) return;
   const gpu::BufferRange source = commands.uniform(std::as_bytes(std::span(&view.source, 1)));
-  const auto outputs = values.effect().outputs();
+  const auto outputs = values().effect().outputs();
   for (size_t i = 0; i < pictures_.size(); ++i) {
     if (!pictures_[i].made) continue;
     attachments_.copy(commands, source, pictures_[i].made, pictures_[i].shown,
@@ -229,8 +220,8 @@ gpu::NativeTexture grisaille_host_effect::output(std::string_view key, uint32_t&
   const uint32_t index = indexOf(key);
   if ((wanted_ & (1u << index)) == 0) {
     throw Error(ErrorId::kOutputUnknown, "output '{}' of {} was not asked for", key,
-                values.effect().desc->key);
+                values().effect().desc->key);
   }
-  format = values.effect().outputs()[index].format;
+  format = values().effect().outputs()[index].format;
   return device.gpu->native(pictures_[index].shown);
 }

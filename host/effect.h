@@ -6,8 +6,7 @@
 #include <string_view>
 #include <vector>
 
-#include "core/effect/instance.h"
-#include "core/effect/values.h"
+#include "core/effect/chain.h"
 #include "host/device.h"
 
 struct grisaille_host_effect {
@@ -18,13 +17,14 @@ struct grisaille_host_effect {
   grisaille_host_effect& operator=(const grisaille_host_effect&) = delete;
 
   void resize(uint32_t width, uint32_t height);
-  // Throws as grisaille_host_effect_set_shots() has it.
-  void setShots(std::span<const grisaille_shot> shots);
+  // The effect's one list. Throws kEffectTakesNoObjects.
+  grisaille::objects::ObjectList& objects();
+  grisaille::effect::Values& values() { return chain_.selection.entries()[0].values; }
+  const grisaille::effect::Values& values() const { return chain_.selection.entries()[0].values; }
   void record(const grisaille_host_frame& frame);
   grisaille::gpu::NativeTexture output(std::string_view key, uint32_t& format) const;
 
   grisaille_host_device& device;
-  grisaille::effect::Values values;
   uint32_t width = 0, height = 0;  // pixels
 
  private:
@@ -41,11 +41,9 @@ struct grisaille_host_effect {
                   const grisaille::host::Textures& textures, uint32_t reads);
 
   const uint32_t rows_;
-  uint32_t wanted_ = 0;            // outputs, by bit
-  std::vector<Picture> pictures_;  // one an output
+  grisaille::effect::Chain chain_;  // of this effect alone
+  uint32_t wanted_ = 0;             // outputs, by bit
+  std::vector<Picture> pictures_;   // one an output
   std::vector<grisaille::gpu::Texture> made_, shown_;
   grisaille::host::Attachments attachments_;
-  grisaille::effect::Instance instance_;
-  std::vector<grisaille_shot> shots_;
-  size_t shotsKept_ = 0;  // of the first, those of the last recording
 };

@@ -78,7 +78,8 @@ GRISAILLE_ERROR(kEffectUnknown, 3201, "see `grisaille effects` for what is there
 GRISAILLE_ERROR(kEffectCreate, 3202, "leave the effect out of --effects or repair its plugin")
 GRISAILLE_ERROR(kEffectRecord, 3203, "leave the effect out of --effects or repair its plugin")
 GRISAILLE_ERROR(kEffectTwice, 3204, "name each effect once")
-GRISAILLE_ERROR(kEffectTakesNoShots, 3205, "name an active effect that takes shots, such as sspm")
+GRISAILLE_ERROR(kEffectTakesNoObjects, 3205,
+                "name an active effect whose table declares objects, see `grisaille effects`")
 GRISAILLE_ERROR(kEffectFaulty, 3206, "repair what the report above calls a fault")
 GRISAILLE_ERROR(kEffectOutput, 3207,
                 "see what `grisaille effects --verify FILE` says of the effect's plugin")
@@ -88,16 +89,14 @@ GRISAILLE_ERROR(kParameterRange, 3302, "give a value inside the range")
 GRISAILLE_ERROR(kParameterType, 3303, "give a value of the parameter's type")
 GRISAILLE_ERROR(kPresetUnknown, 3311, "see `grisaille effects` for an effect's presets")
 GRISAILLE_ERROR(kPresetFile, 3312, "make the file anew with `grisaille measure --presets`")
-// --- 34xx: shots
-GRISAILLE_ERROR(kShotOrigin, 3401, "give finite metres, on each axis within 1e9 of 0")
-GRISAILLE_ERROR(kShotDirection, 3402, "give three finite numbers that are not all 0")
-GRISAILLE_ERROR(kShotColor, 3403, "give linear red, green and blue from 0 to 1")
-GRISAILLE_ERROR(kShotRange, 3404,
-                "give metres over 0 and up to 1e6, or 0 for the effect's own range")
-GRISAILLE_ERROR(kShotFileUnreadable, 3411, "check the path and that the file may be read")
-GRISAILLE_ERROR(kShotFileInvalid, 3412, "correct the place that the message names or save it again")
-GRISAILLE_ERROR(kShotFileVersion, 3413, "save the shots again, in a version that can be read")
-GRISAILLE_ERROR(kShotFileEnding, 3414, "end the name in .json or .shots")
+// --- 34xx: objects that users make
+GRISAILLE_ERROR(kObjectField, 3401, "give a field of the effect's table a value inside its range")
+GRISAILLE_ERROR(kObjectIndex, 3402, "name an object of the list, counted from 0")
+GRISAILLE_ERROR(kObjectFileUnreadable, 3411, "check the path and that the file may be read")
+GRISAILLE_ERROR(kObjectFileInvalid, 3412,
+                "correct the place that the message names or save the objects again")
+GRISAILLE_ERROR(kObjectFileVersion, 3413, "save the objects again, in a version that can be read")
+GRISAILLE_ERROR(kObjectFileEnding, 3414, "end the name in .json")
 // --- 41xx: images and files
 GRISAILLE_ERROR(kImageUnreadable, 4101, "check the path and that the file is an image")
 GRISAILLE_ERROR(kImageFormat, 4102, "end the name in .exr or .png")

@@ -209,12 +209,25 @@ struct HostFunctions {
     bool offered = true;
     const grisaille_result result = serve(self, "cast_rays", [&](HostServices& s) {
       if (s.commands_ == nullptr) misuse("it is called outside record()");
-      offered = s.rays_ != nullptr;
+      offered = s.offered_.rays != nullptr;
       if (!offered) return;
       const auto given = array(rays, count, "rays");
       const auto answers = array(hits, count, "hits");
       for (size_t i = 0; i < given.size(); ++i) checkRay(i, given[i]);
-      s.rays_->cast(given, answers);
+      s.offered_.rays->cast(given, answers);
+    });
+    return offered ? result : GRISAILLE_UNSUPPORTED;
+  }
+
+  static grisaille_result readPicture(const grisaille_host* self, const char* path,
+                                      grisaille_picture* out) {
+    bool offered = true;
+    const grisaille_result result = serve(self, "read_picture", [&](HostServices& s) {
+      if (s.commands_ == nullptr) misuse("it is called outside record()");
+      if (path == nullptr) misuse("its path is null");
+      checked(out);
+      offered = s.offered_.pictures != nullptr;
+      if (offered) s.offered_.pictures->read(path, *out);
     });
     return offered ? result : GRISAILLE_UNSUPPORTED;
   }
@@ -368,7 +381,8 @@ grisaille_host hostTable(HostServices* self) {
           .destroy_texture = HostFunctions::destroyTexture,
           .destroy_buffer = HostFunctions::destroyBuffer,
           .destroy_sampler = HostFunctions::destroySampler,
-          .cast_rays = HostFunctions::castRays};
+          .cast_rays = HostFunctions::castRays,
+          .read_picture = HostFunctions::readPicture};
 }
 
 grisaille_frame frameTable(HostServices* self) {
@@ -390,7 +404,7 @@ grisaille_frame frameTable(HostServices* self) {
           .transient = HostFunctions::transient,
           .upload_buffer = HostFunctions::uploadBuffer,
           .upload_texture = HostFunctions::uploadTexture,
-          .shots = nullptr,
+          .objects = nullptr,
           .patience = 0,
           .waiting = HostFunctions::waiting,
           .guard = 0,

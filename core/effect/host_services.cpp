@@ -6,10 +6,10 @@
 
 namespace grisaille::effect {
 
-HostServices::HostServices(gpu::Maker& device, std::string_view key, bool takesShots)
+HostServices::HostServices(gpu::Maker& device, const Effect& effect)
     : device_(device),
-      key_(key),
-      takesShots_(takesShots),
+      key_(effect.key()),
+      takesObjects_(effect.objects() != nullptr),
       host_(hostTable(this)),
       frame_(frameTable(this)) {}
 
@@ -38,7 +38,7 @@ void HostServices::open() {
   inside_ = true;
 }
 
-const grisaille_frame* HostServices::openFrame(const FrameInputs& inputs, size_t shotsKept) {
+const grisaille_frame* HostServices::openFrame(const FrameInputs& inputs) {
   destroyBuried(buffers_);
   destroyBuried(textures_);
   destroyBuried(samplers_);
@@ -66,14 +66,14 @@ const grisaille_frame* HostServices::openFrame(const FrameInputs& inputs, size_t
   frame_.view_block = {{block.buffer.value}, 0, block.offset, block.size};
   frame_.attachments = attachments_.data();
   frame_.outputs = outputs_.data();
-  shots_ = {.struct_size = sizeof(grisaille_shots),
-            .stride = sizeof(grisaille_shot),
-            .shots = inputs.shots.data(),
-            .count = inputs.shots.size(),
-            .kept = std::min(shotsKept, inputs.shots.size())};
-  frame_.shots = takesShots_ ? &shots_ : nullptr;
+  objects_ = {.struct_size = sizeof(grisaille_objects),
+              .stride = takesObjects_ ? inputs.objects.table->object_size : 0,
+              .objects = inputs.objects.data,
+              .count = inputs.objects.count,
+              .kept = std::min(inputs.objectsKept, inputs.objects.count)};
+  frame_.objects = takesObjects_ ? &objects_ : nullptr;
   frame_.patience = inputs.patience;
-  rays_ = inputs.rays;
+  offered_ = inputs.services;
   waiting_ = 0;
   commands_ = inputs.commands;
   open();

@@ -21,8 +21,8 @@ grisaille_frame frameTable(HostServices* self);
 
 class HostServices {
  public:
-  // `key` names the effect in labels.
-  HostServices(gpu::Maker& device, std::string_view key, bool takesShots);
+  // The effect's key is in labels.
+  HostServices(gpu::Maker& device, const Effect& effect);
   HostServices(const HostServices&) = delete;
   HostServices& operator=(const HostServices&) = delete;
 
@@ -33,7 +33,7 @@ class HostServices {
   // faults of the call before; openFrame() also destroys what was destroyed during the frame
   // before.
   void open();
-  const grisaille_frame* openFrame(const FrameInputs& inputs, size_t shotsKept);
+  const grisaille_frame* openFrame(const FrameInputs& inputs);
   void close();  // ends a pass that was left open, which is a fault
 
   // Why the call between open() and close() failed, in one line; "" when it did not.
@@ -73,7 +73,7 @@ class HostServices {
 
   gpu::Maker& device_;
   std::string key_;
-  const bool takesShots_;
+  const bool takesObjects_;
   grisaille_host host_;
   bool inside_ = false;  // an effect's function runs
 
@@ -84,8 +84,8 @@ class HostServices {
 
   // Of the frame being recorded.
   grisaille_frame frame_;
-  grisaille_shots shots_ = {};
-  RayService* rays_ = nullptr;
+  grisaille_objects objects_ = {};
+  Services offered_;
   uint64_t waiting_ = 0;
   gpu::Commands* commands_ = nullptr;
   bool passOpen_ = false;

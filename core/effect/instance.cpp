@@ -1,7 +1,6 @@
 // SPDX-License-Identifier: MIT
 #include "core/effect/instance.h"
 
-#include <algorithm>
 #include <cstdio>
 #include <utility>
 
@@ -33,16 +32,13 @@ gpu::Format formatOf(uint32_t format) {
 }
 
 struct Instance::State {
-  State(gpu::Maker& device, const Effect& of)
-      : desc(*of.desc), services(device, desc.key, of.takesShots()) {}
+  State(gpu::Maker& device, const Effect& of) : desc(*of.desc), services(device, of) {}
   ~State() { services.destroyAll(); }
 
   const grisaille_effect_desc& desc;
   HostServices services;
   void* effect = nullptr;  // what create() handed out
   bool made = false;       // and destroy() has not been called
-  // So many of the first shots have stayed since the last record() that worked.
-  size_t shotsKept = 0;
 };
 
 Instance::Instance(gpu::Maker& device, const Effect& effect)
@@ -80,8 +76,7 @@ void Instance::end() {
 
 void Instance::record(const FrameInputs& inputs) {
   HostServices& services = state_->services;
-  limitShotsKept(inputs.shotsKept);
-  const grisaille_frame* frame = services.openFrame(inputs, state_->shotsKept);
+  const grisaille_frame* frame = services.openFrame(inputs);
   grisaille_result result = GRISAILLE_FAILED;
   try {
     result = foreignCall(ErrorId::kEffectRecord, state_->desc.key, "record",
@@ -96,11 +91,6 @@ void Instance::record(const FrameInputs& inputs) {
     throw Error(services.failureId(ErrorId::kEffectRecord), "{} cannot record: {}",
                 state_->desc.key, failure);
   }
-  state_->shotsKept = std::numeric_limits<size_t>::max();
-}
-
-void Instance::limitShotsKept(size_t count) {
-  state_->shotsKept = std::min(state_->shotsKept, count);
 }
 
 uint64_t Instance::waiting() const {

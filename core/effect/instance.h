@@ -10,6 +10,7 @@
 
 #include "core/effect/registry.h"
 #include "core/gpu/device.h"
+#include "core/objects/object.h"
 
 namespace grisaille::effect {
 
@@ -25,6 +26,21 @@ class RayService {
   virtual void cast(std::span<const grisaille_ray> rays, std::span<grisaille_hit> hits) = 0;
 };
 
+// Who decodes picture files for effects.
+class PictureService {
+ public:
+  virtual ~PictureService() = default;
+
+  // As grisaille_host.read_picture has it. Throws Error where the file cannot be read.
+  virtual void read(const char* path, grisaille_picture& out) = 0;
+};
+
+// Null: not offered.
+struct Services {
+  RayService* rays = nullptr;
+  PictureService* pictures = nullptr;
+};
+
 // What one record() works on. Everything is valid during the call.
 struct FrameInputs {
   gpu::Commands* commands = nullptr;
@@ -35,12 +51,13 @@ struct FrameInputs {
   gpu::BufferRange viewBlock;
   std::array<gpu::Texture, GRISAILLE_ATTACHMENT_COUNT> attachments;
   std::span<const gpu::Texture> outputs;  // one an output; null where nobody wants it
-  std::span<const double> values;
-  std::span<const grisaille_shot> shots = {};  // the user's; for those effects alone that take them
-  // So many of the first shots are those of the frame before.
-  size_t shotsKept = 0;
   double patience = std::numeric_limits<double>::infinity();  // as grisaille_frame has it
-  RayService* rays = nullptr;                                 // null: none are cast
+  Services services = {};
+
+  // The chain fills these in.
+  std::span<const double> values = {};
+  objects::View objects = {};  // for effects whose table declares objects
+  size_t objectsKept = 0;      // as grisaille_objects has it
 };
 
 class Instance {
@@ -60,10 +77,6 @@ class Instance {
   // be abandoned. At most once between the device's begin() and submit(): what the effect destroys
   // meanwhile is kept until the next call, since this frame may use it.
   void record(const FrameInputs& inputs);
-
-  // For frames that go by without record(): no more than the first `count` shots have stayed. The
-  // effect gets the least count since the last record() that worked.
-  void limitShotsKept(size_t count);
 
   // What waits to be drawn, as the effect counted it in the last record().
   uint64_t waiting() const;

@@ -9,6 +9,7 @@
 #include "core/base/nearest.h"
 #include "core/effect/probe.h"
 #include "core/effect/shared_library.h"
+#include "core/effect/struct_version.h"
 #include "core/effect/values.h"
 
 namespace grisaille::effect {
@@ -49,7 +50,7 @@ struct Registry::State {
   std::set<fs::path> loadedFiles;   // real paths
   std::set<fs::path> refusedFiles;  // real paths, by scan()
 
-  void take(const Library& library, const std::string& path);
+  void take(const Library& library, const std::string& path, Origin origin);
   void add(const std::string& path, Origin origin);
 };
 
@@ -65,7 +66,7 @@ void Registry::State::add(const std::string& path, Origin origin) {
   if (origin == Origin::kForeign) probe(real);
   Library library = openLibrary(real.string());
   try {
-    take(library, path);
+    take(library, path, origin);
   } catch (...) {
     // A refused plugin stays loaded: a thread that its loading started may still run its code.
     static_cast<void>(library.release());
@@ -75,7 +76,7 @@ void Registry::State::add(const std::string& path, Origin origin) {
   loadedFiles.insert(real);
 }
 
-void Registry::State::take(const Library& library, const std::string& path) {
+void Registry::State::take(const Library& library, const std::string& path, Origin origin) {
   const auto& plugin =
       *static_cast<const grisaille_plugin_desc*>(symbolOf(library, GRISAILLE_PLUGIN_SYMBOL));
   checkAbi(plugin);
@@ -91,7 +92,7 @@ void Registry::State::take(const Library& library, const std::string& path) {
   }
   for (const grisaille_effect_desc* desc : fresh) {
     descs.push_back(std::make_unique<const grisaille_effect_desc>(whole(desc)));
-    effects.push_back({descs.back().get(), path});
+    effects.push_back({descs.back().get(), path, origin});
   }
   std::ranges::sort(effects, {}, [](const Effect& e) { return std::string_view(e.desc->key); });
 }
@@ -129,6 +130,15 @@ std::span<const Effect> Registry::effects() const {
 }
 std::span<const Refused> Registry::refused() const {
   return state_->refused;
+}
+
+std::vector<std::string> Registry::defaults() const {
+  std::vector<std::string> keys;
+  for (const Effect& effect : state_->effects) {
+    const bool marked = (effect.desc->flags & GRISAILLE_EFFECT_DEFAULT) != 0;
+    if (marked && effect.origin == Origin::kOwn) keys.emplace_back(effect.key());
+  }
+  return keys;
 }
 
 const Effect& Registry::find(std::string_view key) const {

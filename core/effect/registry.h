@@ -14,20 +14,27 @@
 
 namespace grisaille::effect {
 
+// Whose a plugin is. Loading runs its code, so that those of others are tried out in a process of
+// their own first: see probe.h.
+enum class Origin : uint8_t { kOwn, kForeign };
+
 // An effect of a loaded plugin. What it points to is valid while its registry lives.
 struct Effect {
   const grisaille_effect_desc* desc = nullptr;  // whole, however old the plugin
   std::string path;                             // of the plugin
+  Origin origin = Origin::kOwn;
 
+  std::string_view key() const { return desc->key; }
   std::span<const grisaille_param_desc> params() const { return {desc->params, desc->param_count}; }
   std::span<const grisaille_output_desc> outputs() const {
     return {desc->outputs, desc->output_count};
   }
-  // Which attachments it reads with these values for these outputs, as reads_for() has them.
+  // Null: users make none for it.
+  const grisaille_object_desc* objects() const { return desc->objects; }
+  // Which attachments it reads with these values for these outputs.
   uint32_t reads(const double* values, uint32_t wanted) const {
-    return foreignCall(ErrorId::kEffectRecord, desc->key, "reads", [&] {
-      return desc->reads_for != nullptr ? desc->reads_for(values, wanted) : desc->reads(values);
-    });
+    return foreignCall(ErrorId::kEffectRecord, desc->key, "reads",
+                       [&] { return desc->reads(values, wanted); });
   }
   // As guard_band() has it, 0 where the plugin's answer is no share.
   double guardBand(const double* values) const {
@@ -36,7 +43,6 @@ struct Effect {
                                      [&] { return desc->guard_band(values); });
     return share > 0 && share <= 1 ? share : 0;
   }
-  bool takesShots() const { return (desc->flags & GRISAILLE_EFFECT_TAKES_SHOTS) != 0; }
 };
 
 // The names of GRISAILLE_READS' bits, as headers and messages have them: "view_depth", ...
@@ -50,13 +56,6 @@ struct Refused {
 // Throws kPluginTable with the field's path ("effects[0].params[3].hard_max"). The registry calls
 // it once magic and versions fit, before anything of the plugin is called.
 void checkTable(const grisaille_plugin_desc& plugin);
-
-// A checked description with what it lacks, being of an older version, as zero.
-grisaille_effect_desc whole(const grisaille_effect_desc* desc);
-
-// Whose a plugin is. Loading runs its code, so that those of others are tried out in a process of
-// their own first: see probe.h.
-enum class Origin : uint8_t { kOwn, kForeign };
 
 class Registry {
  public:
@@ -77,6 +76,9 @@ class Registry {
 
   std::span<const Effect> effects() const;  // by key; good until the next scan() or load()
   std::span<const Refused> refused() const;
+
+  // The keys of the program's own effects that are marked GRISAILLE_EFFECT_DEFAULT.
+  std::vector<std::string> defaults() const;
 
   // Throws kEffectUnknown, with the nearest key, and with the reason when a plugin whose file is
   // named after the key was refused. The reference is good as long as effects().

@@ -3,12 +3,13 @@
 #include <algorithm>
 #include <array>
 #include <cmath>
-#include <cstddef>
-#include <cstring>
 #include <string>
 #include <string_view>
 
+#include "core/base/utf8.h"
 #include "core/effect/registry.h"
+#include "core/effect/struct_version.h"
+#include "core/objects/object.h"
 
 namespace grisaille::effect {
 namespace {
@@ -18,11 +19,11 @@ constexpr uint32_t kMaxParams = 256;
 constexpr uint32_t kMaxOutputs = 16;
 constexpr uint32_t kMaxEnumEntries = 64;
 constexpr uint32_t kParamFlags = GRISAILLE_PARAM_LOG | GRISAILLE_PARAM_ADVANCED;
-constexpr uint32_t kEffectFlags = GRISAILLE_EFFECT_TAKES_SHOTS;
-// Of version 1.2, 1.1, 1.0.
-constexpr std::initializer_list<size_t> kEffectDescSizes = {
-    sizeof(grisaille_effect_desc), offsetof(grisaille_effect_desc, reads_for),
-    offsetof(grisaille_effect_desc, flags)};
+constexpr uint32_t kMaxFields = 64;
+constexpr uint32_t kMaxObjectSize = 4096;
+constexpr uint32_t kEffectFlags = GRISAILLE_EFFECT_DEFAULT;
+// Of each version, this program's first.
+constexpr std::initializer_list<size_t> kEffectDescSizes = {sizeof(grisaille_effect_desc)};
 constexpr double kMaxWhole = 9007199254740992;  // 2^53: beyond it a double skips whole numbers
 constexpr std::array<std::string_view, 5> kUnits = {"", "m", "px", "rad", "s"};
 
@@ -32,18 +33,6 @@ template <typename... Args>
                          Args&&... args) {
   throw Error(ErrorId::kPluginTable, "{} {}", field,
               fmt::format(what, std::forward<Args>(args)...));
-}
-
-// `sizes`: what the versions give the struct, this program's first.
-void checkSize(const std::string& owner, uint32_t size, std::initializer_list<size_t> sizes) {
-  const size_t known = *sizes.begin();
-  if (size > known) {
-    refuse(owner + ".struct_size", "is {}, more than the {} that this program knows", size, known);
-  }
-  if (std::ranges::find(sizes, size) == sizes.end()) {
-    refuse(owner + ".struct_size", "is {}, which no version has; there are {}", size,
-           fmt::join(sizes, ", "));
-  }
 }
 
 void checkCount(const std::string& field, uint32_t count, uint32_t least, uint32_t most) {
@@ -65,23 +54,6 @@ void checkPresent(const std::string& field, Pointer pointer) {
   if (pointer == nullptr) refuse(field, "is null");
 }
 
-// Bytes of the UTF-8 character that `text` begins with; 0: it is none.
-size_t utf8Length(std::string_view text) {
-  const auto byte = [&](size_t i) { return i < text.size() ? static_cast<uint8_t>(text[i]) : 0u; };
-  const uint32_t first = byte(0);
-  if (first < 0x80) return 1;
-  const size_t length = first >= 0xf0 ? 4 : first >= 0xe0 ? 3 : 2;
-  uint32_t code = first & (0x7fu >> length);
-  for (size_t i = 1; i < length; ++i) {
-    if (byte(i) >> 6 != 2) return 0;
-    code = code << 6 | (byte(i) & 0x3f);
-  }
-  constexpr uint32_t kLeast[] = {0x80, 0x800, 0x10000};  // by length: shorter forms are wrong
-  const bool surrogate = code >= 0xd800 && code <= 0xdfff;
-  const bool good = first >= 0xc0 && first < 0xf8 && code >= kLeast[length - 2] && code <= 0x10ffff;
-  return good && !surrogate ? length : 0;
-}
-
 // One line for people, which is UTF-8: the panel shows it, and JSON holds nothing else.
 void checkLine(const std::string& field, const char* text) {
   checkPresent(field, text);
@@ -91,13 +63,10 @@ void checkLine(const std::string& field, const char* text) {
       refuse(field, "holds the control character {:#04x}", static_cast<unsigned char>(*c));
     }
   }
-  for (std::string_view rest = text; !rest.empty();) {
-    const size_t length = utf8Length(rest);
-    if (length == 0) {
-      refuse(field, "holds the byte {:#04x}, which is no UTF-8 there",
-             static_cast<unsigned char>(rest.front()));
-    }
-    rest.remove_prefix(length);
+  const size_t wrong = invalidUtf8(text);
+  if (wrong != std::string_view::npos) {
+    refuse(field, "holds the byte {:#04x}, which is no UTF-8 there",
+           static_cast<unsigned char>(text[wrong]));
   }
 }
 
@@ -201,14 +170,18 @@ void checkNumbers(const std::string& at, const grisaille_param_desc& param) {
   }
 }
 
+void checkUnit(const std::string& at, const char* unit) {
+  checkPresent(at + ".unit", unit);
+  if (std::ranges::find(kUnits, unit) == kUnits.end()) {
+    refuse(at + ".unit", "is \"{}\", must be m, px, rad, s or empty", oneLine(unit));
+  }
+}
+
 void checkParam(const std::string& at, const grisaille_param_desc& param) {
-  checkSize(at, param.struct_size, {sizeof(grisaille_param_desc)});
+  checkStructSize(at, param.struct_size, {sizeof(grisaille_param_desc)});
   checkKey(at + ".key", param.key);
   checkLine(at + ".label", param.label);
-  checkPresent(at + ".unit", param.unit);
-  if (std::ranges::find(kUnits, param.unit) == kUnits.end()) {
-    refuse(at + ".unit", "is \"{}\", must be m, px, rad, s or empty", oneLine(param.unit));
-  }
+  checkUnit(at, param.unit);
   checkLine(at + ".tooltip", param.tooltip);
   checkType(at, param);
   checkNumbers(at, param);
@@ -216,7 +189,7 @@ void checkParam(const std::string& at, const grisaille_param_desc& param) {
 }
 
 void checkOutput(const std::string& at, const grisaille_output_desc& output) {
-  checkSize(at, output.struct_size, {sizeof(grisaille_output_desc)});
+  checkStructSize(at, output.struct_size, {sizeof(grisaille_output_desc)});
   checkKey(at + ".key", output.key);
   checkLine(at + ".tooltip", output.tooltip);
   const uint32_t format = output.format;
@@ -230,26 +203,108 @@ void checkOutput(const std::string& at, const grisaille_output_desc& output) {
     refuse(at + ".format", "is {}, whose whole numbers cannot be a visibility", format);
   }
   if (output.role == GRISAILLE_ROLE_OWNER && format != GRISAILLE_FORMAT_R32UI) {
-    refuse(at + ".format", "is {}, which cannot number shots", format);
+    refuse(at + ".format", "is {}, which cannot number objects", format);
   }
-  const bool coloured = output.role == GRISAILLE_ROLE_PAINT || output.role == GRISAILLE_ROLE_TINT;
+  const bool coloured = output.role == GRISAILLE_ROLE_OVERLAY || output.role == GRISAILLE_ROLE_TINT;
   if (coloured && format != GRISAILLE_FORMAT_RGBA8 && format != GRISAILLE_FORMAT_RGBA16F &&
       format != GRISAILLE_FORMAT_RGBA32F) {
     refuse(at + ".format", "is {}, without four channels", format);
   }
 }
 
+// Bytes of one element, by grisaille_field_type, and how many a field has.
+constexpr std::array<uint32_t, 6> kElementSizes = {8, 4, 8, 4, sizeof(char*), sizeof(char*)};
+constexpr std::array<uint32_t, 6> kElements = {1, 3, 3, 3, 1, 1};
+
+void checkFieldPlace(const std::string& at, const grisaille_field_desc& field,
+                     const grisaille_object_desc& object) {
+  const uint32_t element = kElementSizes[field.type];
+  const uint64_t end = uint64_t{field.offset} + uint64_t{element} * kElements[field.type];
+  if (field.offset % element != 0) {
+    refuse(at + ".offset", "is {}, not a multiple of {}", field.offset, element);
+  }
+  if (end > object.object_size) {
+    refuse(at + ".offset", "is {}, which ends {} bytes into an object of {}", field.offset, end,
+           object.object_size);
+  }
+}
+
+void checkFieldValues(const std::string& at, const grisaille_field_desc& field) {
+  const bool number = field.type == GRISAILLE_FIELD_NUMBER;
+  const bool text = field.type == GRISAILLE_FIELD_TEXT || field.type == GRISAILLE_FIELD_FILE;
+  if (number && !(std::isfinite(field.min) && std::isfinite(field.max) && field.min < field.max)) {
+    refuse(at + ".max", "is {}, with a min of {}: the two are no range", field.max, field.min);
+  }
+  if (!number && (field.min != 0 || field.max != 0)) refuse(at + ".max", "is for numbers alone");
+  if (text) {
+    checkPresent(at + ".default_text", field.default_text);
+  } else if (field.default_text != nullptr) {
+    refuse(at + ".default_text", "is for texts and files alone");
+  }
+  try {
+    objects::checked(field, objects::defaultOf(field));
+  } catch (const Error& error) {
+    refuse(at + ".default_value", "does not fit: {}", error.detail());
+  }
+}
+
+void checkField(const std::string& at, const grisaille_field_desc& field,
+                const grisaille_object_desc& object) {
+  checkStructSize(at, field.struct_size, {sizeof(grisaille_field_desc)});
+  checkKey(at + ".key", field.key);
+  checkLine(at + ".label", field.label);
+  checkUnit(at, field.unit);
+  checkLine(at + ".tooltip", field.tooltip);
+  if (field.type > GRISAILLE_FIELD_FILE) refuse(at + ".type", "is {}, which is none", field.type);
+  checkFlags(at, field.flags, GRISAILLE_FIELD_REQUIRED);
+  checkFieldPlace(at, field, object);
+  checkFieldValues(at, field);
+}
+
+void checkPlacement(const std::string& at, const grisaille_object_desc& object) {
+  if (object.placement > GRISAILLE_PLACE_SURFACE) {
+    refuse(at + ".placement", "is {}, which is none", object.placement);
+  }
+  const auto type = [&](uint32_t index) {
+    return index < object.field_count ? object.fields[index].type : ~0u;
+  };
+  if (type(object.point_field) != GRISAILLE_FIELD_POINT) {
+    refuse(at + ".point_field", "is {}, which is no point", object.point_field);
+  }
+  if (type(object.direction_field) != GRISAILLE_FIELD_DIRECTION) {
+    refuse(at + ".direction_field", "is {}, which is no direction", object.direction_field);
+  }
+}
+
+void checkObjects(const std::string& at, const grisaille_object_desc& object) {
+  checkStructSize(at, object.struct_size, {sizeof(grisaille_object_desc)});
+  checkKey(at + ".key", object.key);
+  if (std::string_view(object.key) == "version") refuse(at + ".key", "is taken by every file");
+  checkLine(at + ".label", object.label);
+  checkLine(at + ".tooltip", object.tooltip);
+  if (object.object_size == 0 || object.object_size % 8 != 0 ||
+      object.object_size > kMaxObjectSize) {
+    refuse(at + ".object_size", "is {}, not a multiple of 8 up to {}", object.object_size,
+           kMaxObjectSize);
+  }
+  checkCount(at + ".field_count", object.field_count, 1, kMaxFields);
+  checkPresent(at + ".fields", object.fields);
+  for (uint32_t i = 0; i < object.field_count; ++i) {
+    checkField(fmt::format("{}.fields[{}]", at, i), object.fields[i], object);
+    checkUnique(at + ".fields", ".key", i, [&](uint32_t n) { return object.fields[n].key; });
+  }
+  checkPlacement(at, object);
+}
+
 void checkEffect(const std::string& at, const grisaille_effect_desc* desc) {
   checkPresent(at, desc);
-  checkSize(at, desc->struct_size, kEffectDescSizes);
+  checkStructSize(at, desc->struct_size, kEffectDescSizes);
   const grisaille_effect_desc effect = whole(desc);
   checkKey(at + ".key", effect.key);
   checkLine(at + ".label", effect.label);
   checkLine(at + ".version", effect.version);
   checkLine(at + ".tooltip", effect.tooltip);
-  checkZero(at + ".reserved", effect.reserved);
   checkFlags(at, effect.flags, kEffectFlags);
-  checkZero(at + ".reserved2", effect.reserved2);
   checkPresent(at + ".reads", effect.reads);
   checkPresent(at + ".create", effect.create);
   checkPresent(at + ".record", effect.record);
@@ -267,18 +322,13 @@ void checkEffect(const std::string& at, const grisaille_effect_desc* desc) {
     checkOutput(fmt::format("{}.outputs[{}]", at, i), effect.outputs[i]);
     checkUnique(at + ".outputs", ".key", i, [&](uint32_t n) { return effect.outputs[n].key; });
   }
+  if (effect.objects != nullptr) checkObjects(at + ".objects", *effect.objects);
 }
 
 }  // namespace
 
-grisaille_effect_desc whole(const grisaille_effect_desc* desc) {
-  grisaille_effect_desc copy = {};
-  std::memcpy(&copy, desc, desc->struct_size);
-  return copy;
-}
-
 void checkTable(const grisaille_plugin_desc& plugin) {
-  checkSize("plugin", plugin.struct_size, {sizeof(grisaille_plugin_desc)});
+  checkStructSize("plugin", plugin.struct_size, {sizeof(grisaille_plugin_desc)});
   checkZero("plugin.reserved", plugin.reserved);
   checkCount("effect_count", plugin.effect_count, 1, kMaxEffects);
   checkPresent("effects", plugin.effects);

@@ -53,12 +53,22 @@ bool composed(std::span<const grisaille_output_desc> outputs, uint32_t role, Sur
                       std::ranges::any_of(outputs, [](const grisaille_output_desc& output) {
                         return output.role == GRISAILLE_ROLE_TINT;
                       });
-  return role == GRISAILLE_ROLE_PAINT ||
+  return role == GRISAILLE_ROLE_OVERLAY ||
          role == (tinted ? GRISAILLE_ROLE_TINT : GRISAILLE_ROLE_VISIBILITY);
 }
 
 constexpr auto kDrawn = gpu::TextureUsage::kTarget | gpu::TextureUsage::kSampled;
 constexpr auto kComputed = gpu::TextureUsage::kStorage | gpu::TextureUsage::kSampled;
+
+// The effects that are on, in the order they run.
+std::vector<const effect::Selection::Entry*> activeOf(const FrameDesc& desc) {
+  std::vector<const effect::Selection::Entry*> active;
+  if (desc.chain == nullptr) return active;
+  for (const effect::Selection::Entry& entry : desc.chain->selection.entries()) {
+    if (entry.on) active.push_back(&entry);
+  }
+  return active;
+}
 
 }  // namespace
 
@@ -73,14 +83,11 @@ std::vector<std::string> outputNames(std::span<const effect::Effect* const> effe
   return all;
 }
 
-uint32_t guardBand(const effect::Values& values, uint32_t height) {
-  return static_cast<uint32_t>(std::ceil(values.effect().guardBand(values.all().data()) * height));
-}
-
-double guardShare(std::span<const ActiveEffect> effects, uint32_t width, uint32_t height) {
+double guardShare(const effect::Selection& selection, uint32_t width, uint32_t height) {
   double band = 0;
-  for (const ActiveEffect& active : effects)
-    band = std::max<double>(band, guardBand(*active.values, height));
+  for (const effect::Selection::Entry& entry : selection.entries()) {
+    if (entry.on) band = std::max<double>(band, effect::guardBand(entry.values, height));
+  }
   return 1 - double{1} * width * height / ((width + 2 * band) * (height + 2 * band));
 }
 
@@ -112,8 +119,15 @@ struct Renderer::Plan {
   uint32_t attachments = 0;  // of GRISAILLE_READS
   // Those of effects that want a guard band, and its width, pixels.
   uint32_t guarded = 0, guard = 0;
-  // One a effect of the frame: the outputs that somebody wants. 0: it does not run.
-  std::vector<uint32_t> wanted;
+  struct Active {
+    const effect::Selection::Entry* entry;
+    uint32_t wanted;  // outputs that somebody wants, by bit; 0: it does not run
+    uint32_t reads;   // attachments
+    bool guarded;
+
+    const effect::Effect& effect() const { return entry->effect(); }
+  };
+  std::vector<Active> active;
   bool color = false;
 
   Plan(const FrameDesc& desc, const AttachmentSource& source) {
@@ -125,26 +139,34 @@ struct Renderer::Plan {
     if (wants(desc, kBaseColour) || (color && desc.surface == Surface::kBaseColour)) {
       attachments |= GRISAILLE_READS(GRISAILLE_BASE_COLOUR);
     }
-    for (const ActiveEffect& active : desc.effects) {
-      uint32_t bits = 0;
-      const auto outputs = active.effect().outputs();
-      for (size_t i = 0; i < outputs.size(); ++i) {
-        const bool layer = color && composed(outputs, outputs[i].role, desc.surface);
-        const bool asked = std::any_of(
-            desc.outputs.begin(), desc.outputs.end(),
-            [&](const std::string& name) { return names(name, active.effect(), outputs[i]); });
-        if (layer || asked) bits |= 1u << i;
+    for (const effect::Selection::Entry* entry : activeOf(desc)) {
+      Active one{
+          .entry = entry, .wanted = wantedOf(desc, entry->effect()), .reads = 0, .guarded = false};
+      if (one.wanted != 0) {
+        one.reads = entry->effect().reads(entry->values.all().data(), one.wanted);
+        const uint32_t band =
+            source.goesBeyond() ? effect::guardBand(entry->values, desc.height) : 0;
+        one.guarded = band > 0;
+        (one.guarded ? guarded : attachments) |= one.reads;
+        guard = std::max(guard, band);
       }
-      wanted.push_back(bits);
-      if (bits == 0) continue;
-      const uint32_t reads = active.effect().reads(active.values->all().data(), bits);
-      const uint32_t band = source.goesBeyond() ? guardBand(*active.values, desc.height) : 0;
-      (band > 0 ? guarded : attachments) |= reads;
-      guard = std::max(guard, band);
+      active.push_back(one);
     }
   }
 
  private:
+  uint32_t wantedOf(const FrameDesc& desc, const effect::Effect& effect) const {
+    uint32_t bits = 0;
+    const auto outputs = effect.outputs();
+    for (size_t i = 0; i < outputs.size(); ++i) {
+      const bool layer = color && composed(outputs, outputs[i].role, desc.surface);
+      const bool asked = std::ranges::any_of(
+          desc.outputs, [&](const std::string& name) { return names(name, effect, outputs[i]); });
+      if (layer || asked) bits |= 1u << i;
+    }
+    return bits;
+  }
+
   static bool wants(const FrameDesc& desc, std::string_view name) {
     return std::find(desc.outputs.begin(), desc.outputs.end(), name) != desc.outputs.end();
   }
@@ -181,13 +203,9 @@ Renderer::~Renderer() {
 }
 
 void Renderer::render(const FrameDesc& desc) {
-  // First of all, so that none misses it where it is not wanted or the frame fails.
-  for (const ActiveEffect& active : desc.effects) {
-    active.instance->limitShotsKept(active.shotsKept);
-  }
   scene::validate(desc.camera);
   std::vector<const effect::Effect*> effects;
-  for (const ActiveEffect& active : desc.effects) effects.push_back(&active.effect());
+  for (const effect::Selection::Entry* entry : activeOf(desc)) effects.push_back(&entry->effect());
   for (const std::string& name : desc.outputs) checkOutput(name, effects);
 
   const Plan plan(desc, source_);
@@ -225,7 +243,7 @@ void Renderer::record(gpu::Commands& commands, const FrameDesc& desc, const Plan
   if (plan.attachments != 0) recordAttachments(commands, picture);
   if (plan.guarded != 0) recordAttachments(commands, guarded);
   recordEffects(commands, desc, plan, picture, guarded);
-  if (plan.color) recordCompose(commands, desc);
+  if (plan.color) recordCompose(commands, desc, plan);
   for (const std::string& name : desc.outputs) outputs_.try_emplace(name, name);
 }
 
@@ -257,50 +275,50 @@ void Renderer::recordAttachments(gpu::Commands& commands, const SceneView& view)
 void Renderer::recordEffects(gpu::Commands& commands, const FrameDesc& desc, const Plan& plan,
                              const SceneView& picture, const SceneView& guarded) {
   const grisaille_view view = viewOf(desc.camera, desc.width, desc.height);
-  for (size_t i = 0; i < desc.effects.size(); ++i) {
-    if (plan.wanted[i] == 0) continue;
-    const ActiveEffect& active = desc.effects[i];
-    const uint32_t reads = active.effect().reads(active.values->all().data(), plan.wanted[i]);
+  for (const Plan::Active& active : plan.active) {
+    if (active.wanted == 0) continue;
     effect::FrameInputs inputs;
     inputs.commands = &commands;
     inputs.width = desc.width;
     inputs.height = desc.height;
     inputs.view = &view;
-    const bool band = plan.guard > 0 && guardBand(*active.values, desc.height) > 0;
-    const SceneView& seen = band ? guarded : picture;
-    inputs.guard = band ? plan.guard : 0;
+    const SceneView& seen = active.guarded ? guarded : picture;
+    inputs.guard = active.guarded ? plan.guard : 0;
     inputs.viewBlock = seen.block;
     constexpr const char* kAttachments[GRISAILLE_ATTACHMENT_COUNT] = {
         kClipDepth, kDepth, kNormal, kBaseColour, kFacetNormal, kBackDepth};
     for (size_t a = 0; a < GRISAILLE_ATTACHMENT_COUNT; ++a) {
-      if ((reads & GRISAILLE_READS(a)) != 0)
+      if ((active.reads & GRISAILLE_READS(a)) != 0)
         inputs.attachments[a] = find(seen.prefix + kAttachments[a]);
     }
-    std::vector<gpu::Texture> outputs;
-    const auto descs = active.effect().outputs();
-    for (size_t o = 0; o < descs.size(); ++o) {
-      if ((plan.wanted[i] & (1u << o)) == 0) {
-        outputs.emplace_back();
-        continue;
-      }
-      const std::string name = targetName(active.effect(), descs[o]);
-      const auto format = effect::formatOf(descs[o].format);
-      outputs.push_back(target(name, format, kComputed, desc.width, desc.height));
-      outputs_.try_emplace(name, name);
-      outputs_.try_emplace(descs[o].key, name);
-    }
+    const std::vector<gpu::Texture> outputs = outputTargets(active.effect(), active.wanted, desc);
     inputs.outputs = outputs;
-    inputs.values = active.values->all();
-    inputs.shots = active.shots;
-    inputs.shotsKept = active.shotsKept;
     inputs.patience = desc.patience;
-    inputs.rays = desc.rays;
-    active.instance->record(inputs);
-    waiting_ += active.instance->waiting();
+    inputs.services = desc.services;
+    waiting_ += desc.chain->record(*active.entry, inputs);
   }
 }
 
-void Renderer::recordCompose(gpu::Commands& commands, const FrameDesc& desc) {
+// One an output of the effect; null where nobody wants it.
+std::vector<gpu::Texture> Renderer::outputTargets(const effect::Effect& effect, uint32_t wanted,
+                                                  const FrameDesc& desc) {
+  std::vector<gpu::Texture> outputs;
+  const auto descs = effect.outputs();
+  for (size_t o = 0; o < descs.size(); ++o) {
+    if ((wanted & (1u << o)) == 0) {
+      outputs.emplace_back();
+      continue;
+    }
+    const std::string name = targetName(effect, descs[o]);
+    const auto format = effect::formatOf(descs[o].format);
+    outputs.push_back(target(name, format, kComputed, desc.width, desc.height));
+    outputs_.try_emplace(name, name);
+    outputs_.try_emplace(descs[o].key, name);
+  }
+  return outputs;
+}
+
+void Renderer::recordCompose(gpu::Commands& commands, const FrameDesc& desc, const Plan& plan) {
   commands.beginPass("compose/color");
   if (!compose_) {
     const auto pipeline = [&](bool tinted) {
@@ -323,19 +341,19 @@ void Renderer::recordCompose(gpu::Commands& commands, const FrameDesc& desc) {
     white_ = neutral("white", 0xffffffffu);
     clear_ = neutral("clear", 0);
   }
-  // Layers that can share a dispatch do: a paint and a visibility after it.
+  // Layers that can share a dispatch do: an overlay and a visibility after it.
   std::vector<Layer> layers(1);
-  for (const ActiveEffect& active : desc.effects) {
+  for (const Plan::Active& active : plan.active) {
     for (const grisaille_output_desc& output : active.effect().outputs()) {
-      const bool paint = output.role == GRISAILLE_ROLE_PAINT;
+      const bool overlay = output.role == GRISAILLE_ROLE_OVERLAY;
       if (!composed(active.effect().outputs(), output.role, desc.surface)) continue;
       const gpu::Texture texture = find(targetName(active.effect(), output));
-      if (paint ? layers.back().paint || layers.back().visibility
-                : bool{layers.back().visibility}) {
+      if (overlay ? layers.back().overlay || layers.back().visibility
+                  : bool{layers.back().visibility}) {
         layers.emplace_back();
       }
-      (paint ? layers.back().paint : layers.back().visibility) = texture;
-      if (!paint) layers.back().tinted = output.role == GRISAILLE_ROLE_TINT;
+      (overlay ? layers.back().overlay : layers.back().visibility) = texture;
+      if (!overlay) layers.back().tinted = output.role == GRISAILLE_ROLE_TINT;
     }
   }
   gpu::Texture surface = desc.surface == Surface::kBaseColour ? find(kBaseColour) : white_;
@@ -358,7 +376,7 @@ void Renderer::composeLayer(gpu::Commands& commands, gpu::Texture surface, const
                             gpu::Texture target, const FrameDesc& desc) {
   const std::array bindings = {
       gpu::textureBinding(0, {.texture = surface}, nearest_),
-      gpu::textureBinding(1, {.texture = layer.paint ? layer.paint : clear_}, nearest_),
+      gpu::textureBinding(1, {.texture = layer.overlay ? layer.overlay : clear_}, nearest_),
       gpu::textureBinding(2, {.texture = layer.visibility ? layer.visibility : white_}, nearest_),
       gpu::imageBinding(0, target),
   };

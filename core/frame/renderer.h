@@ -12,26 +12,13 @@
 #include <string_view>
 #include <vector>
 
-#include "core/effect/instance.h"
-#include "core/effect/values.h"
+#include "core/effect/chain.h"
 #include "core/frame/attachments.h"
 #include "core/gpu/device.h"
 #include "core/image/image.h"
 #include "core/scene/camera.h"
 
 namespace grisaille::frame {
-
-// An effect switched on, with its values. Both stay valid during render().
-struct ActiveEffect {
-  effect::Instance* instance = nullptr;
-  const effect::Values* values = nullptr;
-  // As effect::FrameInputs has them; `shotsKept` are of the render() before, whether it failed or
-  // not. An instance that was left out for a while is told by limitShotsKept().
-  std::span<const grisaille_shot> shots = {};
-  size_t shotsKept = 0;
-
-  const effect::Effect& effect() const { return values->effect(); }
-};
 
 // What the light falls on in the composed picture.
 enum class Surface : uint8_t { kWhite, kBaseColour };
@@ -41,19 +28,19 @@ struct FrameDesc {
   uint32_t width = 0;  // pixels
   uint32_t height = 0;
   Surface surface = Surface::kWhite;
-  std::span<const ActiveEffect> effects;  // in the order they run
-  std::span<const std::string> outputs;   // names as outputNames() lists them
+  // Started on the renderer's device; its selection stays unchanged during render(). Null: no
+  // effects.
+  effect::Chain* chain = nullptr;
+  std::span<const std::string> outputs;  // names as outputNames() lists them
 
   // For the effects, as effect::FrameInputs has them.
   double patience = std::numeric_limits<double>::infinity();
-  effect::RayService* rays = nullptr;
+  effect::Services services = {};
 };
 
-// The guard band that an effect wants with these values about a picture so high, pixels.
-uint32_t guardBand(const effect::Values& values, uint32_t height);
 // Which share of the time of a pass that draws the scene with a guard band goes beyond the picture.
 // 0: no effect has one.
-double guardShare(std::span<const ActiveEffect> effects, uint32_t width, uint32_t height);
+double guardShare(const effect::Selection& selection, uint32_t width, uint32_t height);
 // Which share of a pass of this label, of those that draw the scene, is what effects cost that want
 // more than most renderers have anyway: all of drawing back faces, and what guard bands add.
 double shareForEffects(std::string_view pass, double guardShare);
@@ -107,11 +94,13 @@ class Renderer {
   void recordAttachments(gpu::Commands& commands, const SceneView& view);
   void recordEffects(gpu::Commands& commands, const FrameDesc& desc, const Plan& plan,
                      const SceneView& picture, const SceneView& guarded);
-  void recordCompose(gpu::Commands& commands, const FrameDesc& desc);
-  // One layer of the composition: `paint` lies over what is there, `visibility` multiplies it, by
-  // channel where it is tinted; null: the neutral texture.
+  std::vector<gpu::Texture> outputTargets(const effect::Effect& effect, uint32_t wanted,
+                                          const FrameDesc& desc);
+  void recordCompose(gpu::Commands& commands, const FrameDesc& desc, const Plan& plan);
+  // One layer of the composition: `overlay` is laid over the surface, `visibility` multiplies it,
+  // by channel where it is tinted; null: the neutral texture.
   struct Layer {
-    gpu::Texture paint, visibility;
+    gpu::Texture overlay, visibility;
     bool tinted = false;
   };
   void composeLayer(gpu::Commands& commands, gpu::Texture surface, const Layer& layer,

@@ -90,7 +90,8 @@ constexpr auto kSsao =
                           .version = "1.0.0",
                           .tooltip = "How much of the sky above each surface nearby geometry hides",
                           .params = kParams,
-                          .outputs = kOutputs});
+                          .outputs = kOutputs,
+                          .runsByDefault = true});
 
 }  // namespace
 }  // namespace grisaille::ssao

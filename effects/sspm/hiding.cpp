@@ -190,7 +190,7 @@ void PaintWorld::prune(Cell& cell) {
       unlist(entry.shot, cell.sealer + 1);
       return true;
     }
-    const grisaille_shot& shot = list_[entry.shot];
+    const Shot& shot = list_[entry.shot];
     const float range = rangeOf(entry.shot);
     const glm::vec3 direction(shot.direction[0], shot.direction[1], shot.direction[2]);
     const glm::dvec3 origin(shot.origin[0], shot.origin[1], shot.origin[2]);

@@ -18,12 +18,12 @@ constexpr size_t kColorWord = 12;
 constexpr size_t kMostWork = 64;    // shots surveyed side by side
 constexpr size_t kMostRays = 4096;  // of a step, but for a single shot's
 
-bool alike(const grisaille_shot& a, const grisaille_shot& b) {
+bool alike(const Shot& a, const Shot& b) {
   return std::ranges::equal(a.origin, b.origin) && std::ranges::equal(a.direction, b.direction) &&
          a.range == b.range;
 }
 
-uint64_t hashOf(const grisaille_shot& shot) {
+uint64_t hashOf(const Shot& shot) {
   uint64_t hash = 14695981039346656037ull;
   const auto mix = [&](uint64_t word) {
     hash = (hash ^ word) * 0x9E3779B97F4A7C15ull;
@@ -31,7 +31,7 @@ uint64_t hashOf(const grisaille_shot& shot) {
   };
   for (const double x : shot.origin) mix(std::bit_cast<uint64_t>(x));
   for (const float x : shot.direction) mix(std::bit_cast<uint32_t>(x));
-  mix(std::bit_cast<uint32_t>(shot.range));
+  mix(std::bit_cast<uint32_t>(static_cast<float>(shot.range)));
   return hash;
 }
 
@@ -44,8 +44,8 @@ size_t layersOf(float full, float range) {
 
 }  // namespace
 
-size_t PaintWorld::update(std::span<const grisaille_shot> shots, size_t kept,
-                          const PaintRules& rules, double patience, const CastRays& cast) {
+size_t PaintWorld::update(std::span<const Shot> shots, size_t kept, const PaintRules& rules,
+                          double patience, const CastRays& cast) {
   const auto start = std::chrono::steady_clock::now();
   list_ = shots;
   const bool sameRange = rules.range == rules_.range;
@@ -179,7 +179,7 @@ bool PaintWorld::step(const CastRays& cast, std::vector<uint32_t>& unknown) {
 void PaintWorld::refill() {
   while (work_.size() < kMostWork && !pending_.empty()) {
     const uint32_t id = pending_.back();
-    const grisaille_shot& shot = list_[id];
+    const Shot& shot = list_[id];
     // Its twin is to be placed first.
     if (std::ranges::any_of(work_, [&](const Work& w) { return alike(list_[w.id], shot); })) return;
     pending_.pop_back();
@@ -330,7 +330,7 @@ void PaintWorld::joinTwins(uint32_t id, std::span<const CellKey> cells) {
 }
 
 void PaintWorld::writeRecord(uint32_t id, const ShotFrame& frame, const ShotMap& map) {
-  const grisaille_shot& shot = list_[id];
+  const Shot& shot = list_[id];
   const uint32_t index = states_[id].record;
   const auto record = records_.change(index * kRecordWords, kRecordWords);
   // The nearest metre: small scenes about the world's origin keep all digits of their floats.

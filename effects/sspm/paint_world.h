@@ -37,8 +37,8 @@ class PaintWorld {
 
   // Brings all up to `shots`, of which the first `kept` are as in the call before; the newest
   // first, until `patience` seconds are over (one step at least). Returns how many still wait.
-  size_t update(std::span<const grisaille_shot> shots, size_t kept, const PaintRules& rules,
-                double patience, const CastRays& cast);
+  size_t update(std::span<const Shot> shots, size_t kept, const PaintRules& rules, double patience,
+                const CastRays& cast);
 
   CellTable& cells() { return cells_; }
   Mirror& records() { return records_; }
@@ -70,7 +70,7 @@ class PaintWorld {
     uint32_t counted = 0;       // by the newest, besides itself
   };
 
-  float rangeOf(uint32_t id) const { return list_[id].range > 0 ? list_[id].range : rules_.range; }
+  float rangeOf(uint32_t id) const { return list_[id].rangeOr(rules_.range); }
 
   // paint_world.cpp
   void clear();
@@ -99,7 +99,7 @@ class PaintWorld {
   void prune(Cell& cell);
   void unlist(uint32_t id, uint32_t to);
 
-  std::span<const grisaille_shot> list_;  // during update()
+  std::span<const Shot> list_;  // during update()
   PaintRules rules_;
   std::deque<State> states_;       // one a shot
   std::vector<uint32_t> pending_;  // ascending

@@ -3,6 +3,7 @@
 #pragma once
 
 #include "grisaille/effect.hpp"
+#include "shot.h"
 
 namespace grisaille::sspm {
 
@@ -132,7 +133,7 @@ constexpr grisaille_param_desc kParams[] = {
 constexpr grisaille_output_desc kOutputs[] = {
     plugin::output({.key = "paint",
                     .format = GRISAILLE_FORMAT_RGBA16F,
-                    .role = GRISAILLE_ROLE_PAINT,
+                    .role = GRISAILLE_ROLE_OVERLAY,
                     .tooltip = "Paint after the splat step: linear colour, and alpha, 0 to 1"}),
     plugin::output({.key = "paint_coverage",
                     .format = GRISAILLE_FORMAT_R32F,
@@ -144,5 +145,46 @@ constexpr grisaille_output_desc kOutputs[] = {
                     .tooltip = "1 + the number of the shot that weighs most in the colour; 0: no "
                                "paint"}),
 };
+
+constexpr grisaille_field_desc kShotFields[] = {
+    plugin::field({.key = "origin",
+                   .label = "Muzzle",
+                   .tooltip = "Where the shot is fired from",
+                   .type = GRISAILLE_FIELD_POINT,
+                   .offset = offsetof(Shot, origin),
+                   .required = true}),
+    plugin::field({.key = "direction",
+                   .label = "Direction",
+                   .tooltip = "Where the shot is fired to",
+                   .type = GRISAILLE_FIELD_DIRECTION,
+                   .offset = offsetof(Shot, direction),
+                   .defaults = {0, 0, -1},
+                   .required = true}),
+    plugin::field({.key = "color",
+                   .label = "Colour",
+                   .tooltip = "Colour of the paint",
+                   .type = GRISAILLE_FIELD_COLOUR,
+                   .offset = offsetof(Shot, color),
+                   .defaults = {1, 0.08f, 0.004f},
+                   .required = true}),
+    plugin::field(
+        {.key = "range",
+         .label = "Range",
+         .unit = "m",
+         .tooltip = "How far from its ray the shot paints; 0: as the parameter Paint range",
+         .type = GRISAILLE_FIELD_NUMBER,
+         .offset = offsetof(Shot, range),
+         .max = 1e6}),
+};
+
+constexpr grisaille_object_desc kShots = plugin::objects<Shot>({
+    .key = "shots",
+    .label = "Shots",
+    .tooltip = "A shot of paint: a muzzle, a direction, a colour",
+    .fields = kShotFields,
+    .placement = GRISAILLE_PLACE_RAY,
+    .pointField = 0,
+    .directionField = 1,
+});
 
 }  // namespace grisaille::sspm

@@ -17,7 +17,7 @@ constexpr float kBiasShare = 2e-5f;  // of the distance
 
 }  // namespace
 
-ShotFrame::ShotFrame(const grisaille_shot& shot, float theRange)
+ShotFrame::ShotFrame(const Shot& shot, float theRange)
     : origin(shot.origin[0], shot.origin[1], shot.origin[2]),
       direction(shot.direction[0], shot.direction[1], shot.direction[2]),
       range(theRange) {

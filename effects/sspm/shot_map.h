@@ -14,6 +14,7 @@
 #include <vector>
 
 #include "grisaille/effect.h"
+#include "shot.h"
 
 namespace grisaille::sspm {
 
@@ -31,7 +32,7 @@ constexpr uint32_t kTag = 0xC0000000u;
 struct ShotFrame {
   // `range` in metres, over 0. Axes for a unit direction, as shaders/sspm/surface.comp makes them
   // too (Duff et al. 2017, "Building an Orthonormal Basis, Revisited").
-  ShotFrame(const grisaille_shot& shot, float range);
+  ShotFrame(const Shot& shot, float range);
 
   // The farthest surface in the cylinder: sets slope and bias.
   void setFarthest(float metres);

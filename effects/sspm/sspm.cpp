@@ -113,7 +113,7 @@ class Sspm {
         rest_(host, "rest", grisaille_shader_sspm_rest),
         nearest_(host.sampler({.label = "nearest"})) {}
 
-  static uint32_t reads(plugin::Values values) noexcept {
+  static uint32_t reads(plugin::Values values, uint32_t) noexcept {
     const bool surface = values.get<Mode>(Parameter::kMode) == Mode::kSurface;
     return GRISAILLE_READS(GRISAILLE_VIEW_DEPTH) |
            (surface ? GRISAILLE_READS(GRISAILLE_FACET_NORMAL) : 0u);
@@ -130,8 +130,8 @@ class Sspm {
  private:
   void recordPerShot(const plugin::Frame& frame) {
     // Placed shots are kept for the mode's return, as far as the list stays.
-    kept_ = std::min(kept_, frame.shotsKept());
-    const std::span<const grisaille_shot> all = frame.shots();
+    kept_ = std::min(kept_, frame.objectsKept());
+    const std::span<const Shot> all = frame.objects<Shot>();
     const size_t count = std::min(all.size(), frame.value<size_t>(kShotLimit));
     const auto scratch = [&](const char* label, grisaille_format format, bool full) {
       return frame.transient({.label = label,
@@ -144,11 +144,12 @@ class Sspm {
     const grisaille_texture owners = scratch("owners", GRISAILLE_FORMAT_RG32F, owned);
     const grisaille_texture depth = frame.attachment(GRISAILLE_VIEW_DEPTH);
     // Without shots one that reaches nothing leaves the targets empty.
-    const grisaille_shot none{
-        .origin = {}, .direction = {}, .color = {}, .range = -1, .reserved = 0};
+    const Shot none = {};
     for (size_t i = 0; i < std::max<size_t>(count, 1); ++i) {
       const size_t number = all.size() - count + i;
-      const ShotBlock block = shotBlock(frame, count > 0 ? all[number] : none, number);
+      const Shot& shot = count > 0 ? all[number] : none;
+      const float range = count > 0 ? shot.rangeOr(frame.value<float>(kPaintRange)) : -1;
+      const ShotBlock block = shotBlock(frame, shot, range, number);
       const grisaille_pipeline pipeline =
           (i == 0 ? firstShot_ : perShot_).get({plugin::specialize(0, owned)});
       const grisaille_binding bindings[] = {
@@ -168,7 +169,7 @@ class Sspm {
     });
   }
 
-  static ShotBlock shotBlock(const plugin::Frame& frame, const grisaille_shot& shot,
+  static ShotBlock shotBlock(const plugin::Frame& frame, const Shot& shot, float range,
                              size_t number) {
     // A muzzle may be so far away that single precision does not tell where its ray passes.
     const glm::dvec3 muzzle =
@@ -176,7 +177,7 @@ class Sspm {
     const glm::dvec3 direction(shot.direction[0], shot.direction[1], shot.direction[2]);
     const double onwards = -glm::dot(muzzle, direction);
     return {.origin = glm::vec3(muzzle + onwards * direction),
-            .range = shot.range != 0 ? shot.range : frame.value<float>(kPaintRange),
+            .range = range,
             .direction = glm::vec3(direction),
             .full = frame.value<float>(kFull),
             .color = {shot.color[0], shot.color[1], shot.color[2]},
@@ -193,8 +194,8 @@ class Sspm {
                                  std::span<grisaille_hit> hits) {
       return host_.castRays(rays, hits);
     };
-    kept_ = std::min(kept_, frame.shotsKept());
-    const std::span<const grisaille_shot> shots = frame.shots();
+    kept_ = std::min(kept_, frame.objectsKept());
+    const std::span<const Shot> shots = frame.objects<Shot>();
     const size_t waiting = world_.update(shots, kept_, rules, frame.patience(), cast);
     kept_ = shots.size();
     frame.waiting(waiting);
@@ -355,7 +356,7 @@ constexpr auto kSspm =
                           .tooltip = "Paint shot onto whatever the picture shows",
                           .params = kParams,
                           .outputs = kOutputs,
-                          .takesShots = true});
+                          .objects = &kShots});
 
 }  // namespace
 }  // namespace grisaille::sspm

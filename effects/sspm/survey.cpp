@@ -40,7 +40,7 @@ float exitOf(const ShotFrame& frame, glm::vec2 slope) {
 
 }  // namespace
 
-Survey::Survey(const grisaille_shot& shot, float range) : frame_(shot, range) {
+Survey::Survey(const Shot& shot, float range) : frame_(shot, range) {
   probe(64 * range);
 }
 

@@ -34,7 +34,7 @@ inline bool serves(const glm::vec4& plane, const glm::vec3& at, const glm::vec4&
 class Survey {
  public:
   // `range` in metres, over 0.
-  Survey(const grisaille_shot& shot, float range);
+  Survey(const Shot& shot, float range);
 
   // To be cast next, and their hits to be taken. None: the rough picture or the map is done.
   std::span<const grisaille_ray> rays() const { return rays_; }

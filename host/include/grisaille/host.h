@@ -44,7 +44,7 @@
 extern "C" {
 #endif
 
-#define GRISAILLE_HOST_VERSION 2u /* grows when functions or fields are added */
+#define GRISAILLE_HOST_VERSION 1u /* grows when functions or fields are added */
 
 /* What the library makes of the host's device or context, and on it. */
 typedef struct grisaille_host_device grisaille_host_device;
@@ -138,7 +138,7 @@ GRISAILLE_EXPORT int grisaille_host_texture_wrap(grisaille_host_device* device,
  * current). */
 GRISAILLE_EXPORT int grisaille_host_texture_destroy(grisaille_host_texture* texture);
 
-/* Since 2. Who casts rays through the host's scene. */
+/* Who casts rays through the host's scene. */
 typedef struct grisaille_host_rays {
   uint32_t struct_size;
   uint32_t reserved; /* 0 */
@@ -148,11 +148,26 @@ typedef struct grisaille_host_rays {
   void (*cast)(void* context, const grisaille_ray* rays, uint64_t count, grisaille_hit* hits);
 } grisaille_host_rays;
 
-/* Since 2. Sets who casts rays for the device's effects from the next recording on. Null: nobody,
- * as at first; paint on surfaces, which asks what a muzzle sees, then stays away. Errors: 5611
- * (reserved). */
+/* Sets who casts rays for the device's effects from the next recording on. Null: nobody, as at
+ * first; what an effect asks of rays then waits. Errors: 5611 (reserved). */
 GRISAILLE_EXPORT int grisaille_host_device_set_rays(grisaille_host_device* device,
                                                     const grisaille_host_rays* rays);
+
+/* Who decodes picture files that objects name. */
+typedef struct grisaille_host_pictures {
+  uint32_t struct_size;
+  uint32_t reserved; /* 0 */
+  void* context;     /* the host's, handed on as it is */
+  /* Fills in `out`, on the calling thread, inside grisaille_host_effect_record(). The pixels stay
+   * valid until the next call or the end of the recording. Returns GRISAILLE_OK, or
+   * GRISAILLE_FAILED where there is no such picture. It does not call the library. */
+  grisaille_result (*read)(void* context, const char* path, grisaille_picture* out);
+} grisaille_host_pictures;
+
+/* Sets who decodes pictures for the device's effects from the next recording on. Null: nobody, as
+ * at first; objects are then drawn without their pictures. Errors: 5611 (reserved). */
+GRISAILLE_EXPORT int grisaille_host_device_set_pictures(grisaille_host_device* device,
+                                                        const grisaille_host_pictures* pictures);
 
 /* ---- Effects --------------------------------------------------------------------------------- */
 
@@ -172,7 +187,7 @@ typedef struct grisaille_host_effect_desc {
   const char* const* outputs; /* keys of the outputs that are wanted: "ao" */
 } grisaille_host_effect_desc;
 
-/* Makes an effect with its parameters' defaults and no shots. Errors: 3201 (no such effect), 5102
+/* Makes an effect with its parameters' defaults and no objects. Errors: 3201 (no such effect), 5102
  * (no such output), 3202 (the effect's own words), 1105 (width or height), 5611 (rows), 1007 (no
  * device memory), 1008 (the driver refuses a shader), 5604 (the context is not current). */
 GRISAILLE_EXPORT int grisaille_host_effect_create(grisaille_host_device* device,
@@ -206,13 +221,19 @@ GRISAILLE_EXPORT int grisaille_host_effect_get(const grisaille_host_effect* effe
 GRISAILLE_EXPORT int grisaille_host_effect_resize(grisaille_host_effect* effect, uint32_t width,
                                                   uint32_t height);
 
-/* Since 2. What an effect that takes shots works on from the next recording on, instead of the
- * shots that it had: `count` of them, oldest first, copied; null with a count of 0. Those that
- * begin as the ones before did are not worked out again, so that shots are best added at the end.
- * Errors: 3205 (the effect takes none), 3401 to 3404 (a shot's origin, direction, color, range;
- * nothing is changed). */
-GRISAILLE_EXPORT int grisaille_host_effect_set_shots(grisaille_host_effect* effect,
-                                                     const grisaille_shot* shots, uint64_t count);
+/* Sets the objects that the effect works on from the next recording on: `count` of `object_size`
+ * bytes each, laid out as grisaille_effect_desc.objects of the effect says, oldest first. They and
+ * their texts are copied; null with a count of 0. Leading objects that are equal to those before
+ * are not worked out again, so that objects are best added at the end. Errors: 3205 (the effect has
+ * none), 5611 (object_size is not the table's), 3401 (a field's value; nothing is changed). */
+GRISAILLE_EXPORT int grisaille_host_effect_set_objects(grisaille_host_effect* effect,
+                                                       const void* objects, uint32_t object_size,
+                                                       uint64_t count);
+
+/* The same from a JSON file, as the program saves it. Errors: 3205, 3411 (it cannot be read), 3412
+ * (an object of it), 3413 (its version). */
+GRISAILLE_EXPORT int grisaille_host_effect_load_objects(grisaille_host_effect* effect,
+                                                        const char* path);
 
 /* ---- A frame --------------------------------------------------------------------------------- */
 

@@ -106,6 +106,14 @@ class Device {
     require(grisaille_host_device_set_rays(device_.get(), cast != nullptr ? &rays : nullptr));
   }
 
+  // `context` outlives the recordings.
+  void setPictures(decltype(grisaille_host_pictures::read) read, void* context) const {
+    const grisaille_host_pictures pictures = {
+        .struct_size = sizeof(pictures), .reserved = 0, .context = context, .read = read};
+    require(
+        grisaille_host_device_set_pictures(device_.get(), read != nullptr ? &pictures : nullptr));
+  }
+
   grisaille_host_device* handle() const { return device_.get(); }
 
  private:
@@ -232,8 +240,14 @@ class Effect {
     return value;
   }
 
-  void setShots(const std::vector<grisaille_shot>& shots) {
-    require(grisaille_host_effect_set_shots(effect_.get(), shots.data(), shots.size()));
+  // Object: laid out as the effect's table of objects says.
+  template <typename Object>
+  void setObjects(std::span<const Object> objects) {
+    require(grisaille_host_effect_set_objects(effect_.get(), objects.data(), sizeof(Object),
+                                              objects.size()));
+  }
+  void loadObjects(const char* path) {
+    require(grisaille_host_effect_load_objects(effect_.get(), path));
   }
 
   void resize(uint32_t width, uint32_t height) {

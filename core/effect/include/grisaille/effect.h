@@ -33,7 +33,7 @@ extern "C" {
 
 #define GRISAILLE_MAGIC 0x53495247u /* "GRIS" */
 #define GRISAILLE_ABI_MAJOR 1u
-#define GRISAILLE_ABI_MINOR 3u
+#define GRISAILLE_ABI_MINOR 0u
 
 #if defined(_WIN32)
 #define GRISAILLE_EXPORT __declspec(dllexport)
@@ -90,10 +90,10 @@ typedef enum grisaille_attachment {
   GRISAILLE_VIEW_DEPTH = 1,  /* r32f: distance along the view direction, metres; sky: 0 */
   GRISAILLE_NORMAL = 2,      /* rgba16f: unit world normal, facing the camera, in xyz; sky: 0 */
   GRISAILLE_BASE_COLOUR = 3, /* rgba8 sRGB, read as linear: base colour; sky: 0 */
-  /* Since 1.1. rgba16f: unit world normal of the triangle itself, facing the camera; sky: 0 */
+  /* rgba16f: unit world normal of the triangle itself, facing the camera; sky: 0 */
   GRISAILLE_FACET_NORMAL = 4,
-  /* Since 1.3. r32f: where the matter that is seen ends: the view depth, metres, of the nearest
-   * surface at or behind the seen one that faces away or has two sides; none, and sky: 0 */
+  /* r32f: the view depth, metres, of the nearest surface at or behind the seen one that faces away
+   * or has two sides: where the visible body ends. 0 where there is no such surface, and sky */
   GRISAILLE_BACK_DEPTH = 5,
   GRISAILLE_ATTACHMENT_COUNT = 6
 } grisaille_attachment;
@@ -114,14 +114,14 @@ typedef enum grisaille_format {
 /* How the composed picture uses an output. */
 typedef enum grisaille_role {
   GRISAILLE_ROLE_NONE = 0, /* not at all: only written to a file or shown on its own */
-  GRISAILLE_ROLE_VISIBILITY =
-      1,                    /* first channel in [0,1], 1 = open: multiplies the light; no R32UI */
-  GRISAILLE_ROLE_PAINT = 2, /* rgba, straight alpha, linear: laid over the surface's colour */
-  /* Since 1.1; r32ui, not composed: whose the paint of a pixel is, 1 + number of the shot; 0: none
-   */
+  /* first channel in [0,1], 1 = open: multiplies the light; no R32UI */
+  GRISAILLE_ROLE_VISIBILITY = 1,
+  /* rgba, straight alpha, linear: laid over the surface's colour */
+  GRISAILLE_ROLE_OVERLAY = 2,
+  /* r32ui, not composed: 1 + index of the object that the overlay of a pixel belongs to; 0: none */
   GRISAILLE_ROLE_OWNER = 3,
-  /* Since 1.2; rgb in [0,1], 1 = open: multiplies the light where the picture shows base colours,
-   * instead of the effect's other visibilities; four channels */
+  /* rgb in [0,1], 1 = open: multiplies the light where the picture shows base colours, instead of
+   * the effect's other visibilities; four channels */
   GRISAILLE_ROLE_TINT = 4
 } grisaille_role;
 
@@ -219,7 +219,70 @@ typedef struct grisaille_dispatch {
   uint32_t groups[3];
 } grisaille_dispatch;
 
-/* ---- Rays and shots, since 1.1 --------------------------------------------------------------- */
+/* ---- Objects that users make ----------------------------------------------------------------- */
+
+/* An effect may work on a list of objects that users make: decals, probes, brush strokes. Its table
+ * says what fields an object has and how a user places one. The list itself, its files, the command
+ * line's --add, --load and --save, the panel's list and tools, and undo come from the table. */
+typedef enum grisaille_field_type {
+  GRISAILLE_FIELD_NUMBER = 0,    /* double, min ... max */
+  GRISAILLE_FIELD_COLOUR = 1,    /* float[3]: linear red, green, blue, each 0 ... 1 */
+  GRISAILLE_FIELD_POINT = 2,     /* double[3]: world, metres, each within 1e9 of 0 */
+  GRISAILLE_FIELD_DIRECTION = 3, /* float[3]: world, unit */
+  GRISAILLE_FIELD_TEXT = 4,      /* const char*: one line of UTF-8 of up to 4096 bytes; not null */
+  GRISAILLE_FIELD_FILE = 5       /* const char*: a path, otherwise as a text; "": none */
+} grisaille_field_type;
+
+typedef enum grisaille_field_flags {
+  GRISAILLE_FIELD_REQUIRED = 1 /* a file without it is refused; the default is for the panel */
+} grisaille_field_flags;
+
+typedef struct grisaille_field_desc {
+  uint32_t struct_size;
+  uint32_t type;   /* grisaille_field_type */
+  uint32_t flags;  /* of grisaille_field_flags */
+  uint32_t offset; /* bytes from the object's beginning, a multiple of the element's size */
+  const char* key; /* as in files and on the command line; a parameter's alphabet; unique */
+  const char* label;
+  const char* unit;         /* of a number, as a parameter's; else "" */
+  const char* tooltip;      /* one line */
+  double min;               /* number: finite; else 0 */
+  double max;               /* number: finite, over min; else 0 */
+  double default_value[3];  /* number: the first; text and file: 0 */
+  const char* default_text; /* text, file: not null; else null */
+} grisaille_field_desc;
+
+/* What placing an object with the pointer sets. */
+typedef enum grisaille_placement {
+  GRISAILLE_PLACE_RAY = 0,    /* point: the camera's eye; direction: through the pixel */
+  GRISAILLE_PLACE_SURFACE = 1 /* point: on the surface that is seen; direction: its facet's normal,
+                                 towards the camera. Nothing is placed on the sky. */
+} grisaille_placement;
+
+typedef struct grisaille_object_desc {
+  uint32_t struct_size;
+  uint32_t object_size;     /* bytes of one object, a multiple of 8, up to 4096 */
+  uint32_t field_count;     /* 1 ... 64 */
+  uint32_t placement;       /* grisaille_placement */
+  uint32_t point_field;     /* index of the point that placing sets */
+  uint32_t direction_field; /* index of the direction that placing sets */
+  const char* key;          /* of the list in files: "decals"; a parameter's alphabet */
+  const char* label;        /* of the list, for people: "Decals" */
+  const char* tooltip;      /* what one object is, in one line */
+  const grisaille_field_desc* fields;
+} grisaille_object_desc;
+
+/* The list as one frame sees it. */
+typedef struct grisaille_objects {
+  uint32_t struct_size;
+  uint32_t stride;     /* bytes from one object to the next: grisaille_object_desc.object_size */
+  const void* objects; /* oldest first; valid during record */
+  uint64_t count;
+  uint64_t kept; /* number of leading objects unchanged since the last frame that this instance
+                    recorded without an error */
+} grisaille_objects;
+
+/* ---- Rays and pictures ----------------------------------------------------------------------- */
 
 typedef struct grisaille_ray {
   double origin[3];   /* world, metres */
@@ -239,24 +302,15 @@ typedef struct grisaille_hit {
   float normal[3]; /* world, unit: of the triangle, towards the ray's origin */
 } grisaille_hit;
 
-/* What the user has fired, once and for good: a muzzle, a direction, a colour. The host checks that
- * all is finite and inside its range. */
-typedef struct grisaille_shot {
-  double origin[3];   /* world, metres */
-  float direction[3]; /* unit */
-  float color[3];     /* linear, each 0 ... 1 */
-  float range;        /* metres, over 0; 0: as the effect's parameter says */
-  uint32_t reserved;  /* 0 */
-} grisaille_shot;
-
-/* The shots as a frame sees them. */
-typedef struct grisaille_shots {
-  uint32_t struct_size;
-  uint32_t stride;             /* bytes from one shot to the next */
-  const grisaille_shot* shots; /* oldest first; valid during record */
-  uint64_t count;
-  uint64_t kept; /* so many of the first are those that this instance's frame before had */
-} grisaille_shots;
+/* A picture that the host has decoded. */
+typedef struct grisaille_picture {
+  uint32_t struct_size; /* set by the effect */
+  uint32_t width;       /* pixels, over 0 */
+  uint32_t height;
+  uint32_t reserved;   /* 0 */
+  const uint8_t* rgba; /* sRGB, straight alpha, 4 bytes a pixel, top row first; valid until the next
+                          read_picture() of this instance or the end of the effect's function */
+} grisaille_picture;
 
 /* ---- The host's services --------------------------------------------------------------------- */
 
@@ -296,10 +350,15 @@ typedef struct grisaille_host {
   /* As destroy_pipeline. */
   void (*destroy_sampler)(const struct grisaille_host* self, grisaille_sampler sampler);
 
-  /* Since 1.1. What `count` rays hit, one an element of `hits`. GRISAILLE_UNSUPPORTED where the
-   * host casts none. Only inside record(). GRISAILLE_FAILED: a ray that is not as said. */
+  /* What `count` rays hit, one an element of `hits`. GRISAILLE_UNSUPPORTED where the host casts
+   * none. Only inside record(). GRISAILLE_FAILED: a ray that is not as said. */
   grisaille_result (*cast_rays)(const struct grisaille_host* self, const grisaille_ray* rays,
                                 uint64_t count, grisaille_hit* hits);
+  /* Decodes a picture file, such as a FILE field names. GRISAILLE_UNSUPPORTED where the host decodes
+   * none. Only inside record(). GRISAILLE_FAILED: the file cannot be read; the host warns of it
+   * once, and the effect may go on without it. */
+  grisaille_result (*read_picture)(const struct grisaille_host* self, const char* path,
+                                   grisaille_picture* out);
 } grisaille_host;
 
 /* The camera of a frame, in double precision. The same in single precision, for shaders, is the
@@ -355,17 +414,16 @@ typedef struct grisaille_frame {
                                      uint32_t mip, uint32_t layer, const void* data,
                                      uint64_t bytes);
 
-  /* Since 1.1. */
-  const grisaille_shots* shots; /* null unless the effect takes shots */
-  double
-      patience; /* seconds of work that can wait which this frame may still do; may be infinite */
-  /* So many things wait to be drawn: the host renders again soon. 0, as before the first call: the
-   * picture is whole. */
+  const grisaille_objects* objects; /* null unless the effect's table declares objects */
+  /* Seconds of work that can wait which this frame may still do; may be infinite. */
+  double patience;
+  /* Tells how many things wait to be drawn in a later frame: the host renders again soon. 0, as
+   * before the first call: the picture is whole. */
   grisaille_result (*waiting)(const struct grisaille_frame* self, uint64_t count);
 
-  /* Since 1.2. Pixels by which every attachment goes beyond the picture on each side: texture
-   * coordinates are what attachmentAt() of shaders/common/view.glsl says. At least what the
-   * effect's guard_band asked for, or 0 where the host has nothing beyond the picture. */
+  /* Pixels by which every attachment goes beyond the picture on each side: texture coordinates are
+   * what attachmentAt() of shaders/common/view.glsl says. At least what the effect's guard_band
+   * asked for, or 0 where the host has nothing beyond the picture. */
   uint32_t guard;
   uint32_t reserved; /* 0 */
 } grisaille_frame;
@@ -373,14 +431,14 @@ typedef struct grisaille_frame {
 /* ---- The effect ------------------------------------------------------------------------------ */
 
 typedef enum grisaille_effect_flags {
-  GRISAILLE_EFFECT_TAKES_SHOTS = 1 /* since 1.1: frames carry the user's shots */
+  GRISAILLE_EFFECT_DEFAULT = 1 /* runs where nobody names effects; only of the program's own */
 } grisaille_effect_flags;
 
 typedef struct grisaille_effect_desc {
   uint32_t struct_size;
   uint32_t param_count;  /* 0 ... 256 */
   uint32_t output_count; /* 1 ... 16 */
-  uint32_t reserved;     /* 0 */
+  uint32_t flags;        /* of grisaille_effect_flags */
   const char* key;       /* "ssao": same alphabet as a parameter's, unique among effects */
   const char* label;     /* for people: "Ambient occlusion" */
   const char* version;   /* "1.0.0" */
@@ -388,9 +446,10 @@ typedef struct grisaille_effect_desc {
   const grisaille_param_desc* params;
   const grisaille_output_desc* outputs;
 
-  /* Which attachments it reads with these values: GRISAILLE_READS(...) combined. May depend on the
-   * arguments alone; called at any time, also without an instance. Cannot fail. */
-  uint32_t (*reads)(const double* values);
+  /* Which attachments it reads with these values for the outputs of which `wanted` holds the bits,
+   * as grisaille_frame.wanted does: GRISAILLE_READS(...) combined. May depend on the arguments
+   * alone; called at any time, also without an instance. Cannot fail. */
+  uint32_t (*reads)(const double* values, uint32_t wanted);
 
   /* Makes an instance; *out is handed to the others. After a failure no other function is called.
    */
@@ -403,18 +462,13 @@ typedef struct grisaille_effect_desc {
   /* Ends an instance. */
   void (*destroy)(void* instance);
 
-  /* Since 1.1. */
-  uint32_t flags;     /* of grisaille_effect_flags */
-  uint32_t reserved2; /* 0 */
-
-  /* Since 1.2; null: reads() answers. Which attachments it reads for the outputs of which `wanted`
-   * holds the bits, as grisaille_frame.wanted does. As reads() otherwise. */
-  uint32_t (*reads_for)(const double* values, uint32_t wanted);
-
-  /* Since 1.2; null: 0. The guard band it wants with these values: by what share of the picture's
-   * height, 0 ... 1, the attachments that it reads go beyond the picture on every side. Effects
-   * without one get attachments of the picture's size, drawn by themselves. */
+  /* Null: 0. The guard band it wants with these values: by what share of the picture's height,
+   * 0 ... 1, the attachments that it reads go beyond the picture on every side. Effects without one
+   * get attachments of the picture's size, drawn by themselves. */
   double (*guard_band)(const double* values);
+
+  /* The objects that users make for it; null: none. */
+  const grisaille_object_desc* objects;
 } grisaille_effect_desc;
 
 typedef struct grisaille_plugin_desc {

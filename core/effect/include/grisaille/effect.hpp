@@ -25,7 +25,7 @@
 //     explicit Mist(plugin::Host host)
 //         : march_(host, "march", grisaille_shader_mist), near_(host.sampler({.label = "n"})) {}
 //
-//     static uint32_t reads(plugin::Values) noexcept {
+//     static uint32_t reads(plugin::Values, uint32_t) noexcept {
 //       return GRISAILLE_READS(GRISAILLE_VIEW_DEPTH);
 //     }
 //
@@ -66,7 +66,6 @@
 #include <cstddef>
 #include <exception>
 #include <initializer_list>
-#include <limits>
 #include <ranges>
 #include <span>
 #include <type_traits>
@@ -140,9 +139,7 @@ class Frame {
   uint32_t width() const { return frame_->width; }  // pixels
   uint32_t height() const { return frame_->height; }
   // Pixels by which attachments go beyond the picture on each side.
-  uint32_t guard() const {
-    return frame_->struct_size >= sizeof(grisaille_frame) ? frame_->guard : 0;
-  }
+  uint32_t guard() const { return frame_->guard; }
   uint64_t index() const { return frame_->index; }  // counts this instance's frames from 0
 
   Values values() const { return Values(frame_->values); }
@@ -168,28 +165,23 @@ class Frame {
     return frame_->outputs[static_cast<size_t>(output)];
   }
 
-  // The user's shots, oldest first; none unless the effect's spec says that it takes them. All in
-  // one array, or Failure.
-  std::span<const grisaille_shot> shots() const {
-    const grisaille_shots* list = shotList();
+  // The objects that users made, oldest first; none unless the effect's table declares them. T is
+  // laid out as that table says. Throws Failure where its size is not the table's.
+  template <typename T>
+  std::span<const T> objects() const {
+    const grisaille_objects* list = frame_->objects;
     if (list == nullptr) return {};
-    if (list->stride != sizeof(grisaille_shot))
-      throw Failure("this host's shots are of another size");
-    return {list->shots, static_cast<size_t>(list->count)};
+    if (list->stride != sizeof(T)) throw Failure("the objects are of another size than their type");
+    return {static_cast<const T*>(list->objects), static_cast<size_t>(list->count)};
   }
-  // So many of the first are those of the frame before.
-  size_t shotsKept() const {
-    const grisaille_shots* list = shotList();
-    return list == nullptr ? 0 : static_cast<size_t>(list->kept);
+  // Number of leading objects unchanged since the last frame that record() ended without throwing.
+  size_t objectsKept() const {
+    return frame_->objects == nullptr ? 0 : static_cast<size_t>(frame_->objects->kept);
   }
   // Seconds of work that can wait which this frame may still do.
-  double patience() const {
-    return since11() ? frame_->patience : std::numeric_limits<double>::infinity();
-  }
-  // So many things wait to be drawn in a later frame.
-  void waiting(uint64_t count) const {
-    if (since11()) require(frame_->waiting(frame_, count), "waiting");
-  }
+  double patience() const { return frame_->patience; }
+  // Tells how many things wait to be drawn in a later frame.
+  void waiting(uint64_t count) const { require(frame_->waiting(frame_, count), "waiting"); }
 
   // Calls work(), which records the pass. Passes do not nest. When work() throws, the pass is ended
   // all the same.
@@ -254,25 +246,10 @@ class Frame {
   }
 
  private:
-  bool since11() const { return frame_->struct_size >= offsetof(grisaille_frame, guard); }
-  const grisaille_shots* shotList() const { return since11() ? frame_->shots : nullptr; }
-
   const grisaille_frame* frame_;
 };
 
 // --- The effect ----------------------------------------------------------------------------------
-
-// An effect says what it reads, as grisaille_effect_desc.reads or as reads_for.
-template <typename E>
-concept ReadsForAll = requires(Values values) {
-  { E::reads(values) }
-  noexcept->std::same_as<uint32_t>;
-};
-template <typename E>
-concept ReadsForWanted = requires(Values values, uint32_t wanted) {
-  { E::reads(values, wanted) }
-  noexcept->std::same_as<uint32_t>;
-};
 
 // It may want a guard band, as grisaille_effect_desc.guard_band has it.
 template <typename E>
@@ -283,7 +260,9 @@ concept WantsGuardBand = requires(Values values) {
 
 template <typename E>
 concept EffectClass = std::constructible_from<E, Host> && std::is_nothrow_destructible_v<E> &&
-    (ReadsForAll<E> || ReadsForWanted<E>)&&requires(E& effect, const Frame& frame) {
+    requires(E& effect, const Frame& frame, Values values, uint32_t wanted) {
+  { E::reads(values, wanted) }
+  noexcept->std::same_as<uint32_t>;
   effect.record(frame);
 };
 
@@ -295,21 +274,17 @@ struct EffectSpec {
   const char* tooltip = nullptr;
   std::span<const grisaille_param_desc> params;
   std::span<const grisaille_output_desc> outputs;
-  bool takesShots = false;
+  const grisaille_object_desc* objects = nullptr;  // null: users make none
+  bool runsByDefault = false;                      // of the program's own effects alone
 };
 
 // The functions that cross, for one class.
 template <EffectClass E>
 class Boundary {
  public:
-  static uint32_t readsFor(const double* values, uint32_t wanted) noexcept {
-    if constexpr (ReadsForWanted<E>) {
-      return E::reads(Values(values), wanted);
-    } else {
-      return E::reads(Values(values));
-    }
+  static uint32_t reads(const double* values, uint32_t wanted) noexcept {
+    return E::reads(Values(values), wanted);
   }
-  static uint32_t reads(const double* values) noexcept { return readsFor(values, ~0u); }
 
   static double guardBand(const double* values) noexcept {
     if constexpr (WantsGuardBand<E>) {
@@ -358,7 +333,7 @@ constexpr grisaille_effect_desc effect(const EffectSpec& spec) {
   return {.struct_size = sizeof(grisaille_effect_desc),
           .param_count = static_cast<uint32_t>(spec.params.size()),
           .output_count = static_cast<uint32_t>(spec.outputs.size()),
-          .reserved = 0,
+          .flags = spec.runsByDefault ? uint32_t{GRISAILLE_EFFECT_DEFAULT} : 0u,
           .key = spec.key,
           .label = spec.label,
           .version = spec.version,
@@ -369,10 +344,8 @@ constexpr grisaille_effect_desc effect(const EffectSpec& spec) {
           .create = Boundary<E>::create,
           .record = Boundary<E>::record,
           .destroy = Boundary<E>::destroy,
-          .flags = spec.takesShots ? uint32_t{GRISAILLE_EFFECT_TAKES_SHOTS} : 0u,
-          .reserved2 = 0,
-          .reads_for = Boundary<E>::readsFor,
-          .guard_band = Boundary<E>::guardBand};
+          .guard_band = Boundary<E>::guardBand,
+          .objects = spec.objects};
 }
 
 }  // namespace grisaille::plugin

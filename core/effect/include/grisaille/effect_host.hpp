@@ -6,6 +6,7 @@
 #include <algorithm>
 #include <bit>
 #include <initializer_list>
+#include <optional>
 #include <span>
 #include <stdexcept>
 #include <string>
@@ -156,12 +157,21 @@ class Host {
   // What each ray hits; false where the host casts none. Only inside record(). As many hits as
   // rays.
   bool castRays(std::span<const grisaille_ray> rays, std::span<grisaille_hit> hits) const {
-    if (host_->abi_minor < 1) return false;
     const grisaille_result result =
         host_->cast_rays(host_, rays.data(), std::min(rays.size(), hits.size()), hits.data());
     if (result == GRISAILLE_UNSUPPORTED) return false;
     require(result, "rays");
     return true;
+  }
+
+  // Decodes a picture file; nothing where this host decodes none or cannot read the file, of which
+  // it warns by itself. Only inside record(). The pixels are valid until the next readPicture() or
+  // the end of record().
+  std::optional<grisaille_picture> readPicture(const char* path) const {
+    grisaille_picture picture = {};
+    picture.struct_size = sizeof(picture);
+    if (host_->read_picture(host_, path, &picture) != GRISAILLE_OK) return std::nullopt;
+    return picture;
   }
 
   Sampler sampler(const SamplerSpec& spec) const {

@@ -3,6 +3,7 @@
 #ifndef GRISAILLE_EFFECT_TABLE_HPP
 #define GRISAILLE_EFFECT_TABLE_HPP
 
+#include <cstddef>
 #include <span>
 #include <stdexcept>
 #include <type_traits>
@@ -147,6 +148,63 @@ constexpr grisaille_output_desc output(const Output& o) {
           .role = static_cast<uint32_t>(o.role),
           .key = o.key,
           .tooltip = o.tooltip};
+}
+
+// A field of the objects that users make, as grisaille_field_desc has it.
+struct Field {
+  const char* key = nullptr;
+  const char* label = nullptr;
+  const char* unit = "";
+  const char* tooltip = nullptr;
+  grisaille_field_type type = GRISAILLE_FIELD_NUMBER;
+  size_t offset = 0;  // offsetof(the effect's struct, the member)
+  double min = 0;     // of a number
+  double max = 0;
+  double defaults[3] = {0, 0, 0};
+  const char* text = nullptr;  // the default of a text or a file
+  bool required = false;       // in files
+};
+
+constexpr grisaille_field_desc field(const Field& f) {
+  return {.struct_size = sizeof(grisaille_field_desc),
+          .type = static_cast<uint32_t>(f.type),
+          .flags = f.required ? uint32_t{GRISAILLE_FIELD_REQUIRED} : 0u,
+          .offset = static_cast<uint32_t>(f.offset),
+          .key = f.key,
+          .label = f.label,
+          .unit = f.unit,
+          .tooltip = f.tooltip,
+          .min = f.min,
+          .max = f.max,
+          .default_value = {f.defaults[0], f.defaults[1], f.defaults[2]},
+          .default_text = f.text};
+}
+
+// The objects that users make for an effect, as grisaille_object_desc has them.
+struct ObjectSpec {
+  const char* key = nullptr;
+  const char* label = nullptr;
+  const char* tooltip = nullptr;
+  std::span<const grisaille_field_desc> fields;  // static
+  grisaille_placement placement = GRISAILLE_PLACE_RAY;
+  uint32_t pointField = 0;  // by index
+  uint32_t directionField = 0;
+};
+
+// `Object`: the effect's struct, which the fields' offsets are of.
+template <typename Object>
+constexpr grisaille_object_desc objects(const ObjectSpec& spec) {
+  static_assert(std::is_standard_layout_v<Object>, "a table of offsets needs a plain struct");
+  return {.struct_size = sizeof(grisaille_object_desc),
+          .object_size = sizeof(Object),
+          .field_count = static_cast<uint32_t>(spec.fields.size()),
+          .placement = static_cast<uint32_t>(spec.placement),
+          .point_field = spec.pointField,
+          .direction_field = spec.directionField,
+          .key = spec.key,
+          .label = spec.label,
+          .tooltip = spec.tooltip,
+          .fields = spec.fields.data()};
 }
 
 // The parameter values of one frame, by index in the table or by an enum that counts like it. A

@@ -1,0 +1,75 @@
+// SPDX-License-Identifier: MIT
+// The effects at work: the selection, the objects that users made for them, and, on a device, an
+// instance of each. Every command, the viewer and libgrisaille hand a chain to what draws.
+#pragma once
+
+#include <map>
+#include <memory>
+#include <string>
+#include <string_view>
+#include <vector>
+
+#include "core/effect/instance.h"
+#include "core/effect/selection.h"
+#include "core/objects/object_list.h"
+
+namespace grisaille::effect {
+
+class Chain {
+ public:
+  Chain() = default;
+  explicit Chain(Selection chosen) : selection(std::move(chosen)) {}
+  Chain(Chain&&) = default;
+  Chain& operator=(Chain&&) = default;
+  ~Chain() = default;
+
+  // Free to be changed, or exchanged for another of the same registry, between frames. Objects and
+  // instances stay with the effect's key.
+  Selection selection;
+
+  // --- Objects, by the effect's key. They are there whether the effect is on or off.
+
+  // Null: the selection has no such effect, or its table declares none.
+  objects::ObjectList* objects(std::string_view effect);
+  // Those that were asked for so far.
+  const std::map<std::string, objects::ObjectList, std::less<>>& objectLists() const {
+    return lists_;
+  }
+  // Grows with every change of any list.
+  uint64_t objectsRevision() const;
+
+  // --- On a device
+
+  // Creates the instances of effects that are on; others follow when they first record. The device
+  // outlives them. Throws kEffectCreate.
+  void start(gpu::Maker& device);
+  // Ends all instances. start() makes new ones.
+  void stop() { running_.clear(); }
+
+  // Records one effect of the selection into the frame that `inputs` describes but for values and
+  // objects. Returns how many things wait to be drawn in a later frame. Throws as Instance does.
+  uint64_t record(const Selection::Entry& entry, FrameInputs inputs);
+
+  // --- Plugins
+
+  // Takes over to a fresh registry, while the old one lives: what is still there keeps its place,
+  // values and objects. Instances end. Returns a line for each thing that is dropped.
+  std::vector<std::string> rebind(const Registry& fresh);
+
+ private:
+  struct Running {
+    std::unique_ptr<Instance> instance;
+    uint64_t seen = 0;  // revision of the objects in the last frame that recorded without an error
+  };
+
+  Running& running(const Effect& effect);
+
+  gpu::Maker* device_ = nullptr;
+  std::map<std::string, objects::ObjectList, std::less<>> lists_;  // by effect
+  std::map<std::string, Running, std::less<>> running_;            // by effect
+};
+
+// The guard band that an effect wants with these values about a picture so high, pixels.
+uint32_t guardBand(const Values& values, uint32_t height);
+
+}  // namespace grisaille::effect

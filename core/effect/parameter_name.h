@@ -1,0 +1,49 @@
+// SPDX-License-Identifier: MIT
+// A parameter by name, "ssao.radius", as the command line, files and reports have it.
+#pragma once
+
+#include <compare>
+#include <string>
+#include <string_view>
+
+#include "core/base/error.h"
+
+namespace grisaille::effect {
+
+struct ParameterName {
+  std::string effect, key;
+
+  std::string text() const { return effect + "." + key; }
+  auto operator<=>(const ParameterName&) const = default;
+};
+
+// "ssao.radius=0.5"
+struct Assignment {
+  ParameterName name;
+  std::string value;  // text, as on the command line
+
+  std::string text() const { return name.text() + "=" + value; }
+  bool operator==(const Assignment&) const = default;
+};
+
+// Throws kUsage.
+inline ParameterName parseParameterName(std::string_view text) {
+  const size_t dot = text.find('.');
+  if (dot == std::string_view::npos || dot == 0 || dot + 1 == text.size()) {
+    throw Error(ErrorId::kUsage, "'{}' is not of the form EFFECT.PARAMETER", oneLine(text));
+  }
+  return {.effect = std::string(text.substr(0, dot)), .key = std::string(text.substr(dot + 1))};
+}
+
+// Throws kUsage.
+inline Assignment parseAssignment(std::string_view text) {
+  const size_t dot = text.find('.'), equals = text.find('=');
+  if (dot == std::string_view::npos || equals == std::string_view::npos || equals < dot) {
+    throw Error(ErrorId::kUsage, "'{}' is not of the form EFFECT.PARAMETER=VALUE", oneLine(text));
+  }
+  return {.name = {.effect = std::string(text.substr(0, dot)),
+                   .key = std::string(text.substr(dot + 1, equals - dot - 1))},
+          .value = std::string(text.substr(equals + 1))};
+}
+
+}  // namespace grisaille::effect

@@ -1,0 +1,242 @@
+// SPDX-License-Identifier: MIT
+#include "core/objects/object.h"
+
+#include <fmt/format.h>
+
+#include <algorithm>
+#include <charconv>
+#include <cmath>
+#include <cstring>
+#include <glm/glm.hpp>
+#include <glm/gtc/color_space.hpp>
+
+#include "core/base/error.h"
+#include "core/base/nearest.h"
+#include "core/base/utf8.h"
+
+namespace grisaille::objects {
+namespace {
+
+using Numbers = std::array<double, 3>;
+
+constexpr double kUnitTolerance = 0x1p-22;  // of the squared length; rounding to floats costs half
+
+template <typename... Args>
+[[noreturn]] void refuse(fmt::format_string<Args...> what, Args&&... args) {
+  throw Error(ErrorId::kObjectField, "{}", fmt::format(what, std::forward<Args>(args)...));
+}
+
+double squaredLength(const Numbers& v) {
+  return v[0] * v[0] + v[1] * v[1] + v[2] * v[2];
+}
+
+Numbers unitOf(const Field& field, const Numbers& direction) {
+  if (std::abs(squaredLength(direction) - 1) <= kUnitTolerance) return direction;
+  const double largest =
+      std::max({std::abs(direction[0]), std::abs(direction[1]), std::abs(direction[2])});
+  if (largest == 0) refuse("{} has no length; give three numbers that are not all 0", field.key);
+  // Squares of very long or short components leave the range of a double; those of shares do not.
+  const Numbers share{direction[0] / largest, direction[1] / largest, direction[2] / largest};
+  const double length = std::sqrt(squaredLength(share));
+  return {share[0] / length, share[1] / length, share[2] / length};
+}
+
+void checkNumbers(const Field& field, const Numbers& numbers) {
+  const size_t count = componentsOf(field);
+  for (size_t i = 0; i < count; ++i) {
+    const std::string name = count == 1 ? field.key : fmt::format("{}[{}]", field.key, i);
+    const double value = numbers[i];
+    if (!std::isfinite(value)) refuse("{} is {}, not a finite number", name, value);
+    double least = field.min, most = field.max;
+    if (field.type == GRISAILLE_FIELD_DIRECTION) continue;
+    if (field.type == GRISAILLE_FIELD_COLOUR) least = 0, most = 1;
+    if (field.type == GRISAILLE_FIELD_POINT) least = -kFarthestPoint, most = kFarthestPoint;
+    if (value < least || value > most)
+      refuse("{} is {}, out of {} to {}", name, value, least, most);
+  }
+}
+
+void checkText(const Field& field, const std::string& text) {
+  if (text.size() > kLongestText) {
+    refuse("{} has {} bytes, more than {}", field.key, text.size(), kLongestText);
+  }
+  if (invalidUtf8(text) != std::string_view::npos) refuse("{} is not UTF-8", field.key);
+  for (const char c : text) {
+    if (static_cast<unsigned char>(c) >= ' ' && c != 127) continue;
+    refuse("{} holds the control character {:#04x}; give one line of text", field.key,
+           static_cast<unsigned char>(c));
+  }
+}
+
+template <typename T>
+void store(std::byte* object, const Field& field, const Numbers& numbers) {
+  for (size_t i = 0; i < componentsOf(field); ++i) {
+    const T value = static_cast<T>(numbers[i] + 0.0);  // -0 becomes 0, which a file can leave out
+    std::memcpy(object + field.offset + i * sizeof(T), &value, sizeof(T));
+  }
+}
+
+template <typename T>
+Numbers load(const std::byte* object, const Field& field) {
+  Numbers numbers{};
+  for (size_t i = 0; i < componentsOf(field); ++i) {
+    T value = 0;
+    std::memcpy(&value, object + field.offset + i * sizeof(T), sizeof(T));
+    numbers[i] = double{value};
+  }
+  return numbers;
+}
+
+bool isDouble(const Field& field) {
+  return field.type == GRISAILLE_FIELD_NUMBER || field.type == GRISAILLE_FIELD_POINT;
+}
+
+Numbers parseColour(const Field& field, std::string_view text) {
+  uint32_t bits = 0;
+  const auto [end, status] = text.size() == 7
+                                 ? std::from_chars(text.data() + 1, text.data() + 7, bits, 16)
+                                 : std::from_chars_result{text.data(), std::errc::invalid_argument};
+  if (text.size() != 7 || text[0] != '#' || status != std::errc() || end != text.data() + 7) {
+    refuse("{} is '{}', not of the form #rrggbb", field.key, oneLine(text));
+  }
+  const glm::vec3 encoded = glm::vec3(bits >> 16, bits >> 8 & 255u, bits & 255u) * (1.0f / 255);
+  const glm::vec3 linear = glm::convertSRGBToLinear(encoded);
+  return {linear.x, linear.y, linear.z};
+}
+
+Numbers parseNumbers(const Field& field, std::string_view text) {
+  const size_t count = componentsOf(field);
+  Numbers numbers{};
+  std::string_view rest = text;
+  for (size_t i = 0; i < count; ++i) {
+    const size_t colon = i + 1 < count ? rest.find(':') : rest.size();
+    const std::string_view one = rest.substr(0, colon);
+    const auto [end, status] = std::from_chars(one.data(), one.data() + one.size(), numbers[i]);
+    if (colon == std::string_view::npos || status != std::errc() ||
+        end != one.data() + one.size()) {
+      refuse("{} is '{}', not {}", field.key, oneLine(text),
+             count == 1 ? "a number" : "three numbers with colons between them");
+    }
+    rest.remove_prefix(std::min(colon + 1, rest.size()));
+  }
+  return numbers;
+}
+
+}  // namespace
+
+const Field& fieldOf(const Table& table, std::string_view key) {
+  std::vector<std::string> keys;
+  for (const Field& field : fieldsOf(table)) {
+    if (key == field.key) return field;
+    keys.emplace_back(field.key);
+  }
+  const std::string near = nearest(key, keys);
+  refuse("there is no field \"{}\"{}; {} have {}", oneLine(key),
+         near.empty() ? "" : ", nearest is " + near, table.key, fmt::join(keys, ", "));
+}
+
+Value defaultOf(const Field& field) {
+  if (isText(field)) return {.text = field.default_text};
+  const double* numbers = field.default_value;
+  return {.numbers = {numbers[0], numbers[1], numbers[2]}, .text = {}};
+}
+
+Value checked(const Field& field, Value value) {
+  if (isText(field)) {
+    checkText(field, value.text);
+  } else {
+    checkNumbers(field, value.numbers);
+    if (field.type == GRISAILLE_FIELD_DIRECTION) value.numbers = unitOf(field, value.numbers);
+  }
+  return value;
+}
+
+Value parseValue(const Field& field, std::string_view text) {
+  if (isText(field)) return checked(field, {.numbers = {}, .text = std::string(text)});
+  const bool colour = field.type == GRISAILLE_FIELD_COLOUR;
+  return checked(field, {.numbers = colour ? parseColour(field, text) : parseNumbers(field, text),
+                         .text = {}});
+}
+
+std::string textOf(const Field& field, const Value& value) {
+  const Numbers& n = value.numbers;
+  if (isText(field)) return value.text;
+  if (field.type == GRISAILLE_FIELD_NUMBER) return fmt::format("{}", n[0]);
+  if (field.type != GRISAILLE_FIELD_COLOUR) return fmt::format("{}:{}:{}", n[0], n[1], n[2]);
+  const glm::vec3 linear(static_cast<float>(n[0]), static_cast<float>(n[1]),
+                         static_cast<float>(n[2]));
+  const glm::uvec3 bytes(glm::round(glm::convertLinearToSRGB(linear) * 255.0f));
+  return fmt::format("#{:02x}{:02x}{:02x}", bytes.x, bytes.y, bytes.z);
+}
+
+Object::Object(const Table& table) {
+  for (const Field& field : fieldsOf(table)) values.push_back(defaultOf(field));
+}
+
+Value& Object::at(const Table& table, std::string_view key) {
+  return values[static_cast<size_t>(&fieldOf(table, key) - table.fields)];
+}
+
+Value View::value(size_t index, const Field& field) const {
+  const std::byte* object = data + index * table->object_size;
+  if (isText(field)) {
+    const char* text = nullptr;
+    std::memcpy(&text, object + field.offset, sizeof(text));
+    return {.numbers = {}, .text = text != nullptr ? text : ""};
+  }
+  return {.numbers = isDouble(field) ? load<double>(object, field) : load<float>(object, field),
+          .text = {}};
+}
+
+Object View::object(size_t index) const {
+  Object object(*table);
+  for (size_t i = 0; i < object.values.size(); ++i) {
+    object.values[i] = value(index, table->fields[i]);
+  }
+  return object;
+}
+
+Objects& Objects::operator=(const Objects& other) {
+  if (this != &other) *this = Objects(other);
+  return *this;
+}
+
+void Objects::append(const Object& object) {
+  Object sound = object;
+  for (size_t i = 0; i < sound.values.size(); ++i) {
+    try {
+      sound.values[i] = checked(table_->fields[i], std::move(sound.values[i]));
+    } catch (const Error& error) {
+      throw Error(error.id(), "{}[{}].{}", table_->key, first_ + size(), error.detail());
+    }
+  }
+  write(sound);
+}
+
+void Objects::append(const View& view) {
+  const size_t before = bytes_.size();
+  try {
+    for (size_t i = 0; i < view.count; ++i) append(view.object(i));
+  } catch (...) {
+    bytes_.resize(before);
+    throw;
+  }
+}
+
+void Objects::write(const Object& object) {
+  bytes_.resize(bytes_.size() + table_->object_size);
+  std::byte* at = bytes_.data() + bytes_.size() - table_->object_size;
+  for (size_t i = 0; i < object.values.size(); ++i) {
+    const Field& field = table_->fields[i];
+    if (isText(field)) {
+      const char* text = texts_.insert(object.values[i].text).first->c_str();
+      std::memcpy(at + field.offset, &text, sizeof(text));
+    } else if (isDouble(field)) {
+      store<double>(at, field, object.values[i].numbers);
+    } else {
+      store<float>(at, field, object.values[i].numbers);
+    }
+  }
+}
+
+}  // namespace grisaille::objects

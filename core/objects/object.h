@@ -1,0 +1,107 @@
+// SPDX-License-Identifier: MIT
+// Objects that users make for an effect, by the effect's table: what a field may be, one object,
+// and many of them as they cross the ABI.
+#pragma once
+
+#include <array>
+#include <cstddef>
+#include <span>
+#include <string>
+#include <string_view>
+#include <unordered_set>
+#include <vector>
+
+#include "grisaille/effect.h"
+
+namespace grisaille::objects {
+
+using Table = grisaille_object_desc;  // checked by effect::checkTable()
+using Field = grisaille_field_desc;
+
+constexpr double kFarthestPoint = 1e9;  // metres from the world's origin, on each axis
+constexpr size_t kLongestText = 4096;   // bytes
+
+inline std::span<const Field> fieldsOf(const Table& table) {
+  return {table.fields, table.field_count};
+}
+inline bool isText(const Field& field) {
+  return field.type == GRISAILLE_FIELD_TEXT || field.type == GRISAILLE_FIELD_FILE;
+}
+// How many numbers a field holds: 1, 3, or 0 for a text.
+inline size_t componentsOf(const Field& field) {
+  return field.type == GRISAILLE_FIELD_NUMBER ? 1 : isText(field) ? 0 : 3;
+}
+
+// Throws kObjectField with the nearest key.
+const Field& fieldOf(const Table& table, std::string_view key);
+
+// The value of one field: numbers, or a text.
+struct Value {
+  std::array<double, 3> numbers{};
+  std::string text;
+
+  bool operator==(const Value&) const = default;
+};
+
+Value defaultOf(const Field& field);
+
+// `value` as a list keeps it: a direction is made unit (one that is unit to the rounding of floats
+// stays as it is, so that no bit changes when it is read back). Throws kObjectField: the field's
+// key, the value, what is allowed.
+Value checked(const Field& field, Value value);
+
+// As on the command line: "0.5", "#ff8000" (sRGB) for a colour, "1:2:3" for a point or a direction,
+// a text as it is. Throws kObjectField.
+Value parseValue(const Field& field, std::string_view text);
+// What parseValue() takes back; a colour is rounded to 8 bits.
+std::string textOf(const Field& field, const Value& value);
+
+// One object, one value a field, in the table's order.
+struct Object {
+  std::vector<Value> values;
+
+  explicit Object(const Table& table);  // all defaults
+  Value& at(const Table& table, std::string_view key);
+  bool operator==(const Object&) const = default;
+};
+
+// Many objects, laid out as the table says. Does not own them.
+struct View {
+  const Table* table = nullptr;
+  const std::byte* data = nullptr;
+  size_t count = 0;
+
+  Value value(size_t index, const Field& field) const;
+  Object object(size_t index) const;
+};
+
+// Objects with the texts that they point to.
+class Objects {
+ public:
+  // `first`: the index that messages give the first object.
+  explicit Objects(const Table& table, size_t first = 0) : table_(&table), first_(first) {}
+  Objects(const Objects& other) : Objects(*other.table_) { append(other.view()); }
+  Objects& operator=(const Objects& other);
+  Objects(Objects&&) = default;
+  Objects& operator=(Objects&&) = default;
+
+  const Table& table() const { return *table_; }
+  size_t size() const { return bytes_.size() / table_->object_size; }
+  View view() const { return {table_, bytes_.data(), size()}; }
+
+  // Checks every field. Throws kObjectField, "shots[3].color ...", and then appends nothing.
+  void append(const Object& object);
+  // Those of a table of the same layout. Checks every field.
+  void append(const View& view);
+  void reserve(size_t count) { bytes_.reserve(count * table_->object_size); }
+
+ private:
+  void write(const Object& object);
+
+  const Table* table_;
+  size_t first_;
+  std::vector<std::byte> bytes_;
+  std::unordered_set<std::string> texts_;
+};
+
+}  // namespace grisaille::objects

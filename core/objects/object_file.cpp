@@ -1,0 +1,287 @@
+// SPDX-License-Identifier: MIT
+#include "core/objects/object_file.h"
+
+#include <fmt/format.h>
+
+#include <algorithm>
+#include <filesystem>
+#include <iterator>
+#include <nlohmann/json.hpp>
+#include <optional>
+#include <string>
+#include <utility>
+#include <vector>
+
+#include "core/base/atomic_file.h"
+#include "core/base/error.h"
+#include "core/base/regular_file.h"
+
+namespace grisaille::objects {
+namespace {
+
+using nlohmann::json;
+using Text = fmt::memory_buffer;
+
+constexpr uint64_t kVersion = 1;
+
+// Reads event by event: a document of a million objects would take several GiB.
+class Reader : public nlohmann::json_sax<json> {
+ public:
+  explicit Reader(const Table& table) : objects_(table), blank_(table), object_(table) {}
+
+  Objects take() {
+    if (version_ != kVersion) {
+      const std::string found = version_ ? fmt::format("{}", *version_) : "missing";
+      throw Error(ErrorId::kObjectFileVersion, "version is {}, not {}", found, kVersion);
+    }
+    if (!hasList_) refuse("", fmt::format("has no \"{}\"", table().key));
+    return std::move(objects_);
+  }
+
+  bool null() override { return wrong("null"); }
+  bool boolean(bool) override { return wrong("a truth value"); }
+  bool binary(binary_t&) override { return wrong("binary"); }
+  bool number_integer(number_integer_t value) override {
+    return number(static_cast<double>(value));
+  }
+  bool number_unsigned(number_unsigned_t value) override {
+    if (place_ == Place::kRoot && key_ == "version") {
+      version_ = value;
+      return true;
+    }
+    return number(static_cast<double>(value));
+  }
+  bool number_float(number_float_t value, const string_t&) override { return number(value); }
+
+  bool string(string_t& text) override {
+    if (place_ != Place::kObject || !isText(field())) return wrong("a text");
+    object_.values[index_].text = text;
+    return true;
+  }
+
+  bool key(string_t& key) override {
+    key_ = key;
+    if (place_ == Place::kRoot) {
+      if (key == "version" || key == table().key) return true;
+      refuse("", fmt::format("has a member \"{}\", which is neither version nor {}", oneLine(key),
+                             table().key));
+    }
+    try {
+      index_ = static_cast<size_t>(&fieldOf(table(), key) - table().fields);
+    } catch (const Error& error) {
+      refuse(objectName(), error.detail());
+    }
+    if (given_[index_]) refuse(fieldName(), "is given twice");
+    given_[index_] = true;
+    return true;
+  }
+
+  bool start_object(size_t) override {
+    if (place_ == Place::kTop) {
+      place_ = Place::kRoot;
+    } else if (place_ == Place::kList) {
+      place_ = Place::kObject;
+      object_ = blank_;
+      given_.assign(table().field_count, false);
+    } else {
+      return wrong("an object");
+    }
+    return true;
+  }
+
+  bool end_object() override {
+    if (place_ == Place::kRoot) {
+      place_ = Place::kTop;
+      return true;
+    }
+    place_ = Place::kList;
+    for (size_t i = 0; i < given_.size(); ++i) {
+      const Field& field = table().fields[i];
+      if (given_[i] || (field.flags & GRISAILLE_FIELD_REQUIRED) == 0) continue;
+      refuse(objectName(), fmt::format("has no \"{}\"", field.key));
+    }
+    try {
+      objects_.append(object_);
+    } catch (const Error& error) {
+      throw Error(ErrorId::kObjectFileInvalid, "{}", error.detail());
+    }
+    return true;
+  }
+
+  bool start_array(size_t) override {
+    if (place_ == Place::kRoot && key_ == table().key) {
+      if (std::exchange(hasList_, true)) refuse(table().key, "is given twice");
+      place_ = Place::kList;
+    } else if (place_ == Place::kObject && componentsOf(field()) == 3) {
+      place_ = Place::kVector;
+      count_ = 0;
+    } else {
+      return wrong("an array");
+    }
+    return true;
+  }
+
+  bool end_array() override {
+    if (place_ == Place::kList) {
+      place_ = Place::kRoot;
+      return true;
+    }
+    if (count_ != 3) refuse(fieldName(), fmt::format("has {} numbers, not 3", count_));
+    place_ = Place::kObject;
+    return true;
+  }
+
+  bool parse_error(size_t, const std::string&, const json::exception& error) override {
+    throw Error(ErrorId::kObjectFileInvalid, "{}", oneLine(error.what()));
+  }
+
+ private:
+  enum class Place : uint8_t { kTop, kRoot, kList, kObject, kVector };
+
+  const Table& table() const { return objects_.table(); }
+  const Field& field() const { return table().fields[index_]; }
+  std::string objectName() const { return fmt::format("{}[{}]", table().key, objects_.size()); }
+  std::string fieldName() const { return objectName() + "." + field().key; }
+
+  [[noreturn]] static void refuse(const std::string& name, const std::string& what) {
+    throw Error(ErrorId::kObjectFileInvalid, "{}{}{}", name, name.empty() ? "it " : " ", what);
+  }
+
+  bool number(double value) {
+    if (place_ == Place::kVector) {
+      if (count_ == 3) refuse(fieldName(), "has more than 3 numbers");
+      object_.values[index_].numbers[count_++] = value;
+    } else if (place_ == Place::kObject && componentsOf(field()) == 1) {
+      object_.values[index_].numbers[0] = value;
+    } else {
+      return wrong("a number");
+    }
+    return true;
+  }
+
+  bool wrong(const char* found) const {
+    switch (place_) {
+      case Place::kTop:
+        refuse("", fmt::format("is {}, not an object", found));
+      case Place::kRoot:
+        refuse(key_, fmt::format("is {}, not {}", found,
+                                 key_ == "version" ? "a whole number" : "an array"));
+      case Place::kList:
+        refuse(objectName(), fmt::format("is {}, not an object", found));
+      case Place::kVector:
+        refuse(fieldName(), fmt::format("holds {}, not three numbers", found));
+      default:
+        refuse(fieldName(), fmt::format("is {}, not {}", found,
+                                        isText(field())              ? "a text"
+                                        : componentsOf(field()) == 1 ? "a number"
+                                                                     : "an array of 3 numbers"));
+    }
+  }
+
+  Objects objects_;
+  const Object blank_;
+  Object object_;
+  std::vector<bool> given_;  // fields of object_
+  Place place_ = Place::kTop;
+  std::string key_;
+  size_t index_ = 0;  // of the field
+  size_t count_ = 0;  // numbers of the vector
+  std::optional<uint64_t> version_;
+  bool hasList_ = false;
+};
+
+Objects parse(const Table& table, std::string_view text) {
+  Reader reader(table);
+  json::sax_parse(text.begin(), text.end(), &reader);
+  return reader.take();
+}
+
+// The fewest digits that bring back the same float. Where reading them as a double first rounds
+// another way, those of the double.
+void putNumber(Text& text, const Field& field, double value) {
+  const bool isFloat =
+      field.type == GRISAILLE_FIELD_COLOUR || field.type == GRISAILLE_FIELD_DIRECTION;
+  if (isFloat) {
+    const auto single = static_cast<float>(value);
+    const std::string digits = fmt::format("{}", single);
+    if (static_cast<float>(std::stod(digits)) == single) {
+      text.append(std::string_view(digits));
+      return;
+    }
+  }
+  fmt::format_to(std::back_inserter(text), "{}", value);
+}
+
+void putField(Text& text, const Field& field, const Value& value) {
+  fmt::format_to(std::back_inserter(text), "\"{}\": ", field.key);
+  if (isText(field)) {
+    text.append(json(value.text).dump());
+    return;
+  }
+  const size_t count = componentsOf(field);
+  if (count == 3) text.push_back('[');
+  for (size_t i = 0; i < count; ++i) {
+    if (i > 0) text.append(std::string_view(", "));
+    putNumber(text, field, value.numbers[i]);
+  }
+  if (count == 3) text.push_back(']');
+}
+
+void putObject(Text& text, const View& objects, size_t index) {
+  bool first = true;
+  text.push_back('{');
+  for (const Field& field : fieldsOf(*objects.table)) {
+    const Value value = objects.value(index, field);
+    if ((field.flags & GRISAILLE_FIELD_REQUIRED) == 0 && value == defaultOf(field)) continue;
+    if (!std::exchange(first, false)) text.append(std::string_view(", "));
+    putField(text, field, value);
+  }
+  text.push_back('}');
+}
+
+}  // namespace
+
+void checkEnding(const std::string& path) {
+  std::string ending = std::filesystem::path(path).extension().string();
+  std::ranges::transform(ending, ending.begin(), [](char c) {
+    return c >= 'A' && c <= 'Z' ? static_cast<char>(c + 32) : c;
+  });
+  if (ending == ".json") return;
+  throw Error(ErrorId::kObjectFileEnding, "{}: the ending \"{}\" is not .json", path, ending);
+}
+
+void save(const View& objects, const std::string& path) {
+  checkEnding(path);
+  Text text;
+  fmt::format_to(std::back_inserter(text), "{{\"version\": {}, \"{}\": [", kVersion,
+                 objects.table->key);
+  for (size_t i = 0; i < objects.count; ++i) {
+    text.append(std::string_view(i == 0 ? "\n" : ",\n"));
+    putObject(text, objects, i);
+  }
+  text.append(std::string_view("\n]}\n"));
+  writeFileAtomically(path, {text.data(), text.size()});
+}
+
+Objects load(const Table& table, const std::string& path) {
+  const std::string text = readRegularFile(path, ErrorId::kObjectFileUnreadable);
+  try {
+    return parse(table, text);
+  } catch (const Error& error) {
+    throw Error(error.id(), "{}: {}", path, error.detail());
+  }
+}
+
+Object parseObject(const Table& table, std::string_view text) {
+  try {
+    const std::string file =
+        fmt::format("{{\"version\": {}, \"{}\": [{}]}}", kVersion, table.key, text);
+    const Objects objects = parse(table, file);
+    if (objects.size() == 1) return objects.view().object(0);
+    throw Error(ErrorId::kObjectField, "there are {} objects, not one", objects.size());
+  } catch (const Error& error) {
+    throw Error(ErrorId::kObjectField, "{}", error.detail());
+  }
+}
+
+}  // namespace grisaille::objects
