@@ -66,7 +66,7 @@ struct ApplyJob : ChosenEffects {
       throw Error(ErrorId::kUsage, "--far {} is no farther than --near {}", options.far,
                   options.near);
     }
-    for (const Output& output : outputs) frame::checkOutput(output.name, active->effects());
+    for (const Output& output : outputs) frame::checkOutput(output.name, chain.selection.effects());
     findFrames();
     requireDistinctOutputs();
   }
@@ -189,9 +189,8 @@ void writeOutputs(const ApplyJob& job, int number, const scene::Camera& camera,
   }
 }
 
-void applyFrames(const ApplyJob& job, LoadedFrame loaded, gpu::Device& device) {
-  const auto instances = job.active->start(device);
-  const std::vector<frame::ActiveEffect> effects = job.active->with(instances);
+void applyFrames(ApplyJob& job, LoadedFrame loaded, gpu::Device& device) {
+  const effect::StartedChain started(job.chain, device);
   std::vector<std::string> names;
   for (const Output& output : job.outputs) names.push_back(output.name);
   frame::PictureAttachments source;
@@ -209,7 +208,7 @@ void applyFrames(const ApplyJob& job, LoadedFrame loaded, gpu::Device& device) {
                        .width = source.width(),
                        .height = source.height(),
                        .surface = job.surface,
-                       .effects = effects,
+                       .chain = &job.chain,
                        .outputs = names});
       writeOutputs(job, number, loaded.camera, renderer);
     }
@@ -225,7 +224,7 @@ void applyFrames(const ApplyJob& job, LoadedFrame loaded, gpu::Device& device) {
 }
 
 void apply(const ApplyOptions& options) {
-  const ApplyJob job(options);
+  ApplyJob job(options);
   LoadedFrame first = load(job, job.frames.front());  // what does not fit is known before the rest
   DriverMessages messages;
   {

@@ -4,7 +4,7 @@
 #include <fmt/format.h>
 
 #include <algorithm>
-#include <glm/gtc/color_space.hpp>
+#include <glm/glm.hpp>
 #include <map>
 
 namespace grisaille::app {
@@ -12,33 +12,31 @@ namespace {
 
 constexpr double kLeastCosine = 0.1;
 
-std::string hexOf(const grisaille_shot& shot) {
-  const glm::vec3 linear(shot.color[0], shot.color[1], shot.color[2]);
-  const glm::uvec3 bytes(glm::round(glm::convertLinearToSRGB(linear) * 255.0f));
-  return fmt::format("#{:02x}{:02x}{:02x}", bytes.x, bytes.y, bytes.z);
-}
-
 }  // namespace
 
-std::optional<Painter> findPainter(std::span<const effect::Effect* const> effects) {
+std::optional<Owned> findOwned(std::span<const effect::Effect* const> effects) {
   for (const effect::Effect* effect : effects) {
-    Painter painter{.effect = effect->desc->key, .paint = {}, .owner = {}};
+    if (effect->objects() == nullptr) continue;
+    Owned owned{.effect = effect->desc->key, .overlay = {}, .owner = {}};
     for (const grisaille_output_desc& output : effect->outputs()) {
-      const std::string name = painter.effect + "." + output.key;
-      if (output.role == GRISAILLE_ROLE_PAINT) painter.paint = name;
-      if (output.role == GRISAILLE_ROLE_OWNER) painter.owner = name;
+      const std::string name = owned.effect + "." + output.key;
+      if (output.role == GRISAILLE_ROLE_OVERLAY) owned.overlay = name;
+      if (output.role == GRISAILLE_ROLE_OWNER) owned.owner = name;
     }
-    if (!painter.paint.empty() && !painter.owner.empty()) return painter;
+    for (const objects::Field& field : objects::fieldsOf(*effect->objects())) {
+      if (field.type == GRISAILLE_FIELD_COLOUR && owned.colour == nullptr) owned.colour = &field;
+    }
+    if (!owned.overlay.empty() && !owned.owner.empty() && owned.colour != nullptr) return owned;
   }
   return std::nullopt;
 }
 
-std::vector<ColorShare> colorShares(const image::Image& owner, const image::Image& paint,
+std::vector<ColorShare> colorShares(const image::Image& owner, const image::Image& overlay,
                                     const image::Image& depth, const image::Image& normal,
-                                    const scene::Camera& camera,
-                                    std::span<const grisaille_shot> shots) {
+                                    const scene::Camera& camera, const objects::View& objects,
+                                    const objects::Field& colour) {
   std::map<std::string, double> areas;
-  double unpainted = 0, all = 0;
+  double nobodys = 0, all = 0;
   for (uint32_t y = 0; y < depth.height; ++y) {
     for (uint32_t x = 0; x < depth.width; ++x) {
       const double z = depth.at(x, y);
@@ -50,10 +48,12 @@ std::vector<ColorShare> colorShares(const image::Image& owner, const image::Imag
       const double length = glm::length(ray);
       const double cosine = std::max(std::abs(glm::dot(n, ray)) / length, kLeastCosine);
       const double area = z * z / (cosine * length);
-      const auto shot = static_cast<size_t>(owner.at(x, y));
-      const double alpha = shot == 0 || shot > shots.size() ? 0.0 : double{paint.at(x, y, 3)};
-      if (alpha > 0) areas[hexOf(shots[shot - 1])] += alpha * area;
-      unpainted += (1 - alpha) * area;
+      const auto own = static_cast<size_t>(owner.at(x, y));
+      const double alpha = own == 0 || own > objects.count ? 0.0 : double{overlay.at(x, y, 3)};
+      if (alpha > 0) {
+        areas[objects::textOf(colour, objects.value(own - 1, colour))] += alpha * area;
+      }
+      nobodys += (1 - alpha) * area;
       all += area;
     }
   }
@@ -61,7 +61,7 @@ std::vector<ColorShare> colorShares(const image::Image& owner, const image::Imag
   for (const auto& [color, area] : areas) shares.push_back({color, area / all});
   std::stable_sort(shares.begin(), shares.end(),
                    [](const ColorShare& a, const ColorShare& b) { return a.share > b.share; });
-  shares.push_back({"none", all > 0 ? unpainted / all : 1.0});
+  shares.push_back({"none", all > 0 ? nobodys / all : 1.0});
   return shares;
 }
 

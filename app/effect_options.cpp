@@ -11,7 +11,7 @@ CLI::Option* EffectOptions::addTo(CLI::App& command, const std::string& help) {
   command.add_option("--device", device, "Number or part of the name, see `grisaille backends`")
       ->type_name("N|NAME");
   effectsGiven =
-      command.add_option("--effects", effects, "Effects in the order they run; default: ssao")
+      command.add_option("--effects", effects, "Effects in the order they run; default: those that `grisaille effects` marks")
           ->type_name("KEY,...")
           ->delimiter(',')
           ->expected(0, 64);
@@ -44,13 +44,14 @@ ChosenEffects::ChosenEffects(const EffectOptions& options)
     return option != nullptr && !option->empty();
   };
   const Settings settings = options.config.empty() ? Settings{} : readSettings(options.config);
-  std::vector<std::string> keys =
-      given(options.effectsGiven) || !settings.effects ? options.effects : *settings.effects;
+  std::vector<std::string> keys = given(options.effectsGiven) ? options.effects
+                                  : settings.effects          ? *settings.effects
+                                                              : registry->defaults();
   std::erase(keys, "");
-  active.emplace(*registry, keys);
-  applyPresets(options.presets, *active);
-  applySettings(settings, *active);
-  for (const std::string& assignment : options.sets) active->set(assignment);
+  chain = effect::Chain(effect::Selection(*registry, keys));
+  applyPresets(options.presets, chain.selection);
+  applySettings(settings, chain.selection);
+  for (const std::string& set : options.sets) chain.selection.set(effect::parseAssignment(set));
   const std::string& ground =
       given(options.surfaceGiven) || !settings.surface ? options.surface : *settings.surface;
   if (ground == "base") surface = frame::Surface::kBaseColour;

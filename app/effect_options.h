@@ -5,18 +5,18 @@
 
 #include <CLI/CLI.hpp>
 #include <memory>
-#include <optional>
 #include <string>
 #include <vector>
 
-#include "app/active_effects.h"
+#include "app/load_effects.h"
 #include "app/settings.h"
+#include "core/effect/chain.h"
 #include "core/frame/renderer.h"
 
 namespace grisaille::app {
 
 struct EffectOptions {
-  std::vector<std::string> effects = kDefaultEffects, presets, sets, writes, pluginPaths;
+  std::vector<std::string> effects, presets, sets, writes, pluginPaths;
   std::string surface = "white", backend, device, config;
   bool check = false;
   // Null before addTo(): whether the command line has them.
@@ -26,10 +26,10 @@ struct EffectOptions {
   CLI::Option* addTo(CLI::App& command, const std::string& help);
 };
 
-// The effects that options ask for, with their values.
+// The chain that options ask for.
 struct ChosenEffects {
   std::unique_ptr<effect::Registry> registry;
-  std::optional<ActiveEffects> active;
+  effect::Chain chain;
   frame::Surface surface = frame::Surface::kWhite;
 
   // Presets, the file of settings, and single values go over one another in this order. Throws as

@@ -52,7 +52,7 @@ MeasureJob::MeasureJob(const MeasureOptions& options) {
   std::vector<std::string> swept;
   for (const std::string& text : options.sweeps) {
     sweeps.push_back(study::parseSweep(*registry, text));
-    swept.push_back(sweeps.back().effect);
+    swept.push_back(sweeps.back().name.effect);
   }
   const study::Shard shard = study::parseShard(options.shard);
   const std::vector<study::Setting> grid = study::gridOf(sweeps);

@@ -5,7 +5,6 @@
 #include <algorithm>
 #include <set>
 
-#include "app/active_effects.h"
 #include "app/toml_values.h"
 #include "core/base/error.h"
 
@@ -124,13 +123,13 @@ std::string priceOf(const Preset& preset) {
   return fmt::format("error {:.3f}, cost {:.2f} x balanced", preset.error, preset.cost);
 }
 
-void applyPresets(const std::vector<std::string>& assignments, ActiveEffects& active) {
+void applyPresets(const std::vector<std::string>& assignments, effect::Selection& selection) {
   for (const std::string& text : assignments) {
     const size_t equals = text.find('=');
     if (equals == std::string::npos) {
       throw Error(ErrorId::kUsage, "--preset '{}' is not of the form EFFECT=NAME", text);
     }
-    effect::Values& values = active.values(text.substr(0, equals));
+    effect::Values& values = selection.values(text.substr(0, equals));
     applyPreset(values, loadPresets(values.effect()), text.substr(equals + 1));
   }
 }

@@ -14,12 +14,9 @@
 #include <utility>
 #include <vector>
 
-#include "core/effect/registry.h"
-#include "core/effect/values.h"
+#include "core/effect/selection.h"
 
 namespace grisaille::app {
-
-class ActiveEffects;
 
 inline constexpr const char* kPresetNames[] = {"fast", "balanced", "fine", "reference"};
 
@@ -64,6 +61,6 @@ std::string priceOf(const Preset& preset);
 
 // "ssao=balanced", one after the other. Throws kUsage, kEffectUnknown where the effect is not
 // active, kPresetUnknown, kPresetFile.
-void applyPresets(const std::vector<std::string>& assignments, ActiveEffects& active);
+void applyPresets(const std::vector<std::string>& assignments, effect::Selection& selection);
 
 }  // namespace grisaille::app

@@ -13,15 +13,13 @@
 #include "app/effect_options.h"
 #include "app/option_checks.h"
 #include "app/output_file.h"
-#include "app/scene_rays.h"
-#include "app/shot_options.h"
+#include "app/object_options.h"
+#include "app/scene_services.h"
 #include "app/size.h"
 #include "app/start_device.h"
 #include "app/timings.h"
 #include "core/base/atomic_file.h"
 #include "core/base/error.h"
-#include "core/effect/rays_in_turn.h"
-#include "core/frame/depth_rays.h"
 #include "core/image/image.h"
 #include "core/scene/camera_matrices.h"
 
@@ -29,35 +27,35 @@ namespace grisaille::app {
 namespace {
 
 struct RenderOptions : EffectOptions {
-  std::string scene, camera, size, timings, rays = "scene";
-  ShotOptions shots;
+  std::string scene, camera, size, timings, coverage;
+  ObjectOptions objects;
   uint32_t frames = 1;
 };
 
 // What the command line asks for, checked before anything slow is done.
 struct RenderJob : ChosenEffects {
   std::vector<OutputFile> writes;
-  std::optional<Shots> shots;
   scene::Scene scene;
   scene::Camera camera;
   glm::uvec2 size = glm::uvec2(1280, 720);
 
-  // The effect that --coverage counts.
-  std::optional<Painter> painter;
+  // What --coverage counts.
+  std::optional<Owned> owned;
 
   explicit RenderJob(const RenderOptions& options)
       : ChosenEffects(options), writes(parseOutputFiles(options.writes)) {
-    if (options.timings == "-" && options.shots.coverage == "-") {
+    if (options.timings == "-" && options.coverage == "-") {
       throw Error(ErrorId::kUsage, "--timings and --coverage cannot both be standard output");
     }
     if (writes.empty()) writes.push_back({.output = "color", .file = "grisaille.png"});
     requireDistinctOutputs(options);
-    for (const std::string& file : {options.timings, options.shots.coverage}) {
+    for (const std::string& file : {options.timings, options.coverage}) {
       if (!file.empty() && file != "-") requireWritable(file);
     }
     glm::uvec2 given(0);
     if (!options.size.empty()) given = parseSize(options.size);
-    for (const OutputFile& write : writes) frame::checkOutput(write.output, active->effects());
+    for (const OutputFile& write : writes) frame::checkOutput(write.output, chain.selection.effects());
+    options.objects.check(chain);
 
     if (!options.camera.empty()) camera = cameraOf(options.camera, "--camera");
     scene = options.scene.empty() ? scene::makeAtrium() : scene::loadGltf(options.scene);
@@ -66,12 +64,11 @@ struct RenderJob : ChosenEffects {
     }
     if (camera.size.x > 0) size = camera.size;
     if (given.x > 0) size = given;
-    shots.emplace(options.shots, *active, camera, size);
-    if (options.shots.coverage.empty()) return;
-    painter = findPainter(active->effects());
-    if (!painter) {
-      throw Error(ErrorId::kEffectTakesNoShots,
-                  "--coverage is given, but no active effect tells whose its paint is");
+    if (options.coverage.empty()) return;
+    owned = findOwned(chain.selection.effects());
+    if (!owned) {
+      throw Error(ErrorId::kEffectTakesNoObjects,
+                  "--coverage is given, but no active effect tells whose object lies where");
     }
   }
 
@@ -81,18 +78,17 @@ struct RenderJob : ChosenEffects {
 
 void RenderJob::requireDistinctOutputs(const RenderOptions& options) const {
   std::vector<NamedOutput> outputs = namedOutputs(writes);
-  for (const std::string& text : options.shots.saves) {
-    outputs.push_back({"--save " + text, text.substr(text.find('=') + 1)});
-  }
+  const std::vector<NamedOutput> saves = options.objects.outputs();
+  outputs.insert(outputs.end(), saves.begin(), saves.end());
   if (options.timings != "-") outputs.push_back({"--timings " + options.timings, options.timings});
-  const std::string& coverage = options.shots.coverage;
+  const std::string& coverage = options.coverage;
   if (coverage != "-") outputs.push_back({"--coverage " + coverage, coverage});
   requireDistinct(outputs);
 }
 
 // Standard output is for a table where one was asked for there.
 std::FILE* notesOf(const RenderOptions& options) {
-  return options.timings == "-" || options.shots.coverage == "-" ? stderr : stdout;
+  return options.timings == "-" || options.coverage == "-" ? stderr : stdout;
 }
 
 void writeText(const std::string& file, const std::string& text) {
@@ -111,70 +107,53 @@ void writeTimings(const RenderOptions& options, gpu::Device& device) {
   if (!doubt.empty()) fmt::print(stderr, "warning: {}\n", doubt);
 }
 
-void writeCoverage(const RenderOptions& options, const RenderJob& job, frame::Renderer& renderer) {
+void writeCoverage(const RenderOptions& options, RenderJob& job, frame::Renderer& renderer) {
   const auto shares = colorShares(
-      renderer.read(job.painter->owner), renderer.read(job.painter->paint), renderer.read("depth"),
-      renderer.read("facet_normal"), job.camera, job.shots->of(job.painter->effect));
-  writeText(options.shots.coverage, coverageCsv(shares));
+      renderer.read(job.owned->owner), renderer.read(job.owned->overlay), renderer.read("depth"),
+      renderer.read("facet_normal"), job.camera, job.chain.objects(job.owned->effect)->view(),
+      *job.owned->colour);
+  writeText(options.coverage, coverageCsv(shares));
 }
 
-// What the effects' rays hit: the scene, or what a frame of it shows, drawn for that alone.
-std::unique_ptr<effect::RayService> makeRays(const RenderOptions& options, const RenderJob& job,
-                                             frame::Renderer& renderer) {
-  auto scene = std::make_unique<SceneRays>(job.scene);
-  if (options.rays == "scene") return scene;
-  const std::vector<std::string> outputs = {"depth", "facet_normal"};
-  renderer.render({.camera = job.camera,
-                   .width = job.size.x,
-                   .height = job.size.y,
-                   .effects = {},
-                   .outputs = outputs});
-  auto depth = std::make_unique<frame::DepthRays>(renderer.read("depth"),
-                                                  renderer.read("facet_normal"), job.camera);
-  if (options.rays == "depth") return depth;
-  return std::make_unique<effect::RaysInTurn>(std::move(depth), std::move(scene));
-}
-
-void renderFrames(const RenderOptions& options, const RenderJob& job, gpu::Device& device) {
-  const auto instances = job.active->start(device);
-  std::vector<frame::ActiveEffect> effects = job.active->with(instances);
-  for (frame::ActiveEffect& active : effects) {
-    active.shots = job.shots->of(active.effect().desc->key);
-  }
-  std::vector<std::string> outputs;
-  for (const OutputFile& write : job.writes) outputs.push_back(write.output);
-  if (job.painter) {
-    outputs.insert(outputs.end(),
-                   {job.painter->owner, job.painter->paint, "depth", "facet_normal"});
-  }
-  frame::Renderer renderer(device, job.scene);
-  const auto rays = makeRays(options, job, renderer);
-  for (uint32_t i = 0; i < options.frames; ++i) {
-    renderer.render({.camera = job.camera,
-                     .width = job.size.x,
-                     .height = job.size.y,
-                     .surface = job.surface,
-                     .effects = effects,
-                     .outputs = outputs,
-                     .rays = rays.get()});
-    for (frame::ActiveEffect& active : effects) active.shotsKept = active.shots.size();
-  }
+void writeOutputs(const RenderOptions& options, const RenderJob& job, frame::Renderer& renderer) {
   for (const OutputFile& write : job.writes) {
     writeOutput(renderer.read(write.output), write,
                 {.transfer = frame::transferOf(write.output),
                  .matrices = scene::matricesOf(job.camera, job.size.x, job.size.y)});
     fmt::print(notesOf(options), "wrote {}\n", write.file);
   }
-  if (job.painter) writeCoverage(options, job, renderer);
-  job.shots->save();
+}
+
+void renderFrames(const RenderOptions& options, RenderJob& job, gpu::Device& device) {
+  SceneServices services(job.scene);
+  options.objects.apply(job.chain, job.camera, job.size, services.rays());
+  const effect::StartedChain started(job.chain, device);
+  std::vector<std::string> outputs;
+  for (const OutputFile& write : job.writes) outputs.push_back(write.output);
+  if (job.owned) {
+    outputs.insert(outputs.end(), {job.owned->owner, job.owned->overlay, "depth", "facet_normal"});
+  }
+  frame::Renderer renderer(device, job.scene);
+  for (uint32_t i = 0; i < options.frames; ++i) {
+    renderer.render({.camera = job.camera,
+                     .width = job.size.x,
+                     .height = job.size.y,
+                     .surface = job.surface,
+                     .chain = &job.chain,
+                     .outputs = outputs,
+                     .services = services.all()});
+  }
+  writeOutputs(options, job, renderer);
+  if (job.owned) writeCoverage(options, job, renderer);
+  options.objects.save(job.chain);
   if (renderer.waiting() > 0) {
-    fmt::print(stderr, "warning: {} shots wait, since nothing tells where they land\n",
+    fmt::print(stderr, "warning: {} objects are not drawn: they wait for rays that nobody casts\n",
                renderer.waiting());
   }
 }
 
 void render(const RenderOptions& options) {
-  const RenderJob job(options);
+  RenderJob job(options);
   DriverMessages messages;
   {
     const auto device = startDevice(options.backend, {.device = options.device,
@@ -211,14 +190,12 @@ void addRender(CLI::App& program) {
   command
       ->add_option("--timings", options->timings, "CSV of every pass's time; -: to standard output")
       ->type_name("FILE.csv|-");
-  options->shots.addTo(*command);
+  options->objects.addTo(*command);
   command
-      ->add_option(
-          "--rays", options->rays,
-          "What tells where shots land: the scene; the depth of a first frame, which "
-          "leaves waiting what it does not show; or that depth, and the scene for the rest")
-      ->check(CLI::IsMember({"scene", "depth", "both"}))
-      ->capture_default_str();
+      ->add_option("--coverage", options->coverage,
+                   "CSV of the share of the visible surface that objects of each colour hold; -: to "
+                   "standard output")
+      ->type_name("FILE.csv|-");
   command->callback([options] { render(*options); });
 }
 

@@ -3,7 +3,6 @@
 
 #include <algorithm>
 
-#include "app/active_effects.h"
 #include "app/toml_values.h"
 #include "core/base/atomic_file.h"
 #include "core/base/error.h"
@@ -57,8 +56,9 @@ std::string tableToml(const Settings& settings, const std::string& effect) {
   }
   std::vector<const Settings::Value*> values;
   for (const Settings::Value& value : settings.values) {
-    if (value.effect != effect) continue;
-    const auto same = std::ranges::find(values, value.key, &Settings::Value::key);
+    if (value.name.effect != effect) continue;
+    const auto same = std::ranges::find_if(
+        values, [&](const Settings::Value* one) { return one->name.key == value.name.key; });
     if (same == values.end()) {
       values.push_back(&value);
     } else {
@@ -67,7 +67,7 @@ std::string tableToml(const Settings& settings, const std::string& effect) {
   }
   std::string text = fmt::format("\n[{}]\n", keyToml(effect));
   for (const Settings::Value* value : values) {
-    text += fmt::format("{} = {}\n", keyToml(value->key), tomlValue(value->text));
+    text += fmt::format("{} = {}\n", keyToml(value->name.key), tomlValue(value->text));
   }
   return text;
 }
@@ -85,8 +85,7 @@ Settings readSettings(const std::string& path) {
     } else if (const toml::table* values = node.as_table()) {
       for (const auto& [parameter, value] : *values) {
         settings.values.push_back(
-            {.effect = std::string(key.str()),
-             .key = std::string(parameter.str()),
+            {.name = {.effect = std::string(key.str()), .key = std::string(parameter.str())},
              .text = tomlNodeText(value, parameter.str(), placeOf(path, value)),
              .place = placeOf(path, value)});
       }
@@ -111,7 +110,8 @@ std::string settingsToml(const Settings& settings) {
   if (settings.surface) text += fmt::format("surface = {}\n", tomlText(*settings.surface));
   std::vector<std::string> effects;
   for (const Settings::Value& value : settings.values) {
-    if (std::ranges::find(effects, value.effect) == effects.end()) effects.push_back(value.effect);
+    const std::string& effect = value.name.effect;
+    if (std::ranges::find(effects, effect) == effects.end()) effects.push_back(effect);
   }
   for (const std::string& effect : effects) text += tableToml(settings, effect);
   return text;
@@ -121,15 +121,30 @@ void writeSettings(const Settings& settings, const std::string& path) {
   writeFileAtomically(path, settingsToml(settings));
 }
 
-void applySettings(const Settings& settings, ActiveEffects& active) {
+void applySettings(const Settings& settings, effect::Selection& selection) {
   for (const Settings::Value& value : settings.values) {
     try {
-      active.values(value.effect).set(value.key, value.text);
+      selection.set({.name = value.name, .value = value.text});
     } catch (const Error& error) {
       if (value.place.empty()) throw;
       throw Error(error.id(), "{}: {}", value.place, error.detail());
     }
   }
+}
+
+Settings settingsOf(const effect::Selection& selection) {
+  Settings settings;
+  settings.effects.emplace();
+  for (const effect::Selection::Entry& entry : selection.entries()) {
+    if (!entry.on) continue;
+    settings.effects->emplace_back(entry.key());
+    for (const grisaille_param_desc& param : entry.effect().params()) {
+      settings.values.push_back({.name = {.effect = entry.key(), .key = param.key},
+                                 .text = entry.values.text(param.key),
+                                 .place = {}});
+    }
+  }
+  return settings;
 }
 
 }  // namespace grisaille::app

@@ -13,16 +13,13 @@
 #include <string>
 #include <vector>
 
+#include "core/effect/selection.h"
+
 namespace grisaille::app {
-
-class ActiveEffects;
-
-// What runs where nothing names the effects.
-inline const std::vector<std::string> kDefaultEffects = {"ssao"};
 
 struct Settings {
   struct Value {
-    std::string effect, key;
+    effect::ParameterName name;
     std::string text;   // as on the command line
     std::string place;  // "file:line", for messages; "": of no file
   };
@@ -42,7 +39,10 @@ std::string settingsToml(const Settings& settings);
 // Writes the file aside and renames it. Throws kFileUnwritable, and as settingsToml() does.
 void writeSettings(const Settings& settings, const std::string& path);
 
-// Sets the values. Throws as ActiveEffects does, with the place.
-void applySettings(const Settings& settings, ActiveEffects& active);
+// Sets the values. Throws as Selection::set() does, with the place.
+void applySettings(const Settings& settings, effect::Selection& selection);
+
+// The effects that are on, in order, with all their values.
+Settings settingsOf(const effect::Selection& selection);
 
 }  // namespace grisaille::app

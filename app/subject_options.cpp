@@ -10,39 +10,34 @@
 
 #include "app/camera_option.h"
 #include "app/option_checks.h"
-#include "app/settings.h"
+#include "app/object_options.h"
 #include "app/size.h"
 #include "app/truth/content_hash.h"
 #include "app/truth/occlusion_truth.h"
-#include "app/viewer/command_line.h"
 #include "core/base/error.h"
 #include "core/base/quote.h"
-#include "core/shots/shot_file.h"
-#include "core/trace/paint_mask.h"
+#include "core/objects/object_file.h"
 
 namespace grisaille::app {
 namespace {
 
 namespace fs = std::filesystem;
 
-bool hasOneChannel(const grisaille_output_desc& output) {
-  return output.format == GRISAILLE_FORMAT_R8 || output.format == GRISAILLE_FORMAT_R16F ||
-         output.format == GRISAILLE_FORMAT_R32F;
-}
-
-// With paint, the first output of one channel of the effect that takes shots; else the first
-// visibility.
-std::string defaultOutput(const ActiveEffects& active, bool paint) {
-  for (const effect::Effect* effect : active.effects()) {
-    if (paint && !effect->takesShots()) continue;
+std::string defaultOutput(const effect::Selection& selection) {
+  for (const effect::Effect* effect : selection.effects()) {
     for (const grisaille_output_desc& output : effect->outputs()) {
-      if (paint ? hasOneChannel(output) : output.role == GRISAILLE_ROLE_VISIBILITY) {
-        return std::string(effect->desc->key) + "." + output.key;
-      }
+      if (output.role != GRISAILLE_ROLE_VISIBILITY) continue;
+      return std::string(effect->key()) + "." + output.key;
     }
   }
-  throw Error(ErrorId::kUsage, "no effect has {}; name an --output",
-              paint ? "paint of one channel" : "a visibility");
+  throw Error(ErrorId::kUsage, "no effect has a visibility; name an --output");
+}
+
+// Where a view shows no surface there is no truth.
+void onSurfacesAlone(study::View& view, std::span<const trace::Hit> hits) {
+  for (size_t i = 0; i < hits.size(); ++i) {
+    if (hits[i].viewDepth == 0) view.truth.pixels[i] = std::numeric_limits<float>::quiet_NaN();
+  }
 }
 
 }  // namespace
@@ -62,9 +57,14 @@ void SubjectOptions::addTo(CLI::App& command) {
   command.add_option("--output", output,
                      "What is compared with the truth; default: the first visibility");
   command
-      .add_option("--paint", paint,
-                  "Shots with ranges: the truth is the mask of what their muzzles see")
-      ->type_name("FILE");
+      .add_option("--reference", references,
+                  "A picture that stands for the truth, one a camera, in their order; default: "
+                  "visibility, traced")
+      ->type_name("FILE")
+      ->allow_extra_args(false);
+  command.add_option("--load", loads, "Objects of an effect, as `grisaille render --save` wrote them")
+      ->type_name("EFFECT=FILE.json")
+      ->allow_extra_args(false);
   command.add_option("--radius", radius, "Length of the truth's rays, metres")
       ->check(numberFrom(1e-6, 1e6))
       ->capture_default_str();
@@ -87,76 +87,81 @@ LoadedSubject::LoadedSubject(const SubjectOptions& options,
       subject_.effects.push_back(effect);
     }
   }
-  if (subject_.effects.empty()) subject_.effects = kDefaultEffects;
-  ActiveEffects active(*registry_, subject_.effects);
-  for (const std::string& set : options.sets) active.set(set);
-  const bool paint = !options.paint.empty();
-  subject_.output = options.output.empty() ? defaultOutput(active, paint) : options.output;
-  frame::checkOutput(subject_.output, active.effects());
+  if (subject_.effects.empty()) subject_.effects = registry_->defaults();
+  effect::Chain chain(effect::Selection(*registry_, subject_.effects));
+  for (const std::string& set : options.sets) {
+    subject_.sets.push_back(effect::parseAssignment(set));
+    chain.selection.set(subject_.sets.back());
+  }
+  subject_.output = options.output.empty() ? defaultOutput(chain.selection) : options.output;
+  frame::checkOutput(subject_.output, chain.selection.effects());
   subject_.size = parseSize(options.size);
   subject_.registry = registry_.get();
-  subject_.sets = options.sets;
   subject_.scene = &scene_;
-  if (paint) loadShots(active);
+  loadObjects(chain);
   for (const std::string& text : options.cameras) {
-    cameras_.emplace_back(isInlineCamera(text) ? "camera " + std::to_string(cameras_.size() + 1)
-                                               : fs::path(text).stem().string(),
-                          cameraOf(text, "--camera"));
+    cameras_.push_back({isInlineCamera(text) ? "camera " + std::to_string(cameras_.size() + 1)
+                                             : fs::path(text).stem().string(),
+                        cameraOf(text, "--camera"), ""});
   }
+  if (options.references.empty()) return;
+  if (cameras_.empty()) cameras_.push_back({"default", {}, ""});
+  if (options.references.size() != cameras_.size()) {
+    throw Error(ErrorId::kUsage, "there are {} --reference, and {} cameras",
+                options.references.size(), cameras_.size());
+  }
+  for (size_t i = 0; i < cameras_.size(); ++i) cameras_[i].reference = options.references[i];
 }
 
-void LoadedSubject::loadShots(const ActiveEffects& active) {
-  std::vector<grisaille_shot> shots = shots::load(options_.paint);
-  for (size_t i = 0; i < shots.size(); ++i) {
-    if (shots[i].range > 0) continue;
-    throw Error(ErrorId::kUsage, "shot {} of {} has no range of its own", i, options_.paint);
-  }
-  for (const effect::Effect* effect : active.effects()) {
-    if (effect->takesShots()) subject_.shots[effect->desc->key] = shots;
-  }
-  if (subject_.shots.empty()) {
-    throw Error(ErrorId::kEffectTakesNoShots, "--paint is given, but no effect that runs paints");
+void LoadedSubject::loadObjects(effect::Chain& chain) {
+  const ObjectOptions objects{.loads = options_.loads, .adds = {}, .saves = {}};
+  objects.check(chain);
+  objects.load(chain);
+  for (const auto& [effect, list] : chain.objectLists()) {
+    subject_.objects.emplace(effect, list.table()).first->second.append(list.view());
   }
 }
 
 void LoadedSubject::loadScene() {
   scene_ = options_.scene.empty() ? scene::makeAtrium() : scene::loadGltf(options_.scene);
-  if (!cameras_.empty()) return;
-  cameras_.emplace_back("default", options_.scene.empty() ? scene::atriumCamera()
-                                                          : scene::overviewCamera(scene_.bounds));
+  if (!options_.cameras.empty()) return;
+  if (cameras_.empty()) cameras_.push_back({"default", {}, ""});
+  cameras_[0].camera =
+      options_.scene.empty() ? scene::atriumCamera() : scene::overviewCamera(scene_.bounds);
 }
 
 study::View LoadedSubject::viewOf(const std::string& name, const scene::Camera& camera,
                                   const std::string& bar) const {
   study::View view{.name = name, .camera = camera, .truth = {}};
   view.camera.size = subject_.size;
-  const auto [width, height] = std::pair(subject_.size.x, subject_.size.y);
-  std::vector<trace::Hit> hits;
-  if (options_.paint.empty()) {
-    truth::OcclusionTruth traced =
-        truth::traceOcclusion(scene_, view.camera, subject_.size, options_.radius, options_.samples,
-                              options_.progress || isatty(STDERR_FILENO) == 1, bar);
-    view.truth = std::move(traced.visibility);
-    view.noise = traced.error;
-    hits = std::move(traced.hits);
-  } else {
-    const trace::RayTracer tracer(scene_, view.camera.eye);
-    hits = tracer.castPrimary(view.camera, width, height);
-    const std::vector<uint8_t> mask =
-        trace::paintMask(tracer, hits, subject_.shots.begin()->second, 0);
-    view.truth = {width, height, 1, std::vector<float>(mask.begin(), mask.end())};
+  truth::OcclusionTruth traced =
+      truth::traceOcclusion(scene_, view.camera, subject_.size, options_.radius, options_.samples,
+                            options_.progress || isatty(STDERR_FILENO) == 1, bar);
+  view.truth = std::move(traced.visibility);
+  view.noise = traced.error;
+  onSurfacesAlone(view, traced.hits);
+  return view;
+}
+
+study::View LoadedSubject::referenceOf(const Place& place) const {
+  study::View view{.name = place.name, .camera = place.camera, .truth = {}};
+  view.camera.size = subject_.size;
+  view.truth = study::oneChannel(image::read(place.reference), place.reference);
+  if (view.truth.width != subject_.size.x || view.truth.height != subject_.size.y) {
+    throw Error(ErrorId::kImageMismatch, "{} has {}x{} pixels, not {}x{}", place.reference,
+                view.truth.width, view.truth.height, subject_.size.x, subject_.size.y);
   }
-  for (size_t i = 0; i < hits.size(); ++i) {
-    if (hits[i].viewDepth == 0) view.truth.pixels[i] = std::numeric_limits<float>::quiet_NaN();
-  }
+  const trace::RayTracer tracer(scene_, view.camera.eye);
+  onSurfacesAlone(view, tracer.castPrimary(view.camera, subject_.size.x, subject_.size.y));
   return view;
 }
 
 void LoadedSubject::trace() {
-  for (const auto& [name, camera] : cameras_) {
+  for (const Place& place : cameras_) {
     const std::string bar =
         fmt::format("truth {} of {}", subject_.views.size() + 1, cameras_.size());
-    subject_.views.push_back(viewOf(name, camera, bar));
+    subject_.views.push_back(place.reference.empty() ? viewOf(place.name, place.camera, bar)
+                                                     : referenceOf(place));
   }
 }
 
@@ -164,12 +169,18 @@ std::string LoadedSubject::key() const {
   std::string key = fmt::format("scene {:016x}\nsize {}x{}\nradius {}\nsamples {}\noutput {}\n",
                                 truth::hashOf(scene_), subject_.size.x, subject_.size.y,
                                 options_.radius, options_.samples, subject_.output);
-  for (const std::string& set : subject_.sets) key += "set " + set + "\n";
+  for (const effect::Assignment& set : subject_.sets) key += "set " + set.text() + "\n";
   for (const std::string& effect : subject_.effects) key += "effect " + effect + "\n";
-  for (const auto& [effect, shots] : subject_.shots) {
+  for (const auto& [effect, objects] : subject_.objects) {
     truth::ContentHash hash;
-    hash.add<grisaille_shot>(shots);
-    key += fmt::format("shots {} {:016x}\n", effect, hash.value());
+    hash.add(objects::jsonOf(objects.view()));
+    key += fmt::format("objects {} {:016x}\n", effect, hash.value());
+  }
+  for (size_t i = 0; i < cameras_.size(); ++i) {
+    if (cameras_[i].reference.empty()) continue;
+    truth::ContentHash hash;
+    hash.add(std::span<const float>(subject_.views[i].truth.pixels));
+    key += fmt::format("reference {:016x}\n", hash.value());
   }
   for (const study::View& view : subject_.views) {
     key += "camera " + scene::cameraJson(view.camera) + "\n";
@@ -177,7 +188,7 @@ std::string LoadedSubject::key() const {
   return key;
 }
 
-std::string LoadedSubject::renderCommand(const study::Setting& setting,
+std::string LoadedSubject::renderCommand(const study::SettingText& setting,
                                          const std::string& backend) const {
   std::string command = "grisaille render";
   const auto add = [&](const std::string& word) { command += " " + shellQuoted(word); };
@@ -185,10 +196,9 @@ std::string LoadedSubject::renderCommand(const study::Setting& setting,
   add("--backend"), add(backend), add("--camera"), add(scene::cameraJson(subject_.views[0].camera));
   add("--size"), add(fmt::format("{}x{}", subject_.size.x, subject_.size.y));
   add("--effects"), add(fmt::format("{}", fmt::join(subject_.effects, ",")));
-  for (const auto& [effect, shots] : subject_.shots)
-    add("--load"), add(effect + "=" + options_.paint);
-  for (const std::string& set : subject_.sets) add("--set"), add(set);
-  for (const auto& [name, value] : setting) add("--set"), add(name + "=" + value);
+  for (const std::string& load : options_.loads) add("--load"), add(load);
+  for (const effect::Assignment& set : subject_.sets) add("--set"), add(set.text());
+  for (const effect::Assignment& one : setting) add("--set"), add(one.text());
   add("--write"), add(subject_.output + "=picture.png");
   return command;
 }

@@ -12,8 +12,8 @@
 namespace grisaille::app {
 
 struct SubjectOptions {
-  std::string scene, size = "640x360", output, paint;
-  std::vector<std::string> cameras, sets, effects, pluginPaths;
+  std::string scene, size = "640x360", output;
+  std::vector<std::string> cameras, references, loads, sets, effects, pluginPaths;
   double radius = 0.5;     // metres
   uint32_t samples = 256;  // rays a pixel
   bool progress = false;   // bars also where standard error is no terminal
@@ -50,16 +50,23 @@ class LoadedSubject {
   std::string key() const;
 
   // The command that makes a setting's picture of the first camera.
-  std::string renderCommand(const study::Setting& setting, const std::string& backend) const;
+  std::string renderCommand(const study::SettingText& setting, const std::string& backend) const;
 
  private:
-  void loadShots(const ActiveEffects& active);
+  void loadObjects(effect::Chain& chain);
 
   SubjectOptions options_;
   std::unique_ptr<effect::Registry> registry_;
   scene::Scene scene_;
   study::Subject subject_;
-  std::vector<std::pair<std::string, scene::Camera>> cameras_;
+  struct Place {
+    std::string name;
+    scene::Camera camera;
+    std::string reference;  // a picture; "": traced
+  };
+  study::View referenceOf(const Place& place) const;
+
+  std::vector<Place> cameras_;
 };
 
 }  // namespace grisaille::app

@@ -21,28 +21,25 @@
 #include "core/base/error.h"
 #include "core/image/image.h"
 #include "core/scene/camera.h"
-#include "core/shots/shot_file.h"
 #include "core/trace/depth_field.h"
-#include "core/trace/paint_mask.h"
 
 namespace grisaille::app {
 namespace {
 
-// Metres: as far as a shot's range goes.
 constexpr double kFarthest = 1e6;
 
 struct TruthOptions {
-  std::string scene, camera, size, paint;
+  std::string scene, camera, size;
   std::vector<std::string> writes;
   double radius = 0.5, error = 0;
-  double thickness = 0, paintRange = 0;  // 0: not given
+  double thickness = 0;  // 0: not given
   uint32_t samples = 1024, seed = truth::kSeed;
   bool noCache = false, progress = false;
 };
 
 OutputFile parseWrite(const std::string& text) {
   constexpr std::array kOutputs = {"ao",    "ao_error", "ceiling", "ceiling_error",
-                                   "depth", "normal",   "mask"};
+                                   "depth", "normal"};
   OutputFile write = parseOutputFile(text);
   if (std::ranges::find(kOutputs, write.output) == kOutputs.end()) {
     throw Error(ErrorId::kTruthUnknown, "'{}' is nothing that truth writes", write.output);
@@ -61,7 +58,6 @@ void requireLength(const char* option, double metres) {
 // What the command line asks for, checked before anything slow is done.
 struct TruthJob {
   std::vector<OutputFile> writes;
-  std::vector<grisaille_shot> shots;
   double thickness;
   scene::Scene scene;
   scene::Camera camera;
@@ -77,11 +73,7 @@ struct TruthJob {
                   options.error);
     }
     checkUse("--thickness", options.thickness != 0, "ceiling");
-    checkUse("--paint", !options.paint.empty(), "mask");
-    checkUse("--paint-range", options.paintRange != 0, "mask");
     if (options.thickness != 0) requireLength("--thickness", options.thickness);
-    if (options.paintRange != 0) requireLength("--paint-range", options.paintRange);
-    if (wants("mask")) loadShots(options);
     glm::uvec2 given(0);
     if (!options.size.empty()) given = parseSize(options.size);
     if (!options.camera.empty()) camera = cameraOf(options.camera, "--camera");
@@ -101,19 +93,6 @@ struct TruthJob {
   void checkUse(const char* option, bool given, std::string_view output) const {
     if (given && !wants(output) && !wants(fmt::format("{}_error", output))) {
       throw Error(ErrorId::kUsage, "{} is given, but no {} is written", option, output);
-    }
-  }
-
-  void loadShots(const TruthOptions& options) {
-    if (options.paint.empty()) {
-      throw Error(ErrorId::kUsage, "a mask is to be written, but --paint names no shots");
-    }
-    shots = shots::load(options.paint);
-    if (options.paintRange != 0) return;
-    for (size_t i = 0; i < shots.size(); ++i) {
-      if (shots[i].range > 0) continue;
-      throw Error(ErrorId::kUsage, "shot {} of {} has no range, and --paint-range gives none", i,
-                  options.paint);
     }
   }
 };
@@ -151,12 +130,7 @@ class Truth {
     if (output == "ceiling_error") {
       return trace::standardErrorImage(ceiling_->values, width, height);
     }
-    const std::vector<uint8_t> mask =
-        trace::paintMask(tracer_, hits_, job_.shots, options_.paintRange);
-    return {.width = width,
-            .height = height,
-            .channels = 1,
-            .pixels = std::vector<float>(mask.begin(), mask.end())};
+    throw Error(ErrorId::kTruthUnknown, "'{}' is nothing that truth writes", output);
   }
 
   void summarise() const {
@@ -202,8 +176,7 @@ void addOutputs(CLI::App& command, TruthOptions& options) {
   command
       .add_option("--write", options.writes,
                   "ao, ao_error (the standard error), ceiling (of what a depth buffer allows), "
-                  "ceiling_error, depth (metres, 0 = sky), normal (world) or mask (of --paint), as "
-                  ".exr or .png")
+                  "ceiling_error, depth (metres, 0 = sky) or normal (world), as .exr or .png")
       ->type_name("NAME=FILE")
       ->required()
       ->allow_extra_args(false);
@@ -212,10 +185,6 @@ void addOutputs(CLI::App& command, TruthOptions& options) {
                   "Metres of matter that the ceiling takes to be behind what the picture shows; "
                   "default: a fifth of the radius")
       ->type_name("T");
-  command.add_option("--paint", options.paint, "Shots, as .json or .shots, for the mask")
-      ->type_name("FILE");
-  command.add_option("--paint-range", options.paintRange, "Metres, for shots without a range")
-      ->type_name("R");
 }
 
 }  // namespace

@@ -39,13 +39,12 @@ struct TuneOptions {
 std::vector<study::Axis> axesOf(const TuneOptions& options, const study::Subject& subject) {
   std::vector<study::Axis> axes;
   const auto add = [&](const effect::Effect& effect, const grisaille_param_desc& param) {
-    axes.push_back({fmt::format("{}.{}", effect.desc->key, param.key), &param});
+    axes.push_back({{.effect = effect.desc->key, .key = param.key}, &param});
   };
-  for (const std::string& name : options.vary) {
-    const size_t dot = std::min(name.find('.'), name.size());
-    const effect::Effect& effect = subject.registry->find(name.substr(0, dot));
-    const effect::Values values(effect);
-    add(effect, effect.params()[values.indexOf(dot < name.size() ? name.substr(dot + 1) : "")]);
+  for (const std::string& text : options.vary) {
+    const effect::ParameterName name = effect::parseParameterName(text);
+    const effect::Effect& effect = subject.registry->find(name.effect);
+    add(effect, effect.params()[effect::Values(effect).indexOf(name.key)]);
   }
   if (!options.vary.empty()) return axes;
   for (const std::string& key : subject.effects) {
@@ -61,8 +60,8 @@ class Starts {
  public:
   Starts(const study::Subject& subject, const std::vector<study::Axis>& axes)
       : subject_(subject), axes_(axes) {
-    const ActiveEffects active(*subject.registry, subject.effects);
-    for (const effect::Effect* effect : active.effects()) {
+    const effect::Selection selection(*subject.registry, subject.effects);
+    for (const effect::Effect* effect : selection.effects()) {
       presets_.emplace(effect->desc->key, loadPresets(*effect));
     }
     for (const char* name : kPresetNames) add(name);
@@ -72,19 +71,18 @@ class Starts {
 
  private:
   void add(const std::string& preset) {
-    ActiveEffects active(*subject_.registry, subject_.effects);
+    effect::Selection selection(*subject_.registry, subject_.effects);
     bool any = preset.empty();
     for (const auto& [effect, presets] : presets_) {
       if (preset.empty() || presets.all.empty()) continue;
-      applyPreset(active.values(effect), presets, preset);
+      applyPreset(selection.values(effect), presets, preset);
       any = true;
     }
     if (!any) return;
-    for (const std::string& set : subject_.sets) active.set(set);
+    for (const effect::Assignment& set : subject_.sets) selection.set(set);
     study::Point point;
     for (const study::Axis& axis : axes_) {
-      const size_t dot = axis.name.find('.');
-      point.push_back(active.values(axis.name.substr(0, dot)).get(axis.name.substr(dot + 1)));
+      point.push_back(selection.values(axis.name.effect).get(axis.name.key));
     }
     points_.push_back(std::move(point));
   }
@@ -103,13 +101,7 @@ class Bench {
 
   study::Setting settingOf(const study::Point& point) const {
     study::Setting setting;
-    for (size_t i = 0; i < axes_.size(); ++i) {
-      const std::string& name = axes_[i].name;
-      const size_t dot = name.find('.');
-      effect::Values values(subject_.registry->find(name.substr(0, dot)));
-      values.set(name.substr(dot + 1), point[i]);
-      setting.emplace_back(name, values.text(name.substr(dot + 1)));
-    }
+    for (size_t i = 0; i < axes_.size(); ++i) setting.push_back({axes_[i].name, point[i]});
     return setting;
   }
 
@@ -121,7 +113,7 @@ class Bench {
 
   // The median of a few rounds, milliseconds.
   double cost(const study::Point& point) {
-    study::Measurer::Running& own = running(point);
+    effect::Chain& own = running(point);
     std::vector<double> all;
     for (int i = 0; i < kRounds; ++i) all.push_back(measurer_.cost(own));
     return study::medianOf(all);
@@ -129,8 +121,8 @@ class Bench {
 
   // In turns with what is known.
   double costBeside(const study::Point& point, const study::Evaluated& known) {
-    study::Measurer::Running& a = running(known.point);
-    study::Measurer::Running& b = running(point);
+    effect::Chain& a = running(known.point);
+    effect::Chain& b = running(point);
     std::vector<double> ratios;
     for (int i = 0; i < kRounds; ++i) {
       const double first = measurer_.cost(a);
@@ -144,21 +136,21 @@ class Bench {
   static constexpr size_t kKept = 4;
 
   // The last few stay: the one that others are measured beside is among them.
-  study::Measurer::Running& running(const study::Point& point) {
+  effect::Chain& running(const study::Point& point) {
     auto found = std::ranges::find(running_, point, &Kept::point);
     if (found == running_.end()) {
       if (running_.size() == kKept) running_.erase(running_.begin());
       running_.push_back({point, measurer_.start(settingOf(point))});
-      measurer_.cost(*running_.back().running);  // pipelines are made outside the clock
+      measurer_.cost(*running_.back().chain);  // pipelines are created outside the clock
     } else {
       std::rotate(found, found + 1, running_.end());
     }
-    return *running_.back().running;
+    return *running_.back().chain;
   }
 
   struct Kept {
     study::Point point;
-    std::unique_ptr<study::Measurer::Running> running;
+    std::unique_ptr<effect::Chain> chain;
   };
   const study::Subject& subject_;
   const std::vector<study::Axis>& axes_;
@@ -247,15 +239,10 @@ study::Found find(const TuneOptions& options, const LoadedSubject& subject,
 void writeSetting(const TuneOptions& options, const LoadedSubject& subject,
                   const study::Setting& setting, const std::string& story) {
   Settings settings{.effects = subject.subject().effects, .surface = {}, .values = {}};
-  const auto add = [&](const std::string& name, const std::string& value) {
-    const size_t dot = name.find('.');
-    settings.values.push_back({name.substr(0, dot), name.substr(dot + 1), value, ""});
-  };
-  for (const std::string& set : subject.subject().sets) {
-    const size_t equals = set.find('=');
-    add(set.substr(0, equals), set.substr(equals + 1));
-  }
-  for (const auto& [name, value] : setting) add(name, value);
+  study::SettingText all = subject.subject().sets;
+  const study::SettingText tuned = study::textOf(subject.registry(), setting);
+  all.insert(all.end(), tuned.begin(), tuned.end());
+  for (const effect::Assignment& one : all) settings.values.push_back({one.name, one.value, ""});
   writeFileAtomically(options.out, story + settingsToml(settings));
 }
 
@@ -310,7 +297,7 @@ void tune(const TuneOptions& options) {
       "{} parameters has {:.2g}",
       found.starts + found.steps, found.starts, found.steps, found.costsSaved, axes.size(),
       gridSize(axes));
-  fmt::print("{}\n  {}\n{}\n", result, study::nameOf(setting), effort);
+  fmt::print("{}\n  {}\n{}\n", result, study::nameOf(study::textOf(subject.registry(), setting)), effort);
   const double unseen = validate(options, given, subject, setting, *device);
   std::string story = fmt::format("# grisaille tune: {}; {}\n# {}: {}\n", wishText(wish), result,
                                   info.backend, info.name);

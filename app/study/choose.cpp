@@ -28,17 +28,16 @@ std::map<std::string, double> medianCosts(std::span<const Record> records) {
   return medians;
 }
 
-// "ssao" of "ssao.radius", the same in all.
-std::string effectOf(std::span<const Choice> choices) {
+// The same in all.
+void requireOneEffect(std::span<const Choice> choices) {
   std::set<std::string> effects;
   for (const Choice& choice : choices) {
-    for (const auto& [name, value] : choice.setting) effects.insert(name.substr(0, name.find('.')));
+    for (const effect::Assignment& one : choice.setting) effects.insert(one.name.effect);
   }
   if (effects.size() != 1) {
     throw Error(ErrorId::kUsage, "--presets: the settings are of {} effects, not of one",
                 effects.size());
   }
-  return *effects.begin();
 }
 
 std::string sentenceOf(std::span<const Record> records) {
@@ -61,7 +60,7 @@ std::string sentenceOf(std::span<const Record> records) {
 std::vector<Choice> choicesOf(std::span<const Record> records) {
   const std::map<std::string, double> medians = medianCosts(records);
   std::vector<Choice> choices;
-  std::map<Setting, std::vector<const Record*>> settings;
+  std::map<SettingText, std::vector<const Record*>> settings;
   for (const Record& r : records) {
     if (isWhole(r)) settings[r.setting].push_back(&r);
   }
@@ -115,7 +114,7 @@ std::vector<size_t> thinned(std::span<const Price> prices, std::span<const size_
 
 void writePresets(std::span<const Record> records, const std::string& file) {
   const std::vector<Choice> choices = choicesOf(records);
-  const std::string effect = effectOf(choices);
+  requireOneEffect(choices);
   std::vector<Price> prices, front;
   for (const Choice& choice : choices) prices.push_back(choice.price);
   const std::vector<size_t> order = thinned(prices, frontOf(prices));
@@ -128,8 +127,8 @@ void writePresets(std::span<const Record> records, const std::string& file) {
                   .error = choice.price.error,
                   .cost = choice.price.cost / front[chosen[1]].cost,
                   .values = {}};
-    for (const auto& [name, value] : choice.setting) {
-      preset.values.emplace_back(name.substr(effect.size() + 1), value);
+    for (const effect::Assignment& one : choice.setting) {
+      preset.values.emplace_back(one.name.key, one.value);
     }
     presets.all.push_back(std::move(preset));
   }

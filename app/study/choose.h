@@ -16,7 +16,7 @@ namespace grisaille::app::study {
 // of their costs, each as a multiple of the median cost on its backend, since milliseconds of two
 // drivers do not add.
 struct Choice {
-  Setting setting;
+  SettingText setting;
   Price price;
 };
 

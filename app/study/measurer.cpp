@@ -54,44 +54,40 @@ double costOf(const std::vector<gpu::FrameTimes>& frames, const std::vector<std:
 Measurer::Measurer(const Subject& subject, gpu::Device& device)
     : subject_(subject),
       device_(device),
-      rays_(*subject.scene),
+      services_(*subject.scene),
       renderer_(device, *subject.scene) {}
 
-std::unique_ptr<Measurer::Running> Measurer::start(const Setting& setting) {
-  auto running = std::make_unique<Running>();
-  running->active_ = std::make_unique<ActiveEffects>(*subject_.registry, subject_.effects);
-  for (const std::string& set : subject_.sets) running->active_->set(set);
-  for (const auto& [name, value] : setting) running->active_->set(name + "=" + value);
-  running->instances_ = running->active_->start(device_);
-  return running;
+std::unique_ptr<effect::Chain> Measurer::start(const Setting& setting) {
+  auto chain =
+      std::make_unique<effect::Chain>(effect::Selection(*subject_.registry, subject_.effects));
+  for (const effect::Assignment& set : subject_.sets) chain->selection.set(set);
+  for (const effect::ParameterValue& one : setting) chain->selection.set(one);
+  for (const auto& [effect, objects] : subject_.objects) {
+    chain->objects(effect)->assign(objects.view());
+  }
+  chain->start(device_);
+  return chain;
 }
 
-void Measurer::render(Running& running, const scene::Camera& camera) {
+void Measurer::render(effect::Chain& chain, const scene::Camera& camera) {
   const std::vector<std::string> outputs = {subject_.output};
-  std::vector<frame::ActiveEffect> effects = running.active_->with(running.instances_);
-  for (frame::ActiveEffect& active : effects) {
-    const auto own = subject_.shots.find(active.effect().desc->key);
-    if (own == subject_.shots.end()) continue;
-    active.shots = own->second;
-    active.shotsKept = std::exchange(running.shotsKept_[own->first], own->second.size());
-  }
   renderer_.render({.camera = camera,
                     .width = subject_.size.x,
                     .height = subject_.size.y,
-                    .effects = effects,
+                    .chain = &chain,
                     .outputs = outputs,
-                    .rays = &rays_});
+                    .services = services_.all()});
 }
 
-image::Image Measurer::show(Running& running, const scene::Camera& camera) {
-  render(running, camera);
+image::Image Measurer::show(effect::Chain& chain, const scene::Camera& camera) {
+  render(chain, camera);
   return oneChannel(renderer_.read(subject_.output), subject_.output);
 }
 
-std::vector<CameraErrors> Measurer::errors(Running& running, const Seen& seen) {
+std::vector<CameraErrors> Measurer::errors(effect::Chain& chain, const Seen& seen) {
   std::vector<CameraErrors> errors;
   for (const View& view : subject_.views) {
-    const image::Image shown = show(running, view.camera);
+    const image::Image shown = show(chain, view.camera);
     const image::Difference d = image::compare(shown, view.truth);
     const double square = d.rmse * d.rmse - view.noise * view.noise;
     const image::Similarity similarity =
@@ -103,13 +99,12 @@ std::vector<CameraErrors> Measurer::errors(Running& running, const Seen& seen) {
   return errors;
 }
 
-double Measurer::cost(Running& running) {
+double Measurer::cost(effect::Chain& chain) {
   device_.wait();
   device_.takeTimes();
-  for (const View& view : subject_.views) render(running, view.camera);
+  for (const View& view : subject_.views) render(chain, view.camera);
   device_.wait();
-  const double share = frame::guardShare(running.active_->with(running.instances_), subject_.size.x,
-                                         subject_.size.y);
+  const double share = frame::guardShare(chain.selection, subject_.size.x, subject_.size.y);
   return costOf(device_.takeTimes(), subject_.effects, share);
 }
 

@@ -3,12 +3,12 @@
 #pragma once
 
 #include <functional>
+#include <map>
 #include <memory>
 #include <string>
 #include <vector>
 
-#include "app/active_effects.h"
-#include "app/scene_rays.h"
+#include "app/scene_services.h"
 #include "app/study/record.h"
 #include "core/frame/renderer.h"
 #include "core/image/image.h"
@@ -30,9 +30,9 @@ struct Subject {
   glm::uvec2 size = glm::uvec2(640, 360);
   const effect::Registry* registry = nullptr;
   std::vector<std::string> effects;                          // that run, in order
-  std::vector<std::string> sets;                             // beneath a setting's values
-  std::string output;                                        // that is compared with the truth
-  std::map<std::string, std::vector<grisaille_shot>> shots;  // by effect
+  std::vector<effect::Assignment> sets;              // beneath a setting's values
+  std::string output;                                // that is compared with the truth
+  std::map<std::string, objects::Objects> objects;   // by effect
 };
 
 // One channel of an output: the only one, or of four the last, which is alpha. Throws
@@ -50,36 +50,29 @@ class Measurer {
   // Both outlive this. The device measures times.
   Measurer(const Subject& subject, gpu::Device& device);
 
-  // The effects with a setting's values, ready to run: pipelines are made with the first frame.
-  class Running {
-   private:
-    friend class Measurer;
-    std::unique_ptr<ActiveEffects> active_;
-    std::vector<std::unique_ptr<effect::Instance>> instances_;
-    std::map<std::string, size_t> shotsKept_;
-  };
-  // Throws as ActiveEffects does.
-  std::unique_ptr<Running> start(const Setting& setting);
+  // The chain with a setting's values, started: pipelines are created with the first frame. Throws
+  // as Selection::set() and Chain::start() do.
+  std::unique_ptr<effect::Chain> start(const Setting& setting);
 
   // The output as a camera sees it, as oneChannel() takes it.
-  image::Image show(Running& running, const scene::Camera& camera);
+  image::Image show(effect::Chain& chain, const scene::Camera& camera);
 
   // Of each view, what is shown there.
   using Seen = std::function<void(const View& view, const image::Image& shown)>;
 
   // One a view. The truth's noise is taken out of rmse: its square is less the truth's squared
   // standard error, which is what independent errors add. Throws as show() does.
-  std::vector<CameraErrors> errors(Running& running, const Seen& seen = {});
+  std::vector<CameraErrors> errors(effect::Chain& chain, const Seen& seen = {});
 
   // Of the effects' passes, the mean of the views, milliseconds.
-  double cost(Running& running);
+  double cost(effect::Chain& chain);
 
  private:
-  void render(Running& running, const scene::Camera& camera);
+  void render(effect::Chain& chain, const scene::Camera& camera);
 
   const Subject& subject_;
   gpu::Device& device_;
-  SceneRays rays_;
+  SceneServices services_;
   frame::Renderer renderer_;
 };
 

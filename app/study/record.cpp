@@ -64,7 +64,7 @@ double Record::spread() const {
 
 fs::path fileOf(const fs::path& folder, const Record& record) {
   std::string key = record.study + "\n" + record.backend;
-  for (const auto& [name, value] : record.setting) key += "\n" + name + "=" + value;
+  for (const effect::Assignment& one : record.setting) key += "\n" + one.text();
   truth::ContentHash hash;
   hash.add(key);
   return folder / "records" / fmt::format("{:016x}.json", hash.value());
@@ -72,7 +72,7 @@ fs::path fileOf(const fs::path& folder, const Record& record) {
 
 void save(const fs::path& folder, const Record& r) {
   json setting = json::array(), errors = json::array();
-  for (const auto& [name, value] : r.setting) setting.push_back({name, value});
+  for (const auto& [name, value] : r.setting) setting.push_back({name.text(), value});
   for (const CameraErrors& one : r.errors) errors.push_back(toJson(one));
   json all = {{"version", kVersion},  {"study", r.study},     {"setting", setting},
               {"backend", r.backend}, {"device", r.device},   {"driver", r.driver},
@@ -97,7 +97,10 @@ std::optional<Record> load(const fs::path& file) {
     }
     Record r;
     r.study = j.at("study");
-    for (const json& one : j.at("setting")) r.setting.emplace_back(one.at(0), one.at(1));
+    for (const json& one : j.at("setting")) {
+      const std::string name = one.at(0);
+      r.setting.push_back({.name = effect::parseParameterName(name), .value = one.at(1)});
+    }
     r.backend = j.at("backend");
     r.device = j.at("device");
     r.driver = j.at("driver");

@@ -26,7 +26,7 @@ double medianOf(const std::vector<double>& values);
 
 struct Record {
   std::string study;  // all that results depend on but setting and backend
-  Setting setting;
+  SettingText setting;
   std::string backend, device, driver, clock;
   std::string machine, commit;
   std::string command;               // that makes its picture of the first camera

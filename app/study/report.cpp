@@ -92,7 +92,8 @@ CameraErrors meanOf(const Record& r) {
 std::vector<std::string> parametersOf(std::span<const Record> records) {
   std::vector<std::string> names;
   for (const Record& r : records) {
-    for (const auto& [name, value] : r.setting) {
+    for (const effect::Assignment& one : r.setting) {
+      const std::string name = one.name.text();
       if (std::ranges::find(names, name) == names.end()) names.push_back(name);
     }
   }
@@ -124,8 +125,9 @@ std::string csvOf(std::span<const Record> records) {
   for (const Record& r : records) {
     csv += fmt::format("{},\"{}\",{}", r.backend, r.device, r.clock);
     for (const std::string& name : parameters) {
-      const auto own = std::ranges::find(r.setting, name, &Setting::value_type::first);
-      csv += "," + (own == r.setting.end() ? std::string() : own->second);
+      const auto own = std::ranges::find_if(
+          r.setting, [&](const effect::Assignment& one) { return one.name.text() == name; });
+      csv += "," + (own == r.setting.end() ? std::string() : own->value);
     }
     const CameraErrors mean = meanOf(r);
     csv += fmt::format(",{:.4f},{:.4f},{},{},{},{},{},{},{},{}", r.cost(), r.spread(),
@@ -171,15 +173,15 @@ std::vector<size_t> paretoFront(std::span<const Record> records, const std::stri
 
 std::vector<Kind> kindsOf(std::span<const Record> records) {
   std::vector<std::pair<std::vector<std::string>, Kind>> kinds;
-  std::vector<Setting> shared;  // of each kind
-  const auto keepShared = [](Setting& all, const Setting& one) {
+  std::vector<SettingText> shared;  // of each kind
+  const auto keepShared = [](SettingText& all, const SettingText& one) {
     std::erase_if(all, [&](const auto& value) { return !std::ranges::count(one, value); });
   };
-  Setting everywhere = records.empty() ? Setting() : records.front().setting;
+  SettingText everywhere = records.empty() ? SettingText() : records.front().setting;
   for (size_t i = 0; i < records.size(); ++i) {
-    const Setting& setting = records[i].setting;
+    const SettingText& setting = records[i].setting;
     std::vector<std::string> names;
-    for (const auto& [name, value] : setting) names.push_back(name);
+    for (const effect::Assignment& one : setting) names.push_back(one.name.text());
     std::ranges::sort(names);
     auto own = std::ranges::find(kinds, names, [](const auto& kind) { return kind.first; });
     if (own == kinds.end()) {

@@ -16,13 +16,14 @@
 #include <string>
 #include <vector>
 
-#include "core/effect/values.h"
+#include "core/effect/parameter_name.h"
+#include "core/effect/registry.h"
 
 namespace grisaille::app::study {
 
 // One parameter that may change: a column of a point.
 struct Axis {
-  std::string name;  // "ssao.radius"
+  effect::ParameterName name;
   const grisaille_param_desc* param = nullptr;
 };
 

@@ -29,7 +29,8 @@ Study::Study(const StudyDesc& desc, gpu::Device& device, std::vector<Setting> se
     Job job;
     Record& r = job.record;
     r.study = desc.key;
-    r.setting = std::move(setting);
+    r.setting = textOf(*desc.subject.registry, setting);
+    job.setting = std::move(setting);
     r.backend = info.backend;
     if (auto known = load(fileOf(desc.folder, r)); known && known->study == desc.key) {
       r = std::move(*known);
@@ -59,10 +60,10 @@ void Study::writePictures(const Record& record, const View& view, const image::I
 }
 
 void Study::measureErrors(Job& job) {
-  job.running = measurer_.start(job.record.setting);
+  job.chain = measurer_.start(job.setting);
   try {
     job.record.errors =
-        measurer_.errors(*job.running, [&](const View& view, const image::Image& shown) {
+        measurer_.errors(*job.chain, [&](const View& view, const image::Image& shown) {
           writePictures(job.record, view, shown);
         });
   } catch (const Error& error) {
@@ -72,9 +73,9 @@ void Study::measureErrors(Job& job) {
 }
 
 void Study::measureFlicker(Job& job) {
-  if (!job.running) job.running = measurer_.start(job.record.setting);
+  if (!job.chain) job.chain = measurer_.start(job.setting);
   const trace::Flicker along = flickerAlong(*desc_.path, [&](const scene::Camera& camera) {
-    return measurer_.show(*job.running, camera);
+    return measurer_.show(*job.chain, camera);
   });
   job.record.flicker = along.rms;
   job.record.pathRmse = along.error;
@@ -82,11 +83,11 @@ void Study::measureFlicker(Job& job) {
 }
 
 void Study::measureCost(Job& job) {
-  if (!job.running) {
-    job.running = measurer_.start(job.record.setting);
-    measurer_.cost(*job.running);  // pipelines are made outside the clock
+  if (!job.chain) {
+    job.chain = measurer_.start(job.setting);
+    measurer_.cost(*job.chain);  // pipelines are made outside the clock
   }
-  job.record.milliseconds.push_back(measurer_.cost(*job.running));
+  job.record.milliseconds.push_back(measurer_.cost(*job.chain));
   save(desc_.folder, job.record);
 }
 

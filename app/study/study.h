@@ -24,7 +24,7 @@ struct StudyDesc {
   uint32_t rounds = 5;
   std::filesystem::path folder;
   // The command that makes a setting's picture from the first camera.
-  std::function<std::string(const Setting&, const std::string& backend)> commandOf;
+  std::function<std::string(const SettingText&, const std::string& backend)> commandOf;
 };
 
 // What is done of all that there is to do, in renderings of all views.
@@ -42,7 +42,8 @@ class Study {
  private:
   struct Job {
     Record record;
-    std::unique_ptr<Measurer::Running> running;
+    Setting setting;
+    std::unique_ptr<effect::Chain> chain;  // null: not started
   };
 
   void measureErrors(Job& job);

@@ -10,41 +10,51 @@
 namespace grisaille::app::study {
 
 Sweep parseSweep(const effect::Registry& registry, const std::string& text) {
-  const size_t dot = text.find('.'), equals = text.find('=');
-  if (dot == std::string::npos || equals == std::string::npos || equals < dot ||
-      equals + 1 == text.size()) {
+  const size_t equals = text.find('=');
+  if (equals == std::string::npos || equals + 1 == text.size() || text.find('.') > equals) {
     throw Error(ErrorId::kUsage, "--sweep '{}' is not of the form EFFECT.PARAMETER=VALUE,...",
                 text);
   }
-  Sweep sweep{text.substr(0, dot), text.substr(dot + 1, equals - dot - 1), {}};
-  effect::Values values(registry.find(sweep.effect));
+  Sweep sweep{effect::parseParameterName(text.substr(0, equals)), {}};
+  effect::Values values(registry.find(sweep.name.effect));
   for (size_t from = equals + 1; from <= text.size();) {
     const size_t end = std::min(text.find(',', from), text.size());
-    values.set(sweep.key, text.substr(from, end - from));
-    std::string value = values.text(sweep.key);
+    values.set(sweep.name.key, text.substr(from, end - from));
+    const double value = values.get(sweep.name.key);
     if (std::ranges::find(sweep.values, value) != sweep.values.end()) {
-      throw Error(ErrorId::kUsage, "--sweep '{}' names {} twice", text, value);
+      throw Error(ErrorId::kUsage, "--sweep '{}' names {} twice", text,
+                  values.text(sweep.name.key));
     }
-    sweep.values.push_back(std::move(value));
+    sweep.values.push_back(value);
     from = end + 1;
   }
   return sweep;
 }
 
+SettingText textOf(const effect::Registry& registry, const Setting& setting) {
+  SettingText text;
+  for (const effect::ParameterValue& one : setting) {
+    effect::Values values(registry.find(one.name.effect));
+    values.set(one.name.key, one.value);
+    text.push_back({.name = one.name, .value = values.text(one.name.key)});
+  }
+  return text;
+}
+
 std::vector<Setting> gridOf(const std::vector<Sweep>& sweeps) {
   std::vector<Setting> grid(1);
   for (const Sweep& sweep : sweeps) {
-    const std::string name = sweep.effect + "." + sweep.key;
-    const bool twice = std::ranges::any_of(grid[0], [&](const auto& v) { return v.first == name; });
-    if (twice) throw Error(ErrorId::kUsage, "{} is swept twice", name);
+    const bool twice =
+        std::ranges::any_of(grid[0], [&](const auto& v) { return v.name == sweep.name; });
+    if (twice) throw Error(ErrorId::kUsage, "{} is swept twice", sweep.name.text());
     if (grid.size() * sweep.values.size() > kMostSettings) {
       throw Error(ErrorId::kUsage, "the sweeps make more than {} settings", kMostSettings);
     }
     std::vector<Setting> wider;
     for (const Setting& setting : grid) {
-      for (const std::string& value : sweep.values) {
+      for (const double value : sweep.values) {
         wider.push_back(setting);
-        wider.back().emplace_back(name, value);
+        wider.back().push_back({sweep.name, value});
       }
     }
     grid = std::move(wider);
@@ -52,10 +62,10 @@ std::vector<Setting> gridOf(const std::vector<Sweep>& sweeps) {
   return grid;
 }
 
-std::string nameOf(const Setting& setting) {
+std::string nameOf(const SettingText& setting) {
   std::string text;
-  for (const auto& [name, value] : setting) {
-    text += (text.empty() ? "" : " ") + name.substr(name.find('.') + 1) + "=" + value;
+  for (const effect::Assignment& one : setting) {
+    text += (text.empty() ? "" : " ") + one.name.key + "=" + one.value;
   }
   return text.empty() ? "defaults" : text;
 }

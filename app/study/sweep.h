@@ -4,25 +4,29 @@
 
 #include <cstdint>
 #include <string>
-#include <utility>
 #include <vector>
 
+#include "core/effect/parameter_name.h"
 #include "core/effect/registry.h"
 
 namespace grisaille::app::study {
 
 // One parameter's values, in the order they were given.
 struct Sweep {
-  std::string effect, key;
-  std::vector<std::string> values;  // as Values::text() gives them
+  effect::ParameterName name;
+  std::vector<double> values;
 };
 
 // "ssao.kernel_size=4,8,16". Throws kUsage, kEffectUnknown, kParameter*; a value that stands twice
 // is kUsage.
 Sweep parseSweep(const effect::Registry& registry, const std::string& text);
 
-// "ssao.kernel_size" and "8", one a sweep, in the sweeps' order.
-using Setting = std::vector<std::pair<std::string, std::string>>;
+// One value a sweep, in the sweeps' order.
+using Setting = std::vector<effect::ParameterValue>;
+
+// The same for people and files.
+using SettingText = std::vector<effect::Assignment>;
+SettingText textOf(const effect::Registry& registry, const Setting& setting);
 
 // Every combination, the last sweep's values the fastest. Throws kUsage where a parameter is swept
 // twice or there are more than kMostSettings.
@@ -30,7 +34,7 @@ constexpr size_t kMostSettings = 100000;
 std::vector<Setting> gridOf(const std::vector<Sweep>& sweeps);
 
 // "kernel_size=8 radius=0.5"; "defaults" for none.
-std::string nameOf(const Setting& setting);
+std::string nameOf(const SettingText& setting);
 
 // Part I of N: every N-th setting from the I-th on, so that parts cost much the same.
 struct Shard {

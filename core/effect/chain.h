@@ -69,6 +69,19 @@ class Chain {
   std::map<std::string, Running, std::less<>> running_;            // by effect
 };
 
+// A chain that is started on a device, as long as this lives: its instances end before the device.
+class StartedChain {
+ public:
+  // Throws as Chain::start() does.
+  StartedChain(Chain& chain, gpu::Maker& device) : chain_(chain) { chain_.start(device); }
+  ~StartedChain() { chain_.stop(); }
+  StartedChain(const StartedChain&) = delete;
+  StartedChain& operator=(const StartedChain&) = delete;
+
+ private:
+  Chain& chain_;
+};
+
 // The guard band that an effect wants with these values about a picture so high, pixels.
 uint32_t guardBand(const Values& values, uint32_t height);
 

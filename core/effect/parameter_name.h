@@ -23,7 +23,15 @@ struct Assignment {
   std::string value;  // text, as on the command line
 
   std::string text() const { return name.text() + "=" + value; }
-  bool operator==(const Assignment&) const = default;
+  auto operator<=>(const Assignment&) const = default;
+};
+
+// A parameter's value, as grisaille_param_desc has it.
+struct ParameterValue {
+  ParameterName name;
+  double value = 0;
+
+  bool operator==(const ParameterValue&) const = default;
 };
 
 // Throws kUsage.

@@ -60,6 +60,8 @@ class Selection {
     values(assignment.name.effect).set(assignment.name.key, assignment.value);
   }
 
+  void set(const ParameterValue& one) { values(one.name.effect).set(one.name.key, one.value); }
+
   // Those that are on, in order.
   std::vector<const Effect*> effects() const;
 

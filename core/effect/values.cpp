@@ -87,6 +87,19 @@ void checkValue(const std::string& name, const grisaille_param_desc& param, doub
 
 }  // namespace
 
+std::string textOf(const grisaille_param_desc& param, double value) {
+  switch (param.type) {
+    case GRISAILLE_PARAM_BOOL:
+      return value != 0 ? "true" : "false";
+    case GRISAILLE_PARAM_ENUM:
+      return entries(param)[static_cast<size_t>(value)];
+    case GRISAILLE_PARAM_INT:
+      return std::to_string(static_cast<int64_t>(value));
+    default:
+      return number(value);
+  }
+}
+
 Values::Values(const Effect& effect) : effect_(effect) {
   for (const grisaille_param_desc& param : effect.params()) values_.push_back(param.default_value);
 }
@@ -124,18 +137,7 @@ void Values::set(std::string_view key, double value) {
 
 std::string Values::text(std::string_view key) const {
   const size_t index = indexOf(key);
-  const grisaille_param_desc& param = effect_.params()[index];
-  const double value = values_[index];
-  switch (param.type) {
-    case GRISAILLE_PARAM_BOOL:
-      return value != 0 ? "true" : "false";
-    case GRISAILLE_PARAM_ENUM:
-      return entries(param)[static_cast<size_t>(value)];
-    case GRISAILLE_PARAM_INT:
-      return std::to_string(static_cast<int64_t>(value));
-    default:
-      return number(value);
-  }
+  return textOf(effect_.params()[index], values_[index]);
 }
 
 }  // namespace grisaille::effect

@@ -11,6 +11,9 @@
 
 namespace grisaille::effect {
 
+// A value that the parameter may have, as Values::set() takes it back without loss.
+std::string textOf(const grisaille_param_desc& param, double value);
+
 class Values {
  public:
   explicit Values(const Effect& effect);  // all defaults

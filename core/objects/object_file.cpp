@@ -250,8 +250,7 @@ void checkEnding(const std::string& path) {
   throw Error(ErrorId::kObjectFileEnding, "{}: the ending \"{}\" is not .json", path, ending);
 }
 
-void save(const View& objects, const std::string& path) {
-  checkEnding(path);
+std::string jsonOf(const View& objects) {
   Text text;
   fmt::format_to(std::back_inserter(text), "{{\"version\": {}, \"{}\": [", kVersion,
                  objects.table->key);
@@ -260,7 +259,12 @@ void save(const View& objects, const std::string& path) {
     putObject(text, objects, i);
   }
   text.append(std::string_view("\n]}\n"));
-  writeFileAtomically(path, {text.data(), text.size()});
+  return fmt::to_string(text);
+}
+
+void save(const View& objects, const std::string& path) {
+  checkEnding(path);
+  writeFileAtomically(path, jsonOf(objects));
 }
 
 Objects load(const Table& table, const std::string& path) {

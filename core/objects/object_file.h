@@ -22,6 +22,9 @@ namespace grisaille::objects {
 // Throws kObjectFileEnding unless the path ends in .json.
 void checkEnding(const std::string& path);
 
+// The text of a file.
+std::string jsonOf(const View& objects);
+
 // An older file stays as it was, whatever fails. Throws kObjectFileEnding and kFileUnwritable.
 void save(const View& objects, const std::string& path);
 

@@ -1,0 +1,54 @@
+// SPDX-License-Identifier: MIT
+// What effects may ask of the program: rays through the scene, and decoded picture files.
+#pragma once
+
+#include <map>
+#include <optional>
+#include <string>
+
+#include "core/effect/instance.h"
+#include "core/image/image.h"
+#include "core/trace/ray_tracer.h"
+
+namespace grisaille::app {
+
+// Embree's scene is built with the first rays.
+class SceneRays : public effect::RayService {
+ public:
+  // `scene` outlives this and stays unchanged.
+  explicit SceneRays(const scene::Scene& scene) : scene_(scene) {}
+
+  void cast(std::span<const grisaille_ray> rays, std::span<grisaille_hit> hits) override {
+    if (!tracer_) tracer_.emplace(scene_, (scene_.bounds.min + scene_.bounds.max) / 2.0);
+    tracer_->castRays(rays, hits);
+  }
+
+ private:
+  const scene::Scene& scene_;
+  std::optional<trace::RayTracer> tracer_;
+};
+
+// Any format that OpenImageIO reads, of up to 16384 pixels a side. A file that cannot be read is
+// warned of once, on standard error.
+class PictureFiles : public effect::PictureService {
+ public:
+  void read(const char* path, grisaille_picture& out) override;
+
+ private:
+  image::Image8 picture_;                       // the last one
+  std::map<std::string, Error, std::less<>> failed_;  // by path
+};
+
+class SceneServices {
+ public:
+  explicit SceneServices(const scene::Scene& scene) : rays_(scene) {}
+
+  effect::Services all() { return {.rays = &rays_, .pictures = &pictures_}; }
+  effect::RayService& rays() { return rays_; }
+
+ private:
+  SceneRays rays_;
+  PictureFiles pictures_;
+};
+
+}  // namespace grisaille::app
