@@ -8,10 +8,9 @@
 #include <filesystem>
 #include <memory>
 
-#include "app/active_effects.h"
 #include "app/command.h"
 #include "app/new_effect_files.h"
-#include "app/viewer/command_line.h"
+#include "app/settings/active_effects.h"
 #include "core/base/atomic_file.h"
 #include "core/base/error.h"
 #include "core/base/library_folder.h"

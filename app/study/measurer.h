@@ -7,9 +7,9 @@
 #include <string>
 #include <vector>
 
-#include "app/active_effects.h"
-#include "app/scene_rays.h"
+#include "app/settings/active_effects.h"
 #include "app/study/record.h"
+#include "app/truth/scene_rays.h"
 #include "core/frame/renderer.h"
 #include "core/image/image.h"
 #include "core/scene/camera.h"
