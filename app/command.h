@@ -14,8 +14,6 @@ void addEffects(CLI::App& program);
 void addNewEffect(CLI::App& program);
 void addBackends(CLI::App& program);
 void addMeasure(CLI::App& program);
-void addClaims(CLI::App& program);
-void addStability(CLI::App& program);
 void addTruth(CLI::App& program);
 void addTune(CLI::App& program);
 void addScene(CLI::App& program);

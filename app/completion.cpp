@@ -6,9 +6,8 @@
 #include <cstdio>
 #include <memory>
 
-#include "app/active_effects.h"
 #include "app/command.h"
-#include "app/presets.h"
+#include "app/settings/presets.h"
 #include "core/base/error.h"
 
 namespace grisaille::app {

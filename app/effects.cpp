@@ -3,11 +3,10 @@
 #include <cstdio>
 #include <memory>
 
-#include "app/active_effects.h"
 #include "app/command.h"
-#include "app/effect_tables.h"
-#include "app/option_checks.h"
-#include "app/verify.h"
+#include "app/options/option_checks.h"
+#include "app/report/effect_tables.h"
+#include "app/verify/verify.h"
 #include "core/base/error.h"
 
 namespace grisaille::app {

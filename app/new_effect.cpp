@@ -8,10 +8,8 @@
 #include <filesystem>
 #include <memory>
 
-#include "app/active_effects.h"
 #include "app/command.h"
 #include "app/new_effect_files.h"
-#include "app/viewer/command_line.h"
 #include "core/base/atomic_file.h"
 #include "core/base/error.h"
 #include "core/base/library_folder.h"

@@ -6,7 +6,7 @@
 #include <memory>
 
 #include "app/command.h"
-#include "app/output_file.h"
+#include "app/options/output_file.h"
 #include "core/scene/camera.h"
 #include "core/scene/scene.h"
 

@@ -10,11 +10,11 @@
 #include <memory>
 #include <optional>
 
-#include "app/camera_option.h"
 #include "app/command.h"
-#include "app/option_checks.h"
-#include "app/output_file.h"
-#include "app/size.h"
+#include "app/options/camera_option.h"
+#include "app/options/option_checks.h"
+#include "app/options/output_file.h"
+#include "app/options/size.h"
 #include "app/truth/content_hash.h"
 #include "app/truth/occlusion_truth.h"
 #include "app/truth/refine.h"

@@ -8,15 +8,15 @@
 #include <map>
 #include <memory>
 
-#include "app/camera_option.h"
 #include "app/command.h"
-#include "app/driver_messages.h"
-#include "app/option_checks.h"
-#include "app/presets.h"
-#include "app/settings.h"
+#include "app/options/camera_option.h"
+#include "app/options/driver_messages.h"
+#include "app/options/option_checks.h"
+#include "app/options/subject_options.h"
+#include "app/settings/presets.h"
+#include "app/settings/settings.h"
 #include "app/study/random_cameras.h"
 #include "app/study/search.h"
-#include "app/subject_options.h"
 #include "app/truth/interruption.h"
 #include "app/truth/progress.h"
 #include "backends/backends.h"

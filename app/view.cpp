@@ -4,10 +4,10 @@
 #include <memory>
 
 #include "app/command.h"
-#include "app/driver_messages.h"
-#include "app/option_checks.h"
-#include "app/output_file.h"
-#include "app/size.h"
+#include "app/options/driver_messages.h"
+#include "app/options/option_checks.h"
+#include "app/options/output_file.h"
+#include "app/options/size.h"
 #include "app/viewer/viewer.h"
 #include "core/image/image.h"
 

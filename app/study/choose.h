@@ -6,7 +6,7 @@
 #include <string>
 #include <vector>
 
-#include "app/presets.h"
+#include "app/settings/presets.h"
 #include "app/study/record.h"
 #include "app/study/report.h"
 

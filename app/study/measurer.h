@@ -8,7 +8,7 @@
 #include <string>
 #include <vector>
 
-#include "app/scene_services.h"
+#include "app/services/scene_services.h"
 #include "app/study/record.h"
 #include "core/frame/renderer.h"
 #include "core/image/image.h"

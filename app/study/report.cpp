@@ -9,7 +9,6 @@
 #include <nlohmann/json.hpp>
 
 #include "app/study/page.h"
-#include "app/viewer/command_line.h"
 #include "core/base/atomic_file.h"
 #include "core/base/quote.h"
 

@@ -4,8 +4,7 @@
 #include <algorithm>
 #include <utility>
 
-#include "app/active_effects.h"
-#include "app/presets.h"
+#include "app/settings/presets.h"
 #include "core/base/error.h"
 
 namespace grisaille::app::viewer {

@@ -7,7 +7,7 @@
 #include <utility>
 #include <vector>
 
-#include "app/settings.h"
+#include "app/settings/settings.h"
 #include "core/effect/registry.h"
 #include "core/effect/values.h"
 

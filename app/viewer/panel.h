@@ -11,7 +11,7 @@
 #include <string>
 #include <vector>
 
-#include "app/coverage.h"
+#include "app/report/coverage.h"
 #include "app/truth/comparison.h"
 #include "app/viewer/bookmarks.h"
 #include "app/viewer/layout.h"

@@ -11,7 +11,7 @@
 #include <string>
 #include <vector>
 
-#include "app/viewer/child.h"
+#include "app/process/child.h"
 #include "core/effect/registry.h"
 
 namespace grisaille::app::viewer {

@@ -1,12 +1,11 @@
 // SPDX-License-Identifier: MIT
 #include "app/viewer/session.h"
-#include "app/camera_option.h"
+#include "app/options/camera_option.h"
 
 #include <algorithm>
 #include <filesystem>
 #include <fstream>
 
-#include "app/active_effects.h"
 #include "app/viewer/camera_control.h"
 #include "app/viewer/command_line.h"
 #include "app/viewer/state_file.h"

@@ -12,7 +12,7 @@
 #include <string>
 #include <vector>
 
-#include "app/presets.h"
+#include "app/settings/presets.h"
 #include "app/viewer/effect_list.h"
 #include "app/viewer/history.h"
 #include "app/viewer/stage.h"

@@ -10,7 +10,7 @@
 #include <string>
 #include <vector>
 
-#include "app/scene_rays.h"
+#include "app/services/scene_services.h"
 #include "app/viewer/effect_list.h"
 #include "core/frame/renderer.h"
 #include "core/shots/shot_list.h"

@@ -10,8 +10,8 @@
 #include <utility>
 #include <vector>
 
-#include "app/settings.h"
-#include "app/viewer/child.h"
+#include "app/process/child.h"
+#include "app/settings/settings.h"
 #include "app/viewer/effect_list.h"
 #include "core/scene/camera.h"
 

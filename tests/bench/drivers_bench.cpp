@@ -8,7 +8,7 @@
 #include <cmath>
 
 #include "backends/backends.h"
-#include "tests/drivers/agreement.h"
+#include "tests/backends/drivers/agreement.h"
 
 namespace grisaille::bench {
 namespace {

@@ -13,7 +13,7 @@
 #include <sstream>
 #include <thread>
 
-#include "app/presets.h"
+#include "app/settings/presets.h"
 #include "backends/backends.h"
 #include "core/base/error.h"
 #include "core/effect/instance.h"

@@ -1,12 +1,11 @@
 // SPDX-License-Identifier: MIT
 // A file of settings and, after a zero byte, assignments as of --set, a line each; against the
 // table of an effect of the program.
-#include "app/settings.h"
+#include "app/settings/settings.h"
 
 #include <algorithm>
 #include <tuple>
 
-#include "app/active_effects.h"
 #include "core/effect/registry.h"
 #include "tests/fuzz/check_values.h"
 

@@ -116,7 +116,8 @@ std::vector<std::string> TemporaryFolder::files() const {
 
 Outcome runProgram(const std::vector<std::string>& arguments, const fs::path& folder,
                    const std::vector<std::string>& environment) {
-  std::vector<std::string> all = {PROGRAM};
+  const bool lab = !arguments.empty() && (arguments[0] == "claims" || arguments[0] == "stability");
+  std::vector<std::string> all = {lab ? LAB : PROGRAM};
   all.insert(all.end(), arguments.begin(), arguments.end());
   return run(std::move(all), folder, environment);
 }

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: MIT
-// Runs the program as its users do.
+// Runs the programs as their users do.
 #pragma once
 
 #include <filesystem>
@@ -31,12 +31,12 @@ class TemporaryFolder {
   std::filesystem::path path_;
 };
 
-// `grisaille ARGUMENTS` in `folder`, with variables ("NAME=value") added to the environment; killed
-// after 600 seconds.
+// `grisaille ARGUMENTS` in `folder`, or `grisaille-lab ARGUMENTS` for a subcommand of that program;
+// with variables ("NAME=value") added to the environment; killed after 600 seconds.
 Outcome runProgram(const std::vector<std::string>& arguments, const std::filesystem::path& folder,
                    const std::vector<std::string>& environment = {});
 
-// The same for a shell's command line, with `grisaille` on the PATH.
+// The same for a shell's command line, with both programs on the PATH.
 Outcome runShell(const std::string& line, const std::filesystem::path& folder);
 
 std::string readFile(const std::filesystem::path& path);

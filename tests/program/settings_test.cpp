@@ -3,7 +3,6 @@
 // lines.
 #include <gtest/gtest.h>
 
-#include "app/active_effects.h"
 #include "app/viewer/command_line.h"
 #include "core/image/image.h"
 #include "tests/program/run.h"

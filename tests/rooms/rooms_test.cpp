@@ -1,14 +1,15 @@
 // SPDX-License-Identifier: MIT
-// Arrows between the rooms run one way: app -> core <- backends, effects -> the installed header.
-// Reads every #include of the tree and fails on one that runs elsewhere.
+// Arrows between the rooms run one way: lab -> app -> core <- backends, effects -> the installed
+// header. Reads every #include of the tree and fails on one that no room's list names.
 #include <gtest/gtest.h>
 
+#include <algorithm>
 #include <filesystem>
 #include <fstream>
 #include <regex>
 #include <set>
+#include <sstream>
 #include <string>
-#include <vector>
 
 namespace grisaille::tests {
 namespace {
@@ -16,44 +17,65 @@ namespace {
 namespace fs = std::filesystem;
 
 struct Room {
-  std::string folder;             // longest match wins
-  std::vector<std::string> sees;  // prefixes of the project's own headers
+  const char* folder;
+  const char* sees;  // folders and single headers of the project, without their subfolders
 };
 
-// A file always sees the headers of its own folder, and core/base.
-const std::vector<Room>& rooms() {
-  static const std::vector<Room> kRooms = {
-      {"core", {}},
-      {"core/image", {}},
-      {"core/scene", {"core/image/"}},
-      {"core/shots", {"core/image/", "grisaille/"}},
-      {"core/gpu", {"grisaille/shader.h"}},
-      {"core/trace", {"core/scene/", "core/image/", "grisaille/"}},
-      {"core/effect", {"core/gpu/", "grisaille/"}},
-      {"core/effect/include/grisaille", {"grisaille/"}},
-      {"core/frame",
-       {"core/effect/", "core/gpu/", "core/image/", "core/scene/", "grisaille/", "shaders/"}},
-      {"backends", {"backends/opengl/opengl.h", "backends/vulkan/vulkan.h", "core/gpu/"}},
-      {"backends/glfw", {"backends/window.h"}},
-      {"backends/opengl", {"backends/window.h", "core/gpu/"}},
-      {"backends/vulkan", {"backends/window.h", "core/gpu/"}},
-      {"host",
-       {"backends/opengl/opengl.h", "backends/vulkan/vulkan.h", "core/effect/", "core/gpu/",
-        "core/frame/view_block.h", "core/scene/camera.h", "core/shots/shot.h", "grisaille/",
-        "host/", "shaders/"}},
-      {"host/include/grisaille", {"grisaille/"}},
-      {"effects", {"grisaille/", "shaders/"}},
-      {"app", {"backends/backends.h", "core/", "grisaille/", "app/"}},
-      {"app/truth", {"core/"}},
-      {"app/stability", {"core/", "grisaille/", "app/"}},
-      {"app/stability/oracle", {"core/image/", "core/scene/", "grisaille/"}},
-      {"app/study", {"core/", "grisaille/", "app/", "backends/backends.h"}},
-      {"app/viewer",
-       {"backends/backends.h", "backends/glfw/window.h", "core/", "grisaille/", "app/",
-        "shaders/"}},
-  };
-  return kRooms;
-}
+// A file also sees its own folder, and every room but effects and installed headers sees core/base.
+constexpr Room kRooms[] = {
+    {"core/base", ""},
+    {"core/gpu", "grisaille/shader.h"},
+    {"core/effect", "core/gpu grisaille"},
+    {"core/effect/include/grisaille", "grisaille"},
+    {"core/image", ""},
+    {"core/scene", "core/image"},
+    {"core/shots", "core/image grisaille"},
+    {"core/trace", "core/image core/scene grisaille"},
+    {"core/frame", "core/effect core/gpu core/image core/scene grisaille shaders"},
+    {"backends", "backends/opengl/opengl.h backends/vulkan/vulkan.h core/gpu"},
+    {"backends/glfw", "backends/window.h"},
+    {"backends/opengl", "backends/window.h core/gpu"},
+    {"backends/vulkan", "backends/window.h core/gpu"},
+    {"effects/ssao", "grisaille shaders"},
+    {"effects/sspm", "grisaille shaders"},
+    {"host",
+     "backends/opengl/opengl.h backends/vulkan/vulkan.h core/effect core/gpu "
+     "core/frame/view_block.h core/scene/camera.h core/shots/shot.h grisaille shaders"},
+    {"host/include/grisaille", "grisaille"},
+    // The program's commands, then the folders they share, each after those it sees.
+    {"app",
+     "app/apply app/options app/process app/report app/settings app/study app/truth app/verify "
+     "app/viewer/viewer.h backends/backends.h core/effect core/frame core/gpu core/image "
+     "core/scene core/shots core/trace grisaille"},
+    {"app/apply", "core/image"},
+    {"app/settings", "core/effect core/frame core/gpu"},
+    {"app/report", "app/settings core/effect core/gpu core/image core/scene grisaille"},
+    {"app/truth", "core/effect core/image core/scene core/trace"},
+    {"app/process", "app/truth/interruption.h core/effect"},
+    {"app/verify",
+     "app/process/child.h app/truth/scene_rays.h backends/backends.h core/effect core/frame "
+     "core/shots"},
+    {"app/study",
+     "app/settings app/truth core/effect core/frame core/gpu core/image core/scene core/trace "
+     "grisaille"},
+    {"app/options",
+     "app/settings app/study/measurer.h app/truth backends/backends.h core/frame core/gpu "
+     "core/image core/scene core/shots core/trace"},
+    {"app/viewer",
+     "app/options/camera_option.h app/process/child.h app/report app/settings app/truth "
+     "backends/backends.h backends/glfw/window.h core/effect core/frame core/gpu core/image "
+     "core/scene core/shots grisaille shaders"},
+    {"lab",
+     "app/options app/process/program.h app/report/machine.h app/settings app/truth "
+     "backends/backends.h lab/claims lab/stability"},
+    {"lab/oracle", "core/image core/scene grisaille"},
+    {"lab/stability",
+     "app/truth core/effect core/frame core/gpu core/image core/scene core/shots core/trace "
+     "grisaille lab/oracle"},
+    {"lab/claims",
+     "app/settings app/study app/truth core/effect core/gpu core/image core/scene core/shots "
+     "core/trace grisaille"},
+};
 
 // Headers of a graphics API, which backends alone see.
 const std::regex& apiHeader() {
@@ -65,20 +87,18 @@ bool startsWith(const std::string& text, const std::string& prefix) {
   return text.rfind(prefix, 0) == 0;
 }
 
-// GLFW's own header shows no API; its header of native handles does.
-bool mayOpenWindows(const std::string& folder, const std::string& header) {
-  const bool backend = folder == "backends" || startsWith(folder, "backends/");
-  const bool app = folder == "app" || startsWith(folder, "app/");
-  return backend || (app && header == "GLFW/glfw3.h");
+std::string folderOf(const std::string& file) {
+  return fs::path(file).parent_path();
 }
 
 const Room* roomOf(const std::string& folder) {
-  const Room* found = nullptr;
-  for (const Room& room : rooms()) {
-    const bool inside = folder == room.folder || startsWith(folder, room.folder + "/");
-    if (inside && (!found || room.folder.size() > found->folder.size())) found = &room;
-  }
-  return found;
+  const Room* room = std::ranges::find(kRooms, folder, &Room::folder);
+  return room == std::end(kRooms) ? nullptr : room;
+}
+
+// GLFW's own header shows no API; its header of native handles does.
+bool mayOpenWindows(const std::string& folder, const std::string& header) {
+  return startsWith(folder, "backends") || (folder == "app/viewer" && header == "GLFW/glfw3.h");
 }
 
 bool allowed(const std::string& folder, const std::string& header, bool quoted) {
@@ -86,15 +106,15 @@ bool allowed(const std::string& folder, const std::string& header, bool quoted) 
   if (std::regex_match(header, apiHeader())) return startsWith(folder, "backends/");
   // A library's header, or one that lies beside the file.
   if (!quoted || header.find('/') == std::string::npos) return true;
-  if (startsWith(header, "core/base/")) {
+  if (folderOf(header) == "core/base") {
     return !startsWith(folder, "effects") && folder.find("include/grisaille") == std::string::npos;
   }
-  // An effect's own folder is the second level: one effect never sees another.
-  if (startsWith(header, folder + "/")) return true;
+  if (folderOf(header) == folder) return true;
   const Room* room = roomOf(folder);
   if (!room) return false;
-  for (const std::string& prefix : room->sees) {
-    if (startsWith(header, prefix)) return true;
+  std::istringstream seen(room->sees);
+  for (std::string name; seen >> name;) {
+    if (name == header || name == folderOf(header)) return true;
   }
   return false;
 }
@@ -102,12 +122,13 @@ bool allowed(const std::string& folder, const std::string& header, bool quoted) 
 TEST(Rooms, ArrowsRunOneWay) {
   const std::regex include("^\\s*#\\s*include\\s*([<\"])([^>\"]+)[>\"].*");
   size_t read = 0;
-  for (const char* top : {"core", "backends", "effects", "host", "app"}) {
+  for (const char* top : {"core", "backends", "effects", "host", "app", "lab"}) {
     for (const auto& entry : fs::recursive_directory_iterator(fs::path(SOURCE_FOLDER) / top)) {
       const std::string ending = entry.path().extension();
       if (ending != ".h" && ending != ".hpp" && ending != ".cpp" && ending != ".c") continue;
       const std::string file = fs::relative(entry.path(), SOURCE_FOLDER);
-      const std::string folder = fs::path(file).parent_path();
+      const std::string folder = folderOf(file);
+      EXPECT_TRUE(roomOf(folder)) << file << " is in no room";
       std::ifstream text(entry.path());
       for (std::string line; std::getline(text, line);) {
         std::smatch match;
@@ -120,7 +141,6 @@ TEST(Rooms, ArrowsRunOneWay) {
   EXPECT_GT(read, 300u);
 }
 
-// The example hosts have of the project what is installed for them, and no more.
 TEST(Rooms, ExamplesSeeTheHostHeadersAlone) {
   const std::regex include("^\\s*#\\s*include\\s*([<\"])([^>\"]+)[>\"].*");
   std::set<std::string> seen;
@@ -140,7 +160,7 @@ TEST(Rooms, ExamplesSeeTheHostHeadersAlone) {
       } else if (startsWith(header, "grisaille/")) {
         seen.insert(header);
       } else {
-        for (const char* room : {"core/", "backends/", "host/", "app/", "shaders/"}) {
+        for (const char* room : {"core/", "backends/", "host/", "app/", "lab/", "shaders/"}) {
           EXPECT_FALSE(startsWith(header, room)) << entry.path() << " sees " << header;
         }
       }
@@ -157,8 +177,8 @@ TEST(Rooms, ForbiddenArrowsAreSeen) {
   EXPECT_FALSE(allowed("app", "volk.h", false));
   EXPECT_FALSE(allowed("app", "backends/vulkan/vulkan.h", true));
   EXPECT_FALSE(allowed("backends/opengl", "backends/vulkan/vulkan.h", true));
-  EXPECT_FALSE(allowed("app/stability/oracle", "effects/ssao/kernel.h", true));
-  EXPECT_FALSE(allowed("app/stability/oracle", "core/frame/renderer.h", true));
+  EXPECT_FALSE(allowed("lab/oracle", "effects/ssao/kernel.h", true));
+  EXPECT_FALSE(allowed("lab/oracle", "core/frame/renderer.h", true));
   EXPECT_FALSE(allowed("effects/ssao", "core/base/error.h", true));
   EXPECT_FALSE(allowed("effects/ssao", "effects/sspm/sspm.h", true));
   EXPECT_FALSE(allowed("core/gpu", "GLFW/glfw3.h", false));
@@ -169,6 +189,24 @@ TEST(Rooms, ForbiddenArrowsAreSeen) {
   EXPECT_FALSE(allowed("app", "host/effect.h", true));
   EXPECT_FALSE(allowed("effects/ssao", "GLFW/glfw3.h", false));
   EXPECT_FALSE(allowed("app/viewer", "GLFW/glfw3native.h", false));
+  EXPECT_FALSE(allowed("app/study", "GLFW/glfw3.h", false));
+  EXPECT_FALSE(allowed("app", "lab/command.h", true));
+  EXPECT_FALSE(allowed("app/study", "lab/claims/metrics.h", true));
+  EXPECT_FALSE(allowed("core/scene", "lab/oracle/view.h", true));
+  EXPECT_FALSE(allowed("lab", "app/command.h", true));
+  EXPECT_FALSE(allowed("lab", "app/viewer/viewer.h", true));
+  EXPECT_FALSE(allowed("lab/claims", "lab/stability/runner.h", true));
+  EXPECT_FALSE(allowed("lab/oracle", "app/truth/cache.h", true));
+  EXPECT_FALSE(allowed("app/study", "app/viewer/command_line.h", true));
+  EXPECT_FALSE(allowed("app/viewer", "app/study/measurer.h", true));
+  EXPECT_FALSE(allowed("app/verify", "app/viewer/stage.h", true));
+  EXPECT_FALSE(allowed("app/viewer", "app/verify/verify.h", true));
+  EXPECT_FALSE(allowed("app/verify", "app/study/study.h", true));
+  EXPECT_FALSE(allowed("app/settings", "app/options/size.h", true));
+  EXPECT_FALSE(allowed("app/viewer", "app/command.h", true));
+  EXPECT_FALSE(allowed("app/unlisted", "core/image/image.h", true));
+  EXPECT_TRUE(allowed("lab", "lab/claims/report.h", true));
+  EXPECT_TRUE(allowed("lab/stability", "lab/oracle/view.h", true));
   EXPECT_TRUE(allowed("app/viewer", "GLFW/glfw3.h", false));
   EXPECT_TRUE(allowed("backends/opengl", "GLFW/glfw3native.h", false));
   EXPECT_TRUE(allowed("effects/ssao", "grisaille/effect.hpp", true));

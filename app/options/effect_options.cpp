@@ -1,0 +1,60 @@
+// SPDX-License-Identifier: MIT
+#include "app/options/effect_options.h"
+
+#include "app/settings/presets.h"
+
+namespace grisaille::app {
+
+CLI::Option* EffectOptions::addTo(CLI::App& command, const std::string& help) {
+  command.add_option("--backend", backend, "opengl or vulkan; default: the first that starts")
+      ->type_name("NAME");
+  command.add_option("--device", device, "Number or part of the name, see `grisaille backends`")
+      ->type_name("N|NAME");
+  effectsGiven =
+      command.add_option("--effects", effects, "Effects in the order they run; default: those that `grisaille effects` marks")
+          ->type_name("KEY,...")
+          ->delimiter(',')
+          ->expected(0, 64);
+  command
+      .add_option("--preset", presets,
+                  "fast, balanced, fine or reference; --config and --set go over it")
+      ->type_name("EFFECT=NAME")
+      ->allow_extra_args(false);
+  command.add_option("--set", sets, "A parameter's value, see `grisaille effects`")
+      ->type_name("EFFECT.PARAMETER=VALUE")
+      ->allow_extra_args(false);
+  command
+      .add_option("--config", config, "Settings: effects, surface and values; options go over it")
+      ->type_name("FILE.toml");
+  surfaceGiven = command.add_option("--surface", surface, "What the light falls on in color")
+                     ->check(CLI::IsMember({"white", "base"}))
+                     ->capture_default_str();
+  command.add_option("--plugin-path", pluginPaths, "A further folder of effects")
+      ->type_name("DIR")
+      ->allow_extra_args(false);
+  command.add_flag("--check", check, "Validate every call, in the layer and in the driver");
+  return command.add_option("--write", writes, help)
+      ->type_name("NAME=FILE")
+      ->allow_extra_args(false);
+}
+
+ChosenEffects::ChosenEffects(const EffectOptions& options)
+    : registry(loadEffects(options.pluginPaths)) {
+  const auto given = [](const CLI::Option* option) {
+    return option != nullptr && !option->empty();
+  };
+  const Settings settings = options.config.empty() ? Settings{} : readSettings(options.config);
+  std::vector<std::string> keys = given(options.effectsGiven) ? options.effects
+                                  : settings.effects          ? *settings.effects
+                                                              : registry->defaults();
+  std::erase(keys, "");
+  chain = effect::Chain(effect::Selection(*registry, keys));
+  applyPresets(options.presets, chain.selection);
+  applySettings(settings, chain.selection);
+  for (const std::string& set : options.sets) chain.selection.set(effect::parseAssignment(set));
+  const std::string& ground =
+      given(options.surfaceGiven) || !settings.surface ? options.surface : *settings.surface;
+  if (ground == "base") surface = frame::Surface::kBaseColour;
+}
+
+}  // namespace grisaille::app

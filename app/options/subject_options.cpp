@@ -1,0 +1,206 @@
+// SPDX-License-Identifier: MIT
+#include "app/options/subject_options.h"
+
+#include <fmt/format.h>
+#include <unistd.h>
+
+#include <algorithm>
+#include <filesystem>
+#include <limits>
+
+#include "app/options/camera_option.h"
+#include "app/options/option_checks.h"
+#include "app/options/object_options.h"
+#include "app/options/size.h"
+#include "app/truth/content_hash.h"
+#include "app/truth/occlusion_truth.h"
+#include "core/base/error.h"
+#include "core/base/quote.h"
+#include "core/objects/object_file.h"
+
+namespace grisaille::app {
+namespace {
+
+namespace fs = std::filesystem;
+
+std::string defaultOutput(const effect::Selection& selection) {
+  for (const effect::Effect* effect : selection.effects()) {
+    for (const grisaille_output_desc& output : effect->outputs()) {
+      if (output.role != GRISAILLE_ROLE_VISIBILITY) continue;
+      return std::string(effect->key()) + "." + output.key;
+    }
+  }
+  throw Error(ErrorId::kUsage, "no effect has a visibility; name an --output");
+}
+
+// Where a view shows no surface there is no truth.
+void onSurfacesAlone(study::View& view, std::span<const trace::Hit> hits) {
+  for (size_t i = 0; i < hits.size(); ++i) {
+    if (hits[i].viewDepth == 0) view.truth.pixels[i] = std::numeric_limits<float>::quiet_NaN();
+  }
+}
+
+}  // namespace
+
+void SubjectOptions::addTo(CLI::App& command) {
+  command
+      .add_option("--camera", cameras,
+                  "Camera files, or their JSON itself; errors are averaged over them")
+      ->type_name("FILE|{...}")
+      ->allow_extra_args(false);
+  command.add_option("--set", sets, "A parameter's value in all settings")
+      ->type_name("EFFECT.PARAMETER=VALUE")
+      ->allow_extra_args(false);
+  command.add_option("--effects", effects, "Effects that run, in order; default: ssao")
+      ->delimiter(',')
+      ->allow_extra_args(false);
+  command.add_option("--output", output,
+                     "What is compared with the truth; default: the first visibility");
+  command
+      .add_option("--reference", references,
+                  "A picture that stands for the truth, one a camera, in their order; default: "
+                  "visibility, traced")
+      ->type_name("FILE")
+      ->allow_extra_args(false);
+  command.add_option("--load", loads, "Objects of an effect, as `grisaille render --save` wrote them")
+      ->type_name("EFFECT=FILE.json")
+      ->allow_extra_args(false);
+  command.add_option("--radius", radius, "Length of the truth's rays, metres")
+      ->check(numberFrom(1e-6, 1e6))
+      ->capture_default_str();
+  command.add_option("--samples", samples, "The truth's rays a pixel")
+      ->check(wholeNumberFrom(16, 65536))
+      ->capture_default_str();
+  command.add_option("--size", size, "Pixels")->type_name("WxH")->capture_default_str();
+  command.add_option("--plugin-path", pluginPaths, "A further folder of effects")
+      ->type_name("DIR")
+      ->allow_extra_args(false);
+}
+
+LoadedSubject::LoadedSubject(const SubjectOptions& options,
+                             std::unique_ptr<effect::Registry> registry,
+                             const std::vector<std::string>& swept)
+    : options_(options), registry_(std::move(registry)) {
+  subject_.effects = options.effects;
+  for (const std::string& effect : swept) {
+    if (std::ranges::find(subject_.effects, effect) == subject_.effects.end()) {
+      subject_.effects.push_back(effect);
+    }
+  }
+  if (subject_.effects.empty()) subject_.effects = registry_->defaults();
+  effect::Chain chain(effect::Selection(*registry_, subject_.effects));
+  for (const std::string& set : options.sets) {
+    subject_.sets.push_back(effect::parseAssignment(set));
+    chain.selection.set(subject_.sets.back());
+  }
+  subject_.output = options.output.empty() ? defaultOutput(chain.selection) : options.output;
+  frame::checkOutput(subject_.output, chain.selection.effects());
+  subject_.size = parseSize(options.size);
+  subject_.registry = registry_.get();
+  subject_.scene = &scene_;
+  loadObjects(chain);
+  for (const std::string& text : options.cameras) {
+    cameras_.push_back({isInlineCamera(text) ? "camera " + std::to_string(cameras_.size() + 1)
+                                             : fs::path(text).stem().string(),
+                        cameraOf(text, "--camera"), ""});
+  }
+  if (options.references.empty()) return;
+  if (cameras_.empty()) cameras_.push_back({"default", {}, ""});
+  if (options.references.size() != cameras_.size()) {
+    throw Error(ErrorId::kUsage, "there are {} --reference, and {} cameras",
+                options.references.size(), cameras_.size());
+  }
+  for (size_t i = 0; i < cameras_.size(); ++i) cameras_[i].reference = options.references[i];
+}
+
+void LoadedSubject::loadObjects(effect::Chain& chain) {
+  const ObjectOptions objects{.loads = options_.loads, .adds = {}, .saves = {}};
+  objects.check(chain);
+  objects.load(chain);
+  for (const auto& [effect, list] : chain.objectLists()) {
+    subject_.objects.emplace(effect, list.table()).first->second.append(list.view());
+  }
+}
+
+void LoadedSubject::loadScene() {
+  scene_ = options_.scene.empty() ? scene::makeAtrium() : scene::loadGltf(options_.scene);
+  if (!options_.cameras.empty()) return;
+  if (cameras_.empty()) cameras_.push_back({"default", {}, ""});
+  cameras_[0].camera =
+      options_.scene.empty() ? scene::atriumCamera() : scene::overviewCamera(scene_.bounds);
+}
+
+study::View LoadedSubject::viewOf(const std::string& name, const scene::Camera& camera,
+                                  const std::string& bar) const {
+  study::View view{.name = name, .camera = camera, .truth = {}};
+  view.camera.size = subject_.size;
+  truth::OcclusionTruth traced =
+      truth::traceOcclusion(scene_, view.camera, subject_.size, options_.radius, options_.samples,
+                            options_.progress || isatty(STDERR_FILENO) == 1, bar);
+  view.truth = std::move(traced.visibility);
+  view.noise = traced.error;
+  onSurfacesAlone(view, traced.hits);
+  return view;
+}
+
+study::View LoadedSubject::referenceOf(const Place& place) const {
+  study::View view{.name = place.name, .camera = place.camera, .truth = {}};
+  view.camera.size = subject_.size;
+  view.truth = study::oneChannel(image::read(place.reference), place.reference);
+  if (view.truth.width != subject_.size.x || view.truth.height != subject_.size.y) {
+    throw Error(ErrorId::kImageMismatch, "{} has {}x{} pixels, not {}x{}", place.reference,
+                view.truth.width, view.truth.height, subject_.size.x, subject_.size.y);
+  }
+  const trace::RayTracer tracer(scene_, view.camera.eye);
+  onSurfacesAlone(view, tracer.castPrimary(view.camera, subject_.size.x, subject_.size.y));
+  return view;
+}
+
+void LoadedSubject::trace() {
+  for (const Place& place : cameras_) {
+    const std::string bar =
+        fmt::format("truth {} of {}", subject_.views.size() + 1, cameras_.size());
+    subject_.views.push_back(place.reference.empty() ? viewOf(place.name, place.camera, bar)
+                                                     : referenceOf(place));
+  }
+}
+
+std::string LoadedSubject::key() const {
+  std::string key = fmt::format("scene {:016x}\nsize {}x{}\nradius {}\nsamples {}\noutput {}\n",
+                                truth::hashOf(scene_), subject_.size.x, subject_.size.y,
+                                options_.radius, options_.samples, subject_.output);
+  for (const effect::Assignment& set : subject_.sets) key += "set " + set.text() + "\n";
+  for (const std::string& effect : subject_.effects) key += "effect " + effect + "\n";
+  for (const auto& [effect, objects] : subject_.objects) {
+    truth::ContentHash hash;
+    hash.add(objects::jsonOf(objects.view()));
+    key += fmt::format("objects {} {:016x}\n", effect, hash.value());
+  }
+  for (size_t i = 0; i < cameras_.size(); ++i) {
+    if (cameras_[i].reference.empty()) continue;
+    truth::ContentHash hash;
+    hash.add(std::span<const float>(subject_.views[i].truth.pixels));
+    key += fmt::format("reference {:016x}\n", hash.value());
+  }
+  for (const study::View& view : subject_.views) {
+    key += "camera " + scene::cameraJson(view.camera) + "\n";
+  }
+  return key;
+}
+
+std::string LoadedSubject::renderCommand(const study::SettingText& setting,
+                                         const std::string& backend) const {
+  std::string command = "grisaille render";
+  const auto add = [&](const std::string& word) { command += " " + shellQuoted(word); };
+  if (!options_.scene.empty()) add(options_.scene);
+  add("--backend"), add(backend), add("--camera"), add(scene::cameraJson(subject_.views[0].camera));
+  add("--size"), add(fmt::format("{}x{}", subject_.size.x, subject_.size.y));
+  add("--effects"), add(fmt::format("{}", fmt::join(subject_.effects, ",")));
+  for (const std::string& load : options_.loads) add("--load"), add(load);
+  for (const effect::Assignment& set : subject_.sets) add("--set"), add(set.text());
+  for (const effect::Assignment& one : setting) add("--set"), add(one.text());
+  add("--write"), add(subject_.output + "=picture.png");
+  return command;
+}
+
+}  // namespace grisaille::app

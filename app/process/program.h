@@ -1,0 +1,20 @@
+// SPDX-License-Identifier: MIT
+// Runs a program of subcommands: command line, messages, exit status.
+#pragma once
+
+#include <CLI/CLI.hpp>
+#include <string>
+
+namespace grisaille::app {
+
+struct ProgramDesc {
+  std::string name, description, version;
+  void (*addCommands)(CLI::App& program) = nullptr;
+};
+
+// Parses the command line and runs the subcommand that it names. Prints an error of any kind to
+// standard error. Returns the exit status: 0, 1 for an error, 2 for a mistake on the command line,
+// truth::Interrupted::kStatus after an interruption.
+int runProgram(int argc, char** argv, const ProgramDesc& desc);
+
+}  // namespace grisaille::app

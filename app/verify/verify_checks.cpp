@@ -1,0 +1,393 @@
+// SPDX-License-Identifier: MIT
+#include <dlfcn.h>
+#include <fmt/format.h>
+
+#include <algorithm>
+#include <array>
+#include <cmath>
+#include <cstring>
+#include <filesystem>
+#include <memory>
+#include <random>
+#include <utility>
+#include <vector>
+
+#include "app/services/scene_services.h"
+#include "app/verify/verify.h"
+#include "backends/backends.h"
+#include "core/effect/registry.h"
+#include "core/effect/values.h"
+#include "core/frame/renderer.h"
+#include "core/shots/shot.h"
+
+namespace grisaille::app {
+namespace {
+
+constexpr glm::uvec2 kSize(96, 54);
+// Odd, small, thin, and not a multiple of any group's size; then the first once more.
+constexpr glm::uvec2 kSizes[] = {{1, 1}, {33, 17}, {7, 129}, {257, 3}, {64, 64}, {96, 54}};
+
+// Vectors of values drawn at random, and the size that they are drawn at.
+constexpr uint32_t kRandomVectors = 20;
+constexpr glm::uvec2 kRandomSize(33, 21);
+
+// Anything that a parameter may be: half the time what its slider gives, else near its ends on
+// either scale, or an end itself. The same on every machine.
+double randomValue(const grisaille_param_desc& param, std::mt19937& random) {
+  const double share = static_cast<double>(random()) * 0x1p-32;
+  const double low = param.hard_min, high = param.hard_max;
+  const auto kind = random() % 6;
+  double value = share < 0.5 ? low : high;
+  if (param.type == GRISAILLE_PARAM_BOOL || param.type == GRISAILLE_PARAM_ENUM) {
+    value = low + share * (high - low + 1);
+  } else if (kind < 3) {
+    value = param.soft_min + share * (param.soft_max - param.soft_min);
+  } else if (kind == 3 && low > 0) {
+    value = low * std::pow(high / low, share);
+  } else if (kind < 5) {
+    value = (1 - share) * low + share * high;  // high - low need not be a number
+  }
+  if (param.type != GRISAILLE_PARAM_FLOAT) value = std::floor(value);
+  return std::clamp(value, low, high);
+}
+
+// What the driver and its validation say.
+class Messages {
+ public:
+  explicit Messages(Report& report) : report_(report) {}
+
+  gpu::MessageSink sink() {
+    return [this](gpu::Severity severity, std::string_view text) {
+      if (severity == gpu::Severity::kInfo) {
+        report_.note(std::string(text));
+      } else {
+        heard_.emplace_back(text);
+      }
+    };
+  }
+  std::vector<std::string> take() { return std::exchange(heard_, {}); }
+
+ private:
+  Report& report_;
+  std::vector<std::string> heard_;
+};
+
+// One effect on one device.
+class EffectCheck {
+ public:
+  EffectCheck(Report& report, gpu::Device& device, Messages& messages, const scene::Scene& scene,
+              const effect::Effect& effect, const std::string& backend)
+      : report_(report),
+        device_(device),
+        messages_(messages),
+        effect_(effect),
+        title_(fmt::format("{}: {}: ", backend, effect.desc->key)),
+        renderer_(device, scene),
+        rays_(scene) {
+    for (const grisaille_output_desc& output : effect.outputs()) {
+      names_.push_back(fmt::format("{}.{}", effect.desc->key, output.key));
+    }
+    if (effect_.takesShots()) fire();
+  }
+
+  void run() {
+    checkReads();
+    if (!create()) return;
+    const effect::Values values(effect_);
+    draw("with its defaults", kSize, values, names_);
+    report_.conclude(title_ + "draws whole pictures with its defaults");
+    checkWrites(values);
+    for (const glm::uvec2& size : kSizes) {
+      draw(fmt::format("at {}x{}", size.x, size.y), size, values, names_);
+    }
+    report_.conclude(title_ + "is resized");
+    for (const std::string& name : names_)
+      draw("writing " + name + " alone", kSize, values, {name});
+    report_.conclude(title_ + "writes what is wanted alone");
+    checkExtremes();
+    checkRandom();
+    for (int i = 0; i < 3; ++i) {
+      if (!create()) return;
+      draw("made anew", kSize, values, names_);
+    }
+    destroy();
+    report_.conclude(title_ + "is destroyed and made anew");
+  }
+
+ private:
+  // A few shots into the picture, for those that take them.
+  void fire() {
+    for (const glm::dvec2 at : {glm::dvec2(30, 30), glm::dvec2(48, 20), glm::dvec2(70, 40)}) {
+      const glm::dvec3 towards = scene::pixelDirection(camera_, kSize.x, kSize.y, at);
+      shots_.push_back(shots::makeShot({.origin = {camera_.eye.x, camera_.eye.y, camera_.eye.z},
+                                        .direction = {towards.x, towards.y, towards.z},
+                                        .color = {1, 0.5, 0.1}}));
+    }
+  }
+
+  void step(const std::string& what) { report_.step(title_ + what); }
+  void expect(bool holds, const std::string& fault) { report_.expect(holds, title_ + fault); }
+
+  void heardNothing(const std::string& what) {
+    for (const std::string& text : messages_.take()) {
+      expect(false, fmt::format("{}: the driver or its validation says: {}", what, text));
+    }
+  }
+
+  void destroy() {
+    step("destroying it");
+    try {
+      if (instance_) instance_->end();
+    } catch (const Error& error) {
+      expect(false, error.detail());
+    }
+    instance_.reset();
+    heardNothing("destroying it");
+  }
+
+  // Whether it can be made.
+  bool create() {
+    destroy();
+    step("creating it");
+    shotsKept_ = 0;
+    try {
+      instance_ = std::make_unique<effect::Instance>(device_, effect_);
+      expect(true, "");
+    } catch (const Error& error) {
+      expect(false, error.detail());
+    }
+    heardNothing("creating it");
+    return instance_ != nullptr;
+  }
+
+  void checkReads() {
+    step("asking what it reads");
+    const effect::Values values(effect_);
+    try {
+      for (uint32_t wanted = 1; wanted < 1u << names_.size(); wanted <<= 1) {
+        const uint32_t reads = effect_.reads(values.all().data(), wanted);
+        expect(reads < 1u << GRISAILLE_ATTACHMENT_COUNT,
+               fmt::format("it reads {:#x}, of which there is not all", reads));
+        expect(reads == effect_.reads(values.all().data(), wanted),
+               "what it reads differs for the same values");
+      }
+    } catch (const Error& error) {
+      expect(false, error.detail());
+    }
+  }
+
+  bool render(const std::string& what, glm::uvec2 size, const effect::Values& values,
+              const std::vector<std::string>& outputs) {
+    step(what);
+    const std::array active = {frame::ActiveEffect{
+        .instance = instance_.get(), .values = &values, .shots = shots_, .shotsKept = shotsKept_}};
+    try {
+      renderer_.render({.camera = camera_,
+                        .width = size.x,
+                        .height = size.y,
+                        .effects = active,
+                        .outputs = outputs,
+                        .rays = &rays_});
+      shotsKept_ = shots_.size();
+    } catch (const Error& error) {
+      if (error.id() == ErrorId::kDeviceLost) throw;
+      expect(false, fmt::format("{}: {}", what, error.detail()));
+      heardNothing(what);
+      return false;
+    }
+    return true;
+  }
+
+  void draw(const std::string& what, glm::uvec2 size, const effect::Values& values,
+            const std::vector<std::string>& outputs) {
+    if (!render(what, size, values, outputs)) return;
+    for (const std::string& name : outputs) {
+      const auto index = std::ranges::find(names_, name) - names_.begin();
+      const std::string which = fmt::format("{}: {}", what, name);
+      try {
+        checkPicture(which, effect_.outputs()[static_cast<size_t>(index)], renderer_.read(name));
+      } catch (const Error& error) {
+        if (error.id() == ErrorId::kDeviceLost) throw;
+        expect(false, fmt::format("{} cannot be read: {}", which, error.detail()));
+      }
+    }
+    heardNothing(what);
+  }
+
+  // Numbers, and in the range that the output's role has.
+  void checkPicture(const std::string& what, const grisaille_output_desc& output,
+                    const image::Image& picture) {
+    constexpr float kRounding = 1e-3f;
+    size_t odd = 0, outside = 0, nobodys = 0;
+    for (size_t i = 0; i < picture.pixels.size(); ++i) {
+      const float value = picture.pixels[i];
+      if (!std::isfinite(value)) ++odd;
+      const size_t channel = i % picture.channels;
+      const bool share = (output.role == GRISAILLE_ROLE_VISIBILITY && channel == 0) ||
+                         (output.role == GRISAILLE_ROLE_TINT && channel < 3) ||
+                         (output.role == GRISAILLE_ROLE_PAINT && channel == 3);
+      if (share && (value < -kRounding || value > 1 + kRounding)) ++outside;
+      const auto shots = static_cast<float>(shots_.size());
+      if (output.role == GRISAILLE_ROLE_OWNER && value > shots) ++nobodys;
+    }
+    expect(odd == 0, fmt::format("{} holds {} values that are no finite numbers", what, odd));
+    expect(outside == 0, fmt::format("{} holds {} values outside 0 to 1", what, outside));
+    expect(nobodys == 0, fmt::format("{} holds {} numbers of no shot", what, nobodys));
+  }
+
+  // Which bytes of an output it leaves as they were: `left` becomes 1 where they are.
+  void findLeft(const std::string& name, std::byte before, const effect::Values& values,
+                std::vector<uint8_t>& left, size_t texel) {
+    const gpu::Texture texture = renderer_.texture(name);
+    const std::vector<std::byte> fill(left.size() * texel, before);
+    device_.begin().upload(texture, 0, 0, fill);
+    device_.submit();
+    if (!render("over what " + name + " held", kSize, values, {name})) return;
+    const std::vector<std::byte> bytes = device_.read(renderer_.texture(name));
+    for (size_t i = 0; i < left.size(); ++i) {
+      const bool same = std::memcmp(&bytes[i * texel], &fill[i * texel], texel) == 0;
+      left[i] = left[i] != 0 && same ? 1 : 0;
+    }
+  }
+
+  // Every pixel of every output. A pixel that holds what was there before, whatever that was, is
+  // one that was not written.
+  void checkWrites(const effect::Values& values) {
+    for (size_t i = 0; i < names_.size(); ++i) {
+      if (!render("writing " + names_[i], kSize, values, {names_[i]})) continue;
+      const size_t texel =
+          gpu::formatInfo(effect::formatOf(effect_.outputs()[i].format)).texelBytes;
+      std::vector<uint8_t> left(size_t{kSize.x} * kSize.y, 1);
+      findLeft(names_[i], std::byte{0x3b}, values, left, texel);
+      findLeft(names_[i], std::byte{0x27}, values, left, texel);
+      const auto count = std::ranges::count(left, 1);
+      expect(count == 0,
+             fmt::format("{} of {} pixels of {} are not written", count, left.size(), names_[i]));
+    }
+    heardNothing("writing every pixel");
+    report_.conclude(title_ + "writes every pixel");
+  }
+
+  void drawWith(const grisaille_param_desc& param, double value) {
+    effect::Values values(effect_);
+    values.set(param.key, value);
+    draw(fmt::format("{} = {}", param.key, values.text(param.key)), kSize, values, names_);
+  }
+
+  void checkExtremes() {
+    effect::Values least(effect_), most(effect_);
+    for (const grisaille_param_desc& param : effect_.params()) {
+      const bool number = param.type == GRISAILLE_PARAM_FLOAT || param.type == GRISAILLE_PARAM_INT;
+      if (number) {
+        drawWith(param, param.hard_min);
+        drawWith(param, param.hard_max);
+      } else {
+        const auto last = static_cast<uint32_t>(param.hard_max);
+        for (uint32_t entry = 0; entry <= last; ++entry) drawWith(param, entry);
+      }
+      least.set(param.key, param.hard_min);
+      most.set(param.key, param.hard_max);
+    }
+    draw("all parameters at their least", kSize, least, names_);
+    draw("all parameters at their most", kSize, most, names_);
+    report_.conclude(title_ + "draws with every parameter at its extremes");
+  }
+
+  void checkRandom() {
+    std::mt19937 random(1);
+    for (uint32_t i = 0; i < kRandomVectors; ++i) {
+      effect::Values values(effect_);
+      std::string what = "with";
+      for (const grisaille_param_desc& param : effect_.params()) {
+        values.set(param.key, randomValue(param, random));
+        what += fmt::format(" {}={}", param.key, values.text(param.key));
+      }
+      draw(what, kRandomSize, values, names_);
+    }
+    report_.conclude(title_ + "draws with values drawn at random");
+  }
+
+  Report& report_;
+  gpu::Device& device_;
+  Messages& messages_;
+  const effect::Effect& effect_;
+  const std::string title_;
+  const scene::Camera camera_ = scene::atriumCamera();
+  frame::Renderer renderer_;
+  SceneRays rays_;
+  std::vector<std::string> names_;  // of its outputs
+  std::vector<grisaille_shot> shots_;
+  size_t shotsKept_ = 0;
+  std::unique_ptr<effect::Instance> instance_;
+};
+
+// A device that is lost takes what is left of the check along.
+void checkEffect(Report& report, gpu::Device& device, Messages& messages, const scene::Scene& scene,
+                 const effect::Effect& effect, const std::string& backend) {
+  try {
+    EffectCheck(report, device, messages, scene, effect, backend).run();
+  } catch (const Error& error) {
+    report.fault(fmt::format("{}: {}: the rest is not checked: {}", backend, effect.desc->key,
+                             error.detail()));
+  }
+}
+
+// Loads it over and over; the last time it stays.
+bool checkLoading(const std::string& file, effect::Registry& registry, Report& report) {
+  try {
+    for (int i = 0; i < 3; ++i) {
+      report.step("loading and unloading " + file);
+      effect::Registry().load(file);
+      // An absolute path, as it was loaded by: a bare name would be looked for in system folders.
+      const std::string path = std::filesystem::absolute(file);
+      void* left = dlopen(path.c_str(), RTLD_LAZY | RTLD_NOLOAD);
+      report.expect(left == nullptr,
+                    "it stays loaded when it is unloaded, so that no newer build "
+                    "of it can be loaded: build it with -fno-gnu-unique");
+      if (left != nullptr) dlclose(left);
+    }
+    report.step("loading " + file);
+    registry.load(file);
+  } catch (const Error& error) {
+    report.fault(error.detail());
+    return false;
+  }
+  for (const effect::Effect& effect : registry.effects()) {
+    report.expect(true, "");
+    report.conclude(fmt::format("{} {}: its table of {} parameters and {} outputs fits",
+                                effect.desc->key, effect.desc->version, effect.params().size(),
+                                effect.outputs().size()));
+  }
+  return true;
+}
+
+}  // namespace
+
+void checkPlugin(const std::string& file, Report& report) {
+  effect::Registry registry;
+  if (!checkLoading(file, registry, report)) return;
+  const scene::Scene scene = scene::makeAtrium();
+  size_t devices = 0;
+  for (const backends::Backend& backend : backends::all()) {
+    Messages messages(report);
+    std::unique_ptr<gpu::Device> device;
+    report.step(fmt::format("{}: starting a device", backend.name));
+    try {
+      device = backends::create(backend.name, {.check = true, .message = messages.sink()});
+    } catch (const Error& error) {
+      report.note(fmt::format("{}: nothing is checked, since {}", backend.name, error.detail()));
+      continue;
+    }
+    ++devices;
+    for (const effect::Effect& effect : registry.effects()) {
+      checkEffect(report, *device, messages, scene, effect, backend.name);
+    }
+    device.reset();
+    for (const std::string& text : messages.take()) {
+      report.fault(fmt::format("{}: at the end: {}", backend.name, text));
+    }
+  }
+  report.expect(devices > 0, "no backend starts, so that nothing was drawn");
+}
+
+}  // namespace grisaille::app

@@ -1,0 +1,281 @@
+// SPDX-License-Identifier: MIT
+#include <algorithm>
+#include <array>
+#include <cmath>
+#include <filesystem>
+#include <sstream>
+
+#include "app/settings/toml_values.h"
+#include "app/study/flicker_run.h"
+#include "core/base/error.h"
+#include "core/scene/camera_path.h"
+#include "core/shots/shot.h"
+#include "core/shots/shot_file.h"
+#include "lab/claims/claims.h"
+#include "lab/claims/metrics.h"
+#include "lab/claims/toml_table.h"
+
+namespace grisaille::lab::claims {
+namespace {
+
+namespace fs = std::filesystem;
+
+constexpr uint32_t kMostShots = 65536;
+constexpr uint32_t kLargestSide = 4096;  // pixels
+
+// Calls `work` and puts the place before what it throws.
+template <typename Work>
+auto at(const std::string& place, const Work& work) {
+  try {
+    return work();
+  } catch (const Error& error) {
+    // What a file says is no command line.
+    const ErrorId id = error.id() == ErrorId::kUsage ? ErrorId::kSettingsInvalid : error.id();
+    throw Error(id, "{}: {}", place, error.detail());
+  }
+}
+
+// Letters, digits, - and _.
+void requireName(TomlTable& table, const std::string& key, const std::string& name) {
+  const auto good = [](char c) {
+    return (c >= 'a' && c <= 'z') || (c >= 'A' && c <= 'Z') || (c >= '0' && c <= '9') || c == '-' ||
+           c == '_';
+  };
+  if (!name.empty() && name.size() <= 60 && std::ranges::all_of(name, good)) return;
+  table.refuse(table.require(key),
+               fmt::format("'{}' is not 1 to 60 letters, digits, - and _", key));
+}
+
+scene::Camera cameraOf(const TomlTable& owner, const toml::table& table) {
+  std::ostringstream json;
+  json << toml::json_formatter(table);
+  return scene::parseCamera(json.str(), owner.placeOf(table));
+}
+
+// One a frame. `frames`: 1 for none but the first.
+std::vector<scene::Camera> camerasOf(TomlTable& table, uint32_t frames) {
+  std::vector<scene::Camera> keys;
+  for (const toml::table* one : table.tables("camera")) keys.push_back(cameraOf(table, *one));
+  const toml::node& node = table.require("camera");
+  if ((frames > 1) != (keys.size() > 1)) {
+    table.refuse(node, "a path takes two cameras or more and 'frames', a picture one camera");
+  }
+  if (frames == 1) return keys;
+  return at(table.placeOf(node), [&] { return scene::camerasOf({keys, frames}); });
+}
+
+grisaille_shot shotOf(const TomlTable& owner, const toml::table& table) {
+  TomlTable shot(owner.file(), table);
+  const auto vector = [&](const char* key) {
+    shot.require(key);
+    const std::vector<double> v = shot.numbers(key, 3);
+    return std::array{v[0], v[1], v[2]};
+  };
+  const shots::ShotValues values{.origin = vector("origin"),
+                                 .direction = vector("direction"),
+                                 .color = vector("color"),
+                                 .range = shot.number("range", 0, 0, shots::kLongestRange)};
+  shot.finish();
+  return at(shot.place(), [&] { return shots::makeShot(values); });
+}
+
+std::vector<grisaille_shot> shotsOf(TomlTable& table) {
+  const toml::node* node = table.find("shots");
+  if (node == nullptr) return {};
+  if (const auto* file = node->as_string()) {
+    const fs::path path = fs::path(table.file()).parent_path() / file->get();
+    return at(table.placeOf(*node), [&] { return shots::load(path.string()); });
+  }
+  std::vector<grisaille_shot> shots;
+  for (const toml::table* one : table.tables("shots")) shots.push_back(shotOf(table, *one));
+  return shots;
+}
+
+PictureDesc pictureOf(TomlTable& owner, const Claim& claim, bool alongPath) {
+  PictureDesc desc;
+  desc.crop = {0, 0, claim.size};
+  const toml::node* node = owner.find("picture");
+  if (node == nullptr) return desc;
+  if (node->as_table() == nullptr) owner.refuse(*node, "'picture' is no table");
+  TomlTable table(owner.file(), *node->as_table());
+  const std::string show = table.text("show", "output");
+  if (show != "output" && show != "color" && show != "change") {
+    table.refuse(*node, "'show' is none of output, color and change");
+  }
+  desc.show = show == "color"    ? PictureKind::kColor
+              : show == "change" ? PictureKind::kChange
+                                 : PictureKind::kOutput;
+  if (desc.show == PictureKind::kChange && !alongPath) table.refuse(*node, "a change takes a path");
+  if (const std::vector<double> crop = table.numbers("crop", 4); !crop.empty()) {
+    for (int i = 0; i < 4; ++i) {
+      const double value = crop[static_cast<size_t>(i)];
+      const double room = i < 2 ? 0 : claim.size[i - 2] - crop[static_cast<size_t>(i) - 2];
+      const bool good = value == std::floor(value) && value >= (i < 2 ? 0 : 1) &&
+                        (i < 2 ? value < claim.size[i] : value <= room);
+      if (!good) table.refuse(*node, "'crop' is no rectangle of whole pixels in the picture");
+      desc.crop[i] = static_cast<uint32_t>(value);
+    }
+  }
+  desc.zoom = table.whole("zoom", 1, 1, 16);
+  desc.low = table.number("low", 0, -1e6, 1e6);
+  desc.high = table.number("high", desc.show == PictureKind::kChange ? 0.25 : 1, -1e6, 1e6);
+  if (!(desc.low < desc.high)) table.refuse(*node, "'low' is not under 'high'");
+  table.finish();
+  return desc;
+}
+
+// What is left to check of a run once all of the claim is read: what its effects say of it.
+void checkRun(const TomlTable& table, const Claim& claim, const ClaimRun& run,
+              const effect::Registry& registry) {
+  at(table.place(), [&] {
+    app::ActiveEffects active(registry, claim.effects);
+    for (const std::string& set : claim.sets) active.set(set);
+    for (const std::string& set : run.sets) active.set(set);
+    frame::checkOutput(claim.output, active.effects());
+  });
+}
+
+ClaimRun runOf(TomlTable& table, const Claim& claim, const std::vector<scene::Camera>& cameras) {
+  ClaimRun run;
+  run.name = table.text("name");
+  requireName(table, "name", run.name);
+  run.sets = table.texts("set");
+  run.cameras = cameras;
+  if (table.find("camera") != nullptr) {
+    run.cameras = camerasOf(table, static_cast<uint32_t>(cameras.size()));
+  }
+  run.against = table.text("against", "");
+  run.shots = table.whole("shots", static_cast<uint32_t>(claim.shots.size()), 0, kMostShots);
+  if (run.shots > 0 && claim.shots.empty()) {
+    table.refuse(table.require("shots"), "the claim has no shots");
+  }
+  const std::string noise = table.text("noise", "world");
+  if (noise != "world" && noise != "screen") {
+    table.refuse(table.require("noise"), "'noise' is neither world nor screen");
+  }
+  run.screenNoise = noise == "screen";
+  if (run.screenNoise && claim.output != "sspm.paint") {
+    table.refuse(table.require("noise"), "only the output sspm.paint has splats");
+  }
+  table.finish();
+  return run;
+}
+
+void addRuns(TomlTable& owner, Claim& claim, const std::vector<scene::Camera>& cameras,
+             const effect::Registry& registry) {
+  for (const toml::table* one : owner.tables("runs")) {
+    TomlTable table(owner.file(), *one);
+    ClaimRun run = runOf(table, claim, cameras);
+    if (std::ranges::find(claim.runs, run.name, &ClaimRun::name) != claim.runs.end()) {
+      table.refuse(*one, fmt::format("there are two runs '{}'", run.name));
+    }
+    checkRun(table, claim, run, registry);
+    claim.runs.push_back(std::move(run));
+  }
+  for (const ClaimRun& run : claim.runs) {
+    if (run.against.empty()) continue;
+    const auto right = std::ranges::find(claim.runs, run.against, &ClaimRun::name);
+    if (right == claim.runs.end()) {
+      owner.refuse(owner.require("runs"),
+                   fmt::format("run '{}' is against '{}', which is no run", run.name, run.against));
+    }
+  }
+}
+
+void addExpectations(TomlTable& table, Claim& claim, bool alongPath) {
+  const toml::node& node = table.require("expect");
+  const toml::array* array = node.as_array();
+  const std::vector<std::string> texts = table.texts("expect");
+  if (texts.empty()) table.refuse(node, "'expect' is empty");
+  for (size_t i = 0; i < texts.size(); ++i) {
+    const toml::node& line = *array->get(i);
+    const Expectation expectation =
+        at(table.placeOf(line), [&] { return parseExpectation(texts[i]); });
+    for (const Term* term :
+         {&expectation.left, expectation.right ? &*expectation.right : nullptr}) {
+      if (term == nullptr) continue;
+      if (std::ranges::find(claim.runs, term->run, &ClaimRun::name) == claim.runs.end()) {
+        table.refuse(line, fmt::format("'{}' is no run of this claim", term->run));
+      }
+      if (findMetric(term->metric)->alongPath && !alongPath) {
+        table.refuse(line, fmt::format("'{}' takes a camera path", term->metric));
+      }
+      if (claim.shots.empty() &&
+          (term->metric == "mask_outside" || term->region.find("painted") != std::string::npos)) {
+        table.refuse(line, fmt::format("'{}' takes shots", term->quantity()));
+      }
+    }
+    claim.expectations.push_back(expectation);
+  }
+}
+
+Claim claimOf(TomlTable& table, const effect::Registry& registry) {
+  Claim claim;
+  claim.place = table.place();
+  claim.key = table.text("key");
+  requireName(table, "key", claim.key);
+  claim.text = table.text("text");
+  claim.source = table.text("source");
+  claim.note = table.text("note", "");
+  const std::string scene = table.text("scene", "");
+  if (!scene.empty()) claim.scene = (fs::path(table.file()).parent_path() / scene).string();
+  if (const std::vector<double> size = table.numbers("size", 2); !size.empty()) {
+    for (int i = 0; i < 2; ++i) {
+      const double side = size[static_cast<size_t>(i)];
+      if (!(side >= 16 && side <= kLargestSide) || side != std::floor(side)) {
+        table.refuse(table.require("size"),
+                     fmt::format("'size' is not two whole numbers from 16 to {}", kLargestSide));
+      }
+      claim.size[i] = static_cast<uint32_t>(side);
+    }
+  }
+  claim.radius = table.number("radius", claim.radius, 1e-6, 1e6);
+  claim.distance = table.number("distance", claim.distance, 0, 1e9);
+  claim.effects = table.texts("effects");
+  if (claim.effects.empty()) claim.effects = {"ssao"};
+  claim.output = table.text("output", "ssao.ao");
+  claim.sets = table.texts("set");
+  claim.shots = shotsOf(table);
+  const uint32_t frames = table.whole("frames", 1, 1, scene::kMostPathFrames);
+  const std::vector<scene::Camera> cameras = camerasOf(table, frames);
+  at(table.place(), [&] { app::study::checkPathSize(claim.key, frames, claim.size); });
+  addRuns(table, claim, cameras, registry);
+  addExpectations(table, claim, frames > 1);
+  claim.picture = pictureOf(table, claim, frames > 1);
+  table.finish();
+  return claim;
+}
+
+}  // namespace
+
+ClaimsFile loadClaims(const std::string& path, const effect::Registry& registry) {
+  const toml::table document = app::parseTomlFile(path);
+  TomlTable table(path, document);
+  ClaimsFile file{.title = table.text("title", "Claims"), .claims = {}};
+  for (const toml::table* one : table.tables("claim")) {
+    TomlTable claim(path, *one);
+    file.claims.push_back(claimOf(claim, registry));
+    const std::string& key = file.claims.back().key;
+    if (std::ranges::count(file.claims, key, &Claim::key) > 1) {
+      claim.refuse(*one, fmt::format("there are two claims '{}'", key));
+    }
+  }
+  table.finish();
+  return file;
+}
+
+Claim scaled(const Claim& claim, double scale) {
+  const auto side = [scale](uint32_t pixels, double least) {
+    return static_cast<uint32_t>(std::max(std::round(scale * pixels), least));
+  };
+  Claim result = claim;
+  result.size = {side(claim.size.x, 16), side(claim.size.y, 16)};
+  glm::uvec4& crop = result.picture.crop;
+  for (int i = 0; i < 2; ++i) {
+    crop[i] = std::min(side(crop[i], 0), result.size[i] - 1);
+    crop[i + 2] = std::min(side(crop[i + 2], 1), result.size[i] - crop[i]);
+  }
+  return result;
+}
+
+}  // namespace grisaille::lab::claims

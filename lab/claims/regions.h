@@ -1,0 +1,37 @@
+// SPDX-License-Identifier: MIT
+// Parts of a picture that claims speak of, by name, as rays find them.
+#pragma once
+
+#include <cstdint>
+#include <span>
+#include <string>
+#include <string_view>
+#include <vector>
+
+#include "core/trace/flicker.h"
+
+namespace grisaille::lab::claims {
+
+struct RegionInfo {
+  const char* key;
+  const char* meaning;  // for reports
+};
+
+// Every region that a claim can name.
+std::span<const RegionInfo> regions();
+
+// Lengths that regions depend on, metres.
+struct RegionScale {
+  double radius = 0.5;   // of the occlusion
+  double distance = 10;  // where "near" ends and "far" begins, view depth
+};
+
+// 1 for each pixel of the frame that lies in all of `names`, which are joined by "+" and known.
+std::vector<uint8_t> regionOf(std::string_view names, const trace::FlickerFrame& frame,
+                              const RegionScale& scale);
+
+// 1 for all pixels within a square of `margin` pixels about a pixel of the mask.
+std::vector<uint8_t> widened(const std::vector<uint8_t>& mask, uint32_t width, uint32_t height,
+                             uint32_t margin);
+
+}  // namespace grisaille::lab::claims

@@ -1,0 +1,321 @@
+// SPDX-License-Identifier: MIT
+#include "lab/claims/run.h"
+
+#include <algorithm>
+#include <cmath>
+#include <limits>
+
+#include "app/study/flicker_run.h"
+#include "app/study/measurer.h"
+#include "app/study/record.h"
+#include "app/services/scene_services.h"
+#include "core/base/error.h"
+#include "core/trace/paint_mask.h"
+#include "core/trace/projection.h"
+#include "lab/claims/metrics.h"
+#include "lab/claims/picture.h"
+#include "lab/claims/regions.h"
+#include "lab/claims/screen_splats.h"
+
+namespace grisaille::lab::claims {
+
+// What rays find along one run's cameras.
+struct ClaimsRunner::View {
+  std::vector<scene::Camera> cameras;
+  std::vector<trace::FlickerFrame> frames;
+  std::vector<image::Image> truth;  // one a frame
+  std::map<std::string, std::vector<std::vector<uint8_t>>> regions;
+};
+
+struct ClaimsRunner::Run {
+  const ClaimRun* desc = nullptr;
+  std::unique_ptr<app::ActiveEffects> active;
+  std::vector<std::unique_ptr<effect::Instance>> instances;
+  std::vector<grisaille_shot> shots;
+  std::vector<frame::ActiveEffect> effects;
+  View* view = nullptr;
+  std::vector<image::Image> shown;  // one a frame, one channel
+  image::Image color;               // composed, of the last frame
+  std::vector<double> milliseconds;
+};
+
+// One claim on one device.
+class ClaimsRunner::Stage {
+ public:
+  Stage(const ClaimsDesc& desc, const Claim& claim, gpu::Device& device, const scene::Scene& scene)
+      : desc_(desc),
+        claim_(claim),
+        device_(device),
+        scene_(scene),
+        rays_(scene),
+        renderer_(device, scene) {}
+
+  void start();
+  void showAll();
+  void timeAll();
+  ClaimResult judge();
+
+ private:
+  View& viewOf(const std::vector<scene::Camera>& cameras);
+  trace::FlickerFrame frameOf(const scene::Camera& camera) const;
+  bool timed() const;
+  void render(Run& run, const scene::Camera& camera, const std::vector<std::string>& outputs);
+  image::Image shownBy(Run& run, const scene::Camera& camera);
+  ScreenSplats splatsOf(Run& run) const;
+  const std::vector<image::Image>& referenceOf(const Run& run);
+  const std::vector<std::vector<uint8_t>>& regionOn(View& view, const std::string& names) const;
+  double valueOf(Run& run, const Term& term);
+  std::vector<PictureRow> pictures();
+
+  const ClaimsDesc& desc_;
+  const Claim& claim_;
+  gpu::Device& device_;
+  const scene::Scene& scene_;
+  app::SceneRays rays_;
+  frame::Renderer renderer_;
+  std::vector<std::unique_ptr<View>> views_;
+  std::vector<Run> runs_;
+};
+
+bool ClaimResult::holds() const {
+  return std::ranges::all_of(expectations, &ExpectationResult::holds);
+}
+
+// With the truth: visibility, or where shots paint.
+trace::FlickerFrame ClaimsRunner::Stage::frameOf(const scene::Camera& camera) const {
+  if (claim_.shots.empty()) {
+    return app::study::traceFrame(scene_, camera, claim_.size, claim_.radius, desc_.samples,
+                                  desc_.progress);
+  }
+  const trace::RayTracer tracer(scene_, camera.eye);
+  trace::FlickerFrame frame{.camera = camera, .hits = {}, .ao = {}, .truth = {}};
+  frame.hits = tracer.castPrimary(camera, claim_.size.x, claim_.size.y);
+  app::ActiveEffects active(*desc_.registry, claim_.effects);
+  for (const std::string& set : claim_.sets) active.set(set);
+  const std::vector<uint8_t> mask =
+      trace::paintMask(tracer, frame.hits, claim_.shots, active.values("sspm").get("paint_range"));
+  frame.truth = {.width = claim_.size.x,
+                 .height = claim_.size.y,
+                 .channels = 1,
+                 .pixels = std::vector<float>(mask.begin(), mask.end())};
+  return frame;
+}
+
+ClaimsRunner::View& ClaimsRunner::Stage::viewOf(const std::vector<scene::Camera>& cameras) {
+  const auto same = [&](const scene::Camera& a, const scene::Camera& b) {
+    return scene::cameraJson(a) == scene::cameraJson(b);
+  };
+  for (const auto& view : views_) {
+    if (std::ranges::equal(view->cameras, cameras, same)) return *view;
+  }
+  auto view = std::make_unique<View>();
+  view->cameras = cameras;
+  for (const scene::Camera& camera : cameras) {
+    view->frames.push_back(frameOf(camera));
+    view->truth.push_back(view->frames.back().truth);
+  }
+  views_.push_back(std::move(view));
+  return *views_.back();
+}
+
+void ClaimsRunner::Stage::start() {
+  for (const ClaimRun& desc : claim_.runs) {
+    Run run;
+    run.desc = &desc;
+    run.active = std::make_unique<app::ActiveEffects>(*desc_.registry, claim_.effects);
+    for (const std::string& set : claim_.sets) run.active->set(set);
+    for (const std::string& set : desc.sets) run.active->set(set);
+    run.instances = run.active->start(device_);
+    for (uint32_t i = 0; i < desc.shots; ++i) {
+      run.shots.push_back(claim_.shots[i % claim_.shots.size()]);
+    }
+    run.effects = run.active->with(run.instances);
+    run.view = &viewOf(desc.cameras);
+    runs_.push_back(std::move(run));
+  }
+  for (Run& run : runs_) {
+    for (frame::ActiveEffect& effect : run.effects) {
+      if (effect.effect().takesShots()) effect.shots = run.shots;
+    }
+  }
+}
+
+void ClaimsRunner::Stage::render(Run& run, const scene::Camera& camera,
+                                 const std::vector<std::string>& outputs) {
+  renderer_.render({.camera = camera,
+                    .width = claim_.size.x,
+                    .height = claim_.size.y,
+                    .effects = run.effects,
+                    .outputs = outputs,
+                    .rays = &rays_});
+  for (frame::ActiveEffect& effect : run.effects) effect.shotsKept = effect.shots.size();
+}
+
+// The effect's own splats, but for the size of a cell: what it is on the screen at the middle of
+// the first frame.
+ScreenSplats ClaimsRunner::Stage::splatsOf(Run& run) const {
+  const effect::Values& values = run.active->values("sspm");
+  const trace::FlickerFrame& first = run.view->frames[0];
+  const trace::Projection projection(first.camera, claim_.size.x, claim_.size.y);
+  const size_t middle = size_t{claim_.size.y / 2} * claim_.size.x + claim_.size.x / 2;
+  const double depth = first.hits[middle].viewDepth;
+  if (depth == 0) {
+    throw Error(ErrorId::kSettingsInvalid,
+                "{}: splats tied to the screen take a surface in the picture's middle",
+                claim_.place);
+  }
+  return {.cell = values.get("splat_scale") * projection.scale() / depth,
+          .sharpness = values.get("splat_sharpness"),
+          .seed = static_cast<uint32_t>(values.get("noise_seed"))};
+}
+
+image::Image ClaimsRunner::Stage::shownBy(Run& run, const scene::Camera& camera) {
+  if (run.desc->screenNoise) {
+    render(run, camera, {"sspm.paint_coverage", "color"});
+    return screenSplats(renderer_.read("sspm.paint_coverage"), splatsOf(run));
+  }
+  render(run, camera, {claim_.output, "color"});
+  return app::study::oneChannel(renderer_.read(claim_.output), claim_.output);
+}
+
+void ClaimsRunner::Stage::showAll() {
+  for (Run& run : runs_) {
+    for (const scene::Camera& camera : run.view->cameras) {
+      run.shown.push_back(shownBy(run, camera));
+      run.color = renderer_.read("color");
+    }
+  }
+}
+
+bool ClaimsRunner::Stage::timed() const {
+  return std::ranges::any_of(claim_.expectations, [](const Expectation& e) {
+    return findMetric(e.left.metric)->timed || (e.right && findMetric(e.right->metric)->timed);
+  });
+}
+
+void ClaimsRunner::Stage::timeAll() {
+  if (!timed()) return;
+  for (uint32_t round = 0; round < desc_.rounds; ++round) {
+    for (Run& run : runs_) {
+      const std::vector<std::string> outputs = {claim_.output};
+      render(run, run.view->cameras[0], outputs);  // what it needs is made outside the clock
+      device_.wait();
+      device_.takeTimes();
+      render(run, run.view->cameras[0], outputs);
+      device_.wait();
+      const double share = frame::guardShare(run.effects, claim_.size.x, claim_.size.y);
+      run.milliseconds.push_back(app::study::costOf(device_.takeTimes(), claim_.effects, share));
+    }
+  }
+}
+
+const std::vector<image::Image>& ClaimsRunner::Stage::referenceOf(const Run& run) {
+  if (run.desc->against.empty()) return run.view->truth;
+  for (const Run& other : runs_) {
+    if (other.desc->name != run.desc->against) continue;
+    if (other.view == run.view) return other.shown;
+    throw Error(ErrorId::kSettingsInvalid, "{}: '{}' is against a run of another camera",
+                claim_.place, run.desc->name);
+  }
+  return run.view->truth;
+}
+
+const std::vector<std::vector<uint8_t>>& ClaimsRunner::Stage::regionOn(
+    View& view, const std::string& names) const {
+  auto [found, fresh] = view.regions.try_emplace(names);
+  for (size_t i = 0; fresh && i < view.frames.size(); ++i) {
+    trace::FlickerFrame& frame = view.frames[i];
+    frame.truth = view.truth[i];  // metrics use it up
+    found->second.push_back(
+        regionOf(names, frame, {.radius = claim_.radius, .distance = claim_.distance}));
+  }
+  return found->second;
+}
+
+double ClaimsRunner::Stage::valueOf(Run& run, const Term& term) {
+  if (findMetric(term.metric)->timed) return app::study::medianOf(run.milliseconds);
+  const Evidence evidence{.frames = run.view->frames,
+                          .shown = run.shown,
+                          .reference = referenceOf(run),
+                          .region = regionOn(*run.view, term.region)};
+  return measured(term.metric, evidence);
+}
+
+ClaimResult ClaimsRunner::Stage::judge() {
+  ClaimResult result;
+  const auto need = [&](const Term& term) {
+    for (Run& run : runs_) {
+      auto [value, fresh] = result.values[run.desc->name].try_emplace(term.quantity());
+      if (fresh) value->second = valueOf(run, term);
+    }
+    const double value = result.values[term.run][term.quantity()];
+    if (!std::isnan(value)) return;
+    throw Error(ErrorId::kSettingsInvalid, "{}: {}.{} has no pixels to be over", claim_.place,
+                term.run, term.quantity());
+  };
+  const auto value = [&](const Term& term) { return result.values[term.run][term.quantity()]; };
+  for (const Expectation& expectation : claim_.expectations) {
+    need(expectation.left);
+    if (expectation.right) need(*expectation.right);
+    const bool timed = findMetric(expectation.left.metric)->timed;
+    result.expectations.push_back(
+        {.left = value(expectation.left),
+         .right = expectation.right ? value(*expectation.right) : expectation.factor,
+         .holds = claims::holds(expectation, value),
+         .timed = timed || (expectation.right && findMetric(expectation.right->metric)->timed)});
+  }
+  result.pictures = pictures();
+  return result;
+}
+
+std::vector<PictureRow> ClaimsRunner::Stage::pictures() {
+  const PictureDesc& desc = claim_.picture;
+  std::vector<PictureRow> rows;
+  for (const auto& view : views_) {
+    PictureRow row;
+    if (desc.show != PictureKind::kChange) {
+      // Of the last frame, which knows those before.
+      row.push_back({"truth", pictureOf(view->truth.back(), desc)});
+    }
+    for (Run& run : runs_) {
+      if (run.view != view.get()) continue;
+      if (desc.show == PictureKind::kChange) {
+        std::vector<trace::FlickerFrame>& frames = view->frames;
+        for (size_t i = 0; i < 2; ++i) {
+          frames[i].ao = run.shown[i];
+          frames[i].truth = referenceOf(run)[i];
+          // Paint belongs to the world: all of its change is wrong.
+          if (!claim_.shots.empty()) std::ranges::fill(frames[i].truth.pixels, 0.0f);
+        }
+        row.push_back({run.desc->name, changePicture(frames[0], frames[1], desc)});
+      } else {
+        const bool color = desc.show == PictureKind::kColor;
+        row.push_back({run.desc->name, pictureOf(color ? run.color : run.shown.back(), desc)});
+      }
+    }
+    rows.push_back(std::move(row));
+  }
+  return rows;
+}
+
+ClaimsRunner::ClaimsRunner(const ClaimsDesc& desc, gpu::Device& device)
+    : desc_(desc), device_(device) {}
+
+ClaimsRunner::~ClaimsRunner() = default;
+
+const scene::Scene& ClaimsRunner::sceneOf(const std::string& path) {
+  const auto found = scenes_.find(path);
+  if (found != scenes_.end()) return found->second;
+  return scenes_.emplace(path, path.empty() ? scene::makeAtrium() : scene::loadGltf(path))
+      .first->second;
+}
+
+ClaimResult ClaimsRunner::run(const Claim& claim) {
+  Stage stage(desc_, claim, device_, sceneOf(claim.scene));
+  stage.start();
+  stage.showAll();
+  stage.timeAll();
+  return stage.judge();
+}
+
+}  // namespace grisaille::lab::claims

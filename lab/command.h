@@ -1,0 +1,13 @@
+// SPDX-License-Identifier: MIT
+// The subcommands of grisaille-lab, one file each. Every function adds its subcommand, whose
+// callback does the work and throws grisaille::Error.
+#pragma once
+
+#include <CLI/CLI.hpp>
+
+namespace grisaille::lab {
+
+void addClaims(CLI::App& program);
+void addStability(CLI::App& program);
+
+}  // namespace grisaille::lab

@@ -1,0 +1,50 @@
+// SPDX-License-Identifier: MIT
+// The definition of effects/sspm/README.md once more, in double precision, pixel by pixel.
+#pragma once
+
+#include <cstdint>
+#include <functional>
+#include <glm/glm.hpp>
+#include <optional>
+#include <span>
+
+#include "core/scene/camera.h"
+#include "grisaille/effect.h"
+
+namespace grisaille::lab::oracle {
+
+struct PaintSettings {
+  double paintRange = 0.25;
+  double full = 1;  // r0
+  size_t shotLimit = 64;
+  double edgeFade = 0.5;
+  double splatScale = 0.06;
+  double splatSharpness = 0.9;
+  uint32_t noiseSeed = 0;
+};
+
+struct PaintPixel {
+  glm::dvec4 paint = glm::dvec4(0);
+  double coverage = 0;
+};
+
+// The world position that a pixel of this view depth shows.
+glm::dvec3 worldOf(const scene::Camera& camera, uint32_t width, uint32_t height, uint32_t x,
+                   uint32_t y, double viewDepth);
+
+// What the mode `surface` adds: a shot paints what its muzzle sees.
+struct Sight {
+  glm::dvec3 facet;  // the pixel's, world, unit; 0: none is known, and nothing paints there
+  // Whether nothing lies between a shot's muzzle and the pixel; none: nothing ever does.
+  std::function<bool(const grisaille_shot& shot)> sees = {};
+};
+
+// `pixelSlope`: height of a pixel at 1 m view depth, metres. Without `sight`, the mode `per_shot`.
+PaintPixel paintOf(const glm::dvec3& world, double viewDepth, double pixelSlope,
+                   std::span<const grisaille_shot> shots, const PaintSettings& settings,
+                   const std::optional<Sight>& sight = std::nullopt);
+
+double splatNoise(const glm::dvec3& world, double viewDepth, double pixelSlope,
+                  const PaintSettings& settings);
+
+}  // namespace grisaille::lab::oracle

@@ -1,0 +1,426 @@
+// SPDX-License-Identifier: MIT
+// The estimator `slices`: steps 1 to 8 of the README.
+#include <algorithm>
+#include <bit>
+#include <cmath>
+#include <functional>
+#include <glm/gtc/constants.hpp>
+#include <optional>
+
+#include "lab/oracle/history.h"
+#include "lab/oracle/occlusion.h"
+
+namespace grisaille::lab::oracle {
+namespace {
+
+constexpr double kPi = glm::pi<double>();
+constexpr double kGolden = 0.618034;      // spreads slices, a part of the pattern
+constexpr double kPlaneTolerance = 0.05;  // radii
+constexpr double kPlanePixels = 4;        // and no more than so many pixels' width
+constexpr double kMostBent = 0.5;         // of facets from normals, tangent
+
+// A slice of the hemisphere over a surface. Angles run from the view vector, over 0 on the side of
+// `across`.
+struct Slice {
+  glm::dvec3 tangent, up;  // of the surface, in the slice
+  double normal = 0;       // the projected normal's angle
+
+  // Of cosine-weighted solid angle between the view vector and an angle on the side of its sign.
+  double between(double angle) const {
+    const double side = angle < 0 ? -1 : 1, h = std::abs(angle), n = side * normal;
+    return (std::cos(n) - std::cos(2 * h - n)) / 4 + h * std::sin(n) / 2;
+  }
+  // The share of the slice below an angle.
+  double below(double angle) const {
+    const double behind = between(normal - kPi / 2), ahead = between(normal + kPi / 2);
+    const double part = between(angle);
+    return (behind + (angle < 0 ? -part : part)) / (behind + ahead);
+  }
+  // The cosine-weighted mean of 16 of its directions, less those in sectors that are shut.
+  glm::dvec3 meanOpen(const glm::dvec3& across, const glm::dvec3& toward, uint32_t shut) const {
+    glm::dvec3 sum(0);
+    for (int i = 0; i < 16; ++i) {
+      const double angle = normal + ((i + 0.5) / 16 - 0.5) * kPi;
+      const int sector = std::clamp(static_cast<int>(below(angle) * 32), 0, 31);
+      if ((shut >> sector & 1) != 0) continue;
+      const double weight = std::abs(std::sin(angle)) * std::cos(angle - normal);
+      sum += weight * (across * std::sin(angle) + toward * std::cos(angle));
+    }
+    return sum * (kPi / 16 / (between(normal - kPi / 2) + between(normal + kPi / 2)));
+  }
+  // The share of the slice below the direction of a point on one side (1 or -1) of the view vector.
+  double below(const glm::dvec3& point, double side) const {
+    const double height = glm::dot(point, up);
+    if (height <= 0) return side > 0 ? 1 : 0;
+    double along = side * glm::dot(point, tangent);
+    const double c = std::cos(normal), s = side * std::sin(normal);
+    if (along * c + height * s < 0) along = std::abs(along);
+    const double out = std::max(along * c + height * s, 0.0), towards = height * c - along * s;
+    const double part = between(side * std::atan2(out, towards));
+    const double behind = between(normal - kPi / 2), ahead = between(normal + kPi / 2);
+    return (behind + side * part) / (behind + ahead);
+  }
+};
+
+// One side of a slice as its taps go outwards.
+struct Walk {
+  double side;                    // 1 or -1
+  double share;                   // below the tap before
+  glm::dvec3 point{0}, step{0};   // the tap before, and how it was come to
+  std::optional<double> depth{};  // of the tap before where the next may be joined to it
+  int seen = 0;
+};
+
+// What is known of a texel: the mean open direction in view space, of any length, and visibility.
+using Texel = glm::dvec4;
+const Texel kSky(0, 0, 0, 1);
+
+class Slices : public Occlusion {
+ public:
+  Slices(const View& view, const OcclusionSettings& settings, std::shared_ptr<const PastFrame> past)
+      : view_(view),
+        settings_(settings),
+        thickness_(static_cast<float>(settings.radius) * static_cast<float>(settings.thickness)),
+        texels_((view.size() + settings.scale - 1) / settings.scale),
+        past_(std::move(past)),
+        frames_(past_ ? past_->frames : 0),
+        raw_(texels_, [this](const glm::ivec2& t) { return estimate(t); }),
+        means_(texels_, [this](const glm::ivec2& t) { return mean(t); }),
+        rows_(texels_,
+              [this](const glm::ivec2& t) {
+                return denoised([this](const glm::ivec2& at) { return averaged(at); }, t, {1, 0});
+              }),
+        columns_(texels_,
+                 [this](const glm::ivec2& t) {
+                   return denoised([this](const glm::ivec2& at) { return rows_(at); }, t, {0, 1});
+                 }),
+        edges_(texels_, [this](const glm::ivec2& t) { return alongEdge(t); }) {}
+
+  double visibility(const glm::ivec2& pixel) override { return finished(at(pixel).w, settings_); }
+  glm::dvec3 bentNormal(const glm::ivec2& pixel) override {
+    const glm::dvec3 mean(at(pixel));
+    if (!(glm::dot(mean, mean) > 1e-8)) return view_.worldNormal(pixel);
+    return glm::transpose(view_.viewFromWorld()) * glm::normalize(mean);
+  }
+  std::shared_ptr<const Past> past() override {
+    return std::make_shared<PastFrame>(view_, settings_.scale, frames_ + 1, means_);
+  }
+
+ private:
+  Texel at(const glm::ivec2& pixel) {
+    if (view_.depth(pixel) <= 0) return kSky;
+    return settings_.scale == 1 ? filtered(pixel) : upsampled(pixel);
+  }
+  // As it is denoised: histories are of visibility alone.
+  Texel averaged(const glm::ivec2& texel) {
+    return settings_.history > 1 ? Texel(glm::dvec3(raw_(texel)), means_(texel).open) : raw_(texel);
+  }
+  Texel filtered(const glm::ivec2& texel) {
+    return settings_.denoiseSize > 1 && settings_.edgeDenoise > 0 ? edges_(texel) : columns_(texel);
+  }
+  Texel estimate(const glm::ivec2& texel) const;
+  Mean mean(const glm::ivec2& texel);
+  bool isEdge(const glm::ivec2& pixel) const;
+  Texel sliceOf(const glm::dvec3& position, const glm::dvec3& normal, const glm::dvec3& direction,
+                const glm::ivec2& pixel, double dither) const;
+  uint32_t tap(const Slice& slice, const glm::dvec3& position, const glm::ivec2& at, double dither,
+               Walk& walk) const;
+  glm::dvec3 leavesAt(const Walk& walk, const glm::dvec3& step) const;
+  Texel denoised(const std::function<Texel(const glm::ivec2&)>& from, const glm::ivec2& texel,
+                 const glm::ivec2& along) const;
+  Texel alongEdge(const glm::ivec2& texel);
+  Texel upsampled(const glm::ivec2& pixel);
+
+  // How far what a pixel shows, at another depth, lies from the plane of a surface; tolerances.
+  double offPlane(const glm::ivec2& surface, const glm::ivec2& pixel, double depth) const {
+    const glm::dvec3 apart = view_.position(pixel, depth) - view_.position(surface);
+    return std::abs(glm::dot(apart, view_.normal(surface))) / toleranceAt(surface);
+  }
+  double toleranceAt(const glm::ivec2& surface) const {  // metres
+    const double pixelWidth = view_.depth(surface) / std::abs(view_.focal().x);
+    return std::min(kPlaneTolerance * settings_.radius, kPlanePixels * pixelWidth);
+  }
+  double slopeAlong(const glm::ivec2& texel, const glm::ivec2& along) const;
+
+  const View& view_;
+  OcclusionSettings settings_;
+  double thickness_;  // metres
+  glm::ivec2 texels_;
+  std::shared_ptr<const PastFrame> past_;
+  int frames_;  // averaged before this one
+  Lazy<Texel> raw_;
+  Lazy<Mean> means_;
+  Lazy<Texel> rows_, columns_, edges_;
+};
+
+Mean Slices::mean(const glm::ivec2& texel) {
+  const double now = raw_(texel).w;
+  const glm::ivec2 pixel = texel * settings_.scale;
+  if (!past_ || view_.depth(pixel) <= 0) return {.open = now};
+  const glm::dvec3 place =
+      view_.eye() + glm::transpose(view_.viewFromWorld()) * view_.position(pixel);
+  const Mean old = past_->seenAt(place, view_.worldNormal(pixel));
+  const double frames = std::min(old.frames, settings_.history - 1.0);
+  return {.open = (old.open * frames + now) / (frames + 1), .frames = frames + 1};
+}
+
+uint32_t sectors(double low, double high, double dither) {
+  const auto from = static_cast<uint32_t>(std::clamp(low * 32 + dither, 0.0, 32.0));
+  const auto to = static_cast<uint32_t>(std::clamp(high * 32 + dither, 0.0, 32.0));
+  uint32_t bits = 0;
+  for (uint32_t i = from; i < to; ++i) bits |= 1u << i;
+  return bits;
+}
+
+// Whether fewer than 7 of 8 texels, each two texels off, are in the plane of the pixel's surface,
+// within half of what counts as it when they are averaged.
+bool Slices::isEdge(const glm::ivec2& pixel) const {
+  int same = 0;
+  for (int y = -1; y <= 1; ++y) {
+    for (int x = -1; x <= 1; ++x) {
+      const glm::ivec2 other = pixel + glm::ivec2(x, y) * 2 * settings_.scale;
+      if (other != pixel && offPlane(pixel, other, view_.depth(other)) < 0.5) ++same;
+    }
+  }
+  return same < 7;
+}
+
+Texel Slices::estimate(const glm::ivec2& texel) const {
+  const glm::ivec2 pixel = texel * settings_.scale;
+  if (view_.depth(pixel) <= 0) return kSky;
+  const glm::dvec3 position = view_.position(pixel);
+  const glm::dvec3 toward = -glm::normalize(position);
+  glm::dvec3 normal = view_.normal(pixel);
+  const double facing = glm::dot(normal, toward);
+  normal = glm::normalize(normal + toward * std::max((facing < -1e-3 ? 1e-2 : 1e-3) - facing, 0.0));
+  // The 25 points of a Hammersley set on 5x5 texels; each frame of a history another of them.
+  const int drawn = static_cast<int>(frames_ % 25);
+  const int first = (2 * texel.x + texel.y + 2 * drawn) % 5;
+  const int second = (texel.x + 2 * texel.y + drawn + 2 * (drawn / 5)) % 5;
+  const double turn = std::fmod(0.375 + (settings_.seed + frames_ / 25) * 0.6180339887498949, 1.0);
+  const glm::dmat3 axes = axesAbout(normal);
+  const bool edge = settings_.edgeSlices > 1 && isEdge(pixel);
+  const int slices = settings_.slices * (edge ? settings_.edgeSlices : 1);
+  Texel sum(0);
+  for (int k = 0; k < slices; ++k) {
+    const double phi = (k + (first * 5 + second + turn) / 25) / slices * 2 * kPi;
+    const double place = (second * 5 + first + 0.5) / 25 + k * kGolden;
+    const double u = place - std::floor(place);
+    const double r = std::sqrt(u);
+    const glm::dvec3 direction =
+        axes * glm::dvec3(r * std::cos(phi), r * std::sin(phi), std::sqrt(1 - u));
+    sum += sliceOf(position, normal, direction, pixel, u);
+  }
+  return sum / static_cast<double>(slices);
+}
+
+Texel Slices::sliceOf(const glm::dvec3& position, const glm::dvec3& normal,
+                      const glm::dvec3& direction, const glm::ivec2& pixel, double dither) const {
+  const glm::dvec3 toward = -glm::normalize(position);
+  glm::dvec3 across = direction - toward * glm::dot(direction, toward);
+  across /= std::sqrt(std::max(glm::dot(across, across), 1e-12));
+  const double out = glm::dot(normal, across), up = glm::dot(normal, toward);
+  Slice slice;
+  slice.normal = std::atan2(out, up);
+  slice.tangent = across * std::cos(slice.normal) - toward * std::sin(slice.normal);
+  slice.up = normal / std::sqrt(std::max(out * out + up * up, 1e-4));
+
+  // The slice's line in the picture, and the taps on it: as far as the view ray that touches the
+  // sphere, no fewer pixels out than their number, far ones on a grid.
+  const double depth = -position.z, square = settings_.radius * settings_.radius;
+  glm::dvec2 way = (glm::dvec2(across) * depth + glm::dvec2(position) * across.z) * view_.focal();
+  const double stretch = glm::dot(way, way);
+  way /= std::sqrt(std::max(stretch, 1e-20));
+  const double cut = std::max(1 - square / glm::dot(position, position), 0.0625);
+  const double reach = settings_.radius / (depth * depth) * std::sqrt(stretch / cut);
+  Walk ahead{.side = 1, .share = 1}, behind{.side = -1, .share = 0};
+  uint32_t shut = 0;
+  const uint32_t finer = std::max(8u, std::bit_ceil(static_cast<uint32_t>(settings_.steps)) / 2);
+  for (int i = 0; i < settings_.steps; ++i) {
+    for (Walk* walk : {&ahead, &behind}) {
+      const double at = (i + (walk->side > 0 ? dither : 1 - dither)) / settings_.steps;
+      const double pixels = std::max(std::pow(at, 1.25) * reach, i + 1.0);
+      const double grid = std::max(std::exp2(std::floor(std::log2(pixels))) / finer, 1.0);
+      const glm::dvec2 place = glm::clamp(
+          glm::floor((glm::dvec2(pixel) + walk->side * pixels * way) / grid + 0.5) * grid, -1e6,
+          1e6);
+      shut |= tap(slice, position, glm::ivec2(place), dither, *walk);
+    }
+  }
+  for (const Walk* walk : {&ahead, &behind}) {
+    if (!walk->depth) continue;
+    const double share = slice.below(leavesAt(*walk, walk->step), walk->side);
+    shut |= sectors(std::min(walk->share, share), std::max(walk->share, share), dither);
+  }
+  const glm::dvec3 bent = slice.meanOpen(across, toward, shut);
+  // A side that leaves the picture takes the other's share for the taps that it lacks.
+  const int low = std::clamp(static_cast<int>(std::lround(slice.below(0) * 32)), 1, 31);
+  const double shutBehind = static_cast<double>(std::popcount(shut & ((1u << low) - 1))) / low;
+  const double shutAhead = static_cast<double>(std::popcount(shut >> low)) / (32 - low);
+  const double lacksAhead = 1 - static_cast<double>(ahead.seen) / settings_.steps;
+  const double lacksBehind = 1 - static_cast<double>(behind.seen) / settings_.steps;
+  const double shutAll =
+      glm::mix(std::max(shutAhead, lacksAhead * (1 - lacksBehind) * shutBehind),
+               std::max(shutBehind, lacksBehind * (1 - lacksAhead) * shutAhead), low / 32.0);
+  return {bent, 1 - shutAll};
+}
+
+// Where a surface that goes on from the tap before by `step` leaves the sphere; at most a step on.
+glm::dvec3 Slices::leavesAt(const Walk& walk, const glm::dvec3& step) const {
+  const double square = std::max(glm::dot(step, step), 1e-20);
+  const double b = glm::dot(walk.point, step) / square;
+  const double c =
+      (glm::dot(walk.point, walk.point) - settings_.radius * settings_.radius) / square;
+  return walk.point + std::clamp(std::sqrt(std::max(b * b - c, 0.0)) - b, 0.0, 1.0) * step;
+}
+
+uint32_t Slices::tap(const Slice& slice, const glm::dvec3& position, const glm::ivec2& at,
+                     double dither, Walk& walk) const {
+  const bool seen = view_.holds(at);
+  const double depth = view_.depth(at);
+  const glm::dvec3 ray = view_.ray(glm::dvec2(at) + 0.5);
+  const glm::dvec3 front = ray * depth - position, step = front - walk.point;
+  const bool joined = seen && walk.depth && std::abs(depth - *walk.depth) < thickness_;
+  const double beyond = glm::dot(front, front) - settings_.radius * settings_.radius;
+  const bool inside = beyond <= 0;
+  const double first = slice.below(front, walk.side);
+  uint32_t bits = 0;
+  bool present = false;
+  double from = first;
+  if (joined && !inside) {
+    present = seen && depth > 0;
+    const double last = slice.below(leavesAt(walk, step), walk.side);
+    bits = sectors(std::min(walk.share, last), std::max(walk.share, last), dither);
+  } else {
+    // The part of front + k ray, k in [0, matter], inside the sphere.
+    double matter = thickness_;
+    if (settings_.backFaces && view_.back(at) > 0) matter = std::max(view_.back(at) - depth, 0.0);
+    const double length = glm::dot(ray, ray), b = glm::dot(ray, front) / length;
+    const double d = b * b - beyond / length;
+    const double root = std::sqrt(std::max(d, 0.0));
+    const double near = std::max(0.0, -b - root), far = std::min(matter, root - b);
+    present = seen && depth > 0 && d > 0 && near <= far;
+    from = slice.below(front + near * ray, walk.side);
+    const double last = slice.below(front + far * ray, walk.side);
+    const double low = joined ? std::min(from, walk.share) : from;
+    const double high = joined ? std::max(from, walk.share) : from;
+    bits = sectors(std::min(low, last), std::max(high, last), dither);
+  }
+  walk.step = joined ? step : glm::dvec3(0);
+  walk.point = front;
+  walk.share = from;
+  walk.depth = present && inside ? std::optional(depth) : std::nullopt;
+  walk.seen += seen ? 1 : 0;
+  return present ? bits : 0;
+}
+
+// Off a surface's plane at a view depth of 1, metres a texel. Of the texel's own facet where its
+// neighbours lie on a line with it, and near enough to the normal's plane; else the normal's.
+double Slices::slopeAlong(const glm::ivec2& texel, const glm::ivec2& along) const {
+  const auto depthAt = [&](const glm::ivec2& at) {
+    return view_.depth(glm::clamp(at, glm::ivec2(0), texels_ - 1) * settings_.scale);
+  };
+  const glm::ivec2 pixel = texel * settings_.scale;
+  const double depth = view_.depth(pixel), before = depthAt(texel - along),
+               after = depthAt(texel + along);
+  const glm::dvec3 normal = view_.normal(pixel);
+  const double facing = glm::dot(normal, view_.ray(glm::dvec2(pixel) + 0.5));
+  const double byNormal =
+      glm::dot(glm::dvec2(normal) / view_.focal(), glm::dvec2(along)) * settings_.scale;
+  if (before <= 0 || after <= 0) return byNormal;
+  const double one = (before - depth) * facing / before, two = (depth - after) * facing / after;
+  const double both = (one + two) / 2, width = settings_.scale / std::abs(view_.focal().x);
+  const double most = kMostBent * width / std::max(std::abs(facing), 0.5);
+  return std::max(8 * std::abs(one - two), std::abs(both - byNormal)) < most ? both : byNormal;
+}
+
+Texel Slices::denoised(const std::function<Texel(const glm::ivec2&)>& from, const glm::ivec2& texel,
+                       const glm::ivec2& along) const {
+  const int reach = std::max(settings_.denoiseSize, 1);
+  const glm::ivec2 surface = texel * settings_.scale;
+  const double own = view_.depth(surface);
+  if (own <= 0) return kSky;
+  const double facing = glm::dot(view_.normal(surface), view_.ray(glm::dvec2(surface) + 0.5));
+  const double slope = slopeAlong(texel, along);
+  Texel sum(0);
+  double weights = 0;
+  for (int i = 1 - reach; i < reach; ++i) {
+    const glm::ivec2 other = texel + along * i;
+    const glm::ivec2 inside = glm::clamp(other, glm::ivec2(0), texels_ - 1);
+    const double depth = view_.depth(inside * settings_.scale);
+    if (depth <= 0) continue;
+    const double off = std::abs((depth - own) * facing + depth * i * slope) / toleranceAt(surface);
+    const double weight = (reach - std::abs(i)) * std::max(1 - off, 0.0);
+    sum += weight * from(inside);
+    weights += weight;
+  }
+  return sum / weights;
+}
+
+// The mean along the line that what is off the plane lies beside, as far as there is one.
+Texel Slices::alongEdge(const glm::ivec2& texel) {
+  const glm::ivec2 surface = texel * settings_.scale;
+  const Texel own = columns_(texel);
+  if (view_.depth(surface) <= 0) return own;
+  const auto offAt = [&](const glm::ivec2& across) {
+    const glm::ivec2 at = glm::clamp(texel + across, glm::ivec2(0), texels_ - 1);
+    const double depth = view_.depth(at * settings_.scale);
+    return depth > 0 ? offPlane(surface, (texel + across) * settings_.scale, depth) : 1e9;
+  };
+  glm::dvec2 moments(0);  // cosine and sine of twice the angle
+  for (const glm::ivec2 way : {glm::ivec2(1, 2), {2, 1}, {-1, 2}, {-2, 1}}) {
+    const double off = std::min(2 * offAt(way), 1.0) + std::min(2 * offAt(-way), 1.0);
+    const double angle = 2 * std::atan2(way.y, way.x);
+    moments += off * glm::dvec2(std::cos(angle), std::sin(angle));
+  }
+  const double clear = std::clamp(2 * glm::length(moments) - 0.5, 0.0, 1.0);
+  if (clear == 0) return own;
+  const double angle = (std::atan2(moments.y, moments.x) + kPi) / 2;
+  glm::dvec2 along(std::cos(angle), std::sin(angle));
+  along /= std::max(std::abs(along.x), std::abs(along.y));
+  // Which of the two ways is meant decides ties.
+  if (moments.x < 0 ? along.x < 0 : along.y < 0) along = -along;
+  const int reach = settings_.edgeDenoise;
+  double weights = reach + 1;
+  Texel sum = weights * own;
+  for (int i = 2; i <= reach; i += 2) {
+    for (const double way : {1.0, -1.0}) {
+      const glm::ivec2 across(glm::floor(along * (way * i) + 0.501));
+      const double weight = (reach + 1 - i) * std::max(1 - offAt(across), 0.0);
+      sum += weight * columns_(glm::clamp(texel + across, glm::ivec2(0), texels_ - 1));
+      weights += weight;
+    }
+  }
+  return glm::mix(own, sum / weights, clear);
+}
+
+Texel Slices::upsampled(const glm::ivec2& pixel) {
+  const int scale = settings_.scale;
+  // Two by two pixels lie between the same four texels.
+  const glm::ivec2 first = pixel / 2 * 2 / scale;
+  const glm::dvec2 part = glm::dvec2(pixel - first * scale) / static_cast<double>(scale);
+  Texel sum(0);
+  double weights = 0;
+  for (int i = 0; i < 4; ++i) {
+    const glm::ivec2 corner(i & 1, i >> 1), texel = first + corner;
+    const double depth = view_.depth(glm::clamp(texel, glm::ivec2(0), texels_ - 1) * scale);
+    if (depth <= 0) continue;
+    const double off = offPlane(pixel, texel * scale, depth);
+    const double share =
+        (corner.x != 0 ? part.x : 1 - part.x) * (corner.y != 0 ? part.y : 1 - part.y);
+    const double weight = share * std::max(0.0, 1 - off) + 1e-4 / (1 + off * off * off);
+    sum += weight * (settings_.denoiseSize > 1 ? filtered(texel) : averaged(texel));
+    weights += weight;
+  }
+  return weights > 0 ? sum / weights : kSky;
+}
+
+}  // namespace
+
+std::unique_ptr<Occlusion> makeSlices(const View& view, const OcclusionSettings& settings,
+                                      std::shared_ptr<const Past> past) {
+  return std::make_unique<Slices>(view, settings,
+                                  std::dynamic_pointer_cast<const PastFrame>(std::move(past)));
+}
+
+}  // namespace grisaille::lab::oracle

@@ -1,0 +1,222 @@
+// SPDX-License-Identifier: MIT
+#include "lab/stability/runner.h"
+
+#include <algorithm>
+#include <array>
+#include <chrono>
+#include <cmath>
+#include <utility>
+
+#include "app/truth/content_hash.h"
+#include "app/services/scene_services.h"
+#include "core/base/error.h"
+#include "core/frame/view_block.h"
+#include "lab/stability/comparison.h"
+
+namespace grisaille::lab::stability {
+namespace {
+
+// That an effect reads, of what its oracle needs.
+std::vector<std::string> attachmentsOf(const Case& one, const effect::Values& values) {
+  if (one.effect == "sspm") {
+    if (values.text("mode") == "surface") return {"depth", "facet_normal"};
+    return {"depth"};
+  }
+  std::vector<std::string> all = {"depth", "normal"};
+  if (values.get("back_faces") != 0) all.emplace_back("back_depth");
+  if (one.output == "tint") all.emplace_back("base_colour");
+  return all;
+}
+
+std::vector<std::string> outputsOf(const Case& one) {
+  if (one.effect == "ssao") return {one.output};
+  return {one.output, "paint_coverage"};
+}
+
+// Looked at, and not compared with an oracle.
+std::vector<std::string> furtherOutputs(const Case& one) {
+  if (!one.every) return {};
+  if (one.effect == "sspm") return {"paint_owner"};
+  std::vector<std::string> all = {"ao", "bent_normal", "tint"};
+  std::erase(all, one.output);
+  return all;
+}
+
+// Of visibility and tint, or the alpha of paint; what open directions touch is every surface.
+void describe(const image::Image& picture, const std::string& output, BackendResult& result) {
+  uint64_t touched = 0;
+  for (size_t i = 0; i < picture.pixels.size(); i += picture.channels) {
+    const float* pixel = &picture.pixels[i];
+    const bool surface =
+        output == "bent_normal" && glm::vec3(pixel[0], pixel[1], pixel[2]) != glm::vec3(0);
+    const bool paint = output == "paint" && pixel[3] > 0;
+    touched += surface || paint || (output != "bent_normal" && output != "paint" && pixel[0] < 1);
+  }
+  result.touched = static_cast<double>(touched) / (double{1} * picture.width * picture.height);
+  app::truth::ContentHash hash;
+  hash.add(std::span<const float>(picture.pixels));
+  result.bits = hash.value();
+}
+
+// Owners are numbers of shots; directions have signs, and half floats round their length.
+std::pair<double, double> rangeOf(const std::string& output, const Case& one) {
+  if (output == "paint_owner") return {0, static_cast<double>(one.shots.size())};
+  constexpr double kHalf = 1.0 / 1024;
+  if (output == "bent_normal") return {-1 - kHalf, 1 + kHalf};
+  return {0, 1};
+}
+
+void count(const image::Image& image, std::pair<double, double> range, BackendResult& result) {
+  for (const float value : image.pixels) {
+    if (!std::isfinite(value)) {
+      ++result.nonFinite;
+    } else if (value < range.first || value > range.second) {
+      ++result.outside;
+    }
+  }
+}
+
+scene::Scene sceneOf(const Case& one) {
+  return one.scenery.isPicture() ? scene::Scene() : makeScene(one.scenery);
+}
+
+effect::Values valuesOf(const effect::Registry& registry, const Case& one) {
+  effect::Values values(registry.find(one.effect));
+  for (const auto& [key, value] : one.settings) values.set(key, value);
+  return values;
+}
+
+}  // namespace
+
+struct Runner::Stage {
+  gpu::Device& device;
+  std::map<std::string, std::unique_ptr<effect::Instance>> instances = {};
+};
+
+struct Runner::Picture {
+  std::map<std::string, image::Image> outputs = {};
+  std::vector<oracle::View> views = {};  // of all frames, the case's own last
+  image::Image expected = {};            // the oracle's
+};
+
+Runner::Runner(const effect::Registry& registry, std::span<gpu::Device* const> devices)
+    : registry_(registry) {
+  for (gpu::Device* device : devices) {
+    stages_.push_back(std::make_unique<Stage>(Stage{.device = *device}));
+  }
+}
+
+Runner::~Runner() = default;
+
+Result Runner::run(const Case& one) {
+  Result result{.key = keyOf(one), .backends = {}, .between = {}};
+  std::vector<image::Image> compared;
+  const scene::Scene scene = sceneOf(one);
+  for (const auto& stage : stages_) {
+    Picture picture;
+    result.backends.push_back(runOn(*stage, one, scene, picture));
+    if (!result.backends.back().error.empty()) continue;
+    compared.push_back(std::move(picture.outputs.at(one.output)));
+  }
+  if (compared.size() == 2) result.between = apartOf(differences(compared[0], compared[1]));
+  return result;
+}
+
+const std::string& Runner::backend(size_t index) const {
+  return stages_.at(index)->device.info().backend;
+}
+
+Compared Runner::compare(const Case& one) {
+  Picture picture;
+  runOn(*stages_.at(0), one, sceneOf(one), picture);
+  return {.picture = std::move(picture.outputs.at(one.output)),
+          .expected = std::move(picture.expected)};
+}
+
+Seen Runner::see(size_t backend, const Case& one) {
+  Picture picture;
+  render(*stages_.at(backend), one, valuesOf(registry_, one), sceneOf(one), picture);
+  return {.ao = std::move(picture.outputs.at("ao")), .view = std::move(picture.views.back())};
+}
+
+void Runner::render(Stage& stage, const Case& one, const effect::Values& values,
+                    const scene::Scene& scene, Picture& picture) {
+  auto& instance = stage.instances[one.effect];
+  // A history begins with the case.
+  if (!instance || !one.before.empty()) {
+    instance = std::make_unique<effect::Instance>(stage.device, values.effect());
+  }
+  const std::array active = {frame::ActiveEffect{
+      .instance = instance.get(), .values = &values, .shots = one.shots, .shotsKept = 0}};
+  frame::PictureAttachments pictures;
+  if (one.scenery.isPicture()) {
+    pictures.show(makePictures(one.scenery, one.camera, one.size));
+  }
+  app::SceneRays rays(scene);
+  frame::Renderer renderer = one.scenery.isPicture() ? frame::Renderer(stage.device, pictures)
+                                                     : frame::Renderer(stage.device, scene);
+  const auto draw = [&](const scene::Camera& camera, const glm::uvec2& size,
+                        std::span<const frame::ActiveEffect> effects,
+                        const std::vector<std::string>& outputs) {
+    renderer.render({.camera = camera,
+                     .width = size.x,
+                     .height = size.y,
+                     .effects = effects,
+                     .outputs = outputs,
+                     .rays = one.scenery.isPicture() ? nullptr : &rays});
+  };
+  const auto read = [&](const std::vector<std::string>& outputs) {
+    for (const std::string& name : outputs) picture.outputs[name] = renderer.read(name);
+  };
+  const uint32_t guard = one.scenery.isPicture() ? 0 : frame::guardBand(values, one.size.y);
+  std::vector<scene::Camera> cameras = one.before;
+  cameras.push_back(one.camera);
+  for (const scene::Camera& camera : cameras) {
+    draw(camera, one.size, active, outputsOf(one));
+    read(outputsOf(one));
+    // Once more what the effect read: the same draw.
+    const std::vector<std::string> names = attachmentsOf(one, values);
+    draw(frame::widened(camera, one.size.y, guard), one.size + 2 * guard, {}, names);
+    oracle::Attachments seen;
+    for (const std::string& name : names) {
+      (name == "depth"         ? seen.depth
+       : name == "back_depth"  ? seen.back
+       : name == "base_colour" ? seen.colour
+                               : seen.normal) = renderer.read(name);
+    }
+    picture.views.emplace_back(camera, one.size, guard, std::move(seen));
+  }
+  const std::vector<std::string> further = furtherOutputs(one);
+  if (further.empty()) return;
+  draw(one.camera, one.size, active, further);
+  read(further);
+}
+
+BackendResult Runner::runOn(Stage& stage, const Case& one, const scene::Scene& scene,
+                            Picture& picture) {
+  BackendResult result;
+  result.backend = stage.device.info().backend;
+  const auto start = std::chrono::steady_clock::now();
+  try {
+    const effect::Values values = valuesOf(registry_, one);
+    render(stage, one, values, scene, picture);
+    for (const auto& [name, image] : picture.outputs) count(image, rangeOf(name, one), result);
+    describe(picture.outputs.at(one.output), one.output, result);
+    if (one.effect == "ssao") {
+      picture.expected =
+          compareOcclusion(one, values, picture.views, picture.outputs.at(one.output), result);
+    } else {
+      picture.expected =
+          comparePaint(one, values, picture.views.back(), scene, picture.outputs.at("paint"),
+                       picture.outputs.at("paint_coverage"), result);
+    }
+  } catch (const Error& error) {
+    if (error.id() == ErrorId::kDeviceLost) throw;  // no fault of this case, and the end of all
+    result.error = error.what();
+    stage.instances.erase(one.effect);
+  }
+  result.seconds = std::chrono::duration<double>(std::chrono::steady_clock::now() - start).count();
+  return result;
+}
+
+}  // namespace grisaille::lab::stability

@@ -1,0 +1,214 @@
+// SPDX-License-Identifier: MIT
+// `grisaille apply` on pictures that `grisaille render` wrote: the same as that drew, to 1/255.
+#include <gtest/gtest.h>
+
+#include <algorithm>
+#include <limits>
+#include <sstream>
+
+#include "core/image/image.h"
+#include "core/scene/camera.h"
+#include "core/scene/camera_matrices.h"
+#include "tests/app/apply/deep_picture.h"
+#include "tests/program/run.h"
+#include "tests/support/expect_error.h"
+#include "tests/support/test_device.h"
+
+namespace grisaille::tests {
+namespace {
+
+constexpr const char* kCamera =
+    R"({"eye": [-5, 2.6, 1.6], "target": [2, -0.6, -0.9], "fovy_degrees": 50, "near": 0.05})";
+
+class ApplyOnce : public ::testing::Test {
+ protected:
+  // Words as a shell would part them; @ stands for the camera.
+  Outcome grisaille(const std::string& line) {
+    std::istringstream words(line);
+    std::vector<std::string> arguments;
+    for (std::string word; words >> word;) arguments.push_back(word == "@" ? kCamera : word);
+    return runProgram(arguments, folder_.path(), environment_);
+  }
+  void run(const std::string& line) {
+    const Outcome outcome = grisaille(line);
+    ASSERT_EQ(outcome.status, 0) << line << "\n" << outcome.err;
+  }
+  void expectError(const std::string& line, const std::string& number, const std::string& mention) {
+    const Outcome outcome = grisaille(line);
+    EXPECT_NE(outcome.status, 0) << line;
+    EXPECT_EQ(outcome.err.rfind("error " + number + ": ", 0), 0u) << outcome.err;
+    EXPECT_NE(outcome.err.find(mention), std::string::npos) << outcome.err;
+  }
+  image::Image read(const std::string& name) { return image::read(folder_ / name); }
+  void expectSame(const std::string& name, const std::string& expected, double allowed = 0) {
+    EXPECT_LE(image::shareOver(read(name), read(expected), 1.0 / 255), allowed)
+        << name << " " << image::compare(read(name), read(expected)).largest;
+  }
+  // The frame and its pictures, as depth.exr, normal.exr, ao.exr.
+  void render(const std::string& more = "", const std::string& size = "161x91") {
+    run("render --camera @ --size " + size +
+        " --write ao=ao.exr --write depth=depth.exr --write normal=normal.exr " + more);
+  }
+
+  TemporaryFolder folder_;
+  std::vector<std::string> environment_;
+};
+
+class Apply : public ApplyOnce, public ::testing::WithParamInterface<TestDevice> {
+ protected:
+  void SetUp() override {
+    const std::string missing = whyMissing(GetParam());
+    if (!missing.empty()) GTEST_SKIP() << missing;
+    environment_ = driverEnvironment(GetParam());
+  }
+};
+INSTANTIATE_TEST_SUITE_P(, Apply, ::testing::ValuesIn(testDevices()), GRISAILLE_DEVICE_NAME);
+
+TEST_P(Apply, EqualsTheFrameThatThePicturesAreOf) {
+  const std::string backend = " --check --backend " + GetParam().backend;
+  for (const std::string size : {"161x91", "64x129"}) {
+    render("--write color=color.exr" + backend, size);
+    run("apply --depth depth.exr --normal normal.exr --camera @ --write ao=again.exr --write "
+        "color=color_again.exr" +
+        backend);
+    expectSame("again.exr", "ao.exr");
+    expectSame("color_again.exr", "color.exr");
+    image::Image open = read("ao.exr");
+    std::ranges::fill(open.pixels, 1.0f);
+    EXPECT_GT(image::shareOver(read("ao.exr"), open, 0.2), 0.05) << "nothing is dark";
+  }
+}
+
+// No --camera: the matrices that the files hold are floats, so that single samples may fall on the
+// other side of an edge.
+TEST_F(ApplyOnce, TakesTheCameraFromTheDepthItself) {
+  render();
+  run("apply --depth depth.exr --normal normal.exr --write ao=again.exr");
+  expectSame("again.exr", "ao.exr", 0.002);
+}
+
+TEST_F(ApplyOnce, EveryKindOfDepthComesToTheSame) {
+  render();
+  const image::Image depth = read("depth.exr"), normal = read("normal.exr");
+  const scene::Camera camera = scene::parseCamera(kCamera, "test");
+  image::Image clip = depth, reversed = depth, distance = depth, viewNormal = normal;
+  const double near = camera.nearPlane, far = 80;
+  const glm::dmat3 viewFromWorld = glm::transpose(scene::worldFromView(camera));
+  for (uint32_t i = 0; i < depth.pixels.size(); ++i) {
+    const double z{depth.pixels[i]};
+    const glm::dvec2 at(i % depth.width + 0.5, i / depth.width + 0.5);
+    const double ray = glm::length(scene::pixelDirection(camera, depth.width, depth.height, at));
+    reversed.pixels[i] = static_cast<float>(z > 0 ? near * (far - z) / (z * (far - near)) : 0);
+    clip.pixels[i] = static_cast<float>(z > 0 ? 1 - near / z : 1);
+    distance.pixels[i] =
+        z > 0 ? static_cast<float>(z * ray) : std::numeric_limits<float>::infinity();
+    const glm::dvec3 n = viewFromWorld * glm::dvec3(normal.pixels[3 * i], normal.pixels[3 * i + 1],
+                                                    normal.pixels[3 * i + 2]);
+    for (int c = 0; c < 3; ++c) viewNormal.pixels[3 * i + c] = static_cast<float>(2 * n[c]);
+  }
+  image::write(reversed, folder_ / "reversed.exr");
+  image::write(clip, folder_ / "clip.exr");
+  image::write(distance, folder_ / "distance.exr");
+  image::write(viewNormal, folder_ / "view.exr");
+  // What a few bits of depth move over an edge, or an angle of normals that are rounded otherwise.
+  const auto same = [&](const std::string& more) {
+    run("apply --camera @ --write ao=again.exr " + more);
+    expectSame("again.exr", "ao.exr", 0.01);
+    EXPECT_LT(image::compare(read("again.exr"), read("ao.exr")).rmse, 0.002) << more;
+  };
+  same("--depth reversed.exr --depth-kind clip-reversed --far 80 --normal normal.exr");
+  same("--depth clip.exr --depth-kind clip --normal normal.exr");
+  same("--depth distance.exr --depth-kind distance --normal normal.exr");
+  same("--depth depth.exr --normal view.exr --normal-space view");
+}
+
+TEST_F(ApplyOnce, SequencesAreAppliedFrameByFrame) {
+  for (const char* frame : {"0009", "0010", "0011"}) {
+    const std::string eye = std::string("{\"eye\":[-5,2.6,1.") + (frame + 3) +
+                            "],\"target\":[2,-0.6,-0.9],\"fovy_degrees\":50}";
+    folder_.write(std::string("camera.") + frame + ".json", eye);
+    run("render --camera " + eye + " --size 65x37 --write ao=ao." + frame +
+        ".exr --write depth=d." + frame + ".exr --write normal=n." + frame + ".exr");
+  }
+  const std::string common =
+      "apply --depth d.####.exr --normal n.%04d.exr --camera camera.####.json ";
+  const Outcome outcome = grisaille(common + "--write ao=again.####.exr");
+  ASSERT_EQ(outcome.status, 0) << outcome.err;
+  EXPECT_NE(outcome.out.find("wrote again.0009.exr to again.0011.exr"), std::string::npos);
+  for (const std::string frame : {"0009", "0010", "0011"}) {
+    expectSame("again." + frame + ".exr", "ao." + frame + ".exr");
+  }
+  EXPECT_GT(image::shareOver(read("ao.0009.exr"), read("ao.0010.exr"), 1.0 / 255), 0.0);
+  // On a terminal, a bar.
+  const Outcome shown = runShell(
+      "script -qec 'grisaille " + common + "--frames 9-11x2 --write ao=few.%02d.exr' /dev/null",
+      folder_.path());
+  EXPECT_EQ(shown.status, 0) << shown.err;
+  EXPECT_NE(shown.out.find("\rapply ["), std::string::npos) << shown.out;
+  EXPECT_NE(shown.out.find("frame 9, 1 of 2"), std::string::npos) << shown.out;
+  expectSame("few.11.exr", "ao.0011.exr");
+  EXPECT_FALSE(std::filesystem::exists(folder_ / "few.10.exr"));
+
+  expectError(common + "--write ao=one.exr", "E5507", "no place for the frame's number");
+  expectError("apply --depth d.0009.exr --write ao=a.####.exr", "E5507", "the depth has none");
+  expectError("apply --depth d.0009.exr --normal n.####.exr --write ao=a.exr", "E5507", "numbered");
+  expectError("apply --depth d.0009.exr --frames 1-2 --write ao=a.exr", "E5507", "--frames");
+  expectError("apply --depth x.####.exr --write ao=a.####.exr", "E5507", "x.####.exr");
+  expectError(common + "--frames 9-12 --write ao=a.####.exr", "E5507", "frame 12");
+  std::filesystem::remove(folder_ / "n.0010.exr");
+  expectError(common + "--write ao=a.####.exr", "E5507", "frame 10 has no 'n.0010.exr'");
+  EXPECT_FALSE(std::filesystem::exists(folder_ / "a.0009.exr"));
+}
+
+TEST_F(ApplyOnce, WhatDoesNotFitIsRefused) {
+  render();
+  const std::string with = "apply --camera @ --write ao=x.exr --depth ";
+  // A file without matrices.
+  image::write(read("depth.exr"), folder_ / "bare.exr");
+  expectError("apply --depth bare.exr --write ao=x.exr", "E5501", "bare.exr");
+  // Matrices of another picture's shape.
+  image::write(read("depth.exr"), folder_ / "stretched.exr",
+               {.matrices = scene::matricesOf(scene::Camera{}, 100, 100)});
+  expectError("apply --depth stretched.exr --write ao=x.exr", "E5502", "1.769 : 1");
+  image::Image small = read("normal.exr");
+  small.height -= 1;
+  small.pixels.resize(size_t{3} * small.width * small.height);
+  image::write(small, folder_ / "small.exr");
+  expectError(with + "depth.exr --normal small.exr", "E5503", "161 x 90");
+  image::Image odd = read("depth.exr");
+  odd.pixels[161 * 3 + 8] = std::numeric_limits<float>::quiet_NaN();
+  image::write(odd, folder_ / "odd.exr");
+  expectError(with + "odd.exr", "E5504", "(8, 3) is nan");
+  expectError(with + "depth.exr --depth-kind clip", "E5504", "depth.exr");
+  expectError(with + "normal.exr", "E5505", "R, G, B");
+  expectError(with + "depth.exr --surface base --write color=c.exr", "E5506", "base colours");
+  expectError(with + "missing.exr", "E4101", "missing.exr");
+  expectError("apply --depth depth.exr --depth-kind clip --write ao=x.exr", "E5101", "--near");
+  expectError(with + "depth.exr --near 2 --far 1", "E5101", "--far");
+  expectError(with + "depth.exr --write nothing=y.exr", "E5102", "nothing");
+  expectError("apply --depth depth.exr", "E5101", "--write");
+  EXPECT_FALSE(std::filesystem::exists(folder_ / "x.exr"));
+}
+
+TEST_F(ApplyOnce, DeepPicturesAreRefusedAsDeep) {
+  render();
+  writeDeepPicture(folder_ / "deep.exr");
+  const std::string with = "apply --camera @ --write ao=x.exr --depth ";
+  expectError(with + "deep.exr", "E5508", "deep.exr: it is a deep picture");
+  expectError(with + "depth.exr --normal deep.exr", "E5508", "deep.exr: it is a deep picture");
+  EXPECT_ERROR(ErrorId::kPictureDeep, read("deep.exr"));
+}
+
+TEST_F(ApplyOnce, BaseColoursAndPicturesWithoutNormals) {
+  render("--surface base --write base_colour=base.exr --write color=color.exr");
+  run("apply --depth depth.exr --normal normal.exr --base-colour base.exr --surface base --camera "
+      "@ "
+      "--write color=again.exr");
+  expectSame("again.exr", "color.exr");
+  run("apply --depth depth.exr --camera @ --write ao=bare.exr --write normal=facets.exr");
+  EXPECT_LT(image::compare(read("bare.exr"), read("ao.exr")).rmse, 0.14);
+  EXPECT_LT(image::shareOver(read("facets.exr"), read("normal.exr"), 0.05), 0.5);
+}
+
+}  // namespace
+}  // namespace grisaille::tests

@@ -1,0 +1,98 @@
+// SPDX-License-Identifier: MIT
+// Which preset values are, and what a search may change.
+#include "app/settings/presets.h"
+
+#include <algorithm>
+#include <set>
+
+#include "tests/support/tables.h"
+
+namespace grisaille::app {
+namespace {
+
+using viewer::EffectList;
+using viewer::randomValue;
+using viewer::Tables;
+
+// Presets by chance, each of some of the effect's parameters.
+Presets randomPresets(std::mt19937_64& random, const effect::Effect& effect) {
+  Presets presets;
+  for (const char* name : kPresetNames) {
+    effect::Values values(effect);
+    app::Preset preset{.name = name, .error = 0.1, .cost = 1, .values = {}};
+    for (const grisaille_param_desc& param : effect.params()) {
+      if (random() % 2 == 0) continue;
+      values.set(param.key, randomValue(random, param));
+      preset.values.emplace_back(param.key, values.text(param.key));
+    }
+    presets.all.push_back(std::move(preset));
+  }
+  return presets;
+}
+
+TEST(PresetTest, IsKnownByItsValues) {
+  const Tables tables;
+  std::mt19937_64 random(1);
+  for (const effect::Effect& effect : tables.registry.effects()) {
+    for (int i = 0; i < 50; ++i) {
+      const Presets presets = randomPresets(random, effect);
+      std::set<std::string> named;
+      for (const app::Preset& preset : presets.all) {
+        for (const auto& [key, text] : preset.values) named.insert(key);
+      }
+      for (const app::Preset& preset : presets.all) {
+        EffectList::Entry entry{.on = true, .values = effect::Values(effect)};
+        randomise(random, entry);
+        applyPreset(entry.values, presets, preset.name);
+        // Another may have the same values, but then it is those too.
+        const app::Preset* const found = presetOf(entry.values, presets);
+        ASSERT_NE(found, nullptr);
+        effect::Values other = entry.values;
+        applyPreset(other, presets, found->name);
+        EXPECT_TRUE(std::ranges::equal(other.all(), entry.values.all()));
+        // What no preset names is free; what one names is not.
+        for (const grisaille_param_desc& param : effect.params()) {
+          effect::Values changed = entry.values;
+          changed.set(param.key, randomValue(random, param));
+          const app::Preset* const now = presetOf(changed, presets);
+          if (!named.contains(param.key)) {
+            EXPECT_EQ(now, found);
+          }
+          if (now == nullptr) continue;
+          effect::Values applied = changed;
+          applyPreset(applied, presets, now->name);
+          EXPECT_TRUE(std::ranges::equal(applied.all(), changed.all()));
+        }
+      }
+    }
+  }
+}
+
+TEST(PresetTest, WhatIsFoldedAwayChangesOnlyIfAPresetNamesIt) {
+  const Tables tables;
+  std::mt19937_64 random(2);
+  for (effect::Effect effect : tables.registry.effects()) {
+    std::vector<grisaille_param_desc> params(effect.params().begin(), effect.params().end());
+    for (grisaille_param_desc& param : params) {
+      if (random() % 2 == 0) param.flags |= GRISAILLE_PARAM_ADVANCED;
+    }
+    grisaille_effect_desc desc = *effect.desc;
+    desc.params = params.data();
+    effect.desc = &desc;
+    const Presets presets = randomPresets(random, effect);
+    const auto named = [&](const grisaille_param_desc& param) {
+      return std::ranges::any_of(presets.all, [&](const app::Preset& preset) {
+        return std::ranges::any_of(preset.values,
+                                   [&](const auto& value) { return value.first == param.key; });
+      });
+    };
+    const auto all = tunable(effect, presets);
+    for (const grisaille_param_desc& param : params) {
+      const bool folded = (param.flags & GRISAILLE_PARAM_ADVANCED) != 0;
+      EXPECT_EQ(std::ranges::count(all, &param), !folded || named(param) ? 1 : 0) << param.key;
+    }
+  }
+}
+
+}  // namespace
+}  // namespace grisaille::app

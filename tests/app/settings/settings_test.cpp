@@ -1,0 +1,172 @@
+// SPDX-License-Identifier: MIT
+#include "app/settings/settings.h"
+
+#include <algorithm>
+#include <tuple>
+
+#include "tests/support/expect_error.h"
+#include "tests/support/tables.h"
+
+namespace grisaille::app {
+namespace {
+
+using viewer::EffectList;
+using viewer::Tables;
+
+class SettingsFile : public tests::FolderTest {
+ protected:
+  Settings back(const Settings& settings) const {
+    writeSettings(settings, file("a.toml"));
+    return readSettings(file("a.toml"));
+  }
+};
+
+// TOML's tables have no order.
+std::vector<std::tuple<std::string, std::string, std::string>> sorted(const Settings& settings) {
+  std::vector<std::tuple<std::string, std::string, std::string>> all;
+  for (const Settings::Value& v : settings.values) all.emplace_back(v.effect, v.key, v.text);
+  std::ranges::sort(all);
+  return all;
+}
+
+TEST_F(SettingsFile, BringsBackEveryBitOfEveryValue) {
+  const Tables tables;
+  std::mt19937_64 random(5);
+  for (int i = 0; i < 500; ++i) {
+    EffectList list(tables.registry);
+    randomise(random, list);
+    const Settings settings = list.settings();
+    const Settings read = back(settings);
+    EXPECT_EQ(read.effects, settings.effects);
+    ASSERT_EQ(sorted(read), sorted(settings)) << contentOf(file("a.toml"));
+    EffectList fresh(tables.registry);
+    fresh.apply(read);
+    for (const EffectList::Entry& entry : list.entries()) {
+      if (entry.on) {
+        ASSERT_TRUE(same(*fresh.find(entry.key()), entry));
+      }
+    }
+  }
+}
+
+TEST_F(SettingsFile, BringsBackAnyTextAndName) {
+  const std::string texts[] = {"",
+                               " ",
+                               "0",
+                               "-0",
+                               "0.0",
+                               "007",
+                               "1e5",
+                               "1e+05",
+                               "1e+5",
+                               "+1",
+                               ".5",
+                               "5.",
+                               "0x10",
+                               "inf",
+                               "-inf",
+                               "nan",
+                               "true",
+                               "True",
+                               "\"",
+                               "'",
+                               "\\",
+                               "\n",
+                               "a\tb",
+                               "'''",
+                               "#",
+                               "\x7f",
+                               "\x01",
+                               "1_000",
+                               "1e999",
+                               "ä€𝄞",
+                               "\"\"\"",
+                               "9223372036854775807",
+                               "9223372036854775808",
+                               "-9223372036854775808",
+                               "100000000000000000000",
+                               "1979-05-27"};
+  Settings settings;
+  settings.effects.emplace();
+  size_t count = 0;
+  for (const std::string& text : texts) {
+    settings.effects->push_back(text);
+    settings.values.push_back(
+        {.effect = "ssao", .key = "k" + std::to_string(count++), .text = text, .place = {}});
+    settings.values.push_back({.effect = text + "x", .key = text, .text = text, .place = {}});
+  }
+  const Settings read = back(settings);
+  EXPECT_EQ(read.effects, settings.effects);
+  EXPECT_EQ(sorted(read), sorted(settings));
+}
+
+TEST_F(SettingsFile, WhatIsNotGivenIsNotThere) {
+  EXPECT_EQ(settingsToml({}), "");
+  EXPECT_FALSE(back({}).effects);
+  EXPECT_FALSE(back({}).surface);
+  const Settings none{.effects = std::vector<std::string>(), .surface = "base", .values = {}};
+  EXPECT_EQ(back(none).effects, none.effects);
+  EXPECT_EQ(back(none).surface, "base");
+}
+
+TEST_F(SettingsFile, ReadsAsAPersonWouldWriteIt) {
+  const Settings settings{
+      .effects = {{"ssao", "sspm"}},
+      .surface = "white",
+      .values = {{.effect = "ssao", .key = "radius", .text = "0.5", .place = {}},
+                 {.effect = "sspm", .key = "mode", .text = "surface", .place = {}},
+                 {.effect = "ssao", .key = "blur", .text = "box", .place = {}},
+                 {.effect = "ssao", .key = "radius", .text = "2", .place = {}},
+                 {.effect = "ssao", .key = "noise", .text = "true", .place = {}}}};
+  EXPECT_EQ(settingsToml(settings),
+            "effects = [\"ssao\", \"sspm\"]\n"
+            "surface = \"white\"\n"
+            "\n"
+            "[ssao]\n"
+            "radius = 2\n"
+            "blur = \"box\"\n"
+            "noise = true\n"
+            "\n"
+            "[sspm]\n"
+            "mode = \"surface\"\n");
+}
+
+TEST_F(SettingsFile, RefusesWhatItCannotHold) {
+  for (const char* key : {"effects", "surface"}) {
+    const Settings settings{.effects = {},
+                            .surface = {},
+                            .values = {{.effect = key, .key = "k", .text = "1", .place = {}}}};
+    EXPECT_ERROR(ErrorId::kSettingsInvalid, settingsToml(settings));
+  }
+  EXPECT_ERROR(ErrorId::kFileUnwritable, writeSettings({}, file("missing/a.toml")));
+  for (const char* text : {"surface = \"black\"", "surface = 1", "[surface]\na = 1"}) {
+    EXPECT_ERROR(ErrorId::kSettingsInvalid, readSettings(fileOf("bad.toml", text)));
+  }
+}
+
+TEST_F(SettingsFile, WhatNeverEndsOrNestsDeepIsRefused) {
+  EXPECT_ERROR(ErrorId::kSettingsUnreadable, readSettings("/dev/zero"));
+  EXPECT_ERROR(ErrorId::kSettingsUnreadable, readSettings(file("")));
+  const auto dotted = [](size_t parts) {
+    std::string key = "a";
+    for (size_t i = 1; i < parts; ++i) key += i % 2 == 0 ? " . 'a.b'" : ".a";
+    return key;
+  };
+  for (const std::string& text :
+       {dotted(100000) + " = 1", "[" + dotted(100000) + "]", "x = [1.5, {" + dotted(17) + " = 1}]",
+        "x = {a = \"\"\"\"\"\"\"\", " + dotted(17) + " = 1}"}) {
+    EXPECT_ERROR(ErrorId::kSettingsUnreadable, readSettings(fileOf("deep.toml", text)));
+  }
+}
+
+TEST_F(SettingsFile, DotsOfNumbersTextsAndCommentsAreNoPartsOfKeys) {
+  std::string text = "# " + std::string(100, '.') + "\n[a]\nx = [";
+  for (int i = 0; i < 100; ++i) text += "1.5, ";
+  EXPECT_ERROR(ErrorId::kSettingsInvalid, readSettings(fileOf("x.toml", text + "]")));
+  const std::string dots(100, '.');
+  text = "# it's\n[a]\nb = \"\\\"" + dots + "\"\nc = '''\n'" + dots + "''' # \"\nd = '\\'\n";
+  EXPECT_EQ(readSettings(fileOf("x.toml", text)).values.size(), 3u);
+}
+
+}  // namespace
+}  // namespace grisaille::app

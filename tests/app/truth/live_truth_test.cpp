@@ -1,0 +1,189 @@
+// SPDX-License-Identifier: MIT
+// A truth that is traced beside the caller: the same in the end, honest before, ended at any time.
+#include "app/truth/live_truth.h"
+
+#include <bit>
+#include <cmath>
+#include <cstdlib>
+#include <thread>
+
+#include "app/truth/comparison.h"
+#include "app/truth/occlusion_truth.h"
+#include "tests/support/expect_error.h"
+#include "tests/support/folder_test.h"
+
+namespace grisaille::app::truth {
+namespace {
+
+class LiveTruthTest : public tests::FolderTest {
+ protected:
+  void SetUp() override {
+    FolderTest::SetUp();
+    setenv("XDG_CACHE_HOME", folder_.c_str(), 1);
+  }
+
+  LiveView view(glm::uvec2 size, uint32_t samples) const {
+    return {.scene = atrium_,
+            .camera = scene::atriumCamera(),
+            .size = size,
+            .radius = 0.7,
+            .samples = samples};
+  }
+
+  // Every news until the end.
+  template <typename Seen>
+  static void follow(LiveTruth& live, const Seen& seen) {
+    Traced traced;
+    while (!traced.done) {
+      if (live.poll(traced)) {
+        seen(traced);
+      } else {
+        ASSERT_TRUE(live.running());
+        std::this_thread::sleep_for(std::chrono::milliseconds(1));
+      }
+    }
+    EXPECT_FALSE(live.poll(traced));
+    while (live.running()) std::this_thread::yield();
+  }
+
+  // As the tracer has it, in one go.
+  static void expectExact(const Traced& traced, const LiveView& view) {
+    const trace::RayTracer tracer(*view.scene, view.camera.eye);
+    const auto hits = tracer.castPrimary(view.camera, view.size.x, view.size.y);
+    const auto values = tracer.ambientOcclusion(hits, view.radius, view.samples, kSeed);
+    ASSERT_EQ(traced.values.size(), values.size());
+    EXPECT_EQ(traced.size, view.size);
+    EXPECT_EQ(traced.pixels, values.size());
+    EXPECT_EQ(traced.rays, view.samples);
+    size_t different = 0;
+    for (size_t i = 0; i < values.size(); ++i) {
+      const auto same = [](float a, float b) {
+        return std::bit_cast<uint32_t>(a) == std::bit_cast<uint32_t>(b);
+      };
+      const trace::Visibility &a = traced.values[i], &b = values[i];
+      if (!same(a.mean, b.mean) || !same(a.standardError, b.standardError)) ++different;
+    }
+    EXPECT_EQ(different, 0u);
+  }
+
+  const std::shared_ptr<const scene::Scene> atrium_ =
+      std::make_shared<const scene::Scene>(scene::makeAtrium());
+};
+
+TEST_F(LiveTruthTest, IsTheTracersOwnInTheEnd) {
+  for (const auto& [size, samples] :
+       {std::pair(glm::uvec2(61, 37), 80u), {glm::uvec2(1, 1), 16u}, {glm::uvec2(90, 40), 7u}}) {
+    LiveTruth live;
+    const LiveView wanted = view(size, samples);
+    live.start(wanted);
+    Traced last;
+    follow(live, [&](const Traced& traced) { last = traced; });
+    expectExact(last, wanted);
+  }
+}
+
+// What is said of a part, of few rays, holds of the whole.
+TEST_F(LiveTruthTest, EveryEstimateIsHonest) {
+  const LiveView wanted = view({160, 120}, 1024);
+  image::Image shown{.width = 160, .height = 120, .channels = 1, .pixels = {}};
+  for (uint32_t i = 0; i < 160 * 120; ++i) {
+    shown.pixels.push_back(0.6f + 0.3f * std::sin(static_cast<float>(i) * 0.003f));
+  }
+  LiveTruth live;
+  live.start(wanted);
+  std::vector<Comparison> all;
+  double share = 0, rays = 0;
+  follow(live, [&](const Traced& traced) {
+    all.push_back(compare(shown, traced.values));
+    const double now = static_cast<double>(traced.pixels) / static_cast<double>(160 * 120);
+    EXPECT_GE(now, share);
+    EXPECT_GE(traced.rays, rays);
+    share = now;
+    rays = traced.rays;
+  });
+  EXPECT_EQ(share, 1);
+  EXPECT_EQ(rays, 1024);
+  const Comparison& last = all.back();
+  EXPECT_GT(last.rmse, 0.05);
+  EXPECT_LT(last.error, 1e-4);
+  for (const Comparison& one : all) EXPECT_NEAR(one.rmse, last.rmse, 5 * one.error + 1e-6);
+  EXPECT_GT(all.front().error, 3 * last.error) << "the first news came late";
+}
+
+TEST_F(LiveTruthTest, IsStartedAnewAndEndedAtAnyTime) {
+  const auto other = std::make_shared<const scene::Scene>(*atrium_);
+  std::mt19937 engine(3);
+  const auto below = [&](uint32_t end) {
+    return std::uniform_int_distribution<uint32_t>(0, end - 1)(engine);
+  };
+  LiveTruth live;
+  Traced traced;
+  for (int i = 0; i < 300; ++i) {
+    LiveView wanted = view({1 + below(200), 1 + below(200)}, 16 + below(100));
+    if (below(4) == 0) wanted.scene = other;
+    wanted.radius = 0.1 + 0.01 * below(100);
+    wanted.camera.eye.x += 0.01 * below(100);
+    live.start(wanted);
+    if (below(3) == 0) std::this_thread::sleep_for(std::chrono::milliseconds(below(8)));
+    if (live.poll(traced)) {
+      // Never what was asked for before.
+      ASSERT_EQ(traced.size, wanted.size);
+      ASSERT_EQ(traced.values.size(), size_t{wanted.size.x} * wanted.size.y);
+    }
+    if (below(5) != 0) continue;
+    live.cancel();
+    EXPECT_FALSE(live.running());
+    EXPECT_FALSE(live.poll(traced));
+  }
+  live.cancel();
+  const LiveView wanted = view({50, 30}, 40);
+  live.start(wanted);
+  follow(live, [&](const Traced& now) { traced = now; });
+  // The tracer may be another scene's or about another origin: as good, not the same to the bit.
+  EXPECT_EQ(traced.rays, 40);
+  for (int i = 0; i < 20; ++i) {
+    LiveTruth ended;
+    ended.start(view({300, 200}, 64));
+    std::this_thread::sleep_for(std::chrono::milliseconds(below(4)));
+  }
+}
+
+TEST_F(LiveTruthTest, TakesUpWhatWasKept) {
+  const LiveView wanted = view({64, 36}, 16);
+  const OcclusionTruth kept =
+      traceOcclusion(*wanted.scene, wanted.camera, wanted.size, wanted.radius, 128, false);
+  LiveTruth live;
+  live.start(wanted);
+  Traced last;
+  follow(live, [&](const Traced& traced) { last = traced; });
+  EXPECT_EQ(last.rays, 128);
+  for (size_t i = 0; i < last.values.size(); ++i) {
+    const float a = last.values[i].mean, b = kept.visibility.pixels[i];
+    EXPECT_TRUE(a == b || (std::isnan(a) && std::isnan(b))) << i;
+  }
+}
+
+TEST_F(LiveTruthTest, SaysWhyItCannot) {
+  scene::Scene broken = *atrium_;
+  broken.textures.push_back({});
+  broken.textures.back().encoded.assign(10, std::byte{1});
+  for (scene::Material& material : broken.materials) {
+    material.masked = true;
+    material.baseColorTexture = static_cast<uint32_t>(broken.textures.size() - 1);
+  }
+  LiveView wanted = view({20, 20}, 16);
+  wanted.scene = std::make_shared<const scene::Scene>(broken);
+  LiveTruth live;
+  live.start(wanted);
+  while (live.running()) std::this_thread::yield();
+  Traced traced;
+  EXPECT_ERROR(ErrorId::kSceneImage, live.poll(traced));
+  EXPECT_FALSE(live.poll(traced));
+  // Another scene goes on.
+  live.start(view({20, 20}, 16));
+  follow(live, [&](const Traced& now) { traced = now; });
+  EXPECT_EQ(traced.pixels, 400u);
+}
+
+}  // namespace
+}  // namespace grisaille::app::truth

@@ -1,0 +1,244 @@
+// SPDX-License-Identifier: MIT
+#include "app/viewer/history.h"
+
+#include <map>
+
+#include "tests/core/shots/random_shots.h"
+#include "tests/support/tables.h"
+
+namespace grisaille::app::viewer {
+namespace {
+
+constexpr const char* kPainters[] = {"alpha", "beta"};
+
+// What undo acts on: settings and two lists of shots.
+struct Studio {
+  Tables tables;
+  EffectList list{tables.registry};
+  std::map<std::string, shots::ShotList, std::less<>> shots;
+  History history;
+
+  Studio()
+      : history(
+            list.state(),
+            [this](const EffectList::State& state) { EXPECT_TRUE(list.restore(state).empty()); },
+            [this](std::string_view effect) -> shots::ShotList& {
+              return shots.find(effect)->second;
+            }) {
+    for (const char* key : kPainters) shots.try_emplace(key);
+  }
+
+  // Every bit of the settings and the shots, made one number.
+  uint64_t fingerprint() const {
+    uint64_t hash = 14695981039346656037u;
+    const auto mix = [&](uint64_t value) { hash = (hash ^ value) * 1099511628211u; };
+    for (const EffectList::Entry& entry : list.entries()) {
+      mix(static_cast<uint64_t>(entry.key()[0]) * 2 + entry.on);
+      for (const double value : entry.values.all()) mix(std::bit_cast<uint64_t>(value));
+    }
+    for (const auto& [key, one] : shots) {
+      mix(one.shots().size());
+      for (const grisaille_shot& shot : one.shots()) {
+        for (const uint64_t word : std::bit_cast<shots::ShotBits>(shot)) mix(word);
+      }
+    }
+    return hash;
+  }
+
+  // One change by chance, noted. Returns what it is called.
+  std::string change(std::mt19937_64& random);
+  size_t shoot(std::mt19937_64& random, shots::ShotList& shot) const;
+};
+
+// One step of the list, or none.
+size_t Studio::shoot(std::mt19937_64& random, shots::ShotList& shot) const {
+  const uint64_t before = shot.revision();
+  if (random() % 16 == 0 || shot.shots().size() > 40) {
+    shot.clear();
+  } else if (random() % 16 == 0) {
+    shot.replace(shots::randomShots(random, random() % 4));
+  } else {
+    shot.fire(shots::randomShots(random, random() % 3));
+  }
+  return shot.revision() == before ? 0 : 1;
+}
+
+std::string Studio::change(std::mt19937_64& random) {
+  std::string what = std::to_string(random());
+  const size_t count = list.entries().size();
+  EffectList::Entry& entry = list.entries()[random() % count];
+  const auto params = entry.values.effect().params();
+  const grisaille_param_desc& param = params[random() % params.size()];
+  const std::string painter = kPainters[random() % 2];
+  switch (random() % 8) {
+    case 0:
+      entry.on = !entry.on;
+      break;
+    case 1:
+      list.move(random() % count, random() % count);
+      break;
+    case 2:
+      randomise(random, list);
+      break;
+    case 3:
+    case 4:
+      entry.values.set(param.key, randomValue(random, param));
+      break;
+    default: {
+      size_t steps = 0;
+      for (size_t i = random() % 4; i > 0; --i) steps += shoot(random, shots.find(painter)->second);
+      history.noteShots(painter, steps, what);
+      return what;
+    }
+  }
+  history.noteSettings(list.state(), what);
+  return what;
+}
+
+TEST(History, BeginsWithNothingToUndo) {
+  Studio studio;
+  EXPECT_FALSE(studio.history.canUndo());
+  EXPECT_FALSE(studio.history.canRedo());
+  EXPECT_EQ(studio.history.undoName(), "");
+  EXPECT_EQ(studio.history.redoName(), "");
+  studio.history.undo();
+  studio.history.redo();
+  studio.history.noteSettings(studio.list.state(), "nothing");
+  studio.history.noteShots("alpha", 0, "nothing");
+  EXPECT_FALSE(studio.history.canUndo());
+}
+
+// A walk of a hundred thousand steps, back to its beginning and on to its end again.
+TEST(History, BringsBackEveryStateOfALongWalk) {
+  constexpr size_t kSteps = 100000;
+  Studio studio;
+  std::mt19937_64 random(6);
+  std::vector<uint64_t> states = {studio.fingerprint()};
+  std::vector<std::string> names;
+  while (names.size() < kSteps) {
+    const std::string what = studio.change(random);
+    if (studio.history.undoName() != what) {
+      ASSERT_EQ(studio.fingerprint(), states.back());  // it changed nothing
+      continue;
+    }
+    names.push_back(what);
+    states.push_back(studio.fingerprint());
+  }
+  for (size_t i = kSteps; i > 0; --i) {
+    ASSERT_EQ(studio.history.undoName(), names[i - 1]);
+    studio.history.undo();
+    ASSERT_EQ(studio.fingerprint(), states[i - 1]) << i;
+    ASSERT_EQ(studio.history.redoName(), names[i - 1]);
+  }
+  EXPECT_FALSE(studio.history.canUndo());
+  for (size_t i = 0; i < kSteps; ++i) {
+    studio.history.redo();
+    ASSERT_EQ(studio.fingerprint(), states[i + 1]) << i;
+  }
+  EXPECT_FALSE(studio.history.canRedo());
+}
+
+// Changes, undo and redo in any order, against a plain list of all states.
+TEST(History, ForgetsWhatWasUndoneBeforeAChange) {
+  Studio studio;
+  std::mt19937_64 random(7);
+  std::vector<uint64_t> states = {studio.fingerprint()};
+  std::vector<std::string> names = {""};
+  size_t at = 0;
+  for (int i = 0; i < 20000; ++i) {
+    if (random() % 3 == 0) {
+      studio.history.undo();
+      if (at > 0) --at;
+    } else if (random() % 3 == 0) {
+      studio.history.redo();
+      if (at + 1 < states.size()) ++at;
+    } else {
+      const std::string what = studio.change(random);
+      if (studio.history.undoName() == what) {
+        states.resize(++at);
+        names.resize(at);
+        states.push_back(studio.fingerprint());
+        names.push_back(what);
+      }
+    }
+    ASSERT_EQ(studio.fingerprint(), states[at]) << i;
+    ASSERT_EQ(studio.history.undoName(), names[at]);
+    ASSERT_EQ(studio.history.redoName(), at + 1 < names.size() ? names[at + 1] : "");
+  }
+}
+
+TEST(History, AHeldSprayIsOneStep) {
+  Studio studio;
+  std::mt19937_64 random(8);
+  shots::ShotList& list = studio.shots.find("alpha")->second;
+  const auto spray = [&](bool joins) {
+    list.fire(shots::randomShot(random));
+    studio.history.noteShots("alpha", 1, "spray", joins);
+  };
+  spray(false);
+  for (int i = 0; i < 99; ++i) spray(true);
+  spray(false);
+  spray(true);
+  EXPECT_EQ(list.shots().size(), 102u);
+  studio.history.undo();
+  EXPECT_EQ(list.shots().size(), 100u);
+  // Between them something was undone: what goes on now is a stroke of its own.
+  spray(true);
+  EXPECT_FALSE(studio.history.canRedo());
+  studio.history.undo();
+  EXPECT_EQ(list.shots().size(), 100u);
+  studio.history.undo();
+  EXPECT_EQ(list.shots().size(), 0u);
+  EXPECT_FALSE(studio.history.canUndo());
+  studio.history.redo();
+  EXPECT_EQ(list.shots().size(), 100u);
+}
+
+TEST(History, OnlyStrokesOfTheSameListJoin) {
+  Studio studio;
+  std::mt19937_64 random(9);
+  const auto fire = [&](const char* effect) {
+    studio.shots.find(effect)->second.fire(shots::randomShot(random));
+    studio.history.noteShots(effect, 1, effect, true);
+  };
+  fire("alpha");
+  fire("beta");
+  studio.list.entries()[0].on = true;
+  studio.history.noteSettings(studio.list.state(), "on");
+  fire("beta");
+  for (const char* name : {"beta", "on", "beta", "alpha"}) {
+    EXPECT_EQ(studio.history.undoName(), name);
+    studio.history.undo();
+  }
+  EXPECT_FALSE(studio.history.canUndo());
+}
+
+// After a scan found another set of effects, the steps before it can still be undone.
+TEST(History, ARescanIsAStepLikeAnyOther) {
+  const Tables now, later("later");
+  EffectList list(now.registry);
+  std::vector<std::string> dropped;
+  History history(
+      list.state(), [&](const EffectList::State& state) { dropped = list.restore(state); },
+      [](std::string_view) -> shots::ShotList& { throw std::logic_error("no shots here"); });
+  list.find("beta")->values.set("count", 4.0);
+  history.noteSettings(list.state(), "count");
+  list = EffectList::rebound(list, later.registry, dropped);
+  history.noteSettings(list.state(), "rescan");
+  list.find("beta")->values.set("count", 5.0);
+  history.noteSettings(list.state(), "count again");
+  history.undo();
+  EXPECT_EQ(list.find("beta")->values.get("count"), 4);
+  EXPECT_TRUE(dropped.empty());
+  history.undo();
+  EXPECT_EQ(list.find("beta")->values.get("count"), 4);
+  EXPECT_FALSE(dropped.empty());  // gamma
+  history.undo();
+  EXPECT_EQ(list.find("beta")->values.get("count"), 3);
+  for (int i = 0; i < 3; ++i) history.redo();
+  EXPECT_EQ(list.find("beta")->values.get("count"), 5);
+  EXPECT_TRUE(dropped.empty());
+}
+
+}  // namespace
+}  // namespace grisaille::app::viewer

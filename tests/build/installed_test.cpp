@@ -1,0 +1,177 @@
+// SPDX-License-Identifier: MIT
+// What is installed is all that an author needs, wherever it is moved: effects are built and run
+// against it with the sources and the build folder out of sight.
+#include <gtest/gtest.h>
+
+#include <memory>
+#include <regex>
+
+#include "core/image/image.h"
+#include "tests/build/session.h"
+#include "tests/program/run.h"
+#include "tests/support/display.h"
+
+namespace grisaille::tests {
+namespace {
+
+namespace fs = std::filesystem;
+
+// One installation, moved after it was made, for all tests.
+class Installed : public ::testing::Test {
+ protected:
+  static void SetUpTestSuite() {
+    if (SANITIZED) return;
+    folder_ = std::make_unique<TemporaryFolder>();
+    display_ = std::make_unique<Display>(800, 600);
+    const std::string first = *folder_ / "first";
+    const Outcome outcome = runShell(
+        std::string(CMAKE) + " --install " + BUILD_FOLDER + " --prefix " + first, folder_->path());
+    ASSERT_EQ(outcome.status, 0) << outcome.err;
+    fs::rename(first, prefix());
+  }
+  static void TearDownTestSuite() {
+    display_.reset();
+    folder_.reset();
+  }
+  void SetUp() override {
+    if (SANITIZED) GTEST_SKIP() << "what the sanitizers watch is not installed";
+  }
+
+  static fs::path prefix() { return folder_->path() / "moved here"; }
+
+  // Runs a script in a fresh folder. Of the project it has the prefix alone: on the PATH, and with
+  // empty folders over the sources and the build, where the kernel lets users do that.
+  static Outcome session(const std::string& name, const std::string& script) {
+    const fs::path work = folder_->path() / name;
+    const fs::path empty = folder_->path() / "empty";
+    fs::create_directories(work);
+    fs::create_directories(empty);
+    const std::string file = folder_->write(
+        name + ".sh", "export PATH=\"" + (prefix() / "bin").string() +
+                          ":${PATH#*:}\"\n"
+                          "unset GRISAILLE_EFFECT_PATH CMAKE_PREFIX_PATH CMAKE_GENERATOR\n" +
+                          script);
+    const std::string hide = "for f in '" BUILD_FOLDER "' '" SOURCE_FOLDER "'; do mount --bind '" +
+                             empty.string() + "' \"$f\" || exit 1; done; ";
+    const bool hidden = runShell("unshare -rm true", work).status == 0;
+    if (!hidden) std::puts("the sources stay in sight: no mount namespace can be made");
+    return hidden
+               ? runShell("unshare -rm bash -c \"" + escaped(hide) + "exec bash '" + file + "'\"",
+                          work)
+               : runShell("bash '" + file + "'", work);
+  }
+
+  static fs::path workOf(const std::string& name) { return folder_->path() / name; }
+
+ private:
+  static std::string escaped(const std::string& text) {
+    std::string result;
+    for (const char c : text) {
+      if (c == '"' || c == '$') result += '\\';
+      result += c;
+    }
+    return result;
+  }
+
+  static inline std::unique_ptr<TemporaryFolder> folder_;
+  static inline std::unique_ptr<Display> display_;
+};
+
+TEST_F(Installed, NamesNeitherTheSourcesNorTheBuild) {
+  size_t files = 0;
+  for (const auto& entry : fs::recursive_directory_iterator(prefix())) {
+    if (!entry.is_regular_file()) continue;
+    ++files;
+    const std::string content = readFile(entry.path());
+    for (const char* folder : {SOURCE_FOLDER, BUILD_FOLDER}) {
+      EXPECT_EQ(content.find(folder), std::string::npos) << entry.path() << " names " << folder;
+    }
+  }
+  EXPECT_GT(files, 20u);
+}
+
+// The tutorial, from the first command to the last picture, which the manual shows.
+TEST_F(Installed, TutorialRunsAndItsPicturesAreThose) {
+  const Outcome outcome =
+      session("tutorial", sessionOf(fs::path(SOURCE_FOLDER) / "docs/tutorial.md"));
+  ASSERT_EQ(outcome.status, 0) << outcome.out << outcome.err;
+  size_t pictures = 0;
+  for (const auto& entry : fs::directory_iterator(workOf("tutorial") / "outline")) {
+    const std::string name = entry.path().filename();
+    if (entry.path().extension() != ".png") continue;
+    ++pictures;
+    const fs::path shown = fs::path(SOURCE_FOLDER) / "docs/pictures" / name;
+    ASSERT_TRUE(fs::exists(shown)) << shown;
+    // Drivers may round a sample differently; nothing else may differ.
+    EXPECT_LT(image::shareOver(image::read(entry.path()), image::read(shown), 8.0 / 255), 0.002)
+        << name;
+  }
+  EXPECT_EQ(pictures, 4u);
+}
+
+// A project in C, built by another compiler than the program, and all that its README says.
+TEST_F(Installed, ProjectInCBuiltByClangRuns) {
+  if (runShell("command -v clang", ".").status != 0) GTEST_SKIP() << "clang is not installed";
+  ASSERT_EQ(session("c", "grisaille new-effect edge_lines mine --language c").status, 0);
+  const std::string readme = sessionOf(workOf("c") / "mine/README.md");
+  // The window stays until its reader closes it.
+  const Outcome outcome =
+      session("c",
+              "cd mine; export CC=clang CXX=clang++\n"
+              "grisaille() { command grisaille \"$@\" $([[ $1 == view ]] && echo --frames 2); }\n" +
+                  readme);
+  ASSERT_EQ(outcome.status, 0) << outcome.out << outcome.err;
+  EXPECT_NE(outcome.out.find("edge_lines 0.1.0: Darkens what is far away"), std::string::npos);
+  EXPECT_NE(outcome.out.find("reach          8          0.001 ... 1000000 m"), std::string::npos)
+      << outcome.out;
+  const fs::path mine = workOf("c") / "mine";
+  EXPECT_NE(readFile(mine / "build/CMakeCache.txt").find("/clang"), std::string::npos);
+  // Both backends have drawn the same.
+  const image::Image opengl = image::read(mine / "opengl.png");
+  EXPECT_LT(image::compare(opengl, image::read(mine / "vulkan.png")).largest, 2.5 / 255);
+  EXPECT_GT(image::compare(opengl, image::read(mine / "both.png")).rmse, 0.01);
+}
+
+TEST_F(Installed, PackageHoldsAllAndNamesWhatItNeeds) {
+  if (runShell("command -v dpkg-shlibdeps", ".").status != 0) {
+    GTEST_SKIP() << "dpkg-dev is not installed";
+  }
+  const fs::path work = workOf("package");
+  fs::create_directories(work);
+  const Outcome made = runShell(std::string("cd ") + BUILD_FOLDER + " && " + CPACK + " -B " +
+                                    work.string() + " && cd " + work.string() +
+                                    " && dpkg-deb -x *.deb root && dpkg-deb -f *.deb Depends",
+                                work);
+  ASSERT_EQ(made.status, 0) << made.out << made.err;
+  // Releases name libraries by other versions.
+  for (const char* library :
+       {"libc6 ", "libembree[34]", "libfmt[0-9]+", "libglfw3 ", "libopenimageio2\\.[0-9]",
+        "libspirv-cross-c-shared0", "libtinygltf[0-9.]*d?", "libegl1 \\| libvulkan1"}) {
+    EXPECT_TRUE(std::regex_search(made.out, std::regex(library)))
+        << library << " not in " << made.out;
+  }
+  const Outcome drawn = runShell(
+      "root/usr/bin/grisaille render --size 64x36 --write color=from_package.png && "
+      "root/usr/bin/grisaille effects",
+      work);
+  EXPECT_EQ(drawn.status, 0) << drawn.err;
+  EXPECT_NE(drawn.out.find((work / "root/usr/lib/grisaille/effects/ssao.so").string()),
+            std::string::npos)
+      << drawn.out;
+  EXPECT_EQ(image::read(work / "from_package.png").width, 64u);
+}
+
+// A host has a window library of its own, or none.
+TEST_F(Installed, LibraryLinksNoWindowLibrary) {
+  if (runShell("command -v readelf", ".").status != 0) GTEST_SKIP() << "binutils is not installed";
+  const Outcome linked =
+      runShell(std::string("readelf -d ") + BUILD_FOLDER + "/lib/libgrisaille.so", ".");
+  ASSERT_EQ(linked.status, 0) << linked.err;
+  EXPECT_NE(linked.out.find("libstdc++"), std::string::npos) << linked.out;
+  for (const char* library : {"glfw", "X11", "xcb", "wayland"}) {
+    EXPECT_EQ(linked.out.find(library), std::string::npos) << linked.out;
+  }
+}
+
+}  // namespace
+}  // namespace grisaille::tests

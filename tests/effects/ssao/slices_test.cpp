@@ -1,0 +1,332 @@
+// SPDX-License-Identifier: MIT
+// Slices: what must hold at every resolution, on every backend.
+#include <gtest/gtest.h>
+
+#include <algorithm>
+#include <glm/gtc/constants.hpp>
+
+#include "core/frame/view_block.h"
+#include "tests/effects/ssao/render_ao.h"
+#include "tests/support/devices.h"
+#include "tests/support/scenes.h"
+
+namespace grisaille {
+namespace {
+
+constexpr const char* kResolutions[] = {"full", "half", "quarter"};
+const scene::Camera kCorner = {.eye = glm::dvec3(0, 1.2, 1.5), .target = glm::dvec3(0, 0, 0)};
+
+class SlicesTest : public tests::BackendTest {};
+GRISAILLE_ON_EVERY_DEVICE(SlicesTest);
+
+std::string join(const tests::Settings& settings) {
+  std::string all;
+  for (const auto& [key, value] : settings) all += key + "=" + value + " ";
+  return all;
+}
+
+TEST_P(SlicesTest, APlaneIsOpenAtEveryTiltAndDistance) {
+  const scene::Scene scene = tests::floorScene(1e5f);
+  for (const double degrees : {1.0, 10.0, 35.0, 60.0, 90.0}) {
+    for (const double distance : {0.2, 2.0, 50.0, 1000.0}) {
+      const double tilt = glm::radians(degrees);
+      // Slightly turned, so that no axis of the picture is the plane's.
+      const scene::Camera camera = {
+          .eye = distance * glm::dvec3(0.1 * std::cos(tilt), std::sin(tilt), std::cos(tilt)),
+          .target = glm::dvec3(0),
+          .up = glm::normalize(glm::dvec3(0.3, std::cos(tilt), -std::sin(tilt)))};
+      for (const char* resolution : kResolutions) {
+        const image::Image ao =
+            tests::renderAo(device(), scene, camera, {{"resolution", resolution}});
+        const float least = *std::min_element(ao.pixels.begin(), ao.pixels.end());
+        EXPECT_GT(least, 0.98f) << resolution << ", " << degrees << " degrees, " << distance;
+      }
+    }
+  }
+}
+
+// Of a point on one wall of a right-angled corner, at a distance from the other in radii:
+// directions with the cosine's density fall evenly on a disc, and those that are shut fill its
+// segment beyond that distance.
+double cornerVisibility(double distance) {
+  const double c = std::min(distance, 1.0);
+  return 1 - (std::acos(c) - c * std::sqrt(1 - c * c)) / glm::pi<double>();
+}
+
+// How far the picture is off on average, by the distance from the crease in fifths of a radius; on
+// the floor and on the wall.
+std::array<std::array<double, 5>, 2> cornerErrors(const image::Image& ao,
+                                                  const image::Image& depth) {
+  std::array<std::array<double, 5>, 2> sums = {}, counts = {};
+  const glm::dmat3 axes = scene::worldFromView(kCorner);
+  const double scale = std::tan(glm::radians(kCorner.fovyDegrees) / 2) * 2 / ao.height;
+  for (uint32_t y = 0; y < ao.height; ++y) {
+    for (uint32_t x = 0; x < ao.width; ++x) {
+      const glm::dvec3 ray((x + 0.5 - ao.width * 0.5) * scale, (ao.height * 0.5 - y - 0.5) * scale,
+                           -1);
+      const glm::dvec3 at = kCorner.eye + axes * ray * double{depth.at(x, y)};
+      const bool wall = at.y > at.z;
+      const double distance = (wall ? at.y : at.z) / 0.5;
+      if (distance >= 1 || distance < 0) continue;
+      const auto bin = static_cast<size_t>(distance * 5);
+      sums[wall][bin] += ao.at(x, y) - cornerVisibility(distance);
+      counts[wall][bin] += 1;
+    }
+  }
+  for (size_t w = 0; w < 2; ++w) {
+    for (size_t bin = 0; bin < 5; ++bin) sums[w][bin] /= counts[w][bin];
+  }
+  return sums;
+}
+
+TEST_P(SlicesTest, ACornerIsWithinTwoHundredthsOfItsAnalyticValue) {
+  const scene::Scene scene = tests::cornerScene();
+  effect::Registry registry;
+  frame::Renderer renderer(device(), scene);
+  const std::vector<std::string> outputs = {"depth"};
+  renderer.render(
+      {.camera = kCorner, .width = 640, .height = 480, .effects = {}, .outputs = outputs});
+  const image::Image depth = renderer.read("depth");
+  // The near plane cuts floor and wall: where vertices snap coarsely, their depth is off.
+  const double allowed = snapping().isCoarse() ? 0.03 : 0.02;
+  for (const tests::Settings& settings :
+       std::vector<tests::Settings>{{{"resolution", "full"}},
+                                    {{"resolution", "half"}},
+                                    {{"resolution", "half"}, {"steps", "4"}},
+                                    {{"resolution", "full"}, {"slices", "4"}, {"steps", "16"}}}) {
+    const auto errors =
+        cornerErrors(tests::renderAo(device(), scene, kCorner, settings, 640, 480), depth);
+    for (size_t w = 0; w < 2; ++w) {
+      for (size_t bin = 0; bin < 5; ++bin) {
+        EXPECT_NEAR(errors[w][bin], 0, allowed)
+            << join(settings) << (w == 0 ? "floor" : "wall") << " at " << bin << " fifths";
+      }
+    }
+  }
+}
+
+TEST_P(SlicesTest, ExtremesStayVisibilitiesAtEverySize) {
+  const scene::Scene scene = tests::cornerScene();
+  const std::vector<tests::Settings> extremes = {{{"slices", "64"}, {"steps", "1"}},
+                                                 {{"steps", "64"}},
+                                                 {{"radius", "1e-6"}},
+                                                 {{"radius", "1e6"}},
+                                                 {{"thickness", "0"}},
+                                                 {{"thickness", "1e6"}},
+                                                 {{"thickness", "1e6"}, {"radius", "1e6"}},
+                                                 {{"back_faces", "true"}, {"thickness", "0"}},
+                                                 {{"back_faces", "true"}, {"guard_band", "0.5"}},
+                                                 {{"denoise_size", "0"}},
+                                                 {{"denoise_size", "16"}},
+                                                 {{"intensity", "0"}},
+                                                 {{"intensity", "10"}},
+                                                 {{"power", "0.1"}},
+                                                 {{"power", "10"}},
+                                                 {{"guard_band", "1"}},
+                                                 {{"seed", "65535"}}};
+  for (const char* resolution : kResolutions) {
+    for (tests::Settings settings : extremes) {
+      settings.emplace_back("resolution", resolution);
+      tests::expectVisibility(tests::renderAo(device(), scene, kCorner, settings, 33, 17),
+                              join(settings));
+    }
+    for (const auto& [width, height] :
+         {std::pair{1u, 1u}, {1u, 64u}, {3u, 3u}, {65u, 2u}, {257u, 129u}}) {
+      tests::expectVisibility(
+          tests::renderAo(device(), scene, kCorner, {{"resolution", resolution}}, width, height),
+          fmt::format("{} {}x{}", resolution, width, height));
+    }
+  }
+}
+
+TEST_P(SlicesTest, SkyIsOpenAndDarkensNothing) {
+  // A post before the sky: nothing but itself is there to darken it.
+  scene::Scene scene;
+  scene.materials.push_back({.name = "white"});
+  tests::addQuad(scene, {glm::vec3(-0.4f, -3, 0), {0.4f, -3, 0}, {0.4f, 3, 0}, {-0.4f, 3, 0}},
+                 {0, 0, 1});
+  const scene::Camera camera = {.eye = glm::dvec3(0.2, 0.1, 4), .target = glm::dvec3(0, 0, 0)};
+  for (const char* resolution : kResolutions) {
+    const image::Image ao = tests::renderAo(device(), scene, camera, {{"resolution", resolution}});
+    EXPECT_GT(*std::min_element(ao.pixels.begin(), ao.pixels.end()), 0.98f) << resolution;
+  }
+}
+
+TEST_P(SlicesTest, SomethingFarBeforeAWallLeavesNoHalo) {
+  // Beyond the radius and thinner than its thickness: classic samplers darken the wall about it.
+  scene::Scene scene = tests::wallScene();
+  tests::addQuad(scene, {glm::vec3(-0.3f, -3, 2), {0.3f, -3, 2}, {0.3f, 3, 2}, {-0.3f, 3, 2}},
+                 {0, 0, 1});
+  const scene::Camera camera = {.eye = glm::dvec3(0, 0, 5), .target = glm::dvec3(0, 0, 0)};
+  for (const char* resolution : kResolutions) {
+    const image::Image ao = tests::renderAo(device(), scene, camera, {{"resolution", resolution}});
+    EXPECT_GT(*std::min_element(ao.pixels.begin(), ao.pixels.end()), 0.98f) << resolution;
+  }
+}
+
+TEST_P(SlicesTest, MoreThicknessIsDarker) {
+  // A thin shelf before a wall, seen from below: what is behind its front edge is unknown.
+  scene::Scene scene = tests::wallScene();
+  tests::addQuad(scene, {glm::vec3(-3, 0, 0.3f), {3, 0, 0.3f}, {3, 0.05f, 0.3f}, {-3, 0.05f, 0.3f}},
+                 {0, 0, 1});
+  const scene::Camera camera = {.eye = glm::dvec3(0, -0.5, 3), .target = glm::dvec3(0, 0, 0)};
+  const auto mean = [&](const char* thickness) {
+    return tests::meanRows(tests::renderAo(device(), scene, camera, {{"thickness", thickness}}), 0,
+                           tests::kAoHeight);
+  };
+  EXPECT_GT(mean("0.01"), mean("0.3"));
+  EXPECT_GT(mean("0.3"), mean("2"));
+}
+
+// A board that stands off a wall, seen from the front alone: what is behind its face is a guess,
+// unless its back is known.
+TEST_P(SlicesTest, BackFacesSayHowThickABoardIs) {
+  const scene::Camera camera = {.eye = glm::dvec3(0.4, 0.5, 3), .target = glm::dvec3(0, 0, 0)};
+  const auto mean = [&](float deep, const char* thickness, const char* back) {
+    scene::Scene scene = tests::wallScene();
+    const float front = 0.45f, rear = front - deep;
+    tests::addQuad(scene,
+                   {glm::vec3(-3, 0, front), {3, 0, front}, {3, 0.1f, front}, {-3, 0.1f, front}},
+                   {0, 0, 1});
+    tests::addQuad(scene, {glm::vec3(-3, 0.1f, rear), {3, 0.1f, rear}, {3, 0, rear}, {-3, 0, rear}},
+                   {0, 0, -1});
+    const tests::Settings settings = {{"thickness", thickness}, {"back_faces", back}};
+    return tests::meanRows(tests::renderAo(device(), scene, camera, settings), 0, tests::kAoHeight);
+  };
+  EXPECT_GT(mean(0.02f, "1", "true"), mean(0.02f, "1", "false") + 0.005);
+  EXPECT_LT(mean(0.4f, "0.05", "true"), mean(0.4f, "0.05", "false") - 0.005);
+}
+
+// With a guard band a picture knows what a larger one would: it is the larger one's middle. The
+// band is a multiple of the noise's period and of the grid that far taps fall on.
+TEST_P(SlicesTest, AGuardBandMakesItTheMiddleOfALargerPicture) {
+  const scene::Scene scene = tests::cornerScene();
+  constexpr uint32_t kSize = 160, kBand = 80;
+  const scene::Camera wide = frame::widened(kCorner, kSize, kBand);
+  for (const char* resolution : kResolutions) {
+    const tests::Settings settings = {{"resolution", resolution}, {"denoise_size", "0"}};
+    const image::Image larger =
+        tests::renderAo(device(), scene, wide, settings, kSize + 2 * kBand, kSize + 2 * kBand);
+    image::Image middle = {.width = kSize, .height = kSize, .channels = 1, .pixels = {}};
+    for (uint32_t y = 0; y < kSize; ++y) {
+      for (uint32_t x = 0; x < kSize; ++x) {
+        middle.pixels.push_back(larger.at(x + kBand, y + kBand));
+      }
+    }
+    tests::Settings guarded = settings;
+    guarded.emplace_back("guard_band", "0.5");
+    const image::Image own = tests::renderAo(device(), scene, kCorner, guarded, kSize, kSize);
+    // But for rounding, which moves taps that fall between two pixels.
+    const double off = image::shareOver(own, middle, 2.0 / 255);
+    EXPECT_LT(off, 0.02) << resolution;
+    // Which it is not without.
+    const image::Image bare = tests::renderAo(device(), scene, kCorner, settings, kSize, kSize);
+    EXPECT_GT(image::shareOver(bare, middle, 2.0 / 255), 2 * off) << resolution;
+  }
+}
+
+TEST_P(SlicesTest, OneSeedGivesTheSameBitsAndAnotherDoesNot) {
+  const scene::Scene scene = tests::cornerScene();
+  const image::Image first = tests::renderAo(device(), scene, kCorner, {{"seed", "7"}});
+  EXPECT_EQ(first.pixels, tests::renderAo(device(), scene, kCorner, {{"seed", "7"}}).pixels);
+  EXPECT_NE(first.pixels, tests::renderAo(device(), scene, kCorner, {{"seed", "8"}}).pixels);
+}
+
+TEST_P(SlicesTest, TheDenoiserRemovesThePattern) {
+  const scene::Scene scene = tests::cornerScene();
+  const auto roughness = [&](const char* resolution, const char* blur) {
+    const image::Image ao = tests::renderAo(
+        device(), scene, kCorner, {{"resolution", resolution}, {"denoise_size", blur}}, 320, 240);
+    double sum = 0;
+    for (uint32_t x = 1; x < 320; ++x) sum += std::abs(ao.at(x, 140) - ao.at(x - 1, 140));
+    return sum;
+  };
+  for (const char* resolution : {"full", "half"}) {
+    EXPECT_LT(roughness(resolution, "5"), 0.1 * roughness(resolution, "0")) << resolution;
+  }
+}
+
+// A floor that meets a wall with a ledge a few texels wide between them.
+scene::Scene ledgeScene() {
+  scene::Scene scene = tests::cornerScene();
+  tests::addQuad(scene,
+                 {glm::vec3(-3, 0, 0.03f), {3, 0, 0.03f}, {3, 0.08f, 0.03f}, {-3, 0.08f, 0.03f}},
+                 {0, 0, 1});
+  tests::addQuad(scene,
+                 {glm::vec3(-3, 0.08f, 0.03f), {3, 0.08f, 0.03f}, {3, 0.08f, 0}, {-3, 0.08f, 0}},
+                 {0, 1, 0});
+  return scene;
+}
+
+TEST_P(SlicesTest, EdgesThatRunAslantAreFreeOfThePattern) {
+  const scene::Scene scene = ledgeScene();
+  scene::Camera camera = {.eye = glm::dvec3(0, 1.2, 3), .target = glm::dvec3(0, 0, 0)};
+  for (const double degrees : {27.0, 45.0, 63.0}) {
+    const double roll = glm::radians(degrees);
+    camera.up = {std::sin(roll), std::cos(roll), 0};
+    for (const char* resolution : {"full", "half"}) {
+      // What is left of the noise is what sets a frame off from the mean of the pattern's 25.
+      const auto noise = [&](const char* reach) {
+        tests::AoFrames frames(device(), scene,
+                               {{"resolution", resolution},
+                                {"edge_slices", "1"},
+                                {"edge_denoise", reach},
+                                {"history", "25"}});
+        const image::Image one = frames.show(camera, 240, 180);
+        for (int k = 0; k < 23; ++k) frames.show(camera, 240, 180);
+        return image::compare(one, frames.show(camera, 240, 180)).rmse;
+      };
+      EXPECT_LT(noise("6"), 0.8 * noise("0")) << resolution << ", " << degrees << " degrees";
+    }
+  }
+}
+
+TEST_P(SlicesTest, EdgesAreDenoisedAndNothingElse) {
+  for (const char* resolution : kResolutions) {
+    const auto rendered = [&](const char* reach) {
+      const tests::Settings settings = {{"resolution", resolution}, {"edge_denoise", reach}};
+      return tests::renderAo(device(), tests::cornerScene(), kCorner, settings, 320, 240);
+    };
+    const image::Image with = rendered("6"), without = rendered("0");
+    // The crease is about the middle; next to it, and to the picture's border, all within what a
+    // denoiser reaches.
+    size_t changed = 0;
+    for (uint32_t y = 0; y < with.height; ++y) {
+      for (uint32_t x = 0; x < with.width; ++x) {
+        const bool far =
+            std::abs(y - with.height / 2.0) > 60 && y > 40 && y < 200 && x > 40 && x < 280;
+        const bool same = with.at(x, y) == without.at(x, y);
+        changed += same ? 0 : 1;
+        ASSERT_TRUE(same || !far) << resolution << " at " << x << ", " << y;
+      }
+    }
+    EXPECT_GT(changed, 0u) << resolution;
+    // Nor anywhere where nothing is denoised.
+    const auto raw = [&](const char* reach) {
+      const tests::Settings settings = {
+          {"resolution", resolution}, {"denoise_size", "0"}, {"edge_denoise", reach}};
+      return tests::renderAo(device(), tests::cornerScene(), kCorner, settings).pixels;
+    };
+    EXPECT_EQ(raw("6"), raw("0")) << resolution;
+  }
+}
+
+TEST(SlicesBackends, Agree) {
+  const std::vector<tests::TestDevice> backends = tests::presentSystemDevices();
+  if (backends.size() < 2) GTEST_SKIP() << "one backend alone is present";
+  for (const tests::Settings& settings :
+       std::vector<tests::Settings>{{{"resolution", "full"}},
+                                    {{"resolution", "half"}},
+                                    {{"resolution", "quarter"}},
+                                    {{"slices", "3"}, {"denoise_size", "0"}}}) {
+    std::vector<image::Image> images;
+    for (const tests::TestDevice& backend : backends) {
+      const auto device = tests::openDevice(backend);
+      images.push_back(tests::renderAo(*device, tests::cornerScene(), kCorner, settings));
+    }
+    EXPECT_LT(image::shareOver(images[0], images[1], 2.0 / 255), 0.001) << join(settings);
+  }
+}
+
+}  // namespace
+}  // namespace grisaille

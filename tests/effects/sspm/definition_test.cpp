@@ -1,0 +1,136 @@
+// SPDX-License-Identifier: MIT
+// Paint against its definition in double precision, on every backend.
+#include <gtest/gtest.h>
+
+#include <algorithm>
+
+#include "lab/oracle/paint.h"
+#include "tests/effects/sspm/paint_frame.h"
+#include "tests/support/devices.h"
+#include "tests/support/scenes.h"
+
+namespace grisaille::tests {
+namespace {
+
+using namespace lab::oracle;
+
+constexpr uint32_t kDefinedWidth = 128;
+constexpr uint32_t kDefinedHeight = 96;
+
+std::string text(double value) {
+  return fmt::format("{}", value);
+}
+
+Settings settingsOf(const PaintSettings& s, const std::string& mode) {
+  return {{"mode", mode},
+          {"paint_range", text(s.paintRange)},
+          {"r0", text(s.full)},
+          {"shot_limit", text(static_cast<double>(s.shotLimit))},
+          {"edge_fade", text(s.edgeFade)},
+          {"splat_scale", text(s.splatScale)},
+          {"splat_sharpness", text(s.splatSharpness)},
+          {"noise_seed", text(s.noiseSeed)}};
+}
+
+// The share of pixels that differ by more than 2/255 from `expected(x, y)`.
+template <typename Expected>
+double different(const image::Image& paint, const image::Image& coverage, Expected&& expected) {
+  size_t count = 0;
+  for (uint32_t y = 0; y < paint.height; ++y) {
+    for (uint32_t x = 0; x < paint.width; ++x) {
+      const PaintPixel pixel = expected(x, y);
+      double worst = std::abs(coverage.at(x, y) - pixel.coverage);
+      for (uint32_t c = 0; c < 4; ++c) {
+        const double value = paint.at(x, y, c);
+        worst = std::isfinite(value)
+                    ? std::max(worst, std::abs(value - pixel.paint[static_cast<int>(c)]))
+                    : 1;
+      }
+      count += worst > 2.0 / 255 ? 1 : 0;
+    }
+  }
+  return static_cast<double>(count) / (paint.width * paint.height);
+}
+
+double pixelSlope(const scene::Camera& camera) {
+  return 2 * std::tan(glm::radians(camera.fovyDegrees) / 2) / kDefinedHeight;
+}
+
+class DefinitionTest : public BackendTest {};
+GRISAILLE_ON_EVERY_DEVICE(DefinitionTest);
+
+TEST_P(DefinitionTest, PerShotIsTheDefinition) {
+  const scene::Scene scene = cornerScene();
+  PaintFrame frame(device(), scene);
+  std::mt19937 random(7);
+  std::uniform_real_distribution<double> unit(0, 1);
+  for (int round = 0; round < 12; ++round) {
+    const PaintSettings settings = {.paintRange = std::exp2(-4 + 5 * unit(random)),
+                                    .full = std::exp2(-5 + 6 * unit(random)),
+                                    .shotLimit = static_cast<size_t>(1 + 40 * unit(random)),
+                                    .edgeFade = round % 3 == 0 ? 0 : unit(random),
+                                    .splatScale = std::exp2(-5 + 4 * unit(random)),
+                                    .splatSharpness = round % 2 == 0 ? 1 : unit(random),
+                                    .noiseSeed = static_cast<uint32_t>(65535 * unit(random))};
+    std::vector<grisaille_shot> shots;
+    for (int i = 0; i < 30; ++i) {
+      const glm::dvec3 origin(4 * unit(random) - 2, 3 * unit(random) - 0.5, 3 * unit(random) - 0.5);
+      const glm::dvec3 target(3 * unit(random) - 1.5, 2 * unit(random) - 0.2, 2 * unit(random) - 1);
+      const float range = i % 4 == 0 ? static_cast<float>(0.05 + unit(random)) : 0.0f;
+      shots.push_back(shotAt(origin, target, randomColor(random), range));
+    }
+    frame.set(settingsOf(settings, "per_shot"));
+    frame.render(kCrease, kDefinedWidth, kDefinedHeight, shots);
+    const image::Image depth = frame.read("depth");
+    const double wrong =
+        different(frame.read("paint"), frame.read("paint_coverage"), [&](uint32_t x, uint32_t y) {
+          const double d = depth.at(x, y);
+          return paintOf(worldOf(kCrease, kDefinedWidth, kDefinedHeight, x, y, d), d,
+                         pixelSlope(kCrease), shots, settings);
+        });
+    EXPECT_LT(wrong, 0.001) << "round " << round;
+  }
+}
+
+// On a wall that every muzzle sees whole, both modes are one.
+TEST_P(DefinitionTest, SurfaceIsPerShotOnAnOpenWall) {
+  const scene::Scene scene = wallScene();
+  const scene::Camera camera = {.eye = glm::dvec3(0.4, 0.2, 3), .target = glm::dvec3(0, 0, 0)};
+  TracedRays rays(scene);
+  for (uint32_t seed = 0; seed < 3; ++seed) {
+    std::mt19937 random(seed);
+    std::uniform_real_distribution<double> unit(0, 1);
+    const PaintSettings settings = {.paintRange = 0.05 + 0.3 * unit(random),
+                                    .full = seed == 0 ? 1 : 0.02 + 0.2 * unit(random),
+                                    .shotLimit = 65536,
+                                    .edgeFade = seed == 1 ? 0 : unit(random),
+                                    .splatSharpness = 1,
+                                    .noiseSeed = seed};
+    std::vector<grisaille_shot> shots;
+    for (int i = 0; i < 1000; ++i) {
+      const glm::dvec3 target(6 * unit(random) - 3, 5 * unit(random) - 2.5, 0);
+      const glm::dvec3 origin =
+          target + glm::dvec3(6 * unit(random) - 3, 6 * unit(random) - 3, 0.2 + 4 * unit(random));
+      const float range = i % 7 == 0 ? static_cast<float>(0.02 + unit(random)) : 0.0f;
+      shots.push_back(shotAt(origin, target, randomColor(random), range));
+    }
+    PaintFrame frame(device(), scene);
+    frame.setRays(&rays);
+    frame.set(settingsOf(settings, "surface"));
+    frame.render(camera, kDefinedWidth, kDefinedHeight, shots);
+    EXPECT_EQ(frame.waiting(), 0u);
+    const image::Image paint = frame.read("paint"), coverage = frame.read("paint_coverage");
+    frame.set(settingsOf(settings, "per_shot"));
+    frame.render(camera, kDefinedWidth, kDefinedHeight, shots);
+    const image::Image every = frame.read("paint"), sum = frame.read("paint_coverage");
+    const double wrong = different(paint, coverage, [&](uint32_t x, uint32_t y) {
+      return PaintPixel{
+          .paint = {every.at(x, y, 0), every.at(x, y, 1), every.at(x, y, 2), every.at(x, y, 3)},
+          .coverage = sum.at(x, y)};
+    });
+    EXPECT_LT(wrong, 0.001) << "seed " << seed;
+  }
+}
+
+}  // namespace
+}  // namespace grisaille::tests

@@ -1,0 +1,105 @@
+// SPDX-License-Identifier: MIT
+// Paint on surfaces against the ray-traced mask: in range, and the segment to the muzzle unblocked.
+#include <gtest/gtest.h>
+
+#include <algorithm>
+#include <filesystem>
+
+#include "core/trace/paint_mask.h"
+#include "tests/effects/sspm/paint_frame.h"
+#include "tests/support/devices.h"
+
+namespace grisaille::tests {
+namespace {
+
+constexpr uint32_t kMaskWidth = 1280;
+constexpr uint32_t kMaskHeight = 720;
+
+using Mask = std::vector<uint8_t>;
+
+struct Agreement {
+  size_t traced = 0, both = 0, either = 0;
+  size_t stray = 0;  // covered pixels more than 2 px from the mask
+  double iou() const {
+    return either > 0 ? static_cast<double>(both) / static_cast<double>(either) : 1;
+  }
+};
+
+Agreement compare(const Mask& mask, const image::Image& coverage) {
+  Agreement result;
+  const uint32_t width = coverage.width, height = coverage.height;
+  const auto traced = [&](uint32_t x, uint32_t y) { return mask[size_t{y} * width + x] != 0; };
+  for (uint32_t y = 0; y < height; ++y) {
+    for (uint32_t x = 0; x < width; ++x) {
+      const bool truth = traced(x, y);
+      const bool painted = coverage.at(x, y) > 0;
+      result.traced += truth ? 1 : 0;
+      result.both += truth && painted ? 1 : 0;
+      result.either += truth || painted ? 1 : 0;
+      if (!painted || truth) continue;
+      bool near = false;
+      for (uint32_t v = y - std::min(y, 2u); v <= std::min(y + 2, height - 1); ++v) {
+        for (uint32_t u = x - std::min(x, 2u); u <= std::min(x + 2, width - 1); ++u) {
+          near = near || traced(u, v);
+        }
+      }
+      result.stray += near ? 0 : 1;
+    }
+  }
+  return result;
+}
+
+class MaskTest : public BackendTest {};
+GRISAILLE_ON_EVERY_DEVICE(MaskTest);
+
+TEST_P(MaskTest, PaintLandsWhereTheMuzzleSees) {
+  const std::filesystem::path shared = SHARED_FOLDER;
+  if (!std::filesystem::exists(shared / "scenes/Sponza.glb")) GTEST_SKIP() << "Sponza is not here";
+  const scene::Scene scene = scene::loadGltf(shared / "scenes/Sponza.glb");
+  TracedRays rays(scene);
+  std::mt19937 random(11);
+  std::uniform_real_distribution<double> unit(0, 1);
+  Agreement sum;
+  for (const char* name : {"atrium", "arcade", "gallery", "lion"}) {
+    const scene::Camera camera =
+        scene::loadCamera(shared / "cameras" / (std::string(name) + ".json"));
+    const std::vector<trace::Hit> hits = rays.tracer().castPrimary(camera, kMaskWidth, kMaskHeight);
+    PaintFrame frame(device(), scene);
+    frame.setRays(&rays);
+    for (int i = 0; i < 8; ++i) {
+      // Anywhere in the picture, from anywhere about the camera.
+      const auto x = static_cast<uint32_t>(kMaskWidth * (0.05 + 0.9 * unit(random)));
+      const auto y = static_cast<uint32_t>(kMaskHeight * (0.05 + 0.9 * unit(random)));
+      const trace::Hit& target = hits[y * kMaskWidth + x];
+      const glm::dvec3 muzzle =
+          camera.eye +
+          glm::dvec3(3 * unit(random) - 1.5, 1.5 * unit(random) - 0.7, 3 * unit(random) - 1.5);
+      if (target.viewDepth == 0) continue;
+      const double range = 0.1 + 0.4 * unit(random);
+      const std::vector<grisaille_shot> shots = {
+          shotAt(muzzle, target.position, glm::vec3(1, 0, 0), static_cast<float>(range))};
+      frame.set({{"edge_fade", "0"}});
+      frame.render(camera, kMaskWidth, kMaskHeight, shots, 0, {"paint_coverage"});
+      const Agreement one = compare(trace::paintMask(rays.tracer(), hits, shots, range),
+                                    frame.read("paint_coverage"));
+      SCOPED_TRACE(fmt::format("{}, shot {} at pixel {},{} with range {}: {} px", name, i, x, y,
+                               range, one.traced));
+      // Fewer pixels than that are mostly edge.
+      if (one.traced >= 500) {
+        EXPECT_GE(one.iou(), 0.97);
+      }
+      sum.traced += one.traced;
+      sum.both += one.both;
+      sum.either += one.either;
+      sum.stray += one.stray;
+    }
+  }
+  std::printf("%s: %zu px, intersection over union %.4f, %zu px astray\n", GetParam().label.c_str(),
+              sum.traced, sum.iou(), sum.stray);
+  EXPECT_GE(sum.iou(), 0.99);
+  // Edges that are thinner than a map's finest squares hide from it.
+  EXPECT_LE(sum.stray, sum.both / 50000);
+}
+
+}  // namespace
+}  // namespace grisaille::tests

@@ -1,0 +1,192 @@
+// SPDX-License-Identifier: MIT
+// What painters rely on, on every backend.
+#include <gtest/gtest.h>
+
+#include <algorithm>
+#include <cmath>
+
+#include "lab/oracle/paint.h"
+#include "tests/effects/sspm/paint_frame.h"
+#include "tests/support/devices.h"
+#include "tests/support/scenes.h"
+
+namespace grisaille::tests {
+namespace {
+
+using namespace lab::oracle;
+
+// The corner, somewhere else in the world.
+scene::Scene cornerAt(const glm::dvec3& place) {
+  scene::Scene scene = cornerScene();
+  for (scene::Instance& instance : scene.instances) {
+    instance.worldFromObject[3] += glm::dvec4(place, 0);
+  }
+  computeBounds(scene);
+  return scene;
+}
+
+std::vector<grisaille_shot> someShots(uint32_t count, uint32_t seed, const glm::dvec3& place = {}) {
+  std::mt19937 random(seed);
+  std::uniform_real_distribution<double> unit(0, 1);
+  std::vector<grisaille_shot> shots;
+  for (uint32_t i = 0; i < count; ++i) {
+    const glm::dvec3 origin(3 * unit(random) - 1.5, 0.2 + 2 * unit(random), 0.3 + 2 * unit(random));
+    const glm::dvec3 target(3 * unit(random) - 1.5, 1.5 * unit(random), 0);
+    shots.push_back(shotAt(place + origin, place + target, randomColor(random)));
+  }
+  return shots;
+}
+
+class PaintTest : public BackendTest {
+ protected:
+  void look(PaintFrame& frame, std::span<const grisaille_shot> shots, size_t kept = 0) {
+    frame.render(kCrease, kWidth, kHeight, shots, kept,
+                 {"paint", "paint_coverage", "paint_owner", "depth"});
+  }
+};
+GRISAILLE_ON_EVERY_DEVICE(PaintTest);
+
+TEST_P(PaintTest, TheNewestWins) {
+  const scene::Scene scene = cornerScene();
+  TracedRays rays(scene);
+  for (const char* mode : {"surface", "per_shot"}) {
+    PaintFrame frame(device(), scene);
+    frame.setRays(&rays);
+    frame.set({{"mode", mode}, {"shot_limit", "1000"}});
+    std::vector<grisaille_shot> shots = someShots(150, 3);
+    for (const glm::vec3 color : {glm::vec3(1, 0, 0), glm::vec3(0, 1, 0), glm::vec3(0, 0, 1)}) {
+      const size_t kept = shots.size();
+      shots.push_back(shotAt(kCrease.eye, kCrease.target, color));
+      look(frame, shots, kept);
+      const image::Image paint = frame.read("paint");
+      for (uint32_t c = 0; c < 3; ++c) {
+        EXPECT_NEAR(paint.at(kWidth / 2, kHeight / 2, c), color[static_cast<int>(c)], 0.01) << mode;
+      }
+      EXPECT_EQ(paint.at(kWidth / 2, kHeight / 2, 3), 1.0f) << mode;
+      EXPECT_EQ(frame.read("paint_owner").at(kWidth / 2, kHeight / 2),
+                static_cast<float>(shots.size()))
+          << mode;
+    }
+  }
+}
+
+// However the list came about, the picture is that of the list alone.
+TEST_P(PaintTest, ThePictureIsTheListsAlone) {
+  const scene::Scene scene = cornerScene();
+  TracedRays rays(scene);
+  const std::vector<grisaille_shot> shots = someShots(240, 5);
+  const Settings rules = {{"edge_fade", "0.1"}, {"paint_range", "0.3"}};
+  const auto fresh = [&](size_t count) {
+    PaintFrame frame(device(), scene);
+    frame.setRays(&rays);
+    frame.set(rules);
+    look(frame, std::span(shots).first(count));
+    return frame.read("paint").pixels;
+  };
+  PaintFrame frame(device(), scene);
+  frame.setRays(&rays);
+  frame.set(rules);
+  size_t before = 0;
+  // Fired in bursts, undone, fired again, cleared.
+  for (const size_t count : {1u, 40u, 41u, 200u, 150u, 240u, 30u, 0u, 120u}) {
+    look(frame, std::span(shots).first(count), std::min(before, count));
+    before = count;
+    EXPECT_EQ(frame.waiting(), 0u);
+    EXPECT_EQ(frame.read("paint").pixels, fresh(count)) << count;
+  }
+}
+
+TEST_P(PaintTest, FarFromTheWorldsOriginPaintIsTheSame) {
+  const glm::dvec3 place(1048576, 0, -2097152);
+  const scene::Scene near = cornerScene(), far = cornerAt(place);
+  TracedRays nearRays(near), farRays(far);
+  scene::Camera camera = kCrease;
+  camera.eye += place;
+  camera.target += place;
+  PaintFrame a(device(), near), b(device(), far);
+  a.setRays(&nearRays);
+  b.setRays(&farRays);
+  const std::vector<grisaille_shot> here = someShots(60, 9), there = someShots(60, 9, place);
+  a.render(kCrease, kWidth, kHeight, here, 0, {"paint_coverage"});
+  b.render(camera, kWidth, kHeight, there, 0, {"paint", "paint_coverage", "depth"});
+  const image::Image first = a.read("paint_coverage"), second = b.read("paint_coverage");
+  size_t different = 0;
+  for (size_t i = 0; i < first.pixels.size(); ++i) {
+    different += std::abs(first.pixels[i] - second.pixels[i]) > 2.0f / 255 ? 1 : 0;
+  }
+  EXPECT_LE(different, first.pixels.size() / 1000);
+  // The splats are those of the places that the pixels show there.
+  const image::Image paint = b.read("paint"), depth = b.read("depth");
+  const double slope = 2 * std::tan(glm::radians(camera.fovyDegrees) / 2) / kHeight;
+  size_t wrong = 0;
+  for (uint32_t y = 0; y < kHeight; ++y) {
+    for (uint32_t x = 0; x < kWidth; ++x) {
+      const double z = depth.at(x, y);
+      const glm::dvec3 world = worldOf(camera, kWidth, kHeight, x, y, z);
+      const double above = second.at(x, y) - splatNoise(world, z, slope, {});
+      // Within the step's width the noise says nothing of paint or none.
+      if (std::abs(above) > 0.06 && (above > 0) != (paint.at(x, y, 3) > 0.5f)) ++wrong;
+    }
+  }
+  EXPECT_LE(wrong, kWidth * kHeight / 1000);
+}
+
+TEST_P(PaintTest, WithoutRaysShotsWait) {
+  const scene::Scene scene = cornerScene();
+  PaintFrame frame(device(), scene);
+  const std::vector<grisaille_shot> shots = someShots(5, 1);
+  look(frame, shots);
+  EXPECT_EQ(frame.waiting(), 5u);
+  for (const float value : frame.read("paint").pixels) ASSERT_EQ(value, 0.0f);
+  TracedRays rays(scene);
+  frame.setRays(&rays);
+  look(frame, shots, shots.size());
+  EXPECT_EQ(frame.waiting(), 0u);
+  const image::Image coverage = frame.read("paint_coverage");
+  EXPECT_GT(*std::max_element(coverage.pixels.begin(), coverage.pixels.end()), 0.5f);
+}
+
+// A pole that stands free and is narrower than the rough picture's squares.
+TEST_P(PaintTest, ThinThingsThatStandFreeArePainted) {
+  scene::Scene scene;
+  scene.materials.emplace_back();
+  const float half = 0.02f;
+  addQuad(scene,
+          {glm::vec3(-half, 0, 0), glm::vec3(half, 0, 0), glm::vec3(half, 2, 0),
+           glm::vec3(-half, 2, 0)},
+          glm::vec3(0, 0, 1));
+  TracedRays rays(scene);
+  PaintFrame frame(device(), scene);
+  frame.setRays(&rays);
+  const std::vector<grisaille_shot> shots = {
+      shotAt(glm::dvec3(0, 1, 2), glm::dvec3(0, 1, 0), glm::vec3(1, 0, 0))};
+  frame.render({.eye = glm::dvec3(0, 1, 1), .target = glm::dvec3(0, 1, 0)}, kWidth, kHeight, shots);
+  EXPECT_EQ(frame.read("paint_coverage").at(kWidth / 2, kHeight / 2), 1.0f);
+}
+
+// A wall between: nothing behind it, nothing on its far side.
+TEST_P(PaintTest, PaintStopsAtTheFirstSurface) {
+  scene::Scene scene = cornerScene();
+  scene.materials[0].doubleSided = true;
+  addQuad(scene, {glm::vec3(-1, 0, 1), glm::vec3(1, 0, 1), glm::vec3(1, 2, 1), glm::vec3(-1, 2, 1)},
+          glm::vec3(0, 0, 1));
+  computeBounds(scene);
+  TracedRays rays(scene);
+  PaintFrame frame(device(), scene);
+  frame.setRays(&rays);
+  const std::vector<grisaille_shot> shots = {
+      shotAt(glm::dvec3(0, 1, 3), glm::dvec3(0, 1, 0), glm::vec3(1, 0, 0))};
+  const auto painted = [&](const scene::Camera& camera) {
+    frame.render(camera, kWidth, kHeight, shots, shots.size(), {"paint_coverage"});
+    const image::Image coverage = frame.read("paint_coverage");
+    return std::any_of(coverage.pixels.begin(), coverage.pixels.end(),
+                       [](float a) { return a > 0; });
+  };
+  EXPECT_TRUE(painted({.eye = glm::dvec3(0, 1, 3), .target = glm::dvec3(0, 1, 1)}));
+  // Between the wall and what is behind it, looking either way.
+  EXPECT_FALSE(painted({.eye = glm::dvec3(0, 1, 0.5), .target = glm::dvec3(0, 1, 0)}));
+  EXPECT_FALSE(painted({.eye = glm::dvec3(0, 1, 0.5), .target = glm::dvec3(0, 1, 1)}));
+}
+
+}  // namespace
+}  // namespace grisaille::tests

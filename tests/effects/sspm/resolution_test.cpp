@@ -1,0 +1,186 @@
+// SPDX-License-Identifier: MIT
+// Paint on surfaces below full resolution against full resolution, on every backend.
+#include <gtest/gtest.h>
+
+#include <algorithm>
+#include <cmath>
+
+#include "tests/effects/sspm/paint_frame.h"
+#include "tests/support/devices.h"
+#include "tests/support/scenes.h"
+
+namespace grisaille::tests {
+namespace {
+
+constexpr uint32_t kWidth = 160;
+constexpr uint32_t kHeight = 120;
+constexpr float kSame = 2.0f / 255;
+
+const scene::Camera kCrease = {.eye = glm::dvec3(0.3, 1.5, 2.5), .target = glm::dvec3(0, 0.5, 0)};
+
+std::vector<grisaille_shot> someShots(uint32_t count) {
+  std::mt19937 random(17);
+  std::uniform_real_distribution<double> unit(0, 1);
+  std::vector<grisaille_shot> shots;
+  for (uint32_t i = 0; i < count; ++i) {
+    const glm::dvec3 origin(3 * unit(random) - 1.5, 0.2 + 2 * unit(random), 0.3 + 2 * unit(random));
+    const glm::dvec3 target(3 * unit(random) - 1.5, 1.5 * unit(random), 0);
+    shots.push_back(shotAt(origin, target, randomColor(random), 0.4f));
+  }
+  return shots;
+}
+
+struct Shown {
+  image::Image paint, coverage, owner, facets;
+};
+
+class ResolutionTest : public BackendTest {
+ protected:
+  // In a fresh instance, over `scene`, which is traced too.
+  Shown look(const scene::Scene& scene, const scene::Camera& camera, const Settings& settings,
+             std::span<const grisaille_shot> shots, uint32_t width = kWidth,
+             uint32_t height = kHeight) {
+    TracedRays rays(scene);
+    PaintFrame frame(device(), scene);
+    frame.setRays(&rays);
+    frame.set(settings);
+    frame.render(camera, width, height, shots, 0,
+                 {"paint", "paint_coverage", "paint_owner", "facet_normal"});
+    return {frame.read("paint"), frame.read("paint_coverage"), frame.read("paint_owner"),
+            frame.read("facet_normal")};
+  }
+};
+GRISAILLE_ON_EVERY_DEVICE(ResolutionTest);
+
+// Whether all pixels within `reach` of one have its facet's normal, its coverage and its owner.
+bool isEven(const Shown& full, uint32_t x, uint32_t y, uint32_t reach) {
+  const uint32_t right = std::min(x + reach, kWidth - 1), low = std::min(y + reach, kHeight - 1);
+  for (uint32_t v = y - std::min(y, reach); v <= low; ++v) {
+    for (uint32_t u = x - std::min(x, reach); u <= right; ++u) {
+      if (std::abs(full.coverage.at(u, v) - full.coverage.at(x, y)) > kSame ||
+          full.owner.at(u, v) != full.owner.at(x, y)) {
+        return false;
+      }
+      for (uint32_t c = 0; c < 3; ++c) {
+        if (std::abs(full.facets.at(u, v, c) - full.facets.at(x, y, c)) > 0.01f) return false;
+      }
+    }
+  }
+  return true;
+}
+
+// The share of pixels whose coverage is another.
+double differing(const Shown& a, const Shown& b) {
+  size_t count = 0;
+  for (size_t i = 0; i < a.coverage.pixels.size(); ++i) {
+    count += std::abs(a.coverage.pixels[i] - b.coverage.pixels[i]) > kSame ? 1 : 0;
+  }
+  return static_cast<double>(count) / static_cast<double>(a.coverage.pixels.size());
+}
+
+TEST_P(ResolutionTest, AwayFromEdgesAndRimsItIsFullResolution) {
+  const scene::Scene scene = cornerScene();
+  const std::vector<grisaille_shot> shots = someShots(40);
+  const Shown full = look(scene, kCrease, {{"edge_fade", "0"}}, shots);
+  for (const auto& [resolution, step] : {std::pair("half", 2u), std::pair("quarter", 4u)}) {
+    for (const char* refine : {"nothing", "edges", "rims"}) {
+      SCOPED_TRACE(fmt::format("{} {}", resolution, refine));
+      const Shown less =
+          look(scene, kCrease, {{"edge_fade", "0"}, {"resolution", resolution}, {"refine", refine}},
+               shots);
+      size_t even = 0, wrong = 0;
+      for (uint32_t y = 0; y < kHeight; ++y) {
+        for (uint32_t x = 0; x < kWidth; ++x) {
+          if (!isEven(full, x, y, step)) continue;
+          ++even;
+          bool same = std::abs(less.coverage.at(x, y) - full.coverage.at(x, y)) <= kSame &&
+                      less.owner.at(x, y) == full.owner.at(x, y);
+          for (uint32_t c = 0; c < 4; ++c) {
+            same = same && std::abs(less.paint.at(x, y, c) - full.paint.at(x, y, c)) <= kSame;
+          }
+          wrong += same ? 0 : 1;
+        }
+      }
+      EXPECT_GT(even, kWidth * kHeight / 4);
+      EXPECT_EQ(wrong, 0u);
+    }
+  }
+}
+
+// Each step of refinement is nearer to full resolution, and half is nearer than a quarter.
+TEST_P(ResolutionTest, WhatIsAskedMoreIsNearer) {
+  const scene::Scene scene = cornerScene();
+  const std::vector<grisaille_shot> shots = someShots(40);
+  const Shown full = look(scene, kCrease, {{"edge_fade", "0"}}, shots);
+  double rims[2] = {};
+  for (int i = 0; i < 2; ++i) {
+    const char* resolution = i == 0 ? "half" : "quarter";
+    const auto far = [&](const char* refine) {
+      return differing(
+          full, look(scene, kCrease,
+                     {{"edge_fade", "0"}, {"resolution", resolution}, {"refine", refine}}, shots));
+    };
+    const double nothing = far("nothing"), edges = far("edges");
+    rims[i] = far("rims");
+    EXPECT_LE(edges, nothing) << resolution;
+    EXPECT_LT(rims[i], edges) << resolution;
+  }
+  EXPECT_LT(rims[0], rims[1]);
+  EXPECT_LT(rims[0], 0.01);
+  EXPECT_LT(rims[1], 0.04);
+}
+
+// Splats are as fine: under even coverage each pixel has its own noise.
+TEST_P(ResolutionTest, SplatsOnAFlatWallStaySharp) {
+  const scene::Scene scene = wallScene();
+  const scene::Camera camera = {.eye = glm::dvec3(0.4, 0.2, 3), .target = glm::dvec3(0, 0, 0)};
+  // Coverage falls smoothly, 3 m / distance, from one side to the other.
+  const std::vector<grisaille_shot> shots = {
+      shotAt(glm::dvec3(-6, 0, 4), glm::dvec3(-6, 0, 0), glm::vec3(1, 0.5f, 0), 30)};
+  const Settings wide = {{"r0", "3"}, {"splat_scale", "0.1"}, {"edge_fade", "0"}};
+  const Shown full = look(scene, camera, wide, shots);
+  size_t painted = 0;
+  for (uint32_t i = 0; i < kWidth * kHeight; ++i) painted += full.paint.pixels[4 * i + 3] > 0.5f;
+  EXPECT_GT(painted, kWidth * kHeight / 8);
+  EXPECT_LT(painted, kWidth * kHeight * 7 / 8);
+  for (const char* resolution : {"half", "quarter"}) {
+    Settings settings = wide;
+    settings.emplace_back("resolution", resolution);
+    const Shown less = look(scene, camera, settings, shots);
+    EXPECT_LT(differing(full, less), 0.001) << resolution;
+    size_t other = 0;
+    for (uint32_t i = 0; i < kWidth * kHeight; ++i) {
+      other += (full.paint.pixels[4 * i + 3] > 0.5f) != (less.paint.pixels[4 * i + 3] > 0.5f);
+    }
+    EXPECT_LE(other, kWidth * kHeight / 500) << resolution;
+  }
+}
+
+TEST_P(ResolutionTest, AnySizeIsWholeAndFinite) {
+  const scene::Scene scene = cornerScene();
+  const std::vector<grisaille_shot> shots = someShots(40);
+  for (const glm::uvec2 size :
+       {glm::uvec2(1, 1), glm::uvec2(3, 3), glm::uvec2(2, 9), glm::uvec2(257, 129)}) {
+    const Shown full = look(scene, kCrease, {}, shots, size.x, size.y);
+    for (const char* resolution : {"half", "quarter"}) {
+      SCOPED_TRACE(fmt::format("{} at {}x{}", resolution, size.x, size.y));
+      const Shown less = look(scene, kCrease, {{"resolution", resolution}}, shots, size.x, size.y);
+      for (const float value : less.paint.pixels) ASSERT_TRUE(std::isfinite(value));
+      for (const float value : less.coverage.pixels) {
+        ASSERT_TRUE(value >= 0 && value <= 1) << value;
+      }
+      // The last row and column are asked themselves.
+      for (const uint32_t x : {0u, size.x - 1}) {
+        for (const uint32_t y : {0u, size.y - 1}) {
+          EXPECT_NEAR(less.coverage.at(x, y), full.coverage.at(x, y), kSame);
+          EXPECT_EQ(less.owner.at(x, y), full.owner.at(x, y));
+        }
+      }
+      // At the rims coverage fades, and is a blend there.
+      EXPECT_LT(differing(full, less), size.x > 100 ? 0.1 : 1.0);
+    }
+  }
+}
+
+}  // namespace
+}  // namespace grisaille::tests

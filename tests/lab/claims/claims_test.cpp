@@ -1,0 +1,179 @@
+// SPDX-License-Identifier: MIT
+// `grisaille-lab claims` as its users run it, on the project's own study at a smaller size.
+#include <gtest/gtest.h>
+
+#include <algorithm>
+#include <filesystem>
+#include <nlohmann/json.hpp>
+
+#include "tests/program/run.h"
+
+namespace grisaille::tests {
+namespace {
+
+namespace fs = std::filesystem;
+using nlohmann::json;
+
+const std::string kStudy = std::string(SOURCE_FOLDER) + "/studies/claims.toml";
+
+class ClaimsTest : public testing::Test {
+ protected:
+  Outcome claims(const std::vector<std::string>& arguments) const {
+    std::vector<std::string> all = {"claims"};
+    all.insert(all.end(), arguments.begin(), arguments.end());
+    return runProgram(all, folder_.path(), {"XDG_CACHE_HOME=" + (folder_ / "cache")});
+  }
+  TemporaryFolder folder_;
+};
+
+// The keys of the study's claims, but for those of time.
+std::string untimedClaims() {
+  const std::string study = readFile(kStudy), key = "[[claim]]\nkey = \"";
+  std::string keys;
+  for (size_t at = study.find(key); at != std::string::npos;) {
+    const size_t next = study.find(key, at + 1), from = at + key.size();
+    if (study.substr(at, next - at).find(".milliseconds") == std::string::npos) {
+      keys += (keys.empty() ? "" : ",") + study.substr(from, study.find('"', from) - from);
+    }
+    at = next;
+  }
+  return keys;
+}
+
+// What the manual's report says holds does so at another size too, on both backends.
+TEST_F(ClaimsTest, TheStudyHoldsWhatItReports) {
+  const Outcome outcome = claims(
+      {kStudy, "--only", untimedClaims(), "--scale", "0.75", "--samples", "32", "--out", "out"});
+  ASSERT_EQ(outcome.status, 0) << outcome.err;
+  const json report = json::parse(readFile(folder_ / "out/claims.json"));
+  ASSERT_EQ(report["backends"].size(), 2u);
+  for (const json& backend : report["backends"]) {
+    SCOPED_TRACE(backend["backend"]);
+    EXPECT_GE(backend["claims"].size(), 9u);
+    for (const json& claim : backend["claims"]) {
+      for (const json& expectation : claim["expectations"]) {
+        EXPECT_FALSE(expectation["timed"]);
+        EXPECT_TRUE(expectation["holds"]) << claim["key"] << ": " << expectation;
+      }
+    }
+  }
+  // The page needs nothing besides itself; the Markdown's pictures are there.
+  const std::string page = readFile(folder_ / "out/claims.html");
+  EXPECT_NE(page.find("src=\"data:image/png;base64,iVBORw0KGgo"), std::string::npos);
+  EXPECT_EQ(page.find("src=\"pictures"), std::string::npos);
+  const std::string text = readFile(folder_ / "out/claims.md");
+  size_t pictures = 0;
+  for (size_t at = 0; (at = text.find("](pictures/", at)) != std::string::npos; ++at, ++pictures) {
+    const std::string file = text.substr(at + 2, text.find(')', at) - at - 2);
+    EXPECT_TRUE(fs::exists(folder_.path() / "out" / file)) << file;
+  }
+  EXPECT_GT(pictures, 25u);
+}
+
+// The checked-in report is of this study: each claim has its text and its pictures.
+TEST(ClaimsReport, TheManualsIsOfThisStudy) {
+  const fs::path docs = fs::path(SOURCE_FOLDER) / "docs";
+  const std::string report = readFile(docs / "claims.md"), study = readFile(kStudy);
+  size_t texts = 0, pictures = 0;
+  for (size_t at = 0; (at = study.find("\ntext = \"", at)) != std::string::npos; ++at, ++texts) {
+    const std::string text = study.substr(at + 9, study.find("\"\n", at + 9) - at - 9);
+    EXPECT_NE(report.find(text), std::string::npos) << text;
+  }
+  for (size_t at = 0; (at = report.find("](pictures/", at)) != std::string::npos;
+       ++at, ++pictures) {
+    const std::string file = report.substr(at + 2, report.find(')', at) - at - 2);
+    EXPECT_TRUE(fs::exists(docs / file)) << file;
+  }
+  EXPECT_GT(texts, 5u);
+  EXPECT_GT(pictures, 5u);
+}
+
+constexpr const char* kSmall = R"([[claim]]
+key = "noise"
+text = "More sample points, less noise."
+source = "A test."
+camera = {eye = [-6.5, 1.75, 1.9], target = [2.6, 2.35, -1.2], fovy_degrees = 62}
+size = [96, 54]
+set = ["ssao.estimator=classic", "ssao.intensity=2", "ssao.blur_size=0"]
+runs = [{name = "few", set = ["ssao.kernel_size=4"]}, {name = "many", set = ["ssao.kernel_size=64"]}]
+expect = ["few.noise > 1.5 * many.noise"]
+[[claim]]
+key = "wrong"
+text = "Fewer sample points, less noise."
+source = "A test."
+camera = {eye = [-6.5, 1.75, 1.9], target = [2.6, 2.35, -1.2], fovy_degrees = 62}
+size = [96, 54]
+set = ["ssao.estimator=classic", "ssao.intensity=2"]
+runs = [{name = "few", set = ["ssao.kernel_size=4"]}, {name = "many", set = ["ssao.kernel_size=64"]}]
+expect = ["few.rmse < 0.5 * many.rmse"]
+)";
+
+// A claim that the numbers refute is a result, not a failure.
+TEST_F(ClaimsTest, AReadersOwnClaims) {
+  const std::string file = folder_.write("mine.toml", kSmall);
+  const auto verdicts = [&](const std::vector<std::string>& more) {
+    std::vector<std::string> all = {file, "--samples", "32", "--backend", "opengl", "--out", "out"};
+    all.insert(all.end(), more.begin(), more.end());
+    const Outcome outcome = claims(all);
+    EXPECT_EQ(outcome.status, 0) << outcome.err;
+    std::vector<std::string> found;
+    const json report = json::parse(readFile(folder_ / "out/claims.json"));
+    for (const json& claim : report["backends"][0]["claims"]) found.push_back(claim["verdict"]);
+    return found;
+  };
+  EXPECT_EQ(verdicts({}), (std::vector<std::string>{"holds", "does not hold"}));
+  EXPECT_EQ(verdicts({"--only", "wrong"}), std::vector<std::string>{"does not hold"});
+}
+
+// What frames before leave is only to be seen in those after them.
+TEST_F(ClaimsTest, PicturesOfAPathAreOfItsEnd) {
+  const std::string file = folder_.write("walk.toml", R"([[claim]]
+key = "walk"
+text = "A history changes what a walk shows."
+source = "A test."
+camera = [{eye = [-6.5, 1.75, 1.9], target = [2.6, 2.35, -1.2], fovy_degrees = 62},
+          {eye = [-6.4, 1.75, 1.9], target = [2.6, 2.35, -1.2], fovy_degrees = 62}]
+frames = 4
+size = [96, 54]
+runs = [{name = "alone"}, {name = "averaged", set = ["ssao.history=8"]}]
+expect = ["averaged.flicker < alone.flicker"]
+)");
+  const Outcome outcome =
+      claims({file, "--samples", "16", "--rounds", "1", "--backend", "opengl", "--out", "out"});
+  ASSERT_EQ(outcome.status, 0) << outcome.err;
+  const std::string folder = folder_ / "out/pictures/claims/";
+  const std::string alone = readFile(folder + "walk-alone.png");
+  EXPECT_FALSE(alone.empty());
+  EXPECT_NE(alone, readFile(folder + "walk-averaged.png"));
+}
+
+TEST_F(ClaimsTest, MistakesAreOneLine) {
+  const auto refused = [&](const std::vector<std::string>& arguments, const std::string& number) {
+    const Outcome outcome = claims(arguments);
+    EXPECT_NE(outcome.status, 0);
+    EXPECT_EQ(outcome.err.rfind("error E" + number + ": ", 0), 0u) << outcome.err;
+    EXPECT_EQ(std::ranges::count(outcome.err, '\n'), 1) << outcome.err;
+    EXPECT_FALSE(fs::exists(folder_.path() / "out"));
+    return outcome.err;
+  };
+  const std::string file = folder_.write("mine.toml", kSmall);
+  std::string text = kSmall;
+  const std::string broken =
+      folder_.write("broken.toml", text.replace(text.find("1.5 *"), 5, "1,5 *"));
+  refused({"--out", "out"}, "5101");
+  refused({"missing.toml", "--out", "out"}, "5103");
+  refused({broken, "--out", "out"}, "5104");
+  refused({file, "--out", "out", "--only", "none"}, "5101");
+  refused({file, "--out", "out", "--backend", "metal"}, "1002");
+  refused({file, "--out", "out", "--scale", "0"}, "5101");
+  // A region that no pixel lies in.
+  text = kSmall;
+  const std::string nowhere = folder_.write(
+      "nowhere.toml", text.replace(text.find("few.noise >"), 11, "few.noise@far+near >"));
+  const std::string line =
+      refused({nowhere, "--out", "out", "--backend", "opengl", "--samples", "16"}, "5104");
+  EXPECT_NE(line.find("nowhere.toml:1: few.noise@far+near"), std::string::npos) << line;
+}
+
+}  // namespace
+}  // namespace grisaille::tests

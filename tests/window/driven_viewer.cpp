@@ -1,0 +1,169 @@
+// SPDX-License-Identifier: MIT
+#include "tests/window/driven_viewer.h"
+
+#include <chrono>
+#include <cstdlib>
+#include <filesystem>
+#include <stdexcept>
+#include <thread>
+
+namespace grisaille::tests {
+namespace {
+
+using Clock = std::chrono::steady_clock;
+
+constexpr std::chrono::seconds kPatience(200);
+constexpr std::chrono::milliseconds kLook(10);
+constexpr std::chrono::milliseconds kArrives(300);  // from xdotool to the viewer, at most
+
+}  // namespace
+
+DrivenViewer::DrivenViewer(const TemporaryFolder& folder, std::vector<std::string> arguments,
+                           std::vector<std::string> environment)
+    : folder_(folder), layoutFile_(folder / "layout.json") {
+  std::filesystem::remove(layoutFile_);
+  std::vector<std::string> all = {"view", "--layout", layoutFile_, "--check"};
+  all.insert(all.end(), arguments.begin(), arguments.end());
+  environment.push_back("XDG_STATE_HOME=" + (folder / "state"));
+  environment.push_back("XDG_CONFIG_HOME=" + (folder / "config"));
+  outcome_ = std::async(std::launch::async, [all, environment, path = folder.path()] {
+    return runProgram(all, path, environment);
+  });
+  untilDrawn();
+  focus();
+}
+
+// Keys go to the window that has the focus, which no window manager gives here.
+void DrivenViewer::focus() {
+  const Point at = middle("picture");
+  send("search --sync --name Grisaille windowfocus --sync mousemove " + std::to_string(at.x) + " " +
+       std::to_string(at.y));
+  untilDrawn();
+}
+
+DrivenViewer::~DrivenViewer() {
+  if (!outcome_.valid()) return;
+  try {
+    quit();
+  } catch (const std::exception&) {
+    // It ends by runProgram()'s own limit.
+  }
+}
+
+nlohmann::json DrivenViewer::layout() const {
+  if (!std::filesystem::exists(layoutFile_)) return nlohmann::json::object();
+  return nlohmann::json::parse(readFile(layoutFile_));
+}
+
+std::string DrivenViewer::value(const std::string& control) const {
+  const nlohmann::json all = layout();
+  return all.contains(control) ? all[control].value("value", "") : "";
+}
+
+void DrivenViewer::until(const std::string& what,
+                         const std::function<bool(const nlohmann::json&)>& holds) {
+  const auto end = Clock::now() + kPatience;
+  while (Clock::now() < end) {
+    const nlohmann::json now = layout();
+    if (holds(now)) return;
+    if (outcome_.wait_for(kLook) == std::future_status::ready) {
+      const Outcome outcome = outcome_.get();
+      throw std::runtime_error(what + ": the viewer ended with status " +
+                               std::to_string(outcome.status) + ": " + outcome.err);
+    }
+  }
+  throw std::runtime_error(what + " does not come: " + layout().dump());
+}
+
+void DrivenViewer::untilValue(const std::string& control, const std::string& value) {
+  until(control + " = " + value, [&](const nlohmann::json& now) {
+    return now.contains(control) && now[control]["value"] == value;
+  });
+  untilDrawn();
+}
+
+void DrivenViewer::untilChanged(const std::string& control, const std::string& from) {
+  until(control + " other than " + from, [&](const nlohmann::json& now) {
+    return now.contains(control) && now[control]["value"] != from;
+  });
+  untilDrawn();
+}
+
+void DrivenViewer::untilThere(const std::string& control) {
+  until(control, [&](const nlohmann::json& now) { return now.contains(control); });
+  untilDrawn();
+}
+
+void DrivenViewer::untilDrawn() {
+  until("a picture", [&](const nlohmann::json& now) { return isDrawn(now); });
+}
+
+// What was sent has arrived once a frame was drawn for it; what changes nothing draws none.
+bool DrivenViewer::isDrawn(const nlohmann::json& now) const {
+  if (!now.contains("picture") || now["picture"]["value"] != "done") return false;
+  return now["drawn"]["value"] != drawnBefore_ || Clock::now() - sent_ > kArrives;
+}
+
+Point DrivenViewer::at(const std::string& control, double x, double y) const {
+  const nlohmann::json all = layout();
+  if (!all.contains(control)) throw std::runtime_error(control + " is not to be seen");
+  const auto rect = all[control]["rect"].get<std::vector<double>>();
+  return {static_cast<int>(rect[0] + x * (rect[2] - rect[0])),
+          static_cast<int>(rect[1] + y * (rect[3] - rect[1]))};
+}
+
+Point DrivenViewer::middle(const std::string& control) const {
+  return at(control, 0.5, 0.5);
+}
+
+void DrivenViewer::send(const std::string& words) {
+  // One after the other; but a viewer that sprays is never done.
+  for (const auto end = Clock::now() + kArrives; !isDrawn(layout()) && Clock::now() < end;) {
+    std::this_thread::sleep_for(kLook);
+  }
+  drawnBefore_ = value("drawn");
+  sent_ = Clock::now();
+  if (std::system(("xdotool " + words).c_str()) != 0) {
+    throw std::runtime_error("xdotool fails at: " + words);
+  }
+}
+
+void DrivenViewer::click(Point point, int button) {
+  send("mousemove " + std::to_string(point.x) + " " + std::to_string(point.y) + " click " +
+       std::to_string(button));
+}
+
+void DrivenViewer::drag(Point from, Point to, int button) {
+  const auto move = [](Point p) {
+    return "mousemove " + std::to_string(p.x) + " " + std::to_string(p.y);
+  };
+  const std::string b = std::to_string(button);
+  send(move(from) + " mousedown " + b);
+  untilDrawn();
+  send(move(to));
+  untilDrawn();
+  send("mouseup " + b);
+  untilDrawn();
+}
+
+std::string DrivenViewer::savePicture() {
+  const std::string before = value("message");
+  key("F12");
+  untilChanged("message", before);
+  std::string newest;
+  for (const std::string& file : folder_.files()) {
+    if (file.ends_with(".exr") && (newest.empty() || before.find(file) == std::string::npos)) {
+      if (value("message").find(file) != std::string::npos) newest = file;
+    }
+  }
+  if (newest.empty()) throw std::runtime_error("no picture: " + value("message"));
+  return folder_ / newest;
+}
+
+Outcome DrivenViewer::quit() {
+  send("search --name Grisaille windowfocus");
+  key("ctrl+q");
+  return outcome_.get();
+}
+
+}  // namespace grisaille::tests

@@ -1,0 +1,63 @@
+// SPDX-License-Identifier: MIT
+// Plugins that come and change while the viewer runs.
+#include <filesystem>
+
+#include "tests/window/window_test.h"
+
+namespace grisaille::tests {
+namespace {
+
+namespace fs = std::filesystem;
+
+using PluginTest = WindowTest;
+GRISAILLE_IN_WINDOWS(PluginTest);
+
+TEST_P(PluginTest, ARescanFindsWhatIsNew) {
+  fs::create_directory(folder_ / "more");
+  DrivenViewer viewer(folder_, arguments({"--plugin-path", folder_ / "more"}));
+  EXPECT_EQ(viewer.value("alpha.on"), "");
+  fs::copy_file(PLUGINS "/now/tables.so", folder_ / "more/tables.so");
+  folder_.write("more/broken.so", "no library");
+  viewer.key("F5");
+  viewer.untilValue("alpha.on", "false");
+  EXPECT_NE(viewer.value("refused").find("broken.so"), std::string::npos);
+  // The settings of before are still there.
+  EXPECT_EQ(viewer.value("ssao.steps"), "3");
+  expectQuits(viewer);
+}
+
+// A build folder of the least kind: its target copies a plugin, or fails as a compiler does.
+TEST_P(PluginTest, AnEditedSourceIsBuiltAndLoaded) {
+  fs::create_directory(folder_ / "more");
+  fs::create_directory(folder_ / "source");
+  const fs::path plugin = folder_ / "more/tables.so";
+  fs::copy_file(PLUGINS "/now/tables.so", plugin);
+  folder_.write("source/CMakeLists.txt",
+                "cmake_minimum_required(VERSION 3.25)\nproject(P LANGUAGES NONE)\n"
+                "add_custom_target(effect_tables COMMAND sh ${CMAKE_SOURCE_DIR}/make.sh)\n");
+  const std::string good = "cp '" PLUGINS "/later/tables_later.so' '" + plugin.string() +
+                           ".new' && mv '" + plugin.string() + ".new' '" + plugin.string() + "'\n";
+  folder_.write("source/make.sh", good);
+  folder_.write("source/a.comp", "first");
+  ASSERT_EQ(runShell("cmake -S source -B built -G Ninja", folder_.path()).status, 0);
+  folder_.write("more/tables.build.json", R"({"build": ")" + (folder_ / "built") +
+                                              R"(", "target": "effect_tables", "watch": [")" +
+                                              (folder_ / "source") + R"("]})");
+  DrivenViewer viewer(folder_, arguments({"--plugin-path", folder_ / "more"}));
+  viewer.click(viewer.at("alpha.tree", 0.3, 0.5));
+  viewer.untilThere("alpha.hard");
+  // Broken: the old one stays, and the compiler's words are shown.
+  folder_.write("source/make.sh", "echo \"a.comp:3: error: 'depht' : undeclared\"; exit 1\n");
+  viewer.untilThere("build message");
+  EXPECT_EQ(viewer.value("build message"), "a.comp:3: error: 'depht' : undeclared");
+  EXPECT_EQ(viewer.value("alpha.hard"), "false");
+  // Mended: the new one is there, without a restart.
+  folder_.write("source/make.sh", good);
+  viewer.untilThere("alpha.soft");
+  EXPECT_EQ(viewer.value("build message"), "");
+  EXPECT_EQ(viewer.value("alpha.hard"), "");
+  expectQuits(viewer);
+}
+
+}  // namespace
+}  // namespace grisaille::tests
