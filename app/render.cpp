@@ -20,8 +20,6 @@
 #include "app/timings.h"
 #include "core/base/atomic_file.h"
 #include "core/base/error.h"
-#include "core/effect/rays_in_turn.h"
-#include "core/frame/depth_rays.h"
 #include "core/image/image.h"
 #include "core/scene/camera_matrices.h"
 
@@ -29,7 +27,7 @@ namespace grisaille::app {
 namespace {
 
 struct RenderOptions : EffectOptions {
-  std::string scene, camera, size, timings, rays = "scene";
+  std::string scene, camera, size, timings;
   ShotOptions shots;
   uint32_t frames = 1;
 };
@@ -118,23 +116,6 @@ void writeCoverage(const RenderOptions& options, const RenderJob& job, frame::Re
   writeText(options.shots.coverage, coverageCsv(shares));
 }
 
-// What the effects' rays hit: the scene, or what a frame of it shows, drawn for that alone.
-std::unique_ptr<effect::RayService> makeRays(const RenderOptions& options, const RenderJob& job,
-                                             frame::Renderer& renderer) {
-  auto scene = std::make_unique<SceneRays>(job.scene);
-  if (options.rays == "scene") return scene;
-  const std::vector<std::string> outputs = {"depth", "facet_normal"};
-  renderer.render({.camera = job.camera,
-                   .width = job.size.x,
-                   .height = job.size.y,
-                   .effects = {},
-                   .outputs = outputs});
-  auto depth = std::make_unique<frame::DepthRays>(renderer.read("depth"),
-                                                  renderer.read("facet_normal"), job.camera);
-  if (options.rays == "depth") return depth;
-  return std::make_unique<effect::RaysInTurn>(std::move(depth), std::move(scene));
-}
-
 void renderFrames(const RenderOptions& options, const RenderJob& job, gpu::Device& device) {
   const auto instances = job.active->start(device);
   std::vector<frame::ActiveEffect> effects = job.active->with(instances);
@@ -148,7 +129,7 @@ void renderFrames(const RenderOptions& options, const RenderJob& job, gpu::Devic
                    {job.painter->owner, job.painter->paint, "depth", "facet_normal"});
   }
   frame::Renderer renderer(device, job.scene);
-  const auto rays = makeRays(options, job, renderer);
+  SceneRays rays(job.scene);
   for (uint32_t i = 0; i < options.frames; ++i) {
     renderer.render({.camera = job.camera,
                      .width = job.size.x,
@@ -156,7 +137,7 @@ void renderFrames(const RenderOptions& options, const RenderJob& job, gpu::Devic
                      .surface = job.surface,
                      .effects = effects,
                      .outputs = outputs,
-                     .rays = rays.get()});
+                     .rays = &rays});
     for (frame::ActiveEffect& active : effects) active.shotsKept = active.shots.size();
   }
   for (const OutputFile& write : job.writes) {
@@ -212,13 +193,6 @@ void addRender(CLI::App& program) {
       ->add_option("--timings", options->timings, "CSV of every pass's time; -: to standard output")
       ->type_name("FILE.csv|-");
   options->shots.addTo(*command);
-  command
-      ->add_option(
-          "--rays", options->rays,
-          "What tells where shots land: the scene; the depth of a first frame, which "
-          "leaves waiting what it does not show; or that depth, and the scene for the rest")
-      ->check(CLI::IsMember({"scene", "depth", "both"}))
-      ->capture_default_str();
   command->callback([options] { render(*options); });
 }
 
