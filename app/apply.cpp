@@ -194,7 +194,7 @@ void applyFrames(const ApplyJob& job, LoadedFrame loaded, gpu::Device& device) {
   const std::vector<frame::ActiveEffect> effects = job.active->with(instances);
   std::vector<std::string> names;
   for (const Output& output : job.outputs) names.push_back(output.name);
-  frame::PictureAttachments source;
+  frame::PictureAttachments source(&device);
   frame::Renderer renderer(device, source);
   {
     truth::Progress progress("apply", job.frames.size() > 1 && isatty(STDERR_FILENO) == 1);
