@@ -193,7 +193,7 @@ void applyFrames(ApplyJob& job, LoadedFrame loaded, gpu::Device& device) {
   const effect::StartedChain started(job.chain, device);
   std::vector<std::string> names;
   for (const Output& output : job.outputs) names.push_back(output.name);
-  frame::PictureAttachments source;
+  frame::PictureAttachments source(&device);
   frame::Renderer renderer(device, source);
   {
     truth::Progress progress("apply", job.frames.size() > 1 && isatty(STDERR_FILENO) == 1);

@@ -8,7 +8,8 @@
 #include <glm/gtc/packing.hpp>
 
 #include "core/base/error.h"
-#include "core/frame/facet_normals.h"
+#include "shaders/facet_normal_frag.h"
+#include "shaders/whole_picture_vert.h"
 
 namespace grisaille::frame {
 namespace {
@@ -82,13 +83,19 @@ void checkPictures(const Pictures& pictures) {
               pixel % pictures.normal.width, pixel / pictures.normal.width);
 }
 
+PictureAttachments::~PictureAttachments() {
+  if (!device_) return;
+  device_->destroy(facets_);
+  device_->destroy(nearest_);
+}
+
 void PictureAttachments::show(Pictures pictures) {
   checkPictures(pictures);
   pictures_ = std::move(pictures);
 }
 
 void PictureAttachments::record(gpu::Commands& commands, const scene::Camera& camera,
-                                uint32_t width, uint32_t height, gpu::BufferRange,
+                                uint32_t width, uint32_t height, gpu::BufferRange viewBlock,
                                 const AttachmentTargets& targets, std::string_view) {
   const image::Image& depth = pictures_.viewDepth;
   if (depth.width != width || depth.height != height) {
@@ -98,9 +105,19 @@ void PictureAttachments::record(gpu::Commands& commands, const scene::Camera& ca
   if (targets.baseColour && pictures_.baseColour.pixels.empty()) {
     throw Error(ErrorId::kPictureMissing, "base colours are read, and no picture has them");
   }
+  const bool given = !pictures_.normal.pixels.empty();
+  const std::array facets = {targets.facetNormal, given ? gpu::Texture() : targets.normal};
+  gpu::Texture viewDepth = targets.viewDepth;
+  if (!viewDepth && (facets[0] || facets[1])) {
+    viewDepth = commands.transient({.label = "facets' depth",
+                                    .format = gpu::Format::kR32Float,
+                                    .width = width,
+                                    .height = height,
+                                    .usage = gpu::TextureUsage::kSampled});
+  }
   commands.beginPass("pictures/upload");
   upload(commands, targets.depth, clipDepth(depth, camera.nearPlane));
-  if (targets.viewDepth) upload(commands, targets.viewDepth, depth.pixels);
+  if (viewDepth) upload(commands, viewDepth, depth.pixels);
   if (targets.backDepth) {
     // Nothing is known of what is behind.
     upload(commands, targets.backDepth, std::vector<float>(depth.pixels.size(), 0.0f));
@@ -108,15 +125,32 @@ void PictureAttachments::record(gpu::Commands& commands, const scene::Camera& ca
   if (targets.baseColour) {
     upload(commands, targets.baseColour, colourTexels(pictures_.baseColour, depth));
   }
-  const bool given = !pictures_.normal.pixels.empty();
   if (targets.normal && given) {
     upload(commands, targets.normal, normalTexels(pictures_.normal, depth));
   }
-  if (targets.facetNormal || (targets.normal && !given)) {
-    const std::vector<Half4> facets = normalTexels(facetNormals(depth, camera), depth);
-    if (targets.facetNormal) upload(commands, targets.facetNormal, facets);
-    if (targets.normal && !given) upload(commands, targets.normal, facets);
+  commands.endPass();
+  for (const gpu::Texture to : facets) {
+    if (to) drawFacets(commands, viewDepth, viewBlock, to);
   }
+}
+
+void PictureAttachments::drawFacets(gpu::Commands& commands, gpu::Texture viewDepth,
+                                    gpu::BufferRange viewBlock, gpu::Texture to) {
+  if (!device_) throw Error(ErrorId::kPictureMissing, "normals are read, and no picture has them");
+  if (!facets_) {
+    constexpr gpu::Format kNormals[] = {gpu::Format::kRgba16Float};
+    nearest_ = device_->createSampler({.label = "nearest facet"});
+    facets_ = device_->createGraphicsPipeline({.label = "facet normals",
+                                               .vertex = &grisaille_shader_whole_picture_vert,
+                                               .fragment = &grisaille_shader_facet_normal_frag,
+                                               .colorFormats = kNormals});
+  }
+  const std::array bindings = {gpu::uniformBinding(0, viewBlock),
+                               gpu::textureBinding(0, {.texture = viewDepth}, nearest_)};
+  const gpu::ColorTarget colors[] = {{.view = {.texture = to}, .load = gpu::Load::kDiscard}};
+  const gpu::Draw draws[] = {{.pipeline = facets_, .bindings = bindings, .count = 3}};
+  commands.beginPass("pictures/facet normals");
+  commands.render({.colors = colors, .draws = draws});
   commands.endPass();
 }
 

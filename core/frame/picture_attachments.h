@@ -10,7 +10,7 @@ namespace grisaille::frame {
 // All of one size. Those without pixels are not there.
 struct Pictures {
   image::Image viewDepth;   // one channel, metres, finite; 0: sky
-  image::Image normal;      // three channels, world; those of the facets where there are none
+  image::Image normal;      // three channels, world; without, those of the depth's facets
   image::Image baseColour;  // three channels, linear
 };
 
@@ -19,6 +19,13 @@ void checkPictures(const Pictures& pictures);
 
 class PictureAttachments : public AttachmentSource {
  public:
+  // `device` finds the facets that a depth shows. Without it, normals that no picture has are
+  // missing.
+  explicit PictureAttachments(gpu::Device* device = nullptr) : device_(device) {}
+  ~PictureAttachments() override;
+  PictureAttachments(const PictureAttachments&) = delete;
+  PictureAttachments& operator=(const PictureAttachments&) = delete;
+
   // What the frames from now on show. Throws as checkPictures() does.
   void show(Pictures pictures);
 
@@ -33,6 +40,12 @@ class PictureAttachments : public AttachmentSource {
               std::string_view passes) override;
 
  private:
+  void drawFacets(gpu::Commands& commands, gpu::Texture viewDepth, gpu::BufferRange viewBlock,
+                  gpu::Texture to);
+
+  gpu::Device* device_;
+  gpu::GraphicsPipeline facets_;
+  gpu::Sampler nearest_;
   Pictures pictures_;
 };
 

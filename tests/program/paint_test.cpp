@@ -94,18 +94,12 @@ TEST_F(Paint, PassesAreThoseOfTheResolution) {
   }
 }
 
-// With a frame's depth for rays too a shot paints the pixel that it was fired through; what the
-// frame does not show may wait, and is never taken for open.
-TEST_F(Paint, ShotsLandByTheSceneAndByDepth) {
-  for (const std::string rays : {"scene", "depth", "both"}) {
-    const Outcome outcome = render(
-        {"--rays", rays, "--fire", "40,45,#ff0000", "--write", "paint_coverage=k.exr", "--check"});
-    ASSERT_EQ(outcome.status, 0) << outcome.err;
-    EXPECT_GT(image::read(folder_ / "k.exr").at(40, 45), 0) << rays << "\n" << outcome.err;
-    if (rays == "scene") {
-      EXPECT_EQ(outcome.err.find("wait"), std::string::npos) << outcome.err;
-    }
-  }
+TEST_F(Paint, ShotsPaintThePixelThatTheyAreFiredThrough) {
+  const Outcome outcome =
+      render({"--fire", "40,45,#ff0000", "--write", "paint_coverage=k.exr", "--check"});
+  ASSERT_EQ(outcome.status, 0) << outcome.err;
+  EXPECT_GT(image::read(folder_ / "k.exr").at(40, 45), 0) << outcome.err;
+  EXPECT_EQ(outcome.err.find("wait"), std::string::npos) << outcome.err;
 }
 
 TEST_F(Paint, WhatIsWrongIsRefusedByName) {
@@ -125,7 +119,6 @@ TEST_F(Paint, WhatIsWrongIsRefusedByName) {
   expectError({"--load", "sspm=" + folder_.write("c.json", shot)}, 3412, "direction");
   expectError({"--fire", "1,1,#ff0000", "--save", "sspm=s.txt"}, 3414, "s.txt");
   expectError({"--timings", "-", "--coverage", "-"}, 5101);
-  expectError({"--rays", "guess"}, 5101, "guess");
   const Outcome none =
       runProgram({"render", "--size", "16x9", "--fire", "1,1,#ff0000"}, folder_.path());
   EXPECT_EQ(none.err.rfind("error E3205: ", 0), 0u) << none.err;

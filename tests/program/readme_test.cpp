@@ -3,6 +3,8 @@
 #include <gtest/gtest.h>
 
 #include <algorithm>
+#include <filesystem>
+#include <set>
 #include <sstream>
 
 #include "tests/program/run.h"
@@ -11,10 +13,12 @@
 namespace grisaille::tests {
 namespace {
 
-const std::filesystem::path kSource = SOURCE_FOLDER;
+namespace fs = std::filesystem;
+
+const fs::path kSource = SOURCE_FOLDER;
 
 // The lines of all ```sh blocks of a file.
-std::vector<std::string> commandsOf(const std::filesystem::path& file) {
+std::vector<std::string> commandsOf(const fs::path& file) {
   std::istringstream text(readFile(file));
   std::vector<std::string> commands;
   bool inside = false;
@@ -30,7 +34,7 @@ std::vector<std::string> commandsOf(const std::filesystem::path& file) {
 
 // Runs a manual's commands in order in one folder, as a reader would. `./dev` builds and tests,
 // which is what is being done here: only its subcommand is looked up.
-void runCommands(const std::filesystem::path& file) {
+void runCommands(const fs::path& file) {
   const TemporaryFolder folder;
   const Display display(1600, 1200);
   const std::string help = runShell("./dev help", kSource).out;
@@ -76,16 +80,36 @@ TEST(Readme, TablesAreTheEffectsOwn) {
   }
 }
 
-TEST(Readme, EveryLinkedFileIsThere) {
-  for (const char* file :
-       {"README.md", "effects/ssao/README.md", "effects/sspm/README.md", "docs/tutorial.md"}) {
-    const std::string text = readFile(kSource / file);
-    for (size_t at = 0; (at = text.find("](", at)) != std::string::npos; ++at) {
-      const std::string target = text.substr(at + 2, text.find(')', at) - at - 2);
-      if (target.rfind("http", 0) == 0 || target[0] == '#') continue;
-      const auto path = (kSource / file).parent_path() / target;
-      EXPECT_TRUE(std::filesystem::exists(path)) << path;
+// The files that the pages of the repository link to or show, without anchors.
+std::set<fs::path> linkedFiles() {
+  std::vector<fs::path> pages = {kSource / "README.md", kSource / "CONTRIBUTING.md"};
+  for (const char* folder : {"docs", "effects"}) {
+    for (const auto& entry : fs::recursive_directory_iterator(kSource / folder)) {
+      if (entry.path().extension() == ".md") pages.push_back(entry.path());
     }
+  }
+  std::set<fs::path> linked;
+  for (const fs::path& page : pages) {
+    const std::string text = readFile(page);
+    for (size_t at = 0; (at = text.find("](", at)) != std::string::npos; ++at) {
+      const std::string target = text.substr(at + 2, text.find_first_of(")#", at) - at - 2);
+      if (target.empty() || target.rfind("http", 0) == 0) continue;
+      linked.insert((page.parent_path() / target).lexically_normal());
+    }
+  }
+  return linked;
+}
+
+TEST(Readme, EveryLinkedFileIsThere) {
+  for (const fs::path& file : linkedFiles()) EXPECT_TRUE(fs::exists(file)) << file;
+}
+
+TEST(Readme, EveryPictureIsShown) {
+  const std::set<fs::path> linked = linkedFiles();
+  for (const auto& entry : fs::recursive_directory_iterator(kSource / "docs")) {
+    const fs::path ending = entry.path().extension();
+    if (entry.is_directory() || ending == ".md" || ending == ".json") continue;
+    EXPECT_TRUE(linked.contains(entry.path())) << "no page shows " << entry.path();
   }
 }
 

@@ -21,7 +21,8 @@ constexpr double kTruthRadius = 0.5;  // metres, the effect's default
 // Pictures, with back faces behind them.
 class SharedSource : public frame::AttachmentSource {
  public:
-  explicit SharedSource(const SharedAttachments& shared) : back_(shared.backDepth) {
+  SharedSource(gpu::Device& device, const SharedAttachments& shared)
+      : pictures_(&device), back_(shared.backDepth) {
     pictures_.show(shared.pictures);
   }
   bool goesBeyond() const override { return false; }
@@ -182,7 +183,7 @@ std::string outputOf(const std::string& effect) {
 
 image::Image applyShared(gpu::Device& device, const DriverSubject& subject,
                          const effect::Values& values, const SharedAttachments& shared) {
-  SharedSource source(shared);
+  SharedSource source(device, shared);
   frame::Renderer renderer(device, source);
   return drawEffect(device, renderer, subject, values, {outputOf(values.effect().desc->key)})[0];
 }

@@ -28,7 +28,7 @@ GRISAILLE_ON_EVERY_DEVICE(CrowdTest);
 TEST_P(CrowdTest, HidingChangesNothing) {
   const scene::Scene scene = cornerScene();
   TracedRays rays(scene);
-  frame::PictureAttachments places;
+  frame::PictureAttachments places(&device());
   places.show(tracedPictures(rays.tracer(), kCrease, kWidth, kHeight));
   for (uint32_t seed = 0; seed < 4; ++seed) {
     std::mt19937 random(seed);
