@@ -7,16 +7,16 @@
 #include <optional>
 
 #include "app/command.h"
-#include "app/report/coverage.h"
 #include "app/options/driver_messages.h"
 #include "app/options/effect_options.h"
+#include "app/options/object_options.h"
 #include "app/options/option_checks.h"
 #include "app/options/output_file.h"
-#include "app/options/object_options.h"
-#include "app/services/scene_services.h"
 #include "app/options/size.h"
 #include "app/options/start_device.h"
+#include "app/report/coverage.h"
 #include "app/report/timings.h"
+#include "app/services/scene_services.h"
 #include "core/base/atomic_file.h"
 #include "core/base/error.h"
 #include "core/image/image.h"
@@ -53,7 +53,8 @@ struct RenderJob : ChosenEffects {
     }
     glm::uvec2 given(0);
     if (!options.size.empty()) given = parseSize(options.size);
-    for (const OutputFile& write : writes) frame::checkOutput(write.output, chain.selection.effects());
+    for (const OutputFile& write : writes)
+      frame::checkOutput(write.output, chain.selection.effects());
     options.objects.check(chain);
 
     if (!options.camera.empty()) camera = cameraOf(options.camera, "--camera");
@@ -107,10 +108,10 @@ void writeTimings(const RenderOptions& options, gpu::Device& device) {
 }
 
 void writeCoverage(const RenderOptions& options, RenderJob& job, frame::Renderer& renderer) {
-  const auto shares = colorShares(
-      renderer.read(job.owned->owner), renderer.read(job.owned->overlay), renderer.read("depth"),
-      renderer.read("facet_normal"), job.camera, job.chain.objects(job.owned->effect)->view(),
-      *job.owned->colour);
+  const auto shares =
+      colorShares(renderer.read(job.owned->owner), renderer.read(job.owned->overlay),
+                  renderer.read("depth"), renderer.read("facet_normal"), job.camera,
+                  job.chain.objects(job.owned->effect)->view(), *job.owned->colour);
   writeText(options.coverage, coverageCsv(shares));
 }
 
@@ -191,9 +192,10 @@ void addRender(CLI::App& program) {
       ->type_name("FILE.csv|-");
   options->objects.addTo(*command);
   command
-      ->add_option("--coverage", options->coverage,
-                   "CSV of the share of the visible surface that objects of each colour hold; -: to "
-                   "standard output")
+      ->add_option(
+          "--coverage", options->coverage,
+          "CSV of the share of the visible surface that objects of each colour hold; -: to "
+          "standard output")
       ->type_name("FILE.csv|-");
   command->callback([options] { render(*options); });
 }

@@ -38,8 +38,7 @@ struct TruthOptions {
 };
 
 OutputFile parseWrite(const std::string& text) {
-  constexpr std::array kOutputs = {"ao",    "ao_error", "ceiling", "ceiling_error",
-                                   "depth", "normal"};
+  constexpr std::array kOutputs = {"ao", "ao_error", "ceiling", "ceiling_error", "depth", "normal"};
   OutputFile write = parseOutputFile(text);
   if (std::ranges::find(kOutputs, write.output) == kOutputs.end()) {
     throw Error(ErrorId::kTruthUnknown, "'{}' is nothing that truth writes", write.output);

@@ -297,7 +297,8 @@ void tune(const TuneOptions& options) {
       "{} parameters has {:.2g}",
       found.starts + found.steps, found.starts, found.steps, found.costsSaved, axes.size(),
       gridSize(axes));
-  fmt::print("{}\n  {}\n{}\n", result, study::nameOf(study::textOf(subject.registry(), setting)), effort);
+  fmt::print("{}\n  {}\n{}\n", result, study::nameOf(study::textOf(subject.registry(), setting)),
+             effort);
   const double unseen = validate(options, given, subject, setting, *device);
   std::string story = fmt::format("# grisaille tune: {}; {}\n# {}: {}\n", wishText(wish), result,
                                   info.backend, info.name);

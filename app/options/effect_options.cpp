@@ -11,7 +11,10 @@ CLI::Option* EffectOptions::addTo(CLI::App& command, const std::string& help) {
   command.add_option("--device", device, "Number or part of the name, see `grisaille backends`")
       ->type_name("N|NAME");
   effectsGiven =
-      command.add_option("--effects", effects, "Effects in the order they run; default: those that `grisaille effects` marks")
+      command
+          .add_option(
+              "--effects", effects,
+              "Effects in the order they run; default: those that `grisaille effects` marks")
           ->type_name("KEY,...")
           ->delimiter(',')
           ->expected(0, 64);

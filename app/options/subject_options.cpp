@@ -9,8 +9,8 @@
 #include <limits>
 
 #include "app/options/camera_option.h"
-#include "app/options/option_checks.h"
 #include "app/options/object_options.h"
+#include "app/options/option_checks.h"
 #include "app/options/size.h"
 #include "app/truth/content_hash.h"
 #include "app/truth/occlusion_truth.h"
@@ -62,7 +62,8 @@ void SubjectOptions::addTo(CLI::App& command) {
                   "visibility, traced")
       ->type_name("FILE")
       ->allow_extra_args(false);
-  command.add_option("--load", loads, "Objects of an effect, as `grisaille render --save` wrote them")
+  command
+      .add_option("--load", loads, "Objects of an effect, as `grisaille render --save` wrote them")
       ->type_name("EFFECT=FILE.json")
       ->allow_extra_args(false);
   command.add_option("--radius", radius, "Length of the truth's rays, metres")

@@ -15,8 +15,8 @@
 
 namespace grisaille::app {
 
-// The outputs that tell which of an effect's objects lies where, by their whole names, and the field
-// that holds an object's colour.
+// The outputs that tell which of an effect's objects lies where, by their whole names, and the
+// field that holds an object's colour.
 struct Owned {
   std::string effect, overlay, owner;
   const grisaille_field_desc* colour = nullptr;
@@ -31,9 +31,10 @@ struct ColorShare {
 };
 
 // The greatest share first, "none" last. Of one size: whose each pixel is (1 + index of the object,
-// 0: nobody's), the overlay's alpha in the fourth channel, view depth in metres (0: sky, which is no
-// surface), world normals. A pixel counts as the area of surface that it shows, where the surface
-// is seen at more than 84 degrees from its normal as if at 84: a sliver does not decide a game.
+// 0: nobody's), the overlay's alpha in the fourth channel, view depth in metres (0: sky, which is
+// no surface), world normals. A pixel counts as the area of surface that it shows, where the
+// surface is seen at more than 84 degrees from its normal as if at 84: a sliver does not decide a
+// game.
 std::vector<ColorShare> colorShares(const image::Image& owner, const image::Image& overlay,
                                     const image::Image& depth, const image::Image& normal,
                                     const scene::Camera& camera, const objects::View& objects,

@@ -35,7 +35,7 @@ class PictureFiles : public effect::PictureService {
   void read(const char* path, grisaille_picture& out) override;
 
  private:
-  image::Image8 picture_;                       // the last one
+  image::Image8 picture_;                             // the last one
   std::map<std::string, Error, std::less<>> failed_;  // by path
 };
 

@@ -29,10 +29,10 @@ struct Subject {
   std::vector<View> views;
   glm::uvec2 size = glm::uvec2(640, 360);
   const effect::Registry* registry = nullptr;
-  std::vector<std::string> effects;                          // that run, in order
-  std::vector<effect::Assignment> sets;              // beneath a setting's values
-  std::string output;                                // that is compared with the truth
-  std::map<std::string, objects::Objects> objects;   // by effect
+  std::vector<std::string> effects;                 // that run, in order
+  std::vector<effect::Assignment> sets;             // beneath a setting's values
+  std::string output;                               // that is compared with the truth
+  std::map<std::string, objects::Objects> objects;  // by effect
 };
 
 // One channel of an output: the only one, or of four the last, which is alpha. Throws

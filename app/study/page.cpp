@@ -25,7 +25,7 @@ std::string pictureUrl(const fs::path& file) {
 
 json jsonOf(const Record& r) {
   json setting = json::object(), errors = json::array();
-  for (const auto& [name, value] : r.setting) setting[name] = value;
+  for (const auto& [name, value] : r.setting) setting[name.text()] = value;
   for (const CameraErrors& e : r.errors) {
     errors.push_back({{"camera", e.camera},
                       {"rmse", e.rmse},

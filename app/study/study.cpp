@@ -74,9 +74,8 @@ void Study::measureErrors(Job& job) {
 
 void Study::measureFlicker(Job& job) {
   if (!job.chain) job.chain = measurer_.start(job.setting);
-  const trace::Flicker along = flickerAlong(*desc_.path, [&](const scene::Camera& camera) {
-    return measurer_.show(*job.chain, camera);
-  });
+  const trace::Flicker along = flickerAlong(
+      *desc_.path, [&](const scene::Camera& camera) { return measurer_.show(*job.chain, camera); });
   job.record.flicker = along.rms;
   job.record.pathRmse = along.error;
   save(desc_.folder, job.record);

@@ -12,13 +12,13 @@
 #include <utility>
 #include <vector>
 
+#include "app/services/placement.h"
 #include "app/services/scene_services.h"
 #include "app/verify/verify.h"
 #include "backends/backends.h"
 #include "core/effect/registry.h"
 #include "core/effect/values.h"
 #include "core/frame/renderer.h"
-#include "core/shots/shot.h"
 
 namespace grisaille::app {
 namespace {
@@ -76,18 +76,20 @@ class Messages {
 class EffectCheck {
  public:
   EffectCheck(Report& report, gpu::Device& device, Messages& messages, const scene::Scene& scene,
-              const effect::Effect& effect, const std::string& backend)
+              const effect::Registry& registry, const effect::Effect& effect,
+              const std::string& backend)
       : report_(report),
         device_(device),
         messages_(messages),
         effect_(effect),
         title_(fmt::format("{}: {}: ", backend, effect.desc->key)),
         renderer_(device, scene),
-        rays_(scene) {
+        services_(scene),
+        chain_(effect::Selection(registry, std::array{std::string(effect.key())})) {
     for (const grisaille_output_desc& output : effect.outputs()) {
       names_.push_back(fmt::format("{}.{}", effect.desc->key, output.key));
     }
-    if (effect_.takesShots()) fire();
+    placeObjects();
   }
 
   void run() {
@@ -115,14 +117,16 @@ class EffectCheck {
   }
 
  private:
-  // A few shots into the picture, for those that take them.
-  void fire() {
+  // A few objects in the picture, for effects that have some.
+  void placeObjects() {
+    objects::ObjectList* list = chain_.objects(effect_.key());
+    if (list == nullptr) return;
     for (const glm::dvec2 at : {glm::dvec2(30, 30), glm::dvec2(48, 20), glm::dvec2(70, 40)}) {
-      const glm::dvec3 towards = scene::pixelDirection(camera_, kSize.x, kSize.y, at);
-      shots_.push_back(shots::makeShot({.origin = {camera_.eye.x, camera_.eye.y, camera_.eye.z},
-                                        .direction = {towards.x, towards.y, towards.z},
-                                        .color = {1, 0.5, 0.1}}));
+      const auto object = placedAt(at, kSize, camera_, services_.rays(), list->table(),
+                                   objects::Object(list->table()));
+      if (object) list->add(*object);
     }
+    objects_ = list->size();
   }
 
   void step(const std::string& what) { report_.step(title_ + what); }
@@ -137,11 +141,10 @@ class EffectCheck {
   void destroy() {
     step("destroying it");
     try {
-      if (instance_) instance_->end();
+      chain_.end();
     } catch (const Error& error) {
       expect(false, error.detail());
     }
-    instance_.reset();
     heardNothing("destroying it");
   }
 
@@ -149,15 +152,16 @@ class EffectCheck {
   bool create() {
     destroy();
     step("creating it");
-    shotsKept_ = 0;
+    bool created = false;
     try {
-      instance_ = std::make_unique<effect::Instance>(device_, effect_);
+      chain_.start(device_);
+      created = true;
       expect(true, "");
     } catch (const Error& error) {
       expect(false, error.detail());
     }
     heardNothing("creating it");
-    return instance_ != nullptr;
+    return created;
   }
 
   void checkReads() {
@@ -179,16 +183,14 @@ class EffectCheck {
   bool render(const std::string& what, glm::uvec2 size, const effect::Values& values,
               const std::vector<std::string>& outputs) {
     step(what);
-    const std::array active = {frame::ActiveEffect{
-        .instance = instance_.get(), .values = &values, .shots = shots_, .shotsKept = shotsKept_}};
+    chain_.selection.entries()[0].values = values;
     try {
       renderer_.render({.camera = camera_,
                         .width = size.x,
                         .height = size.y,
-                        .effects = active,
+                        .chain = &chain_,
                         .outputs = outputs,
-                        .rays = &rays_});
-      shotsKept_ = shots_.size();
+                        .services = services_.all()});
     } catch (const Error& error) {
       if (error.id() == ErrorId::kDeviceLost) throw;
       expect(false, fmt::format("{}: {}", what, error.detail()));
@@ -225,14 +227,14 @@ class EffectCheck {
       const size_t channel = i % picture.channels;
       const bool share = (output.role == GRISAILLE_ROLE_VISIBILITY && channel == 0) ||
                          (output.role == GRISAILLE_ROLE_TINT && channel < 3) ||
-                         (output.role == GRISAILLE_ROLE_PAINT && channel == 3);
+                         (output.role == GRISAILLE_ROLE_OVERLAY && channel == 3);
       if (share && (value < -kRounding || value > 1 + kRounding)) ++outside;
-      const auto shots = static_cast<float>(shots_.size());
-      if (output.role == GRISAILLE_ROLE_OWNER && value > shots) ++nobodys;
+      const auto objects = static_cast<float>(objects_);
+      if (output.role == GRISAILLE_ROLE_OWNER && value > objects) ++nobodys;
     }
     expect(odd == 0, fmt::format("{} holds {} values that are no finite numbers", what, odd));
     expect(outside == 0, fmt::format("{} holds {} values outside 0 to 1", what, outside));
-    expect(nobodys == 0, fmt::format("{} holds {} numbers of no shot", what, nobodys));
+    expect(nobodys == 0, fmt::format("{} holds {} numbers of no object", what, nobodys));
   }
 
   // Which bytes of an output it leaves as they were: `left` becomes 1 where they are.
@@ -314,18 +316,18 @@ class EffectCheck {
   const std::string title_;
   const scene::Camera camera_ = scene::atriumCamera();
   frame::Renderer renderer_;
-  SceneRays rays_;
+  SceneServices services_;
   std::vector<std::string> names_;  // of its outputs
-  std::vector<grisaille_shot> shots_;
-  size_t shotsKept_ = 0;
-  std::unique_ptr<effect::Instance> instance_;
+  size_t objects_ = 0;
+  effect::Chain chain_;  // of this effect alone
 };
 
 // A device that is lost takes what is left of the check along.
 void checkEffect(Report& report, gpu::Device& device, Messages& messages, const scene::Scene& scene,
-                 const effect::Effect& effect, const std::string& backend) {
+                 const effect::Registry& registry, const effect::Effect& effect,
+                 const std::string& backend) {
   try {
-    EffectCheck(report, device, messages, scene, effect, backend).run();
+    EffectCheck(report, device, messages, scene, registry, effect, backend).run();
   } catch (const Error& error) {
     report.fault(fmt::format("{}: {}: the rest is not checked: {}", backend, effect.desc->key,
                              error.detail()));
@@ -380,7 +382,7 @@ void checkPlugin(const std::string& file, Report& report) {
     }
     ++devices;
     for (const effect::Effect& effect : registry.effects()) {
-      checkEffect(report, *device, messages, scene, effect, backend.name);
+      checkEffect(report, *device, messages, scene, registry, effect, backend.name);
     }
     device.reset();
     for (const std::string& text : messages.take()) {

@@ -51,6 +51,13 @@ void Chain::start(gpu::Maker& device) {
   }
 }
 
+void Chain::end() {
+  for (auto& [effect, one] : running_) {
+    if (one.instance) one.instance->end();
+  }
+  stop();
+}
+
 Chain::Running& Chain::running(const Effect& effect) {
   Running& one = running_[std::string(effect.key())];
   if (!one.instance) one = {std::make_unique<Instance>(*device_, effect), 0};

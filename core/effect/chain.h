@@ -43,8 +43,10 @@ class Chain {
   // Creates the instances of effects that are on; others follow when they first record. The device
   // outlives them. Throws kEffectCreate.
   void start(gpu::Maker& device);
-  // Ends all instances. start() makes new ones.
+  // Ends all instances; start() creates new ones. What an effect throws is printed.
   void stop() { running_.clear(); }
+  // The same, and throws kEffectRecord where an effect throws.
+  void end();
 
   // Records one effect of the selection into the frame that `inputs` describes but for values and
   // objects. Returns how many things wait to be drawn in a later frame. Throws as Instance does.

@@ -5,10 +5,10 @@
 #include <cmath>
 #include <limits>
 
+#include "app/services/scene_services.h"
 #include "app/study/flicker_run.h"
 #include "app/study/measurer.h"
 #include "app/study/record.h"
-#include "app/services/scene_services.h"
 #include "core/base/error.h"
 #include "core/trace/paint_mask.h"
 #include "core/trace/projection.h"

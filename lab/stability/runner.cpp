@@ -7,8 +7,8 @@
 #include <cmath>
 #include <utility>
 
-#include "app/truth/content_hash.h"
 #include "app/services/scene_services.h"
+#include "app/truth/content_hash.h"
 #include "core/base/error.h"
 #include "core/frame/view_block.h"
 #include "lab/stability/comparison.h"

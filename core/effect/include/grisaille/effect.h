@@ -354,9 +354,9 @@ typedef struct grisaille_host {
    * none. Only inside record(). GRISAILLE_FAILED: a ray that is not as said. */
   grisaille_result (*cast_rays)(const struct grisaille_host* self, const grisaille_ray* rays,
                                 uint64_t count, grisaille_hit* hits);
-  /* Decodes a picture file, such as a FILE field names. GRISAILLE_UNSUPPORTED where the host decodes
-   * none. Only inside record(). GRISAILLE_FAILED: the file cannot be read; the host warns of it
-   * once, and the effect may go on without it. */
+  /* Decodes a picture file, such as a FILE field names. GRISAILLE_UNSUPPORTED where the host
+   * decodes none. Only inside record(). GRISAILLE_FAILED: the file cannot be read; the host warns
+   * of it once, and the effect may go on without it. */
   grisaille_result (*read_picture)(const struct grisaille_host* self, const char* path,
                                    grisaille_picture* out);
 } grisaille_host;

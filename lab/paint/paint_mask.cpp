@@ -1,18 +1,18 @@
 // SPDX-License-Identifier: MIT
-#include "core/trace/paint_mask.h"
+#include "lab/paint/paint_mask.h"
 
 #include <array>
 #include <optional>
 
 #include "core/trace/parallel.h"
 
-namespace grisaille::trace {
+namespace grisaille::lab {
 namespace {
 
 constexpr double kOff = 1e-4;  // metres
 
 // From the surface to the muzzle, where the shot could paint it.
-std::optional<grisaille_ray> segment(const Hit& hit, const grisaille_shot& shot, double range) {
+std::optional<grisaille_ray> segment(const trace::Hit& hit, const Shot& shot, double range) {
   const glm::dvec3 muzzle(shot.origin[0], shot.origin[1], shot.origin[2]);
   const glm::dvec3 direction(shot.direction[0], shot.direction[1], shot.direction[2]);
   const glm::dvec3 q = hit.position - muzzle;
@@ -28,16 +28,16 @@ std::optional<grisaille_ray> segment(const Hit& hit, const grisaille_shot& shot,
 }
 
 // No more than kBlock pixels.
-void paintBlock(const RayTracer& tracer, std::span<const Hit> hits,
-                std::span<const grisaille_shot> shots, double range, std::span<uint8_t> mask) {
-  std::array<grisaille_ray, kBlock> rays;
-  std::array<grisaille_hit, kBlock> blocked;
-  std::array<size_t, kBlock> owners;
-  for (const grisaille_shot& shot : shots) {
+void paintBlock(const trace::RayTracer& tracer, std::span<const trace::Hit> hits,
+                std::span<const Shot> shots, double range, std::span<uint8_t> mask) {
+  std::array<grisaille_ray, trace::kBlock> rays;
+  std::array<grisaille_hit, trace::kBlock> blocked;
+  std::array<size_t, trace::kBlock> owners;
+  for (const Shot& shot : shots) {
     size_t count = 0;
     for (size_t i = 0; i < hits.size(); ++i) {
       if (mask[i] != 0 || hits[i].viewDepth == 0) continue;
-      const auto ray = segment(hits[i], shot, shot.range > 0 ? double{shot.range} : range);
+      const auto ray = segment(hits[i], shot, shot.range > 0 ? double{shot.rangeOr(0)} : range);
       if (!ray) continue;
       rays[count] = *ray;
       owners[count++] = i;
@@ -51,14 +51,14 @@ void paintBlock(const RayTracer& tracer, std::span<const Hit> hits,
 
 }  // namespace
 
-std::vector<uint8_t> paintMask(const RayTracer& tracer, std::span<const Hit> hits,
-                               std::span<const grisaille_shot> shots, double range) {
+std::vector<uint8_t> paintMask(const trace::RayTracer& tracer, std::span<const trace::Hit> hits,
+                               std::span<const Shot> shots, double range) {
   std::vector<uint8_t> mask(hits.size(), 0);
-  forEachBlock(hits.size(), [&](size_t first, size_t count) {
+  trace::forEachBlock(hits.size(), [&](size_t first, size_t count) {
     paintBlock(tracer, hits.subspan(first, count), shots, range,
                std::span(mask).subspan(first, count));
   });
   return mask;
 }
 
-}  // namespace grisaille::trace
+}  // namespace grisaille::lab
