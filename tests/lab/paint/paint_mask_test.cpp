@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: MIT
-#include "core/trace/paint_mask.h"
+#include "lab/paint/paint_mask.h"
 
 #include <gtest/gtest.h>
 
@@ -8,7 +8,7 @@
 
 #include "tests/core/trace/scene_builder.h"
 
-namespace grisaille::trace {
+namespace grisaille::lab {
 namespace {
 
 // Down onto a floor, with a square lid of 0.5 m half side 1 m over it; seen from beside, 40 m off.
@@ -19,26 +19,22 @@ class PaintMask : public ::testing::Test {
     builder_.place(builder_.floor(glm::vec3(0), 10, material));
     builder_.place(builder_.floor(glm::vec3(0, 1, 0), 0.5, material));
     tracer_.emplace(builder_.scene, glm::dvec3(0));
-    scene::Camera camera = cameraAt({8, 6, 0}, {0, 0, 0});
+    scene::Camera camera = trace::cameraAt({8, 6, 0}, {0, 0, 0});
     camera.fovyDegrees = 40;
     hits_ = tracer_->castPrimary(camera, 96, 64);
   }
 
-  static grisaille_shot down(double x, double height, float range) {
-    return {.origin = {x, height, 0},
-            .direction = {0, -1, 0},
-            .color = {1, 1, 1},
-            .range = range,
-            .reserved = 0};
+  static Shot down(double x, double height, double range) {
+    return {.origin = {x, height, 0}, .direction = {0, -1, 0}, .color = {1, 1, 1}, .range = range};
   }
 
-  SceneBuilder builder_;
-  std::optional<RayTracer> tracer_;
-  std::vector<Hit> hits_;
+  trace::SceneBuilder builder_;
+  std::optional<trace::RayTracer> tracer_;
+  std::vector<trace::Hit> hits_;
 };
 
 TEST_F(PaintMask, IsTheDiscUnderTheMuzzleLessWhatTheLidHides) {
-  const std::vector<grisaille_shot> shots = {down(0, 3, 0)};
+  const std::vector<Shot> shots = {down(0, 3, 0)};
   const auto mask = paintMask(*tracer_, hits_, shots, 2);
   size_t painted = 0, shadow = 0;
   for (size_t i = 0; i < hits_.size(); ++i) {
@@ -60,7 +56,7 @@ TEST_F(PaintMask, IsTheDiscUnderTheMuzzleLessWhatTheLidHides) {
 }
 
 TEST_F(PaintMask, IsTheUnionOfShotsEachWithItsOwnRange) {
-  const std::vector<grisaille_shot> shots = {down(-3, 1, 0.5f), down(2, 1, 0)};
+  const std::vector<Shot> shots = {down(-3, 1, 0.5), down(2, 1, 0)};
   const auto both = paintMask(*tracer_, hits_, shots, 1);
   const auto first = paintMask(*tracer_, hits_, std::span(shots).first(1), 1);
   const auto second = paintMask(*tracer_, hits_, std::span(shots).last(1), 1);
@@ -76,10 +72,10 @@ TEST_F(PaintMask, IsTheUnionOfShotsEachWithItsOwnRange) {
 
 TEST_F(PaintMask, NothingBehindTheMuzzleAndNothingTurnedAway) {
   // Upward from between floor and lid: only the lid's lower side is before it, which no pixel sees.
-  grisaille_shot up = down(0, 0.5, 5);
+  Shot up = down(0, 0.5, 5);
   up.direction[1] = 1;
   for (const uint8_t value : paintMask(*tracer_, hits_, std::span(&up, 1), 0)) EXPECT_EQ(value, 0);
 }
 
 }  // namespace
-}  // namespace grisaille::trace
+}  // namespace grisaille::lab
