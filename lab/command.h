@@ -8,6 +8,7 @@
 namespace grisaille::lab {
 
 void addClaims(CLI::App& program);
+void addPaintMask(CLI::App& program);
 void addStability(CLI::App& program);
 
 }  // namespace grisaille::lab

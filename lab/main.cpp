@@ -10,6 +10,7 @@ namespace {
 void addCommands(CLI::App& program) {
   grisaille::lab::addStability(program);
   grisaille::lab::addClaims(program);
+  grisaille::lab::addPaintMask(program);
   for (CLI::App* command : program.get_subcommands({})) {
     grisaille::app::refuseEmptyValues(*command);
   }

@@ -10,6 +10,7 @@
 #include "app/options/option_checks.h"
 #include "app/options/start_device.h"
 #include "app/report/machine.h"
+#include "app/settings/load_effects.h"
 #include "app/truth/interruption.h"
 #include "app/truth/progress.h"
 #include "backends/backends.h"

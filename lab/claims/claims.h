@@ -17,8 +17,9 @@
 //   effects = ["ssao"]                 that run, in order
 //   output = "ssao.ao"                 what is measured; of four channels, the last one
 //   set = ["ssao.bias=0"]              under all runs, as --set has them
-//   shots = [{origin = [..], ...}]     of paint, as shot files have them, or the name of such a
-//   file runs = [
+//   shots = [{origin = [..], ...}]     of paint, as files of sspm's objects have them, or the name
+//                                      of such a file
+//   runs = [
 //     {name = "few", set = [..]},      further: camera; against = "NAME", the run that is right
 //   ]                                  instead of the truth; shots = 8, so many, those of the claim
 //                                      in turn; noise = "screen", splats tied to the screen
@@ -33,10 +34,10 @@
 #include <string>
 #include <vector>
 
-#include "core/effect/registry.h"
+#include "core/effect/selection.h"
 #include "core/scene/camera.h"
-#include "grisaille/effect.h"
 #include "lab/claims/expectation.h"
+#include "lab/paint/shot.h"
 
 namespace grisaille::lab::claims {
 
@@ -70,7 +71,7 @@ struct Claim {
   std::vector<std::string> effects;
   std::string output;
   std::vector<std::string> sets;
-  std::vector<grisaille_shot> shots;
+  std::vector<Shot> shots;
   std::vector<ClaimRun> runs;
   std::vector<Expectation> expectations;
   PictureDesc picture;
@@ -85,6 +86,11 @@ struct ClaimsFile {
 // kSettingsInvalid, or what a camera, a shot, an effect or its parameter is refused with, each with
 // file:line before the message.
 ClaimsFile loadClaims(const std::string& path, const effect::Registry& registry);
+
+// The claim's effects with its values and, where `run` is not null, that run's over them. Throws
+// kUsage and as Selection does.
+effect::Selection selectionOf(const effect::Registry& registry, const Claim& claim,
+                              const ClaimRun* run);
 
 // The same claim in pictures of `scale` times the size.
 Claim scaled(const Claim& claim, double scale);

@@ -1,6 +1,5 @@
 // SPDX-License-Identifier: MIT
 #include <algorithm>
-#include <array>
 #include <cmath>
 #include <filesystem>
 #include <sstream>
@@ -8,9 +7,9 @@
 #include "app/settings/toml_values.h"
 #include "app/study/flicker_run.h"
 #include "core/base/error.h"
+#include "core/frame/renderer.h"
+#include "core/objects/object_file.h"
 #include "core/scene/camera_path.h"
-#include "core/shots/shot.h"
-#include "core/shots/shot_file.h"
 #include "lab/claims/claims.h"
 #include "lab/claims/metrics.h"
 #include "lab/claims/toml_table.h"
@@ -46,10 +45,14 @@ void requireName(TomlTable& table, const std::string& key, const std::string& na
                fmt::format("'{}' is not 1 to 60 letters, digits, - and _", key));
 }
 
-scene::Camera cameraOf(const TomlTable& owner, const toml::table& table) {
+std::string jsonOf(const toml::table& table) {
   std::ostringstream json;
   json << toml::json_formatter(table);
-  return scene::parseCamera(json.str(), owner.placeOf(table));
+  return json.str();
+}
+
+scene::Camera cameraOf(const TomlTable& owner, const toml::table& table) {
+  return scene::parseCamera(jsonOf(table), owner.placeOf(table));
 }
 
 // One a frame. `frames`: 1 for none but the first.
@@ -64,31 +67,19 @@ std::vector<scene::Camera> camerasOf(TomlTable& table, uint32_t frames) {
   return at(table.placeOf(node), [&] { return scene::camerasOf({keys, frames}); });
 }
 
-grisaille_shot shotOf(const TomlTable& owner, const toml::table& table) {
-  TomlTable shot(owner.file(), table);
-  const auto vector = [&](const char* key) {
-    shot.require(key);
-    const std::vector<double> v = shot.numbers(key, 3);
-    return std::array{v[0], v[1], v[2]};
-  };
-  const shots::ShotValues values{.origin = vector("origin"),
-                                 .direction = vector("direction"),
-                                 .color = vector("color"),
-                                 .range = shot.number("range", 0, 0, shots::kLongestRange)};
-  shot.finish();
-  return at(shot.place(), [&] { return shots::makeShot(values); });
-}
-
-std::vector<grisaille_shot> shotsOf(TomlTable& table) {
+std::vector<Shot> shotsOf(TomlTable& table, const effect::Registry& registry) {
   const toml::node* node = table.find("shots");
   if (node == nullptr) return {};
   if (const auto* file = node->as_string()) {
     const fs::path path = fs::path(table.file()).parent_path() / file->get();
-    return at(table.placeOf(*node), [&] { return shots::load(path.string()); });
+    return at(table.placeOf(*node), [&] { return loadShots(registry, path.string()); });
   }
-  std::vector<grisaille_shot> shots;
-  for (const toml::table* one : table.tables("shots")) shots.push_back(shotOf(table, *one));
-  return shots;
+  objects::Objects shots(shotTable(registry));
+  for (const toml::table* one : table.tables("shots")) {
+    at(table.placeOf(*one),
+       [&] { shots.append(objects::parseObject(shots.table(), jsonOf(*one))); });
+  }
+  return lab::shotsOf(shots.view());
 }
 
 PictureDesc pictureOf(TomlTable& owner, const Claim& claim, bool alongPath) {
@@ -127,12 +118,8 @@ PictureDesc pictureOf(TomlTable& owner, const Claim& claim, bool alongPath) {
 // What is left to check of a run once all of the claim is read: what its effects say of it.
 void checkRun(const TomlTable& table, const Claim& claim, const ClaimRun& run,
               const effect::Registry& registry) {
-  at(table.place(), [&] {
-    app::ActiveEffects active(registry, claim.effects);
-    for (const std::string& set : claim.sets) active.set(set);
-    for (const std::string& set : run.sets) active.set(set);
-    frame::checkOutput(claim.output, active.effects());
-  });
+  at(table.place(),
+     [&] { frame::checkOutput(claim.output, selectionOf(registry, claim, &run).effects()); });
 }
 
 ClaimRun runOf(TomlTable& table, const Claim& claim, const std::vector<scene::Camera>& cameras) {
@@ -235,7 +222,7 @@ Claim claimOf(TomlTable& table, const effect::Registry& registry) {
   if (claim.effects.empty()) claim.effects = {"ssao"};
   claim.output = table.text("output", "ssao.ao");
   claim.sets = table.texts("set");
-  claim.shots = shotsOf(table);
+  claim.shots = shotsOf(table, registry);
   const uint32_t frames = table.whole("frames", 1, 1, scene::kMostPathFrames);
   const std::vector<scene::Camera> cameras = camerasOf(table, frames);
   at(table.place(), [&] { app::study::checkPathSize(claim.key, frames, claim.size); });
@@ -247,6 +234,15 @@ Claim claimOf(TomlTable& table, const effect::Registry& registry) {
 }
 
 }  // namespace
+
+effect::Selection selectionOf(const effect::Registry& registry, const Claim& claim,
+                              const ClaimRun* run) {
+  effect::Selection selection(registry, claim.effects);
+  for (const std::string& set : claim.sets) selection.set(effect::parseAssignment(set));
+  if (run == nullptr) return selection;
+  for (const std::string& set : run->sets) selection.set(effect::parseAssignment(set));
+  return selection;
+}
 
 ClaimsFile loadClaims(const std::string& path, const effect::Registry& registry) {
   const toml::table document = app::parseTomlFile(path);

@@ -10,12 +10,12 @@
 #include "app/study/measurer.h"
 #include "app/study/record.h"
 #include "core/base/error.h"
-#include "core/trace/paint_mask.h"
 #include "core/trace/projection.h"
 #include "lab/claims/metrics.h"
 #include "lab/claims/picture.h"
 #include "lab/claims/regions.h"
 #include "lab/claims/screen_splats.h"
+#include "lab/paint/paint_mask.h"
 
 namespace grisaille::lab::claims {
 
@@ -29,10 +29,7 @@ struct ClaimsRunner::View {
 
 struct ClaimsRunner::Run {
   const ClaimRun* desc = nullptr;
-  std::unique_ptr<app::ActiveEffects> active;
-  std::vector<std::unique_ptr<effect::Instance>> instances;
-  std::vector<grisaille_shot> shots;
-  std::vector<frame::ActiveEffect> effects;
+  effect::Chain chain;
   View* view = nullptr;
   std::vector<image::Image> shown;  // one a frame, one channel
   image::Image color;               // composed, of the last frame
@@ -47,7 +44,7 @@ class ClaimsRunner::Stage {
         claim_(claim),
         device_(device),
         scene_(scene),
-        rays_(scene),
+        services_(scene),
         renderer_(device, scene) {}
 
   void start();
@@ -71,7 +68,7 @@ class ClaimsRunner::Stage {
   const Claim& claim_;
   gpu::Device& device_;
   const scene::Scene& scene_;
-  app::SceneRays rays_;
+  app::SceneServices services_;
   frame::Renderer renderer_;
   std::vector<std::unique_ptr<View>> views_;
   std::vector<Run> runs_;
@@ -90,10 +87,9 @@ trace::FlickerFrame ClaimsRunner::Stage::frameOf(const scene::Camera& camera) co
   const trace::RayTracer tracer(scene_, camera.eye);
   trace::FlickerFrame frame{.camera = camera, .hits = {}, .ao = {}, .truth = {}};
   frame.hits = tracer.castPrimary(camera, claim_.size.x, claim_.size.y);
-  app::ActiveEffects active(*desc_.registry, claim_.effects);
-  for (const std::string& set : claim_.sets) active.set(set);
+  effect::Selection selection = selectionOf(*desc_.registry, claim_, nullptr);
   const std::vector<uint8_t> mask =
-      trace::paintMask(tracer, frame.hits, claim_.shots, active.values("sspm").get("paint_range"));
+      paintMask(tracer, frame.hits, claim_.shots, selection.values("sspm").get("paint_range"));
   frame.truth = {.width = claim_.size.x,
                  .height = claim_.size.y,
                  .channels = 1,
@@ -122,21 +118,17 @@ void ClaimsRunner::Stage::start() {
   for (const ClaimRun& desc : claim_.runs) {
     Run run;
     run.desc = &desc;
-    run.active = std::make_unique<app::ActiveEffects>(*desc_.registry, claim_.effects);
-    for (const std::string& set : claim_.sets) run.active->set(set);
-    for (const std::string& set : desc.sets) run.active->set(set);
-    run.instances = run.active->start(device_);
-    for (uint32_t i = 0; i < desc.shots; ++i) {
-      run.shots.push_back(claim_.shots[i % claim_.shots.size()]);
+    run.chain = effect::Chain(selectionOf(*desc_.registry, claim_, &desc));
+    run.chain.start(device_);
+    if (objects::ObjectList* list = run.chain.objects("sspm"); list != nullptr) {
+      std::vector<Shot> shots;
+      for (uint32_t i = 0; i < desc.shots; ++i) {
+        shots.push_back(claim_.shots[i % claim_.shots.size()]);
+      }
+      list->assign(objectsOf(list->table(), shots).view());
     }
-    run.effects = run.active->with(run.instances);
     run.view = &viewOf(desc.cameras);
     runs_.push_back(std::move(run));
-  }
-  for (Run& run : runs_) {
-    for (frame::ActiveEffect& effect : run.effects) {
-      if (effect.effect().takesShots()) effect.shots = run.shots;
-    }
   }
 }
 
@@ -145,16 +137,15 @@ void ClaimsRunner::Stage::render(Run& run, const scene::Camera& camera,
   renderer_.render({.camera = camera,
                     .width = claim_.size.x,
                     .height = claim_.size.y,
-                    .effects = run.effects,
+                    .chain = &run.chain,
                     .outputs = outputs,
-                    .rays = &rays_});
-  for (frame::ActiveEffect& effect : run.effects) effect.shotsKept = effect.shots.size();
+                    .services = services_.all()});
 }
 
 // The effect's own splats, but for the size of a cell: what it is on the screen at the middle of
 // the first frame.
 ScreenSplats ClaimsRunner::Stage::splatsOf(Run& run) const {
-  const effect::Values& values = run.active->values("sspm");
+  const effect::Values& values = run.chain.selection.values("sspm");
   const trace::FlickerFrame& first = run.view->frames[0];
   const trace::Projection projection(first.camera, claim_.size.x, claim_.size.y);
   const size_t middle = size_t{claim_.size.y / 2} * claim_.size.x + claim_.size.x / 2;
@@ -203,7 +194,7 @@ void ClaimsRunner::Stage::timeAll() {
       device_.takeTimes();
       render(run, run.view->cameras[0], outputs);
       device_.wait();
-      const double share = frame::guardShare(run.effects, claim_.size.x, claim_.size.y);
+      const double share = frame::guardShare(run.chain.selection, claim_.size.x, claim_.size.y);
       run.milliseconds.push_back(app::study::costOf(device_.takeTimes(), claim_.effects, share));
     }
   }

@@ -67,17 +67,17 @@ double splatNoise(const glm::dvec3& world, double viewDepth, double pixelSlope,
 }
 
 PaintPixel paintOf(const glm::dvec3& world, double viewDepth, double pixelSlope,
-                   std::span<const grisaille_shot> shots, const PaintSettings& settings,
+                   std::span<const Shot> shots, const PaintSettings& settings,
                    const std::optional<Sight>& sight) {
   PaintPixel pixel;
   if (viewDepth == 0) return pixel;
   glm::dvec3 color(0);
   double alphas = 0;
   const size_t kept = sight ? shots.size() : std::min(shots.size(), settings.shotLimit);
-  for (const grisaille_shot& shot : shots.last(kept)) {
+  for (const Shot& shot : shots.last(kept)) {
     const glm::dvec3 q = world - glm::dvec3(shot.origin[0], shot.origin[1], shot.origin[2]);
     const glm::dvec3 direction(shot.direction[0], shot.direction[1], shot.direction[2]);
-    const double range = shot.range > 0 ? double{shot.range} : settings.paintRange;
+    const double range = shot.range > 0 ? double{shot.rangeOr(0)} : settings.paintRange;
     const double distance = glm::length(glm::cross(q, direction));
     if (glm::dot(q, direction) < 0 || distance >= range) continue;
     if (sight && !(glm::dot(q, sight->facet) < 0)) continue;

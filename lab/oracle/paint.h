@@ -9,7 +9,7 @@
 #include <span>
 
 #include "core/scene/camera.h"
-#include "grisaille/effect.h"
+#include "lab/paint/shot.h"
 
 namespace grisaille::lab::oracle {
 
@@ -36,12 +36,12 @@ glm::dvec3 worldOf(const scene::Camera& camera, uint32_t width, uint32_t height,
 struct Sight {
   glm::dvec3 facet;  // the pixel's, world, unit; 0: none is known, and nothing paints there
   // Whether nothing lies between a shot's muzzle and the pixel; none: nothing ever does.
-  std::function<bool(const grisaille_shot& shot)> sees = {};
+  std::function<bool(const Shot& shot)> sees = {};
 };
 
 // `pixelSlope`: height of a pixel at 1 m view depth, metres. Without `sight`, the mode `per_shot`.
 PaintPixel paintOf(const glm::dvec3& world, double viewDepth, double pixelSlope,
-                   std::span<const grisaille_shot> shots, const PaintSettings& settings,
+                   std::span<const Shot> shots, const PaintSettings& settings,
                    const std::optional<Sight>& sight = std::nullopt);
 
 double splatNoise(const glm::dvec3& world, double viewDepth, double pixelSlope,

@@ -29,7 +29,7 @@ struct Case {
   std::string output = "ao";  // of the effect, which is compared
   Settings settings;
   std::vector<scene::Camera> before;  // frames that the effect draws first, with a history
-  std::vector<grisaille_shot> shots;
+  std::vector<Shot> shots;
   bool open = false;    // a flat plane: nothing is occluded anywhere
   bool corner = false;  // visibility is known: kCornerError holds in the middle of the picture
   bool quick = false;   // one of those that the tests run

@@ -304,7 +304,7 @@ std::string keyOf(const Case& one) {
   key += fmt::format("{} shots {} {} {} {}\n", one.shots.size(), one.open, one.corner, one.edge,
                      one.variant);
   if (!one.shots.empty()) {
-    const grisaille_shot& shot = one.shots.front();
+    const Shot& shot = one.shots.front();
     key += fmt::format("{} {} {}\n", shot.origin[0], shot.direction[0], shot.range);
   }
   return key;

@@ -231,7 +231,7 @@ std::string edgeOf(const Case& one) {
   if (one.variant != "paint on surfaces") return "";
   if (one.scenery.kind == Kind::kWires) return "thin things before a muzzle";
   if (one.group == "at random") return "beside a muzzle's map";
-  const bool far = std::ranges::any_of(one.shots, [&](const grisaille_shot& shot) {
+  const bool far = std::ranges::any_of(one.shots, [&](const Shot& shot) {
     const glm::dvec3 origin(shot.origin[0], shot.origin[1], shot.origin[2]);
     return glm::distance(origin, one.camera.eye) > 5e4 * one.scenery.scale;
   });

@@ -112,7 +112,7 @@ class Sights {
   explicit Sights(const scene::Scene& scene)
       : tracer_(scene, (scene.bounds.min + scene.bounds.max) / 2.0) {}
 
-  bool sees(const grisaille_shot& shot, const glm::dvec3& place) const {
+  bool sees(const Shot& shot, const glm::dvec3& place) const {
     const glm::dvec3 origin(shot.origin[0], shot.origin[1], shot.origin[2]);
     const glm::dvec3 way = place - origin;
     const double distance = glm::length(way);
@@ -210,7 +210,7 @@ image::Image comparePaint(const Case& one, const effect::Values& values, const o
   const double slope = 1 / view.focal().x;
   const glm::dmat3 worldFromView = scene::worldFromView(one.camera);
   // Of shots that are all alike, those older than paint lets through count for nothing.
-  std::span<const grisaille_shot> shots = one.shots;
+  std::span<const Shot> shots = one.shots;
   constexpr size_t kCounted = 4096;
   if (shots.size() > kCounted) shots = shots.last(kCounted);
   image::Image expected = likeOf(paint);

@@ -80,17 +80,14 @@ scene::Scene sceneOf(const Case& one) {
   return one.scenery.isPicture() ? scene::Scene() : makeScene(one.scenery);
 }
 
-effect::Values valuesOf(const effect::Registry& registry, const Case& one) {
-  effect::Values values(registry.find(one.effect));
-  for (const auto& [key, value] : one.settings) values.set(key, value);
-  return values;
-}
-
 }  // namespace
 
 struct Runner::Stage {
+  explicit Stage(gpu::Device& on) : device(on), started(chain, on) {}
+
   gpu::Device& device;
-  std::map<std::string, std::unique_ptr<effect::Instance>> instances = {};
+  effect::Chain chain;
+  effect::StartedChain started;
 };
 
 struct Runner::Picture {
@@ -102,7 +99,7 @@ struct Runner::Picture {
 Runner::Runner(const effect::Registry& registry, std::span<gpu::Device* const> devices)
     : registry_(registry) {
   for (gpu::Device* device : devices) {
-    stages_.push_back(std::make_unique<Stage>(Stage{.device = *device}));
+    stages_.push_back(std::make_unique<Stage>(*device));
   }
 }
 
@@ -135,48 +132,57 @@ Compared Runner::compare(const Case& one) {
 
 Seen Runner::see(size_t backend, const Case& one) {
   Picture picture;
-  render(*stages_.at(backend), one, valuesOf(registry_, one), sceneOf(one), picture);
+  Stage& stage = *stages_.at(backend);
+  choose(stage, one);
+  render(stage, one, sceneOf(one), picture);
   return {.ao = std::move(picture.outputs.at("ao")), .view = std::move(picture.views.back())};
 }
 
-void Runner::render(Stage& stage, const Case& one, const effect::Values& values,
-                    const scene::Scene& scene, Picture& picture) {
-  auto& instance = stage.instances[one.effect];
+// The case's effect alone, with the case's values and shots.
+void Runner::choose(Stage& stage, const Case& one) {
+  effect::Chain& chain = stage.chain;
+  chain.selection = effect::Selection(registry_, std::array{one.effect});
+  for (const auto& [key, value] : one.settings) chain.selection.values(one.effect).set(key, value);
   // A history begins with the case.
-  if (!instance || !one.before.empty()) {
-    instance = std::make_unique<effect::Instance>(stage.device, values.effect());
-  }
-  const std::array active = {frame::ActiveEffect{
-      .instance = instance.get(), .values = &values, .shots = one.shots, .shotsKept = 0}};
+  if (!one.before.empty()) chain.start(stage.device);
+  objects::ObjectList* list = chain.objects(one.effect);
+  if (list == nullptr) return;
+  // Through an empty list: the effect keeps what it knows of equal shots, which belongs to the
+  // scenery of the case before.
+  list->assign({&list->table(), nullptr, 0});
+  list->assign(objectsOf(list->table(), one.shots).view());
+}
+
+void Runner::render(Stage& stage, const Case& one, const scene::Scene& scene, Picture& picture) {
+  const effect::Values& values = stage.chain.selection.values(one.effect);
   frame::PictureAttachments pictures;
   if (one.scenery.isPicture()) {
     pictures.show(makePictures(one.scenery, one.camera, one.size));
   }
-  app::SceneRays rays(scene);
+  app::SceneServices services(scene);
   frame::Renderer renderer = one.scenery.isPicture() ? frame::Renderer(stage.device, pictures)
                                                      : frame::Renderer(stage.device, scene);
-  const auto draw = [&](const scene::Camera& camera, const glm::uvec2& size,
-                        std::span<const frame::ActiveEffect> effects,
+  const auto draw = [&](const scene::Camera& camera, const glm::uvec2& size, effect::Chain* chain,
                         const std::vector<std::string>& outputs) {
     renderer.render({.camera = camera,
                      .width = size.x,
                      .height = size.y,
-                     .effects = effects,
+                     .chain = chain,
                      .outputs = outputs,
-                     .rays = one.scenery.isPicture() ? nullptr : &rays});
+                     .services = one.scenery.isPicture() ? effect::Services{} : services.all()});
   };
   const auto read = [&](const std::vector<std::string>& outputs) {
     for (const std::string& name : outputs) picture.outputs[name] = renderer.read(name);
   };
-  const uint32_t guard = one.scenery.isPicture() ? 0 : frame::guardBand(values, one.size.y);
+  const uint32_t guard = one.scenery.isPicture() ? 0 : effect::guardBand(values, one.size.y);
   std::vector<scene::Camera> cameras = one.before;
   cameras.push_back(one.camera);
   for (const scene::Camera& camera : cameras) {
-    draw(camera, one.size, active, outputsOf(one));
+    draw(camera, one.size, &stage.chain, outputsOf(one));
     read(outputsOf(one));
     // Once more what the effect read: the same draw.
     const std::vector<std::string> names = attachmentsOf(one, values);
-    draw(frame::widened(camera, one.size.y, guard), one.size + 2 * guard, {}, names);
+    draw(frame::widened(camera, one.size.y, guard), one.size + 2 * guard, nullptr, names);
     oracle::Attachments seen;
     for (const std::string& name : names) {
       (name == "depth"         ? seen.depth
@@ -188,7 +194,7 @@ void Runner::render(Stage& stage, const Case& one, const effect::Values& values,
   }
   const std::vector<std::string> further = furtherOutputs(one);
   if (further.empty()) return;
-  draw(one.camera, one.size, active, further);
+  draw(one.camera, one.size, &stage.chain, further);
   read(further);
 }
 
@@ -198,8 +204,9 @@ BackendResult Runner::runOn(Stage& stage, const Case& one, const scene::Scene& s
   result.backend = stage.device.info().backend;
   const auto start = std::chrono::steady_clock::now();
   try {
-    const effect::Values values = valuesOf(registry_, one);
-    render(stage, one, values, scene, picture);
+    choose(stage, one);
+    render(stage, one, scene, picture);
+    const effect::Values& values = stage.chain.selection.values(one.effect);
     for (const auto& [name, image] : picture.outputs) count(image, rangeOf(name, one), result);
     describe(picture.outputs.at(one.output), one.output, result);
     if (one.effect == "ssao") {
@@ -213,7 +220,7 @@ BackendResult Runner::runOn(Stage& stage, const Case& one, const scene::Scene& s
   } catch (const Error& error) {
     if (error.id() == ErrorId::kDeviceLost) throw;  // no fault of this case, and the end of all
     result.error = error.what();
-    stage.instances.erase(one.effect);
+    stage.chain.stop();
   }
   result.seconds = std::chrono::duration<double>(std::chrono::steady_clock::now() - start).count();
   return result;

@@ -8,7 +8,6 @@
 #include <string>
 #include <vector>
 
-#include "core/effect/instance.h"
 #include "core/effect/registry.h"
 #include "core/frame/renderer.h"
 #include "core/gpu/device.h"
@@ -51,8 +50,8 @@ class Runner {
   struct Stage;
   struct Picture;
   BackendResult runOn(Stage& stage, const Case& one, const scene::Scene& scene, Picture& picture);
-  void render(Stage& stage, const Case& one, const effect::Values& values,
-              const scene::Scene& scene, Picture& picture);
+  void choose(Stage& stage, const Case& one);
+  void render(Stage& stage, const Case& one, const scene::Scene& scene, Picture& picture);
 
   const effect::Registry& registry_;
   std::vector<std::unique_ptr<Stage>> stages_;

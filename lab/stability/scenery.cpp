@@ -7,7 +7,6 @@
 #include <utility>
 
 #include "core/scene/mesh_builder.h"
-#include "core/shots/shot.h"
 
 namespace grisaille::lab::stability {
 namespace {
@@ -153,19 +152,19 @@ frame::Pictures makePictures(const Scenery& scenery, const scene::Camera& camera
   return pictures;
 }
 
-grisaille_shot shotAt(const glm::dvec3& origin, const glm::dvec3& target, const glm::vec3& color,
-                      double range) {
-  const glm::dvec3 direction = glm::normalize(target - origin);
-  return shots::makeShot({.origin = {origin.x, origin.y, origin.z},
-                          .direction = {direction.x, direction.y, direction.z},
-                          .color = {color.x, color.y, color.z},
-                          .range = range});
+Shot shotAt(const glm::dvec3& origin, const glm::dvec3& target, const glm::vec3& color,
+            double range) {
+  const glm::vec3 direction(glm::normalize(target - origin));
+  return {.origin = {origin.x, origin.y, origin.z},
+          .direction = {direction.x, direction.y, direction.z},
+          .color = {color.x, color.y, color.z},
+          .range = range};
 }
 
-std::vector<grisaille_shot> makeShots(const Scenery& scenery, size_t count, uint32_t seed) {
+std::vector<Shot> makeShots(const Scenery& scenery, size_t count, uint32_t seed) {
   std::mt19937 random(seed);
   std::uniform_real_distribution<double> unit(0, 1);
-  std::vector<grisaille_shot> all;
+  std::vector<Shot> all;
   for (size_t i = 0; i < count; ++i) {
     const glm::dvec3 origin(3 * unit(random) - 1.5, 0.2 + 2 * unit(random), 0.2 + 2 * unit(random));
     const bool wall = i % 2 == 0;

@@ -11,7 +11,7 @@
 #include "core/frame/picture_attachments.h"
 #include "core/scene/camera.h"
 #include "core/scene/scene.h"
-#include "grisaille/effect.h"
+#include "lab/paint/shot.h"
 
 namespace grisaille::lab::stability {
 
@@ -52,10 +52,10 @@ frame::Pictures makePictures(const Scenery& scenery, const scene::Camera& camera
 
 // Shots at a corner or a room from where every muzzle sees the whole of a corner: directions,
 // colours, and for some a range of their own.
-std::vector<grisaille_shot> makeShots(const Scenery& scenery, size_t count, uint32_t seed);
+std::vector<Shot> makeShots(const Scenery& scenery, size_t count, uint32_t seed);
 
 // One shot. `range` in metres, 0: the effect's own.
-grisaille_shot shotAt(const glm::dvec3& origin, const glm::dvec3& target, const glm::vec3& color,
-                      double range = 0);
+Shot shotAt(const glm::dvec3& origin, const glm::dvec3& target, const glm::vec3& color,
+            double range = 0);
 
 }  // namespace grisaille::lab::stability

@@ -1,0 +1,95 @@
+// SPDX-License-Identifier: MIT
+// grisaille-lab paint-mask: what shots ought to cover, by rays.
+#include <fmt/format.h>
+
+#include <memory>
+
+#include "app/options/camera_option.h"
+#include "app/options/size.h"
+#include "app/settings/load_effects.h"
+#include "core/base/error.h"
+#include "core/image/image.h"
+#include "lab/command.h"
+#include "lab/paint/paint_mask.h"
+
+namespace grisaille::lab {
+namespace {
+
+constexpr double kFarthest = 1e6;  // metres, as sspm's paint_range
+
+struct PaintMaskOptions {
+  std::string scene, camera, size, load, write;
+  std::vector<std::string> pluginPaths;
+  double paintRange = 0;  // metres; 0: not given
+};
+
+std::vector<Shot> shotsFrom(const PaintMaskOptions& options) {
+  const auto registry = app::loadEffects(options.pluginPaths);
+  std::vector<Shot> shots = loadShots(*registry, options.load);
+  for (size_t i = 0; options.paintRange == 0 && i < shots.size(); ++i) {
+    if (shots[i].range > 0) continue;
+    throw Error(ErrorId::kUsage, "shot {} of {} has no range, and --paint-range gives none", i,
+                options.load);
+  }
+  return shots;
+}
+
+void writePaintMask(const PaintMaskOptions& options) {
+  image::checkWritable(options.write);
+  const double range = options.paintRange;
+  if (range != 0 && !(range > 0 && range <= kFarthest)) {
+    throw Error(ErrorId::kUsage, "--paint-range is {:g}, not metres over 0 and up to {:g}", range,
+                kFarthest);
+  }
+  const std::vector<Shot> shots = shotsFrom(options);
+  glm::uvec2 size(0);
+  if (!options.size.empty()) size = app::parseSize(options.size);
+  scene::Camera camera;
+  if (!options.camera.empty()) camera = app::cameraOf(options.camera, "--camera");
+  const bool atrium = options.scene.empty();
+  const scene::Scene scene = atrium ? scene::makeAtrium() : scene::loadGltf(options.scene);
+  if (options.camera.empty()) {
+    camera = atrium ? scene::atriumCamera() : scene::overviewCamera(scene.bounds);
+  }
+  if (size.x == 0) size = camera.size.x > 0 ? camera.size : glm::uvec2(1280, 720);
+
+  const trace::RayTracer tracer(scene, camera.eye);
+  const std::vector<uint8_t> mask =
+      paintMask(tracer, tracer.castPrimary(camera, size.x, size.y), shots, range);
+  image::write({.width = size.x,
+                .height = size.y,
+                .channels = 1,
+                .pixels = std::vector<float>(mask.begin(), mask.end())},
+               options.write, {.transfer = image::Transfer::kData});
+  fmt::print("wrote {}\n", options.write);
+}
+
+}  // namespace
+
+void addPaintMask(CLI::App& program) {
+  auto options = std::make_shared<PaintMaskOptions>();
+  CLI::App* command = program.add_subcommand(
+      "paint-mask", "Trace which pixels shots of paint should cover: 1 there, 0 elsewhere");
+  command->add_option("scene", options->scene,
+                      "A .gltf or .glb file; without one, the built-in atrium");
+  command
+      ->add_option("--camera", options->camera,
+                   "A camera file: JSON with eye, target, fovy_degrees; or that JSON itself")
+      ->type_name("FILE|{...}");
+  command->add_option("--size", options->size, "Pixels; default: the camera's size, else 1280x720")
+      ->type_name("WxH");
+  command->add_option("--load", options->load, "The shots: objects of sspm")
+      ->type_name("FILE.json")
+      ->required();
+  command->add_option("--paint-range", options->paintRange, "Metres, for shots without a range")
+      ->type_name("R");
+  command->add_option("--write", options->write, "The mask, one channel, as .exr or .png")
+      ->type_name("FILE")
+      ->required();
+  command->add_option("--plugin-path", options->pluginPaths, "A further folder of effects")
+      ->type_name("DIR")
+      ->allow_extra_args(false);
+  command->callback([options] { writePaintMask(*options); });
+}
+
+}  // namespace grisaille::lab
