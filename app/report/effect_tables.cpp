@@ -49,10 +49,13 @@ std::string defaultText(const objects::Field& field) {
 }
 
 std::string placementText(const objects::Table& table) {
-  return fmt::format(table.placement == GRISAILLE_PLACE_RAY
-                         ? "placing sets {} to the camera's eye and {} to the pixel's ray"
-                         : "placing sets {} to the surface that is seen and {} to its normal",
-                     table.fields[table.point_field].key, table.fields[table.direction_field].key);
+  const char* point = table.fields[table.point_field].key;
+  const char* direction = table.fields[table.direction_field].key;
+  return table.placement == GRISAILLE_PLACE_RAY
+             ? fmt::format("placing sets {} to the camera's eye, {} to the pixel's ray", point,
+                           direction)
+             : fmt::format("placing sets {} to the surface that is seen, {} to its normal", point,
+                           direction);
 }
 
 nlohmann::ordered_json jsonOf(const objects::Table& table) {
