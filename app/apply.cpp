@@ -1,7 +1,6 @@
 // SPDX-License-Identifier: MIT
 // grisaille apply: effects on pictures made elsewhere, one or a numbered sequence.
 #include <fmt/format.h>
-#include <unistd.h>
 
 #include <algorithm>
 #include <cmath>
@@ -196,7 +195,8 @@ void applyFrames(ApplyJob& job, LoadedFrame loaded, gpu::Device& device) {
   frame::PictureAttachments source(&device);
   frame::Renderer renderer(device, source);
   {
-    truth::Progress progress("apply", job.frames.size() > 1 && isatty(STDERR_FILENO) == 1);
+    truth::Progress progress(
+        "apply", job.frames.size() > 1 ? truth::usualProgress() : truth::ProgressStyle::kNone);
     size_t done = 0;
     for (const int number : job.frames) {
       progress.show({.done = static_cast<double>(done++),

@@ -1,7 +1,6 @@
 // SPDX-License-Identifier: MIT
 // grisaille measure: what settings cost, and how wrong they are.
 #include <fmt/format.h>
-#include <unistd.h>
 
 #include <filesystem>
 #include <memory>
@@ -74,7 +73,7 @@ std::string tracePath(const MeasureOptions& options, MeasureJob& job) {
     key += "path " + scene::cameraJson(camera) + "\n";
     job.pathTruth.push_back(study::traceFrame(*subject.scene, camera, subject.size,
                                               options.subject.radius, options.subject.samples,
-                                              isatty(STDERR_FILENO) == 1));
+                                              truth::usualProgress()));
   }
   return key;
 }
@@ -87,7 +86,7 @@ bool measureOn(const std::string& backend, const MeasureOptions& options, const 
                                                  .timed = true,
                                                  .message = messages.sink()});
   printDevice(device->info());
-  truth::Progress progress(backend, isatty(STDERR_FILENO) == 1);
+  truth::Progress progress(backend, truth::usualProgress());
   study::Study study(desc, *device, job.settings);
   return study.run(
       [&](size_t done, size_t all) {

@@ -1,7 +1,6 @@
 // SPDX-License-Identifier: MIT
 // grisaille truth: what effects are measured against, by rays.
 #include <fmt/format.h>
-#include <unistd.h>
 
 #include <algorithm>
 #include <array>
@@ -17,6 +16,7 @@
 #include "app/options/size.h"
 #include "app/truth/content_hash.h"
 #include "app/truth/occlusion_truth.h"
+#include "app/truth/progress.h"
 #include "app/truth/refine.h"
 #include "core/base/error.h"
 #include "core/image/image.h"
@@ -148,7 +148,7 @@ class Truth {
     truth::Cache cache(options_.noCache ? std::filesystem::path() : truth::cacheFolder(), key);
     return truth::refine(name, hits_, addRays,
                          {.samples = options_.samples, .error = options_.error}, cache,
-                         options_.progress || isatty(STDERR_FILENO) == 1);
+                         options_.progress ? truth::ProgressStyle::kBar : truth::usualProgress());
   }
 
   const TruthOptions& options_;

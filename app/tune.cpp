@@ -1,12 +1,12 @@
 // SPDX-License-Identifier: MIT
 // grisaille tune: the cheapest setting that is good enough, or the best within a budget.
 #include <fmt/format.h>
-#include <unistd.h>
 
 #include <algorithm>
 #include <cmath>
 #include <map>
 #include <memory>
+#include <nlohmann/json.hpp>
 
 #include "app/command.h"
 #include "app/options/camera_option.h"
@@ -32,6 +32,7 @@ struct TuneOptions {
   std::string backend = "opengl", device, out;
   double maxError = 0, budget = 0;
   uint32_t random = 3, seed = 1, evaluations = 80;
+  bool json = false;
 };
 
 // The parameters that may change: those of --vary, else those of the effects' presets and the
@@ -215,7 +216,7 @@ double gridSize(const std::vector<study::Axis>& axes) {
 study::Found find(const TuneOptions& options, const LoadedSubject& subject,
                   const std::vector<study::Axis>& axes, const study::Wish& wish, Bench& bench) {
   const Starts starts(subject.subject(), axes);
-  truth::Progress progress("tune", options.subject.progress || isatty(STDERR_FILENO) == 1);
+  truth::Progress progress("tune", options.subject.progress);
   double done = 0;
   const auto told = [&](double error) {
     progress.show({++done, static_cast<double>(options.evaluations),
@@ -246,21 +247,78 @@ void writeSetting(const TuneOptions& options, const LoadedSubject& subject,
   writeFileAtomically(options.out, story + settingsToml(settings));
 }
 
-// The mean RMSE of cameras that were not tuned on; 0: there are none.
-double validate(const TuneOptions& options, const std::vector<scene::Camera>& given,
-                const LoadedSubject& subject, const study::Setting& setting, gpu::Device& device) {
+// What a search has found.
+struct Tuned {
+  study::Found found;
+  study::Setting setting;
+  std::vector<study::CameraErrors> unseen;  // on cameras that were not tuned on
+  std::vector<scene::Camera> cameras;       // of them
+  std::string result, effort;               // a line each
+
+  // The mean of the unseen cameras; 0: there are none.
+  double unseenRmse() const {
+    double sum = 0;
+    for (const study::CameraErrors& one : unseen) sum += one.rmse;
+    return unseen.empty() ? 0 : sum / static_cast<double>(unseen.size());
+  }
+  // How much worse that is than what was promised; "": it is not.
+  std::string warning(const study::Wish& wish) const {
+    const double promised = wish.maxError > 0 ? wish.maxError : found.best.error;
+    if (unseenRmse() <= promised) return "";
+    return fmt::format("that is {:.4f} more than {:.4f}: tune on cameras like them",
+                       unseenRmse() - promised, promised);
+  }
+};
+
+void validate(const TuneOptions& options, const std::vector<scene::Camera>& given,
+              const LoadedSubject& subject, gpu::Device& device, Tuned& tuned) {
   study::Subject unseen = subject.subject();
   unseen.views = unseenViews(options, given, subject);
-  if (unseen.views.empty()) return 0;
+  if (unseen.views.empty()) return;
   study::Measurer measurer(unseen, device);
-  double sum = 0;
-  const std::vector<study::CameraErrors> errors = measurer.errors(*measurer.start(setting));
-  for (size_t i = 0; i < errors.size(); ++i) {
-    fmt::print("  {}: RMSE {:.4f}  {}\n", errors[i].camera, errors[i].rmse,
-               scene::cameraJson(unseen.views[i].camera));
-    sum += errors[i].rmse;
+  tuned.unseen = measurer.errors(*measurer.start(tuned.setting));
+  for (const study::View& view : unseen.views) tuned.cameras.push_back(view.camera);
+}
+
+void describe(const LoadedSubject& subject, const std::vector<study::Axis>& axes,
+              const gpu::DeviceInfo& info, Tuned& tuned) {
+  const study::Found& found = tuned.found;
+  const study::Subject& of = subject.subject();
+  tuned.result = fmt::format("RMSE {:.4f} at {:.3f} ms ({} clock), {}x{} pixels, {} cameras",
+                             found.best.error, found.best.cost, gpu::clockName(info.clock),
+                             of.size.x, of.size.y, of.views.size());
+  tuned.effort = fmt::format(
+      "{} evaluations: {} starts, {} steps ({} of them without a clock); a grid of such steps over "
+      "{} parameters has {:.2g}",
+      found.starts + found.steps, found.starts, found.steps, found.costsSaved, axes.size(),
+      gridSize(axes));
+}
+
+// One object on one line.
+void printJson(const Tuned& tuned, const study::Wish& wish) {
+  nlohmann::json setting = nlohmann::json::object();
+  for (const effect::ParameterValue& one : tuned.setting) setting[one.name.text()] = one.value;
+  const nlohmann::json line = {
+      {"setting", setting},
+      {"rmse", tuned.found.best.error},
+      {"milliseconds", tuned.found.best.cost},
+      {"evaluations", tuned.found.starts + tuned.found.steps},
+      {"unseen_rmse", tuned.unseen.empty() ? nlohmann::json() : nlohmann::json(tuned.unseenRmse())},
+      {"warning", tuned.unseen.empty() ? "" : tuned.warning(wish)}};
+  fmt::print("{}\n", line.dump());
+}
+
+void printText(const LoadedSubject& subject, const Tuned& tuned, const study::Wish& wish) {
+  fmt::print("{}\n  {}\n{}\n", tuned.result,
+             study::nameOf(study::textOf(subject.registry(), tuned.setting)), tuned.effort);
+  for (size_t i = 0; i < tuned.unseen.size(); ++i) {
+    fmt::print("  {}: RMSE {:.4f}  {}\n", tuned.unseen[i].camera, tuned.unseen[i].rmse,
+               scene::cameraJson(tuned.cameras[i]));
   }
-  return sum / static_cast<double>(unseen.views.size());
+  if (tuned.unseen.empty()) return;
+  fmt::print("validated on cameras not tuned on: RMSE {:.4f}\n", tuned.unseenRmse());
+  const std::string warning = tuned.warning(wish);
+  if (!warning.empty()) fmt::print(stderr, "warning: {}\n", warning);
 }
 
 void tune(const TuneOptions& options) {
@@ -269,8 +327,8 @@ void tune(const TuneOptions& options) {
   const std::vector<study::Axis> axes = axesOf(options, subject.subject());
   if (axes.empty()) throw Error(ErrorId::kUsage, "there is no parameter to vary");
   const std::vector<scene::Camera> given = givenCameras(options);
-  requireWritable(options.out);
-  // What cannot start says so before truth is traced, which takes long.
+  if (!options.out.empty()) requireWritable(options.out);
+  // A device that cannot start says so before truth is traced, which takes long.
   DriverMessages messages;
   const auto device = backends::create(
       options.backend, {.device = options.device, .timed = true, .message = messages.sink()});
@@ -278,44 +336,39 @@ void tune(const TuneOptions& options) {
   const truth::Interruption interruption;
   subject.trace();
   const gpu::DeviceInfo& info = device->info();
-  printDevice(info);
+  if (!options.json) printDevice(info);
   Bench bench(subject.subject(), axes, *device);
-  const study::Found found = find(options, subject, axes, wish, bench);
-  if (found.stopped) throw truth::Interrupted();
-  const study::Evaluated& best = found.best;
-  if (!found.meetsWish) {
+  Tuned tuned;
+  tuned.found = find(options, subject, axes, wish, bench);
+  const study::Evaluated& best = tuned.found.best;
+  if (tuned.found.stopped) throw truth::Interrupted();
+  if (!tuned.found.meetsWish) {
     throw Error(ErrorId::kTuneImpossible, "{} was not found; nearest: RMSE {:.4f} at {:.3f} ms",
                 wishText(wish), best.error, best.cost);
   }
-  const study::Setting setting = bench.settingOf(best.point);
-  const std::string result =
-      fmt::format("RMSE {:.4f} at {:.3f} ms ({} clock), {}x{} pixels, {} cameras", best.error,
-                  best.cost, gpu::clockName(info.clock), subject.subject().size.x,
-                  subject.subject().size.y, subject.subject().views.size());
-  const std::string effort = fmt::format(
-      "{} evaluations: {} starts, {} steps ({} of them without a clock); a grid of such steps over "
-      "{} parameters has {:.2g}",
-      found.starts + found.steps, found.starts, found.steps, found.costsSaved, axes.size(),
-      gridSize(axes));
-  fmt::print("{}\n  {}\n{}\n", result, study::nameOf(study::textOf(subject.registry(), setting)),
-             effort);
-  const double unseen = validate(options, given, subject, setting, *device);
-  std::string story = fmt::format("# grisaille tune: {}; {}\n# {}: {}\n", wishText(wish), result,
-                                  info.backend, info.name);
-  if (unseen > 0) {
-    fmt::print("validated on cameras not tuned on: RMSE {:.4f}\n", unseen);
-    story += fmt::format("# on cameras not tuned on: RMSE {:.4f}\n", unseen);
-    const double promised = wish.maxError > 0 ? wish.maxError : best.error;
-    if (unseen > promised) {
-      fmt::print(stderr, "warning: that is {:.4f} more than {:.4f}: tune on cameras like them\n",
-                 unseen - promised, promised);
-    }
+  tuned.setting = bench.settingOf(best.point);
+  describe(subject, axes, info, tuned);
+  validate(options, given, subject, *device, tuned);
+  if (options.json) {
+    printJson(tuned, wish);
+  } else {
+    printText(subject, tuned, wish);
   }
-  writeSetting(options, subject, setting, story);
-  fmt::print("wrote {}\n", options.out);
+  if (options.out.empty()) return;
+  std::string story = fmt::format("# grisaille tune: {}; {}\n# {}: {}\n", wishText(wish),
+                                  tuned.result, info.backend, info.name);
+  if (!tuned.unseen.empty()) {
+    story += fmt::format("# on cameras not tuned on: RMSE {:.4f}\n", tuned.unseenRmse());
+  }
+  writeSetting(options, subject, tuned.setting, story);
+  if (!options.json) fmt::print("wrote {}\n", options.out);
 }
 
-void checkWish(const TuneOptions& options) {
+void checkOptions(TuneOptions& options) {
+  if (options.json) options.subject.progress = truth::ProgressStyle::kJson;
+  if (options.out.empty() && !options.json) {
+    throw Error(ErrorId::kUsage, "give --out, or --json for the result on standard output");
+  }
   if ((options.maxError > 0) == (options.budget > 0)) {
     throw Error(ErrorId::kUsage, "give either --max-error or --budget-ms");
   }
@@ -359,13 +412,12 @@ void addTune(CLI::App& program) {
       ->capture_default_str();
   command->add_option("--backend", options->backend, "opengl or vulkan")->capture_default_str();
   command->add_option("--device", options->device, "Number or part of a device's name");
-  command->add_option("--out", options->out, "The settings file")
-      ->type_name("FILE.toml")
-      ->required();
-  command->add_flag("--progress", options->subject.progress,
-                    "Draw progress bars though standard error is no terminal");
+  command->add_option("--out", options->out, "The settings file; not needed with --json")
+      ->type_name("FILE.toml");
+  command->add_flag("--json", options->json,
+                    "Progress and result as JSON on standard output, an object a line");
   command->callback([options] {
-    checkWish(*options);
+    checkOptions(*options);
     tune(*options);
   });
 }

@@ -24,7 +24,7 @@ void addView(CLI::App& program) {
   auto options = std::make_shared<ViewOptions>();
   viewer::SessionOptions& session = options->session;
   CLI::App* command =
-      program.add_subcommand("view", "Open a window on a scene: look, tune, shoot paint");
+      program.add_subcommand("view", "Open a window on a scene: look, tune, place objects");
   command->add_option("scene", session.scene, "A .gltf or .glb file; default: the built-in atrium");
   command->add_option("--camera", session.camera,
                       "A camera file or its JSON; default: one that sees the scene");
@@ -59,7 +59,7 @@ void addView(CLI::App& program) {
       ->check(positiveNumber());
   command->add_option("--truth-rays", session.truthRays, "Rays a pixel in the end; default: 256")
       ->check(wholeNumberFrom(viewer::TruthSettings::kLeastRays, viewer::TruthSettings::kMostRays));
-  command->add_option("--load", session.loads, "Shots for an effect that takes them")
+  command->add_option("--load", session.loads, "Objects of an effect, as a file that --save wrote")
       ->type_name("EFFECT=FILE")
       ->allow_extra_args(false);
   command->add_option("--plugin-path", session.pluginPaths, "A further folder of effects")
@@ -73,15 +73,15 @@ void addView(CLI::App& program) {
       ->type_name("FILE");
   command->add_option("--frames", options->frames,
                       "End after so many whole frames; default: when the window is closed");
-  command->add_option("--screenshot", options->screenshot, "Write what the window holds at the end")
+  command->add_option("--capture", options->capture, "Write what the window holds at the end")
       ->type_name("FILE.png");
   command->add_flag("--check", options->check,
                     "Validate every call, in the layer and in the driver");
   command->callback([options, effects] {
     options->session.effectsGiven = effects->count() > 0;
     if (!options->windowSize.empty()) options->size = parseSize(options->windowSize);
-    if (!options->screenshot.empty()) image::checkWritable(options->screenshot);
-    const NamedOutput outputs[] = {{"--screenshot " + options->screenshot, options->screenshot},
+    if (!options->capture.empty()) image::checkWritable(options->capture);
+    const NamedOutput outputs[] = {{"--capture " + options->capture, options->capture},
                                    {"--layout " + options->layoutFile, options->layoutFile}};
     requireDistinct(outputs);
     DriverMessages messages;

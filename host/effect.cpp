@@ -53,6 +53,7 @@ grisaille_host_effect::grisaille_host_effect(grisaille_host_device& of,
     : device(of), rows_(desc.rows), chain_(chainOf(of, desc)), attachments_(*of.gpu, of.kernels) {
   of.gpu->requireUsable();
   chain_.start(*of.gpu);
+  chain_.create();
   host::checkEnum(desc.rows, 2, "desc.rows");
   host::checkReserved(desc.reserved, "desc.reserved");
   if (desc.output_count > 0) host::present(desc.outputs, "desc.outputs");

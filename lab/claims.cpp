@@ -1,7 +1,6 @@
 // SPDX-License-Identifier: MIT
 // grisaille-lab claims: what is said of effects, measured.
 #include <fmt/format.h>
-#include <unistd.h>
 
 #include <algorithm>
 #include <cstdio>
@@ -14,6 +13,7 @@
 #include "app/report/machine.h"
 #include "app/settings/load_effects.h"
 #include "app/truth/interruption.h"
+#include "app/truth/progress.h"
 #include "backends/backends.h"
 #include "core/base/atomic_file.h"
 #include "core/base/error.h"
@@ -123,7 +123,7 @@ void runClaims(const ClaimsOptions& options) {
   const claims::ClaimsDesc desc{.registry = registry.get(),
                                 .samples = options.samples,
                                 .rounds = options.rounds,
-                                .progress = isatty(STDERR_FILENO) == 1};
+                                .progress = app::truth::usualProgress()};
   app::requireDevices(names, options.device);
   requireWritableFolder(options.out);
   const app::truth::Interruption interruption;

@@ -1,7 +1,6 @@
 // SPDX-License-Identifier: MIT
 // grisaille-lab stability: every effect at the edges of what is allowed, against its oracle.
 #include <fmt/format.h>
-#include <unistd.h>
 
 #include <algorithm>
 #include <filesystem>
@@ -74,7 +73,7 @@ std::string commandOf(const StabilityOptions& options) {
 void runCases(const fs::path& done, stability::Runner& runner, stability::Sweep& sweep) {
   std::string machine = sweep.commit;
   for (const std::string& device : sweep.devices) machine += "\n" + device;
-  app::truth::Progress progress("stability", isatty(STDERR_FILENO) == 1);
+  app::truth::Progress progress("stability", app::truth::usualProgress());
   for (size_t i = 0; i < sweep.cases.size(); ++i) {
     const stability::Case& one = sweep.cases[i];
     progress.show({static_cast<double>(i), static_cast<double>(sweep.cases.size()),
@@ -101,7 +100,7 @@ void runCases(const fs::path& done, stability::Runner& runner, stability::Sweep&
 }
 
 void runMovements(stability::Runner& runner, bool quick, stability::Sweep& sweep) {
-  app::truth::Progress progress("movement", isatty(STDERR_FILENO) == 1);
+  app::truth::Progress progress("movement", app::truth::usualProgress());
   std::vector<stability::MovementRow> rows = stability::movementRows(quick);
   for (size_t i = 0; i < rows.size(); ++i) {
     progress.show({static_cast<double>(i), static_cast<double>(rows.size()),

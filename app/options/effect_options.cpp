@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: MIT
 #include "app/options/effect_options.h"
 
-#include "app/settings/presets.h"
+#include "app/settings/chosen_effects.h"
 
 namespace grisaille::app {
 
@@ -51,9 +51,7 @@ ChosenEffects::ChosenEffects(const EffectOptions& options)
                                   : settings.effects          ? *settings.effects
                                                               : registry->defaults();
   std::erase(keys, "");
-  chain = effect::Chain(effect::Selection(*registry, keys));
-  applyPresets(options.presets, chain.selection);
-  applySettings(settings, chain.selection);
+  chain = effect::Chain(chosenEffects(*registry, keys, options.presets, settings));
   for (const std::string& set : options.sets) chain.selection.set(effect::parseAssignment(set));
   const std::string& ground =
       given(options.surfaceGiven) || !settings.surface ? options.surface : *settings.surface;

@@ -27,7 +27,7 @@ constexpr const char* kFileForm = "EFFECT=FILE.json";
 constexpr const char* kAddForm = "EFFECT=X,Y[,FIELD=VALUE...] or EFFECT={...}";
 
 objects::ObjectList& listOf(effect::Chain& chain, const std::string& effect) {
-  chain.selection.values(effect);  // throws where it is not active
+  if (chain.selection.find(effect) == nullptr) chain.selection.values(effect);  // throws
   objects::ObjectList* list = chain.objects(effect);
   if (list != nullptr) return *list;
   throw Error(ErrorId::kEffectTakesNoObjects, "effect '{}' has no objects that users make", effect);

@@ -8,6 +8,7 @@
 #include <vector>
 
 #include "app/study/measurer.h"
+#include "app/truth/progress.h"
 
 namespace grisaille::app {
 
@@ -16,7 +17,7 @@ struct SubjectOptions {
   std::vector<std::string> cameras, references, loads, sets, effects, pluginPaths;
   double radius = 0.5;     // metres
   uint32_t samples = 256;  // rays a pixel
-  bool progress = false;   // bars also where standard error is no terminal
+  truth::ProgressStyle progress = truth::usualProgress();
 
   void addTo(CLI::App& command);
 };

@@ -3,11 +3,14 @@
 
 #include <fmt/format.h>
 
+#include <algorithm>
 #include <nlohmann/json.hpp>
 #include <vector>
 
 #include "app/settings/presets.h"
 #include "core/base/error.h"
+#include "core/effect/values.h"
+#include "core/objects/object.h"
 
 namespace grisaille::app {
 namespace {
@@ -15,12 +18,6 @@ namespace {
 const char* typeName(const grisaille_param_desc& param) {
   static constexpr const char* kNames[] = {"float", "int", "bool", "enum"};
   return kNames[param.type];
-}
-
-std::string valueText(const grisaille_param_desc& param, double value) {
-  if (param.type == GRISAILLE_PARAM_ENUM) return param.enum_keys[static_cast<size_t>(value)];
-  if (param.type == GRISAILLE_PARAM_BOOL) return value != 0 ? "true" : "false";
-  return fmt::format("{}", value);
 }
 
 // "1 ... 256 px" or "box | edge_aware".
@@ -31,6 +28,53 @@ std::string rangeText(const grisaille_param_desc& param) {
   }
   return fmt::format("{} ... {}{}{}", param.hard_min, param.hard_max, *param.unit != 0 ? " " : "",
                      param.unit);
+}
+
+const char* typeName(const objects::Field& field) {
+  static constexpr const char* kNames[] = {"number",    "colour", "point",
+                                           "direction", "text",   "file"};
+  return kNames[field.type];
+}
+
+// "0 ... 1000000 m", or the type where it has no range of its own.
+std::string rangeText(const objects::Field& field) {
+  if (field.type != GRISAILLE_FIELD_NUMBER) return typeName(field);
+  return fmt::format("{} ... {}{}{}", field.min, field.max, *field.unit != 0 ? " " : "",
+                     field.unit);
+}
+
+std::string defaultText(const objects::Field& field) {
+  if ((field.flags & GRISAILLE_FIELD_REQUIRED) != 0) return "required";
+  return objects::textOf(field, objects::defaultOf(field));
+}
+
+std::string placementText(const objects::Table& table) {
+  const char* point = table.fields[table.point_field].key;
+  const char* direction = table.fields[table.direction_field].key;
+  return table.placement == GRISAILLE_PLACE_RAY
+             ? fmt::format("placing sets {} to the camera's eye, {} to the pixel's ray", point,
+                           direction)
+             : fmt::format("placing sets {} to the surface that is seen, {} to its normal", point,
+                           direction);
+}
+
+nlohmann::ordered_json jsonOf(const objects::Table& table) {
+  nlohmann::ordered_json json = {
+      {"key", table.key},
+      {"label", table.label},
+      {"tooltip", table.tooltip},
+      {"placement", table.placement == GRISAILLE_PLACE_RAY ? "ray" : "surface"},
+      {"fields", nlohmann::json::array()}};
+  for (const objects::Field& field : objects::fieldsOf(table)) {
+    nlohmann::ordered_json one = {
+        {"key", field.key},         {"label", field.label},
+        {"type", typeName(field)},  {"unit", field.unit},
+        {"tooltip", field.tooltip}, {"required", (field.flags & GRISAILLE_FIELD_REQUIRED) != 0}};
+    if (field.type == GRISAILLE_FIELD_NUMBER) one["range"] = {field.min, field.max};
+    one["default"] = objects::textOf(field, objects::defaultOf(field));
+    json["fields"].push_back(std::move(one));
+  }
+  return json;
 }
 
 // With its defaults, for all outputs; an effect that cannot tell does not keep the others from it.
@@ -51,7 +95,7 @@ nlohmann::ordered_json jsonOf(const grisaille_param_desc& param) {
       {"type", typeName(param)},  {"unit", param.unit},
       {"tooltip", param.tooltip}, {"advanced", (param.flags & GRISAILLE_PARAM_ADVANCED) != 0}};
   if (param.type == GRISAILLE_PARAM_ENUM) {
-    json["default"] = valueText(param, param.default_value);
+    json["default"] = effect::textOf(param, param.default_value);
     for (uint32_t i = 0; i < param.enum_count; ++i) {
       json["values"].push_back({{"key", param.enum_keys[i]}, {"label", param.enum_labels[i]}});
     }
@@ -111,16 +155,28 @@ nlohmann::ordered_json presetsJson(const effect::Effect& effect) {
 }  // namespace
 
 std::string effectsText(const effect::Registry& registry) {
+  const std::vector<std::string> defaults = registry.defaults();
   std::string text;
   for (const effect::Effect& effect : registry.effects()) {
-    text += fmt::format("{} {}: {}\n  {}\n  reads {}\n", effect.desc->key, effect.desc->version,
-                        effect.desc->tooltip, effect.path, readsText(effect));
+    const bool runs = std::ranges::count(defaults, effect.key()) > 0;
+    text += fmt::format("{} {}: {}\n  {}{}\n  reads {}\n", effect.desc->key, effect.desc->version,
+                        effect.desc->tooltip, runs ? "runs where no effects are named\n  " : "",
+                        effect.path, readsText(effect));
     for (const grisaille_param_desc& param : effect.params()) {
-      text += fmt::format("  {:<14} {:<10} {:<32} {}\n", param.key,
-                          valueText(param, param.default_value), rangeText(param), param.tooltip);
+      text +=
+          fmt::format("  {:<14} {:<10} {:<32} {}\n", param.key,
+                      effect::textOf(param, param.default_value), rangeText(param), param.tooltip);
     }
     for (const grisaille_output_desc& output : effect.outputs()) {
       text += fmt::format("  writes {}: {}\n", output.key, output.tooltip);
+    }
+    if (effect.objects() != nullptr) {
+      const objects::Table& table = *effect.objects();
+      text += fmt::format("  objects {}: {}; {}\n", table.key, table.tooltip, placementText(table));
+      for (const objects::Field& field : objects::fieldsOf(table)) {
+        text += fmt::format("    {:<12} {:<10} {:<32} {}\n", field.key, defaultText(field),
+                            rangeText(field), field.tooltip);
+      }
     }
     text += presetsText(effect);
   }
@@ -131,6 +187,7 @@ std::string effectsText(const effect::Registry& registry) {
 }
 
 std::string effectsJson(const effect::Registry& registry) {
+  const std::vector<std::string> defaults = registry.defaults();
   nlohmann::ordered_json json = {{"effects", nlohmann::json::array()},
                                  {"refused", nlohmann::json::array()}};
   for (const effect::Effect& effect : registry.effects()) {
@@ -148,6 +205,8 @@ std::string effectsJson(const effect::Registry& registry) {
     for (const grisaille_output_desc& output : effect.outputs()) {
       entry["outputs"].push_back({{"key", output.key}, {"tooltip", output.tooltip}});
     }
+    if (effect.objects() != nullptr) entry["objects"] = jsonOf(*effect.objects());
+    entry["default"] = std::ranges::count(defaults, effect.key()) > 0;
     json["effects"].push_back(std::move(entry));
   }
   for (const effect::Refused& refused : registry.refused()) {
@@ -171,12 +230,21 @@ std::string effectMarkdown(const effect::Effect& effect) {
   for (const grisaille_param_desc& param : effect.params()) {
     text += fmt::format("| `{}`{} | {} | {} | {} |\n", param.key,
                         (param.flags & GRISAILLE_PARAM_ADVANCED) != 0 ? " (advanced)" : "",
-                        valueText(param, param.default_value), cell(rangeText(param)),
+                        effect::textOf(param, param.default_value), cell(rangeText(param)),
                         cell(param.tooltip));
   }
   text += "\n| output | what it holds |\n|---|---|\n";
   for (const grisaille_output_desc& output : effect.outputs()) {
     text += fmt::format("| `{}` | {} |\n", output.key, cell(output.tooltip));
+  }
+  if (effect.objects() != nullptr) {
+    const objects::Table& table = *effect.objects();
+    text += fmt::format("\n| field of `{}` | default | range | what it is |\n|---|---|---|---|\n",
+                        table.key);
+    for (const objects::Field& field : objects::fieldsOf(table)) {
+      text += fmt::format("| `{}` | {} | {} | {} |\n", field.key, cell(defaultText(field)),
+                          cell(rangeText(field)), cell(field.tooltip));
+    }
   }
   const Presets presets = loadPresets(effect);
   if (presets.all.empty()) return text;

@@ -17,7 +17,8 @@ void checkPathSize(const std::string& name, size_t frames, glm::uvec2 size) {
 }
 
 trace::FlickerFrame traceFrame(const scene::Scene& scene, const scene::Camera& camera,
-                               glm::uvec2 size, double radius, uint32_t samples, bool progress) {
+                               glm::uvec2 size, double radius, uint32_t samples,
+                               truth::ProgressStyle progress) {
   truth::OcclusionTruth traced =
       truth::traceOcclusion(scene, camera, size, radius, samples, progress);
   trace::FlickerFrame frame{.camera = camera,

@@ -6,6 +6,7 @@
 #include <string>
 #include <vector>
 
+#include "app/truth/progress.h"
 #include "core/scene/camera_path.h"
 #include "core/trace/flicker.h"
 
@@ -20,7 +21,8 @@ void checkPathSize(const std::string& name, size_t frames, glm::uvec2 size);
 // The truth of one camera, as truth::traceOcclusion() has it: one channel, NaN where there is no
 // surface. `ao` is empty. Throws Interrupted.
 trace::FlickerFrame traceFrame(const scene::Scene& scene, const scene::Camera& camera,
-                               glm::uvec2 size, double radius, uint32_t samples, bool progress);
+                               glm::uvec2 size, double radius, uint32_t samples,
+                               truth::ProgressStyle progress);
 
 // What a setting shows of a camera, one channel.
 using ShowCamera = std::function<image::Image(const scene::Camera&)>;

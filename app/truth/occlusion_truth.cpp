@@ -21,8 +21,8 @@ std::string keyOf(const std::string& estimate, uint64_t scene, const scene::Came
 }
 
 OcclusionTruth traceOcclusion(const scene::Scene& scene, const scene::Camera& camera,
-                              glm::uvec2 size, double radius, uint32_t samples, bool progress,
-                              const std::string& name) {
+                              glm::uvec2 size, double radius, uint32_t samples,
+                              ProgressStyle progress, const std::string& name) {
   scene::Camera sized = camera;
   sized.size = size;
   const trace::RayTracer tracer(scene, camera.eye);

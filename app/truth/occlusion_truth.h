@@ -5,6 +5,7 @@
 #include <string>
 #include <vector>
 
+#include "app/truth/progress.h"
 #include "core/image/image.h"
 #include "core/scene/camera.h"
 #include "core/trace/ray_tracer.h"
@@ -28,7 +29,7 @@ struct OcclusionTruth {
 // As `grisaille truth --write ao=...` has it, with its cache and the same seed. `name` is for the
 // progress bar. Throws Interrupted.
 OcclusionTruth traceOcclusion(const scene::Scene& scene, const scene::Camera& camera,
-                              glm::uvec2 size, double radius, uint32_t samples, bool progress,
-                              const std::string& name = "truth");
+                              glm::uvec2 size, double radius, uint32_t samples,
+                              ProgressStyle progress, const std::string& name = "truth");
 
 }  // namespace grisaille::app::truth

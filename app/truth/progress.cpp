@@ -2,20 +2,33 @@
 #include "app/truth/progress.h"
 
 #include <fmt/format.h>
+#include <unistd.h>
 
 #include <algorithm>
 #include <cstdio>
+#include <nlohmann/json.hpp>
 
 namespace grisaille::app::truth {
+
+ProgressStyle usualProgress() {
+  return isatty(STDERR_FILENO) == 1 ? ProgressStyle::kBar : ProgressStyle::kNone;
+}
 
 void Progress::show(const State& state) {
   constexpr double kPause = 0.2;  // seconds
   constexpr size_t kCells = 24;
   const Clock::time_point now = Clock::now();
-  if (!shown_ || std::chrono::duration<double>(now - last_).count() < kPause) return;
+  if (style_ == ProgressStyle::kNone) return;
+  if (std::chrono::duration<double>(now - last_).count() < kPause) return;
   last_ = now;
-  drawn_ = true;
   const double share = std::clamp(state.done / std::max(state.total, 1e-9), 0.0, 1.0);
+  if (style_ == ProgressStyle::kJson) {
+    const nlohmann::json line = {{"progress", name_}, {"share", share}, {"text", state.text}};
+    fmt::print("{}\n", line.dump());
+    std::fflush(stdout);
+    return;
+  }
+  drawn_ = true;
   const double seconds = std::chrono::duration<double>(now - start_).count();
   const auto full = static_cast<size_t>(share * kCells);
   const std::string left =

@@ -1,16 +1,22 @@
 // SPDX-License-Identifier: MIT
-// A bar on standard error.
+// How far long work is: a bar on standard error, or lines of JSON on standard output.
 #pragma once
 
 #include <chrono>
+#include <cstdint>
 #include <string>
 
 namespace grisaille::app::truth {
 
+// kJson: one object a line, {"progress": name, "share": 0 ... 1, "text": "..."}.
+enum class ProgressStyle : uint8_t { kNone, kBar, kJson };
+
+// A bar where standard error is a terminal.
+ProgressStyle usualProgress();
+
 class Progress {
  public:
-  // Draws nothing unless `shown`.
-  Progress(std::string name, bool shown) : name_(std::move(name)), shown_(shown) {}
+  Progress(std::string name, ProgressStyle style) : name_(std::move(name)), style_(style) {}
   ~Progress() { clear(); }
   Progress(const Progress&) = delete;
   Progress& operator=(const Progress&) = delete;
@@ -19,7 +25,7 @@ class Progress {
     double done = 0, total = 1;  // of the work that this object has seen the whole of
     std::string text;
   };
-  // Draws some times a second, however often it is called.
+  // Draws or prints some times a second, however often it is called.
   void show(const State& state);
 
   // Takes the bar off the terminal.
@@ -28,7 +34,7 @@ class Progress {
  private:
   using Clock = std::chrono::steady_clock;
   std::string name_;
-  bool shown_;
+  ProgressStyle style_;
   bool drawn_ = false;
   Clock::time_point start_ = Clock::now();
   Clock::time_point last_{};

@@ -80,7 +80,7 @@ void castPass(std::span<const trace::Hit> hits, const AddRays& addRays, Counts& 
 }  // namespace
 
 Estimate refine(const std::string& name, std::span<const trace::Hit> hits, const AddRays& addRays,
-                const Goal& goal, Cache& cache, bool progress) {
+                const Goal& goal, Cache& cache, ProgressStyle progress) {
   const Clock::time_point start = Clock::now();
   const Interruption interruption;
   Counts counts = cache.load(hits.size());

@@ -8,6 +8,7 @@
 #include <vector>
 
 #include "app/truth/cache.h"
+#include "app/truth/progress.h"
 #include "core/trace/ray_tracer.h"
 
 namespace grisaille::app::truth {
@@ -35,9 +36,9 @@ struct Estimate {
 
 // Begins with what the cache keeps, and keeps what is done there every few seconds and at the end.
 // Where a signal asks for an end, the pass is finished and kept, and Interrupted is thrown after a
-// note. `name` is for the note and the progress bar, which is drawn where `progress` is set.
+// note. `name` is for the note and how far it is.
 Estimate refine(const std::string& name, std::span<const trace::Hit> hits, const AddRays& addRays,
-                const Goal& goal, Cache& cache, bool progress);
+                const Goal& goal, Cache& cache, ProgressStyle progress);
 
 // One line: samples a pixel, rms standard error, seconds, rays a second.
 std::string summaryOf(const std::string& name, const Estimate& estimate);

@@ -155,6 +155,7 @@ class EffectCheck {
     bool created = false;
     try {
       chain_.start(device_);
+      chain_.create();
       created = true;
       expect(true, "");
     } catch (const Error& error) {

@@ -13,20 +13,21 @@ std::string plainPath(const std::string& path) {
   return path.starts_with('-') ? "./" + path : path;
 }
 
-void addEffects(const EffectList& effects, const std::vector<std::string>& leftOut,
+void addEffects(const effect::Selection& effects, const std::vector<effect::ParameterName>& leftOut,
                 std::vector<std::string>& arguments) {
   std::string keys;
   std::vector<std::string> sets;
-  for (const EffectList::Entry& entry : effects.entries()) {
+  for (const effect::Selection::Entry& entry : effects.entries()) {
     if (!entry.on) continue;
     keys += (keys.empty() ? "" : ",") + std::string(entry.key());
-    const effect::Values defaults(entry.values.effect());
-    for (const grisaille_param_desc& param : entry.values.effect().params()) {
+    const effect::Values defaults(entry.effect());
+    for (const grisaille_param_desc& param : entry.effect().params()) {
       const std::string text = entry.values.text(param.key);
       if (text == defaults.text(param.key)) continue;
-      const std::string name = fmt::format("{}.{}", entry.key(), param.key);
-      if (std::ranges::find(leftOut, name) != leftOut.end()) continue;
-      sets.push_back(name + "=" + text);
+      const effect::Assignment set{.name = {.effect = entry.key(), .key = param.key},
+                                   .value = text};
+      if (std::ranges::find(leftOut, set.name) != leftOut.end()) continue;
+      sets.push_back(set.text());
     }
   }
   arguments.insert(arguments.end(), {"--effects", keys});

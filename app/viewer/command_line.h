@@ -8,7 +8,7 @@
 #include <utility>
 #include <vector>
 
-#include "app/viewer/effect_list.h"
+#include "core/effect/selection.h"
 #include "core/scene/camera.h"
 
 namespace grisaille::app::viewer {
@@ -16,9 +16,9 @@ namespace grisaille::app::viewer {
 struct RenderCommand {
   std::string scene = {};  // a file; "": the built-in scene
   scene::Camera camera = {};
-  glm::uvec2 size = glm::uvec2(1280, 720);  // pixels
-  std::string backend = {}, device = {};    // "": left out
-  const EffectList* effects = nullptr;      // those that are on; null: none
+  glm::uvec2 size = glm::uvec2(1280, 720);     // pixels
+  std::string backend = {}, device = {};       // "": left out
+  const effect::Selection* effects = nullptr;  // those that are on; null: none
   std::string surface = "white";
   // Effect and file, output and file.
   std::vector<std::pair<std::string, std::string>> loads = {}, writes = {};
@@ -32,8 +32,8 @@ std::vector<std::string> renderArguments(const RenderCommand& command);
 std::string renderCommand(const RenderCommand& command);
 
 // --effects with those that are on, and --set for their values that differ from the defaults, but
-// for those of the parameters that are left out ("ssao.radius").
-void addEffects(const EffectList& effects, const std::vector<std::string>& leftOut,
+// for those of the parameters that are left out.
+void addEffects(const effect::Selection& effects, const std::vector<effect::ParameterName>& leftOut,
                 std::vector<std::string>& arguments);
 
 // A path that no command line takes for an option.

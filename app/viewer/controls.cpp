@@ -64,7 +64,7 @@ bool Controls::updateMouse(const Place& place, double seconds) {
     drag(place, seconds);
   }
   if (!io.WantCaptureMouse && io.MouseWheel != 0) scroll(place);
-  return drag_ == Drag::kFire;
+  return drag_ == Drag::kPlace && session_.sprays();
 }
 
 void Controls::beginDrag(const Place& place) {
@@ -72,10 +72,10 @@ void Controls::beginDrag(const Place& place) {
   if (ImGui::IsMouseClicked(ImGuiMouseButton_Left)) {
     if (session_.split && std::abs(cursor_.x - line) <= kLineReach) {
       drag_ = Drag::kLine;
-    } else if (session_.painting && !ImGui::GetIO().KeyAlt) {
-      drag_ = Drag::kFire;
-      sinceShot_ = 0;
-      fire(place, glm::dvec2(0), false);
+    } else if (session_.placing && !ImGui::GetIO().KeyAlt) {
+      drag_ = Drag::kPlace;
+      sincePlaced_ = 0;
+      placeObject(place, glm::dvec2(0), false);
     } else {
       drag_ = Drag::kOrbit;
     }
@@ -106,14 +106,15 @@ void Controls::drag(const Place& place, double seconds) {
           static_cast<float>((cursor_.x - place.corner.x + 0.5) / place.size.x), 0.0f, 1.0f);
       break;
     default: {
-      sinceShot_ += seconds;
+      if (!session_.sprays()) break;
+      sincePlaced_ += seconds;
       std::normal_distribution<double> off(0, kSprayRadius / 2);
-      for (int i = 0; i < kMostSprayed && sinceShot_ >= kSprayInterval &&
+      for (int i = 0; i < kMostSprayed && sincePlaced_ >= kSprayInterval &&
                       ImGui::IsMouseDown(ImGuiMouseButton_Left);
-           ++i, sinceShot_ -= kSprayInterval) {
-        fire(place, {off(random_), off(random_)}, true);
+           ++i, sincePlaced_ -= kSprayInterval) {
+        placeObject(place, {off(random_), off(random_)}, true);
       }
-      sinceShot_ = std::min(sinceShot_, kSprayInterval);
+      sincePlaced_ = std::min(sincePlaced_, kSprayInterval);
       break;
     }
   }
@@ -186,7 +187,7 @@ void Controls::updateKeys(const Place& place, Requests& requests) {
   if (io.WantCaptureKeyboard) return;  // the panel has them
   if (isKeyPressed(GLFW_KEY_TAB) && panel_.shown) ImGui::SetWindowFocus("Grisaille");
   if (isKeyPressed(GLFW_KEY_SPACE)) {
-    session_.attempt([&] { session_.fire(0.5 * glm::dvec2(place.size), place.size, false); });
+    session_.attempt([&] { session_.place(0.5 * glm::dvec2(place.size), place.size, false); });
   }
   const double x =
       (isKeyPressed(GLFW_KEY_RIGHT, true) ? 1 : 0) - (isKeyPressed(GLFW_KEY_LEFT, true) ? 1 : 0);
@@ -196,7 +197,7 @@ void Controls::updateKeys(const Place& place, Requests& requests) {
 }
 
 void Controls::updateViewKeys() {
-  if (isKeyPressed(GLFW_KEY_B)) session_.painting = !session_.painting;
+  if (isKeyPressed(GLFW_KEY_B)) session_.placing = !session_.placing;
   if (isKeyPressed(GLFW_KEY_X)) session_.split = !session_.split;
   if (isKeyPressed(GLFW_KEY_LEFT_BRACKET)) session_.line = std::max(session_.line - 0.05f, 0.0f);
   if (isKeyPressed(GLFW_KEY_RIGHT_BRACKET)) session_.line = std::min(session_.line + 0.05f, 1.0f);
@@ -239,10 +240,10 @@ void Controls::updateBookmarkKeys() {
   }
 }
 
-void Controls::fire(const Place& place, glm::dvec2 offset, bool joins) {
+void Controls::placeObject(const Place& place, glm::dvec2 offset, bool joins) {
   const glm::dvec2 point = pointAt(place, cursor_ + offset);
   if (point.x < 0 || point.y < 0 || point.x >= place.size.x || point.y >= place.size.y) return;
-  session_.attempt([&] { session_.fire(point, place.size, joins); });
+  session_.attempt([&] { session_.place(point, place.size, joins); });
 }
 
 }  // namespace grisaille::app::viewer

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: MIT
-// What mouse and keys do outside the panel: move, shoot, look closer.
+// What mouse and keys do outside the panel: move, place objects, look closer.
 #pragma once
 
 #include <glm/glm.hpp>
@@ -22,7 +22,7 @@ class Controls {
       : session_(session), panel_(panel), bookmarks_(bookmarks), state_(state) {}
 
   // Between ImGui::NewFrame() and ImGui::Render(), after the panel. `pixelsAUnit`: of the window.
-  // Adds to `requests`. True while something moves or fires by itself: the next frame is due.
+  // Adds to `requests`. True while something moves or is placed by itself: the next frame is due.
   bool update(const Place& place, double seconds, float pixelsAUnit, Requests& requests);
 
   // The texel under the cursor, and on which side; none while the cursor is elsewhere.
@@ -32,7 +32,7 @@ class Controls {
   bool wantsFullScreen = false;
 
  private:
-  enum class Drag : uint8_t { kNone, kOrbit, kPan, kLook, kLine, kFire };
+  enum class Drag : uint8_t { kNone, kOrbit, kPan, kLook, kLine, kPlace };
 
   bool updateMouse(const Place& place, double seconds);
   void beginDrag(const Place& place);
@@ -43,7 +43,7 @@ class Controls {
   void updateKeys(const Place& place, Requests& requests);
   void updateViewKeys();
   void updateBookmarkKeys();
-  void fire(const Place& place, glm::dvec2 offset, bool joins);
+  void placeObject(const Place& place, glm::dvec2 offset, bool joins);
   // In texels of the picture, from its top left corner; `at` in pixels of the window.
   glm::dvec2 pointAt(const Place& place, glm::dvec2 at) const;
 
@@ -53,7 +53,7 @@ class Controls {
   ViewerState& state_;
   Drag drag_ = Drag::kNone;
   glm::dvec2 cursor_ = glm::dvec2(-1), moved_ = glm::dvec2(0);  // pixels of the window
-  double sinceShot_ = 0;                                        // seconds
+  double sincePlaced_ = 0;                                      // seconds
   std::mt19937 random_{1};
 };
 

@@ -12,20 +12,20 @@ constexpr const char* kOff = "off";
 
 }  // namespace
 
-History::History(const EffectList::State& now, Restore restore, ListOf listOf)
+History::History(const effect::Selection::State& now, Restore restore, ListOf listOf)
     : restore_(std::move(restore)), listOf_(std::move(listOf)), now_(linesOf(now)) {}
 
-std::vector<History::Line> History::linesOf(const EffectList::State& state) {
+std::vector<History::Line> History::linesOf(const effect::Selection::State& state) {
   std::vector<Line> lines;
-  for (const EffectList::State::One& one : state.effects) {
+  for (const effect::Selection::State::One& one : state.effects) {
     lines.push_back({.key = one.key, .value = one.on ? kOn : kOff, .effect = true});
     for (const auto& [key, text] : one.values) lines.push_back({.key = key, .value = text});
   }
   return lines;
 }
 
-EffectList::State History::stateOf(const std::vector<Line>& lines) {
-  EffectList::State state;
+effect::Selection::State History::stateOf(const std::vector<Line>& lines) {
+  effect::Selection::State state;
   for (const Line& line : lines) {
     if (line.effect) {
       state.effects.push_back({.key = line.key, .on = line.value == kOn, .values = {}});
@@ -36,7 +36,7 @@ EffectList::State History::stateOf(const std::vector<Line>& lines) {
   return state;
 }
 
-void History::noteSettings(const EffectList::State& now, std::string what) {
+void History::noteSettings(const effect::Selection::State& now, std::string what) {
   std::vector<Line> lines = linesOf(now);
   const auto [oldFirst, newFirst] = std::ranges::mismatch(now_, lines);
   if (oldFirst == now_.end() && newFirst == lines.end()) return;
@@ -49,34 +49,34 @@ void History::noteSettings(const EffectList::State& now, std::string what) {
        .at = static_cast<size_t>(oldFirst - now_.begin()),
        .before = {oldFirst, oldLast},
        .after = {newFirst, newLast},
-       .shotSteps = 0,
+       .objectSteps = 0,
        .effect = {}});
   now_ = std::move(lines);
 }
 
-void History::noteShots(const std::string& effect, size_t steps, std::string what, bool joins) {
+void History::noteObjects(const std::string& effect, size_t steps, std::string what, bool joins) {
   if (steps == 0) return;
-  if (joins && canUndo() && !canRedo() && steps_.back().shotSteps > 0 &&
+  if (joins && canUndo() && !canRedo() && steps_.back().objectSteps > 0 &&
       steps_.back().effect == effect) {
-    steps_.back().shotSteps += steps;
+    steps_.back().objectSteps += steps;
     return;
   }
   add({.what = std::move(what),
        .at = 0,
        .before = {},
        .after = {},
-       .shotSteps = steps,
+       .objectSteps = steps,
        .effect = effect});
 }
 
 void History::undo() {
   if (!canUndo()) return;
   const Step& step = steps_[done_ - 1];
-  if (step.shotSteps == 0) {
+  if (step.objectSteps == 0) {
     change(step.at, step.after, step.before);
   } else {
-    shots::ShotList& list = listOf_(step.effect);
-    for (size_t i = 0; i < step.shotSteps; ++i) list.undo();
+    objects::ObjectList& list = listOf_(step.effect);
+    for (size_t i = 0; i < step.objectSteps; ++i) list.undo();
   }
   --done_;
 }
@@ -84,11 +84,11 @@ void History::undo() {
 void History::redo() {
   if (!canRedo()) return;
   const Step& step = steps_[done_];
-  if (step.shotSteps == 0) {
+  if (step.objectSteps == 0) {
     change(step.at, step.before, step.after);
   } else {
-    shots::ShotList& list = listOf_(step.effect);
-    for (size_t i = 0; i < step.shotSteps; ++i) list.redo();
+    objects::ObjectList& list = listOf_(step.effect);
+    for (size_t i = 0; i < step.objectSteps; ++i) list.redo();
   }
   ++done_;
 }

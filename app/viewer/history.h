@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: MIT
-// One line of undo over settings and shots. A settings step keeps only what it changed, a step of
-// shots only how many steps of their list it is, so that a hundred thousand cost little.
+// One line of undo over settings and objects. A settings step keeps only what it changed, a step of
+// objects only how many steps of their list it is, so that a hundred thousand cost little.
 #pragma once
 
 #include <cstddef>
@@ -9,29 +9,29 @@
 #include <string_view>
 #include <vector>
 
-#include "app/viewer/effect_list.h"
-#include "core/shots/shot_list.h"
+#include "core/effect/selection.h"
+#include "core/objects/object_list.h"
 
 namespace grisaille::app::viewer {
 
 class History {
  public:
-  using Restore = std::function<void(const EffectList::State&)>;
-  using ListOf = std::function<shots::ShotList&(std::string_view effect)>;
+  using Restore = std::function<void(const effect::Selection::State&)>;
+  using ListOf = std::function<objects::ObjectList&(std::string_view effect)>;
 
   // `now`: the state before the first step. undo() and redo() hand a whole state to `restore`, and
   // undo and redo steps of the list that `listOf` names, which must be there for every effect that
   // was noted.
-  History(const EffectList::State& now, Restore restore, ListOf listOf);
+  History(const effect::Selection::State& now, Restore restore, ListOf listOf);
 
   // To be called when a change is complete (a slider let go): adds a step if `now` differs from the
   // state at the last one. `what` names it: "ssao.radius". Steps that were undone are forgotten.
-  void noteSettings(const EffectList::State& now, std::string what);
+  void noteSettings(const effect::Selection::State& now, std::string what);
 
   // So many steps of that list were done; 0: nothing happens. `joins`: they go on with the step
   // before, if that is the same list's and nothing is undone (a held spray passes false first, then
   // true).
-  void noteShots(const std::string& effect, size_t steps, std::string what, bool joins = false);
+  void noteObjects(const std::string& effect, size_t steps, std::string what, bool joins = false);
 
   bool canUndo() const { return done_ > 0; }
   bool canRedo() const { return done_ < steps_.size(); }
@@ -57,13 +57,13 @@ class History {
     // Of settings: at line `at`, `after` takes the place of `before`.
     size_t at = 0;
     std::vector<Line> before, after;
-    // Of shots: so many steps of an effect's list; 0: the step is of settings.
-    size_t shotSteps = 0;
+    // Of objects: number of steps of an effect's list; 0: the step is of settings.
+    size_t objectSteps = 0;
     std::string effect;
   };
 
-  static std::vector<Line> linesOf(const EffectList::State& state);
-  static EffectList::State stateOf(const std::vector<Line>& lines);
+  static std::vector<Line> linesOf(const effect::Selection::State& state);
+  static effect::Selection::State stateOf(const std::vector<Line>& lines);
 
   void add(Step step);
   void forgetUndone();

@@ -29,8 +29,8 @@ constexpr struct {
     {"Home", "the scene's own camera"},
     {"1 ... 9", "a bookmark; with Ctrl: sets it"},
     {"", ""},
-    {"B", "left button fires paint, or turns"},
-    {"Space", "fire through the picture's middle"},
+    {"B", "left button places an object, or turns"},
+    {"Space", "place an object in the picture's middle"},
     {"Ctrl + Z, Ctrl + Shift + Z", "undo, redo"},
     {"", ""},
     {"V, Shift + V", "next view, the one before"},
@@ -102,10 +102,8 @@ Requests Panel::draw(const Status& status, glm::vec2 window) {
     };
     if (section("Effects", true)) drawEffects(status, requests);
     if (section("View", true)) drawViews(status, requests);
-    if (section("Paint", !session_.painter().empty()))
-      drawPaint(status);
-    else
-      wantsCoverage = false;
+    wantsCoverage = false;
+    if (section("Objects", !session_.effectsWithObjects().empty())) drawObjects(status);
     if (section("Settings", false)) drawSettings(requests);
     if (section("Cost", false)) drawCost(status);
     if (section("Camera", false)) drawCamera();

@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: MIT
-// The panel: every effect's parameters from its own table, views, paint, cost, files. It edits the
-// session and asks the viewer for what a session cannot do.
+// The panel: every effect's parameters from its own table, views, objects, cost, files. It edits
+// the session and asks the viewer for what a session cannot do.
 #pragma once
 
 #include <imgui/imgui.h>
@@ -49,7 +49,7 @@ struct Status {
   std::vector<float> cursorValue;  // of the texel under the cursor; empty: none
   glm::ivec2 cursorTexel = glm::ivec2(0);
   glm::uvec2 picture = glm::uvec2(0);  // pixels
-  uint64_t waiting = 0;                // shots
+  uint64_t waiting = 0;                // objects that are not drawn yet
   TruthStatus truth;
   TuneStatus tune;
   std::optional<double> loading;  // share of a scene that is read
@@ -96,24 +96,32 @@ class Panel {
   void drawHelp(glm::vec2 window);
   // panel_effects.cpp
   void drawEffects(const Status& status, Requests& requests);
-  void drawEffect(EffectList::Entry& entry, size_t index, const Status& status, Requests& requests);
-  void drawParameters(EffectList::Entry& entry);
-  void drawParameter(EffectList::Entry& entry, const grisaille_param_desc& param);
-  bool editParameter(const EffectList::Entry& entry, const grisaille_param_desc& param,
+  void drawEffect(effect::Selection::Entry& entry, size_t index, const Status& status,
+                  Requests& requests);
+  void drawParameters(effect::Selection::Entry& entry);
+  void drawParameter(effect::Selection::Entry& entry, const grisaille_param_desc& param);
+  bool editParameter(const effect::Selection::Entry& entry, const grisaille_param_desc& param,
                      double& value);
   void drawCost(const Status& status);
   // panel_tune.cpp
-  void drawPresets(EffectList::Entry& entry);
-  void drawTune(const EffectList::Entry& entry, const TuneStatus& status, Requests& requests);
+  void drawPresets(effect::Selection::Entry& entry);
+  void drawTune(const effect::Selection::Entry& entry, const TuneStatus& status,
+                Requests& requests);
   TuneWish& wishOf(const std::string& effect);
-  void drawWish(const EffectList::Entry& entry, TuneWish& wish);
-  void drawMayChange(const EffectList::Entry& entry, TuneWish& wish);
+  void drawWish(const effect::Selection::Entry& entry, TuneWish& wish);
+  void drawMayChange(const effect::Selection::Entry& entry, TuneWish& wish);
   void drawOutcome(const TuneStatus& status);
   // panel_views.cpp
   void drawViews(const Status& status, Requests& requests);
   void drawViewChoice(const char* label, const char* id, std::string& output,
                       const std::vector<Viewable>& all);
-  void drawPaint(const Status& status);
+  // panel_objects.cpp
+  void drawObjects(const Status& status);
+  void drawObjectsOf(const std::string& effect, const Status& status);
+  void drawObjectFile(const std::string& effect);
+  void drawObjectList(const std::string& effect);
+  void drawSelected(const std::string& effect, size_t index);
+  bool editField(const objects::Field& field, const std::string& id, objects::Value& value);
   void drawCoverage(const Status& status);
   // panel_truth.cpp
   void drawTruth(const TruthStatus& status);
@@ -126,13 +134,16 @@ class Panel {
   Session& session_;
   ViewerState& state_;
   Bookmarks& bookmarks_;
-  std::string scenePath_, settingsPath_ = "settings.toml", savedName_, shotsPath_ = "shots.json";
+  std::string scenePath_, settingsPath_ = "settings.toml", savedName_;
   std::string bookmarkName_;
   std::vector<Bookmarks::Entry> bookmarkList_;
   std::vector<SavedSettings> savedList_;
   bool listsFresh_ = false;
   size_t messagesSeen_ = 0;
   std::map<std::string, TuneWish> wishes_;               // by effect
+  std::map<std::string, std::string> objectPaths_;       // by effect
+  std::map<std::string, size_t> selected_;               // by effect, index of an object
+  std::string editing_;                                  // the field that is being edited; "": none
   std::optional<std::pair<std::string, double>> typed_;  // parameter and value, not yet taken
 };
 

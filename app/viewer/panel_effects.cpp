@@ -34,7 +34,7 @@ std::string formatOf(const grisaille_param_desc& param, const char* number) {
   return text;
 }
 
-std::string tooltipOf(const EffectList::Entry& entry, const grisaille_param_desc& param) {
+std::string tooltipOf(const effect::Selection::Entry& entry, const grisaille_param_desc& param) {
   const char* unit = *param.unit != '\0' ? " " : "";
   std::string text = fmt::format("{}\n{}.{}", param.tooltip, entry.key(), param.key);
   if (param.type == GRISAILLE_PARAM_FLOAT || param.type == GRISAILLE_PARAM_INT) {
@@ -42,12 +42,12 @@ std::string tooltipOf(const EffectList::Entry& entry, const grisaille_param_desc
                         unit, param.unit, param.soft_min, param.soft_max);
   }
   return text + fmt::format("\nCtrl+click: type a value. Right click: back to {}.",
-                            effect::Values(entry.values.effect()).text(param.key));
+                            effect::Values(entry.effect()).text(param.key));
 }
 
-std::string readsOf(const EffectList::Entry& entry) {
+std::string readsOf(const effect::Selection::Entry& entry) {
   try {
-    const uint32_t reads = entry.values.effect().reads(entry.values.all().data(), ~0u);
+    const uint32_t reads = entry.effect().reads(entry.values.all().data(), ~0u);
     const std::string text = fmt::format("{}", fmt::join(effect::attachmentNames(reads), ", "));
     return text.empty() ? "nothing" : text;
   } catch (const Error& error) {
@@ -55,9 +55,9 @@ std::string readsOf(const EffectList::Entry& entry) {
   }
 }
 
-std::string writesOf(const EffectList::Entry& entry) {
+std::string writesOf(const effect::Selection::Entry& entry) {
   std::string text;
-  for (const grisaille_output_desc& output : entry.values.effect().outputs()) {
+  for (const grisaille_output_desc& output : entry.effect().outputs()) {
     text += (text.empty() ? "" : ", ") + std::string(output.key);
   }
   return text;
@@ -66,9 +66,9 @@ std::string writesOf(const EffectList::Entry& entry) {
 }  // namespace
 
 void Panel::drawEffects(const Status& status, Requests& requests) {
-  for (size_t i = 0; i < session_.effects.entries().size(); ++i) {
+  for (size_t i = 0; i < session_.chain.selection.entries().size(); ++i) {
     ImGui::PushID(static_cast<int>(i));
-    drawEffect(session_.effects.entries()[i], i, status, requests);
+    drawEffect(session_.chain.selection.entries()[i], i, status, requests);
     ImGui::PopID();
   }
   if (button("Rescan plugins", "rescan", "Loads plugins that are new or have changed")) {
@@ -89,9 +89,9 @@ void Panel::drawEffects(const Status& status, Requests& requests) {
   }
 }
 
-void Panel::drawEffect(EffectList::Entry& entry, size_t index, const Status& status,
+void Panel::drawEffect(effect::Selection::Entry& entry, size_t index, const Status& status,
                        Requests& requests) {
-  const grisaille_effect_desc& desc = *entry.values.effect().desc;
+  const grisaille_effect_desc& desc = *entry.effect().desc;
   const std::string key = desc.key;
   bool on = entry.on;
   if (ImGui::Checkbox("##on", &on)) {
@@ -111,8 +111,7 @@ void Panel::drawEffect(EffectList::Entry& entry, size_t index, const Status& sta
                         "%s (%s)", desc.label, desc.key);
   if (ImGui::IsItemHovered()) {
     ImGui::SetTooltip("%s\nversion %s, %s\nreads %s\nwrites %s", desc.tooltip, desc.version,
-                      entry.values.effect().path.c_str(), readsOf(entry).c_str(),
-                      writesOf(entry).c_str());
+                      entry.effect().path.c_str(), readsOf(entry).c_str(), writesOf(entry).c_str());
   }
   layout.note(key + ".tree", open ? "open" : "closed");
   ImGui::SameLine(ImGui::GetContentRegionMax().x - arrows);
@@ -131,19 +130,19 @@ void Panel::drawEffect(EffectList::Entry& entry, size_t index, const Status& sta
     ImGui::Unindent();
   }
   // Last: `entry` is another one then.
-  if (target && *target < session_.effects.entries().size()) {
-    session_.effects.move(index, *target);
+  if (target && *target < session_.chain.selection.entries().size()) {
+    session_.chain.selection.move(index, *target);
     session_.changed("order of effects");
   }
 }
 
-void Panel::drawParameters(EffectList::Entry& entry) {
+void Panel::drawParameters(effect::Selection::Entry& entry) {
   ImGui::PushStyleColor(ImGuiCol_Text, ImGui::GetStyleColorVec4(ImGuiCol_TextDisabled));
   ImGui::TextWrapped("reads %s; writes %s", readsOf(entry).c_str(), writesOf(entry).c_str());
   ImGui::PopStyleColor();
   drawPresets(entry);
   bool anyAdvanced = false;
-  for (const grisaille_param_desc& param : entry.values.effect().params()) {
+  for (const grisaille_param_desc& param : entry.effect().params()) {
     if ((param.flags & GRISAILLE_PARAM_ADVANCED) != 0) {
       anyAdvanced = true;
     } else {
@@ -155,14 +154,14 @@ void Panel::drawParameters(EffectList::Entry& entry) {
         ImGui::TreeNodeEx("advanced", ImGuiTreeNodeFlags_NoTreePushOnOpen, "Advanced");
     layout.note(std::string(entry.key()) + ".advanced", open ? "open" : "closed");
     if (open) {
-      for (const grisaille_param_desc& param : entry.values.effect().params()) {
+      for (const grisaille_param_desc& param : entry.effect().params()) {
         if ((param.flags & GRISAILLE_PARAM_ADVANCED) != 0) drawParameter(entry, param);
       }
     }
   }
 }
 
-void Panel::drawParameter(EffectList::Entry& entry, const grisaille_param_desc& param) {
+void Panel::drawParameter(effect::Selection::Entry& entry, const grisaille_param_desc& param) {
   const std::string name = std::string(entry.key()) + "." + param.key;
   double value = entry.values.get(param.key);
   ImGui::SetNextItemWidth(ImGui::GetContentRegionAvail().x * 0.58f);
@@ -193,7 +192,7 @@ void Panel::drawParameter(EffectList::Entry& entry, const grisaille_param_desc& 
 }
 
 // Draws the control; true where `value` is another now.
-bool Panel::editParameter(const EffectList::Entry& entry, const grisaille_param_desc& param,
+bool Panel::editParameter(const effect::Selection::Entry& entry, const grisaille_param_desc& param,
                           double& value) {
   const std::string label = fmt::format("{}##{}.{}", param.label, entry.key(), param.key);
   const ImGuiSliderFlags scale =

@@ -31,7 +31,7 @@ std::string tooltipOf(const Preset& preset, const Presets& presets) {
 
 }  // namespace
 
-void Panel::drawPresets(EffectList::Entry& entry) {
+void Panel::drawPresets(effect::Selection::Entry& entry) {
   const std::string key = entry.key();
   const EffectPresets& own = session_.presetsOf(key);
   if (!own.error.empty()) {
@@ -73,14 +73,14 @@ TuneWish& Panel::wishOf(const std::string& effect) {
   return found->second;
 }
 
-void Panel::drawMayChange(const EffectList::Entry& entry, TuneWish& wish) {
+void Panel::drawMayChange(const effect::Selection::Entry& entry, TuneWish& wish) {
   const bool open =
       ImGui::TreeNodeEx("may change", ImGuiTreeNodeFlags_NoTreePushOnOpen, "May change");
   layout.note(wish.effect + ".tune.may change", open ? "open" : "closed");
   if (!open) return;
   const Presets& presets = session_.presetsOf(wish.effect).presets;
   ImGui::Indent();
-  for (const grisaille_param_desc* param : tunable(entry.values.effect(), presets)) {
+  for (const grisaille_param_desc* param : tunable(entry.effect(), presets)) {
     const bool fixed = session_.staysInTune(param->key);
     bool may = !fixed && !wish.stay.contains(param->key);
     ImGui::BeginDisabled(fixed);
@@ -97,7 +97,7 @@ void Panel::drawMayChange(const EffectList::Entry& entry, TuneWish& wish) {
   ImGui::Unindent();
 }
 
-void Panel::drawWish(const EffectList::Entry& entry, TuneWish& wish) {
+void Panel::drawWish(const effect::Selection::Entry& entry, TuneWish& wish) {
   const std::string id = wish.effect + ".tune.";
   const float left = ImGui::GetContentRegionAvail().x * 0.5f;
   const auto field = [&](const char* label, const char* name, const char* format, double& value) {
@@ -136,7 +136,8 @@ void Panel::drawOutcome(const TuneStatus& status) {
   if (!outcome.warning.empty()) drawTrouble(outcome.warning);
 }
 
-void Panel::drawTune(const EffectList::Entry& entry, const TuneStatus& status, Requests& requests) {
+void Panel::drawTune(const effect::Selection::Entry& entry, const TuneStatus& status,
+                     Requests& requests) {
   const std::string key = entry.key();
   const bool own = status.effect == key;
   if (session_.outputToTune(key).empty() && !(own && status.running)) return;

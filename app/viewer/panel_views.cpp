@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: MIT
-// The panel's views and paint.
+// The panel's views.
 #include <fmt/format.h>
 
 #include <algorithm>
@@ -73,53 +73,6 @@ void Panel::drawViews(const Status& status, Requests& requests) {
   }
   if (button("Save picture", "save picture", "A PNG and an EXR in the current folder (F12)")) {
     requests.picture = true;
-  }
-}
-
-void Panel::drawPaint(const Status& status) {
-  const std::string painter = session_.painter();
-  if (painter.empty()) {
-    ImGui::TextDisabled("No effect that is on takes shots.");
-    return;
-  }
-  toggle("Left button fires", "painting", session_.painting,
-         "Click through a pixel, hold to spray; else it turns the camera (B)");
-  glm::vec3 encoded = glm::convertLinearToSRGB(session_.color);
-  ImGui::SetNextItemWidth(ImGui::GetContentRegionAvail().x * 0.58f);
-  if (ImGui::ColorEdit3("Colour", &encoded.x,
-                        ImGuiColorEditFlags_PickerHueWheel | ImGuiColorEditFlags_DisplayHex)) {
-    session_.color = glm::convertSRGBToLinear(glm::clamp(encoded, 0.0f, 1.0f));
-  }
-  layout.note("colour");
-  const size_t count = session_.shots.find(painter)->second.shots().size();
-  ImGui::Text("%zu shots", count);
-  layout.note("shots", fmt::format("{}", count));
-  if (status.waiting > 0) {
-    ImGui::SameLine();
-    ImGui::TextDisabled("%llu wait", static_cast<unsigned long long>(status.waiting));
-  }
-  if (button("Clear shots", "clear shots")) session_.clearShots();
-  path("##shots", "shots path", shotsPath_);
-  ImGui::SameLine();
-  if (button("Load", "load shots")) session_.attempt([&] { session_.loadShots(shotsPath_); });
-  ImGui::SameLine();
-  if (button("Save", "save shots")) session_.attempt([&] { session_.saveShots(shotsPath_); });
-  wantsCoverage = ImGui::TreeNodeEx("Coverage", ImGuiTreeNodeFlags_NoTreePushOnOpen);
-  layout.note("coverage", wantsCoverage ? "open" : "closed");
-  if (wantsCoverage) drawCoverage(status);
-}
-
-void Panel::drawCoverage(const Status& status) {
-  for (const ColorShare& share : status.coverage) {
-    unsigned bits = 0x808080;
-    if (share.color.size() == 7)
-      bits = static_cast<unsigned>(std::stoul(share.color.substr(1), nullptr, 16));
-    const auto channel = [&](int shift) { return static_cast<float>(bits >> shift & 255u) / 255; };
-    ImGui::ColorButton(share.color.c_str(), ImVec4(channel(16), channel(8), channel(0), 1),
-                       ImGuiColorEditFlags_NoTooltip);
-    ImGui::SameLine();
-    ImGui::Text("%s  %.2f %%", share.color.c_str(), 100 * share.share);
-    layout.note("coverage." + share.color, fmt::format("{:.6f}", share.share));
   }
 }
 

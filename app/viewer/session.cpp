@@ -1,17 +1,19 @@
 // SPDX-License-Identifier: MIT
 #include "app/viewer/session.h"
-#include "app/options/camera_option.h"
 
 #include <algorithm>
 #include <filesystem>
-#include <fstream>
 
+#include "app/options/camera_option.h"
+#include "app/options/object_options.h"
+#include "app/settings/chosen_effects.h"
+#include "app/settings/load_effects.h"
 #include "app/viewer/camera_control.h"
 #include "app/viewer/command_line.h"
 #include "app/viewer/state_file.h"
+#include "core/base/atomic_file.h"
 #include "core/base/quote.h"
-#include "core/base/regular_file.h"
-#include "core/shots/shot_file.h"
+#include "core/objects/object_file.h"
 
 namespace grisaille::app::viewer {
 namespace fs = std::filesystem;
@@ -25,53 +27,34 @@ const char* nameOf(frame::Surface surface) {
   return surface == frame::Surface::kBaseColour ? "base" : "white";
 }
 
-// What the command line asks of the effects, as render has it.
-EffectList asked(const effect::Registry& registry, const SessionOptions& options,
-                 const Settings& settings) {
-  EffectList list(registry);
-  Settings all = settings;
-  if (options.effectsGiven) all.effects = options.effects;
+// The command line's settings over a file's.
+Settings asked(const SessionOptions& options, Settings settings) {
+  if (options.effectsGiven) settings.effects = options.effects;
   for (const std::string& text : options.sets) {
-    const size_t dot = text.find('.'), equals = text.find('=');
-    if (dot == std::string::npos || equals == std::string::npos || equals < dot) {
-      throw Error(ErrorId::kUsage, "'{}' is not of the form EFFECT.PARAMETER=VALUE", text);
-    }
-    all.values.push_back({.effect = text.substr(0, dot),
-                          .key = text.substr(dot + 1, equals - dot - 1),
-                          .text = text.substr(equals + 1),
-                          .place = "--set"});
+    const effect::Assignment set = effect::parseAssignment(text);
+    settings.values.push_back({.name = set.name, .text = set.value, .place = "--set"});
   }
-  list.apply(all, options.presets);
-  return list;
-}
-
-// What a .json file holds: "shots" or "eye", whichever comes first.
-bool holdsShots(const std::string& path) {
-  std::ifstream file = openRegularFile(path, ErrorId::kShotFileUnreadable);
-  std::string head(4096, '\0');
-  file.read(head.data(), static_cast<std::streamsize>(head.size()));
-  const size_t eye = head.find("\"eye\"");
-  return eye == std::string::npos || head.find("\"shots\"") < eye;
+  return settings;
 }
 
 }  // namespace
 
 Session::Session(SessionOptions options)
     : registry_(loadEffects(options.pluginPaths)),
-      effects(*registry_),
+      chain(effect::Selection(*registry_)),
       history(
-          effects.state(),
-          [this](const EffectList::State& state) {
-            for (const std::string& dropped : effects.restore(state)) say(dropped);
+          chain.selection.state(),
+          [this](const effect::Selection::State& state) {
+            for (const std::string& dropped : chain.selection.restore(state)) say(dropped);
             ++revision;
           },
-          [this](std::string_view effect) -> shots::ShotList& {
-            return shots.find(effect)->second;
+          [this](std::string_view effect) -> objects::ObjectList& {
+            return *chain.objects(effect);
           }),
       options_(std::move(options)) {
   const Settings settings = options_.config.empty() ? Settings{} : readSettings(options_.config);
-  effects = asked(*registry_, options_, settings);
-  history.noteSettings(effects.state(), "command line");
+  apply(asked(options_, settings), options_.presets);
+  history.noteSettings(chain.selection.state(), "command line");
   loadAllPresets();
   surface =
       surfaceOf(!options_.surface.empty() ? options_.surface : settings.surface.value_or("white"));
@@ -86,29 +69,28 @@ Session::Session(SessionOptions options)
       throw Error(ErrorId::kOutputUnknown, "there is no output '{}' to look at", *wanted);
     }
   }
-  addLists();
-  for (const std::string& load : options_.loads) {
-    const size_t equals = load.find('=');
-    const auto list = shots.find(load.substr(0, equals));
-    if (equals == std::string::npos || list == shots.end()) {
-      throw Error(ErrorId::kUsage,
-                  "'{}' is not of the form EFFECT=FILE with an effect that takes "
-                  "shots",
-                  load);
-    }
-    list->second.fire(shots::load(load.substr(equals + 1)));
-  }
+  const ObjectOptions objects{.loads = options_.loads, .adds = {}, .saves = {}};
+  objects.check(chain);
+  objects.load(chain);
 }
 
-void Session::addLists() {
-  for (const EffectList::Entry& entry : effects.entries()) {
-    if (entry.values.effect().takesShots()) shots.try_emplace(entry.key());
+// The effects that the settings name, or those that run by default, come first, on, with defaults
+// beneath presets beneath the settings' values; the others are off and keep their order and values.
+void Session::apply(const Settings& settings, const std::vector<std::string>& presets) {
+  effect::Selection fresh = chosenEffects(
+      *registry_, settings.effects ? *settings.effects : registry_->defaults(), presets, settings);
+  for (effect::Selection::Entry entry : chain.selection.entries()) {
+    if (fresh.find(entry.key()) != nullptr) continue;
+    entry.on = false;
+    fresh.entries().push_back(entry);
   }
+  chain.selection = std::move(fresh);
 }
 
 void Session::setScene(std::shared_ptr<const scene::Scene> loaded, const std::string& path) {
   scenePath = path;
   scene = std::move(loaded);
+  services = std::make_unique<SceneServices>(*scene);
   homeCamera = path.empty() ? scene::atriumCamera() : scene::overviewCamera(scene->bounds);
   if (std::exchange(firstScene_, false) && !options_.camera.empty()) homeCamera = camera;
   camera = homeCamera;
@@ -119,7 +101,7 @@ void Session::setScene(std::shared_ptr<const scene::Scene> loaded, const std::st
 
 void Session::noteChanges() {
   if (lastChange_.empty()) return;
-  history.noteSettings(effects.state(), std::exchange(lastChange_, {}));
+  history.noteSettings(chain.selection.state(), std::exchange(lastChange_, {}));
 }
 
 void Session::undo() {
@@ -136,38 +118,36 @@ void Session::redo() {
 
 void Session::rescan(const std::function<void()>& before) {
   auto fresh = loadEffects(options_.pluginPaths);
-  std::vector<std::string> dropped;
-  EffectList list = EffectList::rebound(effects, *fresh, dropped);
-  std::optional<EffectList> heldList;
-  if (held) heldList = EffectList::rebound(*held, *fresh, dropped);
+  std::optional<effect::Selection> heldAgain;
+  if (held) heldAgain.emplace(*fresh).restore(held->state());
   before();
-  effects = std::move(list);
-  held = std::move(heldList);
+  const std::vector<std::string> dropped = chain.rebind(*fresh);
+  held = std::move(heldAgain);
+  next_.clear();
   registry_ = std::move(fresh);
   ++revision;
   ++heldRevision;
   loadAllPresets();
-  addLists();
   checkViews();
   for (const std::string& one : dropped) say(one);
-  history.noteSettings(effects.state(), "rescan");
+  history.noteSettings(chain.selection.state(), "rescan");
 }
 
 void Session::hold() {
-  held = effects;
+  held = chain.selection;
   ++heldRevision;
 }
 
 void Session::swapHeld() {
   if (!held) return;
-  std::swap(*held, effects);
+  std::swap(*held, chain.selection);
   ++heldRevision;
   changed("swap");
   checkViews();
 }
 
 std::vector<Viewable> Session::views(bool rightSide) const {
-  std::vector<Viewable> all = viewables(rightSide && held ? *held : effects);
+  std::vector<Viewable> all = viewables(rightSide && held ? *held : chain.selection);
   if (!comparedOutput().empty()) {
     all.push_back({std::string(kErrorView), "Error against truth", Kind::kEncoded});
     all.push_back({std::string(kTruthView), "Truth", Kind::kNumber});
@@ -182,63 +162,12 @@ void Session::checkViews() {
   }
 }
 
-std::string Session::painter() const {
-  for (const EffectList::Entry& entry : effects.entries()) {
-    if (entry.on && entry.values.effect().takesShots()) return entry.key();
-  }
-  return "";
-}
-
-void Session::fire(glm::dvec2 point, glm::uvec2 size, bool joins) {
-  const std::string effect = painter();
-  if (effect.empty()) {
-    throw Error(ErrorId::kEffectTakesNoShots, "no effect that is on takes shots");
-  }
-  const glm::vec3 unit(glm::normalize(scene::pixelDirection(camera, size.x, size.y, point)));
-  shots.find(effect)->second.fire({.origin = {camera.eye.x, camera.eye.y, camera.eye.z},
-                                   .direction = {unit.x, unit.y, unit.z},
-                                   .color = {color.x, color.y, color.z},
-                                   .range = 0,
-                                   .reserved = 0});
-  noteChanges();
-  history.noteShots(effect, 1, joins ? "spray" : "shot", joins);
-}
-
-void Session::clearShots() {
-  const std::string effect = painter();
-  if (effect.empty() || shots.find(effect)->second.shots().empty()) return;
-  shots.find(effect)->second.clear();
-  noteChanges();
-  history.noteShots(effect, 1, "clear");
-}
-
-void Session::loadShots(const std::string& path) {
-  const std::string effect = painter();
-  if (effect.empty()) {
-    throw Error(ErrorId::kEffectTakesNoShots, "{}: no effect that is on takes shots", path);
-  }
-  const auto loaded = shots::load(path);
-  shots::ShotList& list = shots.find(effect)->second;
-  if (loaded.empty() && list.shots().empty()) return;
-  list.replace(loaded);
-  noteChanges();
-  history.noteShots(effect, 1, "load shots");
-  say(fmt::format("{} shots from {}", loaded.size(), path));
-}
-
-void Session::saveShots(const std::string& path) {
-  const std::string effect = painter();
-  if (effect.empty()) throw Error(ErrorId::kEffectTakesNoShots, "no effect that is on takes shots");
-  const auto all = shots.find(effect)->second.shots();
-  shots::save(all, path);
-  say(fmt::format("{} shots to {}", all.size(), path));
-}
-
 void Session::openFile(const std::string& path) {
   const std::string ending = fs::path(path).extension().string();
   if (ending == ".toml") return loadSettings(path);
-  if (ending == ".shots" || (ending == ".json" && holdsShots(path))) return loadShots(path);
   if (ending == ".json") {
+    const std::string owner = ownerOf(path);
+    if (!owner.empty()) return loadObjects(owner, path);
     camera = scene::loadCamera(path);
     return;
   }
@@ -247,7 +176,7 @@ void Session::openFile(const std::string& path) {
 
 void Session::loadSettings(const std::string& path) {
   const Settings settings = readSettings(path);
-  effects.apply(settings);
+  apply(settings, {});
   if (settings.surface) surface = surfaceOf(*settings.surface);
   changed(fs::path(path).filename().string());
   checkViews();
@@ -255,7 +184,7 @@ void Session::loadSettings(const std::string& path) {
 }
 
 void Session::saveSettings(const std::string& path) {
-  Settings settings = effects.settings();
+  Settings settings = settingsOf(chain.selection);
   settings.surface = nameOf(surface);
   writeSettings(settings, path);
   say("settings to " + path);
@@ -272,9 +201,9 @@ std::string Session::rescue(const fs::path& folder) {
     return file.string();
   };
   saveSettings(keep("--config", "", folder / "settings.toml"));
-  for (const auto& [effect, list] : shots) {
-    if (list.shots().empty()) continue;
-    shots::save(list.shots(), keep("--load", effect + "=", folder / (effect + ".shots")));
+  for (const auto& [effect, list] : chain.objectLists()) {
+    if (list.size() == 0) continue;
+    objects::save(list.view(), keep("--load", effect + "=", folder / (effect + ".json")));
   }
   if (scene) scene::saveCamera(camera, keep("--camera", "", folder / "camera.json"));
   for (const std::string& plugins : options_.pluginPaths) {
@@ -293,18 +222,18 @@ std::string Session::commandLine(glm::uvec2 size, const std::string& backend,
   command.size = size;
   command.backend = backend;
   command.device = device;
-  command.effects = &effects;
+  command.effects = &chain.selection;
   command.surface = nameOf(surface);
   command.pluginPaths = options_.pluginPaths;
-  const std::string effect = painter();
-  if (!effect.empty() && !shots.find(effect)->second.shots().empty()) {
-    // Named by what it holds: a command that was copied earlier keeps its shots.
-    const auto all = std::as_bytes(shots.find(effect)->second.shots());
-    const size_t hash =
-        std::hash<std::string_view>()({reinterpret_cast<const char*>(all.data()), all.size()});
-    const fs::path file = stateFolder() / fmt::format("{}-{:016x}.shots", effect, hash);
+  for (const std::string& effect : effectsWithObjects()) {
+    const objects::ObjectList& list = listOf(effect);
+    if (list.size() == 0) continue;
+    // Named by what it holds: a command that was copied earlier keeps its objects.
+    const std::string text = objects::jsonOf(list.view());
+    const fs::path file =
+        stateFolder() / fmt::format("{}-{:016x}.json", effect, std::hash<std::string>()(text));
     fs::create_directories(stateFolder());
-    shots::save(shots.find(effect)->second.shots(), file.string());
+    writeFileAtomically(file.string(), text);
     command.loads.emplace_back(effect, file.string());
   }
   command.writes.emplace_back(isTruthView(left) ? comparedOutput() : left, "grisaille.png");

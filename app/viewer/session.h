@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: MIT
-// What is looked at and how: scene, camera, effects with their settings, shots, views. No window,
+// What is looked at and how: scene, camera, the chain of effects, views. No window,
 // no device; every change of it goes through here or through the members that the panel edits.
 #pragma once
 
@@ -12,12 +12,14 @@
 #include <string>
 #include <vector>
 
+#include "app/services/scene_services.h"
 #include "app/settings/presets.h"
-#include "app/viewer/effect_list.h"
+#include "app/settings/settings.h"
 #include "app/viewer/history.h"
 #include "app/viewer/stage.h"
 #include "app/viewer/tune_run.h"
 #include "core/base/error.h"
+#include "core/effect/selection.h"
 #include "core/scene/camera.h"
 
 namespace grisaille::app::viewer {
@@ -90,12 +92,13 @@ class Session {
   void setScene(std::shared_ptr<const scene::Scene> loaded, const std::string& path);
   std::string scenePath;  // "": the built-in scene
   std::shared_ptr<const scene::Scene> scene;
+  std::unique_ptr<SceneServices> services;  // of the scene
   scene::Camera camera, homeCamera;
   double speed = 1;  // metres a second, of flying
 
   // --- Effects
-  EffectList effects;
-  uint64_t revision = 1;  // of them; to be raised with every change
+  effect::Chain chain;    // of all effects there are
+  uint64_t revision = 1;  // of its selection; to be raised with every change
   void changed(std::string what) {
     ++revision;
     lastChange_ = std::move(what);
@@ -106,12 +109,12 @@ class Session {
   void undo();
   void redo();
   const effect::Registry& registry() const { return *registry_; }
-  // Loads plugins that are new or have changed. `before` is called when all is ready, to let go of
-  // the old plugins' instances.
+  // Loads plugins that are new or have changed. `before` is called before instances of the old ones
+  // end.
   void rescan(const std::function<void()>& before);
 
   // The settings that the picture is compared with.
-  std::optional<EffectList> held;
+  std::optional<effect::Selection> held;
   uint64_t heldRevision = 0;
   void hold();
   void swapHeld();
@@ -142,7 +145,7 @@ class Session {
 
   // --- Presets, and settings that are searched for: each a step of undo
   const EffectPresets& presetsOf(const std::string& effect) const;
-  void choosePreset(EffectList::Entry& entry, const std::string& name);
+  void choosePreset(effect::Selection::Entry& entry, const std::string& name);
   std::string outputToTune(const std::string& effect) const;  // "": there is none
   // The radius says what is asked for where the truth has it too.
   bool staysInTune(std::string_view parameter) const;
@@ -151,32 +154,41 @@ class Session {
                           const std::string& device);
   // Values of that effect. Throws as effect::Values does and where the effect is gone, and then
   // changes nothing.
-  void takeTuned(const std::string& effect, const std::vector<Settings::Value>& values);
+  void takeTuned(const std::string& effect, const std::vector<effect::ParameterValue>& values);
 
-  // --- Shots
-  ShotLists shots;
-  glm::vec3 color = glm::vec3(1, 0.08f, 0.004f);  // linear
-  bool painting = false;                          // the left button fires
-  // The first effect on that takes shots; "": none is.
-  std::string painter() const;
-  // Through a point of a picture of this size, from its top left corner; `joins` the step of undo
-  // before.
-  void fire(glm::dvec2 point, glm::uvec2 size, bool joins);
-  void clearShots();
-  void loadShots(const std::string& path);
-  void saveShots(const std::string& path);
+  // --- Objects that users make; session_objects.cpp
+  // Effects that are on and whose tables declare some, in order.
+  std::vector<std::string> effectsWithObjects() const;
+  bool placing = false;  // the left button places an object
+  // The effect that it is placed for: the one chosen last, or the first; "": there is none.
+  std::string placer() const;
+  void placeWith(const std::string& effect, bool on);
+  // What the next object is like, but for its place.
+  objects::Object& nextObject(const std::string& effect);
+  objects::ObjectList& listOf(const std::string& effect);  // throws kEffectTakesNoObjects
+  // One step of undo, where `change` changes anything; `joins` the step before.
+  void changeObjects(const std::string& effect, const std::string& what, bool joins,
+                     const std::function<void(objects::ObjectList&)>& change);
+  // While the left button is held, objects follow each other: those that rays place.
+  bool sprays();
+  // At a point of a picture of this size, from its top left corner. False: nothing is seen there
+  // that it could be placed on.
+  bool place(glm::dvec2 point, glm::uvec2 size, bool joins);
+  void clearObjects(const std::string& effect);
+  void loadObjects(const std::string& effect, const std::string& path);
+  void saveObjects(const std::string& effect, const std::string& path);
 
   // --- Files
-  // A settings, shots or camera file, by its ending and content. Throws Error.
+  // A file of settings, objects or a camera, by its ending and content. Throws Error.
   void openFile(const std::string& path);
   void loadSettings(const std::string& path);
   void saveSettings(const std::string& path);
 
-  // Writes what no file holds yet into a folder: settings, shots, camera. The command that goes on
-  // from there. Throws kFileUnwritable.
+  // Writes what no file holds yet into a folder: settings, objects, camera. The command that goes
+  // on from there. Throws kFileUnwritable.
   std::string rescue(const std::filesystem::path& folder);
 
-  // The command that makes the picture on the screen; shots that no file holds are written to one.
+  // The command that makes the picture on the screen; objects are written to a file.
   std::string commandLine(glm::uvec2 size, const std::string& backend, const std::string& device);
 
   // --- What there is to say
@@ -186,14 +198,17 @@ class Session {
   void attempt(const std::function<void()>& action);
 
  private:
-  void addLists();
+  void apply(const Settings& settings, const std::vector<std::string>& presets);
+  std::string ownerOf(const std::string& path);  // the effect whose objects a file holds; "": none
   void beginComparing();
   void loadAllPresets();
 
   SessionOptions options_;
   std::map<std::string, EffectPresets> presets_;  // by effect
   std::string lastChange_;
-  std::string leftBefore_ = "color";  // comparing
+  std::string placer_;                                        // chosen last
+  std::map<std::string, objects::Object, std::less<>> next_;  // by effect
+  std::string leftBefore_ = "color";                          // comparing
   bool firstScene_ = true;
 };
 

@@ -22,9 +22,9 @@ void Session::beginComparing() {
 
 std::vector<std::string> Session::comparable() const {
   std::vector<std::string> outputs;
-  for (const EffectList::Entry& entry : effects.entries()) {
+  for (const effect::Selection::Entry& entry : chain.selection.entries()) {
     if (!entry.on) continue;
-    for (const grisaille_output_desc& output : entry.values.effect().outputs()) {
+    for (const grisaille_output_desc& output : entry.effect().outputs()) {
       const gpu::Format format = effect::formatOf(output.format);
       if (output.role != GRISAILLE_ROLE_VISIBILITY) continue;
       if (gpu::formatInfo(format).channels != 1) continue;
@@ -45,9 +45,9 @@ std::string Session::comparedOutput() const {
 double Session::truthRadius(const std::string& output) const {
   constexpr double kUsual = 0.5;  // metres
   if (comparing.radius) return *comparing.radius;
-  for (const EffectList::Entry& entry : effects.entries()) {
+  for (const effect::Selection::Entry& entry : chain.selection.entries()) {
     if (!output.starts_with(std::string(entry.key()) + ".")) continue;
-    for (const grisaille_param_desc& param : entry.values.effect().params()) {
+    for (const grisaille_param_desc& param : entry.effect().params()) {
       if (std::string_view(param.key) != "radius") continue;
       const double radius = entry.values.get("radius");
       if (radius > 0 && radius <= TruthSettings::kFarthest) return radius;

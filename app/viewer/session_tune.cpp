@@ -24,7 +24,7 @@ const EffectPresets& Session::presetsOf(const std::string& effect) const {
   return found == presets_.end() ? kNone : found->second;
 }
 
-void Session::choosePreset(EffectList::Entry& entry, const std::string& name) {
+void Session::choosePreset(effect::Selection::Entry& entry, const std::string& name) {
   noteChanges();
   applyPreset(entry.values, presetsOf(entry.key()).presets, name);
   changed(std::string(entry.key()) + ", preset " + name);
@@ -44,7 +44,7 @@ bool Session::staysInTune(std::string_view parameter) const {
 
 TuneCommand Session::tuneCommand(const TuneWish& wish, glm::uvec2 view, const std::string& backend,
                                  const std::string& device) {
-  const EffectList::Entry* entry = effects.find(wish.effect);
+  const effect::Selection::Entry* entry = chain.selection.find(wish.effect);
   TuneCommand command;
   command.output = outputToTune(wish.effect);
   if (entry == nullptr || command.output.empty()) {
@@ -56,26 +56,27 @@ TuneCommand Session::tuneCommand(const TuneWish& wish, glm::uvec2 view, const st
   command.size = tuneSize(view);
   command.backend = backend;
   command.device = device;
-  command.effects = &effects;
+  command.effects = &chain.selection;
   command.radius = truthRadius(command.output);
   command.samples = comparing.rays;
   (wish.byBudget ? command.budget : command.maxError) = wish.byBudget ? wish.budget : wish.maxError;
   command.evaluations = wish.evaluations;
   command.pluginPaths = options_.pluginPaths;
   const Presets& presets = presetsOf(wish.effect).presets;
-  for (const grisaille_param_desc* param : tunable(entry->values.effect(), presets)) {
+  for (const grisaille_param_desc* param : tunable(entry->effect(), presets)) {
     if (staysInTune(param->key) || wish.stay.contains(param->key)) continue;
-    command.vary.push_back(wish.effect + "." + param->key);
+    command.vary.push_back({.effect = wish.effect, .key = param->key});
   }
   if (command.vary.empty()) throw Error(ErrorId::kUsage, "there is no parameter to vary");
   return command;
 }
 
-void Session::takeTuned(const std::string& effect, const std::vector<Settings::Value>& values) {
-  EffectList::Entry* entry = effects.find(effect);
+void Session::takeTuned(const std::string& effect,
+                        const std::vector<effect::ParameterValue>& values) {
+  effect::Selection::Entry* entry = chain.selection.find(effect);
   if (entry == nullptr) throw Error(ErrorId::kUsage, "'{}' is there no more", effect);
   effect::Values found = entry->values;
-  for (const Settings::Value& value : values) found.set(value.key, value.text);
+  for (const effect::ParameterValue& one : values) found.set(one.name.key, one.value);
   noteChanges();
   entry->values = found;
   changed(effect + ", tuned");

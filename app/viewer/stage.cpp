@@ -2,6 +2,7 @@
 #include "app/viewer/stage.h"
 
 #include <algorithm>
+#include <utility>
 
 #include "core/base/error.h"
 #include "core/frame/texture_image.h"
@@ -13,25 +14,39 @@ namespace {
 constexpr uint32_t kGroup = 8;
 
 Kind kindOf(const grisaille_output_desc& output) {
-  if (output.role == GRISAILLE_ROLE_PAINT) return Kind::kPaint;
+  if (output.role == GRISAILLE_ROLE_OVERLAY) return Kind::kOverlay;
   const gpu::Format format = effect::formatOf(output.format);
   return gpu::formatInfo(format).channels == 1 ? Kind::kNumber : Kind::kEncoded;
 }
 
-Kind kindOf(const EffectList& effects, const std::string& output) {
+Kind kindOf(const effect::Selection& effects, const std::string& output) {
   for (const Viewable& viewable : viewables(effects)) {
     if (viewable.output == output) return viewable.kind;
   }
   return Kind::kEncoded;
 }
 
+// A chain with another selection, as long as this lives. Objects and instances are the same.
+class Exchanged {
+ public:
+  Exchanged(effect::Chain& chain, effect::Selection other)
+      : chain_(chain), own_(std::exchange(chain.selection, std::move(other))) {}
+  ~Exchanged() { chain_.selection = std::move(own_); }
+  Exchanged(const Exchanged&) = delete;
+  Exchanged& operator=(const Exchanged&) = delete;
+
+ private:
+  effect::Chain& chain_;
+  effect::Selection own_;
+};
+
 }  // namespace
 
-std::vector<Viewable> viewables(const EffectList& effects) {
+std::vector<Viewable> viewables(const effect::Selection& effects) {
   std::vector<Viewable> all = {{"color", "Final", Kind::kLight}};
-  for (const EffectList::Entry& entry : effects.entries()) {
+  for (const effect::Selection::Entry& entry : effects.entries()) {
     if (!entry.on) continue;
-    for (const grisaille_output_desc& output : entry.values.effect().outputs()) {
+    for (const grisaille_output_desc& output : entry.effect().outputs()) {
       if (effect::formatOf(output.format) == gpu::Format::kR32Uint) continue;
       const std::string name = std::string(entry.key()) + "." + output.key;
       all.push_back({name, name, kindOf(output)});
@@ -50,11 +65,12 @@ bool Stage::Wanted::operator==(const Wanted& o) const {
          camera.up == o.camera.up && camera.fovyDegrees == o.camera.fovyDegrees &&
          camera.nearPlane == o.camera.nearPlane && size == o.size && surface == o.surface &&
          revision == o.revision && left == o.left && right == o.right && extra == o.extra &&
-         shots == o.shots;
+         objects == o.objects;
 }
 
-Stage::Stage(gpu::Device& device, const scene::Scene& scene)
-    : device_(device), rays_(scene), renderer_(device, scene) {}
+Stage::Stage(gpu::Device& device, const scene::Scene& scene, SceneServices& services,
+             effect::Chain& chain)
+    : device_(device), services_(services), renderer_(device, scene), started_(chain, device) {}
 
 Stage::~Stage() {
   device_.destroy(held_);
@@ -70,8 +86,7 @@ Stage::Wanted Stage::wanted(const StageDesc& desc, bool held) {
                 .left = held ? "" : desc.left,
                 .right = held || desc.held == nullptr ? desc.right : "",
                 .extra = held ? std::vector<std::string>() : desc.extra,
-                .shots = {}};
-  for (const auto& [effect, list] : *desc.shots) all.shots.push_back(list.revision());
+                .objects = desc.chain->objectsRevision()};
   return all;
 }
 
@@ -81,34 +96,15 @@ bool Stage::isStale(const StageDesc& desc) const {
   return desc.held != nullptr && !(heldDone_ && *heldDone_ == wanted(desc, true));
 }
 
-void Stage::render(const StageDesc& desc, const EffectList& effects, glm::uvec2 size,
-                   std::span<const std::string> outputs) {
-  std::vector<frame::ActiveEffect> active;
-  std::vector<std::pair<Running*, uint64_t>> revisions;
-  for (const EffectList::Entry& entry : effects.entries()) {
-    if (!entry.on) continue;
-    Running& running = running_[entry.key()];
-    if (!running.instance) {
-      running = {std::make_unique<effect::Instance>(device_, entry.values.effect()), 0};
-    }
-    frame::ActiveEffect one{.instance = running.instance.get(), .values = &entry.values};
-    const auto list = desc.shots->find(entry.key());
-    if (list != desc.shots->end()) {
-      one.shots = list->second.shots();
-      one.shotsKept = list->second.keptSince(running.shotsRevision);
-      revisions.emplace_back(&running, list->second.revision());
-    }
-    active.push_back(one);
-  }
-  for (const auto& [running, revision] : revisions) running->shotsRevision = revision;
+void Stage::render(const StageDesc& desc, glm::uvec2 size, std::span<const std::string> outputs) {
   renderer_.render({.camera = desc.camera,
                     .width = size.x,
                     .height = size.y,
                     .surface = desc.surface,
-                    .effects = active,
+                    .chain = desc.chain,
                     .outputs = outputs,
                     .patience = desc.patience,
-                    .rays = &rays_});
+                    .services = services_.all()});
 }
 
 // The held settings' picture, copied, since the next frame takes its targets.
@@ -116,7 +112,10 @@ void Stage::updateHeld(const StageDesc& desc) {
   heldDone_ = wanted(desc, true);
   heldWaiting_ = 0;
   const std::vector<std::string> outputs = {desc.right};
-  render(desc, *desc.held, desc.size, outputs);
+  {
+    const Exchanged exchanged(*desc.chain, *desc.held);
+    render(desc, desc.size, outputs);
+  }
   heldWaiting_ = renderer_.waiting();
   if (heldSize_ != desc.size) {
     device_.destroy(held_);
@@ -169,12 +168,13 @@ void Stage::update(const StageDesc& desc) {
   outputs.insert(outputs.end(), desc.extra.begin(), desc.extra.end());
   left_ = {};
   if (!held) right_ = {};
-  render(desc, *desc.live, desc.size, outputs);
+  render(desc, desc.size, outputs);
   waiting_ = renderer_.waiting();
   size_ = desc.size;
-  left_ = {renderer_.texture(desc.left), desc.left, kindOf(*desc.live, desc.left), {}};
+  left_ = {renderer_.texture(desc.left), desc.left, kindOf(desc.chain->selection, desc.left), {}};
   if (!held && !desc.right.empty()) {
-    right_ = {renderer_.texture(desc.right), desc.right, kindOf(*desc.live, desc.right), {}};
+    right_ = {
+        renderer_.texture(desc.right), desc.right, kindOf(desc.chain->selection, desc.right), {}};
   }
 }
 
@@ -204,14 +204,8 @@ image::Image Stage::picture(const StageDesc& desc, const std::string& output) {
   ++revision_;
   left_ = {};
   if (right_.texture != held_) right_ = {};
-  render(whole, *desc.live, desc.size, outputs);
+  render(whole, desc.size, outputs);
   return renderer_.read(output);
-}
-
-void Stage::forgetEffects() {
-  running_.clear();
-  done_.reset();
-  heldDone_.reset();
 }
 
 }  // namespace grisaille::app::viewer

@@ -4,23 +4,19 @@
 #pragma once
 
 #include <array>
-#include <map>
 #include <memory>
 #include <optional>
 #include <string>
 #include <vector>
 
 #include "app/services/scene_services.h"
-#include "app/viewer/effect_list.h"
+#include "core/effect/chain.h"
 #include "core/frame/renderer.h"
-#include "core/shots/shot_list.h"
 
 namespace grisaille::app::viewer {
 
-using ShotLists = std::map<std::string, shots::ShotList, std::less<>>;  // by effect
-
 // How numbers become colours; as shaders/viewer/show.comp has it.
-enum class Kind : uint32_t { kLight, kNumber, kSigned, kDepth, kPaint, kEncoded };
+enum class Kind : uint32_t { kLight, kNumber, kSigned, kDepth, kOverlay, kEncoded };
 
 // An output of the frame that can be looked at.
 struct Viewable {
@@ -29,28 +25,28 @@ struct Viewable {
 };
 
 // Of a frame with these effects, in the order of the outputs; those of integers left out.
-std::vector<Viewable> viewables(const EffectList& effects);
+std::vector<Viewable> viewables(const effect::Selection& effects);
 
 // What the picture is made of. Revisions change with what they stand for.
 struct StageDesc {
   scene::Camera camera;
   glm::uvec2 size = glm::uvec2(0);
   frame::Surface surface = frame::Surface::kWhite;
-  const EffectList* live = nullptr;
-  uint64_t liveRevision = 0;
-  const EffectList* held = nullptr;  // the right side's settings; null: the live ones
+  effect::Chain* chain = nullptr;
+  uint64_t liveRevision = 0;                // of its selection
+  const effect::Selection* held = nullptr;  // the right side's settings; null: the chain's
   uint64_t heldRevision = 0;
   std::string left = "color";
   std::string right;                    // "": there is no right side
   std::vector<std::string> extra = {};  // outputs of the live settings to be read
-  const ShotLists* shots = nullptr;
-  double patience = 0.05;  // seconds a frame that paint may take to be placed
+  double patience = 0.05;               // seconds of work that can wait which a frame may do
 };
 
 class Stage {
  public:
-  // Both outlive this; the scene stays unchanged.
-  Stage(gpu::Device& device, const scene::Scene& scene);
+  // All outlive this; the scene stays unchanged. The chain is started on the device.
+  Stage(gpu::Device& device, const scene::Scene& scene, SceneServices& services,
+        effect::Chain& chain);
   ~Stage();
   Stage(const Stage&) = delete;
   Stage& operator=(const Stage&) = delete;
@@ -81,10 +77,7 @@ class Stage {
   // One output at any size, for a file; the screen's picture is stale afterwards.
   image::Image picture(const StageDesc& desc, const std::string& output);
 
-  // Forgets the instances of all effects: their plugins are about to go.
-  void forgetEffects();
-
-  // Shots that paint waits for: the picture is not whole.
+  // What waits to be drawn in a later frame: the picture is not whole.
   uint64_t waiting() const { return waiting_; }
 
  private:
@@ -102,25 +95,19 @@ class Stage {
     uint64_t revision;
     std::string left, right;
     std::vector<std::string> extra;
-    std::vector<uint64_t> shots;  // revisions
+    uint64_t objects;  // revision
 
     bool operator==(const Wanted& other) const;
   };
-  struct Running {
-    std::unique_ptr<effect::Instance> instance;
-    uint64_t shotsRevision = 0;  // of the last frame
-  };
-
   static Wanted wanted(const StageDesc& desc, bool held);
-  void render(const StageDesc& desc, const EffectList& effects, glm::uvec2 size,
-              std::span<const std::string> outputs);
+  void render(const StageDesc& desc, glm::uvec2 size, std::span<const std::string> outputs);
   void updateHeld(const StageDesc& desc);
 
   gpu::Device& device_;
-  SceneRays rays_;
+  SceneServices& services_;
   frame::Renderer renderer_;
-  std::map<std::string, Running, std::less<>> running_;  // by effect
-  std::optional<Wanted> done_, heldDone_;                // what the sides hold
+  effect::StartedChain started_;
+  std::optional<Wanted> done_, heldDone_;  // what the sides hold
   Side left_, right_;
   glm::uvec2 size_ = glm::uvec2(0);
   uint64_t waiting_ = 0, heldWaiting_ = 0, revision_ = 0;

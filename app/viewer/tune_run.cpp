@@ -2,56 +2,49 @@
 #include "app/viewer/tune_run.h"
 
 #include <fmt/format.h>
-#include <stdlib.h>
 
 #include <algorithm>
 #include <cmath>
-#include <cstring>
+#include <nlohmann/json.hpp>
 
 #include "app/viewer/command_line.h"
 #include "core/base/error.h"
 
 namespace grisaille::app::viewer {
-namespace fs = std::filesystem;
+using nlohmann::json;
 namespace {
 
-// What stands on a terminal's lines after all that was written: a carriage return begins a line
-// anew. Empty ones are left out.
-std::vector<std::string> linesOf(const std::string& written) {
-  constexpr std::string_view kErase = "\x1b[K";
-  std::vector<std::string> lines;
+// The whole lines of JSON, the newest last.
+std::vector<json> objectsOf(const std::string& written) {
+  std::vector<json> objects;
   for (size_t from = 0; from < written.size();) {
-    const size_t end = std::min(written.find('\n', from), written.size());
-    std::string line = written.substr(from, end - from);
-    line.erase(0, line.rfind('\r') + 1);
-    while (line.find(kErase) != std::string::npos) line.erase(line.find(kErase), kErase.size());
-    if (!line.empty()) lines.push_back(line);
+    const size_t end = written.find('\n', from);
+    if (end == std::string::npos) break;
+    json line = json::parse(written.begin() + static_cast<ptrdiff_t>(from),
+                            written.begin() + static_cast<ptrdiff_t>(end), nullptr, false);
+    if (line.is_object()) objects.push_back(std::move(line));
     from = end + 1;
   }
-  return lines;
+  return objects;
 }
 
-// Of the first line that has it.
-std::string between(const std::vector<std::string>& lines, const std::string& before,
-                    const std::string& after) {
-  for (const std::string& line : lines) {
-    const size_t at = line.find(before);
-    if (at == std::string::npos) continue;
-    const size_t from = at + before.size();
-    return line.substr(from, after.empty() ? std::string::npos : line.find(after, from) - from);
-  }
-  return "";
+// What it said last on standard error.
+std::string lastLine(const std::string& written) {
+  const size_t end = written.find_last_not_of("\r\n");
+  if (end == std::string::npos) return "";
+  const size_t before = written.find_last_of("\r\n", end);
+  const size_t from = before == std::string::npos ? 0 : before + 1;
+  return written.substr(from, end + 1 - from);
 }
 
 // "RMSE 0.1010 at 41.234 ms, 57 evaluations; on unseen cameras 0.1120"
-std::string resultOf(const std::vector<std::string>& lines) {
-  std::string text = "RMSE " + between(lines, "RMSE ", " (");
-  for (const std::string& line : lines) {
-    const size_t at = line.find(" evaluations: ");
-    if (at != std::string::npos) text += ", " + line.substr(0, at) + " evaluations";
-  }
-  const std::string unseen = between(lines, "validated on cameras not tuned on: RMSE ", "");
-  return unseen.empty() ? text : text + "; on unseen cameras " + unseen;
+std::string resultOf(const json& found) {
+  std::string text =
+      fmt::format("RMSE {:.4f} at {:.3f} ms, {} evaluations", found.at("rmse").get<double>(),
+                  found.at("milliseconds").get<double>(), found.at("evaluations").get<uint64_t>());
+  const json& unseen = found.at("unseen_rmse");
+  return unseen.is_null() ? text
+                          : text + fmt::format("; on unseen cameras {:.4f}", unseen.get<double>());
 }
 
 }  // namespace
@@ -75,7 +68,11 @@ std::vector<std::string> tuneArguments(const TuneCommand& command) {
   if (command.maxError > 0) add("--max-error", fmt::format("{}", command.maxError));
   if (command.budget > 0) add("--budget-ms", fmt::format("{}", command.budget));
   add("--evaluations", fmt::format("{}", command.evaluations));
-  add("--vary", fmt::format("{}", fmt::join(command.vary, ",")));
+  std::string vary;
+  for (const effect::ParameterName& name : command.vary) {
+    vary += (vary.empty() ? "" : ",") + name.text();
+  }
+  add("--vary", vary);
   return arguments;
 }
 
@@ -89,52 +86,25 @@ glm::uvec2 tuneSize(glm::uvec2 view) {
   return {side(view.x), side(view.y)};
 }
 
-TuneRun::~TuneRun() {
-  forget();
-}
-
-// Also removes the folder, in which the child may have left a part of a file.
-void TuneRun::forget() {
-  child_.reset();
-  std::error_code ignored;
-  if (!folder_.empty()) fs::remove_all(folder_, ignored);
-  folder_.clear();
-}
-
 void TuneRun::start(const TuneCommand& command) {
   if (child_) return;
-  std::string folder = (fs::temp_directory_path() / "grisaille-tune-XXXXXX").string();
-  if (mkdtemp(folder.data()) == nullptr) {
-    throw Error(ErrorId::kFileUnwritable, "{}: {}", folder, std::strerror(errno));
-  }
-  folder_ = folder;
   std::vector<std::string> words = program_;
   const std::vector<std::string> arguments = tuneArguments(command);
   words.insert(words.end(), arguments.begin(), arguments.end());
-  words.insert(words.end(), {"--progress", "--out", (folder_ / "found.toml").string()});
-  vary_ = command.vary;
+  words.emplace_back("--json");
   cancelled_ = false;
-  try {
-    child_ = std::make_unique<Child>(std::move(words));
-  } catch (...) {
-    forget();
-    throw;
-  }
+  child_ = std::make_unique<Child>(std::move(words));
 }
 
-// "tune [####....]  42 % 34 evaluations, RMSE 0.1034, 5 s left"; before that, by the camera,
-// "truth 1 of 1 [##......]  25 % 64 of 256 samples a pixel, 7 s left".
 TuneRun::State TuneRun::state() const {
   if (!child_) return {};
   if (cancelled_) return {0, "is being cancelled"};
-  const std::vector<std::string> lines = linesOf(child_->err());
-  if (lines.empty()) return {0, "starts"};
-  const std::string& line = lines.back();
-  const size_t open = line.find(" ["), bracket = line.find(']'), percent = line.find(" % ");
-  if (open > bracket || percent == std::string::npos) return {0, line};
-  const std::string name = line.substr(0, open);
-  const std::string doing = name == "tune" ? "" : "tracing " + name + ": ";
-  return {std::strtod(line.c_str() + bracket + 1, nullptr) / 100, doing + line.substr(percent + 3)};
+  const std::vector<json> told = objectsOf(child_->out());
+  if (told.empty()) return {0, "starts"};
+  const json& last = told.back();
+  const std::string name = last.value("progress", "");
+  const std::string doing = name == "tune" || name.empty() ? "" : "tracing " + name + ": ";
+  return {last.value("share", 0.0), doing + last.value("text", "")};
 }
 
 void TuneRun::cancel() {
@@ -146,33 +116,34 @@ void TuneRun::cancel() {
 std::optional<TuneRun::Outcome> TuneRun::take() {
   if (!child_ || child_->running()) return std::nullopt;
   const Outcome outcome = outcomeOf(*child_);
-  forget();
+  child_.reset();
   return outcome;
 }
 
 TuneRun::Outcome TuneRun::outcomeOf(const Child& ended) const {
   if (cancelled_) return {.values = {}, .text = "cancelled", .warning = {}};
-  const std::vector<std::string> told = linesOf(ended.err());
   if (ended.status() != 0) {
     const std::string why = ended.status() < 0 ? "a signal ended it" : "it failed without a word";
-    return {.values = {}, .text = told.empty() ? why : told.back(), .warning = {}};
+    const std::string told = lastLine(ended.err());
+    return {.values = {}, .text = told.empty() ? why : told, .warning = {}};
   }
-  Outcome outcome;
-  for (const std::string& line : told) {
-    if (line.starts_with("warning: ")) outcome.warning = line;
+  const std::vector<json> told = objectsOf(ended.out());
+  if (told.empty() || !told.back().contains("setting")) {
+    return {.values = {}, .text = "it told no result", .warning = {}};
   }
   try {
-    const Settings found = readSettings((folder_ / "found.toml").string());
-    outcome.values.emplace();
-    for (const Settings::Value& value : found.values) {
-      if (std::ranges::find(vary_, value.effect + "." + value.key) == vary_.end()) continue;
-      outcome.values->push_back({value.effect, value.key, value.text, ""});
+    const json& found = told.back();
+    Outcome outcome{.values = std::vector<effect::ParameterValue>(),
+                    .text = resultOf(found),
+                    .warning = found.value("warning", "")};
+    for (const auto& [name, value] : found.at("setting").items()) {
+      outcome.values->push_back(
+          {.name = effect::parseParameterName(name), .value = value.get<double>()});
     }
-    outcome.text = resultOf(linesOf(ended.out()));
-  } catch (const Error& error) {
-    outcome = {.values = {}, .text = error.what(), .warning = {}};
+    return outcome;
+  } catch (const json::exception& error) {
+    return {.values = {}, .text = error.what(), .warning = {}};
   }
-  return outcome;
 }
 
 }  // namespace grisaille::app::viewer

@@ -114,7 +114,7 @@ void Viewer::run() {
     rescue();
     throw;
   }
-  if (!options_.screenshot.empty()) saveScreenshot();
+  if (!options_.capture.empty()) saveCapture();
   orNote([&] { keepState(); });
 }
 
@@ -154,7 +154,7 @@ void Viewer::showFrames() {
 }
 
 // How long to wait for something to happen, seconds.
-double Viewer::patience() const {
+double Viewer::patience() {
   const bool visible = window_->pixels().x > 0;
   const bool stale = stage_ && !session_.paused && stage_->isStale(stageDesc());
   if (visible && (settle_ > 0 || moving_ || stale || session_.continuous)) return 0;
@@ -230,10 +230,7 @@ void Viewer::frame(double seconds) {
 void Viewer::perform(const Requests& requests) {
   if (requests.rescan) {
     session_.attempt([&] {
-      session_.rescan([&] {
-        if (stage_) stage_->forgetEffects();
-        device_->wait();
-      });
+      session_.rescan([&] { device_->wait(); });
       rebuild_.watch(session_.registry());
     });
     settle_ = kSettleFrames;
@@ -271,7 +268,7 @@ void Viewer::takeScene() {
     truth_->stop();
     stage_.reset();
     session_.setScene(scene, path);
-    stage_ = std::make_unique<Stage>(*device_, *session_.scene);
+    stage_ = std::make_unique<Stage>(*device_, *session_.scene, *session_.services, session_.chain);
     times_.clear();
     state_.noteRecent(path);
     keepState();

@@ -25,7 +25,7 @@ struct ViewerOptions {
   // Ends after so many frames with the scene's picture and, where it is compared with the truth,
   // the whole of that; 0: when it is closed.
   uint32_t frames = 0;
-  std::string screenshot;  // what the window holds at the end, .png or .exr; "": nowhere
+  std::string capture;  // what the window holds at the end, .png or .exr; "": nowhere
   bool check = false;
   gpu::MessageSink message = {};  // what the driver says; none: standard error
 };
@@ -50,7 +50,7 @@ class Viewer {
   void rescue();
   void openWindow();
   void tryBackend(const backends::Backend& backend);
-  double patience() const;
+  double patience();
   bool lookAround();
   void frame(double seconds);
   void perform(const Requests& requests);
@@ -62,7 +62,7 @@ class Viewer {
   void nameWindow();
   void keepState();
   // viewer_picture.cpp
-  StageDesc stageDesc() const;
+  StageDesc stageDesc();
   Place place() const;
   void updateStage();
   void updateCoverage();
@@ -73,7 +73,7 @@ class Viewer {
   image::Image pictureOf(const std::string& view);
   void drawWindow();
   void savePicture();
-  void saveScreenshot();
+  void saveCapture();
   Status status();
   void writeLayout();
 

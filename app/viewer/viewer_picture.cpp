@@ -26,14 +26,6 @@ std::string fileName(std::string output) {
   return name;
 }
 
-std::optional<Painter> painterOf(const EffectList& list) {
-  std::vector<const effect::Effect*> effects;
-  for (const EffectList::Entry& entry : list.entries()) {
-    if (entry.on) effects.push_back(&entry.values.effect());
-  }
-  return findPainter(effects);
-}
-
 }  // namespace
 
 Place Viewer::place() const {
@@ -45,12 +37,12 @@ Place Viewer::place() const {
   return {.corner = {static_cast<int>(left), 0}, .size = {pixels.x - left, pixels.y}};
 }
 
-StageDesc Viewer::stageDesc() const {
+StageDesc Viewer::stageDesc() {
   StageDesc desc;
   desc.camera = session_.camera;
   desc.size = place().size;
   desc.surface = session_.surface;
-  desc.live = &session_.effects;
+  desc.chain = &session_.chain;
   desc.liveRevision = session_.revision;
   // What is compared stands for the truth and the error until these are there.
   const std::string compared = session_.comparedOutput();
@@ -62,14 +54,12 @@ StageDesc Viewer::stageDesc() const {
       desc.heldRevision = session_.heldRevision;
     }
   }
-  desc.shots = &session_.shots;
-  // Where a frame takes long anyway, paint may take as long: it is whole sooner.
+  // Where a frame takes long anyway, work that can wait may take as long: it is whole sooner.
   desc.patience = std::clamp(updateSeconds_, 0.03, 0.3);
   if (!compared.empty()) desc.extra.push_back(compared);
   if (panel_.wantsCoverage) {
-    if (const auto painter = painterOf(session_.effects)) {
-      desc.extra.insert(desc.extra.end(),
-                        {painter->owner, painter->paint, "depth", "facet_normal"});
+    if (const auto owned = findOwned(session_.chain.selection.effects())) {
+      desc.extra.insert(desc.extra.end(), {owned->owner, owned->overlay, "depth", "facet_normal"});
     }
   }
   return desc;
@@ -138,11 +128,11 @@ std::vector<float> Viewer::cursorValue(bool right, glm::uvec2 texel) {
 }
 
 void Viewer::updateCoverage() {
-  const auto painter = painterOf(session_.effects);
-  if (!painter) return;
-  coverage_ = colorShares(stage_->read(painter->owner), stage_->read(painter->paint),
+  const auto owned = findOwned(session_.chain.selection.effects());
+  if (!owned) return;
+  coverage_ = colorShares(stage_->read(owned->owner), stage_->read(owned->overlay),
                           stage_->read("depth"), stage_->read("facet_normal"), session_.camera,
-                          session_.shots.find(painter->effect)->second.shots());
+                          session_.chain.objects(owned->effect)->view(), *owned->colour);
 }
 
 Status Viewer::status() {
@@ -226,11 +216,11 @@ void Viewer::savePicture() {
   settle_ = std::max(settle_, 1);
 }
 
-void Viewer::saveScreenshot() {
+void Viewer::saveCapture() {
   const glm::uvec2 pixels = window_->pixels();
   const image::Image window =
       frame::toImage(device_->read(shown_), gpu::Format::kRgba8Unorm, pixels.x, pixels.y);
-  image::write(frame::firstChannels(window, 3), options_.screenshot);
+  image::write(frame::firstChannels(window, 3), options_.capture);
 }
 
 void Viewer::writeLayout() {

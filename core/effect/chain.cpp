@@ -46,8 +46,13 @@ uint64_t Chain::objectsRevision() const {
 void Chain::start(gpu::Maker& device) {
   stop();
   device_ = &device;
+}
+
+void Chain::create() {
   for (const Selection::Entry& entry : selection.entries()) {
-    if (entry.on) running(entry.effect());
+    if (!entry.on) continue;
+    Running& one = running_[entry.key()];
+    if (!one.instance) one = {std::make_unique<Instance>(*device_, entry.effect()), 0};
   }
 }
 
@@ -58,14 +63,8 @@ void Chain::end() {
   stop();
 }
 
-Chain::Running& Chain::running(const Effect& effect) {
-  Running& one = running_[std::string(effect.key())];
-  if (!one.instance) one = {std::make_unique<Instance>(*device_, effect), 0};
-  return one;
-}
-
 uint64_t Chain::record(const Selection::Entry& entry, FrameInputs inputs) {
-  Running& one = running(entry.effect());
+  Running& one = running_.find(entry.key())->second;
   const objects::ObjectList* list = objects(entry.key());
   if (list != nullptr) {
     inputs.objects = list->view();

@@ -40,15 +40,17 @@ class Chain {
 
   // --- On a device
 
-  // Creates the instances of effects that are on; others follow when they first record. The device
-  // outlives them. Throws kEffectCreate.
+  // From now on instances are on this device, which outlives them; those before end.
   void start(gpu::Maker& device);
+  // Creates the instances that are missing of effects that are on. Outside of a frame. Throws
+  // kEffectCreate.
+  void create();
   // Ends all instances; start() creates new ones. What an effect throws is printed.
   void stop() { running_.clear(); }
   // The same, and throws kEffectRecord where an effect throws.
   void end();
 
-  // Records one effect of the selection into the frame that `inputs` describes but for values and
+  // Records one effect that was created into the frame that `inputs` describes but for values and
   // objects. Returns how many things wait to be drawn in a later frame. Throws as Instance does.
   uint64_t record(const Selection::Entry& entry, FrameInputs inputs);
 
@@ -64,8 +66,6 @@ class Chain {
     uint64_t seen = 0;  // revision of the objects in the last frame that recorded without an error
   };
 
-  Running& running(const Effect& effect);
-
   gpu::Maker* device_ = nullptr;
   std::map<std::string, objects::ObjectList, std::less<>> lists_;  // by effect
   std::map<std::string, Running, std::less<>> running_;            // by effect
@@ -74,7 +74,6 @@ class Chain {
 // A chain that is started on a device, as long as this lives: its instances end before the device.
 class StartedChain {
  public:
-  // Throws as Chain::start() does.
   StartedChain(Chain& chain, gpu::Maker& device) : chain_(chain) { chain_.start(device); }
   ~StartedChain() { chain_.stop(); }
   StartedChain(const StartedChain&) = delete;

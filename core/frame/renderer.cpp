@@ -209,6 +209,7 @@ void Renderer::render(const FrameDesc& desc) {
   for (const std::string& name : desc.outputs) checkOutput(name, effects);
 
   const Plan plan(desc, source_);
+  if (desc.chain != nullptr) desc.chain->create();
   for (auto& [name, slot] : targets_) slot.used = false;
   outputs_.clear();
   waiting_ = 0;

@@ -67,7 +67,8 @@ class Renderer {
   Renderer(const Renderer&) = delete;
   Renderer& operator=(const Renderer&) = delete;
 
-  // Records and submits one frame. What throws leaves no frame open.
+  // Records and submits one frame, after creating what the chain lacks. What throws leaves no frame
+  // open.
   void render(const FrameDesc& desc);
 
   // What waits to be drawn in a later frame, summed over the effects of the last one. 0: its

@@ -35,8 +35,6 @@ class HandlePool {
     return {slot.generation << 16 | index};
   }
 
-  bool alive(HandleType handle) const { return find(handle) != nullptr; }
-
   // Throws kStaleHandle.
   Value& get(HandleType handle) {
     const Slot* slot = find(handle);

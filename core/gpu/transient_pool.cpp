@@ -1,8 +1,6 @@
 // SPDX-License-Identifier: MIT
 #include "core/gpu/transient_pool.h"
 
-#include <algorithm>
-
 namespace grisaille::gpu {
 namespace {
 
@@ -34,11 +32,6 @@ void TransientPool::endFrame(const Destroy& destroy) {
     if (entry.idle > kIdleFrames) destroy(entry.texture);
   }
   std::erase_if(entries_, [](const Entry& entry) { return entry.idle > kIdleFrames; });
-}
-
-bool TransientPool::owns(Texture texture) const {
-  return std::any_of(entries_.begin(), entries_.end(),
-                     [&](const Entry& entry) { return entry.texture == texture; });
 }
 
 }  // namespace grisaille::gpu

@@ -21,8 +21,6 @@ class TransientPool {
   // use.
   void endFrame(const Destroy& destroy);
 
-  bool owns(Texture texture) const;
-
  private:
   static constexpr uint32_t kIdleFrames = 3;
   struct Entry {

@@ -5,6 +5,7 @@
 
 #include <algorithm>
 #include <filesystem>
+#include <fstream>
 #include <iterator>
 #include <nlohmann/json.hpp>
 #include <optional>
@@ -274,6 +275,22 @@ Objects load(const Table& table, const std::string& path) {
   } catch (const Error& error) {
     throw Error(error.id(), "{}: {}", path, error.detail());
   }
+}
+
+std::string listKeyOf(const std::string& path) {
+  std::ifstream file = openRegularFile(path, ErrorId::kObjectFileUnreadable);
+  std::string head(256, '\0');
+  file.read(head.data(), static_cast<std::streamsize>(head.size()));
+  for (size_t at = head.find('"'); at != std::string::npos; at = head.find('"', at + 1)) {
+    const size_t end = head.find('"', at + 1);
+    const size_t colon =
+        end == std::string::npos ? end : head.find_first_not_of(" \t\n\r", end + 1);
+    if (colon == std::string::npos || head[colon] != ':') return "";
+    const std::string key = head.substr(at + 1, end - at - 1);
+    if (key != "version") return key;
+    at = end;
+  }
+  return "";
 }
 
 Object parseObject(const Table& table, std::string_view text) {

@@ -32,6 +32,10 @@ void save(const View& objects, const std::string& path);
 // the line of a fault of JSON, or object and field: "shots[3].color[1] is 2, out of 0 to 1".
 Objects load(const Table& table, const std::string& path);
 
+// The key of the list that a file holds: the first member of its beginning that is no version. "":
+// it has none there, or is no such file. Throws kObjectFileUnreadable.
+std::string listKeyOf(const std::string& path);
+
 // One object as it stands in a file: {"position": [x, y, z], ...}. Throws kObjectField.
 Object parseObject(const Table& table, std::string_view json);
 

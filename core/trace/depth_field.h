@@ -9,7 +9,7 @@
 //
 // Planes, not the surface that is bilinear between centres: that one spans from a silhouette to
 // what lies behind, a wall that is nowhere in the scene. Nor flat texels, which make steps of a
-// slanting floor. Crytek Sponza's four cameras at 640 x 360, radius 0.5 m: see README.md.
+// slanting floor. docs/manual/truth.md has its error on Crytek Sponza.
 #pragma once
 
 #include "core/trace/projection.h"

@@ -7,6 +7,7 @@
 #include <string>
 #include <vector>
 
+#include "app/truth/progress.h"
 #include "core/gpu/device.h"
 #include "core/image/image.h"
 #include "lab/claims/claims.h"
@@ -40,7 +41,7 @@ struct ClaimsDesc {
   const effect::Registry* registry = nullptr;
   uint32_t samples = 256;  // the truth's rays a pixel
   uint32_t rounds = 5;     // how often a cost is measured, all runs in turn
-  bool progress = false;   // draws a bar while rays are cast
+  app::truth::ProgressStyle progress = app::truth::ProgressStyle::kNone;  // while rays are cast
 };
 
 class ClaimsRunner {

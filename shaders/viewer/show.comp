@@ -27,7 +27,7 @@ const uint kLight = 0u;   // linear light
 const uint kNumber = 1u;  // one channel, 0 black to 1 white
 const uint kSigned = 2u;  // three channels from -1 to 1
 const uint kDepth = 3u;   // metres, 0: sky
-const uint kPaint = 4u;   // straight alpha over a checkerboard
+const uint kOverlay = 4u;   // straight alpha over a checkerboard
 const uint kEncoded = 5u; // three channels as they are
 
 const vec3 kGround = vec3(0.07, 0.07, 0.08);
@@ -46,7 +46,7 @@ vec3 shown(vec4 value, uint kind, ivec2 pixel) {
     case kNumber: return clamp(value.rrr, 0.0, 1.0);
     case kSigned: return clamp(value.rgb * 0.5 + 0.5, 0.0, 1.0);
     case kDepth: return value.r > 0.0 ? vec3(show.far_depth / (show.far_depth + value.r)) : vec3(0.0);
-    case kPaint: {
+    case kOverlay: {
       const ivec2 square = pixel >> 4;
       const vec3 under = vec3(((square.x ^ square.y) & 1) != 0 ? 0.20 : 0.16);
       return encoded(mix(under, value.rgb, clamp(value.a, 0.0, 1.0)));

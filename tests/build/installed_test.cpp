@@ -93,7 +93,7 @@ TEST_F(Installed, NamesNeitherTheSourcesNorTheBuild) {
 // The tutorial, from the first command to the last picture, which the manual shows.
 TEST_F(Installed, TutorialRunsAndItsPicturesAreThose) {
   const Outcome outcome =
-      session("tutorial", sessionOf(fs::path(SOURCE_FOLDER) / "docs/tutorial.md"));
+      session("tutorial", sessionOf(fs::path(SOURCE_FOLDER) / "docs/manual/write_an_effect.md"));
   ASSERT_EQ(outcome.status, 0) << outcome.out << outcome.err;
   size_t pictures = 0;
   for (const auto& entry : fs::directory_iterator(workOf("tutorial") / "outline")) {

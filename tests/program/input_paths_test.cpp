@@ -24,8 +24,9 @@ class InputPaths : public testing::Test {
   }
   // What hangs ends after 20 seconds by SIGKILL, as commands that trace wait for SIGTERM.
   Outcome run(const std::string& words) const {
-    return runShell("XDG_CACHE_HOME=$PWD/cache timeout -s KILL 20 grisaille " + words,
-                    folder_.path());
+    return runShell(
+        "XDG_CACHE_HOME=$PWD/cache timeout -s KILL 20 " + programOf(words) + " " + words,
+        folder_.path());
   }
   void expectRefused(const std::string& words, int number, const std::string& mention,
                      int status = 1) const {

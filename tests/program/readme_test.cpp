@@ -1,9 +1,12 @@
 // SPDX-License-Identifier: MIT
-// The manual tells the truth: its commands run, its tables are the effects' own.
+// The documentation tells the truth: its commands run, its tables are the effects' own, its links
+// lead to files, and each picture is shown.
 #include <gtest/gtest.h>
 
 #include <algorithm>
+#include <cctype>
 #include <filesystem>
+#include <iterator>
 #include <set>
 #include <sstream>
 
@@ -17,9 +20,12 @@ namespace fs = std::filesystem;
 
 const fs::path kSource = SOURCE_FOLDER;
 
-// The lines of all ```sh blocks of a file.
-std::vector<std::string> commandsOf(const fs::path& file) {
-  std::istringstream text(readFile(file));
+// Runs as one session of a shell, with files between the commands: tests/author does that.
+constexpr const char* kTutorial = "write_an_effect.md";
+
+// The lines of all ```sh blocks of a page, without comments.
+std::vector<std::string> commandsOf(const fs::path& page) {
+  std::istringstream text(readFile(page));
   std::vector<std::string> commands;
   bool inside = false;
   for (std::string line; std::getline(text, line);) {
@@ -32,14 +38,47 @@ std::vector<std::string> commandsOf(const fs::path& file) {
   return commands;
 }
 
-// Runs a manual's commands in order in one folder, as a reader would. `./dev` builds and tests,
-// which is what is being done here: only its subcommand is looked up.
-void runCommands(const fs::path& file) {
+std::vector<fs::path> pagesOf(const fs::path& folder) {
+  std::vector<fs::path> pages;
+  for (const auto& entry : fs::recursive_directory_iterator(folder)) {
+    if (entry.path().extension() == ".md") pages.push_back(entry.path());
+  }
+  std::ranges::sort(pages);
+  return pages;
+}
+
+// README, the manual and the effects' READMEs, as far as they have commands; from the source
+// folder.
+std::vector<std::string> pagesWithCommands() {
+  std::vector<fs::path> pages = {kSource / "README.md"};
+  for (const char* folder : {"docs/manual", "effects"}) {
+    std::ranges::copy(pagesOf(kSource / folder), std::back_inserter(pages));
+  }
+  std::vector<std::string> names;
+  for (const fs::path& page : pages) {
+    if (page.filename() == kTutorial || commandsOf(page).empty()) continue;
+    names.push_back(fs::relative(page, kSource).string());
+  }
+  return names;
+}
+
+// "docs_manual_render" of "docs/manual/render.md".
+std::string testName(const ::testing::TestParamInfo<std::string>& info) {
+  std::string name = fs::path(info.param).replace_extension("").string();
+  std::ranges::replace_if(
+      name, [](char c) { return std::isalnum(c) == 0; }, '_');
+  return name;
+}
+
+class Page : public ::testing::TestWithParam<std::string> {};
+
+// In order, in one empty folder, as a reader would run them. `./dev` builds and tests, which is
+// what is being done here: only its subcommand is looked up.
+TEST_P(Page, CommandsRun) {
   const TemporaryFolder folder;
   const Display display(1600, 1200);
   const std::string help = runShell("./dev help", kSource).out;
-  size_t ran = 0;
-  for (const std::string& command : commandsOf(file)) {
+  for (const std::string& command : commandsOf(kSource / GetParam())) {
     SCOPED_TRACE(command);
     if (command.rfind("./dev", 0) == 0) {
       const size_t start = 6, end = std::min(command.find(' ', start), command.size());
@@ -52,41 +91,43 @@ void runCommands(const fs::path& file) {
         command.find("grisaille view") == 0 && command.find("--frames") == std::string::npos;
     const Outcome outcome = runShell(command + (window ? " --frames 2" : ""), folder.path());
     EXPECT_EQ(outcome.status, 0) << outcome.err;
-    ++ran;
   }
-  EXPECT_GT(ran, 0u) << file;
 }
 
-TEST(Readme, CommandsRun) {
-  runCommands(kSource / "README.md");
-}
-TEST(Readme, SsaoCommandsRun) {
-  runCommands(kSource / "effects/ssao/README.md");
+INSTANTIATE_TEST_SUITE_P(Documentation, Page, ::testing::ValuesIn(pagesWithCommands()), testName);
+
+TEST(Documentation, EveryManualPageBeginsWithAQuestion) {
+  for (const fs::path& page : pagesOf(kSource / "docs/manual")) {
+    std::istringstream text(readFile(page));
+    std::string title;
+    std::getline(text, title);
+    EXPECT_TRUE(title.rfind("# ", 0) == 0 && title.ends_with('?')) << page << ": " << title;
+  }
 }
 
-TEST(Readme, SspmCommandsRun) {
-  runCommands(kSource / "effects/sspm/README.md");
-}
-
-TEST(Readme, TablesAreTheEffectsOwn) {
-  for (const std::string effect : {"ssao", "sspm"}) {
-    const Outcome outcome = runProgram({"effects", "--markdown", effect}, ".");
+TEST(Documentation, TablesAreTheEffectsOwn) {
+  size_t effects = 0;
+  for (const auto& entry : fs::directory_iterator(kSource / "effects")) {
+    const Outcome outcome =
+        runProgram({"effects", "--markdown", entry.path().filename().string()}, ".");
     ASSERT_EQ(outcome.status, 0) << outcome.err;
-    for (const std::string& file : {std::string("README.md"), "effects/" + effect + "/README.md"}) {
-      EXPECT_NE(readFile(kSource / file).find(outcome.out), std::string::npos)
-          << file << " lacks this table:\n"
-          << outcome.out;
-    }
+    EXPECT_NE(readFile(entry.path() / "README.md").find(outcome.out), std::string::npos)
+        << entry.path() / "README.md"
+        << " lacks this table:\n"
+        << outcome.out;
+    ++effects;
   }
+  EXPECT_GE(effects, 2u);
 }
 
-// The files that the pages of the repository link to or show, without anchors.
+// The files that pages link to or show, without anchors.
 std::set<fs::path> linkedFiles() {
-  std::vector<fs::path> pages = {kSource / "README.md", kSource / "CONTRIBUTING.md"};
-  for (const char* folder : {"docs", "effects"}) {
-    for (const auto& entry : fs::recursive_directory_iterator(kSource / folder)) {
-      if (entry.path().extension() == ".md") pages.push_back(entry.path());
-    }
+  std::vector<fs::path> pages;
+  for (const auto& entry : fs::directory_iterator(kSource)) {
+    if (entry.path().extension() == ".md") pages.push_back(entry.path());
+  }
+  for (const char* folder : {"docs", "effects", "studies"}) {
+    std::ranges::copy(pagesOf(kSource / folder), std::back_inserter(pages));
   }
   std::set<fs::path> linked;
   for (const fs::path& page : pages) {
@@ -100,11 +141,11 @@ std::set<fs::path> linkedFiles() {
   return linked;
 }
 
-TEST(Readme, EveryLinkedFileIsThere) {
+TEST(Documentation, EveryLinkedFileIsThere) {
   for (const fs::path& file : linkedFiles()) EXPECT_TRUE(fs::exists(file)) << file;
 }
 
-TEST(Readme, EveryPictureIsShown) {
+TEST(Documentation, EveryPictureIsShown) {
   const std::set<fs::path> linked = linkedFiles();
   for (const auto& entry : fs::recursive_directory_iterator(kSource / "docs")) {
     const fs::path ending = entry.path().extension();

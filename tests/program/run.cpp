@@ -114,10 +114,15 @@ std::vector<std::string> TemporaryFolder::files() const {
   return names;
 }
 
+std::string programOf(const std::string& words) {
+  const std::string command = words.substr(0, words.find(' '));
+  return command == "claims" || command == "stability" ? "grisaille-lab" : "grisaille";
+}
+
 Outcome runProgram(const std::vector<std::string>& arguments, const fs::path& folder,
                    const std::vector<std::string>& environment) {
-  const bool lab = !arguments.empty() && (arguments[0] == "claims" || arguments[0] == "stability");
-  std::vector<std::string> all = {lab ? LAB : PROGRAM};
+  const std::string program = programOf(arguments.empty() ? "" : arguments[0]);
+  std::vector<std::string> all = {fs::path(PROGRAM).parent_path() / program};
   all.insert(all.end(), arguments.begin(), arguments.end());
   return run(std::move(all), folder, environment);
 }

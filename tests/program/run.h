@@ -31,6 +31,9 @@ class TemporaryFolder {
   std::filesystem::path path_;
 };
 
+// The program whose subcommand begins the words: "grisaille" or "grisaille-lab".
+std::string programOf(const std::string& words);
+
 // `grisaille ARGUMENTS` in `folder`, or `grisaille-lab ARGUMENTS` for a subcommand of that program;
 // with variables ("NAME=value") added to the environment; killed after 600 seconds.
 Outcome runProgram(const std::vector<std::string>& arguments, const std::filesystem::path& folder,

@@ -25,11 +25,11 @@ struct Room {
 constexpr Room kRooms[] = {
     {"core/base", ""},
     {"core/gpu", "grisaille/shader.h"},
-    {"core/effect", "core/gpu grisaille"},
+    {"core/objects", "grisaille"},
+    {"core/effect", "core/gpu core/objects grisaille"},
     {"core/effect/include/grisaille", "grisaille"},
     {"core/image", ""},
     {"core/scene", "core/image"},
-    {"core/shots", "core/image grisaille"},
     {"core/trace", "core/image core/scene grisaille"},
     {"core/frame", "core/effect core/gpu core/image core/scene grisaille shaders"},
     {"backends", "backends/opengl/opengl.h backends/vulkan/vulkan.h core/gpu"},
@@ -40,31 +40,32 @@ constexpr Room kRooms[] = {
     {"effects/sspm", "grisaille shaders"},
     {"host",
      "backends/opengl/opengl.h backends/vulkan/vulkan.h core/effect core/gpu "
-     "core/frame/view_block.h core/scene/camera.h core/shots/shot.h grisaille shaders"},
+     "core/frame/view_block.h core/objects core/scene/camera.h grisaille shaders"},
     {"host/include/grisaille", "grisaille"},
     // The program's commands, then the folders they share, each after those it sees.
     {"app",
-     "app/apply app/options app/process app/report app/settings app/study app/truth app/verify "
-     "app/viewer/viewer.h backends/backends.h core/effect core/frame core/gpu core/image "
-     "core/scene core/shots core/trace grisaille"},
+     "app/apply app/options app/process app/report app/services app/settings app/study app/truth "
+     "app/verify app/viewer/viewer.h backends/backends.h core/effect core/frame core/gpu "
+     "core/image core/objects core/scene core/trace grisaille"},
     {"app/apply", "core/image"},
     {"app/settings", "core/effect core/frame core/gpu"},
-    {"app/report", "app/settings core/effect core/gpu core/image core/scene grisaille"},
+    {"app/services", "core/effect core/image core/objects core/scene core/trace grisaille"},
+    {"app/report",
+     "app/settings core/effect core/gpu core/image core/objects core/scene grisaille"},
     {"app/truth", "core/effect core/image core/scene core/trace"},
     {"app/process", "app/truth/interruption.h core/effect"},
     {"app/verify",
-     "app/process/child.h app/truth/scene_rays.h backends/backends.h core/effect core/frame "
-     "core/shots"},
+     "app/process/child.h app/services backends/backends.h core/effect core/frame core/objects"},
     {"app/study",
-     "app/settings app/truth core/effect core/frame core/gpu core/image core/scene core/trace "
-     "grisaille"},
+     "app/services app/settings app/truth core/effect core/frame core/gpu core/image core/objects "
+     "core/scene core/trace grisaille"},
     {"app/options",
-     "app/settings app/study/measurer.h app/truth backends/backends.h core/frame core/gpu "
-     "core/image core/scene core/shots core/trace"},
+     "app/services app/settings app/study/measurer.h app/truth backends/backends.h core/effect "
+     "core/frame core/gpu core/image core/objects core/scene core/trace"},
     {"app/viewer",
-     "app/options/camera_option.h app/process/child.h app/report app/settings app/truth "
-     "backends/backends.h backends/glfw/window.h core/effect core/frame core/gpu core/image "
-     "core/scene core/shots grisaille shaders"},
+     "app/options/camera_option.h app/options/object_options.h app/process/child.h app/report "
+     "app/services app/settings app/truth backends/backends.h backends/glfw/window.h core/effect "
+     "core/frame core/gpu core/image core/objects core/scene grisaille shaders"},
     {"lab",
      "app/options app/process/program.h app/report/machine.h app/settings app/truth "
      "backends/backends.h lab/claims lab/stability"},

@@ -1,0 +1,221 @@
+// SPDX-License-Identifier: MIT
+// The panel's objects: tools and lists made from the tables of the effects.
+#include <fmt/format.h>
+#include <imgui/imgui_stdlib.h>
+
+#include <algorithm>
+#include <cmath>
+#include <glm/gtc/color_space.hpp>
+
+#include "app/viewer/panel.h"
+
+namespace grisaille::app::viewer {
+namespace {
+
+constexpr float kListLines = 6;  // of the list of objects, at most
+
+std::string tooltipOf(const objects::Field& field) {
+  std::string text = fmt::format("{}\n{}", field.tooltip, field.key);
+  if (field.type == GRISAILLE_FIELD_NUMBER) {
+    text += fmt::format(": {:g} to {:g}{}{}", field.min, field.max, *field.unit != '\0' ? " " : "",
+                        field.unit);
+  }
+  return text;
+}
+
+// What tells an object from others in a list: its texts, else its point.
+std::string nameOf(const objects::ObjectList& list, size_t index) {
+  const objects::Table& table = list.table();
+  std::string name = fmt::format("{}", index);
+  for (const objects::Field& field : objects::fieldsOf(table)) {
+    const std::string text = list.view().value(index, field).text;
+    if (objects::isText(field) && !text.empty()) name += "  " + text;
+  }
+  const auto at = list.view().value(index, table.fields[table.point_field]).numbers;
+  return name + fmt::format("  ({:.2f}, {:.2f}, {:.2f})", at[0], at[1], at[2]);
+}
+
+bool editColour(const char* label, std::array<double, 3>& linear) {
+  const glm::vec3 before(static_cast<float>(linear[0]), static_cast<float>(linear[1]),
+                         static_cast<float>(linear[2]));
+  glm::vec3 encoded = glm::convertLinearToSRGB(before);
+  if (!ImGui::ColorEdit3(label, &encoded.x,
+                         ImGuiColorEditFlags_PickerHueWheel | ImGuiColorEditFlags_DisplayHex)) {
+    return false;
+  }
+  const glm::vec3 after = glm::convertSRGBToLinear(glm::clamp(encoded, 0.0f, 1.0f));
+  linear = {after.x, after.y, after.z};
+  return true;
+}
+
+}  // namespace
+
+void Panel::drawObjects(const Status& status) {
+  const std::vector<std::string> effects = session_.effectsWithObjects();
+  if (effects.empty()) ImGui::TextDisabled("No effect that is on has objects.");
+  for (const std::string& effect : effects) {
+    ImGui::PushID(effect.c_str());
+    drawObjectsOf(effect, status);
+    ImGui::PopID();
+  }
+  if (!findOwned(session_.chain.selection.effects())) return;
+  wantsCoverage = ImGui::TreeNodeEx("Coverage", ImGuiTreeNodeFlags_NoTreePushOnOpen);
+  layout.note("coverage", wantsCoverage ? "open" : "closed");
+  if (wantsCoverage) drawCoverage(status);
+}
+
+void Panel::drawObjectsOf(const std::string& effect, const Status& status) {
+  const objects::ObjectList& list = session_.listOf(effect);
+  const objects::Table& table = list.table();
+  ImGui::Text("%s: %zu", table.label, list.size());
+  if (ImGui::IsItemHovered()) ImGui::SetTooltip("%s", table.tooltip);
+  layout.note(effect + ".objects", fmt::format("{}", list.size()));
+  if (status.waiting > 0) {
+    ImGui::SameLine();
+    ImGui::TextDisabled("%llu wait", static_cast<unsigned long long>(status.waiting));
+  }
+  bool placing = session_.placing && session_.placer() == effect;
+  const char* tip = table.placement == GRISAILLE_PLACE_RAY
+                        ? "Click through a pixel, hold to go on; else it turns the camera (B)"
+                        : "Click on a surface; else it turns the camera (B)";
+  if (toggle("Left button places", (effect + ".placing").c_str(), placing, tip)) {
+    session_.placeWith(effect, placing);
+  }
+  objects::Object& next = session_.nextObject(effect);
+  for (size_t i = 0; i < next.values.size(); ++i) {
+    if (i == table.point_field || i == table.direction_field) continue;
+    editField(table.fields[i], effect + ".next.", next.values[i]);
+  }
+  drawObjectList(effect);
+  drawObjectFile(effect);
+}
+
+void Panel::drawObjectFile(const std::string& effect) {
+  if (button("Clear", (effect + ".clear").c_str(), "Deletes all; Ctrl+Z brings them back")) {
+    session_.clearObjects(effect);
+  }
+  std::string& file = objectPaths_.try_emplace(effect, effect + ".json").first->second;
+  path("##objects", (effect + ".path").c_str(), file);
+  ImGui::SameLine();
+  if (button("Load", (effect + ".load").c_str())) {
+    session_.attempt([&] { session_.loadObjects(effect, file); });
+  }
+  ImGui::SameLine();
+  if (button("Save", (effect + ".save").c_str())) {
+    session_.attempt([&] { session_.saveObjects(effect, file); });
+  }
+}
+
+void Panel::drawObjectList(const std::string& effect) {
+  const bool open = ImGui::TreeNodeEx("list", ImGuiTreeNodeFlags_NoTreePushOnOpen, "List");
+  layout.note(effect + ".list", open ? "open" : "closed");
+  const objects::ObjectList& list = session_.listOf(effect);
+  if (!open || list.size() == 0) return;
+  const auto found = selected_.find(effect);
+  std::optional<size_t> chosen;
+  if (found != selected_.end() && found->second < list.size()) chosen = found->second;
+  const float lines = std::min(kListLines, static_cast<float>(list.size()));
+  ImGui::BeginChild("objects", ImVec2(0, lines * ImGui::GetTextLineHeightWithSpacing()));
+  ImGuiListClipper clipper;
+  clipper.Begin(static_cast<int>(list.size()));
+  while (clipper.Step()) {
+    for (int row = clipper.DisplayStart; row < clipper.DisplayEnd; ++row) {
+      const auto index = static_cast<size_t>(row);
+      ImGui::PushID(row);
+      if (ImGui::Selectable(nameOf(list, index).c_str(), chosen == index)) {
+        chosen = index;
+        selected_[effect] = index;
+      }
+      layout.note(fmt::format("{}.object.{}", effect, index), chosen == index ? "true" : "false");
+      ImGui::PopID();
+    }
+  }
+  ImGui::EndChild();
+  if (chosen) drawSelected(effect, *chosen);
+}
+
+void Panel::drawSelected(const std::string& effect, size_t index) {
+  const objects::Table& table = session_.listOf(effect).table();
+  objects::Object object = session_.listOf(effect).object(index);
+  for (size_t i = 0; i < object.values.size(); ++i) {
+    const objects::Field& field = table.fields[i];
+    const std::string id = effect + ".field.";
+    const bool edited = editField(field, id, object.values[i]);
+    const std::string name = fmt::format("{}{}.{}", id, index, field.key);
+    if (edited) {
+      session_.attempt([&] {
+        session_.changeObjects(effect, fmt::format("{}[{}].{}", table.key, index, field.key),
+                               editing_ == name,
+                               [&](objects::ObjectList& list) { list.set(index, object); });
+      });
+      editing_ = name;
+    } else if (editing_ == name && !ImGui::IsItemActive()) {
+      editing_.clear();
+    }
+  }
+  const auto move = [&](const char* label, const char* id, size_t to) {
+    if (!button(label, (effect + id).c_str())) return;
+    session_.changeObjects(effect, "order", false,
+                           [&](objects::ObjectList& list) { list.move(index, to); });
+    selected_[effect] = std::min(to, session_.listOf(effect).size() - 1);
+  };
+  move("Earlier", ".earlier", index == 0 ? 0 : index - 1);
+  ImGui::SameLine();
+  move("Later", ".later", index + 1 < session_.listOf(effect).size() ? index + 1 : index);
+  ImGui::SameLine();
+  if (button("Delete", (effect + ".delete").c_str())) {
+    session_.changeObjects(effect, "delete", false,
+                           [&](objects::ObjectList& list) { list.remove(index); });
+  }
+}
+
+// Draws the control of one field; true where `value` is another now.
+bool Panel::editField(const objects::Field& field, const std::string& id, objects::Value& value) {
+  const std::string label = fmt::format("{}##{}{}", field.label, id, field.key);
+  ImGui::SetNextItemWidth(ImGui::GetContentRegionAvail().x * 0.58f);
+  bool edited = false;
+  switch (field.type) {
+    case GRISAILLE_FIELD_COLOUR:
+      edited = editColour(label.c_str(), value.numbers);
+      break;
+    case GRISAILLE_FIELD_NUMBER: {
+      const double range = field.max - field.min;
+      const auto speed = static_cast<float>(
+          std::min(range / 500, std::max(1e-3, std::abs(value.numbers[0]) / 100)));
+      const std::string format =
+          *field.unit != '\0' ? fmt::format("%.5g {}", field.unit) : std::string("%.5g");
+      edited =
+          ImGui::DragScalar(label.c_str(), ImGuiDataType_Double, value.numbers.data(), speed,
+                            &field.min, &field.max, format.c_str(), ImGuiSliderFlags_AlwaysClamp);
+      break;
+    }
+    case GRISAILLE_FIELD_TEXT:
+    case GRISAILLE_FIELD_FILE:
+      edited = ImGui::InputText(label.c_str(), &value.text);
+      break;
+    default: {
+      const double step = 0.01;  // metres, or of a unit vector
+      edited = ImGui::DragScalarN(label.c_str(), ImGuiDataType_Double, value.numbers.data(), 3,
+                                  static_cast<float>(step), nullptr, nullptr, "%.3f");
+    }
+  }
+  if (ImGui::IsItemHovered()) ImGui::SetTooltip("%s", tooltipOf(field).c_str());
+  layout.note(id + field.key, objects::textOf(field, value));
+  return edited;
+}
+
+void Panel::drawCoverage(const Status& status) {
+  for (const ColorShare& share : status.coverage) {
+    unsigned bits = 0x808080;
+    if (share.color.size() == 7)
+      bits = static_cast<unsigned>(std::stoul(share.color.substr(1), nullptr, 16));
+    const auto channel = [&](int shift) { return static_cast<float>(bits >> shift & 255u) / 255; };
+    ImGui::ColorButton(share.color.c_str(), ImVec4(channel(16), channel(8), channel(0), 1),
+                       ImGuiColorEditFlags_NoTooltip);
+    ImGui::SameLine();
+    ImGui::Text("%s  %.2f %%", share.color.c_str(), 100 * share.share);
+    layout.note("coverage." + share.color, fmt::format("{:.6f}", share.share));
+  }
+}
+
+}  // namespace grisaille::app::viewer
