@@ -68,14 +68,15 @@ constexpr Room kRooms[] = {
      "core/frame core/gpu core/image core/objects core/scene grisaille shaders"},
     {"lab",
      "app/options app/process/program.h app/report/machine.h app/settings app/truth "
-     "backends/backends.h lab/claims lab/stability"},
-    {"lab/oracle", "core/image core/scene grisaille"},
+     "backends/backends.h core/image lab/claims lab/paint lab/stability"},
+    {"lab/paint", "core/effect core/objects core/trace"},
+    {"lab/oracle", "core/image core/scene lab/paint"},
     {"lab/stability",
-     "app/truth core/effect core/frame core/gpu core/image core/scene core/shots core/trace "
-     "grisaille lab/oracle"},
+     "app/services app/truth core/effect core/frame core/gpu core/image core/scene core/trace "
+     "lab/oracle lab/paint"},
     {"lab/claims",
-     "app/settings app/study app/truth core/effect core/gpu core/image core/scene core/shots "
-     "core/trace grisaille"},
+     "app/services app/settings app/study app/truth core/effect core/frame core/gpu core/image "
+     "core/objects core/scene core/trace lab/paint"},
 };
 
 // Headers of a graphics API, which backends alone see.
@@ -198,6 +199,8 @@ TEST(Rooms, ForbiddenArrowsAreSeen) {
   EXPECT_FALSE(allowed("lab", "app/viewer/viewer.h", true));
   EXPECT_FALSE(allowed("lab/claims", "lab/stability/runner.h", true));
   EXPECT_FALSE(allowed("lab/oracle", "app/truth/cache.h", true));
+  EXPECT_FALSE(allowed("lab/paint", "effects/sspm/shot.h", true));
+  EXPECT_FALSE(allowed("core/trace", "lab/paint/shot.h", true));
   EXPECT_FALSE(allowed("app/study", "app/viewer/command_line.h", true));
   EXPECT_FALSE(allowed("app/viewer", "app/study/measurer.h", true));
   EXPECT_FALSE(allowed("app/verify", "app/viewer/stage.h", true));
