@@ -99,8 +99,8 @@ Numbers parseColour(const Field& field, std::string_view text) {
   if (text.size() != 7 || text[0] != '#' || status != std::errc() || end != text.data() + 7) {
     refuse("{} is '{}', not of the form #rrggbb", field.key, oneLine(text));
   }
-  const glm::vec3 encoded = glm::vec3(bits >> 16, bits >> 8 & 255u, bits & 255u) * (1.0f / 255);
-  const glm::vec3 linear = glm::convertSRGBToLinear(encoded);
+  const glm::dvec3 encoded = glm::dvec3(bits >> 16, bits >> 8 & 255u, bits & 255u) / 255.0;
+  const glm::vec3 linear(glm::convertSRGBToLinear(encoded));  // as the list keeps it
   return {linear.x, linear.y, linear.z};
 }
 
@@ -201,41 +201,51 @@ Objects& Objects::operator=(const Objects& other) {
   return *this;
 }
 
-void Objects::append(const Object& object) {
-  Object sound = object;
-  for (size_t i = 0; i < sound.values.size(); ++i) {
-    try {
-      sound.values[i] = checked(table_->fields[i], std::move(sound.values[i]));
-    } catch (const Error& error) {
-      throw Error(error.id(), "{}[{}].{}", table_->key, first_ + size(), error.detail());
-    }
-  }
-  write(sound);
-}
-
-void Objects::append(const View& view) {
+// `valueOf(i)`: of field i.
+template <typename ValueOf>
+void Objects::write(std::string_view name, ValueOf&& valueOf) {
   const size_t before = bytes_.size();
+  bytes_.resize(before + table_->object_size);
   try {
-    for (size_t i = 0; i < view.count; ++i) append(view.object(i));
+    for (size_t i = 0; i < table_->field_count; ++i) put(before, table_->fields[i], valueOf(i));
+  } catch (const Error& error) {
+    bytes_.resize(before);
+    const size_t index = first_ + before / table_->object_size;
+    throw Error(error.id(), "{}.{}",
+                name.empty() ? fmt::format("{}[{}]", table_->key, index) : std::string(name),
+                error.detail());
   } catch (...) {
     bytes_.resize(before);
     throw;
   }
 }
 
-void Objects::write(const Object& object) {
-  bytes_.resize(bytes_.size() + table_->object_size);
-  std::byte* at = bytes_.data() + bytes_.size() - table_->object_size;
-  for (size_t i = 0; i < object.values.size(); ++i) {
-    const Field& field = table_->fields[i];
-    if (isText(field)) {
-      const char* text = texts_.insert(object.values[i].text).first->c_str();
-      std::memcpy(at + field.offset, &text, sizeof(text));
-    } else if (isDouble(field)) {
-      store<double>(at, field, object.values[i].numbers);
-    } else {
-      store<float>(at, field, object.values[i].numbers);
+void Objects::append(const Object& object, std::string_view name) {
+  write(name, [&](size_t i) -> const Value& { return object.values[i]; });
+}
+
+void Objects::append(const View& view) {
+  const size_t before = bytes_.size();
+  try {
+    for (size_t n = 0; n < view.count; ++n) {
+      write({}, [&](size_t i) { return view.value(n, table_->fields[i]); });
     }
+  } catch (...) {
+    bytes_.resize(before);
+    throw;
+  }
+}
+
+void Objects::put(size_t object, const Field& field, const Value& value) {
+  const Value sound = checked(field, value);
+  std::byte* at = bytes_.data() + object;
+  if (isText(field)) {
+    const char* text = texts_.insert(sound.text).first->c_str();
+    std::memcpy(at + field.offset, &text, sizeof(text));
+  } else if (isDouble(field)) {
+    store<double>(at, field, sound.numbers);
+  } else {
+    store<float>(at, field, sound.numbers);
   }
 }
 
