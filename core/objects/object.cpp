@@ -9,6 +9,7 @@
 #include <cstring>
 #include <glm/glm.hpp>
 #include <glm/gtc/color_space.hpp>
+#include <utility>
 
 #include "core/base/error.h"
 #include "core/base/nearest.h"
@@ -41,19 +42,29 @@ Numbers unitOf(const Field& field, const Numbers& direction) {
   return {share[0] / length, share[1] / length, share[2] / length};
 }
 
-void checkNumbers(const Field& field, const Numbers& numbers) {
-  const size_t count = componentsOf(field);
-  for (size_t i = 0; i < count; ++i) {
-    const std::string name = count == 1 ? field.key : fmt::format("{}[{}]", field.key, i);
-    const double value = numbers[i];
-    if (!std::isfinite(value)) refuse("{} is {}, not a finite number", name, value);
-    double least = field.min, most = field.max;
-    if (field.type == GRISAILLE_FIELD_DIRECTION) continue;
-    if (field.type == GRISAILLE_FIELD_COLOUR) least = 0, most = 1;
-    if (field.type == GRISAILLE_FIELD_POINT) least = -kFarthestPoint, most = kFarthestPoint;
-    if (value < least || value > most)
-      refuse("{} is {}, out of {} to {}", name, value, least, most);
+std::pair<double, double> rangeOf(const Field& field) {
+  if (field.type == GRISAILLE_FIELD_COLOUR) return {0, 1};
+  if (field.type == GRISAILLE_FIELD_POINT) return {-kFarthestPoint, kFarthestPoint};
+  return {field.min, field.max};
+}
+
+[[noreturn]] void refuseNumber(const Field& field, size_t index, double value) {
+  const std::string name =
+      componentsOf(field) == 1 ? field.key : fmt::format("{}[{}]", field.key, index);
+  if (!std::isfinite(value)) refuse("{} is {}, not a finite number", name, value);
+  const auto [least, most] = rangeOf(field);
+  refuse("{} is {}, out of {} to {}", name, value, least, most);
+}
+
+// As checked() has it.
+Numbers checkedNumbers(const Field& field, const Numbers& numbers) {
+  const bool direction = field.type == GRISAILLE_FIELD_DIRECTION;
+  const auto [least, most] = rangeOf(field);
+  for (size_t i = 0; i < componentsOf(field); ++i) {
+    const bool inside = direction || (numbers[i] >= least && numbers[i] <= most);
+    if (!inside || !std::isfinite(numbers[i])) refuseNumber(field, i, numbers[i]);
   }
+  return direction ? unitOf(field, numbers) : numbers;
 }
 
 void checkText(const Field& field, const std::string& text) {
@@ -125,11 +136,11 @@ Numbers parseNumbers(const Field& field, std::string_view text) {
 }  // namespace
 
 const Field& fieldOf(const Table& table, std::string_view key) {
-  std::vector<std::string> keys;
   for (const Field& field : fieldsOf(table)) {
     if (key == field.key) return field;
-    keys.emplace_back(field.key);
   }
+  std::vector<std::string> keys;
+  for (const Field& field : fieldsOf(table)) keys.emplace_back(field.key);
   const std::string near = nearest(key, keys);
   refuse("there is no field \"{}\"{}; {} have {}", oneLine(key),
          near.empty() ? "" : ", nearest is " + near, table.key, fmt::join(keys, ", "));
@@ -145,8 +156,7 @@ Value checked(const Field& field, Value value) {
   if (isText(field)) {
     checkText(field, value.text);
   } else {
-    checkNumbers(field, value.numbers);
-    if (field.type == GRISAILLE_FIELD_DIRECTION) value.numbers = unitOf(field, value.numbers);
+    value.numbers = checkedNumbers(field, value.numbers);
   }
   return value;
 }
@@ -237,15 +247,15 @@ void Objects::append(const View& view) {
 }
 
 void Objects::put(size_t object, const Field& field, const Value& value) {
-  const Value sound = checked(field, value);
   std::byte* at = bytes_.data() + object;
   if (isText(field)) {
-    const char* text = texts_.insert(sound.text).first->c_str();
+    checkText(field, value.text);
+    const char* text = texts_.insert(value.text).first->c_str();
     std::memcpy(at + field.offset, &text, sizeof(text));
   } else if (isDouble(field)) {
-    store<double>(at, field, sound.numbers);
+    store<double>(at, field, checkedNumbers(field, value.numbers));
   } else {
-    store<float>(at, field, sound.numbers);
+    store<float>(at, field, checkedNumbers(field, value.numbers));
   }
 }
 

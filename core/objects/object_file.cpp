@@ -216,7 +216,9 @@ void putNumber(Text& text, const Field& field, double value) {
 }
 
 void putField(Text& text, const Field& field, const Value& value) {
-  fmt::format_to(std::back_inserter(text), "\"{}\": ", field.key);
+  text.push_back('"');
+  text.append(std::string_view(field.key));
+  text.append(std::string_view("\": "));
   if (isText(field)) {
     text.append(json(value.text).dump());
     return;
@@ -235,7 +237,8 @@ void putObject(Text& text, const View& objects, size_t index) {
   text.push_back('{');
   for (const Field& field : fieldsOf(*objects.table)) {
     const Value value = objects.value(index, field);
-    if ((field.flags & GRISAILLE_FIELD_REQUIRED) == 0 && value == defaultOf(field)) continue;
+    const bool required = (field.flags & GRISAILLE_FIELD_REQUIRED) != 0;
+    if (!required && value == defaultOf(field)) continue;
     if (!std::exchange(first, false)) text.append(std::string_view(", "));
     putField(text, field, value);
   }

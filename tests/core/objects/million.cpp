@@ -38,14 +38,22 @@ class Stopwatch {
     const std::chrono::duration<double> time = Clock::now() - last_;
     rusage usage;
     getrusage(RUSAGE_SELF, &usage);
-    fmt::print("{:<7} {:5.2f} s, at most {} MiB so far\n", what, time.count(),
-               usage.ru_maxrss / 1024);
+    const double processor = seconds(usage.ru_utime) + seconds(usage.ru_stime);
+    fmt::print("{:<7} {:5.2f} s, of which a processor worked {:5.2f} s; at most {} MiB so far\n",
+               what, time.count(), processor - processor_, usage.ru_maxrss / 1024);
     last_ = Clock::now();
+    processor_ = processor;
   }
 
  private:
   using Clock = std::chrono::steady_clock;
+
+  static double seconds(const timeval& time) {
+    return static_cast<double>(time.tv_sec) + 1e-6 * static_cast<double>(time.tv_usec);
+  }
+
   Clock::time_point last_ = Clock::now();
+  double processor_ = 0;
 };
 
 void measure(const std::string& path) {
