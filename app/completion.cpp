@@ -49,9 +49,14 @@ _grisaille() {{
       [[ ${{COMP_WORDS[COMP_CWORD-3]}} == --preset ]] &&
         words=$("${{COMP_WORDS[0]}}" completion --presets 2>/dev/null |
           sed -n "s/^${{COMP_WORDS[COMP_CWORD-2]}}=//p") ;;
-    --load|--save) compopt -o nospace; words="sspm=" ;;
-    --write) compopt -o nospace; words="color= depth= back_depth= normal= facet_normal= base_colour= ao= paint= paint_coverage= ao_error= ceiling= ceiling_error= mask=" ;;
-    --camera|--config|--paint|--timings|--coverage|--write-camera) COMPREPLY=($(compgen -f -- "$current")); return ;;
+    --load|--save|--add)
+      compopt -o nospace
+      words=$("${{COMP_WORDS[0]}}" completion --objects 2>/dev/null) ;;
+    --write)
+      compopt -o nospace
+      words="color= depth= back_depth= normal= facet_normal= base_colour= ao_error= ceiling= ceiling_error="
+      words+=" "$("${{COMP_WORDS[0]}}" completion --outputs 2>/dev/null) ;;
+    --camera|--config|--reference|--capture|--timings|--coverage|--write-camera) COMPREPLY=($(compgen -f -- "$current")); return ;;
     --plugin-path|--out|--bookmarks) COMPREPLY=($(compgen -d -- "$current")); return ;;
   esac
   if [[ -z $words ]]; then
@@ -87,6 +92,18 @@ std::string parameterKeys(const effect::Effect& effect) {
   return text;
 }
 
+std::string outputKeys(const effect::Effect& effect) {
+  std::string text;
+  for (const grisaille_output_desc& output : effect.outputs()) {
+    text += fmt::format("{}=\n", output.key);
+  }
+  return text;
+}
+
+std::string keyWithObjects(const effect::Effect& effect) {
+  return effect.objects() != nullptr ? fmt::format("{}=\n", effect.key()) : std::string();
+}
+
 std::string effectKey(const effect::Effect& effect) {
   return fmt::format("{}\n", effect.desc->key);
 }
@@ -103,6 +120,8 @@ void addCompletion(CLI::App& program) {
   };
   lists("--effects", &effectKey, "Print the effects' keys instead");
   lists("--parameters", &parameterKeys, "Print the parameters' keys instead");
+  lists("--objects", &keyWithObjects, "Print the keys of effects with objects instead");
+  lists("--outputs", &outputKeys, "Print the effects' outputs instead");
   lists("--presets", &presetNames, "Print the effects' presets instead");
   command->callback([&program, list] {
     if (*list == nullptr) {

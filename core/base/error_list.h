@@ -117,7 +117,7 @@ GRISAILLE_ERROR(kLeftOut, 5108, "build it again with the option that the message
 // --- 52xx: the viewer
 GRISAILLE_ERROR(kNoDisplay, 5201, "start it on a desktop, or use `grisaille render`")
 GRISAILLE_ERROR(kWindowFailed, 5202, "update the driver or choose another --backend")
-GRISAILLE_ERROR(kFileUnknown, 5203, "give a .glb, .gltf, .toml, .json or .shots file")
+GRISAILLE_ERROR(kFileUnknown, 5203, "give a .glb, .gltf, .toml or .json file")
 // --- 53xx: studies
 GRISAILLE_ERROR(kStudyRecord, 5301, "remove the file; it is measured again")
 GRISAILLE_ERROR(kFrontSmall, 5302, "measure a grid whose settings differ in cost and in error")
