@@ -98,7 +98,9 @@ void Chain::end() {
 }
 
 Chain::Running& Chain::running(const Effect& effect) {
-  Running& one = running_[std::string(effect.key())];
+  auto found = running_.find(effect.key());
+  if (found == running_.end()) found = running_.try_emplace(std::string(effect.key())).first;
+  Running& one = found->second;
   if (!one.instance) one = {std::make_unique<Instance>(*device_, effect), 0};
   return one;
 }
