@@ -28,7 +28,9 @@ class OpenGlHost : public Host {
     glDeleteTextures(static_cast<GLsizei>(textures_.size()), textures_.data());
   }
 
-  host::Device device() override { return host::Device::opengl(); }
+  host::Device device(const char* effectFolder) override {
+    return host::Device::opengl(effectFolder);
+  }
 
   host::Texture texture(const host::Device& device, Texels texels, uint32_t width, uint32_t height,
                         const std::vector<float>& numbers) override {

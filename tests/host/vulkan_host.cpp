@@ -60,7 +60,11 @@ class VulkanHost : public Host {
             .queueFamily = context_.family,
             .framesInFlight = 1};
   }
-  host::Device device() override { return host::Device::vulkan(spec()); }
+  host::Device device(const char* effectFolder) override {
+    host::VulkanSpec with = spec();
+    with.effectFolder = effectFolder;
+    return host::Device::vulkan(with);
+  }
 
   host::Texture texture(const host::Device& device, Texels texels, uint32_t width, uint32_t height,
                         const std::vector<float>& numbers) override;

@@ -6,7 +6,7 @@
 #include <nlohmann/json.hpp>
 
 #include "tests/support/expect_error.h"
-#include "tests/support/tables.h"
+#include "tests/support/folder_test.h"
 
 namespace grisaille::app::viewer {
 namespace {
