@@ -13,7 +13,7 @@ namespace {
 
 namespace fs = std::filesystem;
 
-using StateFile = FolderTest;
+using StateFile = tests::FolderTest;
 
 ViewerState some() {
   ViewerState state;
