@@ -42,7 +42,7 @@ TEST_F(CommandLine, HelpNamesEverySubcommandAndOption) {
   const std::string render = grisaille({"render", "--help"}).out;
   for (const char* option : {"--camera", "--size", "--backend", "--device", "--effects", "--set",
                              "--config", "--write", "--frames", "--timings", "--plugin-path",
-                             "--check", "--surface", "--load", "--fire", "--save", "--coverage"}) {
+                             "--check", "--surface", "--load", "--add", "--save", "--coverage"}) {
     EXPECT_NE(render.find(option), std::string::npos) << option;
   }
   EXPECT_EQ(grisaille({"--version"}).out, "0.1.0\n");
