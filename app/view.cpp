@@ -24,7 +24,7 @@ void addView(CLI::App& program) {
   auto options = std::make_shared<ViewOptions>();
   viewer::SessionOptions& session = options->session;
   CLI::App* command =
-      program.add_subcommand("view", "Open a window on a scene: look, tune, shoot paint");
+      program.add_subcommand("view", "Open a window on a scene: look, tune, place objects");
   command->add_option("scene", session.scene, "A .gltf or .glb file; default: the built-in atrium");
   command->add_option("--camera", session.camera,
                       "A camera file or its JSON; default: one that sees the scene");
@@ -59,7 +59,7 @@ void addView(CLI::App& program) {
       ->check(positiveNumber());
   command->add_option("--truth-rays", session.truthRays, "Rays a pixel in the end; default: 256")
       ->check(wholeNumberFrom(viewer::TruthSettings::kLeastRays, viewer::TruthSettings::kMostRays));
-  command->add_option("--load", session.loads, "Shots for an effect that takes them")
+  command->add_option("--load", session.loads, "Objects of an effect, as a file that --save wrote")
       ->type_name("EFFECT=FILE")
       ->allow_extra_args(false);
   command->add_option("--plugin-path", session.pluginPaths, "A further folder of effects")

@@ -162,12 +162,17 @@ TEST_F(CommandLine, CompletionIsAScriptThatCompletes) {
       "echo \"${COMPREPLY[@]}\"; "
       "for word in = fa; do COMP_WORDS=(grisaille render --preset ssao = $word); COMP_CWORD=5; "
       "[[ $word == = ]] && unset 'COMP_WORDS[5]' && COMP_CWORD=4; "
-      "_grisaille; echo \"${COMPREPLY[@]}\"; done",
+      "_grisaille; echo \"${COMPREPLY[@]}\"; done; "
+      "for option in --add --save; do COMP_WORDS=(grisaille render $option s); COMP_CWORD=3; "
+      "_grisaille 2>/dev/null; echo \"${COMPREPLY[@]}\"; done; "
+      "COMP_WORDS=(grisaille render --write pain); COMP_CWORD=3; _grisaille 2>/dev/null; "
+      "echo \"${COMPREPLY[@]}\"",
       folder_.path());
   EXPECT_EQ(outcome.out,
             "ssao.kernel_size=\nrender\n--timings\n"
             "sspm=fast sspm=balanced sspm=fine sspm=reference\n"
-            "fast balanced fine reference\nfast\n")
+            "fast balanced fine reference\nfast\n"
+            "sspm=\nsspm=\npaint= paint_coverage= paint_owner=\n")
       << outcome.err;
 }
 
