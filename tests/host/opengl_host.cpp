@@ -57,7 +57,7 @@ class OpenGlHost : public Host {
   }
 
   std::vector<float> read(const grisaille_host_output& output) override {
-    const bool one = output.native_format == GL_R16F;
+    const bool one = output.native_format == GL_R16F || output.native_format == GL_R32F;
     std::vector<float> numbers(size_t{output.width} * output.height * (one ? 1 : 4));
     glGetTextureImage(static_cast<GLuint>(output.image), 0, one ? GL_RED : GL_RGBA, GL_FLOAT,
                       static_cast<GLsizei>(numbers.size() * sizeof(float)), numbers.data());

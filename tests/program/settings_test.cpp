@@ -3,8 +3,6 @@
 // lines.
 #include <gtest/gtest.h>
 
-#include "app/settings/load_effects.h"
-#include "app/settings/settings.h"
 #include "app/viewer/command_line.h"
 #include "core/image/image.h"
 #include "tests/program/run.h"
@@ -64,7 +62,7 @@ TEST_F(Settings, ACommandLineMakesThePictureOfOptionsByHand) {
   ASSERT_STREQ(list_.entries()[0].key(), "sspm");
   list_.find("ssao")->values.set("intensity", 1.25);
   list_.find("sspm")->values.set("paint_range", 1.0);
-  const auto fired = render({"--effects", "sspm", "--add", "sspm=40,25,color=#ff0000", "--add",
+  const auto added = render({"--effects", "sspm", "--add", "sspm=40,25,color=#ff0000", "--add",
                              "sspm=60,20,color=#00ff00", "--save", "sspm=it's my $HOME.json"});
   std::filesystem::create_directory(folder_ / "-plug ins");
   scene::saveCamera(camera_, folder_ / "camera.json");
@@ -82,7 +80,7 @@ TEST_F(Settings, ACommandLineMakesThePictureOfOptionsByHand) {
   const Outcome outcome = runShell(app::viewer::renderCommand(command), folder_.path());
   ASSERT_EQ(outcome.status, 0) << outcome.err;
   EXPECT_EQ(picture("a \"b\" `c`.exr"), byHand);
-  EXPECT_NE(byHand, fired);
+  EXPECT_NE(byHand, added);
   EXPECT_NE(byHand, render({"--camera", "camera.json", "--surface", "base"}));
 }
 
