@@ -1,7 +1,6 @@
 // SPDX-License-Identifier: MIT
-// What version 1.1 of the interface brought: shots, rays, patience, what waits.
+// What the host does for an effect while it records: rays, pictures, patience, work that waits.
 #include <cmath>
-#include <cstring>
 
 #include "tests/core/effect/instance_fixture.h"
 #include "tests/support/expect_error.h"
@@ -24,62 +23,42 @@ struct Answers : RayService {
   }
 };
 
-struct ShotsTest : InstanceTest {
-  const Effect& effect = registry.find("shooter");
-  const std::vector<gpu::Texture> outputs = {makeTexture("told", gpu::Format::kR32Float)};
-  Values values{effect};
-  Instance instance{*device, effect};
+// Knows one picture.
+struct OnePicture : PictureService {
+  std::vector<std::string> asked;
 
-  std::vector<float> told(const FrameInputs& inputs) {
-    record(instance, values, outputs, inputs);
-    const std::vector<std::byte> bytes = device->read(outputs[0]);
-    std::vector<float> texels(bytes.size() / sizeof(float));
-    std::memcpy(texels.data(), bytes.data(), bytes.size());
-    return texels;
+  void read(const char* path, grisaille_picture& out) override {
+    asked.emplace_back(path);
+    if (asked.back() != "moss.png") throw Error(ErrorId::kImageUnreadable, "{} is missing", path);
+    static constexpr uint8_t kPixels[] = {200, 0, 0, 255, 0, 0, 0, 255};
+    out.width = 2;
+    out.height = 1;
+    out.rgba = kPixels;
   }
 };
 
-TEST_F(ShotsTest, ReachTheEffectsThatTakeThem) {
-  std::vector<grisaille_shot> shots(3);
-  shots[2].origin[0] = 42;
+struct ServicesTest : InstanceTest {
+  const Effect& effect = registry.find("teller");
+  const std::vector<gpu::Texture> outputs = {makeTexture("told", gpu::Format::kR32Float)};
+  Values values{effect};
+  Instance instance{*device, effect};
+  objects::Objects marks{*effect.objects()};
+
+  std::vector<float> told(FrameInputs inputs) {
+    inputs.objects = marks.view();
+    record(instance, values, outputs, inputs);
+    return texelsOf(outputs[0]);
+  }
+};
+
+TEST_F(ServicesTest, PatienceIsToldAndHasNoEndOtherwise) {
   FrameInputs inputs;
-  inputs.shots = shots;
   inputs.patience = 0.25;
-  std::vector<float> texels = told(inputs);
-  EXPECT_EQ(texels[0], 3);
-  EXPECT_EQ(texels[2], 0.25f);
-  EXPECT_EQ(texels[3], 42);
-  texels = told({});
-  EXPECT_EQ(texels[0], 0);
-  EXPECT_EQ(texels[2], INFINITY);
+  EXPECT_EQ(told(inputs)[2], 0.25f);
+  EXPECT_EQ(told({})[2], INFINITY);
 }
 
-TEST_F(ShotsTest, KeptCountsFromTheInstancesOwnFrameBefore) {
-  const std::vector<grisaille_shot> shots(10);
-  FrameInputs inputs;
-  inputs.shots = shots;
-  const auto kept = [&](size_t sinceTheFrameBefore) {
-    inputs.shotsKept = sinceTheFrameBefore;
-    return told(inputs)[1];
-  };
-  EXPECT_EQ(kept(10), 0);  // it had none before
-  EXPECT_EQ(kept(9), 9);
-  EXPECT_EQ(kept(10), 10);
-  // Frames without it, then one that it fails.
-  instance.limitShotsKept(7);
-  instance.limitShotsKept(8);
-  EXPECT_EQ(kept(10), 7);
-  values.set("casts", "null");
-  Answers rays;
-  inputs.rays = &rays;
-  EXPECT_ERROR(ErrorId::kEffectRecord, kept(4));
-  values.set("casts", "none");
-  EXPECT_EQ(kept(10), 4);
-  EXPECT_EQ(kept(10), 10);
-  EXPECT_EQ(kept(11), 10);  // of no more than there are
-}
-
-TEST_F(ShotsTest, WhatWaitsIsToldUntilTheNextFrame) {
+TEST_F(ServicesTest, WhatWaitsIsToldUntilTheNextFrame) {
   EXPECT_EQ(instance.waiting(), 0u);
   values.set("waits", "17");
   told({});
@@ -94,12 +73,12 @@ TEST_F(ShotsTest, WhatWaitsIsToldUntilTheNextFrame) {
   EXPECT_EQ(instance.waiting(), 0u);
 }
 
-TEST_F(ShotsTest, RaysAreCastWhereThereIsAService) {
+TEST_F(ServicesTest, RaysAreCastWhereThereIsAService) {
   values.set("casts", "two");
   EXPECT_EQ(told({})[4], 0);  // none: the effect is told so, and goes on
   Answers rays;
   FrameInputs inputs;
-  inputs.rays = &rays;
+  inputs.services.rays = &rays;
   const std::vector<float> texels = told(inputs);
   EXPECT_EQ(texels[4], 1);
   EXPECT_EQ(texels[5], GRISAILLE_HIT_SURFACE);
@@ -111,10 +90,10 @@ TEST_F(ShotsTest, RaysAreCastWhereThereIsAService) {
   EXPECT_EQ(rays.asked[1].reach, 5);
 }
 
-TEST_F(ShotsTest, BadRaysAreRefusedByTheirPlace) {
+TEST_F(ServicesTest, BadRaysAreRefusedByTheirPlace) {
   Answers rays;
   FrameInputs inputs;
-  inputs.rays = &rays;
+  inputs.services.rays = &rays;
   for (const char* fault :
        {"nan_origin", "long_direction", "nan_direction", "no_reach", "nan_reach", "null"}) {
     values.set("casts", fault);
@@ -136,17 +115,25 @@ TEST_F(ShotsTest, BadRaysAreRefusedByTheirPlace) {
   EXPECT_EQ(told(inputs)[4], 1);
 }
 
-TEST_F(InstanceTest, AnEffectOfVersion10Runs) {
-  const Effect& old = registry.find("old");
-  const std::vector<gpu::Texture> outputs = {makeTexture("plain", gpu::Format::kR32Float)};
-  const Values values(old);
-  Instance instance(*device, old);
-  const std::vector<grisaille_shot> shots(1);
+TEST_F(ServicesTest, PicturesAreReadWhereThereIsAServiceAndAnEffectGoesOnWithoutThem) {
+  objects::Object mark(*effect.objects());
+  mark.at(*effect.objects(), "picture").text = "moss.png";
+  marks.append(mark);
+  values.set("picture", "last");
+  EXPECT_EQ(told({})[9], -1);
+  OnePicture pictures;
   FrameInputs inputs;
-  inputs.shots = shots;
-  record(instance, values, outputs, inputs);
-  EXPECT_EQ(instance.waiting(), 0u);
-  EXPECT_EQ(recorded<gpu::RecordedUpload>().size(), 1u);
+  inputs.services.pictures = &pictures;
+  const std::vector<float> texels = told(inputs);
+  EXPECT_EQ(texels[9], 2);
+  EXPECT_EQ(texels[10], 200);
+  mark.at(*effect.objects(), "picture").text = "sand.png";
+  marks.append(mark);
+  EXPECT_EQ(told(inputs)[9], -1);
+  EXPECT_EQ(pictures.asked, (std::vector<std::string>{"moss.png", "sand.png"}));
+  values.set("picture", "null");
+  EXPECT_EQ(told(inputs)[9], -1);
+  EXPECT_EQ(pictures.asked.size(), 2u);
 }
 
 }  // namespace
