@@ -43,7 +43,7 @@ class ResolutionTest : public BackendTest {
     PaintFrame frame(device(), scene);
     frame.setRays(&rays);
     frame.set(settings);
-    frame.render(camera, width, height, shots, 0,
+    frame.render(camera, width, height, shots,
                  {"paint", "paint_coverage", "paint_owner", "facet_normal"});
     return {frame.read("paint"), frame.read("paint_coverage"), frame.read("paint_owner"),
             frame.read("facet_normal")};

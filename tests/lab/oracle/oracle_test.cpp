@@ -16,6 +16,7 @@ namespace grisaille::tests {
 namespace {
 
 using namespace lab::oracle;
+using lab::Shot;
 using lab::stability::cornerVisibility;
 using lab::stability::pixelsToCompare;
 
