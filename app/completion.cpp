@@ -7,6 +7,7 @@
 #include <memory>
 
 #include "app/command.h"
+#include "app/settings/load_effects.h"
 #include "app/settings/presets.h"
 #include "core/base/error.h"
 
@@ -55,7 +56,7 @@ _grisaille() {{
     --write)
       compopt -o nospace
       words="color= depth= back_depth= normal= facet_normal= base_colour= ao= ao_error= ceiling= ceiling_error="
-      words+=" $("${{COMP_WORDS[0]}}" completion --outputs 2>/dev/null)" ;;
+      words+=" "$("${{COMP_WORDS[0]}}" completion --outputs 2>/dev/null) ;;
     --camera|--config|--timings|--coverage|--write-camera) COMPREPLY=($(compgen -f -- "$current")); return ;;
     --plugin-path|--out|--bookmarks) COMPREPLY=($(compgen -d -- "$current")); return ;;
   esac

@@ -51,7 +51,9 @@ void SubjectOptions::addTo(CLI::App& command) {
   command.add_option("--set", sets, "A parameter's value in all settings")
       ->type_name("EFFECT.PARAMETER=VALUE")
       ->allow_extra_args(false);
-  command.add_option("--effects", effects, "Effects in the order they run; default: those that `grisaille effects` marks")
+  command
+      .add_option("--effects", effects,
+                  "Effects in the order they run; default: those that `grisaille effects` marks")
       ->delimiter(',')
       ->allow_extra_args(false);
   command.add_option("--output", output,

@@ -3,6 +3,7 @@
 // lines.
 #include <gtest/gtest.h>
 
+#include "app/settings/load_effects.h"
 #include "app/viewer/command_line.h"
 #include "core/image/image.h"
 #include "tests/program/run.h"

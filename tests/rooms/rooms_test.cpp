@@ -54,8 +54,7 @@ constexpr Room kRooms[] = {
     {"app/services", "core/effect core/image core/objects core/scene core/trace"},
     {"app/truth", "core/effect core/image core/scene core/trace"},
     {"app/process", "app/truth/interruption.h core/effect"},
-    {"app/verify",
-     "app/process/child.h app/services backends/backends.h core/effect core/frame"},
+    {"app/verify", "app/process/child.h app/services backends/backends.h core/effect core/frame"},
     {"app/study",
      "app/services app/settings app/truth core/effect core/frame core/gpu core/image core/scene "
      "core/trace grisaille"},
