@@ -110,8 +110,7 @@ GRISAILLE_ERROR(kOutputUnknown, 5102, "name an output of the frame or of an acti
 GRISAILLE_ERROR(kSettingsUnreadable, 5103, "check the path and that the file is TOML")
 GRISAILLE_ERROR(kSettingsInvalid, 5104, "correct the line that the message names")
 GRISAILLE_ERROR(kViewerState, 5105, "nothing needs doing; the viewer starts with its defaults")
-GRISAILLE_ERROR(kTruthUnknown, 5106,
-                "name ao, ao_error, ceiling, ceiling_error, depth or normal")
+GRISAILLE_ERROR(kTruthUnknown, 5106, "name ao, ao_error, ceiling, ceiling_error, depth or normal")
 GRISAILLE_ERROR(kTruthCache, 5107, "remove it; the truth is traced again")
 GRISAILLE_ERROR(kLeftOut, 5108, "build it again with the option that the message names")
 // --- 52xx: the viewer

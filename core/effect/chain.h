@@ -69,7 +69,7 @@ class Chain {
   };
 
   gpu::Maker* device_ = nullptr;
-  uint64_t endedRevisions_ = 0;  // of lists that are gone
+  uint64_t endedRevisions_ = 0;                                    // of lists that are gone
   std::map<std::string, objects::ObjectList, std::less<>> lists_;  // by effect
   std::map<std::string, Running, std::less<>> running_;            // by effect
 };

@@ -167,8 +167,8 @@ class Reader : public nlohmann::json_sax<json> {
       case Place::kTop:
         refuse("", fmt::format("is {}, not an object", found));
       case Place::kRoot:
-        refuse(key_, fmt::format("is {}, not {}", found,
-                                 key_ == "version" ? "a number" : "an array"));
+        refuse(key_,
+               fmt::format("is {}, not {}", found, key_ == "version" ? "a number" : "an array"));
       case Place::kList:
         refuse(objectName(), fmt::format("is {}, not an object", found));
       case Place::kVector:

@@ -182,8 +182,8 @@ void ObjectList::assign(const View& objects) {
     // Objects that the list holds already are sound.
     const size_t held = sameBytes(view(), objects);
     const Bytes fresh = sound(objects, held);
-    kept = held + sameBytes({table_, bytes_.data() + held * size, before - held},
-                            viewOf(*table_, fresh));
+    kept = held +
+           sameBytes({table_, bytes_.data() + held * size, before - held}, viewOf(*table_, fresh));
     makeRoom(bytes_, held * size + fresh.size());
     bytes_.resize(held * size);
     bytes_.insert(bytes_.end(), fresh.begin(), fresh.end());

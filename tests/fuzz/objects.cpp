@@ -31,8 +31,8 @@ void checkFile(std::string_view text) {
 
 void checkOne(std::string_view text) {
   objects::Object one(kObjects);
-  const bool good = accepted({ErrorId::kObjectField},
-                             [&] { one = objects::parseObject(kObjects, text); });
+  const bool good =
+      accepted({ErrorId::kObjectField}, [&] { one = objects::parseObject(kObjects, text); });
   if (!good) return;
   objects::Objects all(kObjects);
   all.append(one);

@@ -284,7 +284,8 @@ TEST_P(Frames, ObjectsOfAFileAreThoseThatAreSet) {
   const sspm::Shot shot = shotAt({0.5, 1, 2}, {0.5, 0, -2});
   const std::filesystem::path path =
       std::filesystem::temp_directory_path() / ("grisaille_host_" + std::to_string(getpid()));
-  std::ofstream(path) << std::setprecision(17) << R"({"version": 1, "shots": [{"origin": [0.5, 1, 2],
+  std::ofstream(path) << std::setprecision(17)
+                      << R"({"version": 1, "shots": [{"origin": [0.5, 1, 2],
     "direction": [)" << shot.direction[0]
                       << ", " << shot.direction[1] << ", " << shot.direction[2]
                       << R"(], "color": [1, 0.2, 0], "range": 0.25}]})";
@@ -304,8 +305,8 @@ class Told : public Frames {
   Told() : own_(host_->device(TELLER_FOLDER)) {}
 
   std::vector<float> told(host::Effect& effect) {
-    const host::Texture seen = host_->texture(own_, Texels::kFloat1, 16, 8,
-                                              std::vector<float>(16 * 8, 2.0f));
+    const host::Texture seen =
+        host_->texture(own_, Texels::kFloat1, 16, 8, std::vector<float>(16 * 8, 2.0f));
     record(effect, seen);
     return host_->read(effect.output("told"));
   }

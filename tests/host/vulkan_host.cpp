@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: MIT
-#include <cmath>
 #include <algorithm>
+#include <cmath>
 #include <cstring>
 #include <deque>
 #include <glm/gtc/packing.hpp>

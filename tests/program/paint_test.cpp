@@ -31,21 +31,21 @@ class Paint : public ::testing::Test {
 };
 
 TEST_F(Paint, AddedShotsAreSavedAndLoadedToTheSamePicture) {
-  const Outcome added = render({"--add", "sspm=40,45,color=#ff0000", "--add",
-                                "sspm=110,40,color=#00ff00", "--save", "sspm=s.json",
-                                "--coverage", "-"});
+  const Outcome added =
+      render({"--add", "sspm=40,45,color=#ff0000", "--add", "sspm=110,40,color=#00ff00", "--save",
+              "sspm=s.json", "--coverage", "-"});
   ASSERT_EQ(added.status, 0) << added.err;
   const std::vector<float> picture = image::read(folder_ / "p.exr").pixels;
   EXPECT_GT(*std::max_element(picture.begin(), picture.end()), 0.9f);
-  const Outcome loaded = render({"--load", "sspm=s.json", "--save", "sspm=t.json",
-                                 "--coverage", "-"});
+  const Outcome loaded =
+      render({"--load", "sspm=s.json", "--save", "sspm=t.json", "--coverage", "-"});
   ASSERT_EQ(loaded.status, 0) << loaded.err;
   EXPECT_EQ(image::read(folder_ / "p.exr").pixels, picture);
   EXPECT_EQ(loaded.out, added.out);
   EXPECT_EQ(readFile(folder_ / "t.json"), readFile(folder_ / "s.json"));
   // What is added comes after what is loaded: it wins.
-  const Outcome over = render(
-      {"--load", "sspm=s.json", "--add", "sspm=40,45,color=#0000ff", "--coverage", "c.csv"});
+  const Outcome over =
+      render({"--load", "sspm=s.json", "--add", "sspm=40,45,color=#0000ff", "--coverage", "c.csv"});
   ASSERT_EQ(over.status, 0) << over.err;
   const std::string shares = readFile(folder_ / "c.csv");
   EXPECT_NE(shares.find("#0000ff,0."), std::string::npos) << shares;
@@ -70,9 +70,8 @@ TEST_F(Paint, AnObjectIsAddedInEitherForm) {
 }
 
 TEST_F(Paint, SharesAddUpToTheWhole) {
-  const Outcome outcome =
-      render({"--add", "sspm=40,45,color=#ff0000", "--add", "sspm=110,40,color=#00ff00",
-              "--coverage", "-"});
+  const Outcome outcome = render({"--add", "sspm=40,45,color=#ff0000", "--add",
+                                  "sspm=110,40,color=#00ff00", "--coverage", "-"});
   ASSERT_EQ(outcome.status, 0) << outcome.err;
   std::istringstream lines(outcome.out);
   std::string line;
@@ -97,8 +96,8 @@ TEST_F(Paint, PassesAreThoseOfTheResolution) {
                                                    {"half", "edges", three},
                                                    {"quarter", "rims", three},
                                                    {"quarter", "nothing", two}}) {
-    const Outcome outcome = render({"--add", "sspm=40,45,color=#ff0000", "--timings", "t.csv", "--set",
-                                    std::string("sspm.resolution=") + resolution, "--set",
+    const Outcome outcome = render({"--add", "sspm=40,45,color=#ff0000", "--timings", "t.csv",
+                                    "--set", std::string("sspm.resolution=") + resolution, "--set",
                                     std::string("sspm.refine=") + refine});
     ASSERT_EQ(outcome.status, 0) << outcome.err;
     std::istringstream lines(readFile(folder_ / "t.csv"));
@@ -122,8 +121,8 @@ TEST_F(Paint, ShotsPaintThePixelThatTheyAreAddedAt) {
 }
 
 TEST_F(Paint, WhatIsWrongIsRefusedByName) {
-  for (const std::string form : {"1,2", "=1,2", "sspm", "sspm=", "sspm=1", "sspm=1,2,red", "sspm=a,2",
-                                 "sspm=-1,2", "sspm=1.5,2", "sspm=1,2,"}) {
+  for (const std::string form : {"1,2", "=1,2", "sspm", "sspm=", "sspm=1", "sspm=1,2,red",
+                                 "sspm=a,2", "sspm=-1,2", "sspm=1.5,2", "sspm=1,2,"}) {
     expectError({"--add", form}, 5101, "EFFECT=X,Y");
   }
   expectError({"--add", "sspm=160,2"}, 5101, "pixels 0 to 159");

@@ -10,7 +10,8 @@ namespace grisaille {
 namespace {
 
 TEST(ShellQuoted, PlainWordsStayAsTheyAre) {
-  for (const char* word : {"a", "ssao.radius=0.5", "/usr/lib/x.so", "a_b-c%d+e@f:g,h", "1920x1080"}) {
+  for (const char* word :
+       {"a", "ssao.radius=0.5", "/usr/lib/x.so", "a_b-c%d+e@f:g,h", "1920x1080"}) {
     EXPECT_EQ(shellQuoted(word), word);
   }
   EXPECT_EQ(shellQuoted(""), "''");

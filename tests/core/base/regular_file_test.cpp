@@ -30,8 +30,8 @@ TEST_F(RegularFile, IsReadWholeDirectlyOrThroughLinks) {
 TEST_F(RegularFile, EverythingElseIsRefusedByPathAndReason) {
   ASSERT_EQ(mkfifo(file("pipe").c_str(), 0600), 0);
   std::filesystem::create_symlink("nowhere", file("dangling"));
-  for (const std::string& path :
-       {file("pipe"), file("dangling"), file("missing"), folder_.string(), std::string("/dev/zero")}) {
+  for (const std::string& path : {file("pipe"), file("dangling"), file("missing"), folder_.string(),
+                                  std::string("/dev/zero")}) {
     EXPECT_NE(whyNotRegular(path), "") << path;
     EXPECT_ERROR(kId, requireRegularFile(path, kId));
     EXPECT_ERROR(kId, readRegularFile(path, kId));

@@ -45,7 +45,8 @@ TEST(Utf8, FormsThatAreTooLongAreRefused) {
 TEST(Utf8, TheFirstWrongByteIsFound) {
   const std::string good = "a\xc3\xa9\xe2\x82\xac\xf0\x9f\x8e\xa8";
   ASSERT_EQ(invalidUtf8(good), kAll);
-  for (const char* wrong : {"\x80", "\xbf", "\xc0", "\xff", "\xfe", "\xc3", "\xe2\x82", "\xf0\x9f"}) {
+  for (const char* wrong :
+       {"\x80", "\xbf", "\xc0", "\xff", "\xfe", "\xc3", "\xe2\x82", "\xf0\x9f"}) {
     EXPECT_EQ(invalidUtf8(good + wrong), good.size());
     EXPECT_EQ(invalidUtf8(good + wrong + "a"), good.size());
     EXPECT_EQ(invalidUtf8(wrong + good), 0u);

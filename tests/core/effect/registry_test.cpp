@@ -69,18 +69,12 @@ TEST_F(RegistryTest, FindsSoundPluginsByKey) {
 
 TEST_F(RegistryTest, FaultyOnesAreRefusedByReasonAndTheRestGoesOn) {
   const std::map<std::string, ErrorId> expected = {
-      {"symbol", ErrorId::kPluginSymbol},
-      {"magic", ErrorId::kPluginAbi},
-      {"major", ErrorId::kPluginAbi},
-      {"old_major", ErrorId::kPluginAbi},
-      {"minor", ErrorId::kPluginAbi},
-      {"size", ErrorId::kPluginTable},
-      {"effect_size", ErrorId::kPluginTable},
-      {"range", ErrorId::kPluginTable},
-      {"tooltip", ErrorId::kPluginTable},
-      {"null_key", ErrorId::kPluginTable},
-      {"no_record", ErrorId::kPluginTable},
-      {"directory", ErrorId::kPluginUnloadable},
+      {"symbol", ErrorId::kPluginSymbol},     {"magic", ErrorId::kPluginAbi},
+      {"major", ErrorId::kPluginAbi},         {"old_major", ErrorId::kPluginAbi},
+      {"minor", ErrorId::kPluginAbi},         {"size", ErrorId::kPluginTable},
+      {"effect_size", ErrorId::kPluginTable}, {"range", ErrorId::kPluginTable},
+      {"tooltip", ErrorId::kPluginTable},     {"null_key", ErrorId::kPluginTable},
+      {"no_record", ErrorId::kPluginTable},   {"directory", ErrorId::kPluginUnloadable},
       {"text", ErrorId::kPluginUnloadable},
   };
   for (const auto& entry : fs::directory_iterator(kPlugins / "faulty")) {

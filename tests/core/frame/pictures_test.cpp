@@ -119,10 +119,8 @@ class FacetNormals : public tests::BackendTest {
     source.show({depth, {}, {}});
     Renderer renderer(device(), source);
     const std::vector<std::string> outputs = {"facet_normal"};
-    renderer.render({.camera = camera,
-                     .width = depth.width,
-                     .height = depth.height,
-                     .outputs = outputs});
+    renderer.render(
+        {.camera = camera, .width = depth.width, .height = depth.height, .outputs = outputs});
     return renderer.read("facet_normal");
   }
 };
@@ -274,8 +272,7 @@ TEST_P(PictureFrames, WhatNoPictureHasIsMissing) {
   source.show({row({1, 2, 3}), {}, {}});
   Renderer renderer(device(), source);
   const std::vector<std::string> outputs = {"base_colour"};
-  const FrameDesc desc{
-      .camera = camera_, .width = 3, .height = 1, .outputs = outputs};
+  const FrameDesc desc{.camera = camera_, .width = 3, .height = 1, .outputs = outputs};
   EXPECT_ERROR(ErrorId::kPictureMissing, renderer.render(desc));
   const std::vector<std::string> normal = {"normal"};
   FrameDesc other = desc;

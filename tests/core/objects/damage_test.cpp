@@ -147,8 +147,7 @@ TEST_F(DamagedObjects, FaultsOfAnObjectAreNamedByObjectAndField) {
 // Before anything else is read that another version may say otherwise.
 TEST_F(DamagedObjects, OtherVersionsAreRefusedByNumber) {
   for (const char* version : {"0", "2", "-1", "1.5", "18446744073709551616"}) {
-    const std::string text =
-        fmt::format(R"({{"version": {}, "new": [], "decals": 1}})", version);
+    const std::string text = fmt::format(R"({{"version": {}, "new": [], "decals": 1}})", version);
     EXPECT_TRUE(refusal(text, ErrorId::kObjectFileVersion).starts_with("version is ")) << version;
   }
 }

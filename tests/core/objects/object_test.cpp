@@ -43,7 +43,8 @@ TEST(ObjectFields, NumbersThatDoNotFitAreNamedByComponent) {
       const std::string why = refusal(kDecalFields[field], value);
       EXPECT_TRUE(why.starts_with(fmt::format("{}[{}] is ", kDecalFields[field].key, i))) << why;
     };
-    for (const double bad : {kNan, kInfinity, -kInfinity, 1.0000001e9, -1e300}) named(kPosition, bad);
+    for (const double bad : {kNan, kInfinity, -kInfinity, 1.0000001e9, -1e300})
+      named(kPosition, bad);
     for (const double bad : {kNan, kInfinity, -kInfinity}) named(kDirection, bad);
     for (const double bad : {kNan, kInfinity, -1e-9, 1.000000001, -DBL_MIN}) named(kColour, bad);
   }
@@ -148,11 +149,13 @@ TEST(ObjectFields, ColoursAreSrgb) {
 
 TEST(ObjectFields, WhatIsNoValueIsRefusedByKeyAndText) {
   const std::pair<size_t, std::vector<const char*>> cases[] = {
-      {kPosition, {"", "1", "1:2", "1:2:3:4", "1:2:", ":1:2", "1::2", "1,2,3", "1:2:x", "1:2:3 ",
-                   " 1:2:3", "+1:2:3", "1e999:0:0", "0x1:0:0"}},
+      {kPosition,
+       {"", "1", "1:2", "1:2:3:4", "1:2:", ":1:2", "1::2", "1,2,3", "1:2:x", "1:2:3 ", " 1:2:3",
+        "+1:2:3", "1e999:0:0", "0x1:0:0"}},
       {kDirection, {"0:0", "a:b:c"}},
-      {kColour, {"", "#", "#fff", "#ff80000", "ff8000", "#gg0000", "#-12345", "#+12345", "1:0:0",
-                 "#ff800 "}},
+      {kColour,
+       {"", "#", "#fff", "#ff80000", "ff8000", "#gg0000", "#-12345", "#+12345", "1:0:0",
+        "#ff800 "}},
       {kSize, {"", " ", "x", "1 ", "1:2", "1e999"}}};
   for (const auto& [index, texts] : cases) {
     const Field& field = kDecalFields[index];
@@ -167,8 +170,11 @@ TEST(ObjectFields, WhatIsNoValueIsRefusedByKeyAndText) {
       }
     }
   }
-  for (const auto& [index, text] : {std::pair{kPosition, "1e10:0:0"}, {kPosition, "nan:0:0"},
-                                    {kDirection, "0:0:0"}, {kSize, "1e7"}, {kSize, "inf"}}) {
+  for (const auto& [index, text] : {std::pair{kPosition, "1e10:0:0"},
+                                    {kPosition, "nan:0:0"},
+                                    {kDirection, "0:0:0"},
+                                    {kSize, "1e7"},
+                                    {kSize, "inf"}}) {
     EXPECT_ERROR(ErrorId::kObjectField, parseValue(kDecalFields[index], text));
   }
 }
@@ -230,7 +236,8 @@ TEST(Objects, ARefusalNamesObjectAndFieldAndAppendsNothing) {
   std::vector<Decal> raw(3, {{0, 0, 0}, {0, 0, 1}, {0, 0, 0}, 1, "", ""});
   raw[1].direction[2] = 0;
   const View given{&kDecals, reinterpret_cast<const std::byte*>(raw.data()), raw.size()};
-  EXPECT_TRUE(words([&] { objects.append(given); }).starts_with("decals[4].direction has no length"));
+  EXPECT_TRUE(
+      words([&] { objects.append(given); }).starts_with("decals[4].direction has no length"));
   EXPECT_EQ(objects.size(), 3u);
   Objects later(kDecals, 100);
   EXPECT_TRUE(words([&] { later.append(bad); }).starts_with("decals[100].colour[1]"));

@@ -104,8 +104,10 @@ inline double anySize(std::mt19937_64& random, double largest) {
 
 // Characters of one to four bytes, and those that JSON escapes.
 inline std::string anyText(std::mt19937_64& random) {
-  constexpr const char* kCharacters[] = {"a",  "Z", " ", "\"",       "\\",           "/", "\xc3\xa9",
-                                         "\'", "{", "]", "\xe2\x82\xac", "\xf0\x9f\x8e\xa8", ",", ":"};
+  constexpr const char* kCharacters[] = {
+      "a",        "Z",  " ", "\"", "\\",           "/",
+      "\xc3\xa9", "\'", "{", "]",  "\xe2\x82\xac", "\xf0\x9f\x8e\xa8",
+      ",",        ":"};
   std::string text;
   for (size_t n = random() % 12; n > 0; --n) text += kCharacters[random() % std::size(kCharacters)];
   return text;
@@ -133,7 +135,8 @@ inline Objects randomObjects(std::mt19937_64& random, size_t count, const Table&
 
 // Every number bit by bit. A list has no -0.
 inline bool sameValue(const Value& a, const Value& b) {
-  return a == b && !std::ranges::any_of(a.numbers, [](double x) { return x == 0 && std::signbit(x); });
+  return a == b &&
+         !std::ranges::any_of(a.numbers, [](double x) { return x == 0 && std::signbit(x); });
 }
 
 inline bool sameObjects(const View& a, const View& b) {
