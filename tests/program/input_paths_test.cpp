@@ -24,7 +24,9 @@ class InputPaths : public testing::Test {
   }
   // What hangs ends after 20 seconds by SIGKILL, as commands that trace wait for SIGTERM.
   Outcome run(const std::string& words) const {
-    return runShell("XDG_CACHE_HOME=$PWD/cache timeout -s KILL 20 grisaille " + words,
+    const bool lab = words.starts_with("claims") || words.starts_with("stability");
+    return runShell("XDG_CACHE_HOME=$PWD/cache timeout -s KILL 20 " +
+                        std::string(lab ? "grisaille-lab " : "grisaille ") + words,
                     folder_.path());
   }
   void expectRefused(const std::string& words, int number, const std::string& mention,
@@ -53,7 +55,8 @@ TEST_F(InputPaths, EveryReaderNamesWhatIsNoRegularFile) {
       {render + "--config", "toml", 5103},
       {render + "--effects sspm --load sspm=", "json", 3411},
       {"apply --camera '{}' --write ao=out.exr --depth", "exr", 4101},
-      {"measure --size 8x8 --out out --effects sspm --reference r.exr --load sspm=", "json", 3411},
+      {"measure --size 8x8 --out out --effects sspm --output paint --reference r.exr --load sspm=",
+       "json", 3411},
       {"measure --size 8x8 --out out --sweep ssao.steps=1 --camera", "json", 2201},
       {"measure --size 8x8 --out out --sweep ssao.steps=1 --path", "json", 2201},
       {"tune --size 8x8 --max-error 1 --out out.toml --validate", "json", 2201},
