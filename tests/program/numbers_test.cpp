@@ -14,7 +14,9 @@ namespace {
 class Numbers : public testing::Test {
  protected:
   void expectUsage(const std::string& words, const std::string& mention) const {
-    const Outcome outcome = runShell("grisaille " + words, folder_.path());
+    const bool lab = words.starts_with("claims") || words.starts_with("stability");
+    const Outcome outcome =
+        runShell((lab ? "grisaille-lab " : "grisaille ") + words, folder_.path());
     EXPECT_EQ(outcome.status, 2) << words << outcome.err;
     EXPECT_EQ(outcome.err.rfind("error E5101: ", 0), 0u) << words << outcome.err;
     EXPECT_NE(outcome.err.find(mention), std::string::npos) << words << ": " << outcome.err;
