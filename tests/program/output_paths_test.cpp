@@ -54,7 +54,7 @@ TEST_F(OutputPaths, TwoOutputsOfOneFileAreRefusedBeforeAnyWork) {
            std::string("truth --size 8x8 --write ao=x.exr --write depth=here/x.exr"),
            std::string("scene --write x.glb --write-camera ./x.glb"),
            std::string("measure --out s --sweep ssao.steps=1 --presets s/results.csv"),
-           std::string("view --screenshot x.png --layout ./x.png"),
+           std::string("view --capture x.png --layout ./x.png"),
        }) {
     const Outcome outcome = run(words);
     EXPECT_EQ(outcome.status, 2) << words << outcome.err;

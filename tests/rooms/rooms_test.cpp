@@ -183,14 +183,17 @@ constexpr Example kExamples[] = {
     {"core/frame/renderer.cpp", "\"ssao.ao\" that of one effect"},
     {"core/effect/parameter_name.h", "// A parameter by name, \"ssao.radius\""},
     {"core/effect/parameter_name.h", "// \"ssao.radius=0.5\""},
-    {"core/effect/include/grisaille/effect.h", "/* \"ssao\": same alphabet"},
+    {"core/effect/include/grisaille/effect.h", "a key: \"ssao\""},
+    {"core/effect/include/grisaille/effect.hpp", "a key: \"ssao\""},
     {"app/report/timings.h", "A pass labelled \"ssao/blur\" is effect \"ssao\""},
     {"app/settings/presets.h", "// \"ssao=balanced\""},
     {"app/settings/settings.h", "//   effects = [\"ssao\"]"},
     {"app/settings/settings.h", "//   [ssao]"},
     {"app/new_effect/README.md.in", "grisaille render --effects ssao,@KEY@"},
     {"app/study/sweep.h", "// \"ssao.kernel_size=4,8,16\""},
-    {"host/include/grisaille/host.h", "/* its key: \"ssao\" */"},
+    {"app/viewer/history.h", "`what` names it: \"ssao.radius\""},
+    {"host/include/grisaille/host.h", "the effect's key: \"ssao\""},
+    {"host/include/grisaille/host.hpp", "the effect's key: \"ssao\""},
 };
 
 const std::regex& effectWord() {
