@@ -83,35 +83,42 @@ TEST_F(ChainTest, EveryChangeOfAListChangesTheRevision) {
 
 // --- On a device
 
-TEST_F(ChainTest, StartingCreatesTheEffectsThatAreOn) {
+TEST_F(ChainTest, TheEffectsThatAreOnAreCreatedOnce) {
   Chain chain{Selection(registry)};
+  const StartedChain started(chain, *device);
   chain.selection.find("throws_in_create")->on = true;
-  EXPECT_ERROR(ErrorId::kEffectCreate, chain.start(*device));
+  EXPECT_ERROR(ErrorId::kEffectCreate, chain.create());
   chain.selection.find("throws_in_create")->on = false;
   chain.selection.find("teller")->on = true;
-  const StartedChain started(chain, *device);
+  chain.create();
+  chain.create();
   EXPECT_EQ(frameOf(chain), 0);
   EXPECT_EQ(frameOf(chain), 1);
   chain.start(*device);
   EXPECT_EQ(frameOf(chain), 0);
 }
 
-TEST_F(ChainTest, EffectsTurnedOnLaterAreCreatedByTheirFirstFrame) {
+TEST_F(ChainTest, EffectsTurnedOnLaterAreCreatedThen) {
   Chain chain{Selection(registry)};
   const StartedChain started(chain, *device);
   chain.selection.find("teller")->on = true;
   EXPECT_EQ(frameOf(chain), 0);
   chain.selection.find("throws_in_create")->on = true;
-  EXPECT_ERROR(ErrorId::kEffectCreate, record(chain, "throws_in_create", outputs));
-  EXPECT_ERROR(ErrorId::kEffectCreate, record(chain, "throws_in_create", outputs));
+  EXPECT_ERROR(ErrorId::kEffectCreate, chain.create());
+  EXPECT_ERROR(ErrorId::kEffectCreate, chain.create());
+  chain.selection.find("throws_in_create")->on = false;
   EXPECT_EQ(frameOf(chain), 1);
 }
 
 // The device complains of what is left at its end.
 TEST_F(ChainTest, StoppingEndsAllInstances) {
   Chain chain{Selection(registry, Keys{"plain", "copy", "teller"})};
-  { const StartedChain started(chain, *device); }
+  {
+    const StartedChain started(chain, *device);
+    chain.create();
+  }
   chain.start(*device);
+  chain.create();
   chain.end();
   chain.stop();
 }

@@ -81,6 +81,7 @@ struct InstanceTest : testing::Test {
   uint64_t record(Chain& chain, std::string_view effect, std::span<const gpu::Texture> outputs,
                   const FrameInputs& given = {}) {
     uint64_t waiting = 0;
+    chain.create();
     frame(outputs, given, [&](FrameInputs& inputs) {
       waiting = chain.record(*chain.selection.find(effect), inputs);
     });
