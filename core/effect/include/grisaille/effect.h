@@ -181,7 +181,7 @@ typedef struct grisaille_texture_desc {
   uint32_t width;  /* texels, 1 ... the device's limit */
   uint32_t height;
   uint32_t mips;   /* 0 counts as 1 */
-  uint32_t layers; /* 0 counts as 1 */
+  uint32_t layers; /* 0 counts as 1; more: a shader sees an array, as it may a single layer */
   const char* label;
 } grisaille_texture_desc;
 
