@@ -7,6 +7,7 @@
 #include <memory>
 
 #include "app/command.h"
+#include "app/settings/load_effects.h"
 #include "app/settings/presets.h"
 #include "core/base/error.h"
 
@@ -49,9 +50,14 @@ _grisaille() {{
       [[ ${{COMP_WORDS[COMP_CWORD-3]}} == --preset ]] &&
         words=$("${{COMP_WORDS[0]}}" completion --presets 2>/dev/null |
           sed -n "s/^${{COMP_WORDS[COMP_CWORD-2]}}=//p") ;;
-    --load|--save) compopt -o nospace; words="sspm=" ;;
-    --write) compopt -o nospace; words="color= depth= back_depth= normal= facet_normal= base_colour= ao= paint= paint_coverage= ao_error= ceiling= ceiling_error= mask=" ;;
-    --camera|--config|--paint|--timings|--coverage|--write-camera) COMPREPLY=($(compgen -f -- "$current")); return ;;
+    --load|--add|--save)
+      compopt -o nospace
+      words=$("${{COMP_WORDS[0]}}" completion --objects 2>/dev/null) ;;
+    --write)
+      compopt -o nospace
+      words="color= depth= back_depth= normal= facet_normal= base_colour= ao= ao_error= ceiling= ceiling_error="
+      words+=" "$("${{COMP_WORDS[0]}}" completion --outputs 2>/dev/null) ;;
+    --camera|--config|--reference|--capture|--timings|--coverage|--write-camera) COMPREPLY=($(compgen -f -- "$current")); return ;;
     --plugin-path|--out|--bookmarks) COMPREPLY=($(compgen -d -- "$current")); return ;;
   esac
   if [[ -z $words ]]; then
@@ -91,6 +97,19 @@ std::string effectKey(const effect::Effect& effect) {
   return fmt::format("{}\n", effect.desc->key);
 }
 
+std::string outputKeys(const effect::Effect& effect) {
+  std::string text;
+  for (const grisaille_output_desc& output : effect.outputs()) {
+    text += fmt::format("{}=\n", output.key);
+  }
+  return text;
+}
+
+// Of an effect with objects that users make.
+std::string objectsKey(const effect::Effect& effect) {
+  return effect.objects() != nullptr ? fmt::format("{}=\n", effect.key()) : "";
+}
+
 }  // namespace
 
 void addCompletion(CLI::App& program) {
@@ -103,6 +122,8 @@ void addCompletion(CLI::App& program) {
   };
   lists("--effects", &effectKey, "Print the effects' keys instead");
   lists("--parameters", &parameterKeys, "Print the parameters' keys instead");
+  lists("--outputs", &outputKeys, "Print the effects' outputs instead");
+  lists("--objects", &objectsKey, "Print the effects that have objects instead");
   lists("--presets", &presetNames, "Print the effects' presets instead");
   command->callback([&program, list] {
     if (*list == nullptr) {

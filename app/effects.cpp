@@ -6,6 +6,7 @@
 #include "app/command.h"
 #include "app/options/option_checks.h"
 #include "app/report/effect_tables.h"
+#include "app/settings/load_effects.h"
 #include "app/verify/verify.h"
 #include "core/base/error.h"
 

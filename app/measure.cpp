@@ -12,6 +12,7 @@
 #include "app/options/start_device.h"
 #include "app/options/subject_options.h"
 #include "app/report/machine.h"
+#include "app/settings/load_effects.h"
 #include "app/study/choose.h"
 #include "app/study/flicker_run.h"
 #include "app/study/report.h"

@@ -10,6 +10,7 @@
 
 #include "app/command.h"
 #include "app/new_effect_files.h"
+#include "app/settings/load_effects.h"
 #include "core/base/atomic_file.h"
 #include "core/base/error.h"
 #include "core/base/library_folder.h"

@@ -13,6 +13,7 @@
 #include "app/options/driver_messages.h"
 #include "app/options/option_checks.h"
 #include "app/options/subject_options.h"
+#include "app/settings/load_effects.h"
 #include "app/settings/presets.h"
 #include "app/settings/settings.h"
 #include "app/study/random_cameras.h"

@@ -1,5 +1,6 @@
 // SPDX-License-Identifier: MIT
 #include "app/options/effect_options.h"
+#include "app/settings/load_effects.h"
 
 #include "app/settings/chosen_effects.h"
 

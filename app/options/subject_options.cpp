@@ -2,6 +2,7 @@
 #include "app/options/subject_options.h"
 
 #include <fmt/format.h>
+#include <unistd.h>
 
 #include <algorithm>
 #include <filesystem>
@@ -50,7 +51,9 @@ void SubjectOptions::addTo(CLI::App& command) {
   command.add_option("--set", sets, "A parameter's value in all settings")
       ->type_name("EFFECT.PARAMETER=VALUE")
       ->allow_extra_args(false);
-  command.add_option("--effects", effects, "Effects that run, in order; default: ssao")
+  command
+      .add_option("--effects", effects,
+                  "Effects in the order they run; default: those that `grisaille effects` marks")
       ->delimiter(',')
       ->allow_extra_args(false);
   command.add_option("--output", output,
@@ -136,7 +139,7 @@ study::View LoadedSubject::viewOf(const std::string& name, const scene::Camera& 
   view.camera.size = subject_.size;
   truth::OcclusionTruth traced =
       truth::traceOcclusion(scene_, view.camera, subject_.size, options_.radius, options_.samples,
-                            options_.progress, bar);
+                            options_.progress || isatty(STDERR_FILENO) == 1, bar);
   view.truth = std::move(traced.visibility);
   view.noise = traced.error;
   onSurfacesAlone(view, traced.hits);

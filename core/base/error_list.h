@@ -110,14 +110,13 @@ GRISAILLE_ERROR(kOutputUnknown, 5102, "name an output of the frame or of an acti
 GRISAILLE_ERROR(kSettingsUnreadable, 5103, "check the path and that the file is TOML")
 GRISAILLE_ERROR(kSettingsInvalid, 5104, "correct the line that the message names")
 GRISAILLE_ERROR(kViewerState, 5105, "nothing needs doing; the viewer starts with its defaults")
-GRISAILLE_ERROR(kTruthUnknown, 5106,
-                "name ao, ao_error, ceiling, ceiling_error, depth, normal or mask")
+GRISAILLE_ERROR(kTruthUnknown, 5106, "name ao, ao_error, ceiling, ceiling_error, depth or normal")
 GRISAILLE_ERROR(kTruthCache, 5107, "remove it; the truth is traced again")
 GRISAILLE_ERROR(kLeftOut, 5108, "build it again with the option that the message names")
 // --- 52xx: the viewer
 GRISAILLE_ERROR(kNoDisplay, 5201, "start it on a desktop, or use `grisaille render`")
 GRISAILLE_ERROR(kWindowFailed, 5202, "update the driver or choose another --backend")
-GRISAILLE_ERROR(kFileUnknown, 5203, "give a .glb, .gltf, .toml, .json or .shots file")
+GRISAILLE_ERROR(kFileUnknown, 5203, "give a .glb, .gltf, .toml or .json file")
 // --- 53xx: studies
 GRISAILLE_ERROR(kStudyRecord, 5301, "remove the file; it is measured again")
 GRISAILLE_ERROR(kFrontSmall, 5302, "measure a grid whose settings differ in cost and in error")

@@ -1,26 +1,65 @@
 // SPDX-License-Identifier: MIT
 #include "core/effect/chain.h"
 
+#include <algorithm>
 #include <cmath>
+#include <optional>
+#include <span>
 #include <utility>
 
 namespace grisaille::effect {
 namespace {
 
-// What `old` holds, in a list of the new table, whose fields may be others.
+// By the keys of the old table's fields, where the new one has the same field: its index there.
+using Counterparts = std::vector<std::optional<size_t>>;
+
+// Adds a line for each field that is gone or of another type. None: the new table requires a field
+// that the old objects do not have.
+std::optional<Counterparts> counterpartsOf(const objects::Table& old, const objects::Table& table,
+                                           std::vector<std::string>& dropped) {
+  const std::span fields = objects::fieldsOf(table);
+  Counterparts counterparts;
+  std::vector<bool> given(fields.size());
+  for (const objects::Field& field : objects::fieldsOf(old)) {
+    const auto found = std::ranges::find_if(fields, [&](const objects::Field& other) {
+      return std::string_view(field.key) == other.key && field.type == other.type;
+    });
+    if (found == fields.end()) {
+      dropped.push_back(fmt::format("{}.{} is not there, or of another type", old.key, field.key));
+      counterparts.emplace_back();
+    } else {
+      counterparts.emplace_back(found - fields.begin());
+      given[*counterparts.back()] = true;
+    }
+  }
+  for (size_t i = 0; i < fields.size(); ++i) {
+    if (given[i] || (fields[i].flags & GRISAILLE_FIELD_REQUIRED) == 0) continue;
+    dropped.push_back(fmt::format("all {}: they have no \"{}\"", old.key, fields[i].key));
+    return std::nullopt;
+  }
+  return counterparts;
+}
+
+// What `old` holds, in a list of the new table, whose fields may be others. New fields have their
+// defaults.
 objects::ObjectList converted(const objects::ObjectList& old, const objects::Table& table,
                               std::vector<std::string>& dropped) {
   objects::ObjectList list(table);
+  if (old.size() == 0) return list;
+  const auto counterparts = counterpartsOf(old.table(), table, dropped);
+  if (!counterparts) return list;
   objects::Objects kept(table);
-  const std::span before = objects::fieldsOf(old.table());
+  objects::Object to(table);
   for (size_t i = 0; i < old.size(); ++i) {
     const objects::Object from = old.object(i);
-    objects::Object to(table);
+    for (size_t f = 0; f < from.values.size(); ++f) {
+      if (const auto index = (*counterparts)[f]) to.values[*index] = from.values[f];
+    }
+    const std::string name = fmt::format("{}[{}]", old.table().key, i);
     try {
-      for (size_t f = 0; f < before.size(); ++f) to.at(table, before[f].key) = from.values[f];
-      kept.append(to);
+      kept.append(to, name);
     } catch (const Error& error) {
-      dropped.push_back(fmt::format("{}[{}]: {}", old.table().key, i, error.detail()));
+      dropped.push_back(error.detail());
     }
   }
   list.assign(kept.view());
@@ -30,15 +69,15 @@ objects::ObjectList converted(const objects::ObjectList& old, const objects::Tab
 }  // namespace
 
 objects::ObjectList* Chain::objects(std::string_view effect) {
-  const auto found = lists_.find(effect);
-  if (found != lists_.end()) return &found->second;
   const Selection::Entry* entry = selection.find(effect);
   if (entry == nullptr || entry->effect().objects() == nullptr) return nullptr;
+  const auto found = lists_.find(effect);
+  if (found != lists_.end()) return &found->second;
   return &lists_.try_emplace(std::string(effect), *entry->effect().objects()).first->second;
 }
 
 uint64_t Chain::objectsRevision() const {
-  uint64_t sum = 0;
+  uint64_t sum = endedRevisions_;
   for (const auto& [effect, list] : lists_) sum += list.revision();
   return sum;
 }
@@ -84,11 +123,17 @@ std::vector<std::string> Chain::rebind(const Registry& fresh) {
   for (auto& [effect, list] : lists_) {
     const Selection::Entry* entry = chosen.find(effect);
     if (entry == nullptr || entry->effect().objects() == nullptr) {
+      endedRevisions_ += list.revision() + 1;
       if (list.size() > 0) dropped.push_back(fmt::format("{} of {}", list.table().key, effect));
       continue;
     }
     const objects::Table& table = *entry->effect().objects();
-    lists.emplace(effect, list.adopt(table) ? std::move(list) : converted(list, table, dropped));
+    if (list.adopt(table)) {
+      lists.emplace(effect, std::move(list));
+    } else {
+      endedRevisions_ += list.revision() + 1;
+      lists.emplace(effect, converted(list, table, dropped));
+    }
   }
   selection = std::move(chosen);
   lists_ = std::move(lists);

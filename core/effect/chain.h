@@ -35,7 +35,7 @@ class Chain {
   const std::map<std::string, objects::ObjectList, std::less<>>& objectLists() const {
     return lists_;
   }
-  // Grows with every change of any list.
+  // Grows with every change of any list, and with every list that rebind() drops or converts.
   uint64_t objectsRevision() const;
 
   // --- On a device
@@ -56,8 +56,10 @@ class Chain {
 
   // --- Plugins
 
-  // Takes over to a fresh registry, while the old one lives: what is still there keeps its place,
-  // values and objects. Instances end. Returns a line for each thing that is dropped.
+  // Takes over to a fresh registry, while the old one lives. Instances end. Effects that are still
+  // there keep their place, values and objects. Where an effect's table of objects is another one,
+  // each object keeps the fields of the same key and type, and the list starts without steps to
+  // undo. Returns a line for each effect, value, field and object that is dropped.
   std::vector<std::string> rebind(const Registry& fresh);
 
  private:
@@ -67,6 +69,7 @@ class Chain {
   };
 
   gpu::Maker* device_ = nullptr;
+  uint64_t endedRevisions_ = 0;                                    // of lists that are gone
   std::map<std::string, objects::ObjectList, std::less<>> lists_;  // by effect
   std::map<std::string, Running, std::less<>> running_;            // by effect
 };

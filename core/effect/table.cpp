@@ -216,16 +216,26 @@ void checkOutput(const std::string& at, const grisaille_output_desc& output) {
 constexpr std::array<uint32_t, 6> kElementSizes = {8, 4, 8, 4, sizeof(char*), sizeof(char*)};
 constexpr std::array<uint32_t, 6> kElements = {1, 3, 3, 3, 1, 1};
 
-void checkFieldPlace(const std::string& at, const grisaille_field_desc& field,
-                     const grisaille_object_desc& object) {
+uint64_t endOf(const grisaille_field_desc& field) {
+  return uint64_t{field.offset} + uint64_t{kElementSizes[field.type]} * kElements[field.type];
+}
+
+// The fields before it are checked already.
+void checkFieldPlace(const std::string& at, uint32_t index, const grisaille_object_desc& object) {
+  const grisaille_field_desc& field = object.fields[index];
   const uint32_t element = kElementSizes[field.type];
-  const uint64_t end = uint64_t{field.offset} + uint64_t{element} * kElements[field.type];
+  const uint64_t end = endOf(field);
   if (field.offset % element != 0) {
     refuse(at + ".offset", "is {}, not a multiple of {}", field.offset, element);
   }
   if (end > object.object_size) {
     refuse(at + ".offset", "is {}, which ends {} bytes into an object of {}", field.offset, end,
            object.object_size);
+  }
+  for (const grisaille_field_desc& other : std::span(object.fields, index)) {
+    if (field.offset < endOf(other) && other.offset < end) {
+      refuse(at + ".offset", "is {}, inside the field {}", field.offset, other.key);
+    }
   }
 }
 
@@ -248,8 +258,8 @@ void checkFieldValues(const std::string& at, const grisaille_field_desc& field) 
   }
 }
 
-void checkField(const std::string& at, const grisaille_field_desc& field,
-                const grisaille_object_desc& object) {
+void checkField(const std::string& at, uint32_t index, const grisaille_object_desc& object) {
+  const grisaille_field_desc& field = object.fields[index];
   checkStructSize(at, field.struct_size, {sizeof(grisaille_field_desc)});
   checkKey(at + ".key", field.key);
   checkLine(at + ".label", field.label);
@@ -257,7 +267,10 @@ void checkField(const std::string& at, const grisaille_field_desc& field,
   checkLine(at + ".tooltip", field.tooltip);
   if (field.type > GRISAILLE_FIELD_FILE) refuse(at + ".type", "is {}, which is none", field.type);
   checkFlags(at, field.flags, GRISAILLE_FIELD_REQUIRED);
-  checkFieldPlace(at, field, object);
+  if (field.type != GRISAILLE_FIELD_NUMBER && *field.unit != '\0') {
+    refuse(at + ".unit", "is \"{}\", which is for numbers alone", field.unit);
+  }
+  checkFieldPlace(at, index, object);
   checkFieldValues(at, field);
 }
 
@@ -290,7 +303,7 @@ void checkObjects(const std::string& at, const grisaille_object_desc& object) {
   checkCount(at + ".field_count", object.field_count, 1, kMaxFields);
   checkPresent(at + ".fields", object.fields);
   for (uint32_t i = 0; i < object.field_count; ++i) {
-    checkField(fmt::format("{}.fields[{}]", at, i), object.fields[i], object);
+    checkField(fmt::format("{}.fields[{}]", at, i), i, object);
     checkUnique(at + ".fields", ".key", i, [&](uint32_t n) { return object.fields[n].key; });
   }
   checkPlacement(at, object);

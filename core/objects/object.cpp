@@ -9,6 +9,7 @@
 #include <cstring>
 #include <glm/glm.hpp>
 #include <glm/gtc/color_space.hpp>
+#include <utility>
 
 #include "core/base/error.h"
 #include "core/base/nearest.h"
@@ -41,19 +42,29 @@ Numbers unitOf(const Field& field, const Numbers& direction) {
   return {share[0] / length, share[1] / length, share[2] / length};
 }
 
-void checkNumbers(const Field& field, const Numbers& numbers) {
-  const size_t count = componentsOf(field);
-  for (size_t i = 0; i < count; ++i) {
-    const std::string name = count == 1 ? field.key : fmt::format("{}[{}]", field.key, i);
-    const double value = numbers[i];
-    if (!std::isfinite(value)) refuse("{} is {}, not a finite number", name, value);
-    double least = field.min, most = field.max;
-    if (field.type == GRISAILLE_FIELD_DIRECTION) continue;
-    if (field.type == GRISAILLE_FIELD_COLOUR) least = 0, most = 1;
-    if (field.type == GRISAILLE_FIELD_POINT) least = -kFarthestPoint, most = kFarthestPoint;
-    if (value < least || value > most)
-      refuse("{} is {}, out of {} to {}", name, value, least, most);
+std::pair<double, double> rangeOf(const Field& field) {
+  if (field.type == GRISAILLE_FIELD_COLOUR) return {0, 1};
+  if (field.type == GRISAILLE_FIELD_POINT) return {-kFarthestPoint, kFarthestPoint};
+  return {field.min, field.max};
+}
+
+[[noreturn]] void refuseNumber(const Field& field, size_t index, double value) {
+  const std::string name =
+      componentsOf(field) == 1 ? field.key : fmt::format("{}[{}]", field.key, index);
+  if (!std::isfinite(value)) refuse("{} is {}, not a finite number", name, value);
+  const auto [least, most] = rangeOf(field);
+  refuse("{} is {}, out of {} to {}", name, value, least, most);
+}
+
+// As checked() has it.
+Numbers checkedNumbers(const Field& field, const Numbers& numbers) {
+  const bool direction = field.type == GRISAILLE_FIELD_DIRECTION;
+  const auto [least, most] = rangeOf(field);
+  for (size_t i = 0; i < componentsOf(field); ++i) {
+    const bool inside = direction || (numbers[i] >= least && numbers[i] <= most);
+    if (!inside || !std::isfinite(numbers[i])) refuseNumber(field, i, numbers[i]);
   }
+  return direction ? unitOf(field, numbers) : numbers;
 }
 
 void checkText(const Field& field, const std::string& text) {
@@ -99,8 +110,8 @@ Numbers parseColour(const Field& field, std::string_view text) {
   if (text.size() != 7 || text[0] != '#' || status != std::errc() || end != text.data() + 7) {
     refuse("{} is '{}', not of the form #rrggbb", field.key, oneLine(text));
   }
-  const glm::vec3 encoded = glm::vec3(bits >> 16, bits >> 8 & 255u, bits & 255u) * (1.0f / 255);
-  const glm::vec3 linear = glm::convertSRGBToLinear(encoded);
+  const glm::dvec3 encoded = glm::dvec3(bits >> 16, bits >> 8 & 255u, bits & 255u) / 255.0;
+  const glm::vec3 linear(glm::convertSRGBToLinear(encoded));  // as the list keeps it
   return {linear.x, linear.y, linear.z};
 }
 
@@ -125,11 +136,11 @@ Numbers parseNumbers(const Field& field, std::string_view text) {
 }  // namespace
 
 const Field& fieldOf(const Table& table, std::string_view key) {
-  std::vector<std::string> keys;
   for (const Field& field : fieldsOf(table)) {
     if (key == field.key) return field;
-    keys.emplace_back(field.key);
   }
+  std::vector<std::string> keys;
+  for (const Field& field : fieldsOf(table)) keys.emplace_back(field.key);
   const std::string near = nearest(key, keys);
   refuse("there is no field \"{}\"{}; {} have {}", oneLine(key),
          near.empty() ? "" : ", nearest is " + near, table.key, fmt::join(keys, ", "));
@@ -145,8 +156,7 @@ Value checked(const Field& field, Value value) {
   if (isText(field)) {
     checkText(field, value.text);
   } else {
-    checkNumbers(field, value.numbers);
-    if (field.type == GRISAILLE_FIELD_DIRECTION) value.numbers = unitOf(field, value.numbers);
+    value.numbers = checkedNumbers(field, value.numbers);
   }
   return value;
 }
@@ -201,41 +211,51 @@ Objects& Objects::operator=(const Objects& other) {
   return *this;
 }
 
-void Objects::append(const Object& object) {
-  Object sound = object;
-  for (size_t i = 0; i < sound.values.size(); ++i) {
-    try {
-      sound.values[i] = checked(table_->fields[i], std::move(sound.values[i]));
-    } catch (const Error& error) {
-      throw Error(error.id(), "{}[{}].{}", table_->key, first_ + size(), error.detail());
-    }
-  }
-  write(sound);
-}
-
-void Objects::append(const View& view) {
+// `valueOf(i)`: of field i.
+template <typename ValueOf>
+void Objects::write(std::string_view name, ValueOf&& valueOf) {
   const size_t before = bytes_.size();
+  bytes_.resize(before + table_->object_size);
   try {
-    for (size_t i = 0; i < view.count; ++i) append(view.object(i));
+    for (size_t i = 0; i < table_->field_count; ++i) put(before, table_->fields[i], valueOf(i));
+  } catch (const Error& error) {
+    bytes_.resize(before);
+    const size_t index = first_ + before / table_->object_size;
+    throw Error(error.id(), "{}.{}",
+                name.empty() ? fmt::format("{}[{}]", table_->key, index) : std::string(name),
+                error.detail());
   } catch (...) {
     bytes_.resize(before);
     throw;
   }
 }
 
-void Objects::write(const Object& object) {
-  bytes_.resize(bytes_.size() + table_->object_size);
-  std::byte* at = bytes_.data() + bytes_.size() - table_->object_size;
-  for (size_t i = 0; i < object.values.size(); ++i) {
-    const Field& field = table_->fields[i];
-    if (isText(field)) {
-      const char* text = texts_.insert(object.values[i].text).first->c_str();
-      std::memcpy(at + field.offset, &text, sizeof(text));
-    } else if (isDouble(field)) {
-      store<double>(at, field, object.values[i].numbers);
-    } else {
-      store<float>(at, field, object.values[i].numbers);
+void Objects::append(const Object& object, std::string_view name) {
+  write(name, [&](size_t i) -> const Value& { return object.values[i]; });
+}
+
+void Objects::append(const View& view) {
+  const size_t before = bytes_.size();
+  try {
+    for (size_t n = 0; n < view.count; ++n) {
+      write({}, [&](size_t i) { return view.value(n, table_->fields[i]); });
     }
+  } catch (...) {
+    bytes_.resize(before);
+    throw;
+  }
+}
+
+void Objects::put(size_t object, const Field& field, const Value& value) {
+  std::byte* at = bytes_.data() + object;
+  if (isText(field)) {
+    checkText(field, value.text);
+    const char* text = texts_.insert(value.text).first->c_str();
+    std::memcpy(at + field.offset, &text, sizeof(text));
+  } else if (isDouble(field)) {
+    store<double>(at, field, checkedNumbers(field, value.numbers));
+  } else {
+    store<float>(at, field, checkedNumbers(field, value.numbers));
   }
 }
 

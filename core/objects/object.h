@@ -89,14 +89,17 @@ class Objects {
   size_t size() const { return bytes_.size() / table_->object_size; }
   View view() const { return {table_, bytes_.data(), size()}; }
 
-  // Checks every field. Throws kObjectField, "shots[3].color ...", and then appends nothing.
-  void append(const Object& object);
+  // Checks every field. Throws kObjectField, "decals[3].colour ...", and then appends nothing.
+  // `name`: the object's in messages, "": as above.
+  void append(const Object& object, std::string_view name = {});
   // Those of a table of the same layout. Checks every field.
   void append(const View& view);
   void reserve(size_t count) { bytes_.reserve(count * table_->object_size); }
 
  private:
-  void write(const Object& object);
+  template <typename ValueOf>
+  void write(std::string_view name, ValueOf&& valueOf);
+  void put(size_t object, const Field& field, const Value& value);  // `object`: its first byte
 
   const Table* table_;
   size_t first_;

@@ -4,11 +4,11 @@
 #include <fmt/format.h>
 
 #include <algorithm>
+#include <charconv>
 #include <filesystem>
 #include <fstream>
 #include <iterator>
 #include <nlohmann/json.hpp>
-#include <optional>
 #include <string>
 #include <utility>
 #include <vector>
@@ -23,7 +23,7 @@ namespace {
 using nlohmann::json;
 using Text = fmt::memory_buffer;
 
-constexpr uint64_t kVersion = 1;
+constexpr int kVersion = 1;
 
 // Reads event by event: a document of a million objects would take several GiB.
 class Reader : public nlohmann::json_sax<json> {
@@ -31,10 +31,7 @@ class Reader : public nlohmann::json_sax<json> {
   explicit Reader(const Table& table) : objects_(table), blank_(table), object_(table) {}
 
   Objects take() {
-    if (version_ != kVersion) {
-      const std::string found = version_ ? fmt::format("{}", *version_) : "missing";
-      throw Error(ErrorId::kObjectFileVersion, "version is {}, not {}", found, kVersion);
-    }
+    if (!hasVersion_) refuse("", "has no \"version\"");
     if (!hasList_) refuse("", fmt::format("has no \"{}\"", table().key));
     return std::move(objects_);
   }
@@ -46,10 +43,6 @@ class Reader : public nlohmann::json_sax<json> {
     return number(static_cast<double>(value));
   }
   bool number_unsigned(number_unsigned_t value) override {
-    if (place_ == Place::kRoot && key_ == "version") {
-      version_ = value;
-      return true;
-    }
     return number(static_cast<double>(value));
   }
   bool number_float(number_float_t value, const string_t&) override { return number(value); }
@@ -63,7 +56,11 @@ class Reader : public nlohmann::json_sax<json> {
   bool key(string_t& key) override {
     key_ = key;
     if (place_ == Place::kRoot) {
-      if (key == "version" || key == table().key) return true;
+      bool& given = key == "version" ? hasVersion_ : hasList_;
+      if (key == "version" || key == table().key) {
+        if (std::exchange(given, true)) refuse(key, "is given twice");
+        return true;
+      }
       refuse("", fmt::format("has a member \"{}\", which is neither version nor {}", oneLine(key),
                              table().key));
     }
@@ -111,7 +108,6 @@ class Reader : public nlohmann::json_sax<json> {
 
   bool start_array(size_t) override {
     if (place_ == Place::kRoot && key_ == table().key) {
-      if (std::exchange(hasList_, true)) refuse(table().key, "is given twice");
       place_ = Place::kList;
     } else if (place_ == Place::kObject && componentsOf(field()) == 3) {
       place_ = Place::kVector;
@@ -132,8 +128,11 @@ class Reader : public nlohmann::json_sax<json> {
     return true;
   }
 
+  // The error of a number beyond a double's range does not tell where it stands.
   bool parse_error(size_t, const std::string&, const json::exception& error) override {
-    throw Error(ErrorId::kObjectFileInvalid, "{}", oneLine(error.what()));
+    const bool inObject = place_ == Place::kVector || (place_ == Place::kObject && given_[index_]);
+    throw Error(ErrorId::kObjectFileInvalid, "{}{}", inObject ? "in " + fieldName() + ": " : "",
+                oneLine(error.what()));
   }
 
  private:
@@ -154,6 +153,9 @@ class Reader : public nlohmann::json_sax<json> {
       object_.values[index_].numbers[count_++] = value;
     } else if (place_ == Place::kObject && componentsOf(field()) == 1) {
       object_.values[index_].numbers[0] = value;
+    } else if (place_ == Place::kRoot && key_ == "version") {
+      if (value == kVersion) return true;
+      throw Error(ErrorId::kObjectFileVersion, "version is {}, not {}", value, kVersion);
     } else {
       return wrong("a number");
     }
@@ -165,8 +167,8 @@ class Reader : public nlohmann::json_sax<json> {
       case Place::kTop:
         refuse("", fmt::format("is {}, not an object", found));
       case Place::kRoot:
-        refuse(key_, fmt::format("is {}, not {}", found,
-                                 key_ == "version" ? "a whole number" : "an array"));
+        refuse(key_,
+               fmt::format("is {}, not {}", found, key_ == "version" ? "a number" : "an array"));
       case Place::kList:
         refuse(objectName(), fmt::format("is {}, not an object", found));
       case Place::kVector:
@@ -187,7 +189,7 @@ class Reader : public nlohmann::json_sax<json> {
   std::string key_;
   size_t index_ = 0;  // of the field
   size_t count_ = 0;  // numbers of the vector
-  std::optional<uint64_t> version_;
+  bool hasVersion_ = false;
   bool hasList_ = false;
 };
 
@@ -204,17 +206,20 @@ void putNumber(Text& text, const Field& field, double value) {
       field.type == GRISAILLE_FIELD_COLOUR || field.type == GRISAILLE_FIELD_DIRECTION;
   if (isFloat) {
     const auto single = static_cast<float>(value);
-    const std::string digits = fmt::format("{}", single);
-    if (static_cast<float>(std::stod(digits)) == single) {
-      text.append(std::string_view(digits));
-      return;
-    }
+    const size_t before = text.size();
+    fmt::format_to(std::back_inserter(text), "{}", single);
+    double read = 0;
+    std::from_chars(text.data() + before, text.data() + text.size(), read);
+    if (static_cast<float>(read) == single) return;
+    text.resize(before);
   }
   fmt::format_to(std::back_inserter(text), "{}", value);
 }
 
 void putField(Text& text, const Field& field, const Value& value) {
-  fmt::format_to(std::back_inserter(text), "\"{}\": ", field.key);
+  text.push_back('"');
+  text.append(std::string_view(field.key));
+  text.append(std::string_view("\": "));
   if (isText(field)) {
     text.append(json(value.text).dump());
     return;
@@ -233,7 +238,8 @@ void putObject(Text& text, const View& objects, size_t index) {
   text.push_back('{');
   for (const Field& field : fieldsOf(*objects.table)) {
     const Value value = objects.value(index, field);
-    if ((field.flags & GRISAILLE_FIELD_REQUIRED) == 0 && value == defaultOf(field)) continue;
+    const bool required = (field.flags & GRISAILLE_FIELD_REQUIRED) != 0;
+    if (!required && value == defaultOf(field)) continue;
     if (!std::exchange(first, false)) text.append(std::string_view(", "));
     putField(text, field, value);
   }

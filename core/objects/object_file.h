@@ -29,7 +29,8 @@ std::string jsonOf(const View& objects);
 void save(const View& objects, const std::string& path);
 
 // Oldest first. Throws kObjectFileUnreadable; kObjectFileVersion; kObjectFileInvalid, which names
-// the line of a fault of JSON, or object and field: "shots[3].color[1] is 2, out of 0 to 1".
+// the line of a fault of JSON, or object and field: "decals[3].colour[1] is 2, out of 0 to
+// 1".
 Objects load(const Table& table, const std::string& path);
 
 // The key of the list that a file holds: the first member of its beginning that is no version. "":

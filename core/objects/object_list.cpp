@@ -5,6 +5,8 @@
 #include <cstring>
 #include <utility>
 
+#include "core/base/error.h"
+
 namespace grisaille::objects {
 namespace {
 
@@ -82,7 +84,14 @@ void ObjectList::replace(const View& objects) {
   if (objects.count > 0 || size() > 0) splice(0, size(), objects);
 }
 
+void ObjectList::requireIndex(size_t index) const {
+  if (index < size()) return;
+  throw Error(ErrorId::kObjectIndex, "there is no {}[{}]; the list has {}", table_->key, index,
+              size());
+}
+
 void ObjectList::set(size_t index, const Object& object) {
+  requireIndex(index);
   Objects one(*table_);
   one.append(object);
   if (one.view().object(0) == this->object(index)) return;
@@ -90,6 +99,7 @@ void ObjectList::set(size_t index, const Object& object) {
 }
 
 void ObjectList::remove(size_t index) {
+  requireIndex(index);
   splice(index, 1, {table_, nullptr, 0});
 }
 
@@ -158,7 +168,8 @@ void ObjectList::redo() {
 }
 
 void ObjectList::assign(const View& objects) {
-  const size_t before = size();
+  const size_t size = table_->object_size, before = this->size();
+  makeRoom(kept_, kept_.size() + 1);
   size_t kept = 0;
   if (hasTexts(*table_)) {
     // Texts that only the steps point to would pile up.
@@ -169,16 +180,17 @@ void ObjectList::assign(const View& objects) {
     texts_ = std::move(fresh.texts_);
   } else {
     // Objects that the list holds already are sound.
-    kept = sameBytes(view(), objects);
-    const Bytes fresh = sound(objects, kept);
-    kept += sameBytes({table_, bytes_.data() + kept * table_->object_size, before - kept},
-                      viewOf(*table_, fresh));
-    bytes_.resize((objects.count - fresh.size() / table_->object_size) * table_->object_size);
+    const size_t held = sameBytes(view(), objects);
+    const Bytes fresh = sound(objects, held);
+    kept = held +
+           sameBytes({table_, bytes_.data() + held * size, before - held}, viewOf(*table_, fresh));
+    makeRoom(bytes_, held * size + fresh.size());
+    bytes_.resize(held * size);
     bytes_.insert(bytes_.end(), fresh.begin(), fresh.end());
   }
   steps_.clear();
   done_ = 0;
-  if (kept < before || size() > before) noteChange(kept);
+  if (kept < before || this->size() > before) noteChange(kept);
 }
 
 void ObjectList::noteChange(size_t kept) {

@@ -33,11 +33,13 @@ class ObjectList {
   void add(const View& objects);
   // The objects take the place of all that there are.
   void replace(const View& objects);
+  // This and remove() throw kObjectIndex where there is no such object.
   void set(size_t index, const Object& object);
 
   void remove(size_t index);
   void clear();
-  // The object at `from` gets the index `to`; those between close up.
+  // The object at `from` gets the index `to`; those between close up. Nothing happens where either
+  // is no index.
   void move(size_t from, size_t to);
 
   bool canUndo() const { return done_ > 0; }
@@ -76,6 +78,7 @@ class ObjectList {
     size_t count;
   };
 
+  void requireIndex(size_t index) const;
   void splice(size_t at, size_t removed, const View& added);
   void exchange(Step& step);
   void noteChange(size_t kept);

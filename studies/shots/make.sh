@@ -13,14 +13,11 @@ for camera in atrium vases aisle gallery; do
       4) color=c030c0 ;; 5) color=10b0a0 ;; *) color=e03060 ;;
     esac
     # Every second row half a step to the right.
-    fires="$fires --add sspm=$((20 + 80 * (i % 8) + 40 * (i / 8 % 2))),$((22 + 45 * (i / 8))),color=#$color"
+    fires="$fires --add sspm=$((20 + 80 * (i % 8) + 40 * (i / 8 % 2))),$((22 + 45 * (i / 8))),color=#$color,range=0.5"
   done
   # shellcheck disable=SC2086
   grisaille render --camera "../cameras/$camera.json" --size 640x360 --effects sspm "$@" $fires \
     --save sspm=atrium.json --write depth=depth.exr
   set -- --load sspm=atrium.json
 done
-# measure needs each shot's own range.
-sed '/^{"origin/s/}/, "range": 0.5}/' atrium.json > atrium.new
-mv atrium.new atrium.json
 rm depth.exr

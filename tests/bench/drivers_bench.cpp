@@ -97,13 +97,13 @@ void printPresets(const std::vector<Driver>& drivers, DriverSubject& subject,
   const SharedAttachments shared = drawShared(*drivers[0].opened, subject);
   for (const PresetOf& preset : allPresets(registry)) {
     if (preset.effect != effect) continue;
-    const effect::Values values = valuesOf(registry, preset);
+    const effect::Selection selection = selectionOf(registry, preset);
     image::Image firstApplied, firstWhole;
     for (const Driver& driver : drivers) {
       fmt::print(stderr, "{}, {} {}: {}\n", subject.name, effect, preset.preset,
                  driver.device.label);
-      image::Image applied = applyShared(*driver.opened, subject, values, shared);
-      auto [whole, depth] = drawWhole(*driver.opened, subject, values);
+      image::Image applied = applyShared(*driver.opened, subject, selection, shared);
+      auto [whole, depth] = drawWhole(*driver.opened, subject, selection);
       const bool isFirst = firstApplied.pixels.empty();
       const auto percent = [&](const image::Image& a, const image::Image& b) {
         return isFirst ? std::string("first") : fmt::format("{:.4f} %", 100 * shareApart(a, b));

@@ -125,13 +125,15 @@ class Bench {
     const auto start = Clock::now();
     device_ = backends::create(backend, {.timed = true});
     tutorial_.emplace(*device_);
-    instance_.emplace(*device_, registry.find("ssao"));
+    const effect::Selection ssao(registry, std::array<std::string, 1>{"ssao"});
+    chain_.selection = ssao;
+    chain_.start(*device_);
     renderer_.emplace(*device_, subject.scene);
     for (const Setting& setting : settings(options, registry.find("ssao"))) {
-      effect::Values& values = values_.emplace_back(registry.find("ssao"));
+      effect::Values& values = settings_.emplace_back(ssao).values("ssao");
       for (const auto& [key, value] : setting.values) values.set(key, value);
     }
-    render(effect::Values(registry.find("ssao")), subject.cameras[0]);
+    render(ssao, subject.cameras[0]);
     device_->wait();
     firstFrameSeconds_ = std::chrono::duration<double>(Clock::now() - start).count();
     drawTutorial(subject.cameras[0]);
@@ -144,8 +146,8 @@ class Bench {
 
   // Milliseconds of the effect's passes, and what it adds to drawing the scene.
   double timeSetting(size_t setting) {
-    const auto effects = render(values_[setting], subject_.cameras[0]);
-    const double guard = frame::guardShare(effects, options_.width, options_.height);
+    render(settings_[setting], subject_.cameras[0]);
+    const double guard = frame::guardShare(settings_[setting], options_.width, options_.height);
     return taken([&](const std::string& pass) {
       return pass.starts_with("ssao/") ? 1 : frame::shareForEffects(pass, guard);
     });
@@ -156,26 +158,24 @@ class Bench {
   }
 
   image::Image ao(size_t setting, const scene::Camera& camera) {
-    render(values_[setting], camera);
+    render(settings_[setting], camera);
     return renderer_->read("ao");
   }
   image::Image tutorialAo(const scene::Camera& camera) {
-    render(values_[0], camera);
+    render(settings_[0], camera);
     drawTutorial(camera);
     return frame::toImage(device_->read(target_), gpu::Format::kR8Unorm, options_.width,
                           options_.height);
   }
 
  private:
-  std::array<frame::ActiveEffect, 1> render(const effect::Values& values,
-                                            const scene::Camera& camera) {
-    const std::array effects = {frame::ActiveEffect{.instance = &*instance_, .values = &values}};
+  void render(const effect::Selection& setting, const scene::Camera& camera) {
+    chain_.selection = setting;
     renderer_->render({.camera = camera,
                        .width = options_.width,
                        .height = options_.height,
-                       .effects = effects,
+                       .chain = &chain_,
                        .outputs = outputs_});
-    return effects;
   }
 
   // From the attachments of the last render().
@@ -208,10 +208,10 @@ class Bench {
   const Subject& subject_;
   std::unique_ptr<gpu::Device> device_;
   std::optional<TutorialSsao> tutorial_;
-  std::optional<effect::Instance> instance_;
+  effect::Chain chain_;
   std::optional<frame::Renderer> renderer_;
   gpu::Texture target_;  // the tutorial's result; its own
-  std::vector<effect::Values> values_;
+  std::vector<effect::Selection> settings_;
   std::vector<std::string> outputs_ = {"ao", "depth", "normal"};
   double firstFrameSeconds_ = 0;
 };

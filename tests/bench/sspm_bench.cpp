@@ -19,9 +19,9 @@
 
 #include "backends/backends.h"
 #include "core/base/error.h"
-#include "core/effect/registry.h"
-#include "core/effect/values.h"
+#include "core/effect/chain.h"
 #include "core/frame/renderer.h"
+#include "lab/paint/shot.h"
 #include "tests/bench/command.h"
 #include "tests/bench/subject.h"
 #include "tests/support/traced_rays.h"
@@ -30,7 +30,7 @@ namespace grisaille::bench {
 namespace {
 
 using Clock = std::chrono::steady_clock;
-using Shots = std::vector<grisaille_shot>;
+using Shots = std::vector<lab::Shot>;
 
 struct Options : CommonOptions {
   std::vector<size_t> counts = {64, 1000, 10000};
@@ -90,8 +90,7 @@ Shots randomShots(const Subject& subject, const trace::RayTracer& tracer, size_t
     shots.push_back({.origin = {muzzle.x, muzzle.y, muzzle.z},
                      .direction = {direction.x, direction.y, direction.z},
                      .color = {channel(random), channel(random), channel(random)},
-                     .range = 0,
-                     .reserved = 0});
+                     .range = 0});
   }
   return shots;
 }
@@ -122,29 +121,27 @@ class Painted {
       : device_(device),
         subject_(subject),
         rays_(rays),
-        values_(registry.find("sspm")),
-        ssaoValues_(registry.find("ssao")),
-        instance_(device, registry.find("sspm")),
-        ssao_(device, registry.find("ssao")),
+        chain_(effect::Selection(registry, std::array<std::string, 2>{"ssao", "sspm"})),
+        started_(chain_, device),
         renderer_(device, subject.scene) {}
 
-  effect::Values& values() { return values_; }
+  effect::Values& values() { return chain_.selection.values("sspm"); }
+
+  // Adds to the shots that the next frame draws.
+  void add(std::span<const lab::Shot> shots) {
+    objects::ObjectList& list = *chain_.objects("sspm");
+    list.add(objectsOf(list.table(), shots).view());
+  }
 
   // Milliseconds from the call to the end of the device's work.
-  double render(std::span<const grisaille_shot> shots, uint32_t width, uint32_t height) {
+  double render(uint32_t width, uint32_t height) {
     const auto start = Clock::now();
-    const std::array effects = {frame::ActiveEffect{.instance = &ssao_, .values = &ssaoValues_},
-                                frame::ActiveEffect{.instance = &instance_,
-                                                    .values = &values_,
-                                                    .shots = shots,
-                                                    .shotsKept = std::min(kept_, shots.size())}};
     renderer_.render({.camera = subject_.cameras[0],
                       .width = width,
                       .height = height,
-                      .effects = effects,
+                      .chain = &chain_,
                       .outputs = outputs_,
-                      .rays = &rays_});
-    kept_ = shots.size();
+                      .services = {.rays = &rays_}});
     device_.wait();
     return millisecondsSince(start);
   }
@@ -164,11 +161,10 @@ class Painted {
   gpu::Device& device_;
   const Subject& subject_;
   Rays& rays_;
-  effect::Values values_, ssaoValues_;
-  effect::Instance instance_, ssao_;
+  effect::Chain chain_;
+  effect::StartedChain started_;
   frame::Renderer renderer_;
   std::vector<std::string> outputs_ = {"color"};
-  size_t kept_ = 0;
 };
 
 struct Row {
@@ -197,8 +193,7 @@ class Bench {
       double firstEffect = 0, firstFrame = 0;
       for (size_t i = 0; i < rows_.size(); ++i) {
         Row& row = rows_[i];
-        painted_[i]->render(std::span(place_.shots).first(row.shots), options_.width,
-                            options_.height);
+        painted_[i]->render(options_.width, options_.height);
         const auto [effect, frame] = painted_[i]->passes();
         if (i == 0) std::tie(firstEffect, firstFrame) = std::pair(effect, frame);
         row.effect.push_back(effect);
@@ -214,17 +209,14 @@ class Bench {
   // before, with the most shots; one at a time, each right after a frame without.
   std::vector<double> oneMore(size_t times) {
     const size_t which = place_.counts.size() - 1;
-    Shots shots = place_.shots;
-    shots.resize(place_.counts.back());
-    shots.reserve(shots.size() + times);
     std::mt19937 random(2);
     std::vector<double> more;
     for (size_t i = 0; i < times; ++i) {
-      const double without = painted_[which]->render(shots, 64, 36);
-      grisaille_shot shot = place_.shots[random() % place_.shots.size()];
+      const double without = painted_[which]->render(64, 36);
+      lab::Shot shot = place_.shots[random() % place_.shots.size()];
       shot.origin[1] += 1e-3;  // not one that is there already
-      shots.push_back(shot);
-      more.push_back(painted_[which]->render(shots, 64, 36) - without);
+      painted_[which]->add({&shot, 1});
+      more.push_back(painted_[which]->render(64, 36) - without);
     }
     device_->takeTimes();
     std::ranges::sort(more);
@@ -238,14 +230,14 @@ class Bench {
         std::make_unique<Painted>(*device_, place_.subject, registry_, *place_.rays));
     painted_.back()->values().set("mode", mode);
     painted_.back()->values().set("shot_limit", "65536");
-    painted_.back()->render({}, options_.width, options_.height);
+    painted_.back()->render(options_.width, options_.height);
+    const double idle = painted_.back()->render(64, 36);
+    painted_.back()->add(std::span(place_.shots).first(count));
     malloc_trim(0);  // or what earlier runs have freed would be used again unseen
-    const double memory = residentMemory();
+    const double memory = residentMemory();  // with the list of shots, which is not the effect's
     const size_t rays = place_.rays->count();
-    const double idle = painted_.back()->render({}, 64, 36);
-    const double took =
-        painted_.back()->render(std::span(place_.shots).first(count), 64, 36) - idle;
-    painted_.back()->render(std::span(place_.shots).first(count), options_.width, options_.height);
+    const double took = painted_.back()->render(64, 36) - idle;
+    painted_.back()->render(options_.width, options_.height);
     device_->takeTimes();
     const auto each = static_cast<double>(count);
     const double grown = residentMemory() - memory;

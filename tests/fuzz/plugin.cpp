@@ -7,6 +7,8 @@
 #include <nlohmann/json.hpp>
 #include <vector>
 
+#include "core/effect/struct_version.h"
+#include "core/objects/object_file.h"
 #include "tests/fuzz/check_values.h"
 #include "tests/fuzz/table.h"
 
@@ -46,6 +48,8 @@ std::vector<std::string> keysOf(char letter) {
 struct Effect {
   std::vector<grisaille_param_desc> params;
   std::vector<grisaille_output_desc> outputs;
+  std::vector<grisaille_field_desc> fields;
+  grisaille_object_desc objects = kObjects;
   grisaille_effect_desc desc = kEffect;
 };
 
@@ -58,6 +62,21 @@ void requireTexts(const effect::Effect& effect) {
   }
   for (const grisaille_output_desc& output : effect.outputs()) texts.push_back(output.tooltip);
   require(texts.dump().find('\n') == std::string::npos);
+}
+
+// An object of a table that is accepted: its defaults fit, and are written and read back.
+void requireUsable(const grisaille_object_desc& table) {
+  nlohmann::json texts = {table.label, table.tooltip};
+  for (const grisaille_field_desc& field : objects::fieldsOf(table)) {
+    texts.insert(texts.end(), {field.key, field.label, field.unit, field.tooltip});
+  }
+  require(texts.dump().find('\n') == std::string::npos);
+  objects::Objects all(table);
+  all.append(objects::Object(table));
+  const auto file = nlohmann::json::parse(objects::jsonOf(all.view()));
+  objects::Objects again(table);
+  again.append(objects::parseObject(table, file[table.key][0].dump()));
+  require(again.view().object(0) == all.view().object(0));
 }
 
 class Plugin {
@@ -82,6 +101,7 @@ class Plugin {
       requireTexts(effect);
       effect.reads(nullptr, 1);
       effect.guardBand(nullptr);
+      if (effect.objects() != nullptr) requireUsable(*effect.objects());
     }
   }
 
@@ -96,13 +116,24 @@ class Plugin {
     }
     effect.desc.params = effect.params.data();
     effect.desc.outputs = effect.outputs.data();
+    static const std::vector<std::string> fields = keysOf('f');
+    for (size_t i = 0; i < kMost; ++i) {
+      effect.fields.push_back(kFields[i % kFields.size()]);
+      if (i >= kFields.size()) effect.fields.back().key = fields[i].c_str();
+    }
+    effect.objects.fields = effect.fields.data();
+    effect.desc.objects = &effect.objects;
   }
 
   void change() {
     Effect& effect = effects_[source_.below(2)];
-    switch (source_.below(4)) {
+    switch (source_.below(6)) {
       case 0:
         return changePlugin();
+      case 4:
+        return changeObjects(effect);
+      case 5:
+        return changeField(effect.fields[source_.below(kFields.size() + 1)]);
       case 1:
         return changeEffect(effect);
       case 2:
@@ -131,7 +162,7 @@ class Plugin {
   void changeEffect(Effect& effect) {
     grisaille_effect_desc& desc = effect.desc;
     uint32_t* const words[] = {&desc.struct_size, &desc.param_count, &desc.output_count,
-                               &desc.reserved,    &desc.flags,       &desc.reserved2};
+                               &desc.flags};
     const char** const texts[] = {&desc.key, &desc.label, &desc.version, &desc.tooltip};
     switch (source_.below(8)) {
       case 0:
@@ -147,10 +178,7 @@ class Plugin {
         desc.outputs = desc.outputs == nullptr ? effect.outputs.data() : nullptr;
         return;
       case 6:
-        // Those of the versions before.
-        desc.struct_size =
-            static_cast<uint32_t>(source_.below(2) == 0 ? offsetof(grisaille_effect_desc, reads_for)
-                                                        : offsetof(grisaille_effect_desc, flags));
+        desc.objects = desc.objects == nullptr ? &effect.objects : nullptr;
         return;
       default:
         return dropFunction(desc);
@@ -192,6 +220,41 @@ class Plugin {
       default:
         param = kParams[source_.below(kParams.size())];
         param.key = "other";
+    }
+  }
+
+  void changeObjects(Effect& effect) {
+    grisaille_object_desc& desc = effect.objects;
+    uint32_t* const words[] = {&desc.struct_size, &desc.object_size, &desc.field_count,
+                               &desc.placement,   &desc.point_field, &desc.direction_field};
+    const char** const texts[] = {&desc.key, &desc.label, &desc.tooltip};
+    switch (source_.below(3)) {
+      case 0:
+        return take(*words[source_.below(std::size(words))]);
+      case 1:
+        return take(*texts[source_.below(std::size(texts))]);
+      default:
+        desc.fields = desc.fields == nullptr ? effect.fields.data() : nullptr;
+    }
+  }
+
+  void changeField(grisaille_field_desc& field) {
+    uint32_t* const words[] = {&field.struct_size, &field.type, &field.flags, &field.offset};
+    const char** const texts[] = {&field.key, &field.label, &field.unit, &field.tooltip,
+                                  &field.default_text};
+    double* const numbers[] = {&field.min, &field.max, &field.default_value[0],
+                               &field.default_value[1], &field.default_value[2]};
+    switch (source_.below(4)) {
+      case 0:
+        return take(*words[source_.below(std::size(words))]);
+      case 1:
+        return take(*texts[source_.below(std::size(texts))]);
+      case 2:
+        *numbers[source_.below(std::size(numbers))] = number();
+        return;
+      default:
+        field = kFields[source_.below(kFields.size())];
+        field.key = "other";
     }
   }
 

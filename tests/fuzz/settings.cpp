@@ -22,7 +22,7 @@ void requireRoundTrip(app::Settings settings) {
   app::Settings again = app::readSettings(path);
   require(again.effects == settings.effects && again.surface == settings.surface);
   const auto content = [](const app::Settings::Value& value) {
-    return std::tie(value.effect, value.key, value.text);
+    return std::tie(value.name, value.text);
   };
   std::ranges::sort(settings.values, {}, content);
   std::ranges::sort(again.values, {}, content);
@@ -31,15 +31,14 @@ void requireRoundTrip(app::Settings settings) {
 
 void apply(const effect::Registry& registry, const app::Settings& settings,
            std::string_view assignments) {
-  app::ActiveEffects active(registry, settings.effects.value_or(app::kDefaultEffects));
-  accepted(kOfValues, [&] { app::applySettings(settings, active); });
+  const std::vector<std::string> usual = {"ssao"};
+  effect::Selection selection(registry, settings.effects.value_or(usual));
+  accepted(kOfValues, [&] { app::applySettings(settings, selection); });
   while (!assignments.empty()) {
     const std::string assignment(cut(assignments, '\n'));
-    accepted(kOfValues, [&] { active.set(assignment); });
+    accepted(kOfValues, [&] { selection.set(effect::parseAssignment(assignment)); });
   }
-  for (const effect::Effect* effect : active.effects()) {
-    requireSound(active.values(effect->desc->key));
-  }
+  for (const effect::Selection::Entry& entry : selection.entries()) requireSound(entry.values);
 }
 
 }  // namespace

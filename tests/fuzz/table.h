@@ -1,8 +1,9 @@
 // SPDX-License-Identifier: MIT
-// A sound table with a parameter of every kind, for targets that need no plugin's.
+// A sound table with a parameter and a field of every kind, for targets that need no plugin's.
 #pragma once
 
 #include <array>
+#include <cstddef>
 
 #include "grisaille/effect.h"
 
@@ -48,13 +49,61 @@ constexpr std::array kOutputs = {
                           .tooltip = "Visibility"},
     grisaille_output_desc{.struct_size = sizeof(grisaille_output_desc),
                           .format = GRISAILLE_FORMAT_RGBA16F,
-                          .role = GRISAILLE_ROLE_PAINT,
-                          .key = "paint",
-                          .tooltip = "Paint"},
+                          .role = GRISAILLE_ROLE_OVERLAY,
+                          .key = "overlay",
+                          .tooltip = "Overlay"},
 };
 
+struct Object {
+  double origin[3];
+  float direction[3];
+  float color[3];
+  double range;
+  const char* note;
+  const char* picture;
+};
+
+constexpr grisaille_field_desc field(uint32_t type, const char* key, size_t offset,
+                                     uint32_t flags = 0) {
+  const bool number = type == GRISAILLE_FIELD_NUMBER;
+  const bool text = type == GRISAILLE_FIELD_TEXT || type == GRISAILLE_FIELD_FILE;
+  return {.struct_size = sizeof(grisaille_field_desc),
+          .type = type,
+          .flags = flags,
+          .offset = static_cast<uint32_t>(offset),
+          .key = key,
+          .label = "Label",
+          .unit = number ? "m" : "",
+          .tooltip = "What it says",
+          .min = 0,
+          .max = number ? 1e6 : 0,
+          .default_value = {0, 0, type == GRISAILLE_FIELD_DIRECTION ? -1.0 : 0.0},
+          .default_text = text ? "" : nullptr};
+}
+
+constexpr std::array kFields = {
+    field(GRISAILLE_FIELD_POINT, "origin", offsetof(Object, origin), GRISAILLE_FIELD_REQUIRED),
+    field(GRISAILLE_FIELD_DIRECTION, "direction", offsetof(Object, direction),
+          GRISAILLE_FIELD_REQUIRED),
+    field(GRISAILLE_FIELD_COLOUR, "color", offsetof(Object, color), GRISAILLE_FIELD_REQUIRED),
+    field(GRISAILLE_FIELD_NUMBER, "range", offsetof(Object, range)),
+    field(GRISAILLE_FIELD_TEXT, "note", offsetof(Object, note)),
+    field(GRISAILLE_FIELD_FILE, "picture", offsetof(Object, picture)),
+};
+
+constexpr grisaille_object_desc kObjects = {.struct_size = sizeof(grisaille_object_desc),
+                                            .object_size = sizeof(Object),
+                                            .field_count = kFields.size(),
+                                            .placement = GRISAILLE_PLACE_RAY,
+                                            .point_field = 0,
+                                            .direction_field = 1,
+                                            .key = "shots",
+                                            .label = "Shots",
+                                            .tooltip = "What one is",
+                                            .fields = kFields.data()};
+
 // Never called.
-inline uint32_t reads(const double*) {
+inline uint32_t reads(const double*, uint32_t) {
   return 0;
 }
 inline grisaille_result create(const grisaille_host*, void**) {
@@ -68,7 +117,7 @@ inline void destroy(void*) {}
 constexpr grisaille_effect_desc kEffect = {.struct_size = sizeof(grisaille_effect_desc),
                                            .param_count = kParams.size(),
                                            .output_count = kOutputs.size(),
-                                           .reserved = 0,
+                                           .flags = 0,
                                            .key = "fuzzed",
                                            .label = "Fuzzed",
                                            .version = "1.0.0",
@@ -79,9 +128,7 @@ constexpr grisaille_effect_desc kEffect = {.struct_size = sizeof(grisaille_effec
                                            .create = create,
                                            .record = record,
                                            .destroy = destroy,
-                                           .flags = 0,
-                                           .reserved2 = 0,
-                                           .reads_for = nullptr,
-                                           .guard_band = nullptr};
+                                           .guard_band = nullptr,
+                                           .objects = &kObjects};
 
 }  // namespace grisaille::fuzz

@@ -2,8 +2,13 @@
 // What hosts give wrongly is refused with a number and a line, and nothing has happened.
 #include <gtest/gtest.h>
 
+#include <unistd.h>
+
+#include <filesystem>
+#include <fstream>
 #include <limits>
 
+#include "effects/sspm/shot.h"
 #include "tests/host/hosts.h"
 #include "tests/host/vulkan_host.h"
 
@@ -221,21 +226,20 @@ TEST_P(Errors, OfParametersSizesAndOutputs) {
   expectError(grisaille_host_effect_get(one, nullptr, &value), 5601, "key is null");
   expectError(grisaille_host_effect_get(one, "radius", nullptr), 5601, "value is null");
   expectError(grisaille_host_effect_get(one, "radus", &value), 3301, "radius");
-  expectError(grisaille_host_effect_set_shots(nullptr, nullptr, 0), 5601, "effect is null");
-  expectError(grisaille_host_effect_set_shots(one, nullptr, 0), 3205, "ssao takes no shots");
   expectError(grisaille_host_device_set_rays(nullptr, nullptr), 5601, "device is null");
   auto rays = sized<grisaille_host_rays>();
   rays.reserved = 1;
   expectError(grisaille_host_device_set_rays(device_.handle(), &rays), 5611, "rays.reserved");
   rays.struct_size = 1;
   expectError(grisaille_host_device_set_rays(device_.handle(), &rays), 5602, "struct_size is 1");
-  host::Effect paint(device_, {.effect = "sspm", .width = kSide, .height = kSide});
-  grisaille_shot shot{
-      .origin = {0, 0, 0}, .direction = {0, 0, -1}, .color = {1, 0, 0}, .range = 0, .reserved = 0};
-  EXPECT_EQ(grisaille_host_effect_set_shots(paint.handle(), &shot, 1), 0);
-  expectError(grisaille_host_effect_set_shots(paint.handle(), nullptr, 1), 5601, "shots is null");
-  shot.range = -1;
-  expectError(grisaille_host_effect_set_shots(paint.handle(), &shot, 1), 3404, "range");
+  expectError(grisaille_host_device_set_pictures(nullptr, nullptr), 5601, "device is null");
+  auto pictures = sized<grisaille_host_pictures>();
+  pictures.reserved = 1;
+  expectError(grisaille_host_device_set_pictures(device_.handle(), &pictures), 5611,
+              "pictures.reserved");
+  pictures.struct_size = 1;
+  expectError(grisaille_host_device_set_pictures(device_.handle(), &pictures), 5602,
+              "struct_size is 1");
   expectError(grisaille_host_effect_resize(nullptr, 1, 1), 5601, "effect is null");
   expectError(grisaille_host_effect_resize(one, 0, 1), 1105, "0 x 1");
   auto output = sized<grisaille_host_output>();
@@ -246,6 +250,43 @@ TEST_P(Errors, OfParametersSizesAndOutputs) {
   expectError(grisaille_host_effect_output(one, "tint", &output), 5102, "not asked for");
   output.struct_size = 0;
   expectError(grisaille_host_effect_output(one, "ao", &output), 5602, "struct_size is 0");
+}
+
+TEST_P(Errors, OfObjects) {
+  const host::Effect without(device_, {.effect = "ssao", .width = kSide, .height = kSide});
+  expectError(grisaille_host_effect_set_objects(nullptr, nullptr, 0, 0), 5601, "effect is null");
+  expectError(grisaille_host_effect_set_objects(without.handle(), nullptr, 0, 0), 3205, "ssao");
+  expectError(grisaille_host_effect_load_objects(without.handle(), "a.json"), 3205, "ssao");
+
+  host::Effect with(device_, {.effect = "sspm", .width = kSide, .height = kSide});
+  grisaille_host_effect* const one = with.handle();
+  std::vector<sspm::Shot> shots(3, {{0, 0, 0}, {0, 0, -1}, {1, 0, 0}, 0});
+  const uint32_t size = sizeof(sspm::Shot);
+  EXPECT_EQ(grisaille_host_effect_set_objects(one, shots.data(), size, 3), 0);
+  EXPECT_EQ(grisaille_host_effect_set_objects(one, nullptr, size, 0), 0);
+  expectError(grisaille_host_effect_set_objects(one, nullptr, size, 1), 5601, "objects is null");
+  for (const uint32_t wrong : {0u, size - 8, size + 8}) {
+    expectError(grisaille_host_effect_set_objects(one, shots.data(), wrong, 1), 5611,
+                "object_size is " + std::to_string(wrong));
+  }
+  shots[2].range = -1;
+  expectError(grisaille_host_effect_set_objects(one, shots.data(), size, 3), 3401,
+              "shots[2].range is -1, out of 0 to 1000000");
+  expectError(grisaille_host_effect_load_objects(nullptr, "a.json"), 5601, "effect is null");
+  expectError(grisaille_host_effect_load_objects(one, nullptr), 5601, "path is null");
+  expectError(grisaille_host_effect_load_objects(one, "/nowhere/a.json"), 3411, "/nowhere/a.json");
+  expectError(grisaille_host_effect_load_objects(one, "/dev/zero"), 3411, "/dev/zero");
+
+  const std::filesystem::path path =
+      std::filesystem::temp_directory_path() / ("grisaille_objects_" + std::to_string(getpid()));
+  const auto load = [&](const std::string& text) {
+    std::ofstream(path) << text;
+    return grisaille_host_effect_load_objects(one, path.c_str());
+  };
+  EXPECT_EQ(load(R"({"version": 1, "shots": []})"), 0);
+  expectError(load(R"({"version": 1, "shots": [{}]})"), 3412, "shots[0] has no \"origin\"");
+  expectError(load(R"({"version": 2, "shots": []})"), 3413, "version is 2");
+  std::filesystem::remove(path);
 }
 
 TEST_P(Errors, OfFrames) {

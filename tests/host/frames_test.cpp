@@ -2,9 +2,16 @@
 // Effects over many frames: several at a time, of changing sizes, without an allocation.
 #include <gtest/gtest.h>
 
+#include <unistd.h>
+
 #include <algorithm>
+#include <filesystem>
+#include <fstream>
+#include <iomanip>
 
 #include "core/image/image.h"
+#include "effects/sspm/shot.h"
+#include "tests/core/effect/plugins/mark.h"
 #include "tests/host/allocations.h"
 #include "tests/host/hosts.h"
 #include "tests/host/seen.h"
@@ -186,14 +193,15 @@ void castNonsense(void*, const grisaille_ray*, uint64_t count, grisaille_hit* hi
   for (uint64_t i = 0; i < count; ++i) hits[i].kind = 7;
 }
 
-grisaille_shot shotAt(const glm::dvec3& origin, const glm::dvec3& target) {
+sspm::Shot shotAt(const glm::dvec3& origin, const glm::dvec3& target) {
   const glm::vec3 way(glm::normalize(target - origin));
   return {.origin = {origin.x, origin.y, origin.z},
           .direction = {way.x, way.y, way.z},
           .color = {1, 0.2f, 0},
-          .range = 0.25f,
-          .reserved = 0};
+          .range = 0.25};
 }
+
+using Shots = std::vector<sspm::Shot>;
 
 // Paint lies where a shot's muzzle sees the world: on the ball, and not on the wall behind it.
 TEST_P(Frames, ShotsPaintWhatTheHostsRaysFind) {
@@ -219,10 +227,10 @@ TEST_P(Frames, ShotsPaintWhatTheHostsRaysFind) {
     }
     return count;
   };
-  const grisaille_shot shot = shotAt({0.3, 0.6, 2.5}, {0.2, 0.5, -0.2});
+  const sspm::Shot shot = shotAt({0.3, 0.6, 2.5}, {0.2, 0.5, -0.2});
   const glm::dvec3 origin(shot.origin[0], shot.origin[1], shot.origin[2]);
   const glm::dvec3 way(shot.direction[0], shot.direction[1], shot.direction[2]);
-  effect.setShots({shot});
+  effect.setObjects<sspm::Shot>(Shots{shot});
   EXPECT_EQ(painted(origin, way).first, 0u) << "nobody casts rays yet";
   uint64_t asked = 0;
   device_.setRays(castWorld, &asked);
@@ -232,24 +240,24 @@ TEST_P(Frames, ShotsPaintWhatTheHostsRaysFind) {
   EXPECT_GT(asked, 0u);
   // What is added at the end leaves what was there, and no shots leave nothing.
   const uint64_t first = asked;
-  effect.setShots({shot, shotAt({-1, 1, 2}, {-0.8, 0, 0.2})});
+  effect.setObjects<sspm::Shot>(Shots{shot, shotAt({-1, 1, 2}, {-0.8, 0, 0.2})});
   EXPECT_EQ(painted(origin, way).first, on);
   EXPECT_GT(asked, first);
   const uint64_t second = asked;
   record(effect, seen);
   EXPECT_EQ(asked, second);
-  effect.setShots({});
+  effect.setObjects<sspm::Shot>(Shots{});
   EXPECT_EQ(painted(origin, way), std::pair(size_t{0}, size_t{0}));
   // Whatever lies in the range, per shot, asks no rays.
   effect.set("mode", "per_shot");
-  effect.setShots({shot});
+  effect.setObjects<sspm::Shot>(Shots{shot});
   EXPECT_GE(painted(origin, way).first, on);
   EXPECT_EQ(asked, second);
 }
 
 TEST_P(Frames, RaysThatTellNonsenseAreRefused) {
   host::Effect effect(device_, {.effect = "sspm", .width = 32, .height = 24});
-  effect.setShots({shotAt({0.3, 0.6, 2.5}, {0.2, 0.5, -0.2})});
+  effect.setObjects<sspm::Shot>(Shots{shotAt({0.3, 0.6, 2.5}, {0.2, 0.5, -0.2})});
   device_.setRays(castNonsense, nullptr);
   const host::Texture seen = depth(32, 24);
   // The command buffer is submitted all the same.
@@ -265,6 +273,104 @@ TEST_P(Frames, RaysThatTellNonsenseAreRefused) {
   });
   device_.setRays(nullptr, nullptr);
   record(effect, seen);
+}
+
+TEST_P(Frames, ObjectsOfAFileAreThoseThatAreSet) {
+  host::Effect set(device_, {.effect = "sspm", .width = 96, .height = 72});
+  host::Effect loaded(device_, {.effect = "sspm", .width = 96, .height = 72});
+  uint64_t asked = 0;
+  device_.setRays(castWorld, &asked);
+  set.setObjects<sspm::Shot>(Shots{shotAt({0.5, 1, 2}, {0.5, 0, -2})});
+  const sspm::Shot shot = shotAt({0.5, 1, 2}, {0.5, 0, -2});
+  const std::filesystem::path path =
+      std::filesystem::temp_directory_path() / ("grisaille_host_" + std::to_string(getpid()));
+  std::ofstream(path) << std::setprecision(17)
+                      << R"({"version": 1, "shots": [{"origin": [0.5, 1, 2],
+    "direction": [)" << shot.direction[0]
+                      << ", " << shot.direction[1] << ", " << shot.direction[2]
+                      << R"(], "color": [1, 0.2, 0], "range": 0.25}]})";
+  loaded.loadObjects(path.c_str());
+  std::filesystem::remove(path);
+  const host::Texture seen = depth(96, 72);
+  record(set, seen);
+  record(loaded, seen);
+  const std::vector<float> paint = host_->read(set.output("paint"));
+  EXPECT_EQ(host_->read(loaded.output("paint")), paint);
+  EXPECT_TRUE(std::ranges::any_of(paint, [](float x) { return x > 0; }));
+}
+
+// An effect that tells what it was given.
+class Told : public Frames {
+ protected:
+  Told() : own_(host_->device(TELLER_FOLDER)) {}
+
+  std::vector<float> told(host::Effect& effect) {
+    const host::Texture seen =
+        host_->texture(own_, Texels::kFloat1, 16, 8, std::vector<float>(16 * 8, 2.0f));
+    record(effect, seen);
+    return host_->read(effect.output("told"));
+  }
+
+  host::Device own_;
+};
+GRISAILLE_IN_EVERY_HOST(Told);
+
+TEST_P(Told, LeadingObjectsThatAreEqualAreKept) {
+  host::Effect effect(own_, {.effect = "teller", .width = 16, .height = 8});
+  std::vector<Mark> marks(5, {{1, 2, 3}, {0, 1, 0}, {1, 1, 1}, 0.5, "note", ""});
+  const auto kept = [&] {
+    effect.setObjects<Mark>(marks);
+    const std::vector<float> texels = told(effect);
+    EXPECT_EQ(texels[0], static_cast<float>(marks.size()));
+    return texels[1];
+  };
+  EXPECT_EQ(kept(), 0);
+  EXPECT_EQ(kept(), 5);
+  marks.push_back(marks[0]);
+  EXPECT_EQ(kept(), 5);
+  // Texts are compared, not their addresses.
+  const std::string same = "note";
+  for (Mark& mark : marks) mark.note = same.c_str();
+  EXPECT_EQ(kept(), 6);
+  marks[3].note = "another";
+  EXPECT_EQ(kept(), 3);
+  marks.clear();
+  EXPECT_EQ(kept(), 0);
+}
+
+struct Decoder {
+  std::vector<std::string> asked;
+  std::vector<uint8_t> pixels = std::vector<uint8_t>(3 * 2 * 4, 200);
+};
+
+grisaille_result readPicture(void* context, const char* path, grisaille_picture* out) {
+  auto& decoder = *static_cast<Decoder*>(context);
+  decoder.asked.emplace_back(path);
+  if (decoder.asked.back() == "missing.png") return GRISAILLE_FAILED;
+  out->width = decoder.asked.back() == "empty.png" ? 0 : 3;
+  out->height = 2;
+  out->rgba = decoder.pixels.data();
+  return GRISAILLE_OK;
+}
+
+TEST_P(Told, PicturesAreReadByTheHost) {
+  host::Effect effect(own_, {.effect = "teller", .width = 16, .height = 8});
+  effect.set("picture", "last");
+  const auto width = [&](const char* path) {
+    effect.setObjects<Mark>(
+        std::vector<Mark>{{{1, 2, 3}, {0, 1, 0}, {1, 1, 1}, 0.5, "note", path}});
+    return told(effect)[9];
+  };
+  EXPECT_EQ(width("moss.png"), -1) << "nobody decodes pictures yet";
+  Decoder decoder;
+  own_.setPictures(readPicture, &decoder);
+  EXPECT_EQ(width("moss.png"), 3);
+  EXPECT_EQ(width("missing.png"), -1);
+  EXPECT_EQ(width("empty.png"), -1);
+  EXPECT_EQ(decoder.asked, (std::vector<std::string>{"moss.png", "missing.png", "empty.png"}));
+  own_.setPictures(nullptr, nullptr);
+  EXPECT_EQ(width("moss.png"), -1);
+  EXPECT_EQ(decoder.asked.size(), 3u);
 }
 
 // From the second frame on: neither memory of the host's nor any object of the API's, which would

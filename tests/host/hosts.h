@@ -19,7 +19,8 @@ class Host {
  public:
   virtual ~Host() = default;
 
-  virtual host::Device device() = 0;
+  // `effectFolder`: of further effects; null: none.
+  virtual host::Device device(const char* effectFolder = nullptr) = 0;
 
   // A texture of the host's, wrapped: numbers of so many channels as the texels have, rows in
   // memory as they come. It lives as long as the host.

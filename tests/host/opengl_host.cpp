@@ -28,7 +28,9 @@ class OpenGlHost : public Host {
     glDeleteTextures(static_cast<GLsizei>(textures_.size()), textures_.data());
   }
 
-  host::Device device() override { return host::Device::opengl(); }
+  host::Device device(const char* effectFolder) override {
+    return host::Device::opengl(effectFolder);
+  }
 
   host::Texture texture(const host::Device& device, Texels texels, uint32_t width, uint32_t height,
                         const std::vector<float>& numbers) override {
@@ -55,7 +57,7 @@ class OpenGlHost : public Host {
   }
 
   std::vector<float> read(const grisaille_host_output& output) override {
-    const bool one = output.native_format == GL_R16F;
+    const bool one = output.native_format == GL_R16F || output.native_format == GL_R32F;
     std::vector<float> numbers(size_t{output.width} * output.height * (one ? 1 : 4));
     glGetTextureImage(static_cast<GLuint>(output.image), 0, one ? GL_RED : GL_RGBA, GL_FLOAT,
                       static_cast<GLsizei>(numbers.size() * sizeof(float)), numbers.data());

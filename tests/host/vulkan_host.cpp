@@ -1,4 +1,5 @@
 // SPDX-License-Identifier: MIT
+#include <algorithm>
 #include <cmath>
 #include <cstring>
 #include <deque>
@@ -60,7 +61,11 @@ class VulkanHost : public Host {
             .queueFamily = context_.family,
             .framesInFlight = 1};
   }
-  host::Device device() override { return host::Device::vulkan(spec()); }
+  host::Device device(const char* effectFolder) override {
+    host::VulkanSpec with = spec();
+    with.effectFolder = effectFolder;
+    return host::Device::vulkan(with);
+  }
 
   host::Texture texture(const host::Device& device, Texels texels, uint32_t width, uint32_t height,
                         const std::vector<float>& numbers) override;
@@ -134,10 +139,13 @@ host::Texture VulkanHost::texture(const host::Device& device, Texels texels, uin
 std::vector<float> VulkanHost::read(const grisaille_host_output& output) {
   const bool half = output.native_format == VK_FORMAT_R16_SFLOAT ||
                     output.native_format == VK_FORMAT_R16G16B16A16_SFLOAT;
-  if (!half) throw std::runtime_error("only half floats are read back here");
-  const size_t channels = output.native_format == VK_FORMAT_R16_SFLOAT ? 1 : 4;
-  std::vector<uint16_t> halves(size_t{output.width} * output.height * channels);
-  example::Buffer buffer = context_.makeBuffer(halves.size() * 2, VK_BUFFER_USAGE_TRANSFER_DST_BIT);
+  if (!half && output.native_format != VK_FORMAT_R32_SFLOAT) {
+    throw std::runtime_error("only half floats and single floats are read back here");
+  }
+  const size_t channels = output.native_format == VK_FORMAT_R16G16B16A16_SFLOAT ? 4 : 1;
+  std::vector<float> numbers(size_t{output.width} * output.height * channels);
+  const size_t bytes = numbers.size() * (half ? sizeof(uint16_t) : sizeof(float));
+  example::Buffer buffer = context_.makeBuffer(bytes, VK_BUFFER_USAGE_TRANSFER_DST_BIT);
   const auto image = reinterpret_cast<VkImage>(output.image);
   const auto layout = static_cast<VkImageLayout>(output.layout);
   submit([&] {
@@ -151,10 +159,14 @@ std::vector<float> VulkanHost::read(const grisaille_host_output& output) {
     example::transition(commands_, image, VK_IMAGE_ASPECT_COLOR_BIT,
                         VK_IMAGE_LAYOUT_TRANSFER_SRC_OPTIMAL, layout);
   });
-  std::memcpy(halves.data(), buffer.mapped, halves.size() * 2);
+  if (half) {
+    std::vector<uint16_t> halves(numbers.size());
+    std::memcpy(halves.data(), buffer.mapped, bytes);
+    std::ranges::transform(halves, numbers.begin(), glm::unpackHalf1x16);
+  } else {
+    std::memcpy(numbers.data(), buffer.mapped, bytes);
+  }
   context_.destroy(buffer);
-  std::vector<float> numbers;
-  for (const uint16_t one : halves) numbers.push_back(glm::unpackHalf1x16(one));
   return numbers;
 }
 

@@ -42,7 +42,7 @@ TEST_F(CommandLine, HelpNamesEverySubcommandAndOption) {
   const std::string render = grisaille({"render", "--help"}).out;
   for (const char* option : {"--camera", "--size", "--backend", "--device", "--effects", "--set",
                              "--config", "--write", "--frames", "--timings", "--plugin-path",
-                             "--check", "--surface", "--load", "--fire", "--save", "--coverage"}) {
+                             "--check", "--surface", "--load", "--add", "--save", "--coverage"}) {
     EXPECT_NE(render.find(option), std::string::npos) << option;
   }
   EXPECT_EQ(grisaille({"--version"}).out, "0.1.0\n");
@@ -162,12 +162,17 @@ TEST_F(CommandLine, CompletionIsAScriptThatCompletes) {
       "echo \"${COMPREPLY[@]}\"; "
       "for word in = fa; do COMP_WORDS=(grisaille render --preset ssao = $word); COMP_CWORD=5; "
       "[[ $word == = ]] && unset 'COMP_WORDS[5]' && COMP_CWORD=4; "
-      "_grisaille; echo \"${COMPREPLY[@]}\"; done",
+      "_grisaille; echo \"${COMPREPLY[@]}\"; done; "
+      "for option in --add --save; do COMP_WORDS=(grisaille render $option s); COMP_CWORD=3; "
+      "_grisaille 2>/dev/null; echo \"${COMPREPLY[@]}\"; done; "
+      "COMP_WORDS=(grisaille render --write pain); COMP_CWORD=3; _grisaille 2>/dev/null; "
+      "echo \"${COMPREPLY[@]}\"",
       folder_.path());
   EXPECT_EQ(outcome.out,
             "ssao.kernel_size=\nrender\n--timings\n"
             "sspm=fast sspm=balanced sspm=fine sspm=reference\n"
-            "fast balanced fine reference\nfast\n")
+            "fast balanced fine reference\nfast\n"
+            "sspm=\nsspm=\npaint= paint_coverage= paint_owner=\n")
       << outcome.err;
 }
 

@@ -43,7 +43,7 @@ TEST_P(CompiledShaders, AreNoMoreForMoreShots) {
                                             "paint=p.exr", "--set",  "sspm.mode=" + mode};
       for (int i = 0; i < shots; ++i) {
         arguments.insert(arguments.end(),
-                         {"--fire", fmt::format("{},45,#ff{:02x}00", 5 + 7 * i, i)});
+                         {"--add", fmt::format("sspm={},45,color=#ff{:02x}00", 5 + 7 * i, i)});
       }
       const ptrdiff_t compiled = compiledBy(fmt::format("{}-{}", mode, shots), arguments);
       if (shots == 2) few = compiled;

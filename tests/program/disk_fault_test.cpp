@@ -99,7 +99,7 @@ TEST_P(DiskFaults, LeaveWhatIsThereAndSayWhy) {
       {with({"render"}, {"--write", "ao=out/a.exr"}), "a.exr"},
       {with({"render"}, {"--timings", "out/t.csv"}), "t.csv"},
       {with({"render"},
-            {"--effects", "sspm", "--fire", "8,4,#ff0000", "--save", "sspm=out/s.json"}),
+            {"--effects", "sspm", "--add", "sspm=8,4,color=#ff0000", "--save", "sspm=out/s.json"}),
        "s.json"},
       {{"apply", "--depth", "d.exr", "--effects", "ssao", "--write", "ao=out/b.exr"}, "b.exr"},
       {{"truth", "--size", "16x9", "--samples", "16", "--write", "ao=out/c.exr"}, "c.exr"},

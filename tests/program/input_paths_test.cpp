@@ -16,7 +16,7 @@ namespace fs = std::filesystem;
 class InputPaths : public testing::Test {
  protected:
   InputPaths() {
-    for (const char* ending : {"toml", "json", "shots", "glb", "exr"}) {
+    for (const char* ending : {"toml", "json", "glb", "exr"}) {
       EXPECT_EQ(mkfifo((folder_ / (std::string("pipe.") + ending)).c_str(), 0600), 0);
       fs::create_directory(folder_ / (std::string("folder.") + ending));
       fs::create_symlink("/dev/zero", folder_ / (std::string("device.") + ending));
@@ -53,9 +53,8 @@ TEST_F(InputPaths, EveryReaderNamesWhatIsNoRegularFile) {
       {render + "--camera", "json", 2201},
       {render + "--config", "toml", 5103},
       {render + "--effects sspm --load sspm=", "json", 3411},
-      {render + "--effects sspm --load sspm=", "shots", 3411},
       {"apply --camera '{}' --write ao=out.exr --depth", "exr", 4101},
-      {"truth --size 8x8 --write mask=out.exr --paint", "json", 3411},
+      {"measure --size 8x8 --out out --effects sspm --reference r.exr --load sspm=", "json", 3411},
       {"measure --size 8x8 --out out --sweep ssao.steps=1 --camera", "json", 2201},
       {"measure --size 8x8 --out out --sweep ssao.steps=1 --path", "json", 2201},
       {"tune --size 8x8 --max-error 1 --out out.toml --validate", "json", 2201},
@@ -116,7 +115,8 @@ TEST_F(InputPaths, AnEmptyPathIsAMistakeOfUsage) {
            "apply --depth '' --write ao=out.exr",
            "apply --depth d.exr --normal '' --write ao=out.exr",
            "truth '' --write ao=out.exr",
-           "truth --paint '' --write mask=out.exr",
+           "render --effects sspm --add sspm=",
+           "measure --out out --effects sspm --load sspm=",
            "scene --write ''",
            "scene ''",
            "measure --out '' --sweep ssao.steps=1",

@@ -53,7 +53,6 @@ TEST_F(Numbers, NotANumberIsSaidToBeNone) {
     expectUsage("truth --write ao=a.exr --radius " + nan, "--radius");
     expectUsage("truth --write ao=a.exr --error " + nan, "--error");
     expectUsage("truth --write ceiling=a.exr --thickness " + nan, "--thickness");
-    expectUsage("truth --write mask=a.exr --paint s.json --paint-range " + nan, "--paint-range");
     expectUsage("render --frames " + nan, "--frames: '" + nan + "' is not a");
   }
   expectUsage("apply --depth d.exr --write ao=a.exr --far nan", "--far: 'nan' is not a");

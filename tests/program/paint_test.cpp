@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: MIT
-// Shots on the command line: fired, saved, loaded, counted, refused.
+// Objects on the command line: added, saved, loaded, counted, refused.
 #include <gtest/gtest.h>
 
 #include <algorithm>
@@ -30,30 +30,48 @@ class Paint : public ::testing::Test {
   TemporaryFolder folder_;
 };
 
-TEST_F(Paint, FiredShotsAreSavedAndLoadedToTheSamePicture) {
-  const Outcome fired = render({"--fire", "40,45,#ff0000", "--fire", "110,40,#00ff00", "--save",
-                                "sspm=s.json", "--save", "sspm=s.shots", "--coverage", "-"});
-  ASSERT_EQ(fired.status, 0) << fired.err;
+TEST_F(Paint, AddedShotsAreSavedAndLoadedToTheSamePicture) {
+  const Outcome added =
+      render({"--add", "sspm=40,45,color=#ff0000", "--add", "sspm=110,40,color=#00ff00", "--save",
+              "sspm=s.json", "--coverage", "-"});
+  ASSERT_EQ(added.status, 0) << added.err;
   const std::vector<float> picture = image::read(folder_ / "p.exr").pixels;
   EXPECT_GT(*std::max_element(picture.begin(), picture.end()), 0.9f);
-  for (const char* file : {"s.json", "s.shots"}) {
-    const Outcome loaded = render({"--load", std::string("sspm=") + file, "--coverage", "-"});
-    ASSERT_EQ(loaded.status, 0) << loaded.err;
-    EXPECT_EQ(image::read(folder_ / "p.exr").pixels, picture) << file;
-    EXPECT_EQ(loaded.out, fired.out) << file;
-  }
-  // What is fired comes after what is loaded: it wins.
+  const Outcome loaded =
+      render({"--load", "sspm=s.json", "--save", "sspm=t.json", "--coverage", "-"});
+  ASSERT_EQ(loaded.status, 0) << loaded.err;
+  EXPECT_EQ(image::read(folder_ / "p.exr").pixels, picture);
+  EXPECT_EQ(loaded.out, added.out);
+  EXPECT_EQ(readFile(folder_ / "t.json"), readFile(folder_ / "s.json"));
+  // What is added comes after what is loaded: it wins.
   const Outcome over =
-      render({"--load", "sspm=s.json", "--fire", "40,45,#0000ff", "--coverage", "c.csv"});
+      render({"--load", "sspm=s.json", "--add", "sspm=40,45,color=#0000ff", "--coverage", "c.csv"});
   ASSERT_EQ(over.status, 0) << over.err;
   const std::string shares = readFile(folder_ / "c.csv");
   EXPECT_NE(shares.find("#0000ff,0."), std::string::npos) << shares;
   EXPECT_EQ(shares.find("#ff0000,0."), std::string::npos) << shares;
 }
 
+// Placed at a pixel, with fields over what placing sets, or as it stands in a file.
+TEST_F(Paint, AnObjectIsAddedInEitherForm) {
+  const Outcome fields =
+      render({"--add", "sspm=40,45,origin=0.5:2:3,direction=0:-1:-4,color=#ffffff,range=0.5",
+              "--save", "sspm=fields.json"});
+  ASSERT_EQ(fields.status, 0) << fields.err;
+  const Outcome json =
+      render({"--add",
+              R"(sspm={"origin": [0.5, 2, 3], "direction": [0, -1, -4], "color": [1, 1, 1], )"
+              R"("range": 0.5})",
+              "--save", "sspm=json.json"});
+  ASSERT_EQ(json.status, 0) << json.err;
+  EXPECT_EQ(readFile(folder_ / "fields.json"), readFile(folder_ / "json.json"));
+  // Without a colour it has the table's.
+  ASSERT_EQ(render({"--add", "sspm=40,45"}).status, 0);
+}
+
 TEST_F(Paint, SharesAddUpToTheWhole) {
-  const Outcome outcome =
-      render({"--fire", "40,45,#ff0000", "--fire", "110,40,#00ff00", "--coverage", "-"});
+  const Outcome outcome = render({"--add", "sspm=40,45,color=#ff0000", "--add",
+                                  "sspm=110,40,color=#00ff00", "--coverage", "-"});
   ASSERT_EQ(outcome.status, 0) << outcome.err;
   std::istringstream lines(outcome.out);
   std::string line;
@@ -78,8 +96,8 @@ TEST_F(Paint, PassesAreThoseOfTheResolution) {
                                                    {"half", "edges", three},
                                                    {"quarter", "rims", three},
                                                    {"quarter", "nothing", two}}) {
-    const Outcome outcome = render({"--fire", "40,45,#ff0000", "--timings", "t.csv", "--set",
-                                    std::string("sspm.resolution=") + resolution, "--set",
+    const Outcome outcome = render({"--add", "sspm=40,45,color=#ff0000", "--timings", "t.csv",
+                                    "--set", std::string("sspm.resolution=") + resolution, "--set",
                                     std::string("sspm.refine=") + refine});
     ASSERT_EQ(outcome.status, 0) << outcome.err;
     std::istringstream lines(readFile(folder_ / "t.csv"));
@@ -94,34 +112,45 @@ TEST_F(Paint, PassesAreThoseOfTheResolution) {
   }
 }
 
-TEST_F(Paint, ShotsPaintThePixelThatTheyAreFiredThrough) {
+TEST_F(Paint, ShotsPaintThePixelThatTheyAreAddedAt) {
   const Outcome outcome =
-      render({"--fire", "40,45,#ff0000", "--write", "paint_coverage=k.exr", "--check"});
+      render({"--add", "sspm=40,45,color=#ff0000", "--write", "paint_coverage=k.exr", "--check"});
   ASSERT_EQ(outcome.status, 0) << outcome.err;
   EXPECT_GT(image::read(folder_ / "k.exr").at(40, 45), 0) << outcome.err;
   EXPECT_EQ(outcome.err.find("wait"), std::string::npos) << outcome.err;
 }
 
 TEST_F(Paint, WhatIsWrongIsRefusedByName) {
-  expectError({"--fire", "1,2"}, 5101, "X,Y,#rrggbb");
-  expectError({"--fire", "1,2,red"}, 5101, "red");
-  expectError({"--fire", "160,2,#ffffff"}, 5101, "160x90");
+  for (const std::string form : {"1,2", "=1,2", "sspm", "sspm=", "sspm=1", "sspm=1,2,red",
+                                 "sspm=a,2", "sspm=-1,2", "sspm=1.5,2", "sspm=1,2,"}) {
+    expectError({"--add", form}, 5101, "EFFECT=X,Y");
+  }
+  expectError({"--add", "sspm=160,2"}, 5101, "pixels 0 to 159");
+  expectError({"--add", "sspm=2,90"}, 5101, "pixels 0 to 89");
+  expectError({"--add", "sspm=1,2,color=red"}, 3401, "red");
+  expectError({"--add", "sspm=1,2,colour=#ffffff"}, 3401, "nearest is color");
+  expectError({"--add", "sspm=1,2,range=-1"}, 3401, "range is -1");
+  expectError({"--add", "sspm={\"origin\": [0, 1, 0]}"}, 3401, "direction");
+  expectError({"--add", "sspm={"}, 3401);
+  expectError({"--add", "ssao=1,2"}, 3205, "ssao");
+  expectError({"--add", "spmm=1,2"}, 3201, "sspm");
   expectError({"--load", "sspm"}, 5101, "EFFECT=FILE");
   expectError({"--load", "ssao=s.json"}, 3205, "ssao");
   expectError({"--load", "spmm=s.json"}, 3201, "sspm");
   expectError({"--load", "sspm=missing.json"}, 3411, "missing.json");
   expectError({"--load", "sspm=" + folder_.write("a.json", "{\"version\": 1,\n \"shots\": [}")},
-              3412, "a.json:2:");
+              3412, "line 2");
   expectError({"--load", "sspm=" + folder_.write("b.json", "{\"version\": 9, \"shots\": []}")},
               3413, "9");
   const std::string shot =
       R"({"version": 1, "shots": [{"origin": [0,1,0], "direction": [0,0,0], "color": [1,0,0]}]})";
-  expectError({"--load", "sspm=" + folder_.write("c.json", shot)}, 3412, "direction");
-  expectError({"--fire", "1,1,#ff0000", "--save", "sspm=s.txt"}, 3414, "s.txt");
+  expectError({"--load", "sspm=" + folder_.write("c.json", shot)}, 3412, "shots[0].direction");
+  expectError({"--add", "sspm=1,1", "--save", "sspm=s.txt"}, 3414, "s.txt");
+  expectError({"--add", "sspm=1,1", "--save", "sspm=s.shots"}, 3414, "s.shots");
   expectError({"--timings", "-", "--coverage", "-"}, 5101);
-  const Outcome none =
-      runProgram({"render", "--size", "16x9", "--fire", "1,1,#ff0000"}, folder_.path());
-  EXPECT_EQ(none.err.rfind("error E3205: ", 0), 0u) << none.err;
+  const Outcome none = runProgram(
+      {"render", "--size", "16x9", "--effects", "ssao", "--add", "sspm=1,1"}, folder_.path());
+  EXPECT_EQ(none.err.rfind("error E3201: ", 0), 0u) << none.err;
 }
 
 }  // namespace

@@ -3,6 +3,7 @@
 // lines.
 #include <gtest/gtest.h>
 
+#include "app/settings/load_effects.h"
 #include "app/viewer/command_line.h"
 #include "core/image/image.h"
 #include "tests/program/run.h"
@@ -27,7 +28,7 @@ class Settings : public ::testing::Test {
   TemporaryFolder folder_;
   // The program's own effects, which lie beside it.
   std::unique_ptr<effect::Registry> registry_ = app::loadEffects({});
-  app::viewer::EffectList list_{*registry_};
+  effect::Selection list_{*registry_};
   const scene::Camera camera_{
       .eye = {8.1, 1.7, -3.3}, .target = {-6.1, 1.0 / 3, -3.9}, .fovyDegrees = 61.7};
 };
@@ -44,7 +45,7 @@ TEST_F(Settings, AWrittenFileMakesThePictureOfItsOptions) {
   list_.find("ssao")->on = true;
   list_.find("ssao")->values.set("radius", 1.0 / 3);
   list_.find("ssao")->values.set("blur", "edge_aware");
-  app::Settings settings = list_.settings();
+  app::Settings settings = app::settingsOf(list_);
   settings.surface = "base";
   app::writeSettings(settings, folder_ / "a.toml");
   const auto given = render({"--set", "ssao.radius=0.3333333333333333", "--set",
@@ -62,8 +63,8 @@ TEST_F(Settings, ACommandLineMakesThePictureOfOptionsByHand) {
   ASSERT_STREQ(list_.entries()[0].key(), "sspm");
   list_.find("ssao")->values.set("intensity", 1.25);
   list_.find("sspm")->values.set("paint_range", 1.0);
-  const auto fired = render({"--effects", "sspm", "--fire", "40,25,#ff0000", "--fire",
-                             "60,20,#00ff00", "--save", "sspm=it's my $HOME.json"});
+  const auto added = render({"--effects", "sspm", "--add", "sspm=40,25,color=#ff0000", "--add",
+                             "sspm=60,20,color=#00ff00", "--save", "sspm=it's my $HOME.json"});
   std::filesystem::create_directory(folder_ / "-plug ins");
   scene::saveCamera(camera_, folder_ / "camera.json");
   const auto byHand = render({"--camera", "camera.json", "--effects", "sspm,ssao", "--set",
@@ -80,7 +81,7 @@ TEST_F(Settings, ACommandLineMakesThePictureOfOptionsByHand) {
   const Outcome outcome = runShell(app::viewer::renderCommand(command), folder_.path());
   ASSERT_EQ(outcome.status, 0) << outcome.err;
   EXPECT_EQ(picture("a \"b\" `c`.exr"), byHand);
-  EXPECT_NE(byHand, fired);
+  EXPECT_NE(byHand, added);
   EXPECT_NE(byHand, render({"--camera", "camera.json", "--surface", "base"}));
 }
 

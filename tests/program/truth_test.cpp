@@ -190,30 +190,6 @@ TEST_F(TruthCommand, AnInterruptionKeepsWhatIsDone) {
   }
 }
 
-TEST_F(TruthCommand, TheMaskIsWhereTheMuzzleSees) {
-  const std::string shots = R"({"version": 1, "shots": [
-    {"origin": [0, 2, 3], "direction": [0, -0.3, -1], "color": [1, 0, 0]},
-    {"origin": [0, 2, 3], "direction": [0.5, -0.3, -1], "color": [1, 0, 0], "range": 0.5}]})";
-  const TemporaryFolder input;
-  const std::string file = input.write("s.json", shots);
-  expectError({"--paint", file, "--write", "mask=m.exr"}, 5101, "shot 0");
-  const auto share = [&](const std::string& range) {
-    const Outcome outcome =
-        truth({"--paint", file, "--paint-range", range, "--write", "mask=m.exr"});
-    EXPECT_EQ(outcome.status, 0) << outcome.err;
-    double sum = 0;
-    for (const float value : image::read(folder_ / "m.exr").pixels) {
-      EXPECT_TRUE(value == 0 || value == 1);
-      sum += value;
-    }
-    return sum;
-  };
-  const double narrow = share("0.3"), wide = share("2");
-  EXPECT_GT(narrow, 0);
-  EXPECT_GT(wide, narrow);
-  EXPECT_LT(wide, 64 * 36);
-}
-
 // What the depth buffer allows at best is nearer to the truth than what an effect makes of it.
 TEST_F(TruthCommand, TheCeilingIsAboveSsao) {
   const Outcome outcome = truth({"--samples", "256", "--write", "ao=ao.exr", "--write",
@@ -262,10 +238,8 @@ TEST_F(TruthCommand, WhatIsWrongIsRefusedByName) {
   expectError(with({"--error", "-0.1"}), 5101, "--error");
   expectError(with({"--error", "nan"}), 5101, "--error");
   expectError(with({"--thickness", "1"}), 5101, "--thickness");
-  expectError(with({"--paint", "s.json"}), 5101, "--paint");
   expectError({"--write", "ceiling=a.exr", "--thickness", "-1"}, 5101, "--thickness");
-  expectError({"--write", "mask=a.exr"}, 5101, "--paint");
-  expectError({"--write", "mask=a.exr", "--paint", "none.json"}, 3411, "none.json");
+  expectError({"--write", "mask=a.exr"}, 5106, "mask");
   expectError(with({"--camera", "{}"}), 2202);
   expectError(with({"no such scene.glb"}), 2101, "no such scene.glb");
   expectError(with({"--size", "0x9"}), 5101);

@@ -68,14 +68,15 @@ constexpr Room kRooms[] = {
      "core/frame core/gpu core/image core/objects core/scene grisaille shaders"},
     {"lab",
      "app/options app/process/program.h app/report/machine.h app/settings app/truth "
-     "backends/backends.h lab/claims lab/stability"},
-    {"lab/oracle", "core/image core/scene grisaille"},
+     "backends/backends.h core/image lab/claims lab/paint lab/stability"},
+    {"lab/paint", "core/effect core/objects core/trace"},
+    {"lab/oracle", "core/image core/scene lab/paint"},
     {"lab/stability",
-     "app/truth core/effect core/frame core/gpu core/image core/scene core/shots core/trace "
-     "grisaille lab/oracle"},
+     "app/services app/truth core/effect core/frame core/gpu core/image core/scene core/trace "
+     "lab/oracle lab/paint"},
     {"lab/claims",
-     "app/settings app/study app/truth core/effect core/gpu core/image core/scene core/shots "
-     "core/trace grisaille"},
+     "app/services app/settings app/study app/truth core/effect core/frame core/gpu core/image "
+     "core/objects core/scene core/trace lab/paint"},
 };
 
 // Headers of a graphics API, which backends alone see.
@@ -168,6 +169,76 @@ TEST(Rooms, ExamplesSeeTheHostHeadersAlone) {
     }
   }
   EXPECT_EQ(seen, (std::set<std::string>{"grisaille/host.h", "grisaille/host.hpp"}));
+}
+
+// --- Words
+
+// A line of text that names an effect or what it makes as an example, and nothing else may.
+struct Example {
+  const char* file;
+  const char* text;  // is in the line
+};
+
+constexpr Example kExamples[] = {
+    {"core/frame/renderer.cpp", "\"ssao.ao\" that of one effect"},
+    {"core/effect/parameter_name.h", "// A parameter by name, \"ssao.radius\""},
+    {"core/effect/parameter_name.h", "// \"ssao.radius=0.5\""},
+    {"core/effect/include/grisaille/effect.h", "/* \"ssao\": same alphabet"},
+    {"app/report/timings.h", "A pass labelled \"ssao/blur\" is effect \"ssao\""},
+    {"app/settings/presets.h", "// \"ssao=balanced\""},
+    {"app/settings/settings.h", "//   effects = [\"ssao\"]"},
+    {"app/settings/settings.h", "//   [ssao]"},
+    {"app/new_effect/README.md.in", "grisaille render --effects ssao,@KEY@"},
+    {"app/study/sweep.h", "// \"ssao.kernel_size=4,8,16\""},
+    {"host/include/grisaille/host.h", "/* its key: \"ssao\" */"},
+};
+
+const std::regex& effectWord() {
+  static const std::regex kWord("paint|shot|muzzle|splat|sspm|ssao", std::regex::icase);
+  return kWord;
+}
+
+const Example* exampleOf(const std::string& file, const std::string& line) {
+  const auto found = std::ranges::find_if(kExamples, [&](const Example& example) {
+    return file == example.file && line.find(example.text) != std::string::npos;
+  });
+  return found == std::end(kExamples) ? nullptr : found;
+}
+
+// Core, app, host and backends know no effect by name: tables say what an effect has.
+TEST(Rooms, NoRoomButTheEffectsOwnKnowsWhatAnEffectMakes) {
+  std::set<const Example*> used;
+  size_t read = 0;
+  for (const char* top : {"core", "backends", "host", "app"}) {
+    for (const auto& entry : fs::recursive_directory_iterator(fs::path(SOURCE_FOLDER) / top)) {
+      if (!entry.is_regular_file()) continue;
+      const std::string file = fs::relative(entry.path(), SOURCE_FOLDER);
+      EXPECT_FALSE(std::regex_search(file, effectWord())) << file;
+      std::ifstream text(entry.path());
+      size_t number = 0;
+      for (std::string line; std::getline(text, line); ++read) {
+        ++number;
+        std::smatch match;
+        if (!std::regex_search(line, match, effectWord())) continue;
+        const Example* example = exampleOf(file, line);
+        used.insert(example);
+        EXPECT_NE(example, nullptr) << file << ":" << number << ": " << match[0] << ": " << line;
+      }
+    }
+  }
+  EXPECT_GT(read, 10000u);
+  for (const Example& example : kExamples) {
+    EXPECT_TRUE(used.contains(&example)) << example.file << " has no " << example.text;
+  }
+}
+
+TEST(Rooms, WordsAreSeenInsideOfWords) {
+  for (const char* line : {"kShotLimit", "repaint(", "SSAO", "Muzzles", "--screenshot", "a.sspm"}) {
+    EXPECT_TRUE(std::regex_search(line, effectWord())) << line;
+  }
+  for (const char* line : {"objects", "overlay", "colour", "capture", "s ao"}) {
+    EXPECT_FALSE(std::regex_search(line, effectWord())) << line;
+  }
 }
 
 TEST(Rooms, ForbiddenArrowsAreSeen) {

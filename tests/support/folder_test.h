@@ -16,7 +16,7 @@ class FolderTest : public ::testing::Test {
  protected:
   void SetUp() override {
     folder_ = std::filesystem::temp_directory_path() /
-              ("grisaille_viewer_" + std::to_string(getpid()) + "_" +
+              ("grisaille_test_" + std::to_string(getpid()) + "_" +
                ::testing::UnitTest::GetInstance()->current_test_info()->name());
     std::filesystem::remove_all(folder_);
     std::filesystem::create_directories(folder_);
@@ -28,6 +28,8 @@ class FolderTest : public ::testing::Test {
   // Writes `content` and returns its path.
   std::string fileOf(const std::string& name, const std::string& content) const {
     std::filesystem::create_directories((folder_ / name).parent_path());
+    // A file system may wait for the disk where an old file is cut to nothing.
+    std::filesystem::remove(file(name));
     std::ofstream(file(name), std::ios::binary) << content;
     return file(name);
   }
@@ -35,6 +37,10 @@ class FolderTest : public ::testing::Test {
   static std::string contentOf(const std::string& path) {
     std::ifstream stream(path, std::ios::binary);
     return {std::istreambuf_iterator<char>(stream), {}};
+  }
+
+  size_t filesInFolder() const {
+    return static_cast<size_t>(std::distance(std::filesystem::directory_iterator(folder_), {}));
   }
 
   std::filesystem::path folder_;

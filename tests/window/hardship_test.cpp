@@ -155,7 +155,7 @@ class RescueTest : public WindowTest {
     radius_ = viewer.value("ssao.radius");
     viewer.key("b");
     viewer.click(viewer.at("picture", 0.5, 0.5));
-    viewer.untilValue("shots", "1");
+    viewer.untilValue("sspm.objects", "1");
   }
   void expectRescued(const std::string& err) {
     EXPECT_TRUE(std::filesystem::exists(folder_ / "marks/4.json"));
@@ -174,7 +174,7 @@ class RescueTest : public WindowTest {
       if (entry.path().filename() != "settings.toml") continue;
       EXPECT_NE(readFile(entry.path()).find("radius = " + radius_), std::string::npos)
           << readFile(entry.path());
-      EXPECT_TRUE(std::filesystem::exists(entry.path().parent_path() / "sspm.shots"));
+      EXPECT_TRUE(std::filesystem::exists(entry.path().parent_path() / "sspm.json"));
       return;
     }
     ADD_FAILURE() << "no settings";

@@ -15,10 +15,10 @@ TEST_P(WindowPaintTest, LandsOnThePixelClicked) {
                       arguments({"--effects", "ssao,sspm", "--view", "sspm.paint_coverage", "--set",
                                  "sspm.paint_range=0.02", "--set", "sspm.r0=0.002"}));
   viewer.key("b");
-  viewer.untilValue("painting", "true");
+  viewer.untilValue("sspm.placing", "true");
   const Point at = viewer.at("picture", 0.37, 0.61);
   viewer.click(at);
-  viewer.untilValue("shots", "1");
+  viewer.untilValue("sspm.objects", "1");
   const image::Image coverage = image::read(viewer.savePicture());
   const Point corner = viewer.at("picture", 0, 0);
   const auto x = static_cast<uint32_t>(at.x - corner.x), y = static_cast<uint32_t>(at.y - corner.y);
@@ -44,13 +44,13 @@ TEST_P(WindowPaintTest, SprayIsOneStepAndColoursAreCounted) {
   DrivenViewer viewer(folder_, {"--backend", GetParam(), "--size", kWindow, "--effects", "sspm",
                                 "--set", "sspm.paint_range=0.3"});
   viewer.key("b");
-  viewer.untilValue("painting", "true");
+  viewer.untilValue("sspm.placing", "true");
   viewer.click(viewer.at("picture", 0.3, 0.5));
-  viewer.untilValue("shots", "1");
+  viewer.untilValue("sspm.objects", "1");
   const Point at = viewer.at("picture", 0.7, 0.6);
   viewer.send("mousemove " + std::to_string(at.x) + " " + std::to_string(at.y) + " mousedown 1");
   viewer.until("a spray", [](const nlohmann::json& now) {
-    return std::stoi(now["shots"]["value"].get<std::string>()) > 4;
+    return std::stoi(now["sspm.objects"]["value"].get<std::string>()) > 4;
   });
   viewer.send("mouseup 1");
   viewer.untilDrawn();
@@ -58,13 +58,13 @@ TEST_P(WindowPaintTest, SprayIsOneStepAndColoursAreCounted) {
   viewer.untilThere("coverage.none");
   EXPECT_LT(std::stod(viewer.value("coverage.none")), 1);
   viewer.key("ctrl+z");
-  viewer.untilValue("shots", "1");
+  viewer.untilValue("sspm.objects", "1");
   viewer.key("ctrl+z");
-  viewer.untilValue("shots", "0");
+  viewer.untilValue("sspm.objects", "0");
   viewer.key("ctrl+shift+z");
-  viewer.untilValue("shots", "1");
-  viewer.click("clear shots");
-  viewer.untilValue("shots", "0");
+  viewer.untilValue("sspm.objects", "1");
+  viewer.click("sspm.clear");
+  viewer.untilValue("sspm.objects", "0");
   expectQuits(viewer);
 }
 

@@ -5,7 +5,7 @@
 #include <cmath>
 
 #include "app/viewer/session.h"
-#include "core/shots/shot_file.h"
+#include "core/objects/object_file.h"
 #include "tests/program/run.h"
 #include "tests/support/expect_error.h"
 
@@ -21,7 +21,7 @@ class SessionTest : public testing::Test {
     options.pluginPaths = {EFFECTS_FOLDER};
     return options;
   }
-  size_t shots() { return session_.shots.find("sspm")->second.shots().size(); }
+  size_t shots() { return session_.listOf("sspm").size(); }
 
   tests::TemporaryFolder folder_;
   Session session_{options()};
@@ -33,15 +33,16 @@ constexpr const char* kShots =
 TEST_F(SessionTest, OpensWhatAFileHolds) {
   session_.openFile(
       folder_.write("a.toml", "effects = [\"ssao\", \"sspm\"]\n[ssao]\nradius = 2\n"));
-  EXPECT_EQ(session_.effects.find("ssao")->values.get("radius"), 2);
+  EXPECT_EQ(session_.chain.selection.find("ssao")->values.get("radius"), 2);
   session_.openFile(folder_.write("b.json", kShots));
   EXPECT_EQ(shots(), 1u);
   session_.openFile(
       folder_.write("c.json", R"({"eye": [1, 2, 3], "target": [0, 0, 0], "fovy_degrees": 60})"));
   EXPECT_EQ(session_.camera.eye, glm::dvec3(1, 2, 3));
-  const auto list = session_.shots.find("sspm")->second.shots();
-  shots::save(std::vector(3, list[0]), folder_ / "d.shots");
-  session_.openFile(folder_ / "d.shots");
+  objects::Objects three(session_.listOf("sspm").table());
+  for (int i = 0; i < 3; ++i) three.append(session_.listOf("sspm").object(0));
+  objects::save(three.view(), folder_ / "d.json");
+  session_.openFile(folder_ / "d.json");
   EXPECT_EQ(shots(), 3u);
   // One line of undo over it all.
   session_.undo();
@@ -49,12 +50,12 @@ TEST_F(SessionTest, OpensWhatAFileHolds) {
   session_.undo();
   EXPECT_EQ(shots(), 0u);
   session_.undo();
-  EXPECT_EQ(session_.effects.find("ssao")->values.get("radius"), 0.5);
+  EXPECT_EQ(session_.chain.selection.find("ssao")->values.get("radius"), 0.5);
   session_.redo();
   session_.redo();
   session_.redo();
   EXPECT_EQ(shots(), 3u);
-  EXPECT_EQ(session_.effects.find("ssao")->values.get("radius"), 2);
+  EXPECT_EQ(session_.chain.selection.find("ssao")->values.get("radius"), 2);
 }
 
 TEST_F(SessionTest, TakesACameraAsText) {
@@ -67,18 +68,18 @@ TEST_F(SessionTest, TakesACameraAsText) {
 
 TEST_F(SessionTest, WhatIsBrokenChangesNothing) {
   session_.openFile(folder_.write("b.json", kShots));
-  const EffectList::State before = session_.effects.state();
+  const effect::Selection::State before = session_.chain.selection.state();
   const auto refused = [&](const std::string& name, const std::string& text, ErrorId id) {
     const std::string file = folder_.write(name, text);
     SCOPED_TRACE(name);
     EXPECT_ERROR(id, session_.openFile(file));
     EXPECT_EQ(shots(), 1u);
-    EXPECT_EQ(session_.effects.state(), before);
+    EXPECT_EQ(session_.chain.selection.state(), before);
   };
   refused("a.toml", "effects = [", ErrorId::kSettingsUnreadable);
   refused("a.toml", "[ssao]\nradius = -1\n", ErrorId::kParameterRange);
   refused("a.toml", "effects = [\"none\"]\n", ErrorId::kEffectUnknown);
-  refused("b2.json", R"({"version": 1, "shots": [{}]})", ErrorId::kShotFileInvalid);
+  refused("b2.json", R"({"version": 1, "shots": [{}]})", ErrorId::kObjectFileInvalid);
   refused("c.json", R"({"eye": [0, 0, 0], "target": [0, 0, 0]})", ErrorId::kCameraInvalid);
   refused("d.txt", "text", ErrorId::kFileUnknown);
   EXPECT_ERROR(ErrorId::kSettingsUnreadable, session_.openFile(folder_ / "missing.toml"));
@@ -86,13 +87,13 @@ TEST_F(SessionTest, WhatIsBrokenChangesNothing) {
 
 TEST_F(SessionTest, HeldSettingsStayWhatTheyWere) {
   session_.hold();
-  session_.effects.find("ssao")->values.set("radius", 3.0);
+  session_.chain.selection.find("ssao")->values.set("radius", 3.0);
   session_.changed("ssao.radius");
   session_.noteChanges();
   EXPECT_EQ(session_.held->find("ssao")->values.get("radius"), 0.5);
   session_.swapHeld();
   EXPECT_EQ(session_.held->find("ssao")->values.get("radius"), 3);
-  EXPECT_EQ(session_.effects.find("ssao")->values.get("radius"), 0.5);
+  EXPECT_EQ(session_.chain.selection.find("ssao")->values.get("radius"), 0.5);
 }
 
 TEST_F(SessionTest, ComparesTheFirstVisibilityWithItsOwnRadius) {
@@ -100,7 +101,7 @@ TEST_F(SessionTest, ComparesTheFirstVisibilityWithItsOwnRadius) {
   session_.compareWithTruth(true);
   EXPECT_EQ(session_.comparedOutput(), "ssao.ao");
   EXPECT_EQ(session_.left, kErrorView);
-  session_.effects.find("ssao")->values.set("radius", 3.0);
+  session_.chain.selection.find("ssao")->values.set("radius", 3.0);
   EXPECT_EQ(session_.truthRadius(), 3);
   session_.setTruthRadius(2);
   EXPECT_EQ(session_.truthRadius(), 2);
@@ -116,7 +117,7 @@ TEST_F(SessionTest, ComparesTheFirstVisibilityWithItsOwnRadius) {
   EXPECT_EQ(session_.comparedOutput(), "");
 
   session_.compareWithTruth(true);
-  session_.effects.find("ssao")->on = false;
+  session_.chain.selection.find("ssao")->on = false;
   session_.checkViews();
   EXPECT_EQ(session_.comparedOutput(), "");
   EXPECT_EQ(session_.left, "color");

@@ -80,12 +80,12 @@ TEST_P(SettingTest, TheCopiedCommandMakesThePicture) {
   DrivenViewer viewer(folder_,
                       arguments({"--effects", "ssao,sspm", "--set", "sspm.paint_range=1"}));
   viewer.key("space");
-  viewer.untilValue("shots", "1");
+  viewer.untilValue("sspm.objects", "1");
   viewer.drag(viewer.at("picture", 0.5, 0.5), viewer.at("picture", 0.6, 0.45));
   viewer.key("b");
-  viewer.untilValue("painting", "true");
+  viewer.untilValue("sspm.placing", "true");
   viewer.click(viewer.at("picture", 0.3, 0.6));
-  viewer.untilValue("shots", "2");
+  viewer.untilValue("sspm.objects", "2");
   const std::string shown = viewer.savePicture();
   viewer.key("ctrl+c");
   viewer.until("a command", [](const nlohmann::json& now) {
@@ -111,13 +111,13 @@ TEST_P(SettingTest, WhatIsSavedComesBack) {
     viewer.click("base");
     viewer.untilValue("base", "true");
     viewer.key("Escape space");
-    viewer.untilValue("shots", "1");
+    viewer.untilValue("sspm.objects", "1");
     before = viewer.savePicture();
     viewer.key("ctrl+s");
     viewer.until("settings", [](const nlohmann::json& now) {
       return now["message"]["value"].get<std::string>().starts_with("settings to");
     });
-    viewer.click("save shots");
+    viewer.click("sspm.save");
     viewer.until("shots", [](const nlohmann::json& now) {
       return now["message"]["value"].get<std::string>().starts_with("1 shots to");
     });
@@ -126,8 +126,8 @@ TEST_P(SettingTest, WhatIsSavedComesBack) {
   DrivenViewer viewer(folder_,
                       {"--backend", GetParam(), "--size", kWindow, "--config", "settings.toml"});
   EXPECT_EQ(viewer.value("base"), "true");
-  viewer.click("load shots");
-  viewer.untilValue("shots", "1");
+  viewer.click("sspm.load");
+  viewer.untilValue("sspm.objects", "1");
   expectSame(viewer.savePicture(), before);
   expectQuits(viewer);
 }

@@ -1,39 +1,52 @@
-/* SPDX-License-Identifier: MIT
+/* SPDX-License-Identifier: MIT */
+/**
+ * @file
+ * The C interface of libgrisaille: the effects in a renderer of your own.
  *
- * The C interface of libgrisaille: the effects, in a program that has a renderer of its own.
+ * Create a device once. Wrap the textures that you draw: depth, and if you have them normals and
+ * base colours. Create effects by name. Record them once a frame, and sample their outputs.
+ * `find_package(Grisaille)` gives the CMake target Grisaille::grisaille. The same in C++20 is
+ * grisaille/host.hpp.
  *
- * A host makes a device once, wraps the textures that it draws (depth; where it has them normals
- * and base colours), makes effects by name, and records them once a frame; each effect's outputs
- * are textures that it then samples. `find_package(Grisaille)` gives the target
- * Grisaille::grisaille; grisaille/host.hpp is the same in C++.
+ * @par Errors
+ * A function that returns int returns 0, or the number of an error and has done nothing.
+ * grisaille_host_last_error() then returns a line: what is wrong, why, and what to do. Each
+ * function lists its numbers. Every function may also return
+ * - 5601: an argument or a pointer in a struct is null,
+ * - 5602: a struct_size is not the struct's,
+ * - 5611: a reserved field is not 0,
+ * - 9001: a fault of the library,
+ * - 9002: no memory,
+ * - 1005, 1006, if it calls the graphics API: the driver fails, or has lost the device.
  *
- * Errors. A function that returns int returns 0, or the number of an error and has done nothing;
- * grisaille_host_last_error() then says what, why and what to do. Every function may return 5601
- * (a null pointer), 5602 (a struct_size that is not the struct's), 9002 (no memory), and where it
- * calls the graphics API 1005 and 1006 (the driver fails, or has lost the device); what else it may
- * return stands with it. No exception leaves the library, and no message is printed.
+ * No exception leaves the library, and it prints nothing.
  *
- * Structs begin with their size, which the caller sets, and are otherwise 0 where nothing is meant.
+ * @par Structs
+ * A struct begins with its size, which the caller sets. A field that you do not use is 0.
  *
- * Ownership. What a function makes is the host's to destroy, effects and textures before their
- * device. Structs and strings are read during the call and not kept. What the library is handed of
- * the graphics API stays the host's: it is neither released nor changed but as said here, and it
- * outlives what is made of it.
+ * @par Ownership
+ * You destroy what you create, effects and textures before their device. The library reads structs
+ * and strings during the call and keeps none of them. Objects of the graphics API that you hand
+ * over stay yours: the library does not release them, and changes them only as this header says.
+ * They outlive everything that is made from them.
  *
- * Threads. A device, and all that is made of it, belongs to one thread at a time; for OpenGL to one
- * that has the device's context. Devices know nothing of one another.
+ * @par Threads
+ * A device, and everything made from it, belongs to one thread at a time. For OpenGL, that thread
+ * has the device's context. Devices are independent of one another.
  *
- * Units are metres, radians, pixels. Matrices are column-major, vectors are columns. World axes are
+ * @par Units
+ * Metres, radians, pixels. Matrices are column-major, vectors are columns. World axes are
  * right-handed; view space looks along -z with y up.
  *
- * Vulkan. The device has version 1.3 with shaderStorageImageExtendedFormats, synchronization2 and
- * maintenance4 enabled, which the library cannot see. It uses function tables of its own, of the
- * loader that the first device of the process names, and submits nothing.
+ * @par Vulkan
+ * The device has version 1.3 with shaderStorageImageExtendedFormats, synchronization2 and
+ * maintenance4 enabled. The library cannot see which features you enabled. It uses function tables
+ * of its own, from the loader that the first device of the process names, and submits nothing.
  *
- * OpenGL. The context has version 4.5, of the core or the compatibility profile, made by GLX or
- * EGL. Recording leaves all state as it was, and is no part of conditional rendering. Making,
- * resizing and destroying change no state, but ask glGetError(), so that an error that waited there
- * is lost.
+ * @par OpenGL
+ * The context has version 4.5, of the core or the compatibility profile, made by GLX or EGL.
+ * Recording leaves all state as it was; do not record inside conditional rendering. Creating,
+ * resizing and destroying change no state, but call glGetError(), which loses a pending error.
  */
 #ifndef GRISAILLE_HOST_H
 #define GRISAILLE_HOST_H
@@ -44,285 +57,461 @@
 extern "C" {
 #endif
 
-#define GRISAILLE_HOST_VERSION 1u /* grows when functions or fields are added */
+/**
+ * @defgroup host_library libgrisaille: library
+ * Version and errors of the library.
+ * @{
+ */
 
-/* What the library makes of the host's device or context, and on it. */
-typedef struct grisaille_host_device grisaille_host_device;
-/* One of the host's textures, as the library reads it. */
-typedef struct grisaille_host_texture grisaille_host_texture;
-/* An effect at work, with values of its own and the textures that it writes. */
-typedef struct grisaille_host_effect grisaille_host_effect;
+#define GRISAILLE_HOST_VERSION 1u /**< grows when functions or fields are added */
 
-/* ---- The library ----------------------------------------------------------------------------- */
-
-/* The library's GRISAILLE_HOST_VERSION, which is at least the header's where both are of one
- * installation. Cannot fail; any thread. */
+/**
+ * Returns the version of the library. It cannot fail. Any thread may call it.
+ * @return the library's GRISAILLE_HOST_VERSION, at least the header's if both are of one
+ * installation
+ */
 GRISAILLE_EXPORT uint32_t grisaille_host_version(void);
 
-/* The line of the calling thread's last call that failed: "error E5601: <what and why>; <what to
- * do>", or "" where none did. Good until that thread's next failure. Cannot fail; any thread. */
+/**
+ * Returns the error of the calling thread's last call that failed. It cannot fail. Any thread may
+ * call it.
+ * @return the line, such as "error E5601: device is null; give what the message names"; "" if no
+ * call failed. It is valid until the thread's next failure.
+ */
 GRISAILLE_EXPORT const char* grisaille_host_last_error(void);
 
-/* ---- Devices --------------------------------------------------------------------------------- */
+/**
+ * @}
+ * @defgroup host_devices libgrisaille: devices
+ * Your Vulkan device or OpenGL context.
+ * @{
+ */
 
+/** The library's device on your Vulkan device or OpenGL context. */
+typedef struct grisaille_host_device grisaille_host_device;
+
+/** Your Vulkan device. */
 typedef struct grisaille_host_vulkan {
-  uint32_t struct_size;
-  uint32_t queue_family;     /* of the queue that gets the command buffers: one that computes */
-  uint32_t frames_in_flight; /* 1 ... 16: a frame's recordings have finished when those of the frame
-                                so many later begin */
-  uint32_t reserved;         /* 0 */
-  void* instance;            /* VkInstance */
-  void* physical_device;     /* VkPhysicalDevice */
-  void* device;              /* VkDevice */
-  void (*get_instance_proc_addr)(void); /* the loader's PFN_vkGetInstanceProcAddr; null:
-                                           libvulkan.so.1's */
-  const char*
-      effect_folder; /* a further folder of effects, whose plugins are trusted; may be null */
+  uint32_t struct_size;  /**< sizeof(grisaille_host_vulkan) */
+  uint32_t queue_family; /**< of the queue that gets the command buffers; it can compute */
+  /** 1 to 16: after this many frames, the recordings of a frame have finished. */
+  uint32_t frames_in_flight;
+  uint32_t reserved;     /**< 0 */
+  void* instance;        /**< VkInstance */
+  void* physical_device; /**< VkPhysicalDevice */
+  void* device;          /**< VkDevice */
+  /** PFN_vkGetInstanceProcAddr of your loader; null: that of libvulkan.so.1 */
+  void (*get_instance_proc_addr)(void);
+  const char* effect_folder; /**< a further folder of effects, which the library trusts; or null */
 } grisaille_host_vulkan;
 
+/** Your OpenGL context: the current one. */
 typedef struct grisaille_host_opengl {
-  uint32_t struct_size;
-  uint32_t reserved; /* 0 */
-  const char*
-      effect_folder; /* a further folder of effects, whose plugins are trusted; may be null */
+  uint32_t struct_size;      /**< sizeof(grisaille_host_opengl) */
+  uint32_t reserved;         /**< 0 */
+  const char* effect_folder; /**< a further folder of effects, which the library trusts; or null */
 } grisaille_host_opengl;
 
-/* Makes a device of the host's Vulkan device. Loads the effects that are installed beside the
- * library, in lib/grisaille/effects, and those of `effect_folder`; plugins that do not fit are left
- * out. Errors: 5603 (handles, the queue family or what the device lacks), 5611 (frames_in_flight),
- * 1001 (no Vulkan loader), 1004 (the loader or the device is older than 1.3), 3106
- * (effect_folder). */
+/**
+ * Creates a device on your Vulkan device. It loads the effects that are installed beside the
+ * library, in lib/grisaille/effects, and those of `effect_folder`. It leaves out plugins that do
+ * not fit.
+ * @param vulkan your Vulkan device
+ * @param[out] out the device; null after an error
+ * @retval 5603 The device lacks version 1.3, a feature, or a queue family that computes.
+ * @retval 5611 frames_in_flight is out of range.
+ * @retval 1001 There is no Vulkan loader.
+ * @retval 1004 The loader is older than 1.3.
+ * @retval 3106 The library cannot read effect_folder.
+ */
 GRISAILLE_EXPORT int grisaille_host_device_vulkan(const grisaille_host_vulkan* vulkan,
                                                   grisaille_host_device** out);
 
-/* The same of the OpenGL context that is current on this thread. Errors: 5604 (none is current),
- * 1004 (it is older than 4.5, or OpenGL ES), 3106 (effect_folder). */
+/**
+ * Creates a device on the OpenGL context that is current on this thread. It loads effects as
+ * grisaille_host_device_vulkan() does.
+ * @param opengl your OpenGL context
+ * @param[out] out the device; null after an error
+ * @retval 5604 No context is current.
+ * @retval 1004 The context is older than 4.5, or OpenGL ES.
+ * @retval 3106 The library cannot read effect_folder.
+ */
 GRISAILLE_EXPORT int grisaille_host_device_opengl(const grisaille_host_opengl* opengl,
                                                   grisaille_host_device** out);
 
-/* Ends a device; the GPU has finished with all that was recorded with it. Null: nothing. Errors:
- * 5608 (an effect or a texture is left), 5604 (its context is not current). */
+/**
+ * Destroys a device. Before the call, the GPU has finished all that was recorded with it.
+ * @param device the device; null: nothing happens
+ * @retval 5608 An effect or a texture is left.
+ * @retval 5604 The device's context is not current.
+ */
 GRISAILLE_EXPORT int grisaille_host_device_destroy(grisaille_host_device* device);
 
-/* The tables of all effects, by key: parameters with their ranges, outputs with their formats, as
- * grisaille/effect.h has them. Both results are good while the device lives. No errors of its
- * own. */
+/**
+ * Returns the tables of all effects, sorted by key: parameters with their ranges, outputs with
+ * their formats. Both results are valid while the device lives.
+ * @param device the device
+ * @param[out] effects the tables
+ * @param[out] count number of tables
+ * @return 0, or an error that every function may return
+ */
 GRISAILLE_EXPORT int grisaille_host_effects(const grisaille_host_device* device,
                                             const grisaille_effect_desc* const** effects,
                                             uint32_t* count);
 
-/* ---- The host's textures --------------------------------------------------------------------- */
+/**
+ * @}
+ * @defgroup host_scene libgrisaille: textures, rays, pictures
+ * What you give the effects of your scene.
+ * @{
+ */
 
-/* A 2D texture of one sample, whose first level and layer are read; sampled as floats, so also a
- * depth buffer, with or without stencil. */
+/** One of your textures, as the library reads it. */
+typedef struct grisaille_host_texture grisaille_host_texture;
+
+/**
+ * Describes a 2D texture of one sample. The library reads its first level and layer. It samples the
+ * texture as floats, so that a depth buffer with or without stencil fits too.
+ */
 typedef struct grisaille_host_texture_desc {
-  uint32_t struct_size;
-  uint32_t format; /* Vulkan: VkFormat; OpenGL: 0 */
-  uint32_t layout; /* Vulkan: the VkImageLayout that it is in whenever it is recorded, and again
-                      afterwards; OpenGL: 0 */
-  uint32_t width;  /* pixels; OpenGL: 0: as the texture has them */
-  uint32_t height;
-  uint32_t reserved; /* 0 */
-  uint64_t image;    /* a VkImage of VK_IMAGE_USAGE_SAMPLED_BIT, exclusive to the queue's family or
-                        shared by all; or an OpenGL texture's name */
+  uint32_t struct_size; /**< sizeof(grisaille_host_texture_desc) */
+  uint32_t format;      /**< Vulkan: VkFormat; OpenGL: 0 */
+  /** Vulkan: VkImageLayout of the image before and after each recording; OpenGL: 0 */
+  uint32_t layout;
+  uint32_t width;    /**< pixels; OpenGL: 0 stands for the texture's own */
+  uint32_t height;   /**< pixels; OpenGL: 0 stands for the texture's own */
+  uint32_t reserved; /**< 0 */
+  /**
+   * Vulkan: VkImage with VK_IMAGE_USAGE_SAMPLED_BIT, exclusive to the queue's family or shared by
+   * all families. OpenGL: name of the texture.
+   */
+  uint64_t image;
 } grisaille_host_texture_desc;
 
-/* Wraps a texture. A texture that the host makes anew, as of another size, is wrapped anew. Errors:
- * 5605 (it cannot be read so), 1007 (no device memory), 5604 (the context is not current). */
+/**
+ * Wraps a texture. If you create the texture again, in another size for example, wrap it again.
+ * @param device the device
+ * @param desc describes the texture
+ * @param[out] out the wrapped texture; null after an error
+ * @retval 5605 The library cannot sample the texture as described.
+ * @retval 1007 No device memory is left.
+ * @retval 5604 The device's context is not current.
+ */
 GRISAILLE_EXPORT int grisaille_host_texture_wrap(grisaille_host_device* device,
                                                  const grisaille_host_texture_desc* desc,
                                                  grisaille_host_texture** out);
 
-/* Ends a wrapping; the texture itself stays. Allowed while recordings with it are in flight, after
- * which alone the host destroys the VkImage. Null: nothing. Errors: 5604 (the context is not
- * current). */
+/**
+ * Destroys the wrapping; the texture itself stays. Recordings with it may be in flight. Destroy the
+ * VkImage only after they have finished.
+ * @param texture the wrapped texture; null: nothing happens
+ * @retval 5604 The device's context is not current.
+ */
 GRISAILLE_EXPORT int grisaille_host_texture_destroy(grisaille_host_texture* texture);
 
-/* Who casts rays through the host's scene. */
+/** Your function that casts rays through your scene. */
 typedef struct grisaille_host_rays {
-  uint32_t struct_size;
-  uint32_t reserved; /* 0 */
-  void* context;     /* the host's, handed on as it is */
-  /* Fills in one hit a ray, on the calling thread, inside grisaille_host_effect_record(); what it
-   * leaves alone is GRISAILLE_HIT_NONE. It does not call the library. */
+  uint32_t struct_size; /**< sizeof(grisaille_host_rays) */
+  uint32_t reserved;    /**< 0 */
+  void* context;        /**< yours; the library hands it on */
+  /**
+   * Casts rays. The library calls it inside grisaille_host_effect_record(), on the same thread. It
+   * must not call the library.
+   * @param context grisaille_host_rays::context
+   * @param rays `count` rays
+   * @param count number of rays
+   * @param[out] hits one for each ray; an untouched one is #GRISAILLE_HIT_NONE
+   */
   void (*cast)(void* context, const grisaille_ray* rays, uint64_t count, grisaille_hit* hits);
 } grisaille_host_rays;
 
-/* Sets who casts rays for the device's effects from the next recording on. Null: nobody, as at
- * first; what an effect asks of rays then waits. Errors: 5611 (reserved). */
+/**
+ * Sets who casts rays for the device's effects, from the next recording on. Without rays, work that
+ * needs them waits.
+ * @param device the device
+ * @param rays your function; null, as at first: nobody
+ * @return 0, or an error that every function may return
+ */
 GRISAILLE_EXPORT int grisaille_host_device_set_rays(grisaille_host_device* device,
                                                     const grisaille_host_rays* rays);
 
-/* Who decodes picture files that objects name. */
+/** Your function that decodes the picture files that objects name. */
 typedef struct grisaille_host_pictures {
-  uint32_t struct_size;
-  uint32_t reserved; /* 0 */
-  void* context;     /* the host's, handed on as it is */
-  /* Fills in `out`, on the calling thread, inside grisaille_host_effect_record(). The pixels stay
-   * valid until the next call or the end of the recording. Returns GRISAILLE_OK, or
-   * GRISAILLE_FAILED where there is no such picture. It does not call the library. */
+  uint32_t struct_size; /**< sizeof(grisaille_host_pictures) */
+  uint32_t reserved;    /**< 0 */
+  void* context;        /**< yours; the library hands it on */
+  /**
+   * Decodes a picture. The library calls it inside grisaille_host_effect_record(), on the same
+   * thread. It must not call the library.
+   * @param context grisaille_host_pictures::context
+   * @param path path of the file
+   * @param[out] out the picture; its pixels stay valid until the next call or the end of the
+   *   recording
+   * @return GRISAILLE_OK, or GRISAILLE_FAILED if the picture does not exist
+   */
   grisaille_result (*read)(void* context, const char* path, grisaille_picture* out);
 } grisaille_host_pictures;
 
-/* Sets who decodes pictures for the device's effects from the next recording on. Null: nobody, as
- * at first; objects are then drawn without their pictures. Errors: 5611 (reserved). */
+/**
+ * Sets who decodes pictures for the device's effects, from the next recording on. Without it,
+ * objects are drawn without their pictures.
+ * @param device the device
+ * @param pictures your function; null, as at first: nobody
+ * @return 0, or an error that every function may return
+ */
 GRISAILLE_EXPORT int grisaille_host_device_set_pictures(grisaille_host_device* device,
                                                         const grisaille_host_pictures* pictures);
 
-/* ---- Effects --------------------------------------------------------------------------------- */
+/**
+ * @}
+ * @defgroup host_effects libgrisaille: effects
+ * Effects with their parameters and objects.
+ * @{
+ */
 
+/** An effect with its parameters, its objects and the textures that it writes. */
+typedef struct grisaille_host_effect grisaille_host_effect;
+
+/** The order of rows in the textures that an effect reads and writes. */
 typedef enum grisaille_host_rows {
-  GRISAILLE_HOST_ROWS_FROM_TOP = 0,   /* Vulkan's way: texel (0, 0) is the picture's top left */
-  GRISAILLE_HOST_ROWS_FROM_BOTTOM = 1 /* OpenGL's way, unless glClipControl says otherwise */
+  GRISAILLE_HOST_ROWS_FROM_TOP = 0,   /**< as in Vulkan: texel (0, 0) is the picture's top left */
+  GRISAILLE_HOST_ROWS_FROM_BOTTOM = 1 /**< as in OpenGL, unless glClipControl says otherwise */
 } grisaille_host_rows;
 
+/** Describes an effect. */
 typedef struct grisaille_host_effect_desc {
-  uint32_t struct_size;
-  uint32_t width; /* pixels of the textures read and of the outputs, 1 ... 16384 */
-  uint32_t height;
-  uint32_t rows;              /* grisaille_host_rows, of the textures read and of the outputs */
-  uint32_t output_count;      /* 0: the first of the effect's outputs alone */
-  uint32_t reserved;          /* 0 */
-  const char* effect;         /* its key: "ssao" */
-  const char* const* outputs; /* keys of the outputs that are wanted: "ao" */
+  uint32_t struct_size;       /**< sizeof(grisaille_host_effect_desc) */
+  uint32_t width;             /**< pixels of the textures read and of the outputs, 1 to 16384 */
+  uint32_t height;            /**< pixels, as `width` */
+  uint32_t rows;              /**< a grisaille_host_rows, of the textures read and of the outputs */
+  uint32_t output_count;      /**< number of `outputs`; 0: the effect's first output alone */
+  uint32_t reserved;          /**< 0 */
+  const char* effect;         /**< the effect's key: "ssao" */
+  const char* const* outputs; /**< keys of the wanted outputs: "ao" */
 } grisaille_host_effect_desc;
 
-/* Makes an effect with its parameters' defaults and no objects. Errors: 3201 (no such effect), 5102
- * (no such output), 3202 (the effect's own words), 1105 (width or height), 5611 (rows), 1007 (no
- * device memory), 1008 (the driver refuses a shader), 5604 (the context is not current). */
+/**
+ * Creates an effect with the defaults of its parameters and without objects.
+ * @param device the device
+ * @param desc describes the effect
+ * @param[out] out the effect; null after an error
+ * @retval 3201 There is no such effect.
+ * @retval 5102 The effect has no such output.
+ * @retval 3202 The effect fails; the line holds its own words.
+ * @retval 1105 The width or the height is out of range.
+ * @retval 5611 `rows` is none.
+ * @retval 1007 No device memory is left.
+ * @retval 1008 The driver refuses a shader.
+ * @retval 5604 The device's context is not current.
+ */
 GRISAILLE_EXPORT int grisaille_host_effect_create(grisaille_host_device* device,
                                                   const grisaille_host_effect_desc* desc,
                                                   grisaille_host_effect** out);
 
-/* Ends an effect with its outputs. Allowed while its recordings are in flight, but not while a
- * command buffer that holds one waits to be submitted. Null: nothing. Errors: 5604 (the context is
- * not current). */
+/**
+ * Destroys an effect with its outputs. Its recordings may be in flight, but no command buffer that
+ * holds one may still wait for its submission.
+ * @param effect the effect; null: nothing happens
+ * @retval 5604 The device's context is not current.
+ */
 GRISAILLE_EXPORT int grisaille_host_effect_destroy(grisaille_host_effect* effect);
 
-/* Sets a parameter: a number in the unit of the effect's table, an enum's index, or 0 or 1. It
- * holds from the next recording on, which may compile shaders then. Errors: 3301 (no such
- * parameter), 3302 (out of its range), 3303 (not of its type). */
+/**
+ * Sets a parameter from the next recording on, which may compile shaders.
+ * @param effect the effect
+ * @param key key of the parameter
+ * @param value a number in the unit of the effect's table, an enum's index, or 0 or 1
+ * @retval 3301 The effect has no such parameter.
+ * @retval 3302 The value is out of the parameter's range.
+ * @retval 3303 The value is not of the parameter's type.
+ */
 GRISAILLE_EXPORT int grisaille_host_effect_set(grisaille_host_effect* effect, const char* key,
                                                double value);
 
-/* The same by text, as on the command line: "0.5", "true", an enum's key. Errors: 3301, 3302,
- * 3303. */
+/**
+ * Sets a parameter by text, as grisaille_host_effect_set() does by number.
+ * @param effect the effect
+ * @param key key of the parameter
+ * @param text the value as on the command line: "0.5", "true", an enum's key
+ * @retval 3301 The effect has no such parameter.
+ * @retval 3302 The value is out of the parameter's range.
+ * @retval 3303 The value is not of the parameter's type.
+ */
 GRISAILLE_EXPORT int grisaille_host_effect_set_text(grisaille_host_effect* effect, const char* key,
                                                     const char* text);
 
-/* A parameter's value, as grisaille_host_effect_set() takes it. Errors: 3301 (no such parameter).
+/**
+ * Returns the value of a parameter.
+ * @param effect the effect
+ * @param key key of the parameter
+ * @param[out] value the value, as grisaille_host_effect_set() takes it
+ * @retval 3301 The effect has no such parameter.
  */
 GRISAILLE_EXPORT int grisaille_host_effect_get(const grisaille_host_effect* effect, const char* key,
                                                double* value);
 
-/* Gives it another size, in pixels. Its outputs are other textures then; those that were go once no
- * recording in flight uses them. Errors: 1105 (the size), 1007 (no device memory), 5604 (the
- * context is not current). */
+/**
+ * Gives an effect another size. Its outputs are other textures then. The library destroys the old
+ * ones once no recording in flight uses them.
+ * @param effect the effect
+ * @param width pixels, 1 to 16384
+ * @param height pixels, 1 to 16384
+ * @retval 1105 The width or the height is out of range.
+ * @retval 1007 No device memory is left.
+ * @retval 5604 The device's context is not current.
+ */
 GRISAILLE_EXPORT int grisaille_host_effect_resize(grisaille_host_effect* effect, uint32_t width,
                                                   uint32_t height);
 
-/* Sets the objects that the effect works on from the next recording on: `count` of `object_size`
- * bytes each, laid out as grisaille_effect_desc.objects of the effect says, oldest first. They and
- * their texts are copied; null with a count of 0. Leading objects that are equal to those before
- * are not worked out again, so that objects are best added at the end. Errors: 3205 (the effect has
- * none), 5611 (object_size is not the table's), 3401 (a field's value; nothing is changed). */
+/**
+ * Sets the objects of an effect from the next recording on. The library copies them and their
+ * texts. Add new objects at the end: the effect processes only those from the first changed one on.
+ * @param effect the effect
+ * @param objects the objects, laid out as grisaille_effect_desc::objects says, oldest first; may be
+ *   null if `count` is 0
+ * @param object_size bytes of one object
+ * @param count number of objects
+ * @retval 3205 The effect has no objects.
+ * @retval 5611 object_size is not the table's.
+ * @retval 3401 The value of a field is wrong.
+ */
 GRISAILLE_EXPORT int grisaille_host_effect_set_objects(grisaille_host_effect* effect,
                                                        const void* objects, uint32_t object_size,
                                                        uint64_t count);
 
-/* The same from a JSON file, as the program saves it. Errors: 3205, 3411 (it cannot be read), 3412
- * (an object of it), 3413 (its version). */
+/**
+ * Sets the objects of an effect from a JSON file, as the program `grisaille` saves it.
+ * @param effect the effect
+ * @param path path of the file
+ * @retval 3205 The effect has no objects.
+ * @retval 3411 The library cannot read the file.
+ * @retval 3412 An object of the file is wrong.
+ * @retval 3413 The file has another version.
+ */
 GRISAILLE_EXPORT int grisaille_host_effect_load_objects(grisaille_host_effect* effect,
                                                         const char* path);
 
-/* ---- A frame --------------------------------------------------------------------------------- */
+/**
+ * @}
+ * @defgroup host_frame libgrisaille: a frame
+ * Recording an effect and reading its outputs.
+ * @{
+ */
 
-/* What the texels of a depth texture are. */
+/** What the texels of a depth texture are. */
 typedef enum grisaille_host_depth {
-  GRISAILLE_HOST_DEPTH_CLIP = 0,          /* a depth buffer: 0 at the near plane, 1 at the far one,
-                                             and in the sky */
-  GRISAILLE_HOST_DEPTH_CLIP_REVERSED = 1, /* 1 at the near plane, 0 at the far one and in the sky */
-  GRISAILLE_HOST_DEPTH_VIEW = 2,          /* metres along the view direction; sky: 0, or the far
-                                             plane and more */
-  GRISAILLE_HOST_DEPTH_DISTANCE = 3       /* metres from the eye; sky as above */
+  /** A depth buffer: 0 at the near plane, 1 at the far plane and in the sky. */
+  GRISAILLE_HOST_DEPTH_CLIP = 0,
+  /** A reversed depth buffer: 1 at the near plane, 0 at the far plane and in the sky. */
+  GRISAILLE_HOST_DEPTH_CLIP_REVERSED = 1,
+  /** Metres along the view direction; in the sky 0, or the far plane's distance or more. */
+  GRISAILLE_HOST_DEPTH_VIEW = 2,
+  /** Metres from the eye; in the sky 0, or the far plane's distance or more. */
+  GRISAILLE_HOST_DEPTH_DISTANCE = 3
 } grisaille_host_depth;
 
+/** The space of normals. */
 typedef enum grisaille_host_normals {
-  GRISAILLE_HOST_NORMALS_WORLD = 0,
-  GRISAILLE_HOST_NORMALS_VIEW = 1
+  GRISAILLE_HOST_NORMALS_WORLD = 0, /**< world space */
+  GRISAILLE_HOST_NORMALS_VIEW = 1   /**< view space */
 } grisaille_host_normals;
 
+/** How texels encode the components of normals. */
 typedef enum grisaille_host_encoding {
-  GRISAILLE_HOST_SIGNED = 0,  /* components from -1 to 1, as the texture's format has them */
-  GRISAILLE_HOST_UNSIGNED = 1 /* (component + 1) / 2 */
+  GRISAILLE_HOST_SIGNED = 0,  /**< components from -1 to 1, as sampled */
+  GRISAILLE_HOST_UNSIGNED = 1 /**< (component + 1) / 2 */
 } grisaille_host_encoding;
 
-/* A pinhole camera or an orthographic one, whose axis goes through the picture's centre and whose
- * pixels are square. */
+/**
+ * A pinhole camera or an orthographic one. Its axis goes through the picture's centre, and its
+ * pixels are square.
+ */
 typedef struct grisaille_host_camera {
-  uint32_t struct_size;
-  uint32_t reserved;  /* 0 */
-  double position[3]; /* world, metres */
-  double
-      world_from_view[9]; /* rotation: its columns are the picture's right and up, and backwards */
-  double vertical_angle;  /* radians that the picture's height spans, over 0 and under pi; 0:
-                             orthographic */
-  double orthographic_height; /* metres that the picture's height spans; of a pinhole: 0 */
-  double near_plane;          /* metres, over 0; orthographic: finite */
-  double far_plane;           /* metres, over the near plane; 0 or infinite: none, of a pinhole */
+  uint32_t struct_size; /**< sizeof(grisaille_host_camera) */
+  uint32_t reserved;    /**< 0 */
+  double position[3];   /**< world, metres */
+  /** Rotation: its columns are the picture's right and up, and backwards, in world space. */
+  double world_from_view[9];
+  double vertical_angle;      /**< radians that the height spans, 0.01 to 3.1; 0: orthographic */
+  double orthographic_height; /**< metres that the height spans, over 0, at most 1e9; pinhole: 0 */
+  double near_plane;          /**< metres, over 0, at most 1e6 */
+  /** Metres, over near_plane. Pinhole: 0 or infinity means none; orthographic: at most 1e9. */
+  double far_plane;
 } grisaille_host_camera;
 
+/** One frame, as an effect reads it. All textures have the effect's size. */
 typedef struct grisaille_host_frame {
-  uint32_t struct_size;
-  uint32_t depth_kind;      /* grisaille_host_depth */
-  uint32_t normal_space;    /* grisaille_host_normals */
-  uint32_t normal_encoding; /* grisaille_host_encoding */
-  uint64_t number;      /* of the host's frame: never falls, and what is recorded in one frame has
-                           one number */
-  void* command_buffer; /* Vulkan: VkCommandBuffer, recording, outside a render pass; else null */
-  const grisaille_host_camera* camera;
-  const grisaille_host_texture* depth;
-  const grisaille_host_texture* normal; /* three channels; null: those of the facets, from depth */
-  const grisaille_host_texture* back_depth; /* of the nearest surface at or behind the seen one that
-                                               faces away, as `depth` otherwise; null: not known */
-  const grisaille_host_texture* base_colour; /* three channels, linear when sampled; null: none */
+  uint32_t struct_size;     /**< sizeof(grisaille_host_frame) */
+  uint32_t depth_kind;      /**< a grisaille_host_depth */
+  uint32_t normal_space;    /**< a grisaille_host_normals */
+  uint32_t normal_encoding; /**< a grisaille_host_encoding */
+  uint64_t number;          /**< never falls; all recordings of one frame have the same */
+  void* command_buffer; /**< Vulkan: VkCommandBuffer, recording, outside a render pass; else null */
+  const grisaille_host_camera* camera;  /**< the camera that drew the frame */
+  const grisaille_host_texture* depth;  /**< one channel, or a depth buffer */
+  const grisaille_host_texture* normal; /**< three channels; null: facet normals from depth */
+  /**
+   * Depth of the nearest surface at or behind the visible one that faces away, in the units of
+   * `depth`; null: not known.
+   */
+  const grisaille_host_texture* back_depth;
+  const grisaille_host_texture* base_colour; /**< three channels, linear when sampled; null: none */
 } grisaille_host_frame;
 
-/* Records an effect: all its wanted outputs, at every pixel. It waits for all that was recorded
- * before it and all that is recorded later waits for it, so that the host needs no barrier of its
- * own. Textures are read in the layout that they were wrapped with and left in it. Outputs are left
- * in the layout that grisaille_host_effect_output() tells, and are to be in it at the next
- * recording.
+/**
+ * Records an effect: all its wanted outputs, at every pixel.
  *
- * Allocates nothing from the second frame on, as long as size and parameters stay. Vulkan: command
- * buffers are submitted in the order of recording, each once and whole; the compute pipeline and
- * the descriptor set 0 that were bound to compute are others afterwards. After an error past the
- * checks of what is given (3203), the command buffer is to be submitted all the same.
+ * The recording waits for all commands recorded before it, and all later commands wait for it. You
+ * need no barrier of your own. The library reads each texture in the layout that you wrapped it
+ * with, and leaves it in that layout. It leaves an output in the layout that
+ * grisaille_host_effect_output() returns. The output must have that layout at the next recording.
  *
- * Errors: 5606 (the frame's number falls, or the command buffer), 5607 (the camera), 5605 (a
- * texture's size or channels), 5609 (a texture of another device), 5610 (base colours are read, and
- * none are given), 5611 (an enum's value, or a hit of the host's rays), 3203 (the effect's own
- * words), 1007, 1008, 5604 (the context is not current). */
+ * From the second frame on, the call allocates nothing while the size and the parameters stay.
+ *
+ * Vulkan: submit command buffers in the order of recording, each once and whole. After the call,
+ * another compute pipeline and another descriptor set 0 are bound to compute. After error 3203,
+ * submit the command buffer all the same.
+ *
+ * @param effect the effect
+ * @param frame the frame
+ * @retval 5606 The frame's number falls, or the command buffer is missing or not expected.
+ * @retval 5607 The camera is wrong.
+ * @retval 5605 A texture has another size, or too few channels.
+ * @retval 5609 A texture is of another device.
+ * @retval 5610 The effect reads base colours, and there are none.
+ * @retval 5611 The value of an enum is none, or a hit of your rays is wrong.
+ * @retval 3203 The effect fails; the line holds its own words.
+ * @retval 1007 No device memory is left.
+ * @retval 1008 The driver refuses a shader.
+ * @retval 5604 The device's context is not current.
+ */
 GRISAILLE_EXPORT int grisaille_host_effect_record(grisaille_host_effect* effect,
                                                   const grisaille_host_frame* frame);
 
-/* A texture of the library's own. */
+/** An output: a texture of the library. */
 typedef struct grisaille_host_output {
-  uint32_t struct_size;   /* set by the host */
-  uint32_t format;        /* grisaille_format */
-  uint32_t native_format; /* VkFormat, or OpenGL's internal format */
-  uint32_t layout;        /* VkImageLayout after a recording; OpenGL: 0 */
-  uint32_t width;         /* pixels */
-  uint32_t height;
-  uint64_t image; /* VkImage, which is sampled and copied from; or the OpenGL texture's name */
-  uint64_t view;  /* VkImageView; OpenGL: 0 */
+  uint32_t struct_size;   /**< sizeof(grisaille_host_output), set by the caller */
+  uint32_t format;        /**< a grisaille_format */
+  uint32_t native_format; /**< Vulkan: VkFormat; OpenGL: the internal format */
+  uint32_t layout;        /**< Vulkan: VkImageLayout after a recording; OpenGL: 0 */
+  uint32_t width;         /**< pixels */
+  uint32_t height;        /**< pixels */
+  uint64_t image; /**< Vulkan: VkImage, to sample and to copy from; OpenGL: name of the texture */
+  uint64_t view;  /**< Vulkan: VkImageView; OpenGL: 0 */
 } grisaille_host_output;
 
-/* An output that the effect was made with, by its key. It holds something once the effect is
- * recorded, and stays the same texture until the effect is resized or destroyed. Errors: 5102 (no
- * such output, or it was not asked for). */
+/**
+ * Returns an output of an effect. It holds a result once the effect is recorded. It stays the same
+ * texture until the effect is resized or destroyed.
+ * @param effect the effect
+ * @param key key of an output that the effect was created with
+ * @param[out] out the output; set its `struct_size` before the call
+ * @retval 5102 The effect has no such output, or was created without it.
+ */
 GRISAILLE_EXPORT int grisaille_host_effect_output(const grisaille_host_effect* effect,
                                                   const char* key, grisaille_host_output* out);
+
+/** @} */
 
 #ifdef __cplusplus
 }

@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: MIT
-// grisaille/host.h in C++20: owners for what it makes, exceptions for its errors, nothing more.
-// What each function does, its units and who owns what stand there.
+/// @file
+/// The C++20 interface of libgrisaille over host.h: owners for what it creates, exceptions for its
+/// errors. See host.h for the errors of each function, for ownership and threads.
 #ifndef GRISAILLE_HOST_HPP
 #define GRISAILLE_HOST_HPP
 
@@ -16,24 +17,36 @@
 
 #include "grisaille/host.h"
 
+/// The C++20 interface of libgrisaille: see host.hpp.
 namespace grisaille::host {
 
-// what() is the whole line, number() what it begins with.
+/// @addtogroup host_library
+/// @{
+
+/// A call that failed. All functions of this header that call the library throw it. what() is the
+/// line of grisaille_host_last_error().
 class Failure : public std::runtime_error {
  public:
+  /// @param number number of the error
+  /// @param line the whole line
   Failure(int number, const std::string& line) : std::runtime_error(line), number_(number) {}
+  /// @return number of the error: 5601 for example
   int number() const { return number_; }
 
  private:
   int number_;
 };
 
-// Throws Failure unless `result` is 0.
+/// Throws unless a call succeeded.
+/// @param result what a function of host.h returned
+/// @throws Failure the result is not 0
 inline void require(int result) {
   if (result != 0) throw Failure(result, grisaille_host_last_error());
 }
 
-// A handle of the graphics API as a number: Vulkan's are pointers or numbers, OpenGL's names.
+/// A handle of the graphics API as a number.
+/// @param handle a handle of Vulkan, which is a pointer or a number, or a name of OpenGL
+/// @return the number, for TextureSpec::image
 template <typename Handle>
 uint64_t number(Handle handle) {
   if constexpr (std::is_pointer_v<Handle>) {
@@ -43,7 +56,7 @@ uint64_t number(Handle handle) {
   }
 }
 
-// Ends what it owns. Owners of effects and textures go before their device's.
+/// @cond
 template <auto kDestroy>
 struct Destroy {
   template <typename Made>
@@ -51,19 +64,30 @@ struct Destroy {
     kDestroy(made);
   }
 };
+/// @endcond
 
+/// @}
+/// @addtogroup host_devices
+/// @{
+
+/// Your Vulkan device, for Device::vulkan().
 struct VulkanSpec {
-  void* instance = nullptr;
-  void* physicalDevice = nullptr;
-  void* device = nullptr;
-  uint32_t queueFamily = 0;
-  uint32_t framesInFlight = 2;
+  void* instance = nullptr;        ///< VkInstance
+  void* physicalDevice = nullptr;  ///< VkPhysicalDevice
+  void* device = nullptr;          ///< VkDevice
+  uint32_t queueFamily = 0;        ///< of the queue that gets the command buffers; it can compute
+  uint32_t framesInFlight = 2;  ///< 1 to 16: after so many, the recordings of a frame have finished
+  /// PFN_vkGetInstanceProcAddr of your loader; null: that of libvulkan.so.1
   void (*getInstanceProcAddr)() = nullptr;
-  const char* effectFolder = nullptr;
+  const char* effectFolder = nullptr;  ///< a further folder of effects, which is trusted; or null
 };
 
+/// Owns a device. Destroy it after its textures and effects.
 class Device {
  public:
+  /// Creates a device on your Vulkan device.
+  /// @param spec your Vulkan device
+  /// @return the device
   static Device vulkan(const VulkanSpec& spec) {
     const grisaille_host_vulkan given = {.struct_size = sizeof(grisaille_host_vulkan),
                                          .queue_family = spec.queueFamily,
@@ -81,7 +105,9 @@ class Device {
     return made;
   }
 
-  // Of the context that is current.
+  /// Creates a device on the OpenGL context that is current on this thread.
+  /// @param effectFolder a further folder of effects, which the library trusts; or null
+  /// @return the device
   static Device opengl(const char* effectFolder = nullptr) {
     const grisaille_host_opengl given = {
         .struct_size = sizeof(grisaille_host_opengl), .reserved = 0, .effect_folder = effectFolder};
@@ -92,6 +118,7 @@ class Device {
     return made;
   }
 
+  /// @return the tables of all effects, sorted by key; valid while the device lives
   std::span<const grisaille_effect_desc* const> effects() const {
     const grisaille_effect_desc* const* list = nullptr;
     uint32_t count = 0;
@@ -99,14 +126,18 @@ class Device {
     return {list, count};
   }
 
-  // `context` outlives the recordings.
+  /// Sets who casts rays for the device's effects, from the next recording on.
+  /// @param cast as grisaille_host_rays::cast; null: nobody
+  /// @param context handed on to `cast`; it outlives the recordings
   void setRays(decltype(grisaille_host_rays::cast) cast, void* context) const {
     const grisaille_host_rays rays = {
         .struct_size = sizeof(rays), .reserved = 0, .context = context, .cast = cast};
     require(grisaille_host_device_set_rays(device_.get(), cast != nullptr ? &rays : nullptr));
   }
 
-  // `context` outlives the recordings.
+  /// Sets who decodes pictures for the device's effects, from the next recording on.
+  /// @param read as grisaille_host_pictures::read; null: nobody
+  /// @param context handed on to `read`; it outlives the recordings
   void setPictures(decltype(grisaille_host_pictures::read) read, void* context) const {
     const grisaille_host_pictures pictures = {
         .struct_size = sizeof(pictures), .reserved = 0, .context = context, .read = read};
@@ -114,6 +145,7 @@ class Device {
         grisaille_host_device_set_pictures(device_.get(), read != nullptr ? &pictures : nullptr));
   }
 
+  /// @return the C handle, which this object keeps owning
   grisaille_host_device* handle() const { return device_.get(); }
 
  private:
@@ -121,17 +153,26 @@ class Device {
   std::unique_ptr<grisaille_host_device, Destroy<grisaille_host_device_destroy>> device_;
 };
 
+/// @}
+/// @addtogroup host_scene
+/// @{
+
+/// Describes one of your textures, as grisaille_host_texture_desc.
 struct TextureSpec {
-  uint64_t image = 0;   // number(a VkImage), or an OpenGL texture's name
-  uint32_t format = 0;  // a VkFormat
-  uint32_t layout = 0;  // a VkImageLayout
-  uint32_t width = 0;   // pixels
-  uint32_t height = 0;
+  uint64_t image = 0;   ///< Vulkan: number() of a VkImage; OpenGL: name of the texture
+  uint32_t format = 0;  ///< Vulkan: VkFormat; OpenGL: 0
+  uint32_t layout = 0;  ///< Vulkan: VkImageLayout before and after each recording; OpenGL: 0
+  uint32_t width = 0;   ///< pixels; OpenGL: 0 stands for the texture's own
+  uint32_t height = 0;  ///< pixels; OpenGL: 0 stands for the texture's own
 };
 
+/// Owns the wrapping of one of your textures; the texture itself stays yours.
 class Texture {
  public:
-  Texture() = default;  // none
+  Texture() = default;  ///< Wraps no texture.
+  /// Wraps a texture.
+  /// @param device the device
+  /// @param spec describes the texture
   Texture(const Device& device, const TextureSpec& spec) {
     const grisaille_host_texture_desc desc = {.struct_size = sizeof(grisaille_host_texture_desc),
                                               .format = spec.format,
@@ -145,15 +186,25 @@ class Texture {
     texture_.reset(texture);
   }
 
+  /// @return the C handle, which this object keeps owning; null: no texture
   grisaille_host_texture* handle() const { return texture_.get(); }
 
  private:
   std::unique_ptr<grisaille_host_texture, Destroy<grisaille_host_texture_destroy>> texture_;
 };
 
+/// @}
+/// @addtogroup host_frame
+/// @{
+
+/// A camera, made from a view matrix.
 struct Camera : grisaille_host_camera {
-  // `viewFromWorld` holds 16 numbers, column after column: a rotation and a translation. A pinhole,
-  // angle in radians; far 0: none.
+  /// A pinhole camera.
+  /// @param viewFromWorld 16 numbers, column after column: a rotation and a translation
+  /// @param verticalAngle radians that the picture's height spans, 0.01 to 3.1
+  /// @param near the near plane, metres, over 0
+  /// @param far the far plane, metres, over `near`; 0 or infinity: none
+  /// @return the camera
   template <typename Number>
   static Camera pinhole(const Number* viewFromWorld, double verticalAngle, double near,
                         double far = 0) {
@@ -164,7 +215,12 @@ struct Camera : grisaille_host_camera {
     return camera;
   }
 
-  // The same, orthographic; height in metres.
+  /// An orthographic camera.
+  /// @param viewFromWorld 16 numbers, column after column: a rotation and a translation
+  /// @param height metres that the picture's height spans, over 0
+  /// @param near the near plane, metres, over 0
+  /// @param far the far plane, metres, over `near`, at most 1e9
+  /// @return the camera
   template <typename Number>
   static Camera orthographic(const Number* viewFromWorld, double height, double near, double far) {
     Camera camera = placed(viewFromWorld);
@@ -190,29 +246,41 @@ struct Camera : grisaille_host_camera {
   }
 };
 
-struct EffectSpec {
-  const char* effect = nullptr;  // its key
-  uint32_t width = 0;            // pixels
-  uint32_t height = 0;
-  grisaille_host_rows rows = GRISAILLE_HOST_ROWS_FROM_TOP;
-  std::initializer_list<const char*> outputs = {};  // none: the first
-};
-
+/// One frame, as an effect reads it. All textures have the effect's size.
 struct Frame {
-  uint64_t number = 0;
-  void* commandBuffer = nullptr;
-  const Camera& camera;
-  const Texture& depth;
-  grisaille_host_depth depthKind = GRISAILLE_HOST_DEPTH_CLIP;
-  const Texture* normal = nullptr;
-  grisaille_host_normals normalSpace = GRISAILLE_HOST_NORMALS_WORLD;
-  grisaille_host_encoding normalEncoding = GRISAILLE_HOST_SIGNED;
+  uint64_t number = 0;            ///< never falls; all recordings of one frame have the same
+  void* commandBuffer = nullptr;  ///< Vulkan: recording VkCommandBuffer, outside a render pass
+  const Camera& camera;           ///< the camera that drew the frame
+  const Texture& depth;           ///< one channel, or a depth buffer
+  grisaille_host_depth depthKind = GRISAILLE_HOST_DEPTH_CLIP;  ///< what its texels are
+  const Texture* normal = nullptr;  ///< three channels; null: facet normals from depth
+  grisaille_host_normals normalSpace = GRISAILLE_HOST_NORMALS_WORLD;  ///< space of `normal`
+  grisaille_host_encoding normalEncoding = GRISAILLE_HOST_SIGNED;     ///< encoding of `normal`
+  /// as grisaille_host_frame::back_depth; null: not known
   const Texture* backDepth = nullptr;
-  const Texture* baseColour = nullptr;
+  const Texture* baseColour = nullptr;  ///< three channels, linear when sampled; null: none
 };
 
+/// @}
+/// @addtogroup host_effects
+/// @{
+
+/// Describes an effect.
+struct EffectSpec {
+  const char* effect = nullptr;  ///< the effect's key: "ssao"
+  uint32_t width = 0;            ///< pixels of the textures read and of the outputs, 1 to 16384
+  uint32_t height = 0;           ///< pixels, as `width`
+  /// order of rows in the textures read and in the outputs
+  grisaille_host_rows rows = GRISAILLE_HOST_ROWS_FROM_TOP;
+  std::initializer_list<const char*> outputs = {};  ///< keys of the wanted outputs; none: the first
+};
+
+/// Owns an effect with its parameters, its objects and its outputs.
 class Effect {
  public:
+  /// Creates an effect with the defaults of its parameters and without objects.
+  /// @param device the device
+  /// @param spec describes the effect
   Effect(const Device& device, const EffectSpec& spec) {
     const grisaille_host_effect_desc desc = {
         .struct_size = sizeof(grisaille_host_effect_desc),
@@ -228,32 +296,51 @@ class Effect {
     effect_.reset(effect);
   }
 
+  /// Sets a parameter from the next recording on, which may compile shaders.
+  /// @param key key of the parameter
+  /// @param value a number in the unit of the effect's table, an enum's index, or 0 or 1
   void set(const char* key, double value) {
     require(grisaille_host_effect_set(effect_.get(), key, value));
   }
+  /// Sets a parameter by text.
+  /// @param key key of the parameter
+  /// @param text the value as on the command line: "0.5", "true", an enum's key
   void set(const char* key, const char* text) {
     require(grisaille_host_effect_set_text(effect_.get(), key, text));
   }
+  /// Returns the value of a parameter.
+  /// @param key key of the parameter
+  /// @return the value, as set() takes it
   double get(const char* key) const {
     double value = 0;
     require(grisaille_host_effect_get(effect_.get(), key, &value));
     return value;
   }
 
-  // Object: laid out as the effect's table of objects says.
+  /// Sets the objects from the next recording on. The library copies them and their texts. Add new
+  /// objects at the end: the effect processes only those from the first changed one on.
+  /// @tparam Object a struct, laid out as the effect's table of objects says
+  /// @param objects the objects, oldest first
   template <typename Object>
   void setObjects(std::span<const Object> objects) {
     require(grisaille_host_effect_set_objects(effect_.get(), objects.data(), sizeof(Object),
                                               objects.size()));
   }
+  /// Sets the objects from a JSON file, as the program `grisaille` saves it.
+  /// @param path path of the file
   void loadObjects(const char* path) {
     require(grisaille_host_effect_load_objects(effect_.get(), path));
   }
 
+  /// Gives the effect another size. Its outputs are other textures then.
+  /// @param width pixels, 1 to 16384
+  /// @param height pixels, 1 to 16384
   void resize(uint32_t width, uint32_t height) {
     require(grisaille_host_effect_resize(effect_.get(), width, height));
   }
 
+  /// Records all wanted outputs, at every pixel: see grisaille_host_effect_record().
+  /// @param frame the frame
   void record(const Frame& frame) {
     const auto handleOf = [](const Texture* texture) {
       return texture != nullptr ? texture->handle() : nullptr;
@@ -273,6 +360,10 @@ class Effect {
     require(grisaille_host_effect_record(effect_.get(), &given));
   }
 
+  /// Returns an output. It holds a result once the effect is recorded, and stays the same texture
+  /// until the effect is resized or destroyed.
+  /// @param key key of an output that the effect was created with
+  /// @return the texture, which the effect owns
   grisaille_host_output output(const char* key) const {
     grisaille_host_output output{};
     output.struct_size = sizeof(output);
@@ -280,11 +371,14 @@ class Effect {
     return output;
   }
 
+  /// @return the C handle, which this object keeps owning
   grisaille_host_effect* handle() const { return effect_.get(); }
 
  private:
   std::unique_ptr<grisaille_host_effect, Destroy<grisaille_host_effect_destroy>> effect_;
 };
+
+/// @}
 
 }  // namespace grisaille::host
 

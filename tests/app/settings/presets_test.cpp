@@ -5,14 +5,16 @@
 #include <algorithm>
 #include <set>
 
-#include "tests/support/tables.h"
+#include <gtest/gtest.h>
+
+#include "tests/support/selections.h"
 
 namespace grisaille::app {
 namespace {
 
-using viewer::EffectList;
-using viewer::randomValue;
-using viewer::Tables;
+using tests::randomise;
+using tests::randomValue;
+using tests::Tables;
 
 // Presets by chance, each of some of the effect's parameters.
 Presets randomPresets(std::mt19937_64& random, const effect::Effect& effect) {
@@ -41,7 +43,7 @@ TEST(PresetTest, IsKnownByItsValues) {
         for (const auto& [key, text] : preset.values) named.insert(key);
       }
       for (const app::Preset& preset : presets.all) {
-        EffectList::Entry entry{.on = true, .values = effect::Values(effect)};
+        effect::Selection::Entry entry{.on = true, .values = effect::Values(effect)};
         randomise(random, entry);
         applyPreset(entry.values, presets, preset.name);
         // Another may have the same values, but then it is those too.

@@ -1,17 +1,18 @@
 // SPDX-License-Identifier: MIT
 #include "app/settings/settings.h"
+#include "app/settings/chosen_effects.h"
 
 #include <algorithm>
 #include <tuple>
 
 #include "tests/support/expect_error.h"
-#include "tests/support/tables.h"
+#include "tests/support/folder_test.h"
+#include "tests/support/selections.h"
 
 namespace grisaille::app {
 namespace {
 
-using viewer::EffectList;
-using viewer::Tables;
+using tests::Tables;
 
 class SettingsFile : public tests::FolderTest {
  protected:
@@ -24,7 +25,8 @@ class SettingsFile : public tests::FolderTest {
 // TOML's tables have no order.
 std::vector<std::tuple<std::string, std::string, std::string>> sorted(const Settings& settings) {
   std::vector<std::tuple<std::string, std::string, std::string>> all;
-  for (const Settings::Value& v : settings.values) all.emplace_back(v.effect, v.key, v.text);
+  for (const Settings::Value& v : settings.values)
+    all.emplace_back(v.name.effect, v.name.key, v.text);
   std::ranges::sort(all);
   return all;
 }
@@ -33,17 +35,16 @@ TEST_F(SettingsFile, BringsBackEveryBitOfEveryValue) {
   const Tables tables;
   std::mt19937_64 random(5);
   for (int i = 0; i < 500; ++i) {
-    EffectList list(tables.registry);
-    randomise(random, list);
-    const Settings settings = list.settings();
+    effect::Selection list(tables.registry);
+    tests::randomise(random, list);
+    const Settings settings = settingsOf(list);
     const Settings read = back(settings);
     EXPECT_EQ(read.effects, settings.effects);
     ASSERT_EQ(sorted(read), sorted(settings)) << contentOf(file("a.toml"));
-    EffectList fresh(tables.registry);
-    fresh.apply(read);
-    for (const EffectList::Entry& entry : list.entries()) {
+    const effect::Selection fresh = chosenEffects(tables.registry, *read.effects, {}, read);
+    for (const effect::Selection::Entry& entry : list.entries()) {
       if (entry.on) {
-        ASSERT_TRUE(same(*fresh.find(entry.key()), entry));
+        ASSERT_TRUE(tests::same(*fresh.find(entry.key()), entry));
       }
     }
   }
@@ -91,9 +92,11 @@ TEST_F(SettingsFile, BringsBackAnyTextAndName) {
   size_t count = 0;
   for (const std::string& text : texts) {
     settings.effects->push_back(text);
+    settings.values.push_back({.name = {.effect = "ssao", .key = "k" + std::to_string(count++)},
+                               .text = text,
+                               .place = {}});
     settings.values.push_back(
-        {.effect = "ssao", .key = "k" + std::to_string(count++), .text = text, .place = {}});
-    settings.values.push_back({.effect = text + "x", .key = text, .text = text, .place = {}});
+        {.name = {.effect = text + "x", .key = text}, .text = text, .place = {}});
   }
   const Settings read = back(settings);
   EXPECT_EQ(read.effects, settings.effects);
@@ -113,11 +116,11 @@ TEST_F(SettingsFile, ReadsAsAPersonWouldWriteIt) {
   const Settings settings{
       .effects = {{"ssao", "sspm"}},
       .surface = "white",
-      .values = {{.effect = "ssao", .key = "radius", .text = "0.5", .place = {}},
-                 {.effect = "sspm", .key = "mode", .text = "surface", .place = {}},
-                 {.effect = "ssao", .key = "blur", .text = "box", .place = {}},
-                 {.effect = "ssao", .key = "radius", .text = "2", .place = {}},
-                 {.effect = "ssao", .key = "noise", .text = "true", .place = {}}}};
+      .values = {{.name = {.effect = "ssao", .key = "radius"}, .text = "0.5", .place = {}},
+                 {.name = {.effect = "sspm", .key = "mode"}, .text = "surface", .place = {}},
+                 {.name = {.effect = "ssao", .key = "blur"}, .text = "box", .place = {}},
+                 {.name = {.effect = "ssao", .key = "radius"}, .text = "2", .place = {}},
+                 {.name = {.effect = "ssao", .key = "noise"}, .text = "true", .place = {}}}};
   EXPECT_EQ(settingsToml(settings),
             "effects = [\"ssao\", \"sspm\"]\n"
             "surface = \"white\"\n"
@@ -133,9 +136,10 @@ TEST_F(SettingsFile, ReadsAsAPersonWouldWriteIt) {
 
 TEST_F(SettingsFile, RefusesWhatItCannotHold) {
   for (const char* key : {"effects", "surface"}) {
-    const Settings settings{.effects = {},
-                            .surface = {},
-                            .values = {{.effect = key, .key = "k", .text = "1", .place = {}}}};
+    const Settings settings{
+        .effects = {},
+        .surface = {},
+        .values = {{.name = {.effect = key, .key = "k"}, .text = "1", .place = {}}}};
     EXPECT_ERROR(ErrorId::kSettingsInvalid, settingsToml(settings));
   }
   EXPECT_ERROR(ErrorId::kFileUnwritable, writeSettings({}, file("missing/a.toml")));

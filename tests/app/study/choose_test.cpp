@@ -17,7 +17,7 @@ Record record(const std::string& backend, double cost, double error, const std::
   Record r;
   r.study = "scene 1\nsize 8x8\n";
   r.backend = backend;
-  r.setting = {{"ssao.kernel_size", value}};
+  r.setting = {{{"ssao", "kernel_size"}, value}};
   r.errors = {{"one", error, 0, 0, 0, 1}};
   r.milliseconds = {cost};
   return r;
@@ -112,7 +112,7 @@ TEST(Presets, FileHoldsWhatWasChosen) {
   EXPECT_NE(text.find("values = {kernel_size = 32}"), std::string::npos) << text;
   EXPECT_EQ(text.find("kernel_size = 3}"), std::string::npos) << text;
   EXPECT_NE(text.find("cost = 1.0000"), std::string::npos) << text;
-  records[0].setting = {{"other.size", "1"}};
+  records[0].setting = {{{"other", "size"}, "1"}};
   EXPECT_ERROR(ErrorId::kUsage, writePresets(records, folder / "q.toml"));
 }
 

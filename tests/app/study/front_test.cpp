@@ -56,7 +56,7 @@ std::vector<Row> readStudy(const fs::path& file) {
     for (size_t i = 0; i < names.size(); ++i) {
       all[names[i]] = values[i];
       if (names[i].find('.') != std::string::npos && !values[i].empty()) {
-        row.record.setting.emplace_back(names[i], values[i]);
+        row.record.setting.push_back({effect::parseParameterName(names[i]), values[i]});
       }
       if (row.ofFirst == 0 && names[i].rfind("rmse of ", 0) == 0)
         row.ofFirst = std::stod(values[i]);
@@ -131,8 +131,7 @@ class Study : public testing::Test {
     ASSERT_GE(rows.size(), count);
     for (size_t i = 0; i < rows.size(); i += rows.size() / count) {
       std::string sets;
-      for (const auto& [name, value] : rows[i].record.setting)
-        sets += " --set " + name + "=" + value;
+      for (const effect::Assignment& one : rows[i].record.setting) sets += " --set " + one.text();
       const tests::Outcome render = tests::runShell(
           "grisaille render --backend opengl --write " + output + "=a.exr" + view_ + more + sets,
           folder_.path());

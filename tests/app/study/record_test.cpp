@@ -17,7 +17,7 @@ Record record(double cost, double error, const std::string& value = "1") {
   Record r;
   r.study = "study";
   r.backend = "null";
-  r.setting = {{"ssao.radius", value}};
+  r.setting = {{{"ssao", "radius"}, value}};
   r.errors = {{"one", error, 0.25, -0.125, 1.0 / 3, 0.9}};
   r.milliseconds = {cost};
   return r;
@@ -81,16 +81,19 @@ TEST(ParetoFront, HoldsAllThatNothingBeats) {
 // Another estimator's settings have a front of their own, unless it is the whole one.
 TEST(ParetoFront, EachKindOfSettingHasItsOwn) {
   std::vector<Record> records;
-  const auto add = [&](Setting setting, double cost, double error) {
-    setting.emplace_back("ssao.radius", "1");
+  const auto add = [&](SettingText setting, double cost, double error) {
+    setting.push_back({{"ssao", "radius"}, "1"});
     records.push_back(record(cost, error));
     records.back().setting = std::move(setting);
   };
-  add({{"ssao.estimator", "new"}, {"ssao.steps", "1"}}, 1, 0.5);
-  add({{"ssao.estimator", "old"}, {"ssao.size", "1"}, {"ssao.blur", "box"}}, 2, 0.75);
-  add({{"ssao.steps", "2"}, {"ssao.estimator", "new"}}, 2, 0.25);
-  add({{"ssao.estimator", "old"}, {"ssao.size", "2"}, {"ssao.blur", "box"}}, 4, 0.625);
-  add({{"ssao.estimator", "old"}, {"ssao.size", "3"}, {"ssao.blur", "box"}}, 5, 0.875);
+  add({{{"ssao", "estimator"}, "new"}, {{"ssao", "steps"}, "1"}}, 1, 0.5);
+  add({{{"ssao", "estimator"}, "old"}, {{"ssao", "size"}, "1"}, {{"ssao", "blur"}, "box"}}, 2,
+      0.75);
+  add({{{"ssao", "steps"}, "2"}, {{"ssao", "estimator"}, "new"}}, 2, 0.25);
+  add({{{"ssao", "estimator"}, "old"}, {{"ssao", "size"}, "2"}, {{"ssao", "blur"}, "box"}}, 4,
+      0.625);
+  add({{{"ssao", "estimator"}, "old"}, {{"ssao", "size"}, "3"}, {{"ssao", "blur"}, "box"}}, 5,
+      0.875);
   const std::vector<Kind> kinds = kindsOf(records);
   ASSERT_EQ(kinds.size(), 2u);
   EXPECT_EQ(kinds[0].name, "estimator=new");

@@ -30,7 +30,7 @@ class Made : public testing::Test {
  protected:
   Made() {
     for (size_t i = 0; i < std::size(params_); ++i) {
-      axes_.push_back({"made." + std::to_string(i), &params_[i]});
+      axes_.push_back({{.effect = "made", .key = std::to_string(i)}, &params_[i]});
     }
     oracle_ = {.error =
                    [this](const Point& p) {

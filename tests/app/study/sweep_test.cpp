@@ -16,12 +16,14 @@ struct Effects : testing::Test {
 };
 using SweepTest = Effects;
 
-TEST_F(SweepTest, ValuesAreTheEffectsOwnText) {
+TEST_F(SweepTest, ValuesAreNumbersWithTheEffectsOwnText) {
   const Sweep sweep = parseSweep(registry, "ssao.radius=0.50,1e0,2");
-  EXPECT_EQ(sweep.effect, "ssao");
-  EXPECT_EQ(sweep.key, "radius");
-  EXPECT_EQ(sweep.values, (std::vector<std::string>{"0.5", "1", "2"}));
-  EXPECT_EQ(parseSweep(registry, "ssao.blur=box,edge_aware").values.size(), 2u);
+  EXPECT_EQ(sweep.name.text(), "ssao.radius");
+  EXPECT_EQ(sweep.values, (std::vector<double>{0.5, 1, 2}));
+  const Sweep blurs = parseSweep(registry, "ssao.blur=box,edge_aware");
+  EXPECT_EQ(blurs.values, (std::vector<double>{0, 1}));
+  const SettingText text = textOf(registry, {{sweep.name, 0.5}, {blurs.name, 1}});
+  EXPECT_EQ(nameOf(text), "radius=0.5 blur=edge_aware");
 }
 
 TEST_F(SweepTest, MistakesAreNamed) {
@@ -41,8 +43,10 @@ TEST_F(SweepTest, TheGridHasEveryCombinationOnce) {
   const auto grid = gridOf({parseSweep(registry, "ssao.kernel_size=4,8,16"),
                             parseSweep(registry, "ssao.radius=0.3,0.5")});
   EXPECT_EQ(grid.size(), 6u);
-  EXPECT_EQ(std::set(grid.begin(), grid.end()).size(), 6u);
-  EXPECT_EQ(nameOf(grid[1]), "kernel_size=4 radius=0.5");
+  std::set<std::string> names;
+  for (const Setting& setting : grid) names.insert(nameOf(textOf(registry, setting)));
+  EXPECT_EQ(names.size(), 6u);
+  EXPECT_EQ(nameOf(textOf(registry, grid[1])), "kernel_size=4 radius=0.5");
   EXPECT_EQ(gridOf({}).size(), 1u);
   EXPECT_EQ(nameOf({}), "defaults");
 }

@@ -150,8 +150,8 @@ TEST_F(LiveTruthTest, IsStartedAnewAndEndedAtAnyTime) {
 
 TEST_F(LiveTruthTest, TakesUpWhatWasKept) {
   const LiveView wanted = view({64, 36}, 16);
-  const OcclusionTruth kept =
-      traceOcclusion(*wanted.scene, wanted.camera, wanted.size, wanted.radius, 128, false);
+  const OcclusionTruth kept = traceOcclusion(*wanted.scene, wanted.camera, wanted.size,
+                                             wanted.radius, 128, ProgressStyle::kNone);
   LiveTruth live;
   live.start(wanted);
   Traced last;

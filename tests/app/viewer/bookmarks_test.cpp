@@ -2,12 +2,12 @@
 #include "app/viewer/bookmarks.h"
 
 #include "tests/support/expect_error.h"
-#include "tests/support/tables.h"
+#include "tests/support/folder_test.h"
 
 namespace grisaille::app::viewer {
 namespace {
 
-class BookmarksTest : public FolderTest {
+class BookmarksTest : public tests::FolderTest {
  protected:
   Bookmarks bookmarks() const { return Bookmarks(folder_ / "some" / "cameras"); }
 };

@@ -4,12 +4,18 @@
 
 #include <cstdio>
 
-#include "tests/support/tables.h"
+#include <random>
+
+#include "tests/support/folder_test.h"
+#include "tests/support/selections.h"
 
 namespace grisaille::app::viewer {
 namespace {
 
-class CommandLine : public FolderTest {
+using tests::randomise;
+using tests::Tables;
+
+class CommandLine : public tests::FolderTest {
  protected:
   // The words that a shell makes of a line.
   std::vector<std::string> split(const std::string& line, const std::string& shell = "bash") const {
@@ -55,7 +61,7 @@ TEST_F(CommandLine, WholeCommandsSurviveAShell) {
   const Tables tables;
   std::mt19937_64 random(2);
   for (int i = 0; i < 100; ++i) {
-    EffectList list(tables.registry);
+    effect::Selection list(tables.registry);
     randomise(random, list);
     RenderCommand command;
     command.scene = nasty(random);
@@ -71,7 +77,7 @@ TEST_F(CommandLine, WholeCommandsSurviveAShell) {
 
 TEST_F(CommandLine, SaysWhatIsSetAndNothingElse) {
   const Tables tables;
-  EffectList list(tables.registry);
+  effect::Selection list(tables.registry);
   list.move(2, 0);
   for (const char* key : {"gamma", "beta"}) list.find(key)->on = true;
   list.find("beta")->values.set("amount", 0.1);

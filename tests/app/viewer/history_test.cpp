@@ -3,43 +3,51 @@
 
 #include <map>
 
-#include "tests/core/shots/random_shots.h"
-#include "tests/support/tables.h"
+#include "tests/core/objects/random_objects.h"
+#include "tests/support/selections.h"
 
 namespace grisaille::app::viewer {
 namespace {
 
-constexpr const char* kPainters[] = {"alpha", "beta"};
+using tests::randomise;
+using tests::randomValue;
+using tests::Tables;
 
-// What undo acts on: settings and two lists of shots.
+constexpr const char* kOwners[] = {"alpha", "beta"};
+
+// What undo acts on: settings and two lists of objects.
 struct Studio {
   Tables tables;
-  EffectList list{tables.registry};
-  std::map<std::string, shots::ShotList, std::less<>> shots;
+  effect::Selection list{tables.registry};
+  std::map<std::string, objects::ObjectList, std::less<>> lists;
   History history;
 
   Studio()
       : history(
             list.state(),
-            [this](const EffectList::State& state) { EXPECT_TRUE(list.restore(state).empty()); },
-            [this](std::string_view effect) -> shots::ShotList& {
-              return shots.find(effect)->second;
+            [this](const effect::Selection::State& state) {
+              EXPECT_TRUE(list.restore(state).empty());
+            },
+            [this](std::string_view effect) -> objects::ObjectList& {
+              return lists.find(effect)->second;
             }) {
-    for (const char* key : kPainters) shots.try_emplace(key);
+    for (const char* key : kOwners) lists.try_emplace(key, objects::kPlainDecals);
   }
 
-  // Every bit of the settings and the shots, made one number.
+  // Every bit of the settings and the objects, made one number.
   uint64_t fingerprint() const {
     uint64_t hash = 14695981039346656037u;
     const auto mix = [&](uint64_t value) { hash = (hash ^ value) * 1099511628211u; };
-    for (const EffectList::Entry& entry : list.entries()) {
+    for (const effect::Selection::Entry& entry : list.entries()) {
       mix(static_cast<uint64_t>(entry.key()[0]) * 2 + entry.on);
       for (const double value : entry.values.all()) mix(std::bit_cast<uint64_t>(value));
     }
-    for (const auto& [key, one] : shots) {
-      mix(one.shots().size());
-      for (const grisaille_shot& shot : one.shots()) {
-        for (const uint64_t word : std::bit_cast<shots::ShotBits>(shot)) mix(word);
+    for (const auto& [key, one] : lists) {
+      mix(one.size());
+      for (size_t i = 0; i < one.size(); ++i) {
+        for (const objects::Value& value : one.object(i).values) {
+          for (const double number : value.numbers) mix(std::bit_cast<uint64_t>(number));
+        }
       }
     }
     return hash;
@@ -47,29 +55,34 @@ struct Studio {
 
   // One change by chance, noted. Returns what it is called.
   std::string change(std::mt19937_64& random);
-  size_t shoot(std::mt19937_64& random, shots::ShotList& shot) const;
+  size_t step(std::mt19937_64& random, objects::ObjectList& objects) const;
 };
 
 // One step of the list, or none.
-size_t Studio::shoot(std::mt19937_64& random, shots::ShotList& shot) const {
-  const uint64_t before = shot.revision();
-  if (random() % 16 == 0 || shot.shots().size() > 40) {
-    shot.clear();
+size_t Studio::step(std::mt19937_64& random, objects::ObjectList& objects) const {
+  const uint64_t before = objects.revision();
+  const auto some = [&](size_t most) {
+    return objects::randomObjects(random, random() % most, objects::kPlainDecals);
+  };
+  if (random() % 16 == 0 || objects.size() > 40) {
+    objects.clear();
   } else if (random() % 16 == 0) {
-    shot.replace(shots::randomShots(random, random() % 4));
+    objects.replace(some(4).view());
+  } else if (random() % 16 == 0 && objects.size() > 0) {
+    objects.remove(random() % objects.size());
   } else {
-    shot.fire(shots::randomShots(random, random() % 3));
+    objects.add(some(3).view());
   }
-  return shot.revision() == before ? 0 : 1;
+  return objects.revision() == before ? 0 : 1;
 }
 
 std::string Studio::change(std::mt19937_64& random) {
   std::string what = std::to_string(random());
   const size_t count = list.entries().size();
-  EffectList::Entry& entry = list.entries()[random() % count];
+  effect::Selection::Entry& entry = list.entries()[random() % count];
   const auto params = entry.values.effect().params();
   const grisaille_param_desc& param = params[random() % params.size()];
-  const std::string painter = kPainters[random() % 2];
+  const std::string owner = kOwners[random() % 2];
   switch (random() % 8) {
     case 0:
       entry.on = !entry.on;
@@ -86,8 +99,8 @@ std::string Studio::change(std::mt19937_64& random) {
       break;
     default: {
       size_t steps = 0;
-      for (size_t i = random() % 4; i > 0; --i) steps += shoot(random, shots.find(painter)->second);
-      history.noteShots(painter, steps, what);
+      for (size_t i = random() % 4; i > 0; --i) steps += step(random, lists.find(owner)->second);
+      history.noteObjects(owner, steps, what);
       return what;
     }
   }
@@ -104,7 +117,7 @@ TEST(History, BeginsWithNothingToUndo) {
   studio.history.undo();
   studio.history.redo();
   studio.history.noteSettings(studio.list.state(), "nothing");
-  studio.history.noteShots("alpha", 0, "nothing");
+  studio.history.noteObjects("alpha", 0, "nothing");
   EXPECT_FALSE(studio.history.canUndo());
 }
 
@@ -170,36 +183,36 @@ TEST(History, ForgetsWhatWasUndoneBeforeAChange) {
 TEST(History, AHeldSprayIsOneStep) {
   Studio studio;
   std::mt19937_64 random(8);
-  shots::ShotList& list = studio.shots.find("alpha")->second;
+  objects::ObjectList& list = studio.lists.find("alpha")->second;
   const auto spray = [&](bool joins) {
-    list.fire(shots::randomShot(random));
-    studio.history.noteShots("alpha", 1, "spray", joins);
+    list.add(objects::randomObject(random, objects::kPlainDecals));
+    studio.history.noteObjects("alpha", 1, "spray", joins);
   };
   spray(false);
   for (int i = 0; i < 99; ++i) spray(true);
   spray(false);
   spray(true);
-  EXPECT_EQ(list.shots().size(), 102u);
+  EXPECT_EQ(list.size(), 102u);
   studio.history.undo();
-  EXPECT_EQ(list.shots().size(), 100u);
+  EXPECT_EQ(list.size(), 100u);
   // Between them something was undone: what goes on now is a stroke of its own.
   spray(true);
   EXPECT_FALSE(studio.history.canRedo());
   studio.history.undo();
-  EXPECT_EQ(list.shots().size(), 100u);
+  EXPECT_EQ(list.size(), 100u);
   studio.history.undo();
-  EXPECT_EQ(list.shots().size(), 0u);
+  EXPECT_EQ(list.size(), 0u);
   EXPECT_FALSE(studio.history.canUndo());
   studio.history.redo();
-  EXPECT_EQ(list.shots().size(), 100u);
+  EXPECT_EQ(list.size(), 100u);
 }
 
 TEST(History, OnlyStrokesOfTheSameListJoin) {
   Studio studio;
   std::mt19937_64 random(9);
   const auto fire = [&](const char* effect) {
-    studio.shots.find(effect)->second.fire(shots::randomShot(random));
-    studio.history.noteShots(effect, 1, effect, true);
+    studio.lists.find(effect)->second.add(objects::randomObject(random, objects::kPlainDecals));
+    studio.history.noteObjects(effect, 1, effect, true);
   };
   fire("alpha");
   fire("beta");
@@ -216,14 +229,16 @@ TEST(History, OnlyStrokesOfTheSameListJoin) {
 // After a scan found another set of effects, the steps before it can still be undone.
 TEST(History, ARescanIsAStepLikeAnyOther) {
   const Tables now, later("later");
-  EffectList list(now.registry);
+  effect::Selection list(now.registry);
   std::vector<std::string> dropped;
   History history(
-      list.state(), [&](const EffectList::State& state) { dropped = list.restore(state); },
-      [](std::string_view) -> shots::ShotList& { throw std::logic_error("no shots here"); });
+      list.state(), [&](const effect::Selection::State& state) { dropped = list.restore(state); },
+      [](std::string_view) -> objects::ObjectList& { throw std::logic_error("no objects here"); });
   list.find("beta")->values.set("count", 4.0);
   history.noteSettings(list.state(), "count");
-  list = EffectList::rebound(list, later.registry, dropped);
+  effect::Selection rebound(later.registry);
+  dropped = rebound.restore(list.state());
+  list = rebound;
   history.noteSettings(list.state(), "rescan");
   list.find("beta")->values.set("count", 5.0);
   history.noteSettings(list.state(), "count again");

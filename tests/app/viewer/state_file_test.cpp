@@ -6,14 +6,14 @@
 #include <nlohmann/json.hpp>
 
 #include "tests/support/expect_error.h"
-#include "tests/support/tables.h"
+#include "tests/support/folder_test.h"
 
 namespace grisaille::app::viewer {
 namespace {
 
 namespace fs = std::filesystem;
 
-using StateFile = FolderTest;
+using StateFile = tests::FolderTest;
 
 ViewerState some() {
   ViewerState state;

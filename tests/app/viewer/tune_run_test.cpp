@@ -7,20 +7,23 @@
 #include <chrono>
 #include <thread>
 
-#include "tests/support/tables.h"
+#include "tests/support/folder_test.h"
+#include "tests/support/selections.h"
 
 namespace grisaille::app::viewer {
 namespace {
 
 namespace fs = std::filesystem;
 
-class TuneRunTest : public FolderTest {
+using tests::randomise;
+using tests::Tables;
+
+class TuneRunTest : public tests::FolderTest {
  protected:
   TuneRunTest() { command_.effects = &list_; }
 
-  // The script knows its --out as $out.
   static std::vector<std::string> script(const std::string& text) {
-    return {"/bin/sh", "-c", "for out; do :; done\n" + text, "tune"};
+    return {"/bin/sh", "-c", text, "tune"};
   }
 
   static TuneRun::Outcome outcomeOf(TuneRun& run) {
@@ -42,59 +45,54 @@ class TuneRunTest : public FolderTest {
     return contentOf(file(name));
   }
 
-  // Says who it is and where it was to write.
+  // Says who it is.
   std::string introduction() const {
-    return "printf '%s %s' $$ \"$out\" > '" + file("part") + "'; mv '" + file("part") + "' '" +
-           file("who") + "'\n";
+    return "printf '%s' $$ > '" + file("part") + "'; mv '" + file("part") + "' '" + file("who") +
+           "'\n";
   }
 
-  // Neither the process is there, nor a zombie of it, nor its folder.
+  // Neither the process is there, nor a zombie of it.
   void expectGone() const {
-    const std::string who = contentOf(file("who"));
-    const size_t space = who.find(' ');
-    ASSERT_NE(space, std::string::npos);
-    EXPECT_EQ(kill(std::stoi(who.substr(0, space)), 0), -1);
+    EXPECT_EQ(kill(std::stoi(contentOf(file("who"))), 0), -1);
     EXPECT_EQ(errno, ESRCH);
-    EXPECT_FALSE(fs::exists(fs::path(who.substr(space + 1)).parent_path()));
   }
 
   Tables tables_;
-  EffectList list_{tables_.registry};
+  effect::Selection list_{tables_.registry};
   TuneCommand command_;
 };
 
 TEST_F(TuneRunTest, WhatIsFoundComesBack) {
-  command_.vary = {"alpha.count", "alpha.amount"};
   TuneRun run(script(introduction() + R"(
-    printf 'opengl: a device (a driver)\nRMSE 0.1010 at 41.234 ms (wall clock), 640x360 pixels\n'
-    printf '  alpha.count=3\n57 evaluations: 7 starts, 50 steps\n'
-    printf '  random 1: RMSE 0.2\nvalidated on cameras not tuned on: RMSE 0.1120\nwrote it\n'
-    printf '\rtune [#...] 100 %% 57 evaluations\033[K\r\033[Kwarning: that is more\n' >&2
-    printf 'effects = ["alpha"]\n[alpha]\ncount = 3\nhard = true\namount = 0.25\n' > "$out")"));
+    echo '{"progress": "tune", "share": 1, "text": "57 evaluations"}'
+    echo '{"setting": {"alpha.amount": 0.25, "alpha.count": 3}, "rmse": 0.101,' \
+         '"milliseconds": 41.234, "evaluations": 57, "unseen_rmse": 0.112,' \
+         '"warning": "that is more"}')"));
   run.start(command_);
   EXPECT_TRUE(run.started());
   const TuneRun::Outcome outcome = outcomeOf(run);
   EXPECT_FALSE(run.started());
   EXPECT_EQ(outcome.text, "RMSE 0.1010 at 41.234 ms, 57 evaluations; on unseen cameras 0.1120");
-  EXPECT_EQ(outcome.warning, "warning: that is more");
-  // By key; of a parameter that may not change nothing is said.
+  EXPECT_EQ(outcome.warning, "that is more");
   ASSERT_TRUE(outcome.values);
-  ASSERT_EQ(outcome.values->size(), 2u);
-  EXPECT_EQ(outcome.values->at(0).key + outcome.values->at(0).text, "amount0.25");
-  EXPECT_EQ(outcome.values->at(1).key + outcome.values->at(1).text, "count3");
+  const std::vector<effect::ParameterValue> expected = {
+      {{.effect = "alpha", .key = "amount"}, 0.25}, {{.effect = "alpha", .key = "count"}, 3}};
+  EXPECT_EQ(*outcome.values, expected);
   EXPECT_FALSE(run.take());
   expectGone();
 }
 
-TEST_F(TuneRunTest, ItsWordsTellHowFarItIs) {
+TEST_F(TuneRunTest, ItsLinesTellHowFarItIs) {
   const auto untilThere = [&](const std::string& name) {
     return "\nwhile [ ! -e '" + file(name) + "' ]; do sleep 0.01; done\n";
   };
-  TuneRun run(script("printf '\\rtruth 1 of 2 [#...]  25 %% 64 of 256 samples a pixel\\033[K' >&2" +
-                     untilThere("traced") +
-                     "printf '\\r\\033[K\\rtune [#...]   7 %% early\\033[K\\rtune [##..]  42 %% 34 "
-                     "evaluations, 5 s left\\033[K' >&2" +
-                     untilThere("go")));
+  TuneRun run(
+      script(R"(echo '{"progress": "truth 1 of 2", "share": 0.25, "text": "64 of 256 samples"}')" +
+             untilThere("traced") +
+             R"(echo '{"progress": "tune", "share": 0.07, "text": "early"}'
+         echo '{"progress": "tune", "share": 0.42, "text": "34 evaluations"}'
+         printf '{"progress": "tune", "sha')" +  // a line that is not whole says nothing yet
+             untilThere("go")));
   const auto until = [&](double done) {
     while (run.state().done != done) {
       EXPECT_FALSE(run.take());
@@ -103,10 +101,10 @@ TEST_F(TuneRunTest, ItsWordsTellHowFarItIs) {
   };
   run.start(command_);
   until(0.25);
-  EXPECT_EQ(run.state().text, "tracing truth 1 of 2: 64 of 256 samples a pixel");
+  EXPECT_EQ(run.state().text, "tracing truth 1 of 2: 64 of 256 samples");
   fileOf("traced", "");
   until(0.42);
-  EXPECT_EQ(run.state().text, "34 evaluations, 5 s left");
+  EXPECT_EQ(run.state().text, "34 evaluations");
   fileOf("go", "");
   outcomeOf(run);
 }
@@ -136,24 +134,24 @@ TEST_F(TuneRunTest, ACancelledOneEnds) {
 }
 
 TEST_F(TuneRunTest, AFailureGivesItsLastLine) {
-  EXPECT_EQ(outcomeOf("printf '\\rtune [#] 9 %% x\\033[K\\r\\033[Kerror E5303: no; allow more\\n' "
-                      ">&2; exit 1")
-                .text,
+  EXPECT_EQ(outcomeOf("echo 'note: nothing'; echo 'error E5303: no; allow more' >&2; exit 1").text,
             "error E5303: no; allow more");
   EXPECT_EQ(outcomeOf("exit 3").text, "it failed without a word");
   EXPECT_EQ(outcomeOf("kill -9 $$").text, "a signal ended it");
   TuneRun missing({file("missing")});
   missing.start(command_);
   EXPECT_EQ(outcomeOf(missing).text, file("missing") + ": No such file or directory");
-  // A success that leaves no settings is none.
-  const TuneRun::Outcome empty = outcomeOf("exit 0");
-  EXPECT_FALSE(empty.values);
-  EXPECT_TRUE(empty.text.starts_with("error E")) << empty.text;
+  // A success that tells no setting is none.
+  for (const char* told : {"exit 0", "echo '{\"share\": 1}'", "echo '{\"setting\": {\"a\": 1}}'"}) {
+    const TuneRun::Outcome empty = outcomeOf(told);
+    EXPECT_FALSE(empty.values) << told;
+    EXPECT_FALSE(empty.text.empty()) << told;
+  }
 }
 
 TEST_F(TuneRunTest, NothingIsLeftOfOneThatIsDestroyed) {
   {
-    TuneRun run(script(introduction() + "printf part > \"$out.part\"\nexec sleep 1000"));
+    TuneRun run(script(introduction() + "exec sleep 1000"));
     run.start(command_);
     waitFor("who");
   }
@@ -164,22 +162,22 @@ TEST_F(TuneRunTest, NothingIsLeftOfOneThatIsDestroyed) {
 TEST_F(TuneRunTest, WhatMayNotChangeIsSet) {
   std::mt19937_64 random(1);
   for (int i = 0; i < 200; ++i) {
-    EffectList list(tables_.registry);
+    effect::Selection list(tables_.registry);
     randomise(random, list);
     command_.effects = &list;
     command_.vary.clear();
     std::vector<std::string> expected;
     std::string keys;
-    for (const EffectList::Entry& entry : list.entries()) {
+    for (const effect::Selection::Entry& entry : list.entries()) {
       if (entry.on) keys += (keys.empty() ? "" : ",") + std::string(entry.key());
-      const effect::Values defaults(entry.values.effect());
-      for (const grisaille_param_desc& param : entry.values.effect().params()) {
-        const std::string name = std::string(entry.key()) + "." + param.key;
+      const effect::Values defaults(entry.effect());
+      for (const grisaille_param_desc& param : entry.effect().params()) {
+        const effect::ParameterName name{.effect = entry.key(), .key = param.key};
         const std::string text = entry.values.text(param.key);
         if (random() % 2 == 0) {
           command_.vary.push_back(name);
         } else if (entry.on && text != defaults.text(param.key)) {
-          expected.push_back(name + "=" + text);
+          expected.push_back(name.text() + "=" + text);
         }
       }
     }

@@ -43,12 +43,12 @@ class SharedSource : public frame::AttachmentSource {
   const image::Image& back_;
 };
 
-std::vector<grisaille_shot> shotsInto(const DriverSubject& subject) {
+std::vector<lab::Shot> shotsInto(const DriverSubject& subject) {
   const std::vector<trace::Hit> seen =
       subject.rays->tracer().castPrimary(subject.camera, subject.width, subject.height);
   std::mt19937 random(11);
   const auto unit = [&] { return static_cast<float>(random() >> 8) / 16777216.0f; };
-  std::vector<grisaille_shot> shots;
+  std::vector<lab::Shot> shots;
   while (shots.size() < kShots) {
     const trace::Hit& target = seen[random() % seen.size()];
     const glm::dvec3 aside(3 * unit() - 1.5, 1.5 * unit() - 0.7, 3 * unit() - 1.5);
@@ -59,37 +59,39 @@ std::vector<grisaille_shot> shotsInto(const DriverSubject& subject) {
     shots.push_back({.origin = {muzzle.x, muzzle.y, muzzle.z},
                      .direction = {direction.x, direction.y, direction.z},
                      .color = {unit(), unit(), unit()},
-                     .range = 0,
-                     .reserved = 0});
+                     .range = 0});
   }
   return shots;
 }
 
 std::vector<image::Image> drawOn(frame::Renderer& renderer, const DriverSubject& subject,
-                                 std::span<const frame::ActiveEffect> effects,
-                                 const std::vector<std::string>& outputs) {
+                                 effect::Chain* chain, const std::vector<std::string>& outputs) {
   renderer.render({.camera = subject.camera,
                    .width = subject.width,
                    .height = subject.height,
-                   .effects = effects,
+                   .chain = chain,
                    .outputs = outputs,
-                   .rays = subject.rays.get()});
+                   .services = {.rays = subject.rays.get()}});
   std::vector<image::Image> images;
   for (const std::string& output : outputs) images.push_back(renderer.read(output));
   return images;
 }
 
+// Of an effect that is alone.
+std::string keyOf(const effect::Selection& selection) {
+  return selection.entries().front().key();
+}
+
 std::vector<image::Image> drawEffect(gpu::Device& device, frame::Renderer& renderer,
-                                     const DriverSubject& subject, const effect::Values& values,
+                                     const DriverSubject& subject,
+                                     const effect::Selection& selection,
                                      const std::vector<std::string>& outputs) {
-  effect::Instance instance(device, values.effect());
-  const bool paints = std::string(values.effect().desc->key) == "sspm";
-  const std::array active = {
-      frame::ActiveEffect{.instance = &instance,
-                          .values = &values,
-                          .shots = paints ? std::span<const grisaille_shot>(subject.shots)
-                                          : std::span<const grisaille_shot>()}};
-  return drawOn(renderer, subject, active, outputs);
+  effect::Chain chain(selection);
+  const effect::StartedChain started(chain, device);
+  if (objects::ObjectList* list = chain.objects("sspm"); list != nullptr) {
+    list->assign(objectsOf(list->table(), subject.shots).view());
+  }
+  return drawOn(renderer, subject, &chain, outputs);
 }
 
 }  // namespace
@@ -153,18 +155,18 @@ DriverSubject::Errors DriverSubject::errors(const image::Image& ao, const image:
 SharedAttachments drawShared(gpu::Device& device, const DriverSubject& subject) {
   frame::Renderer renderer(device, subject.scene);
   std::vector<image::Image> images =
-      drawOn(renderer, subject, {}, {"depth", "normal", "back_depth"});
+      drawOn(renderer, subject, nullptr, {"depth", "normal", "back_depth"});
   return {.pictures = {.viewDepth = std::move(images[0]),
                        .normal = std::move(images[1]),
                        .baseColour = {}},
           .backDepth = std::move(images[2])};
 }
 
-effect::Values valuesOf(const effect::Registry& registry, const PresetOf& preset) {
-  const effect::Effect& effect = registry.find(preset.effect);
-  effect::Values values(effect);
-  app::applyPreset(values, app::loadPresets(effect), preset.preset);
-  return values;
+effect::Selection selectionOf(const effect::Registry& registry, const PresetOf& preset) {
+  effect::Selection selection(registry, std::array{preset.effect});
+  effect::Values& values = selection.values(preset.effect);
+  app::applyPreset(values, app::loadPresets(values.effect()), preset.preset);
+  return selection;
 }
 
 std::vector<PresetOf> allPresets(const effect::Registry& registry) {
@@ -182,17 +184,17 @@ std::string outputOf(const std::string& effect) {
 }
 
 image::Image applyShared(gpu::Device& device, const DriverSubject& subject,
-                         const effect::Values& values, const SharedAttachments& shared) {
+                         const effect::Selection& selection, const SharedAttachments& shared) {
   SharedSource source(device, shared);
   frame::Renderer renderer(device, source);
-  return drawEffect(device, renderer, subject, values, {outputOf(values.effect().desc->key)})[0];
+  return drawEffect(device, renderer, subject, selection, {outputOf(keyOf(selection))})[0];
 }
 
 std::pair<image::Image, image::Image> drawWhole(gpu::Device& device, const DriverSubject& subject,
-                                                const effect::Values& values) {
+                                                const effect::Selection& selection) {
   frame::Renderer renderer(device, subject.scene);
   std::vector<image::Image> images =
-      drawEffect(device, renderer, subject, values, {outputOf(values.effect().desc->key), "depth"});
+      drawEffect(device, renderer, subject, selection, {outputOf(keyOf(selection)), "depth"});
   return {std::move(images[0]), std::move(images[1])};
 }
 

@@ -10,10 +10,11 @@
 #include <utility>
 #include <vector>
 
-#include "core/effect/registry.h"
+#include "core/effect/chain.h"
 #include "core/frame/picture_attachments.h"
 #include "core/frame/renderer.h"
 #include "core/trace/ray_tracer.h"
+#include "lab/paint/shot.h"
 #include "tests/support/devices.h"
 #include "tests/support/traced_rays.h"
 
@@ -42,7 +43,7 @@ class DriverSubject {
   scene::Camera camera;
   uint32_t width = 0, height = 0;  // pixels
   std::unique_ptr<TracedRays> rays;
-  std::vector<grisaille_shot> shots;  // from about the camera at surfaces that it sees
+  std::vector<lab::Shot> shots;  // from about the camera at surfaces that it sees
 
  private:
   DriverSubject(std::string name, scene::Scene scene, const scene::Camera& camera, uint32_t width,
@@ -60,12 +61,12 @@ struct SharedAttachments {
 };
 SharedAttachments drawShared(gpu::Device& device, const DriverSubject& subject);
 
-// An effect with a preset's values.
 struct PresetOf {
   std::string effect;  // key
   std::string preset;  // name
 };
-effect::Values valuesOf(const effect::Registry& registry, const PresetOf& preset);
+// The effect alone, with the preset's values.
+effect::Selection selectionOf(const effect::Registry& registry, const PresetOf& preset);
 // Of both effects.
 std::vector<PresetOf> allPresets(const effect::Registry& registry);
 
@@ -75,11 +76,11 @@ std::string outputOf(const std::string& effect);
 // That output by a device from the shared attachments. `grisaille apply` gives an effect the same,
 // but no depth of back faces, and no shots.
 image::Image applyShared(gpu::Device& device, const DriverSubject& subject,
-                         const effect::Values& values, const SharedAttachments& shared);
+                         const effect::Selection& selection, const SharedAttachments& shared);
 
 // That output, and "depth", of a frame that the device draws itself.
 std::pair<image::Image, image::Image> drawWhole(gpu::Device& device, const DriverSubject& subject,
-                                                const effect::Values& values);
+                                                const effect::Selection& selection);
 
 // Share of pixels with a channel that differs by more than 2/255. Pictures of one size.
 double shareApart(const image::Image& a, const image::Image& b);

@@ -61,7 +61,9 @@ class DriversTest : public ::testing::TestWithParam<Run> {
     if (!stage_->subject) GTEST_SKIP() << "Sponza is missing";
     registry_.scan(EFFECTS_FOLDER);
   }
-  effect::Values values() { return valuesOf(registry_, {GetParam().effect, GetParam().preset}); }
+  effect::Selection selection() {
+    return selectionOf(registry_, {GetParam().effect, GetParam().preset});
+  }
   // The share of pixels that two drivers have in common is at least 99.9 %.
   void expectAgree(const image::Image& a, const image::Image& b, const std::string& label) {
     const double apart = shareApart(a, b);
@@ -82,7 +84,7 @@ TEST_P(SameInputs, MakeTheSamePicture) {
   const DriverSubject& subject = *stage_->subject;
   image::Image first;
   for (const TestDevice& device : devices_) {
-    image::Image picture = applyShared(*openDevice(device), subject, values(), stage_->shared);
+    image::Image picture = applyShared(*openDevice(device), subject, selection(), stage_->shared);
     if (first.pixels.empty()) {
       first = std::move(picture);
       // The picture has something to compare: it is neither open nor bare nearly everywhere.
@@ -109,7 +111,7 @@ INSTANTIATE_TEST_SUITE_P(, WholeFrames, ::testing::ValuesIn(runs({"ssao"})),
 TEST_P(WholeFrames, AreAsFarFromRays) {
   std::vector<double> whole, sameSurface;
   for (const TestDevice& device : devices_) {
-    const auto [ao, depth] = drawWhole(*openDevice(device), *stage_->subject, values());
+    const auto [ao, depth] = drawWhole(*openDevice(device), *stage_->subject, selection());
     const DriverSubject::Errors errors = stage_->subject->errors(ao, depth);
     std::printf("%s: RMSE %.5f, where the ray's surface is seen %.5f (not on %.3f %%)\n",
                 device.label.c_str(), errors.whole, errors.sameSurface, 100 * errors.otherSurface);

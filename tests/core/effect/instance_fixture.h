@@ -4,6 +4,9 @@
 
 #include <gtest/gtest.h>
 
+#include <cstring>
+
+#include "core/effect/chain.h"
 #include "core/effect/instance.h"
 #include "core/effect/values.h"
 #include "core/gpu/checking_device.h"
@@ -22,8 +25,7 @@ struct InstanceTest : testing::Test {
     });
     registry.scan(PLUGIN_DIR "/sound");
     registry.scan(PLUGIN_DIR "/bad");
-    registry.scan(PLUGIN_DIR "/old");
-    registry.scan(PLUGIN_DIR "/shots");
+    registry.scan(PLUGIN_DIR "/objects");
     viewDepth = makeTexture("view_depth", gpu::Format::kR32Float);
     viewBlock =
         device->createBuffer({.label = "view", .size = 256, .usage = gpu::BufferUsage::kUniform});
@@ -48,9 +50,10 @@ struct InstanceTest : testing::Test {
     return textures.back();
   }
 
-  // Records one frame with shots, patience and rays of `inputs`; a frame that throws is abandoned.
-  void record(Instance& instance, const Values& values, std::span<const gpu::Texture> outputs,
-              FrameInputs inputs = {}) {
+  // One frame, with what `inputs` says of patience, services and objects. A frame whose work throws
+  // is abandoned.
+  template <typename Work>
+  void frame(std::span<const gpu::Texture> outputs, FrameInputs inputs, Work&& work) {
     gpu::Commands& commands = device->begin();
     const grisaille_view view = {};
     inputs.commands = &commands;
@@ -60,14 +63,35 @@ struct InstanceTest : testing::Test {
     inputs.viewBlock = {viewBlock, 0, 256};
     inputs.attachments[GRISAILLE_VIEW_DEPTH] = viewDepth;
     inputs.outputs = outputs;
-    inputs.values = values.all();
     try {
-      instance.record(inputs);
+      work(inputs);
     } catch (...) {
       device->abandon();
       throw;
     }
     device->submit();
+  }
+  void record(Instance& instance, const Values& values, std::span<const gpu::Texture> outputs,
+              const FrameInputs& given = {}) {
+    frame(outputs, given, [&](FrameInputs& inputs) {
+      inputs.values = values.all();
+      instance.record(inputs);
+    });
+  }
+  uint64_t record(Chain& chain, std::string_view effect, std::span<const gpu::Texture> outputs,
+                  const FrameInputs& given = {}) {
+    uint64_t waiting = 0;
+    frame(outputs, given, [&](FrameInputs& inputs) {
+      waiting = chain.record(*chain.selection.find(effect), inputs);
+    });
+    return waiting;
+  }
+
+  std::vector<float> texelsOf(gpu::Texture texture) const {
+    const std::vector<std::byte> bytes = device->read(texture);
+    std::vector<float> texels(bytes.size() / sizeof(float));
+    std::memcpy(texels.data(), bytes.data(), bytes.size());
+    return texels;
   }
 
   template <typename T>

@@ -5,6 +5,7 @@
 #include <cstddef>
 #include <functional>
 #include <limits>
+#include <string>
 
 #include "core/effect/registry.h"
 #include "grisaille/effect.hpp"
@@ -12,7 +13,7 @@
 namespace grisaille::effect {
 namespace {
 
-uint32_t readsNothing(const double*) {
+uint32_t readsNothing(const double*, uint32_t) {
   return 0;
 }
 grisaille_result createNothing(const grisaille_host*, void**) {
@@ -22,6 +23,14 @@ grisaille_result recordNothing(void*, const grisaille_frame*) {
   return GRISAILLE_OK;
 }
 void destroyNothing(void*) {}
+
+struct Decal {
+  double position[3];
+  float direction[3];
+  float colour[3];
+  double size;
+  const char* picture;
+};
 
 // A plugin of two effects whose every field may be changed.
 struct Table {
@@ -58,14 +67,54 @@ struct Table {
                                                       .format = GRISAILLE_FORMAT_R8,
                                                       .role = GRISAILLE_ROLE_VISIBILITY,
                                                       .tooltip = "1 = open"}),
-                                      plugin::output({.key = "paint",
+                                      plugin::output({.key = "overlay",
                                                       .format = GRISAILLE_FORMAT_RGBA8,
-                                                      .role = GRISAILLE_ROLE_PAINT,
+                                                      .role = GRISAILLE_ROLE_OVERLAY,
                                                       .tooltip = "Straight alpha"})};
+  grisaille_field_desc fields[5] = {plugin::field({.key = "position",
+                                                   .label = "Position",
+                                                   .tooltip = "Where it is",
+                                                   .type = GRISAILLE_FIELD_POINT,
+                                                   .offset = offsetof(Decal, position),
+                                                   .required = true}),
+                                    plugin::field({.key = "direction",
+                                                   .label = "Direction",
+                                                   .tooltip = "Where it looks",
+                                                   .type = GRISAILLE_FIELD_DIRECTION,
+                                                   .offset = offsetof(Decal, direction),
+                                                   .defaults = {0, 0, -1}}),
+                                    plugin::field({.key = "colour",
+                                                   .label = "Colour",
+                                                   .tooltip = "Linear",
+                                                   .type = GRISAILLE_FIELD_COLOUR,
+                                                   .offset = offsetof(Decal, colour),
+                                                   .defaults = {1, 0.5, 0}}),
+                                    plugin::field({.key = "size",
+                                                   .label = "Size",
+                                                   .unit = "m",
+                                                   .tooltip = "How large",
+                                                   .type = GRISAILLE_FIELD_NUMBER,
+                                                   .offset = offsetof(Decal, size),
+                                                   .min = 0,
+                                                   .max = 10,
+                                                   .defaults = {1}}),
+                                    plugin::field({.key = "picture",
+                                                   .label = "Picture",
+                                                   .tooltip = "Which file",
+                                                   .type = GRISAILLE_FIELD_FILE,
+                                                   .offset = offsetof(Decal, picture),
+                                                   .text = ""})};
+  grisaille_object_desc objects = plugin::objects<Decal>({.key = "decals",
+                                                          .label = "Decals",
+                                                          .tooltip = "Pictures on surfaces",
+                                                          .fields = fields,
+                                                          .placement = GRISAILLE_PLACE_SURFACE,
+                                                          .pointField = 0,
+                                                          .directionField = 1});
   grisaille_effect_desc first = {.struct_size = sizeof(grisaille_effect_desc),
                                  .param_count = 4,
                                  .output_count = 2,
-                                 .reserved = 0,
+                                 .flags = GRISAILLE_EFFECT_DEFAULT,
                                  .key = "first",
                                  .label = "First",
                                  .version = "1.0.0",
@@ -76,15 +125,14 @@ struct Table {
                                  .create = createNothing,
                                  .record = recordNothing,
                                  .destroy = destroyNothing,
-                                 .flags = GRISAILLE_EFFECT_TAKES_SHOTS,
-                                 .reserved2 = 0,
-                                 .reads_for = nullptr,
-                                 .guard_band = nullptr};
+                                 .guard_band = nullptr,
+                                 .objects = &objects};
   grisaille_effect_desc second = [this] {
     grisaille_effect_desc desc = first;
     desc.key = "second";
     desc.param_count = 0;
     desc.params = nullptr;
+    desc.objects = nullptr;
     return desc;
   }();
   const grisaille_effect_desc* effects[2] = {&first, &second};
@@ -100,8 +148,7 @@ struct Table {
 constexpr double kNan = std::numeric_limits<double>::quiet_NaN();
 constexpr double kInf = std::numeric_limits<double>::infinity();
 
-// Of an effect's description in version 1.0, which ended there.
-constexpr uint32_t kSizeOf10 = offsetof(grisaille_effect_desc, flags);
+const std::string kTooLong(4097, 'x');
 
 struct Fault {
   const char* field;  // that the message begins with
@@ -122,10 +169,8 @@ const std::vector<Fault>& faults() {
 
       {"effects[0].struct_size", [](Table& t) { t.first.struct_size += 8; }},
       {"effects[0].struct_size", [](Table& t) { t.first.struct_size = 4; }},
-      {"effects[0].struct_size", [](Table& t) { t.first.struct_size = kSizeOf10 - 8; }},
-      {"effects[0].struct_size", [](Table& t) { t.first.struct_size = kSizeOf10 + 4; }},
+      {"effects[0].struct_size", [](Table& t) { t.first.struct_size -= 8; }},
       {"effects[0].flags", [](Table& t) { t.first.flags |= 2; }},
-      {"effects[0].reserved2", [](Table& t) { t.first.reserved2 = 1; }},
       {"effects[0].key", [](Table& t) { t.first.key = nullptr; }},
       {"effects[0].key", [](Table& t) { t.first.key = ""; }},
       {"effects[0].key", [](Table& t) { t.first.key = "1st"; }},
@@ -144,7 +189,6 @@ const std::vector<Fault>& faults() {
       {"effects[0].tooltip", [](Table& t) { t.first.tooltip = "\xed\xa0\x80"; }},
       {"effects[0].tooltip", [](Table& t) { t.first.tooltip = "\xf4\x90\x80\x80"; }},
       {"effects[0].tooltip", [](Table& t) { t.first.tooltip = "\x80"; }},
-      {"effects[0].reserved", [](Table& t) { t.first.reserved = 1; }},
       {"effects[0].reads", [](Table& t) { t.first.reads = nullptr; }},
       {"effects[0].create", [](Table& t) { t.first.create = nullptr; }},
       {"effects[0].record", [](Table& t) { t.first.record = nullptr; }},
@@ -219,6 +263,99 @@ const std::vector<Fault>& faults() {
       {"effects[0].outputs[0].key", [](Table& t) { t.outputs[0].key = "A"; }},
       {"effects[0].outputs[1].key", [](Table& t) { t.outputs[1].key = "ao"; }},
       {"effects[0].outputs[0].tooltip", [](Table& t) { t.outputs[0].tooltip = ""; }},
+
+      {"effects[0].objects.struct_size", [](Table& t) { t.objects.struct_size += 8; }},
+      {"effects[0].objects.struct_size", [](Table& t) { t.objects.struct_size = 0; }},
+      {"effects[0].objects.key", [](Table& t) { t.objects.key = nullptr; }},
+      {"effects[0].objects.key", [](Table& t) { t.objects.key = ""; }},
+      {"effects[0].objects.key", [](Table& t) { t.objects.key = "Decals"; }},
+      {"effects[0].objects.key", [](Table& t) { t.objects.key = "version"; }},
+      {"effects[0].objects.key", [](Table& t) { t.objects.key = "de cals"; }},
+      {"effects[0].objects.label", [](Table& t) { t.objects.label = nullptr; }},
+      {"effects[0].objects.label", [](Table& t) { t.objects.label = "a\nb"; }},
+      {"effects[0].objects.tooltip", [](Table& t) { t.objects.tooltip = ""; }},
+      {"effects[0].objects.tooltip", [](Table& t) { t.objects.tooltip = "a\xff"; }},
+      {"effects[0].objects.object_size", [](Table& t) { t.objects.object_size = 0; }},
+      {"effects[0].objects.object_size", [](Table& t) { t.objects.object_size = 4; }},
+      {"effects[0].objects.object_size", [](Table& t) { t.objects.object_size = 60; }},
+      {"effects[0].objects.object_size", [](Table& t) { t.objects.object_size = 4104; }},
+      {"effects[0].objects.field_count", [](Table& t) { t.objects.field_count = 0; }},
+      {"effects[0].objects.field_count", [](Table& t) { t.objects.field_count = 65; }},
+      {"effects[0].objects.fields", [](Table& t) { t.objects.fields = nullptr; }},
+      {"effects[0].objects.placement", [](Table& t) { t.objects.placement = 2; }},
+      {"effects[0].objects.point_field", [](Table& t) { t.objects.point_field = 1; }},
+      {"effects[0].objects.point_field", [](Table& t) { t.objects.point_field = 5; }},
+      {"effects[0].objects.point_field", [](Table& t) { t.objects.point_field = ~0u; }},
+      {"effects[0].objects.direction_field", [](Table& t) { t.objects.direction_field = 0; }},
+      {"effects[0].objects.direction_field", [](Table& t) { t.objects.direction_field = 5; }},
+
+      {"effects[0].objects.fields[0].struct_size", [](Table& t) { t.fields[0].struct_size = 0; }},
+      {"effects[0].objects.fields[4].struct_size", [](Table& t) { t.fields[4].struct_size += 8; }},
+      {"effects[0].objects.fields[0].key", [](Table& t) { t.fields[0].key = nullptr; }},
+      {"effects[0].objects.fields[0].key", [](Table& t) { t.fields[0].key = "0th"; }},
+      {"effects[0].objects.fields[3].key", [](Table& t) { t.fields[3].key = "colour"; }},
+      {"effects[0].objects.fields[0].label", [](Table& t) { t.fields[0].label = ""; }},
+      {"effects[0].objects.fields[0].unit", [](Table& t) { t.fields[0].unit = nullptr; }},
+      {"effects[0].objects.fields[3].unit", [](Table& t) { t.fields[3].unit = "ft"; }},
+      {"effects[0].objects.fields[2].unit", [](Table& t) { t.fields[2].unit = "m"; }},
+      {"effects[0].objects.fields[0].tooltip", [](Table& t) { t.fields[0].tooltip = nullptr; }},
+      {"effects[0].objects.fields[0].type", [](Table& t) { t.fields[0].type = 6; }},
+      {"effects[0].objects.fields[0].flags", [](Table& t) { t.fields[0].flags = 2; }},
+      {"effects[0].objects.fields[0].offset", [](Table& t) { t.fields[0].offset = 4; }},
+      {"effects[0].objects.fields[1].offset", [](Table& t) { t.fields[1].offset = 26; }},
+      {"effects[0].objects.fields[2].offset", [](Table& t) { t.fields[2].offset = 42; }},
+      {"effects[0].objects.fields[3].offset", [](Table& t) { t.fields[3].offset = 52; }},
+      {"effects[0].objects.fields[4].offset", [](Table& t) { t.fields[4].offset = 60; }},
+      {"effects[0].objects.fields[0].offset", [](Table& t) { t.fields[0].offset = 48; }},
+      {"effects[0].objects.fields[1].offset", [](Table& t) { t.fields[1].offset = 56; }},
+      {"effects[0].objects.fields[3].offset", [](Table& t) { t.fields[3].offset = 64; }},
+      {"effects[0].objects.fields[4].offset", [](Table& t) { t.fields[4].offset = ~0u - 7; }},
+      {"effects[0].objects.fields[2].offset", [](Table& t) { t.fields[2].offset = 28; }},
+      {"effects[0].objects.fields[4].offset", [](Table& t) { t.fields[4].offset = 0; }},
+      {"effects[0].objects.fields[3].offset", [](Table& t) { t.fields[3].offset = 16; }},
+      {"effects[0].objects.fields[3].max", [](Table& t) { t.fields[3].max = 0; }},
+      {"effects[0].objects.fields[3].max", [](Table& t) { t.fields[3].min = 10; }},
+      {"effects[0].objects.fields[3].max", [](Table& t) { t.fields[3].max = kNan; }},
+      {"effects[0].objects.fields[3].max", [](Table& t) { t.fields[3].min = -kInf; }},
+      {"effects[0].objects.fields[3].max", [](Table& t) { t.fields[3].max = kInf; }},
+      {"effects[0].objects.fields[3].max", [](Table& t) { t.fields[3].min = 11; }},
+      {"effects[0].objects.fields[0].max", [](Table& t) { t.fields[0].max = 1; }},
+      {"effects[0].objects.fields[1].max", [](Table& t) { t.fields[1].max = 1; }},
+      {"effects[0].objects.fields[2].max", [](Table& t) { t.fields[2].max = 1; }},
+      {"effects[0].objects.fields[4].max", [](Table& t) { t.fields[4].max = 1; }},
+      {"effects[0].objects.fields[0].max", [](Table& t) { t.fields[0].min = -1; }},
+      {"effects[0].objects.fields[4].default_text",
+       [](Table& t) { t.fields[4].default_text = nullptr; }},
+      {"effects[0].objects.fields[0].default_text",
+       [](Table& t) { t.fields[0].default_text = ""; }},
+      {"effects[0].objects.fields[1].default_text",
+       [](Table& t) { t.fields[1].default_text = ""; }},
+      {"effects[0].objects.fields[2].default_text",
+       [](Table& t) { t.fields[2].default_text = ""; }},
+      {"effects[0].objects.fields[3].default_text",
+       [](Table& t) { t.fields[3].default_text = ""; }},
+      {"effects[0].objects.fields[0].default_value",
+       [](Table& t) { t.fields[0].default_value[1] = 2e9; }},
+      {"effects[0].objects.fields[0].default_value",
+       [](Table& t) { t.fields[0].default_value[2] = kNan; }},
+      {"effects[0].objects.fields[1].default_value",
+       [](Table& t) { t.fields[1].default_value[2] = 0; }},
+      {"effects[0].objects.fields[1].default_value",
+       [](Table& t) { t.fields[1].default_value[0] = kInf; }},
+      {"effects[0].objects.fields[2].default_value",
+       [](Table& t) { t.fields[2].default_value[0] = 1.5; }},
+      {"effects[0].objects.fields[2].default_value",
+       [](Table& t) { t.fields[2].default_value[2] = -0.5; }},
+      {"effects[0].objects.fields[3].default_value",
+       [](Table& t) { t.fields[3].default_value[0] = 11; }},
+      {"effects[0].objects.fields[3].default_value",
+       [](Table& t) { t.fields[3].default_value[0] = kNan; }},
+      {"effects[0].objects.fields[4].default_value",
+       [](Table& t) { t.fields[4].default_text = kTooLong.c_str(); }},
+      {"effects[0].objects.fields[4].default_value",
+       [](Table& t) { t.fields[4].default_text = "a\nb"; }},
+      {"effects[0].objects.fields[4].default_value",
+       [](Table& t) { t.fields[4].default_text = "\xff"; }},
   };
   return list;
 }
@@ -246,14 +383,18 @@ TEST(Table, TextsInAnyLanguagePass) {
   EXPECT_NO_THROW(checkTable(table.plugin));
 }
 
-TEST(Table, WhatVersion10LacksIsNotReadAndCountsAsZero) {
+TEST(Table, LimitsOfObjectsPass) {
   Table table;
-  table.second.flags = table.second.reserved2 = ~0u;
-  table.second.struct_size = kSizeOf10;
+  table.objects.object_size = 4096;
+  table.fields[4].offset = 4088;
+  table.fields[3].min = table.fields[3].default_value[0];
+  table.fields[2].default_value[0] = table.fields[2].default_value[1] = 0;
+  const std::string longest(4096, 'x');
+  table.fields[4].default_text = longest.c_str();
   EXPECT_NO_THROW(checkTable(table.plugin));
-  EXPECT_EQ(whole(&table.second).flags, 0u);
-  EXPECT_STREQ(whole(&table.second).key, "second");
-  EXPECT_EQ(whole(&table.first).flags, uint32_t{GRISAILLE_EFFECT_TAKES_SHOTS});
+  table.objects.field_count = 2;
+  table.objects.placement = GRISAILLE_PLACE_RAY;
+  EXPECT_NO_THROW(checkTable(table.plugin));
 }
 
 TEST(Table, EveryFaultIsRefusedByItsField) {

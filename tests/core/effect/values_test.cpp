@@ -1,6 +1,5 @@
 // SPDX-License-Identifier: MIT
 #include "core/effect/values.h"
-#include "core/base/nearest.h"
 
 #include <gtest/gtest.h>
 
@@ -146,25 +145,6 @@ TEST_F(ValuesTest, TextRoundTripsEveryValue) {
       ASSERT_EQ(values.get(key), value) << key << "=" << text;
     }
   }
-}
-
-TEST(Nearest, FindsWhatWasMeantAndNothingElse) {
-  const std::vector<std::string> keys = {"radius", "bias", "blur", "kernel_size", "blur_size"};
-  for (const std::string& key : keys) {
-    EXPECT_EQ(nearest(key, keys), key);
-    for (size_t i = 0; i < key.size(); ++i) {  // a letter left out, doubled, swapped
-      std::string out = key, twice = key, swapped = key;
-      out.erase(i, 1);
-      twice.insert(i, 1, key[i]);
-      if (i > 0) std::swap(swapped[i], swapped[i - 1]);
-      EXPECT_EQ(nearest(out, keys), key) << out;
-      EXPECT_EQ(nearest(twice, keys), key) << twice;
-      EXPECT_EQ(nearest(swapped, keys), key) << swapped;
-    }
-  }
-  EXPECT_EQ(nearest("intensity", keys), "");
-  EXPECT_EQ(nearest("", keys), "");
-  EXPECT_EQ(nearest("radius", {}), "");
 }
 
 }  // namespace

@@ -23,7 +23,6 @@ class AttachmentsTest : public tests::BackendTest {
                      .width = width,
                      .height = height,
                      .surface = frame::Surface::kBaseColour,
-                     .effects = {},
                      .outputs = outputs});
     std::vector<image::Image> images;
     for (const std::string& output : outputs) images.push_back(renderer.read(output));
@@ -153,8 +152,7 @@ TEST_P(AttachmentsTest, SizesChangeFromFrameToFrame) {
   constexpr std::array<glm::uvec2, 5> kSizes = {
       glm::uvec2{1, 1}, {257, 129}, {1, 512}, {3, 3}, {64, 64}};
   for (const glm::uvec2 size : kSizes) {
-    renderer.render(
-        {.camera = camera, .width = size.x, .height = size.y, .effects = {}, .outputs = outputs});
+    renderer.render({.camera = camera, .width = size.x, .height = size.y, .outputs = outputs});
     for (const std::string& output : outputs) {
       const image::Image image = renderer.read(output);
       EXPECT_EQ(image.width, size.x);

@@ -110,8 +110,7 @@ TEST_P(BackDepthTest, IsTheNextSurfaceThatFacesAway) {
   const scene::Camera camera = {.eye = glm::dvec3(0.7, 0.4, 4), .target = glm::dvec3(0)};
   frame::Renderer renderer(device(), scene);
   const std::vector<std::string> outputs = {"back_depth", "depth"};
-  renderer.render(
-      {.camera = camera, .width = kWidth, .height = kHeight, .effects = {}, .outputs = outputs});
+  renderer.render({.camera = camera, .width = kWidth, .height = kHeight, .outputs = outputs});
   const image::Image drawn = renderer.read("back_depth");
   const glm::dmat3 axes = scene::worldFromView(camera);
   const double slope = std::tan(glm::radians(camera.fovyDegrees) / 2);

@@ -21,8 +21,7 @@ class FacetNormalTest : public tests::BackendTest {
                       uint32_t height) {
     frame::Renderer renderer(device(), scene);
     const std::vector<std::string> outputs = {"facet_normal"};
-    renderer.render(
-        {.camera = camera, .width = width, .height = height, .effects = {}, .outputs = outputs});
+    renderer.render({.camera = camera, .width = width, .height = height, .outputs = outputs});
     return renderer.read("facet_normal");
   }
 

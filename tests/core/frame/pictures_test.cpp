@@ -119,11 +119,8 @@ class FacetNormals : public tests::BackendTest {
     source.show({depth, {}, {}});
     Renderer renderer(device(), source);
     const std::vector<std::string> outputs = {"facet_normal"};
-    renderer.render({.camera = camera,
-                     .width = depth.width,
-                     .height = depth.height,
-                     .effects = {},
-                     .outputs = outputs});
+    renderer.render(
+        {.camera = camera, .width = depth.width, .height = depth.height, .outputs = outputs});
     return renderer.read("facet_normal");
   }
 };
@@ -195,17 +192,16 @@ class PictureFrames : public tests::BackendTest {
   // Outputs of one frame of ambient occlusion by an estimator.
   std::vector<image::Image> render(Renderer& renderer, const std::string& estimator, uint32_t width,
                                    uint32_t height, double guardBand = 0) {
-    const effect::Effect& effect = registry_.find("ssao");
-    effect::Instance instance(device(), effect);
-    effect::Values values(effect);
-    values.set("estimator", estimator);
-    values.set("guard_band", guardBand);
-    const ActiveEffect active[] = {{.instance = &instance, .values = &values}};
+    const std::string effects[] = {"ssao"};
+    effect::Chain chain{effect::Selection(registry_, effects)};
+    chain.selection.values("ssao").set("estimator", estimator);
+    chain.selection.values("ssao").set("guard_band", guardBand);
+    const effect::StartedChain started(chain, device());
     renderer.render({.camera = camera_,
                      .width = width,
                      .height = height,
                      .surface = Surface::kBaseColour,
-                     .effects = active,
+                     .chain = &chain,
                      .outputs = outputs_});
     std::vector<image::Image> images;
     for (const std::string& output : outputs_) images.push_back(renderer.read(output));
@@ -276,8 +272,7 @@ TEST_P(PictureFrames, WhatNoPictureHasIsMissing) {
   source.show({row({1, 2, 3}), {}, {}});
   Renderer renderer(device(), source);
   const std::vector<std::string> outputs = {"base_colour"};
-  const FrameDesc desc{
-      .camera = camera_, .width = 3, .height = 1, .effects = {}, .outputs = outputs};
+  const FrameDesc desc{.camera = camera_, .width = 3, .height = 1, .outputs = outputs};
   EXPECT_ERROR(ErrorId::kPictureMissing, renderer.render(desc));
   const std::vector<std::string> normal = {"normal"};
   FrameDesc other = desc;

@@ -19,32 +19,33 @@ struct Recording {
 
 class PlanTest : public ::testing::Test {
  protected:
+  using Labels = std::vector<std::string>;
+
   void SetUp() override {
     registry_.scan(EFFECTS_FOLDER);
-    registry_.scan(SHOOTER_FOLDER);
+    registry_.scan(TELLER_FOLDER);
     auto null = gpu::makeNullDevice();
     null_ = null.get();
     device_ = gpu::makeCheckingDevice(
         std::move(null), [](gpu::Severity, std::string_view text) { ADD_FAILURE() << text; });
-    values_.emplace(registry_.find("ssao"));
-    instance_.emplace(*device_, registry_.find("ssao"));
+    chain_.selection = effect::Selection(registry_, Labels{"ssao"});
+    values_ = &chain_.selection.values("ssao");
+    chain_.start(*device_);
     renderer_.emplace(*device_, scene_);
   }
   void TearDown() override {
     renderer_.reset();
-    instance_.reset();
+    chain_.stop();
     device_.reset();
   }
 
   Recording record(const std::vector<std::string>& outputs, bool withSsao,
                    frame::Surface surface = frame::Surface::kWhite) {
-    std::vector<frame::ActiveEffect> effects;
-    if (withSsao) effects.push_back({.instance = &*instance_, .values = &*values_});
     renderer_->render({.camera = camera_,
                        .width = 64,
                        .height = 32,
                        .surface = surface,
-                       .effects = effects,
+                       .chain = withSsao ? &chain_ : nullptr,
                        .outputs = outputs});
     Recording recording;
     for (const gpu::Recorded& entry : null_->recorded()) {
@@ -60,14 +61,13 @@ class PlanTest : public ::testing::Test {
     return recording;
   }
 
-  using Labels = std::vector<std::string>;
   scene::Scene scene_ = tests::cornerScene();
   scene::Camera camera_ = {.eye = glm::dvec3(0, 1, 3), .target = glm::dvec3(0, 0.5, 0)};
   effect::Registry registry_;
   gpu::NullDevice* null_ = nullptr;
   std::unique_ptr<gpu::Device> device_;
-  std::optional<effect::Values> values_;
-  std::optional<effect::Instance> instance_;
+  effect::Chain chain_;
+  effect::Values* values_ = nullptr;  // of ssao
   std::optional<frame::Renderer> renderer_;
 };
 
@@ -235,36 +235,54 @@ TEST_F(PlanTest, BackFacesAreDrawnWhenAskedForAlone) {
   EXPECT_EQ(recording.renders[1].targets, (Labels{"back"}));
 }
 
-TEST_F(PlanTest, ShotsReachTheEffectsAndWhatWaitsComesBack) {
-  const effect::Effect& shooter = registry_.find("shooter");
-  effect::Values values(shooter);
-  effect::Instance first(*device_, shooter);
-  const std::vector<grisaille_shot> shots(20);
-  const auto told = [&](size_t shotsKept, std::vector<std::string> outputs) {
-    const std::vector<frame::ActiveEffect> both = {
-        {.instance = &first, .values = &values, .shots = shots, .shotsKept = shotsKept},
-        {.instance = &*instance_, .values = &*values_}};
+TEST_F(PlanTest, ObjectsReachTheEffectsAndWhatWaitsComesBack) {
+  effect::Chain chain{effect::Selection(registry_, Labels{"teller", "ssao"})};
+  const effect::StartedChain started(chain, *device_);
+  chain.selection.set(effect::Assignment{{"teller", "waits"}, "4"});
+  objects::ObjectList& list = *chain.objects("teller");
+  const auto add = [&](size_t count) {
+    for (size_t i = 0; i < count; ++i) list.add(objects::Object(list.table()));
+  };
+  const auto told = [&](const Labels& outputs) {
     renderer_->render({.camera = camera_,
                        .width = 16,
                        .height = 8,
-                       .effects = both,
+                       .chain = &chain,
                        .outputs = outputs,
                        .patience = 0.5});
     return outputs[0] == "told" ? renderer_->read("told").pixels : std::vector<float>();
   };
-  values.set("waits", "4");
-  std::vector<float> texels = told(20, {"told", "ao"});
+  add(20);
+  std::vector<float> texels = told({"told", "ao"});
   EXPECT_EQ(texels[0], 20);
   EXPECT_EQ(texels[1], 0);  // its first frame
   EXPECT_EQ(texels[2], 0.5f);
   EXPECT_EQ(renderer_->waiting(), 4u);
-  EXPECT_EQ(told(19, {"told"})[1], 19);
+  list.undo();
+  EXPECT_EQ(told({"told"})[1], 19);
   // Frames that it has no part in, or that fail, are not its frame before.
-  told(11, {"depth"});
+  list.remove(11);
+  told({"depth"});
   EXPECT_EQ(renderer_->waiting(), 0u);
-  EXPECT_ERROR(ErrorId::kOutputUnknown, told(12, {"nothing"}));
-  EXPECT_EQ(told(20, {"told"})[1], 11);
-  EXPECT_EQ(told(20, {"told"})[1], 20);
+  add(1);
+  EXPECT_ERROR(ErrorId::kOutputUnknown, told({"nothing"}));
+  EXPECT_EQ(told({"told"})[1], 11);
+  EXPECT_EQ(told({"told"})[1], 19);
+  // Nor those in which it is off, while others go on.
+  chain.selection.find("teller")->on = false;
+  list.remove(3);
+  told({"ao"});
+  EXPECT_ERROR(ErrorId::kOutputUnknown, told({"told"}));
+  chain.selection.find("teller")->on = true;
+  EXPECT_EQ(told({"told"})[1], 3);
+}
+
+TEST_F(PlanTest, EffectsRunInTheOrderOfTheSelection) {
+  effect::Chain chain{effect::Selection(registry_, Labels{"ssao", "teller"})};
+  const effect::StartedChain started(chain, *device_);
+  EXPECT_EQ(frame::outputNames(chain.selection.effects()).back(), "teller.told");
+  chain.selection.move(1, 0);
+  EXPECT_NE(frame::outputNames(chain.selection.effects()).back(), "teller.told");
 }
 
 TEST_F(PlanTest, WhatIsBehindTheCameraIsNotDrawn) {

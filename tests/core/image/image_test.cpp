@@ -154,17 +154,6 @@ TEST_F(ImageFiles, AFailureLeavesNothingBehind) {
   EXPECT_EQ(std::distance(fs::directory_iterator(folder_), {}), 1);
 }
 
-TEST_F(ImageFiles, AFailedWriteKeepsTheOlderFile) {
-  if (!fs::exists("/dev/full")) GTEST_SKIP() << "no /dev/full here";
-  writeFileAtomically(file("a.txt"), "old");
-  fs::create_symlink("/dev/full", fmt::format("{}.{}.part", file("a.txt"), getpid()));
-  EXPECT_ERROR(ErrorId::kFileUnwritable, writeFileAtomically(file("a.txt"), "new"));
-  std::string text;
-  std::getline(std::ifstream(file("a.txt")), text);
-  EXPECT_EQ(text, "old");
-  EXPECT_EQ(std::distance(fs::directory_iterator(folder_), {}), 1);
-}
-
 TEST_F(ImageFiles, AFullDiskIsAnError) {
   if (!fs::exists("/dev/full")) GTEST_SKIP() << "no /dev/full here";
   const std::string part = fmt::format("{}.{}.part", file("a.png"), getpid());

@@ -10,6 +10,7 @@
 #include <string>
 #include <vector>
 
+#include "core/effect/chain.h"
 #include "core/frame/renderer.h"
 
 namespace grisaille::tests {
@@ -24,14 +25,14 @@ class AoFrames {
  public:
   AoFrames(gpu::Device& device, const scene::Scene& scene, const Settings& settings)
       : registry_(scanned()),
-        values_(registry_->find("ssao")),
-        instance_(device, registry_->find("ssao")),
+        chain_(effect::Selection(*registry_, std::array<std::string, 1>{"ssao"})),
+        started_(chain_, device),
         renderer_(device, scene) {
     set(settings);
   }
 
   void set(const Settings& settings) {
-    for (const auto& [key, value] : settings) values_.set(key, value);
+    for (const auto& [key, value] : settings) chain_.selection.values("ssao").set(key, value);
   }
 
   image::Image show(const scene::Camera& camera, uint32_t width = kAoWidth,
@@ -43,12 +44,11 @@ class AoFrames {
   std::vector<image::Image> showAll(const scene::Camera& camera, uint32_t width, uint32_t height,
                                     const std::vector<std::string>& outputs,
                                     frame::Surface surface = frame::Surface::kWhite) {
-    const std::array effects = {frame::ActiveEffect{.instance = &instance_, .values = &values_}};
     renderer_.render({.camera = camera,
                       .width = width,
                       .height = height,
                       .surface = surface,
-                      .effects = effects,
+                      .chain = &chain_,
                       .outputs = outputs});
     std::vector<image::Image> images;
     for (const std::string& output : outputs) images.push_back(renderer_.read(output));
@@ -63,8 +63,8 @@ class AoFrames {
   }
 
   std::unique_ptr<effect::Registry> registry_;
-  effect::Values values_;
-  effect::Instance instance_;
+  effect::Chain chain_;
+  effect::StartedChain started_;
   frame::Renderer renderer_;
 };
 

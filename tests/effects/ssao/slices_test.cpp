@@ -81,11 +81,9 @@ std::array<std::array<double, 5>, 2> cornerErrors(const image::Image& ao,
 
 TEST_P(SlicesTest, ACornerIsWithinTwoHundredthsOfItsAnalyticValue) {
   const scene::Scene scene = tests::cornerScene();
-  effect::Registry registry;
   frame::Renderer renderer(device(), scene);
   const std::vector<std::string> outputs = {"depth"};
-  renderer.render(
-      {.camera = kCorner, .width = 640, .height = 480, .effects = {}, .outputs = outputs});
+  renderer.render({.camera = kCorner, .width = 640, .height = 480, .outputs = outputs});
   const image::Image depth = renderer.read("depth");
   // The near plane cuts floor and wall: where vertices snap coarsely, their depth is off.
   const double allowed = snapping().isCoarse() ? 0.03 : 0.02;

@@ -33,7 +33,7 @@ TEST_P(CrowdTest, HidingChangesNothing) {
   for (uint32_t seed = 0; seed < 4; ++seed) {
     std::mt19937 random(seed);
     std::uniform_real_distribution<double> unit(0, 1);
-    std::vector<grisaille_shot> shots;
+    std::vector<lab::Shot> shots;
     for (int i = 0; i < 400; ++i) {
       const glm::dvec3 origin(2 * unit(random) - 1, 0.4 + unit(random), 0.4 + unit(random));
       const bool floor = i % 2 == 0;
@@ -79,7 +79,7 @@ TEST_P(CrowdTest, TheNewestWinsOfAMillion) {
     places.emplace_back(glm::dvec3(3 * unit(random) - 1.5, 2 * unit(random) - 1, 2),
                         glm::dvec3(3 * unit(random) - 1.5, 2 * unit(random) - 1, 0));
   }
-  std::vector<grisaille_shot> shots;
+  std::vector<lab::Shot> shots;
   std::vector<size_t> placeOf;
   for (int i = 0; i < 1'000'000; ++i) {
     placeOf.push_back(random() % places.size());
@@ -116,18 +116,18 @@ TEST_P(CrowdTest, TheNewestWinsOfAMillion) {
     EXPECT_LE(wrong, kWidth * kHeight / 200u);  // edges
   };
   const std::vector<std::string> outputs = {"paint", "paint_owner", "depth"};
-  frame.render(kWall, kWidth, kHeight, shots, 0, outputs);
+  frame.render(kWall, kWidth, kHeight, shots, outputs);
   EXPECT_EQ(frame.waiting(), 0u);
   expectNewest();
   places.emplace_back(kWall.eye, kWall.target);
   placeOf.push_back(places.size() - 1);
   shots.push_back(shotAt(kWall.eye, kWall.target, glm::vec3(1, 0, 0)));
-  frame.render(kWall, kWidth, kHeight, shots, shots.size() - 1, outputs);
+  frame.render(kWall, kWidth, kHeight, shots, outputs);
   EXPECT_EQ(frame.read("paint_owner").at(kWidth / 2, kHeight / 2), 1'000'001.0f);
   expectNewest();
   shots.resize(999'000);
   places.pop_back();
-  frame.render(kWall, kWidth, kHeight, shots, shots.size(), outputs);
+  frame.render(kWall, kWidth, kHeight, shots, outputs);
   expectNewest();
 }
 
@@ -139,8 +139,8 @@ TEST_P(CrowdTest, AMillionOnOneSpot) {
     PaintFrame frame(device(), scene);
     frame.setRays(&rays);
     frame.set({{"r0", full}, {"edge_fade", "0"}});
-    std::vector<grisaille_shot> shots(1'000'000,
-                                      shotAt(kWall.eye, kWall.target, glm::vec3(0.25, 0.5, 0.75)));
+    std::vector<lab::Shot> shots(1'000'000,
+                                 shotAt(kWall.eye, kWall.target, glm::vec3(0.25, 0.5, 0.75)));
     frame.render(kWall, kWidth, kHeight, shots);
     EXPECT_EQ(frame.waiting(), 0u);
     const image::Image paint = frame.read("paint"), coverage = frame.read("paint_coverage");
@@ -164,7 +164,7 @@ TEST_P(CrowdTest, ExtremesStayFinite) {
   };
   std::uniform_real_distribution<double> unit(0, 1);
   for (int round = 0; round < 24; ++round) {
-    std::vector<grisaille_shot> shots;
+    std::vector<lab::Shot> shots;
     for (int i = 0; i < 12; ++i) {
       const double scale = std::pow(10.0, 8 * unit(random) - 2);
       const glm::dvec3 origin(scale * (unit(random) - 0.5), scale * unit(random),
@@ -196,7 +196,7 @@ TEST_P(CrowdTest, FarSplatsDoNotShimmer) {
   const scene::Scene scene = wallScene();
   TracedRays rays(scene);
   // One shot whose alpha falls from 1 to 0.03 over the picture, so that the noise decides.
-  const std::vector<grisaille_shot> shots = {
+  const std::vector<lab::Shot> shots = {
       shotAt(glm::dvec3(0, 0, 5), glm::dvec3(0, 0, 0), glm::vec3(1, 1, 1), 15)};
   const auto change = [&](const char* scale) {
     PaintFrame frame(device(), scene);
@@ -208,7 +208,7 @@ TEST_P(CrowdTest, FarSplatsDoNotShimmer) {
       const double pixel = 2 * std::tan(glm::radians(30.0)) * 15 / kHeight;
       scene::Camera camera = {.eye = glm::dvec3(0.21 * step * pixel, 0.17 * step * pixel, 15),
                               .target = glm::dvec3(0.21 * step * pixel, 0.17 * step * pixel, 0)};
-      frame.render(camera, kWidth, kHeight, shots, 1);
+      frame.render(camera, kWidth, kHeight, shots);
       const std::vector<float> now = frame.read("paint").pixels;
       if (step > 0) {
         double sum = 0;

@@ -72,7 +72,7 @@ TEST_P(DefinitionTest, PerShotIsTheDefinition) {
                                     .splatScale = std::exp2(-5 + 4 * unit(random)),
                                     .splatSharpness = round % 2 == 0 ? 1 : unit(random),
                                     .noiseSeed = static_cast<uint32_t>(65535 * unit(random))};
-    std::vector<grisaille_shot> shots;
+    std::vector<lab::Shot> shots;
     for (int i = 0; i < 30; ++i) {
       const glm::dvec3 origin(4 * unit(random) - 2, 3 * unit(random) - 0.5, 3 * unit(random) - 0.5);
       const glm::dvec3 target(3 * unit(random) - 1.5, 2 * unit(random) - 0.2, 2 * unit(random) - 1);
@@ -106,7 +106,7 @@ TEST_P(DefinitionTest, SurfaceIsPerShotOnAnOpenWall) {
                                     .edgeFade = seed == 1 ? 0 : unit(random),
                                     .splatSharpness = 1,
                                     .noiseSeed = seed};
-    std::vector<grisaille_shot> shots;
+    std::vector<lab::Shot> shots;
     for (int i = 0; i < 1000; ++i) {
       const glm::dvec3 target(6 * unit(random) - 3, 5 * unit(random) - 2.5, 0);
       const glm::dvec3 origin =

@@ -5,7 +5,7 @@
 #include <algorithm>
 #include <filesystem>
 
-#include "core/trace/paint_mask.h"
+#include "lab/paint/paint_mask.h"
 #include "tests/effects/sspm/paint_frame.h"
 #include "tests/support/devices.h"
 
@@ -76,12 +76,12 @@ TEST_P(MaskTest, PaintLandsWhereTheMuzzleSees) {
           glm::dvec3(3 * unit(random) - 1.5, 1.5 * unit(random) - 0.7, 3 * unit(random) - 1.5);
       if (target.viewDepth == 0) continue;
       const double range = 0.1 + 0.4 * unit(random);
-      const std::vector<grisaille_shot> shots = {
+      const std::vector<lab::Shot> shots = {
           shotAt(muzzle, target.position, glm::vec3(1, 0, 0), static_cast<float>(range))};
       frame.set({{"edge_fade", "0"}});
-      frame.render(camera, kMaskWidth, kMaskHeight, shots, 0, {"paint_coverage"});
-      const Agreement one = compare(trace::paintMask(rays.tracer(), hits, shots, range),
-                                    frame.read("paint_coverage"));
+      frame.render(camera, kMaskWidth, kMaskHeight, shots, {"paint_coverage"});
+      const Agreement one =
+          compare(lab::paintMask(rays.tracer(), hits, shots, range), frame.read("paint_coverage"));
       SCOPED_TRACE(fmt::format("{}, shot {} at pixel {},{} with range {}: {} px", name, i, x, y,
                                range, one.traced));
       // Fewer pixels than that are mostly edge.

@@ -6,39 +6,34 @@
 namespace grisaille::tests {
 namespace {
 
-effect::Registry& scanned(effect::Registry& registry) {
+effect::Selection selected(effect::Registry& registry) {
   registry.scan(EFFECTS_FOLDER);
-  return registry;
+  return effect::Selection(registry, std::array<std::string, 1>{"sspm"});
 }
 
 }  // namespace
 
 PaintFrame::PaintFrame(gpu::Device& device, const scene::Scene& scene)
-    : values_(scanned(registry_).find("sspm")),
-      instance_(device, registry_.find("sspm")),
-      renderer_(device, scene) {}
+    : chain_(selected(registry_)), started_(chain_, device), renderer_(device, scene) {}
 
 PaintFrame::PaintFrame(gpu::Device& device, frame::AttachmentSource& source)
-    : values_(scanned(registry_).find("sspm")),
-      instance_(device, registry_.find("sspm")),
-      renderer_(device, source) {}
+    : chain_(selected(registry_)), started_(chain_, device), renderer_(device, source) {}
 
 void PaintFrame::set(const Settings& settings) {
-  values_ = effect::Values(registry_.find("sspm"));
-  for (const auto& [key, value] : settings) values_.set(key, value);
+  chain_.selection = effect::Selection(registry_, std::array<std::string, 1>{"sspm"});
+  for (const auto& [key, value] : settings) chain_.selection.values("sspm").set(key, value);
 }
 
 void PaintFrame::render(const scene::Camera& camera, uint32_t width, uint32_t height,
-                        std::span<const grisaille_shot> shots, size_t kept,
-                        std::vector<std::string> outputs) {
-  const std::array effects = {frame::ActiveEffect{
-      .instance = &instance_, .values = &values_, .shots = shots, .shotsKept = kept}};
+                        std::span<const lab::Shot> shots, std::vector<std::string> outputs) {
+  objects::ObjectList& list = *chain_.objects("sspm");
+  list.assign(objectsOf(list.table(), shots).view());
   renderer_.render({.camera = camera,
                     .width = width,
                     .height = height,
-                    .effects = effects,
+                    .chain = &chain_,
                     .outputs = outputs,
-                    .rays = rays_});
+                    .services = {.rays = rays_}});
 }
 
 frame::Pictures tracedPictures(const trace::RayTracer& tracer, const scene::Camera& camera,
@@ -48,14 +43,13 @@ frame::Pictures tracedPictures(const trace::RayTracer& tracer, const scene::Came
           .baseColour = {}};
 }
 
-grisaille_shot shotAt(const glm::dvec3& origin, const glm::dvec3& target, const glm::vec3& color,
-                      float range) {
+lab::Shot shotAt(const glm::dvec3& origin, const glm::dvec3& target, const glm::vec3& color,
+                 float range) {
   const glm::vec3 direction(glm::normalize(target - origin));
   return {.origin = {origin.x, origin.y, origin.z},
           .direction = {direction.x, direction.y, direction.z},
           .color = {color.x, color.y, color.z},
-          .range = range,
-          .reserved = 0};
+          .range = range};
 }
 
 glm::vec3 randomColor(std::mt19937& random) {

@@ -8,9 +8,10 @@
 #include <utility>
 #include <vector>
 
-#include "core/effect/registry.h"
+#include "core/effect/chain.h"
 #include "core/frame/picture_attachments.h"
 #include "core/frame/renderer.h"
+#include "lab/paint/shot.h"
 #include "tests/support/traced_rays.h"
 
 namespace grisaille::tests {
@@ -33,17 +34,17 @@ class PaintFrame {
   void setRays(effect::RayService* rays) { rays_ = rays; }
   void set(const Settings& settings);
 
-  // Of the shots `kept` are as in the call before.
+  // What the shots have in common with those of the call before, the effect is told to keep.
   void render(const scene::Camera& camera, uint32_t width, uint32_t height,
-              std::span<const grisaille_shot> shots, size_t kept = 0,
+              std::span<const lab::Shot> shots,
               std::vector<std::string> outputs = {"paint", "paint_coverage", "depth"});
   image::Image read(const std::string& output) { return renderer_.read(output); }
-  uint64_t waiting() const { return instance_.waiting(); }
+  uint64_t waiting() const { return renderer_.waiting(); }
 
  private:
   effect::Registry registry_;
-  effect::Values values_;
-  effect::Instance instance_;
+  effect::Chain chain_;
+  effect::StartedChain started_;
   frame::Renderer renderer_;
   effect::RayService* rays_ = nullptr;
 };
@@ -53,8 +54,8 @@ frame::Pictures tracedPictures(const trace::RayTracer& tracer, const scene::Came
                                uint32_t width, uint32_t height);
 
 // A shot from `origin` at `target`.
-grisaille_shot shotAt(const glm::dvec3& origin, const glm::dvec3& target, const glm::vec3& color,
-                      float range = 0);
+lab::Shot shotAt(const glm::dvec3& origin, const glm::dvec3& target, const glm::vec3& color,
+                 float range = 0);
 
 glm::vec3 randomColor(std::mt19937& random);
 

@@ -25,10 +25,10 @@ scene::Scene cornerAt(const glm::dvec3& place) {
   return scene;
 }
 
-std::vector<grisaille_shot> someShots(uint32_t count, uint32_t seed, const glm::dvec3& place = {}) {
+std::vector<lab::Shot> someShots(uint32_t count, uint32_t seed, const glm::dvec3& place = {}) {
   std::mt19937 random(seed);
   std::uniform_real_distribution<double> unit(0, 1);
-  std::vector<grisaille_shot> shots;
+  std::vector<lab::Shot> shots;
   for (uint32_t i = 0; i < count; ++i) {
     const glm::dvec3 origin(3 * unit(random) - 1.5, 0.2 + 2 * unit(random), 0.3 + 2 * unit(random));
     const glm::dvec3 target(3 * unit(random) - 1.5, 1.5 * unit(random), 0);
@@ -39,8 +39,8 @@ std::vector<grisaille_shot> someShots(uint32_t count, uint32_t seed, const glm::
 
 class PaintTest : public BackendTest {
  protected:
-  void look(PaintFrame& frame, std::span<const grisaille_shot> shots, size_t kept = 0) {
-    frame.render(kCrease, kWidth, kHeight, shots, kept,
+  void look(PaintFrame& frame, std::span<const lab::Shot> shots) {
+    frame.render(kCrease, kWidth, kHeight, shots,
                  {"paint", "paint_coverage", "paint_owner", "depth"});
   }
 };
@@ -53,11 +53,10 @@ TEST_P(PaintTest, TheNewestWins) {
     PaintFrame frame(device(), scene);
     frame.setRays(&rays);
     frame.set({{"mode", mode}, {"shot_limit", "1000"}});
-    std::vector<grisaille_shot> shots = someShots(150, 3);
+    std::vector<lab::Shot> shots = someShots(150, 3);
     for (const glm::vec3 color : {glm::vec3(1, 0, 0), glm::vec3(0, 1, 0), glm::vec3(0, 0, 1)}) {
-      const size_t kept = shots.size();
       shots.push_back(shotAt(kCrease.eye, kCrease.target, color));
-      look(frame, shots, kept);
+      look(frame, shots);
       const image::Image paint = frame.read("paint");
       for (uint32_t c = 0; c < 3; ++c) {
         EXPECT_NEAR(paint.at(kWidth / 2, kHeight / 2, c), color[static_cast<int>(c)], 0.01) << mode;
@@ -74,7 +73,7 @@ TEST_P(PaintTest, TheNewestWins) {
 TEST_P(PaintTest, ThePictureIsTheListsAlone) {
   const scene::Scene scene = cornerScene();
   TracedRays rays(scene);
-  const std::vector<grisaille_shot> shots = someShots(240, 5);
+  const std::vector<lab::Shot> shots = someShots(240, 5);
   const Settings rules = {{"edge_fade", "0.1"}, {"paint_range", "0.3"}};
   const auto fresh = [&](size_t count) {
     PaintFrame frame(device(), scene);
@@ -86,11 +85,9 @@ TEST_P(PaintTest, ThePictureIsTheListsAlone) {
   PaintFrame frame(device(), scene);
   frame.setRays(&rays);
   frame.set(rules);
-  size_t before = 0;
   // Fired in bursts, undone, fired again, cleared.
   for (const size_t count : {1u, 40u, 41u, 200u, 150u, 240u, 30u, 0u, 120u}) {
-    look(frame, std::span(shots).first(count), std::min(before, count));
-    before = count;
+    look(frame, std::span(shots).first(count));
     EXPECT_EQ(frame.waiting(), 0u);
     EXPECT_EQ(frame.read("paint").pixels, fresh(count)) << count;
   }
@@ -106,9 +103,9 @@ TEST_P(PaintTest, FarFromTheWorldsOriginPaintIsTheSame) {
   PaintFrame a(device(), near), b(device(), far);
   a.setRays(&nearRays);
   b.setRays(&farRays);
-  const std::vector<grisaille_shot> here = someShots(60, 9), there = someShots(60, 9, place);
-  a.render(kCrease, kWidth, kHeight, here, 0, {"paint_coverage"});
-  b.render(camera, kWidth, kHeight, there, 0, {"paint", "paint_coverage", "depth"});
+  const std::vector<lab::Shot> here = someShots(60, 9), there = someShots(60, 9, place);
+  a.render(kCrease, kWidth, kHeight, here, {"paint_coverage"});
+  b.render(camera, kWidth, kHeight, there, {"paint", "paint_coverage", "depth"});
   const image::Image first = a.read("paint_coverage"), second = b.read("paint_coverage");
   size_t different = 0;
   for (size_t i = 0; i < first.pixels.size(); ++i) {
@@ -134,13 +131,13 @@ TEST_P(PaintTest, FarFromTheWorldsOriginPaintIsTheSame) {
 TEST_P(PaintTest, WithoutRaysShotsWait) {
   const scene::Scene scene = cornerScene();
   PaintFrame frame(device(), scene);
-  const std::vector<grisaille_shot> shots = someShots(5, 1);
+  const std::vector<lab::Shot> shots = someShots(5, 1);
   look(frame, shots);
   EXPECT_EQ(frame.waiting(), 5u);
   for (const float value : frame.read("paint").pixels) ASSERT_EQ(value, 0.0f);
   TracedRays rays(scene);
   frame.setRays(&rays);
-  look(frame, shots, shots.size());
+  look(frame, shots);
   EXPECT_EQ(frame.waiting(), 0u);
   const image::Image coverage = frame.read("paint_coverage");
   EXPECT_GT(*std::max_element(coverage.pixels.begin(), coverage.pixels.end()), 0.5f);
@@ -158,7 +155,7 @@ TEST_P(PaintTest, ThinThingsThatStandFreeArePainted) {
   TracedRays rays(scene);
   PaintFrame frame(device(), scene);
   frame.setRays(&rays);
-  const std::vector<grisaille_shot> shots = {
+  const std::vector<lab::Shot> shots = {
       shotAt(glm::dvec3(0, 1, 2), glm::dvec3(0, 1, 0), glm::vec3(1, 0, 0))};
   frame.render({.eye = glm::dvec3(0, 1, 1), .target = glm::dvec3(0, 1, 0)}, kWidth, kHeight, shots);
   EXPECT_EQ(frame.read("paint_coverage").at(kWidth / 2, kHeight / 2), 1.0f);
@@ -174,10 +171,10 @@ TEST_P(PaintTest, PaintStopsAtTheFirstSurface) {
   TracedRays rays(scene);
   PaintFrame frame(device(), scene);
   frame.setRays(&rays);
-  const std::vector<grisaille_shot> shots = {
+  const std::vector<lab::Shot> shots = {
       shotAt(glm::dvec3(0, 1, 3), glm::dvec3(0, 1, 0), glm::vec3(1, 0, 0))};
   const auto painted = [&](const scene::Camera& camera) {
-    frame.render(camera, kWidth, kHeight, shots, shots.size(), {"paint_coverage"});
+    frame.render(camera, kWidth, kHeight, shots, {"paint_coverage"});
     const image::Image coverage = frame.read("paint_coverage");
     return std::any_of(coverage.pixels.begin(), coverage.pixels.end(),
                        [](float a) { return a > 0; });

@@ -18,10 +18,10 @@ constexpr float kSame = 2.0f / 255;
 
 const scene::Camera kCrease = {.eye = glm::dvec3(0.3, 1.5, 2.5), .target = glm::dvec3(0, 0.5, 0)};
 
-std::vector<grisaille_shot> someShots(uint32_t count) {
+std::vector<lab::Shot> someShots(uint32_t count) {
   std::mt19937 random(17);
   std::uniform_real_distribution<double> unit(0, 1);
-  std::vector<grisaille_shot> shots;
+  std::vector<lab::Shot> shots;
   for (uint32_t i = 0; i < count; ++i) {
     const glm::dvec3 origin(3 * unit(random) - 1.5, 0.2 + 2 * unit(random), 0.3 + 2 * unit(random));
     const glm::dvec3 target(3 * unit(random) - 1.5, 1.5 * unit(random), 0);
@@ -38,13 +38,12 @@ class ResolutionTest : public BackendTest {
  protected:
   // In a fresh instance, over `scene`, which is traced too.
   Shown look(const scene::Scene& scene, const scene::Camera& camera, const Settings& settings,
-             std::span<const grisaille_shot> shots, uint32_t width = kWidth,
-             uint32_t height = kHeight) {
+             std::span<const lab::Shot> shots, uint32_t width = kWidth, uint32_t height = kHeight) {
     TracedRays rays(scene);
     PaintFrame frame(device(), scene);
     frame.setRays(&rays);
     frame.set(settings);
-    frame.render(camera, width, height, shots, 0,
+    frame.render(camera, width, height, shots,
                  {"paint", "paint_coverage", "paint_owner", "facet_normal"});
     return {frame.read("paint"), frame.read("paint_coverage"), frame.read("paint_owner"),
             frame.read("facet_normal")};
@@ -80,7 +79,7 @@ double differing(const Shown& a, const Shown& b) {
 
 TEST_P(ResolutionTest, AwayFromEdgesAndRimsItIsFullResolution) {
   const scene::Scene scene = cornerScene();
-  const std::vector<grisaille_shot> shots = someShots(40);
+  const std::vector<lab::Shot> shots = someShots(40);
   const Shown full = look(scene, kCrease, {{"edge_fade", "0"}}, shots);
   for (const auto& [resolution, step] : {std::pair("half", 2u), std::pair("quarter", 4u)}) {
     for (const char* refine : {"nothing", "edges", "rims"}) {
@@ -110,7 +109,7 @@ TEST_P(ResolutionTest, AwayFromEdgesAndRimsItIsFullResolution) {
 // Each step of refinement is nearer to full resolution, and half is nearer than a quarter.
 TEST_P(ResolutionTest, WhatIsAskedMoreIsNearer) {
   const scene::Scene scene = cornerScene();
-  const std::vector<grisaille_shot> shots = someShots(40);
+  const std::vector<lab::Shot> shots = someShots(40);
   const Shown full = look(scene, kCrease, {{"edge_fade", "0"}}, shots);
   double rims[2] = {};
   for (int i = 0; i < 2; ++i) {
@@ -135,7 +134,7 @@ TEST_P(ResolutionTest, SplatsOnAFlatWallStaySharp) {
   const scene::Scene scene = wallScene();
   const scene::Camera camera = {.eye = glm::dvec3(0.4, 0.2, 3), .target = glm::dvec3(0, 0, 0)};
   // Coverage falls smoothly, 3 m / distance, from one side to the other.
-  const std::vector<grisaille_shot> shots = {
+  const std::vector<lab::Shot> shots = {
       shotAt(glm::dvec3(-6, 0, 4), glm::dvec3(-6, 0, 0), glm::vec3(1, 0.5f, 0), 30)};
   const Settings wide = {{"r0", "3"}, {"splat_scale", "0.1"}, {"edge_fade", "0"}};
   const Shown full = look(scene, camera, wide, shots);
@@ -158,7 +157,7 @@ TEST_P(ResolutionTest, SplatsOnAFlatWallStaySharp) {
 
 TEST_P(ResolutionTest, AnySizeIsWholeAndFinite) {
   const scene::Scene scene = cornerScene();
-  const std::vector<grisaille_shot> shots = someShots(40);
+  const std::vector<lab::Shot> shots = someShots(40);
   for (const glm::uvec2 size :
        {glm::uvec2(1, 1), glm::uvec2(3, 3), glm::uvec2(2, 9), glm::uvec2(257, 129)}) {
     const Shown full = look(scene, kCrease, {}, shots, size.x, size.y);

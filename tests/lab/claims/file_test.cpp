@@ -135,8 +135,8 @@ TEST_F(ClaimsFileTest, MistakesAreNamedWithTheirPlace) {
   refused(with("low = 0.5", "low = 2"), bad, "15", "low");
   refused(with("", kGood), bad, "16", "two claims");
   refused(with("", "shots = [{origin = [0, 0, 0], direction = [0, 0, 0], color = [1, 1, 1]}]\n"),
-          ErrorId::kShotDirection, "16", "");
-  refused(with("", "shots = \"none.json\"\n"), ErrorId::kShotFileUnreadable, "16", "none.json");
+          ErrorId::kObjectField, "16", "direction");
+  refused(with("", "shots = \"none.json\"\n"), ErrorId::kObjectFileUnreadable, "16", "none.json");
   EXPECT_THROW(loadClaims(folder_ / "missing.toml", registry_), Error);
 }
 

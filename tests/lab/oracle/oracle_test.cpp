@@ -16,6 +16,7 @@ namespace grisaille::tests {
 namespace {
 
 using namespace lab::oracle;
+using lab::Shot;
 using lab::stability::cornerVisibility;
 using lab::stability::pixelsToCompare;
 
@@ -187,11 +188,7 @@ TEST(Oracle, WhatTheLastPassDoes) {
 
 // One shot at a wall: a pixel on its ray, one beside it, one out of range, one behind the muzzle.
 TEST(Oracle, PaintIsItsDefinition) {
-  const grisaille_shot shot{.origin = {0, 0, 1},
-                            .direction = {0, 0, -1},
-                            .color = {1, 0.5f, 0},
-                            .range = 0,
-                            .reserved = 0};
+  const Shot shot{.origin = {0, 0, 1}, .direction = {0, 0, -1}, .color = {1, 0.5f, 0}, .range = 0};
   const PaintSettings settings{.full = 0.05, .edgeFade = 0, .splatSharpness = 1};
   const auto at = [&](const glm::dvec3& place) {
     return paintOf(place, 3, 1e-3, {&shot, 1}, settings);

@@ -51,7 +51,7 @@ constexpr grisaille_output_desc kOutputs[] = {
 
 struct Idle {
   explicit Idle(plugin::Host) {}
-  static uint32_t reads(plugin::Values) noexcept { return 0; }
+  static uint32_t reads(plugin::Values, uint32_t) noexcept { return 0; }
   void record(const plugin::Frame&) {}
 };
 

@@ -1,26 +1,36 @@
-/* SPDX-License-Identifier: MIT
- *
+/* SPDX-License-Identifier: MIT */
+/**
+ * @file
  * The C interface of a Grisaille effect.
  *
  * A plugin is a shared library that exports one constant data symbol, `grisaille_plugin`, of type
- * grisaille_plugin_desc. The host checks it before it calls any function of the plugin, and refuses
- * by name and reason what does not fit. Every table is static constant data of the plugin: it stays
- * valid and unchanged while the library is loaded, and the host never frees it.
+ * grisaille_plugin_desc. The host is the program that loads it. Before the host calls a function of
+ * the plugin, it checks the tables. It refuses a plugin with a wrong table, and names the field and
+ * the reason. Every table is static constant data of the plugin: it stays valid and unchanged while
+ * the library is loaded, and the host never frees it.
  *
- * Versions. The major number changes when old plugins no longer run; the host takes only its own.
- * The minor number grows when fields are appended; the host takes its own and older ones. Every
- * struct that crosses begins with its size as the side that filled it knows it, so that a field
- * beyond that size reads as zero. A struct that is longer than the reader knows is refused.
+ * @par Versions
+ * The major number changes when old plugins no longer run; the host takes only its own. The minor
+ * number grows when fields are appended; the host takes its own and older ones. A struct that may
+ * grow begins with its size, as the side that filled it knows it. A field beyond that size reads as
+ * zero. The reader refuses a struct that is longer than it knows.
  *
- * Threads. The host calls an effect's functions from one thread at a time, though not always the
- * same. Host functions may be called only from inside an effect's own functions, on that thread.
+ * @par Threads
+ * The host calls an effect's functions from one thread at a time, though not always the same one.
+ * An effect calls the host's functions only from inside its own functions, on that thread.
  *
- * Errors. Functions that return grisaille_result return GRISAILLE_OK or an error; an effect that
- * fails says why through grisaille_host.fail first. No exception may cross.
+ * @par Errors
+ * A function that returns grisaille_result returns GRISAILLE_OK or an error. An effect that fails
+ * first says why through grisaille_host::fail. No exception may leave a function.
  *
- * Units are metres, radians, pixels, seconds. Matrices are column-major, vectors are columns. World
- * axes are right-handed with +y up; view space looks along -z. Clip space has y up, depth 1 at the
- * near plane and 0 at infinity. Row 0 of every texture is the top row.
+ * @par Units
+ * Metres, radians, pixels, seconds. Matrices are column-major, vectors are columns. World axes are
+ * right-handed with +y up; view space looks along -z. Clip space has y up, depth 1 at the near
+ * plane and 0 at infinity. Row 0 of every texture is the top row.
+ *
+ * @par Keys
+ * A key names a table entry in files and on the command line. It consists of a-z, 0-9 and _, begins
+ * with a letter, and is unique in its table.
  */
 #ifndef GRISAILLE_EFFECT_H
 #define GRISAILLE_EFFECT_H
@@ -31,457 +41,690 @@
 extern "C" {
 #endif
 
-#define GRISAILLE_MAGIC 0x53495247u /* "GRIS" */
-#define GRISAILLE_ABI_MAJOR 1u
-#define GRISAILLE_ABI_MINOR 0u
+/**
+ * @defgroup effect_results Effect: versions and results
+ * What a plugin and its host agree on first.
+ * @{
+ */
 
+#define GRISAILLE_MAGIC 0x53495247u /**< "GRIS", for grisaille_plugin_desc::magic */
+#define GRISAILLE_ABI_MAJOR 1u      /**< major number of this interface */
+#define GRISAILLE_ABI_MINOR 0u      /**< minor number of this interface */
+
+/** Exports a symbol from a shared library. */
 #if defined(_WIN32)
 #define GRISAILLE_EXPORT __declspec(dllexport)
 #else
 #define GRISAILLE_EXPORT __attribute__((visibility("default")))
 #endif
 
+/** What a call returns. */
 typedef enum grisaille_result {
-  GRISAILLE_OK = 0,
-  GRISAILLE_FAILED = 1,     /* the call did nothing; the host has noted why */
-  GRISAILLE_UNSUPPORTED = 2 /* this host does not offer the service */
+  GRISAILLE_OK = 0,         /**< the call succeeded */
+  GRISAILLE_FAILED = 1,     /**< the call did nothing; the host has noted why */
+  GRISAILLE_UNSUPPORTED = 2 /**< this host does not offer the service */
 } grisaille_result;
 
-/* ---- Parameters ------------------------------------------------------------------------------ */
+/**
+ * @}
+ * @defgroup effect_parameters Effect: parameters
+ * The values that users set.
+ *
+ * Every value crosses as a double: a float or an int as it is, a bool as 0 or 1, an enum as its
+ * index. The panel, the command line, settings files, sweeps and the documentation are made from
+ * the table.
+ * @{
+ */
 
-/* Every value crosses as a double: floats and ints as they are, a bool as 0 or 1, an enum as its
- * index. Panel, command line, settings files, sweeps and documentation are made from the table. */
+/** The type of a parameter. */
 typedef enum grisaille_param_type {
-  GRISAILLE_PARAM_FLOAT = 0,
-  GRISAILLE_PARAM_INT = 1,
-  GRISAILLE_PARAM_BOOL = 2,
-  GRISAILLE_PARAM_ENUM = 3
+  GRISAILLE_PARAM_FLOAT = 0, /**< a number */
+  GRISAILLE_PARAM_INT = 1,   /**< a whole number, up to 2^53 */
+  GRISAILLE_PARAM_BOOL = 2,  /**< 0 or 1 */
+  GRISAILLE_PARAM_ENUM = 3   /**< an index of grisaille_param_desc::enum_keys */
 } grisaille_param_type;
 
+/** How the panel shows a parameter. */
 typedef enum grisaille_param_flags {
-  GRISAILLE_PARAM_LOG = 1,     /* sliders run on a logarithmic scale; soft_min must be over 0 */
-  GRISAILLE_PARAM_ADVANCED = 2 /* folded away in the panel */
+  /** The slider has a logarithmic scale; soft_min must be over 0. For floats and ints alone. */
+  GRISAILLE_PARAM_LOG = 1,
+  GRISAILLE_PARAM_ADVANCED = 2 /**< folded away in the panel */
 } grisaille_param_flags;
 
+/** One parameter. All numbers are finite; those of an int are whole. */
 typedef struct grisaille_param_desc {
-  uint32_t struct_size;
-  uint32_t type;       /* grisaille_param_type */
-  uint32_t flags;      /* of grisaille_param_flags */
-  uint32_t enum_count; /* enum: number of entries, 2 ... 64; else 0 */
-  const char* key;     /* a-z, 0-9, _; begins with a letter; unique in the effect */
-  const char* label;   /* for people: "Kernel size" */
-  const char* unit;    /* "m", "px", "rad", "s", or "" */
-  const char* tooltip; /* one sentence, without a line break */
-  double hard_min;     /* no value outside is ever accepted; bool and enum: 0 */
-  double hard_max;     /* bool: 1; enum: enum_count - 1 */
-  double soft_min;     /* a slider's range, inside the hard one */
-  double soft_max;
-  double default_value;
-  double step;                    /* a slider's step, over 0 unless the scale is logarithmic */
-  const char* const* enum_keys;   /* enum: as on the command line: a-z, 0-9, _, -; unique */
-  const char* const* enum_labels; /* enum: for people */
+  uint32_t struct_size; /**< sizeof(grisaille_param_desc) */
+  uint32_t type;        /**< a grisaille_param_type */
+  uint32_t flags;       /**< grisaille_param_flags combined, or 0 */
+  uint32_t enum_count;  /**< enum: number of entries, 2 to 64; else 0 */
+  const char* key;      /**< a-z, 0-9, _; begins with a letter; unique in the effect */
+  const char* label;    /**< for people: "Kernel size" */
+  const char* unit;     /**< "m", "px", "rad", "s", or "" */
+  const char* tooltip;  /**< one sentence, without a line break */
+  double hard_min;      /**< least value that the host accepts; bool and enum: 0 */
+  double hard_max;      /**< greatest value that the host accepts; bool: 1; enum: enum_count - 1 */
+  double soft_min;      /**< where the slider begins, at least hard_min */
+  double soft_max;      /**< where the slider ends, over soft_min, at most hard_max */
+  double default_value; /**< from hard_min to hard_max */
+  double step;          /**< step of the slider, over 0; 0 only with #GRISAILLE_PARAM_LOG */
+  const char* const* enum_keys; /**< enum: for files and the command line: a-z, 0-9, _, -; unique */
+  const char* const* enum_labels; /**< enum: for people, as many as keys */
 } grisaille_param_desc;
 
-/* ---- What an effect reads and writes --------------------------------------------------------- */
+/**
+ * @}
+ * @defgroup effect_pictures Effect: attachments and outputs
+ * What an effect reads and writes.
+ * @{
+ */
 
-/* Attachments: pictures of the scene that the host draws only when an active effect reads them. */
+/** Attachments: pictures of the scene. The host draws one only when an active effect reads it. */
 typedef enum grisaille_attachment {
-  GRISAILLE_DEPTH = 0,       /* d32f: clip depth as drawn: 1 near, 0 infinitely far and sky */
-  GRISAILLE_VIEW_DEPTH = 1,  /* r32f: distance along the view direction, metres; sky: 0 */
-  GRISAILLE_NORMAL = 2,      /* rgba16f: unit world normal, facing the camera, in xyz; sky: 0 */
-  GRISAILLE_BASE_COLOUR = 3, /* rgba8 sRGB, read as linear: base colour; sky: 0 */
-  /* rgba16f: unit world normal of the triangle itself, facing the camera; sky: 0 */
+  GRISAILLE_DEPTH = 0,       /**< d32f: clip depth as drawn: 1 near, 0 infinitely far and sky */
+  GRISAILLE_VIEW_DEPTH = 1,  /**< r32f: distance along the view direction, metres; sky: 0 */
+  GRISAILLE_NORMAL = 2,      /**< rgba16f: unit world normal, facing the camera, in xyz; sky: 0 */
+  GRISAILLE_BASE_COLOUR = 3, /**< rgba8 sRGB, read as linear: base colour; sky: 0 */
+  /** rgba16f: unit world normal of the triangle itself, facing the camera; sky: 0 */
   GRISAILLE_FACET_NORMAL = 4,
-  /* r32f: the view depth, metres, of the nearest surface at or behind the seen one that faces away
-   * or has two sides: where the visible body ends. 0 where there is no such surface, and sky */
+  /**
+   * r32f: view depth, metres, of the nearest surface at or behind the visible one that faces away
+   * or has two sides. The visible body ends there. 0 where no such surface exists, and for the sky.
+   */
   GRISAILLE_BACK_DEPTH = 5,
-  GRISAILLE_ATTACHMENT_COUNT = 6
+  GRISAILLE_ATTACHMENT_COUNT = 6 /**< number of attachments */
 } grisaille_attachment;
 
+/** The bit of a grisaille_attachment in the result of grisaille_effect_desc::reads. */
 #define GRISAILLE_READS(attachment) (1u << (attachment))
 
+/** The format of a texture. */
 typedef enum grisaille_format {
-  GRISAILLE_FORMAT_R8 = 1,
-  GRISAILLE_FORMAT_RGBA8 = 2,
-  GRISAILLE_FORMAT_R16F = 3,
-  GRISAILLE_FORMAT_RGBA16F = 4,
-  GRISAILLE_FORMAT_R32F = 5,
-  GRISAILLE_FORMAT_RG32F = 6,
-  GRISAILLE_FORMAT_RGBA32F = 7,
-  GRISAILLE_FORMAT_R32UI = 8
+  GRISAILLE_FORMAT_R8 = 1,      /**< one channel, 8-bit unorm */
+  GRISAILLE_FORMAT_RGBA8 = 2,   /**< four channels, 8-bit unorm */
+  GRISAILLE_FORMAT_R16F = 3,    /**< one channel, 16-bit float */
+  GRISAILLE_FORMAT_RGBA16F = 4, /**< four channels, 16-bit float */
+  GRISAILLE_FORMAT_R32F = 5,    /**< one channel, 32-bit float */
+  GRISAILLE_FORMAT_RG32F = 6,   /**< two channels, 32-bit float */
+  GRISAILLE_FORMAT_RGBA32F = 7, /**< four channels, 32-bit float */
+  GRISAILLE_FORMAT_R32UI = 8    /**< one channel, 32-bit unsigned integer */
 } grisaille_format;
 
-/* How the composed picture uses an output. */
+/** How the composed picture uses an output. */
 typedef enum grisaille_role {
-  GRISAILLE_ROLE_NONE = 0, /* not at all: only written to a file or shown on its own */
-  /* first channel in [0,1], 1 = open: multiplies the light; no R32UI */
+  GRISAILLE_ROLE_NONE = 0, /**< not at all: the output is written to a file or shown on its own */
+  /** The first channel, 0 to 1, multiplies the light; 1 = open. Any format but R32UI. */
   GRISAILLE_ROLE_VISIBILITY = 1,
-  /* rgba, straight alpha, linear: laid over the surface's colour */
+  /** Linear rgba with straight alpha is laid over the surface's colour. Four channels. */
   GRISAILLE_ROLE_OVERLAY = 2,
-  /* r32ui, not composed: 1 + index of the object that the overlay of a pixel belongs to; 0: none */
+  /**
+   * Not composed. Each pixel holds 1 + the index of the object that the overlay's pixel belongs to,
+   * or 0 for none. R32UI.
+   */
   GRISAILLE_ROLE_OWNER = 3,
-  /* rgb in [0,1], 1 = open: multiplies the light where the picture shows base colours, instead of
-   * the effect's other visibilities; four channels */
+  /**
+   * The channels rgb, 0 to 1, multiply the light; 1 = open. Where the picture shows base colours, a
+   * tint replaces the effect's visibilities. Four channels.
+   */
   GRISAILLE_ROLE_TINT = 4
 } grisaille_role;
 
+/** One output. */
 typedef struct grisaille_output_desc {
-  uint32_t struct_size;
-  uint32_t format;     /* grisaille_format */
-  uint32_t role;       /* grisaille_role */
-  const char* key;     /* as in --write KEY=FILE; same alphabet as a parameter's */
-  const char* tooltip; /* what the channels mean, with units and range; one line */
+  uint32_t struct_size; /**< sizeof(grisaille_output_desc) */
+  uint32_t format;      /**< a grisaille_format */
+  uint32_t role;        /**< a grisaille_role */
+  const char* key;      /**< a key, as in `--write KEY=FILE`; unique in the effect */
+  const char* tooltip;  /**< one line: what the channels mean, with units and range */
 } grisaille_output_desc;
 
-/* ---- Resources ------------------------------------------------------------------------------- */
+/**
+ * @}
+ * @defgroup effect_resources Effect: resources
+ * Textures, buffers, samplers, pipelines, and a dispatch that uses them.
+ * @{
+ */
 
-/* 0 names nothing. */
+/** A texture of the host. */
 typedef struct grisaille_texture {
-  uint32_t id;
+  uint32_t id; /**< 0: none */
 } grisaille_texture;
+/** A buffer of the host. */
 typedef struct grisaille_buffer {
-  uint32_t id;
+  uint32_t id; /**< 0: none */
 } grisaille_buffer;
+/** A sampler of the host. */
 typedef struct grisaille_sampler {
-  uint32_t id;
+  uint32_t id; /**< 0: none */
 } grisaille_sampler;
+/** A compute pipeline of the host. */
 typedef struct grisaille_pipeline {
-  uint32_t id;
+  uint32_t id; /**< 0: none */
 } grisaille_pipeline;
 
+/** A part of a buffer. */
 typedef struct grisaille_range {
-  grisaille_buffer buffer;
-  uint32_t reserved; /* 0 */
-  uint64_t offset;   /* bytes */
-  uint64_t size;     /* bytes; 0: to the buffer's end */
+  grisaille_buffer buffer; /**< the buffer */
+  uint32_t reserved;       /**< 0 */
+  uint64_t offset;         /**< bytes from the buffer's beginning */
+  uint64_t size;           /**< bytes; 0: to the buffer's end */
 } grisaille_range;
 
+/** The value of a specialization constant. */
 typedef struct grisaille_constant {
-  uint32_t id;   /* constant_id in the shader */
-  uint32_t bits; /* the bits of a uint, int or float; a bool is 0 or 1 */
+  uint32_t id;   /**< constant_id in the shader */
+  uint32_t bits; /**< the bits of a uint, int or float; a bool is 0 or 1 */
 } grisaille_constant;
 
+/** Describes a compute pipeline. */
 typedef struct grisaille_pipeline_desc {
-  uint32_t struct_size;
-  uint32_t constant_count;
-  const char* label;
-  const grisaille_shader* shader; /* a compute shader; valid while the pipeline lives */
-  const grisaille_constant* constants;
+  uint32_t struct_size;                /**< sizeof(grisaille_pipeline_desc) */
+  uint32_t constant_count;             /**< number of `constants` */
+  const char* label;                   /**< for messages and debuggers; may be null */
+  const grisaille_shader* shader;      /**< a compute shader; valid while the pipeline lives */
+  const grisaille_constant* constants; /**< null: the shader's defaults */
 } grisaille_pipeline_desc;
 
+/** How shaders use a texture. */
 typedef enum grisaille_texture_usage {
-  GRISAILLE_TEXTURE_SAMPLED = 1,
-  GRISAILLE_TEXTURE_STORAGE = 2
+  GRISAILLE_TEXTURE_SAMPLED = 1, /**< through a sampler */
+  GRISAILLE_TEXTURE_STORAGE = 2  /**< as an image */
 } grisaille_texture_usage;
 
+/** Describes a 2D texture. */
 typedef struct grisaille_texture_desc {
-  uint32_t struct_size;
-  uint32_t format; /* grisaille_format */
-  uint32_t usage;  /* of grisaille_texture_usage */
-  uint32_t width;  /* texels, 1 ... the device's limit */
-  uint32_t height;
-  uint32_t mips;   /* 0 counts as 1 */
-  uint32_t layers; /* 0 counts as 1; more: a shader sees an array, as it may a single layer */
-  const char* label;
+  uint32_t struct_size; /**< sizeof(grisaille_texture_desc) */
+  uint32_t format;      /**< a grisaille_format */
+  uint32_t usage;       /**< grisaille_texture_usage combined */
+  uint32_t width;       /**< texels, 1 to the device's limit */
+  uint32_t height;      /**< texels, 1 to the device's limit */
+  uint32_t mips;        /**< number of levels; 0 counts as 1 */
+  uint32_t layers;      /**< number of layers; 0 counts as 1; over 1: an array in shaders */
+  const char* label;    /**< for messages and debuggers; may be null */
 } grisaille_texture_desc;
 
+/** Describes a storage buffer. */
 typedef struct grisaille_buffer_desc {
-  uint32_t struct_size;
-  uint32_t reserved; /* 0 */
-  uint64_t bytes;    /* a storage buffer of this size */
-  const char* label;
+  uint32_t struct_size; /**< sizeof(grisaille_buffer_desc) */
+  uint32_t reserved;    /**< 0 */
+  uint64_t bytes;       /**< size, 1 to the device's limit */
+  const char* label;    /**< for messages and debuggers; may be null */
 } grisaille_buffer_desc;
 
+/** Describes a sampler. */
 typedef struct grisaille_sampler_desc {
-  uint32_t struct_size;
-  uint32_t linear;     /* 1: bilinear within a level, else nearest */
-  uint32_t linear_mip; /* 1: between levels */
-  uint32_t repeat;     /* 1: repeat, else clamp to the edge */
-  const char* label;
+  uint32_t struct_size; /**< sizeof(grisaille_sampler_desc) */
+  uint32_t linear;      /**< 1: bilinear within a level; 0: nearest */
+  uint32_t linear_mip;  /**< 1: linear between levels; 0: nearest */
+  uint32_t repeat;      /**< 1: repeat; 0: clamp to the edge */
+  const char* label;    /**< for messages and debuggers; may be null */
 } grisaille_sampler_desc;
 
-/* One slot of a dispatch. Fields that its class does not use are ignored. */
+/** One slot of a dispatch. The host ignores fields that the slot's class does not use. */
 typedef struct grisaille_binding {
-  uint32_t slot_class; /* grisaille_slot_class */
-  uint32_t slot;
-  grisaille_range range;     /* uniform, storage */
-  grisaille_texture texture; /* texture, image */
-  grisaille_sampler sampler; /* texture */
-  uint32_t mip;              /* first level; an image is this one level */
-  uint32_t mip_count;        /* texture: 0: all that follow */
+  uint32_t slot_class;       /**< a grisaille_slot_class */
+  uint32_t slot;             /**< 0 to 15 within the class */
+  grisaille_range range;     /**< uniform, storage: part of a buffer */
+  grisaille_texture texture; /**< texture, image */
+  grisaille_sampler sampler; /**< texture */
+  uint32_t mip;              /**< texture: the first level; image: the only one */
+  uint32_t mip_count;        /**< texture: number of levels; 0: all from `mip` on */
 } grisaille_binding;
 
+/** One dispatch of a compute pipeline. */
 typedef struct grisaille_dispatch {
-  uint32_t struct_size;
-  grisaille_pipeline pipeline;
-  const grisaille_binding* bindings;
-  uint32_t binding_count;
-  uint32_t groups[3];
+  uint32_t struct_size;              /**< sizeof(grisaille_dispatch) */
+  grisaille_pipeline pipeline;       /**< a pipeline of the instance */
+  const grisaille_binding* bindings; /**< one for each slot that the shader uses */
+  uint32_t binding_count;            /**< number of `bindings` */
+  uint32_t groups[3];                /**< groups on each axis, 1 to the device's limit */
 } grisaille_dispatch;
 
-/* ---- Objects that users make ----------------------------------------------------------------- */
+/**
+ * @}
+ * @defgroup effect_objects Effect: objects
+ * A list of objects that users make: decals, probes, brush strokes.
+ *
+ * An effect may work on such a list. Its table says which fields an object has and how a user
+ * places one. The list itself, its files, the options --add, --load and --save, the panel's list
+ * and tools, and undo are made from the table.
+ * @{
+ */
 
-/* An effect may work on a list of objects that users make: decals, probes, brush strokes. Its table
- * says what fields an object has and how a user places one. The list itself, its files, the command
- * line's --add, --load and --save, the panel's list and tools, and undo come from the table. */
+/** The type of a field, and its type in the object's struct. */
 typedef enum grisaille_field_type {
-  GRISAILLE_FIELD_NUMBER = 0,    /* double, min ... max */
-  GRISAILLE_FIELD_COLOUR = 1,    /* float[3]: linear red, green, blue, each 0 ... 1 */
-  GRISAILLE_FIELD_POINT = 2,     /* double[3]: world, metres, each within 1e9 of 0 */
-  GRISAILLE_FIELD_DIRECTION = 3, /* float[3]: world, unit */
-  GRISAILLE_FIELD_TEXT = 4,      /* const char*: one line of UTF-8 of up to 4096 bytes; not null */
-  GRISAILLE_FIELD_FILE = 5       /* const char*: a path, otherwise as a text; "": none */
+  GRISAILLE_FIELD_NUMBER = 0,    /**< double, from min to max */
+  GRISAILLE_FIELD_COLOUR = 1,    /**< float[3]: linear red, green, blue, each 0 to 1 */
+  GRISAILLE_FIELD_POINT = 2,     /**< double[3]: world, metres, each from -1e9 to 1e9 */
+  GRISAILLE_FIELD_DIRECTION = 3, /**< float[3]: world, unit length */
+  GRISAILLE_FIELD_TEXT = 4, /**< const char*: one line of UTF-8, at most 4096 bytes; not null */
+  GRISAILLE_FIELD_FILE = 5  /**< const char*: a path, otherwise as a text; "": none */
 } grisaille_field_type;
 
+/** Further properties of a field. */
 typedef enum grisaille_field_flags {
-  GRISAILLE_FIELD_REQUIRED = 1 /* a file without it is refused; the default is for the panel */
+  /** A file must give the field of every object; only the panel uses the default. */
+  GRISAILLE_FIELD_REQUIRED = 1
 } grisaille_field_flags;
 
+/** One field of an object. */
 typedef struct grisaille_field_desc {
-  uint32_t struct_size;
-  uint32_t type;   /* grisaille_field_type */
-  uint32_t flags;  /* of grisaille_field_flags */
-  uint32_t offset; /* bytes from the object's beginning, a multiple of the element's size */
-  const char* key; /* as in files and on the command line; a parameter's alphabet; unique */
-  const char* label;
-  const char* unit;         /* of a number, as a parameter's; else "" */
-  const char* tooltip;      /* one line */
-  double min;               /* number: finite; else 0 */
-  double max;               /* number: finite, over min; else 0 */
-  double default_value[3];  /* number: the first; text and file: 0 */
-  const char* default_text; /* text, file: not null; else null */
+  uint32_t struct_size; /**< sizeof(grisaille_field_desc) */
+  uint32_t type;        /**< a grisaille_field_type */
+  uint32_t flags;       /**< grisaille_field_flags combined, or 0 */
+  uint32_t offset;      /**< bytes from the object's beginning, a multiple of the element's size */
+  const char* key;      /**< a key, for files and the command line; unique in the object */
+  const char* label;    /**< for people */
+  const char* unit;     /**< of a number, as grisaille_param_desc::unit; else "" */
+  const char* tooltip;  /**< one line */
+  double min;           /**< number: least value, finite; else 0 */
+  double max;           /**< number: greatest value, finite, over min; else 0 */
+  double default_value[3];  /**< a number uses the first; text and file: 0 */
+  const char* default_text; /**< text, file: the default, not null; else null */
 } grisaille_field_desc;
 
-/* What placing an object with the pointer sets. */
+/** Which fields a click sets when a user places an object. */
 typedef enum grisaille_placement {
-  GRISAILLE_PLACE_RAY = 0,    /* point: the camera's eye; direction: through the pixel */
-  GRISAILLE_PLACE_SURFACE = 1 /* point: on the surface that is seen; direction: its facet's normal,
-                                 towards the camera. Nothing is placed on the sky. */
+  /** The point is the camera's eye; the direction goes through the pixel. */
+  GRISAILLE_PLACE_RAY = 0,
+  /**
+   * The point lies on the visible surface; the direction is its facet's normal, towards the camera.
+   * A click on the sky places nothing.
+   */
+  GRISAILLE_PLACE_SURFACE = 1
 } grisaille_placement;
 
+/** The objects of an effect. */
 typedef struct grisaille_object_desc {
-  uint32_t struct_size;
-  uint32_t object_size;     /* bytes of one object, a multiple of 8, up to 4096 */
-  uint32_t field_count;     /* 1 ... 64 */
-  uint32_t placement;       /* grisaille_placement */
-  uint32_t point_field;     /* index of the point that placing sets */
-  uint32_t direction_field; /* index of the direction that placing sets */
-  const char* key;          /* of the list in files: "decals"; a parameter's alphabet */
-  const char* label;        /* of the list, for people: "Decals" */
-  const char* tooltip;      /* what one object is, in one line */
-  const grisaille_field_desc* fields;
+  uint32_t struct_size;               /**< sizeof(grisaille_object_desc) */
+  uint32_t object_size;               /**< bytes of one object, a multiple of 8, at most 4096 */
+  uint32_t field_count;               /**< 1 to 64 */
+  uint32_t placement;                 /**< a grisaille_placement */
+  uint32_t point_field;               /**< index of the point that placing sets */
+  uint32_t direction_field;           /**< index of the direction that placing sets */
+  const char* key;                    /**< a key, of the list in files: "decals"; not "version" */
+  const char* label;                  /**< of the list, for people: "Decals" */
+  const char* tooltip;                /**< one line: what one object is */
+  const grisaille_field_desc* fields; /**< `field_count` of them */
 } grisaille_object_desc;
 
-/* The list as one frame sees it. */
+/** The list in one frame, valid during grisaille_effect_desc::record. */
 typedef struct grisaille_objects {
-  uint32_t struct_size;
-  uint32_t stride;     /* bytes from one object to the next: grisaille_object_desc.object_size */
-  const void* objects; /* oldest first; valid during record */
-  uint64_t count;
-  uint64_t kept; /* number of leading objects unchanged since the last frame that this instance
-                    recorded without an error */
+  uint32_t struct_size; /**< sizeof(grisaille_objects) */
+  uint32_t stride;     /**< bytes from one object to the next: grisaille_object_desc::object_size */
+  const void* objects; /**< oldest first */
+  uint64_t count;      /**< number of objects */
+  /** Leading objects unchanged since the last frame that this instance recorded without error. */
+  uint64_t kept;
 } grisaille_objects;
 
-/* ---- Rays and pictures ----------------------------------------------------------------------- */
+/**
+ * @}
+ * @defgroup effect_rays Effect: rays and pictures
+ * What an effect may ask of the scene and of files.
+ * @{
+ */
 
+/** A ray through the scene. */
 typedef struct grisaille_ray {
-  double origin[3];   /* world, metres */
-  float direction[3]; /* unit */
-  float reach;        /* metres, over 0; may be infinite */
+  double origin[3];   /**< world, metres, finite */
+  float direction[3]; /**< world, unit length */
+  float reach;        /**< metres, over 0; may be infinite */
 } grisaille_ray;
 
+/** Whether a ray hit something. */
 typedef enum grisaille_hit_kind {
-  GRISAILLE_HIT_NONE = 0,    /* nothing within reach */
-  GRISAILLE_HIT_SURFACE = 1, /* the first surface, from either side; what is cut out lets through */
-  GRISAILLE_HIT_UNKNOWN = 2  /* this host cannot tell now; it may in a later frame */
+  GRISAILLE_HIT_NONE = 0, /**< nothing within reach */
+  /** The first surface, from either side. Rays pass through the holes of a cut-out material. */
+  GRISAILLE_HIT_SURFACE = 1,
+  GRISAILLE_HIT_UNKNOWN = 2 /**< this host cannot tell now; it may in a later frame */
 } grisaille_hit_kind;
 
+/** What a ray hit. */
 typedef struct grisaille_hit {
-  uint32_t kind;   /* grisaille_hit_kind; the rest is 0 unless a surface is hit */
-  float distance;  /* metres along the ray */
-  float normal[3]; /* world, unit: of the triangle, towards the ray's origin */
+  uint32_t kind;   /**< a grisaille_hit_kind; unless it is a surface, the other fields are 0 */
+  float distance;  /**< metres along the ray */
+  float normal[3]; /**< world, unit length: of the triangle, towards the ray's origin */
 } grisaille_hit;
 
-/* A picture that the host has decoded. */
+/** A picture that the host has decoded. */
 typedef struct grisaille_picture {
-  uint32_t struct_size; /* set by the effect */
-  uint32_t width;       /* pixels, over 0 */
-  uint32_t height;
-  uint32_t reserved;   /* 0 */
-  const uint8_t* rgba; /* sRGB, straight alpha, 4 bytes a pixel, top row first; valid until the next
-                          read_picture() of this instance or the end of the effect's function */
+  uint32_t struct_size; /**< sizeof(grisaille_picture), set by the caller */
+  uint32_t width;       /**< pixels, over 0 */
+  uint32_t height;      /**< pixels, over 0 */
+  uint32_t reserved;    /**< 0 */
+  /**
+   * sRGB with straight alpha, 4 bytes a pixel, top row first. Valid until the instance's next call
+   * of grisaille_host::read_picture or the end of the effect's function.
+   */
+  const uint8_t* rgba;
 } grisaille_picture;
 
-/* ---- The host's services --------------------------------------------------------------------- */
+/**
+ * @}
+ * @defgroup effect_host Effect: services of the host
+ * What the host does for one instance of an effect.
+ * @{
+ */
 
-/* Valid from create to destroy of one instance; never freed by the effect. `self` is always the
- * table's own address. Resources belong to the instance: it destroys them, and the host destroys
- * what is left after grisaille_effect_desc.destroy. Data is read during the call and not kept. */
+/**
+ * The host's services for one instance.
+ *
+ * The table is valid from create() to destroy() of the instance, and the effect never frees it.
+ * Resources belong to the instance. The instance destroys them; the host destroys those that are
+ * left after grisaille_effect_desc::destroy. The host reads arguments during the call and keeps
+ * none of them.
+ */
 typedef struct grisaille_host {
-  uint32_t struct_size;
-  uint32_t abi_minor; /* what this host offers */
-  void* context;      /* the host's own */
+  uint32_t struct_size; /**< size of the table that this host offers */
+  uint32_t abi_minor;   /**< minor number that this host offers */
+  void* context;        /**< the host's own */
 
-  /* Notes why the effect is about to return GRISAILLE_FAILED: one line, copied. */
+  /**
+   * Notes why the effect is about to return #GRISAILLE_FAILED.
+   * @param self this table
+   * @param why one line; the host copies it
+   */
   void (*fail)(const struct grisaille_host* self, const char* why);
 
-  /* Makes a compute pipeline. GRISAILLE_FAILED: a description that is wrong, a shader of another
-   * stage or that the driver refuses, or no memory. This and the other services that make
-   * something: inside create() and record(). */
+  /**
+   * Creates a compute pipeline. Call this and the other functions that create resources only inside
+   * create() and record().
+   * @param self this table
+   * @param desc describes the pipeline
+   * @param[out] out the pipeline
+   * @retval GRISAILLE_FAILED The description is wrong, the shader is of another stage, the driver
+   *   refuses the shader, or memory is exhausted.
+   */
   grisaille_result (*create_pipeline)(const struct grisaille_host* self,
                                       const grisaille_pipeline_desc* desc, grisaille_pipeline* out);
-  /* Makes a texture, contents undefined. GRISAILLE_FAILED: a description that is wrong, a size or
-   * use that the device does not have, or no memory. */
+  /**
+   * Creates a texture. Its contents are undefined.
+   * @param self this table
+   * @param desc describes the texture
+   * @param[out] out the texture
+   * @retval GRISAILLE_FAILED The description is wrong, the device does not support the size or the
+   *   usage, or memory is exhausted.
+   */
   grisaille_result (*create_texture)(const struct grisaille_host* self,
                                      const grisaille_texture_desc* desc, grisaille_texture* out);
-  /* Makes a storage buffer, contents undefined. GRISAILLE_FAILED: as with textures. */
+  /**
+   * Creates a storage buffer. Its contents are undefined.
+   * @param self this table
+   * @param desc describes the buffer
+   * @param[out] out the buffer
+   * @retval GRISAILLE_FAILED The description is wrong, the device does not support the size, or
+   *   memory is exhausted.
+   */
   grisaille_result (*create_buffer)(const struct grisaille_host* self,
                                     const grisaille_buffer_desc* desc, grisaille_buffer* out);
-  /* Makes a sampler. GRISAILLE_FAILED: a description that is wrong, or no memory. */
+  /**
+   * Creates a sampler.
+   * @param self this table
+   * @param desc describes the sampler
+   * @param[out] out the sampler
+   * @retval GRISAILLE_FAILED The description is wrong, or memory is exhausted.
+   */
   grisaille_result (*create_sampler)(const struct grisaille_host* self,
                                      const grisaille_sampler_desc* desc, grisaille_sampler* out);
-  /* Ends what the instance owns, inside any of its functions; id 0 does nothing. The memory goes
-   * once no frame in flight uses it. Another's id makes the function that is running fail. */
+  /**
+   * Destroys a pipeline of the instance, inside any of its functions. The host frees the memory
+   * once no frame in flight uses it. With the pipeline of another instance, the running function
+   * fails.
+   * @param self this table
+   * @param pipeline a pipeline of the instance; id 0: nothing happens
+   */
   void (*destroy_pipeline)(const struct grisaille_host* self, grisaille_pipeline pipeline);
-  /* As destroy_pipeline. */
+  /**
+   * Destroys a texture, as grisaille_host::destroy_pipeline does a pipeline.
+   * @param self this table
+   * @param texture a texture of the instance; id 0: nothing happens
+   */
   void (*destroy_texture)(const struct grisaille_host* self, grisaille_texture texture);
-  /* As destroy_pipeline. */
+  /**
+   * Destroys a buffer, as grisaille_host::destroy_pipeline does a pipeline.
+   * @param self this table
+   * @param buffer a buffer of the instance; id 0: nothing happens
+   */
   void (*destroy_buffer)(const struct grisaille_host* self, grisaille_buffer buffer);
-  /* As destroy_pipeline. */
+  /**
+   * Destroys a sampler, as grisaille_host::destroy_pipeline does a pipeline.
+   * @param self this table
+   * @param sampler a sampler of the instance; id 0: nothing happens
+   */
   void (*destroy_sampler)(const struct grisaille_host* self, grisaille_sampler sampler);
 
-  /* What `count` rays hit, one an element of `hits`. GRISAILLE_UNSUPPORTED where the host casts
-   * none. Only inside record(). GRISAILLE_FAILED: a ray that is not as said. */
+  /**
+   * Casts rays through the scene. Call it only inside record().
+   * @param self this table
+   * @param rays `count` rays
+   * @param count number of rays
+   * @param[out] hits `count` hits, one for each ray
+   * @retval GRISAILLE_UNSUPPORTED The host casts no rays.
+   * @retval GRISAILLE_FAILED A ray is not as grisaille_ray says.
+   */
   grisaille_result (*cast_rays)(const struct grisaille_host* self, const grisaille_ray* rays,
                                 uint64_t count, grisaille_hit* hits);
-  /* Decodes a picture file, such as a FILE field names. GRISAILLE_UNSUPPORTED where the host
-   * decodes none. Only inside record(). GRISAILLE_FAILED: the file cannot be read; the host warns
-   * of it once, and the effect may go on without it. */
+  /**
+   * Decodes a picture file, such as a #GRISAILLE_FIELD_FILE names. Call it only inside record().
+   * @param self this table
+   * @param path path of the file
+   * @param[out] out the picture; set its `struct_size` before the call
+   * @retval GRISAILLE_UNSUPPORTED The host decodes no pictures.
+   * @retval GRISAILLE_FAILED The host cannot read the file, and warns of it once. The effect may go
+   *   on without the picture.
+   */
   grisaille_result (*read_picture)(const struct grisaille_host* self, const char* path,
                                    grisaille_picture* out);
 } grisaille_host;
 
-/* The camera of a frame, in double precision. The same in single precision, for shaders, is the
- * uniform block of shaders/common/view.glsl. */
+/**
+ * @}
+ * @defgroup effect_frame Effect: a frame
+ * What an effect is given to record one frame.
+ * @{
+ */
+
+/**
+ * The camera of a frame, in double precision. Shaders read the same in single precision from the
+ * uniform block of shaders/common/view.glsl.
+ */
 typedef struct grisaille_view {
-  uint32_t struct_size;
-  uint32_t reserved;         /* 0 */
-  double position[3];        /* world, metres */
-  double world_from_view[9]; /* rotation, column-major 3x3 */
-  double clip_from_view[16]; /* a pinhole; reversed depth, infinitely far */
-  double near_plane;         /* metres */
-  double pixel_slope;        /* height of a pixel at 1 m view depth, metres */
+  uint32_t struct_size;      /**< sizeof(grisaille_view) */
+  uint32_t reserved;         /**< 0 */
+  double position[3];        /**< world, metres */
+  double world_from_view[9]; /**< rotation, column-major 3x3 */
+  double clip_from_view[16]; /**< a pinhole, column-major 4x4; reversed depth, infinitely far */
+  double near_plane;         /**< metres */
+  double pixel_slope;        /**< height of a pixel at 1 m view depth, metres */
 } grisaille_view;
 
-/* One frame of one effect, valid during `record`. */
+/** One frame of one effect, valid during grisaille_effect_desc::record. */
 typedef struct grisaille_frame {
-  uint32_t struct_size;
-  uint32_t width; /* pixels, of every output, and of every attachment but for the guard band */
-  uint32_t height;
-  uint32_t wanted;      /* bit n: somebody uses output n; others have texture id 0 */
-  uint64_t index;       /* counts the frames of this instance from 0 */
-  void* context;        /* the host's own */
-  const double* values; /* one a parameter, in the table's order, inside its hard range */
-  const grisaille_view* view;
-  grisaille_range view_block;           /* uniform buffer for shaders/common/view.glsl */
-  const grisaille_texture* attachments; /* GRISAILLE_ATTACHMENT_COUNT; id 0: not asked for */
-  const grisaille_texture* outputs;     /* one an output, in the table's order */
+  uint32_t struct_size; /**< size of the table that this host offers */
+  uint32_t width;       /**< pixels of every output, and of every attachment without guard band */
+  uint32_t height;      /**< pixels, as `width` */
+  uint32_t wanted;      /**< bit n: somebody uses output n; an output that nobody uses has id 0 */
+  uint64_t index;       /**< counts the frames of this instance from 0 */
+  void* context;        /**< the host's own */
+  const double* values; /**< one for each parameter, in the table's order, inside its hard range */
+  const grisaille_view* view;           /**< the camera */
+  grisaille_range view_block;           /**< uniform buffer for shaders/common/view.glsl */
+  const grisaille_texture* attachments; /**< by grisaille_attachment; id 0: not asked for */
+  const grisaille_texture* outputs;     /**< one for each output, in the table's order */
 
-  /* Named, timed, not nested; work is recorded only inside. The label is copied. This and what
-   * follows: only inside record(). GRISAILLE_FAILED: no label, or inside another pass. */
+  /**
+   * Begins a pass: a named, timed group of commands. Passes do not nest. Commands are recorded only
+   * inside a pass. Call this and the other functions of the frame only inside record().
+   * @param self this frame
+   * @param label names the pass; the host copies it
+   * @retval GRISAILLE_FAILED The label is empty, or another pass is open.
+   */
   grisaille_result (*begin_pass)(const struct grisaille_frame* self, const char* label);
-  /* GRISAILLE_FAILED: no pass is open. */
+  /**
+   * Ends the pass.
+   * @param self this frame
+   * @retval GRISAILLE_FAILED No pass is open.
+   */
   grisaille_result (*end_pass)(const struct grisaille_frame* self);
-  /* Records a dispatch, which sees what was recorded before. Read during the call.
-   * GRISAILLE_FAILED: outside a pass, a slot that nothing is bound to, or something bound that is
-   * neither the instance's nor the frame's; attachments are only read. */
+  /**
+   * Records a dispatch, which sees the results of all commands recorded before it. Attachments are
+   * only read.
+   * @param self this frame
+   * @param work the dispatch; the host reads it during the call
+   * @retval GRISAILLE_FAILED No pass is open, nothing is bound to a slot of the shader, or a bound
+   *   resource belongs neither to the instance nor to the frame.
+   */
   grisaille_result (*dispatch)(const struct grisaille_frame* self, const grisaille_dispatch* work);
-  /* 1 ... 65536 bytes, copied, as a uniform buffer for this frame. GRISAILLE_FAILED: more, or none;
-   * no memory. */
+  /**
+   * Copies bytes into a uniform buffer for this frame.
+   * @param self this frame
+   * @param data the bytes
+   * @param bytes their number, 1 to 65536
+   * @param[out] out the part of a buffer that holds the copy
+   * @retval GRISAILLE_FAILED `bytes` is out of range, or memory is exhausted.
+   */
   grisaille_result (*uniform)(const struct grisaille_frame* self, const void* data, uint32_t bytes,
                               grisaille_range* out);
-  /* A texture for this frame alone, contents undefined; not destroyed by the effect.
-   * GRISAILLE_FAILED: as create_texture. */
+  /**
+   * Creates a texture for this frame alone. Its contents are undefined, and the effect does not
+   * destroy it.
+   * @param self this frame
+   * @param desc describes the texture
+   * @param[out] out the texture
+   * @retval GRISAILLE_FAILED as grisaille_host::create_texture
+   */
   grisaille_result (*transient)(const struct grisaille_frame* self,
                                 const grisaille_texture_desc* desc, grisaille_texture* out);
-  /* Copies so many bytes to an offset inside one of the instance's buffers. GRISAILLE_FAILED: it is
-   * another's; no memory. */
+  /**
+   * Copies bytes into a buffer of the instance.
+   * @param self this frame
+   * @param buffer the buffer
+   * @param offset bytes from the buffer's beginning
+   * @param data the bytes
+   * @param bytes their number; the range lies inside the buffer
+   * @retval GRISAILLE_FAILED The buffer is another instance's, the range leaves it, or memory is
+   *   exhausted.
+   */
   grisaille_result (*upload_buffer)(const struct grisaille_frame* self, grisaille_buffer buffer,
                                     uint64_t offset, const void* data, uint64_t bytes);
-  /* The whole of one level and layer, copied: rows tightly packed, top row first. GRISAILLE_FAILED:
-   * it is neither the instance's nor an output; no memory. */
+  /**
+   * Copies texels into the whole of one level and layer.
+   * @param self this frame
+   * @param texture a texture of the instance or of the frame, but no attachment
+   * @param mip the level
+   * @param layer the layer
+   * @param data rows, tightly packed, top row first
+   * @param bytes number of bytes in `data`
+   * @retval GRISAILLE_FAILED The texture is another one, `bytes` does not fit, or memory is
+   *   exhausted.
+   */
   grisaille_result (*upload_texture)(const struct grisaille_frame* self, grisaille_texture texture,
                                      uint32_t mip, uint32_t layer, const void* data,
                                      uint64_t bytes);
 
-  const grisaille_objects* objects; /* null unless the effect's table declares objects */
-  /* Seconds of work that can wait which this frame may still do; may be infinite. */
+  const grisaille_objects* objects; /**< null unless the effect's table declares objects */
+  /** Seconds that this frame may still spend on work that can wait; may be infinite. */
   double patience;
-  /* Tells how many things wait to be drawn in a later frame: the host renders again soon. 0, as
-   * before the first call: the picture is whole. */
+  /**
+   * Tells how many things wait for a later frame. The host then renders again soon.
+   * @param self this frame
+   * @param count their number; 0, as before the first call: the picture is complete
+   */
   grisaille_result (*waiting)(const struct grisaille_frame* self, uint64_t count);
 
-  /* Pixels by which every attachment goes beyond the picture on each side: texture coordinates are
-   * what attachmentAt() of shaders/common/view.glsl says. At least what the effect's guard_band
-   * asked for, or 0 where the host has nothing beyond the picture. */
+  /**
+   * The guard band: pixels by which every attachment goes beyond the picture on each side. It is at
+   * least what grisaille_effect_desc::guard_band asked for, or 0 if the host has nothing beyond the
+   * picture. attachmentAt() of shaders/common/view.glsl returns texture coordinates.
+   */
   uint32_t guard;
-  uint32_t reserved; /* 0 */
+  uint32_t reserved; /**< 0 */
 } grisaille_frame;
 
-/* ---- The effect ------------------------------------------------------------------------------ */
+/**
+ * @}
+ * @defgroup effect_table Effect: the effect and its plugin
+ * The tables that a plugin exports.
+ * @{
+ */
 
+/** Further properties of an effect. */
 typedef enum grisaille_effect_flags {
-  GRISAILLE_EFFECT_DEFAULT = 1 /* runs where nobody names effects; only of the program's own */
+  /** Runs where the user names no effects. Only for the effects of the program itself. */
+  GRISAILLE_EFFECT_DEFAULT = 1
 } grisaille_effect_flags;
 
+/** One effect. */
 typedef struct grisaille_effect_desc {
-  uint32_t struct_size;
-  uint32_t param_count;  /* 0 ... 256 */
-  uint32_t output_count; /* 1 ... 16 */
-  uint32_t flags;        /* of grisaille_effect_flags */
-  const char* key;       /* "ssao": same alphabet as a parameter's, unique among effects */
-  const char* label;     /* for people: "Ambient occlusion" */
-  const char* version;   /* "1.0.0" */
-  const char* tooltip;   /* what it does, in one line */
-  const grisaille_param_desc* params;
-  const grisaille_output_desc* outputs;
+  uint32_t struct_size;                 /**< sizeof(grisaille_effect_desc) */
+  uint32_t param_count;                 /**< 0 to 256 */
+  uint32_t output_count;                /**< 1 to 16 */
+  uint32_t flags;                       /**< grisaille_effect_flags combined, or 0 */
+  const char* key;                      /**< a key: "ssao"; unique among effects */
+  const char* label;                    /**< for people: "Ambient occlusion" */
+  const char* version;                  /**< "1.0.0" */
+  const char* tooltip;                  /**< one line: what the effect does */
+  const grisaille_param_desc* params;   /**< `param_count` of them */
+  const grisaille_output_desc* outputs; /**< `output_count` of them */
 
-  /* Which attachments it reads with these values for the outputs of which `wanted` holds the bits,
-   * as grisaille_frame.wanted does: GRISAILLE_READS(...) combined. May depend on the arguments
-   * alone; called at any time, also without an instance. Cannot fail. */
+  /**
+   * Says which attachments the effect reads. The result depends on the arguments alone. The host
+   * calls it at any time, also without an instance. It cannot fail.
+   * @param values one for each parameter, in the table's order
+   * @param wanted the outputs that somebody uses, as grisaille_frame::wanted
+   * @return GRISAILLE_READS() of each attachment, combined
+   */
   uint32_t (*reads)(const double* values, uint32_t wanted);
 
-  /* Makes an instance; *out is handed to the others. After a failure no other function is called.
+  /**
+   * Creates an instance. After a failure the host calls no other function of it.
+   * @param host the services for this instance
+   * @param[out] out the instance, which the host hands to the other functions
+   * @return GRISAILLE_OK, or GRISAILLE_FAILED after grisaille_host::fail
    */
   grisaille_result (*create)(const grisaille_host* host, void** out);
 
-  /* Records one frame. Writes every wanted output at every pixel. After a failure the frame is
-   * dropped and the instance stays usable. */
+  /**
+   * Records one frame. It writes every wanted output at every pixel. After a failure the host drops
+   * the frame, and the instance stays usable.
+   * @param instance the instance
+   * @param frame the frame
+   * @return GRISAILLE_OK, or GRISAILLE_FAILED after grisaille_host::fail
+   */
   grisaille_result (*record)(void* instance, const grisaille_frame* frame);
 
-  /* Ends an instance. */
+  /**
+   * Destroys an instance.
+   * @param instance the instance
+   */
   void (*destroy)(void* instance);
 
-  /* Null: 0. The guard band it wants with these values: by what share of the picture's height,
-   * 0 ... 1, the attachments that it reads go beyond the picture on every side. Effects without one
-   * get attachments of the picture's size, drawn by themselves. */
+  /**
+   * Says how wide a guard band the effect wants; may be null: none. An effect without guard band
+   * gets attachments of the picture's size, drawn separately.
+   * @param values one for each parameter, in the table's order
+   * @return the band on each side, as a share of the picture's height, 0 to 1
+   */
   double (*guard_band)(const double* values);
 
-  /* The objects that users make for it; null: none. */
-  const grisaille_object_desc* objects;
+  const grisaille_object_desc* objects; /**< the objects that users make for it; null: none */
 } grisaille_effect_desc;
 
+/** What a plugin exports. */
 typedef struct grisaille_plugin_desc {
-  uint32_t magic;     /* GRISAILLE_MAGIC */
-  uint32_t abi_major; /* GRISAILLE_ABI_MAJOR */
-  uint32_t abi_minor; /* GRISAILLE_ABI_MINOR */
-  uint32_t struct_size;
-  uint32_t effect_count; /* 1 ... 64 */
-  uint32_t reserved;     /* 0 */
-  const grisaille_effect_desc* const* effects;
+  uint32_t magic;                              /**< GRISAILLE_MAGIC */
+  uint32_t abi_major;                          /**< GRISAILLE_ABI_MAJOR */
+  uint32_t abi_minor;                          /**< GRISAILLE_ABI_MINOR */
+  uint32_t struct_size;                        /**< sizeof(grisaille_plugin_desc) */
+  uint32_t effect_count;                       /**< 1 to 64 */
+  uint32_t reserved;                           /**< 0 */
+  const grisaille_effect_desc* const* effects; /**< `effect_count` of them */
 } grisaille_plugin_desc;
 
+/** The name of the symbol that a plugin exports. */
 #define GRISAILLE_PLUGIN_SYMBOL "grisaille_plugin"
+
+/** @} */
 
 #ifdef __cplusplus
 }

@@ -1,64 +1,69 @@
 // SPDX-License-Identifier: MIT
-// The C++20 face of grisaille/effect.h: an author writes a class and a table, nothing else crosses.
-// Header-only; it needs that header and the standard library.
-//
-//   #include "grisaille/effect.hpp"
-//   #include "shaders/mist.h"  // made by grisaille_add_effect(mist ... SHADERS mist=mist.comp)
-//
-//   namespace plugin = grisaille::plugin;
-//
-//   enum Parameter { kDensity, kSteps };
-//   constexpr grisaille_param_desc kParams[] = {
-//       plugin::floatParam({.key = "density", .label = "Density", .unit = "",
-//                           .tooltip = "Share of light lost over one metre", .hardMin = 0,
-//                           .hardMax = 1, .softMin = 0, .softMax = 0.1, .defaultValue = 0.01,
-//                           .step = 0.001}),
-//       plugin::intParam({.key = "steps", .label = "Steps", .tooltip = "Samples along a ray",
-//                         .hardMin = 1, .hardMax = 64, .softMin = 1, .softMax = 16,
-//                         .defaultValue = 8})};
-//   constexpr grisaille_output_desc kOutputs[] = {
-//       plugin::output({.key = "mist", .format = GRISAILLE_FORMAT_R32F,
-//                       .role = GRISAILLE_ROLE_VISIBILITY, .tooltip = "1 = clear air"})};
-//
-//   class Mist {
-//    public:
-//     explicit Mist(plugin::Host host)
-//         : march_(host, "march", grisaille_shader_mist), near_(host.sampler({.label = "n"})) {}
-//
-//     static uint32_t reads(plugin::Values, uint32_t) noexcept {
-//       return GRISAILLE_READS(GRISAILLE_VIEW_DEPTH);
-//     }
-//
-//     void record(const plugin::Frame& frame) {
-//       const uint32_t steps = frame.value<uint32_t>(kSteps);
-//       const grisaille_pipeline march = march_.get({plugin::specialize(0, steps)});
-//       const grisaille_range density = frame.uniform(frame.value<float>(kDensity));
-//       frame.pass("march", [&] {
-//         frame.dispatch(
-//             march,
-//             {plugin::uniform(0, density), plugin::image(0, frame.output(0)),
-//              plugin::texture(0, frame.attachment(GRISAILLE_VIEW_DEPTH), near_)},
-//             plugin::groupsFor(frame.width(), 8), plugin::groupsFor(frame.height(), 8));
-//       });
-//     }
-//
-//    private:
-//     plugin::PipelineCache march_;
-//     plugin::Sampler near_;
-//   };
-//
-//   constexpr auto kMist = plugin::effect<Mist>({.key = "mist", .label = "Mist",
-//                                                .version = "1.0.0", .tooltip = "Thin air",
-//                                                .params = kParams, .outputs = kOutputs});
-//   GRISAILLE_EXPORT_PLUGIN(&kMist);
-//
-// Errors. Whatever the host refuses is thrown as Failure; the class may throw it, or anything else,
-// itself. The functions that cross catch everything and report it, so an exception ends the frame
-// (or the creation), never the program. After a failed record() the object is used again: keep it
-// whole.
-//
-// Lifetime. The class lives from create to destroy. Host is a view that its members may keep; Frame
-// and Values are views that are valid during record() alone.
+/// @file
+/// The C++20 interface of an effect over effect.h: an author writes a class and a table.
+/// Header-only; it needs that header and the standard library.
+///
+/// @code{.cpp}
+/// #include "grisaille/effect.hpp"
+/// #include "shaders/mist.h"  // made by grisaille_add_effect(mist ... SHADERS mist=mist.comp)
+///
+/// namespace plugin = grisaille::plugin;
+///
+/// enum Parameter { kDensity, kSteps };
+/// constexpr grisaille_param_desc kParams[] = {
+///     plugin::floatParam({.key = "density", .label = "Density", .unit = "",
+///                         .tooltip = "Share of light lost over one metre", .hardMin = 0,
+///                         .hardMax = 1, .softMin = 0, .softMax = 0.1, .defaultValue = 0.01,
+///                         .step = 0.001}),
+///     plugin::intParam({.key = "steps", .label = "Steps", .tooltip = "Samples along a ray",
+///                       .hardMin = 1, .hardMax = 64, .softMin = 1, .softMax = 16,
+///                       .defaultValue = 8})};
+/// constexpr grisaille_output_desc kOutputs[] = {
+///     plugin::output({.key = "mist", .format = GRISAILLE_FORMAT_R32F,
+///                     .role = GRISAILLE_ROLE_VISIBILITY, .tooltip = "1 = clear air"})};
+///
+/// class Mist {
+///  public:
+///   explicit Mist(plugin::Host host)
+///       : march_(host, "march", grisaille_shader_mist), near_(host.sampler({.label = "n"})) {}
+///
+///   static uint32_t reads(plugin::Values, uint32_t) noexcept {
+///     return GRISAILLE_READS(GRISAILLE_VIEW_DEPTH);
+///   }
+///
+///   void record(const plugin::Frame& frame) {
+///     const uint32_t steps = frame.value<uint32_t>(kSteps);
+///     const grisaille_pipeline march = march_.get({plugin::specialize(0, steps)});
+///     const grisaille_range density = frame.uniform(frame.value<float>(kDensity));
+///     frame.pass("march", [&] {
+///       frame.dispatch(
+///           march,
+///           {plugin::uniform(0, density), plugin::image(0, frame.output(0)),
+///            plugin::texture(0, frame.attachment(GRISAILLE_VIEW_DEPTH), near_)},
+///           plugin::groupsFor(frame.width(), 8), plugin::groupsFor(frame.height(), 8));
+///     });
+///   }
+///
+///  private:
+///   plugin::PipelineCache march_;
+///   plugin::Sampler near_;
+/// };
+///
+/// constexpr auto kMist = plugin::effect<Mist>({.key = "mist", .label = "Mist",
+///                                              .version = "1.0.0", .tooltip = "Thin air",
+///                                              .params = kParams, .outputs = kOutputs});
+/// GRISAILLE_EXPORT_PLUGIN(&kMist);
+/// @endcode
+///
+/// @par Errors
+/// What the host refuses is thrown as Failure. The class may throw Failure or anything else itself.
+/// The functions that cross the C interface catch everything and report it: an exception ends the
+/// frame or the creation, never the program. After a failed record() the host uses the object
+/// again, so keep it whole.
+///
+/// @par Lifetime
+/// The object lives from create to destroy. Host is a view that its members may keep. Frame and
+/// Values are views that are valid during record() alone.
 #ifndef GRISAILLE_EFFECT_HPP
 #define GRISAILLE_EFFECT_HPP
 
@@ -76,9 +81,13 @@
 
 namespace grisaille::plugin {
 
-// --- One frame -----------------------------------------------------------------------------------
+/// @addtogroup effect_resources
+/// @{
 
-// What stands in slot n of its class, as the shader's UNIFORM(n), STORAGE(n), TEXTURE(n), IMAGE(n).
+/// Binds a part of a buffer to the shader's UNIFORM(slot).
+/// @param slot 0 to 15
+/// @param range the part
+/// @return the binding, for Frame::dispatch()
 constexpr grisaille_binding uniform(uint32_t slot, grisaille_range range) {
   return {.slot_class = GRISAILLE_SLOT_UNIFORM,
           .slot = slot,
@@ -88,12 +97,22 @@ constexpr grisaille_binding uniform(uint32_t slot, grisaille_range range) {
           .mip = 0,
           .mip_count = 0};
 }
+/// Binds a part of a buffer to the shader's STORAGE(slot).
+/// @param slot 0 to 15
+/// @param range the part
+/// @return the binding, for Frame::dispatch()
 constexpr grisaille_binding storage(uint32_t slot, grisaille_range range) {
   grisaille_binding binding = uniform(slot, range);
   binding.slot_class = GRISAILLE_SLOT_STORAGE;
   return binding;
 }
-// `mipCount` levels from `mip` on; 0: all that follow.
+/// Binds a texture and its sampler to the shader's TEXTURE(slot).
+/// @param slot 0 to 15
+/// @param texture the texture
+/// @param sampler the sampler
+/// @param mip the first level
+/// @param mipCount number of levels; 0: all from `mip` on
+/// @return the binding, for Frame::dispatch()
 constexpr grisaille_binding texture(uint32_t slot, grisaille_texture texture,
                                     grisaille_sampler sampler, uint32_t mip = 0,
                                     uint32_t mipCount = 0) {
@@ -105,6 +124,11 @@ constexpr grisaille_binding texture(uint32_t slot, grisaille_texture texture,
           .mip = mip,
           .mip_count = mipCount};
 }
+/// Binds one level of a texture to the shader's IMAGE(slot).
+/// @param slot 0 to 15
+/// @param texture the texture
+/// @param mip the level
+/// @return the binding, for Frame::dispatch()
 constexpr grisaille_binding image(uint32_t slot, grisaille_texture texture, uint32_t mip = 0) {
   return {.slot_class = GRISAILLE_SLOT_IMAGE,
           .slot = slot,
@@ -114,59 +138,91 @@ constexpr grisaille_binding image(uint32_t slot, grisaille_texture texture, uint
           .mip = mip,
           .mip_count = 1};
 }
-// A whole buffer, for storage().
+/// A whole buffer, for storage().
+/// @param buffer the buffer
+/// @return its range
 constexpr grisaille_range whole(grisaille_buffer buffer) {
   return {.buffer = buffer, .reserved = 0, .offset = 0, .size = 0};
 }
 
-// Groups of `localSize` threads that cover `pixels`.
+/// The number of groups that cover one axis of a picture.
+/// @param pixels pixels on the axis
+/// @param localSize threads of a group on the axis, over 0
+/// @return pixels / localSize, rounded up
 constexpr uint32_t groupsFor(uint32_t pixels, uint32_t localSize) {
   return pixels / localSize + (pixels % localSize != 0 ? 1u : 0u);
 }
 
-// Is this output among the bits? It counts as the table of outputs does.
+/// @}
+/// @addtogroup effect_frame
+/// @{
+
+/// Whether somebody uses an output.
+/// @param bits grisaille_frame::wanted
+/// @param output index in the table of outputs, or an enum that counts like the table
+/// @return whether the output's bit is set
 template <typename Index>
 constexpr bool wants(uint32_t bits, Index output) {
   return (bits >> static_cast<uint32_t>(output) & 1u) != 0;
 }
 
-// A view of one frame, valid during record(). Every function that returns nothing or a resource
-// throws Failure.
+/// A view of one frame, valid during record(). Every function that returns nothing or creates a
+/// resource throws Failure.
 class Frame {
  public:
+  /// @param frame the frame that record() gets
   explicit Frame(const grisaille_frame* frame) : frame_(frame) {}
 
-  uint32_t width() const { return frame_->width; }  // pixels
+  /// @return pixels of every output, and of every attachment without guard band
+  uint32_t width() const { return frame_->width; }
+  /// @return pixels, as width()
   uint32_t height() const { return frame_->height; }
-  // Pixels by which attachments go beyond the picture on each side.
+  /// @return the guard band: pixels by which attachments go beyond the picture on each side
   uint32_t guard() const { return frame_->guard; }
-  uint64_t index() const { return frame_->index; }  // counts this instance's frames from 0
+  /// @return number of this frame; counts the frames of this instance from 0
+  uint64_t index() const { return frame_->index; }
 
+  /// @return the values of all parameters
   Values values() const { return Values(frame_->values); }
+  /// The value of one parameter.
+  /// @tparam T as Values::get() takes it
+  /// @param parameter index in the table of parameters, or an enum that counts like the table
+  /// @return the value
   template <typename T, typename Index>
   T value(Index parameter) const {
     return values().get<T>(parameter);
   }
 
+  /// @return the camera
   const grisaille_view& view() const { return *frame_->view; }
+  /// @return the uniform buffer for shaders/common/view.glsl
   grisaille_range viewBlock() const { return frame_->view_block; }
 
-  // Id 0 unless reads() asked for it with these values.
+  /// An attachment.
+  /// @param attachment which one
+  /// @return the attachment; id 0 unless reads() asked for it with these values
   grisaille_texture attachment(grisaille_attachment attachment) const {
     return frame_->attachments[attachment];
   }
-  // By index in the table of outputs. Those that nobody wants have id 0.
+  /// Whether somebody uses an output.
+  /// @param output index in the table of outputs, or an enum that counts like the table
+  /// @return whether it must be written
   template <typename Index>
   bool wanted(Index output) const {
     return wants(frame_->wanted, output);
   }
+  /// An output.
+  /// @param output index in the table of outputs, or an enum that counts like the table
+  /// @return the texture to write; id 0 if nobody uses it
   template <typename Index>
   grisaille_texture output(Index output) const {
     return frame_->outputs[static_cast<size_t>(output)];
   }
 
-  // The objects that users made, oldest first; none unless the effect's table declares them. T is
-  // laid out as that table says. Throws Failure where its size is not the table's.
+  /// The objects that users made, oldest first.
+  /// @tparam T the effect's struct, laid out as the table of objects says
+  /// @return the objects; none unless the effect's table declares objects
+  /// @throws Failure the size of T is not the table's
   template <typename T>
   std::span<const T> objects() const {
     const grisaille_objects* list = frame_->objects;
@@ -174,17 +230,19 @@ class Frame {
     if (list->stride != sizeof(T)) throw Failure("the objects are of another size than their type");
     return {static_cast<const T*>(list->objects), static_cast<size_t>(list->count)};
   }
-  // Number of leading objects unchanged since the last frame that record() ended without throwing.
+  /// @return number of leading objects unchanged since the last record() that did not throw
   size_t objectsKept() const {
     return frame_->objects == nullptr ? 0 : static_cast<size_t>(frame_->objects->kept);
   }
-  // Seconds of work that can wait which this frame may still do.
+  /// @return seconds that this frame may still spend on work that can wait; may be infinite
   double patience() const { return frame_->patience; }
-  // Tells how many things wait to be drawn in a later frame.
+  /// Tells how many things wait for a later frame. The host then renders again soon.
+  /// @param count their number; 0, as before the first call: the picture is complete
   void waiting(uint64_t count) const { require(frame_->waiting(frame_, count), "waiting"); }
 
-  // Calls work(), which records the pass. Passes do not nest. When work() throws, the pass is ended
-  // all the same.
+  /// Records a pass: a named, timed group of commands. Passes do not nest.
+  /// @param label names the pass
+  /// @param work records the commands; if it throws, the pass ends all the same
   template <std::invocable Work>
   void pass(const char* label, Work&& work) const {
     require(frame_->begin_pass(frame_, label), "passes");
@@ -197,7 +255,13 @@ class Frame {
     require(frame_->end_pass(frame_), "passes");
   }
 
-  // Inside a pass.
+  /// Records a dispatch, which sees the results of all commands recorded before it. Call it only
+  /// inside a pass.
+  /// @param pipeline a pipeline of this instance
+  /// @param bindings one for each slot that the shader uses
+  /// @param groupsX groups on the first axis
+  /// @param groupsY groups on the second axis
+  /// @param groupsZ groups on the third axis
   void dispatch(grisaille_pipeline pipeline, std::span<const grisaille_binding> bindings,
                 uint32_t groupsX, uint32_t groupsY, uint32_t groupsZ = 1) const {
     const grisaille_dispatch work = {.struct_size = sizeof(grisaille_dispatch),
@@ -207,12 +271,15 @@ class Frame {
                                      .groups = {groupsX, groupsY, groupsZ}};
     require(frame_->dispatch(frame_, &work), "dispatches");
   }
+  /// @copydoc dispatch()
   void dispatch(grisaille_pipeline pipeline, std::initializer_list<grisaille_binding> bindings,
                 uint32_t groupsX, uint32_t groupsY, uint32_t groupsZ = 1) const {
     dispatch(pipeline, std::span(bindings.begin(), bindings.size()), groupsX, groupsY, groupsZ);
   }
 
-  // A copy of `block`, laid out as the shader's std140 block, for this frame.
+  /// Copies a struct into a uniform buffer for this frame.
+  /// @param block the struct, laid out as the shader's std140 block, at most 65536 bytes
+  /// @return the part of a buffer that holds the copy
   template <typename Block>
   requires std::is_trivially_copyable_v<Block> grisaille_range uniform(const Block& block)
   const {
@@ -222,7 +289,9 @@ class Frame {
     return range;
   }
 
-  // A texture for this frame alone, contents undefined; the host's, not to be destroyed.
+  /// Creates a texture for this frame alone. Its contents are undefined.
+  /// @param spec describes it
+  /// @return the texture, which the host owns
   grisaille_texture transient(const TextureSpec& spec) const {
     const grisaille_texture_desc desc = textureDesc(spec);
     grisaille_texture id = {0};
@@ -230,13 +299,20 @@ class Frame {
     return id;
   }
 
-  // Copies a contiguous range into a buffer from byte `offset` on, or into the whole of one level
-  // and layer of a texture: rows tightly packed, top row first.
+  /// Copies data into a buffer of this instance.
+  /// @param buffer the buffer
+  /// @param offset bytes from the buffer's beginning
+  /// @param data a contiguous range that fits into the rest of the buffer
   template <std::ranges::contiguous_range Data>
   void uploadBuffer(grisaille_buffer buffer, uint64_t offset, const Data& data) const {
     const auto bytes = std::as_bytes(std::span(data));
     require(frame_->upload_buffer(frame_, buffer, offset, bytes.data(), bytes.size()), "uploads");
   }
+  /// Copies texels into the whole of one level and layer.
+  /// @param texture a texture of this instance or of the frame, but no attachment
+  /// @param data a contiguous range of rows, tightly packed, top row first
+  /// @param mip the level
+  /// @param layer the layer
   template <std::ranges::contiguous_range Data>
   void uploadTexture(grisaille_texture texture, const Data& data, uint32_t mip = 0,
                      uint32_t layer = 0) const {
@@ -249,15 +325,20 @@ class Frame {
   const grisaille_frame* frame_;
 };
 
-// --- The effect ----------------------------------------------------------------------------------
+/// @}
+/// @addtogroup effect_table
+/// @{
 
-// It may want a guard band, as grisaille_effect_desc.guard_band has it.
+/// A class that wants a guard band, as grisaille_effect_desc::guard_band.
 template <typename E>
 concept WantsGuardBand = requires(Values values) {
   { E::guardBand(values) }
   noexcept->std::same_as<double>;
 };
 
+/// A class that effect() accepts. It has a constructor that takes a Host, a static noexcept
+/// function `uint32_t reads(Values, uint32_t wanted)` as grisaille_effect_desc::reads, and a
+/// function `record(const Frame&)` as grisaille_effect_desc::record. Its destructor does not throw.
 template <typename E>
 concept EffectClass = std::constructible_from<E, Host> && std::is_nothrow_destructible_v<E> &&
     requires(E& effect, const Frame& frame, Values values, uint32_t wanted) {
@@ -266,18 +347,19 @@ concept EffectClass = std::constructible_from<E, Host> && std::is_nothrow_destru
   effect.record(frame);
 };
 
-// All static: text, and the arrays behind the spans.
+/// An effect, for effect(). All text and all arrays are static.
 struct EffectSpec {
-  const char* key = nullptr;
-  const char* label = nullptr;
-  const char* version = nullptr;
-  const char* tooltip = nullptr;
-  std::span<const grisaille_param_desc> params;
-  std::span<const grisaille_output_desc> outputs;
-  const grisaille_object_desc* objects = nullptr;  // null: users make none
-  bool runsByDefault = false;                      // of the program's own effects alone
+  const char* key = nullptr;                       ///< a key: "ssao"; unique among effects
+  const char* label = nullptr;                     ///< for people: "Ambient occlusion"
+  const char* version = nullptr;                   ///< "1.0.0"
+  const char* tooltip = nullptr;                   ///< one line: what the effect does
+  std::span<const grisaille_param_desc> params;    ///< 0 to 256
+  std::span<const grisaille_output_desc> outputs;  ///< 1 to 16
+  const grisaille_object_desc* objects = nullptr;  ///< the objects that users make; null: none
+  bool runsByDefault = false;  ///< runs where the user names no effects; the program's own alone
 };
 
+/// @cond
 // The functions that cross, for one class.
 template <EffectClass E>
 class Boundary {
@@ -328,6 +410,12 @@ class Boundary {
   }
 };
 
+/// @endcond
+
+/// The table of an effect.
+/// @tparam E the class of its instances
+/// @param spec the effect
+/// @return the table
 template <EffectClass E>
 constexpr grisaille_effect_desc effect(const EffectSpec& spec) {
   return {.struct_size = sizeof(grisaille_effect_desc),
@@ -348,10 +436,13 @@ constexpr grisaille_effect_desc effect(const EffectSpec& spec) {
           .objects = spec.objects};
 }
 
+/// @}
+
 }  // namespace grisaille::plugin
 
-// Once in a plugin, at namespace scope: exports the effects whose addresses it is given, which are
-// static constants of type grisaille_effect_desc.
+/// @ingroup effect_table
+/// Exports the effects of a plugin. Write it once in a plugin, at namespace scope. Its arguments
+/// are the addresses of static constants of type grisaille_effect_desc.
 #define GRISAILLE_EXPORT_PLUGIN(...)                                                   \
   namespace {                                                                          \
   constexpr const grisaille_effect_desc* kGrisailleEffects[] = {__VA_ARGS__};          \

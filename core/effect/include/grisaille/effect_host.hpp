@@ -1,5 +1,6 @@
 // SPDX-License-Identifier: MIT
-// The host's services in C++: errors, owned resources, pipelines. Part of effect.hpp.
+/// @file
+/// The host's services in C++: errors, owned resources, pipelines. Part of effect.hpp.
 #ifndef GRISAILLE_EFFECT_HOST_HPP
 #define GRISAILLE_EFFECT_HOST_HPP
 
@@ -17,21 +18,26 @@
 
 namespace grisaille::plugin {
 
-// --- Errors --------------------------------------------------------------------------------------
+/// @addtogroup effect_results
+/// @{
 
-// Why an effect cannot go on, in one line for the user.
+/// Why an effect cannot go on, in one line for the user.
 class Failure : public std::runtime_error {
  public:
   using std::runtime_error::runtime_error;
 };
 
-// A call that the host refused. The host has noted why; this only ends the work.
+/// A call that the host refused. The host has noted why; this only ends the work.
 class HostRefused : public Failure {
  public:
   using Failure::Failure;
 };
 
-// Throws unless `result` is GRISAILLE_OK. `service` names what was asked for.
+/// Throws unless a call succeeded.
+/// @param result what the call returned
+/// @param service what the call asks for, for the message: "a texture"
+/// @throws Failure the host does not offer the service
+/// @throws HostRefused the call failed
 inline void require(grisaille_result result, const char* service) {
   if (result == GRISAILLE_OK) return;
   if (result == GRISAILLE_UNSUPPORTED) {
@@ -40,17 +46,28 @@ inline void require(grisaille_result result, const char* service) {
   throw HostRefused(service);
 }
 
-// --- Resources -----------------------------------------------------------------------------------
+/// @}
+/// @addtogroup effect_resources
+/// @{
 
-// Owns one resource of the host and destroys it. Must not outlive the effect's object. Converts to
-// the C handle, which it keeps owning.
+/// Owns one resource of the host and destroys it. It must not outlive the effect's object.
+/// @tparam Id the C handle
+/// @tparam kDestroy the function of grisaille_host that destroys it
 template <typename Id, void (*grisaille_host::*kDestroy)(const grisaille_host*, Id)>
 class Owned {
  public:
-  Owned() = default;  // owns nothing
+  Owned() = default;  ///< Owns nothing.
+  /// Owns a resource.
+  /// @param host the host that created it
+  /// @param id the resource
   Owned(const grisaille_host* host, Id id) : host_(host), id_(id) {}
+  /// Takes the resource of another owner.
+  /// @param other owns nothing afterwards
   Owned(Owned&& other) noexcept
       : host_(std::exchange(other.host_, nullptr)), id_(std::exchange(other.id_, Id{0})) {}
+  /// Exchanges the resources of two owners.
+  /// @param other owns this owner's resource afterwards
+  /// @return this
   Owned& operator=(Owned&& other) noexcept {
     std::swap(host_, other.host_);
     std::swap(id_, other.id_);
@@ -60,7 +77,9 @@ class Owned {
     if (id_.id != 0) (host_->*kDestroy)(host_, id_);
   }
 
+  /// @return the C handle, which this owner keeps owning
   operator Id() const { return id_; }
+  /// @return whether it owns a resource
   explicit operator bool() const { return id_.id != 0; }
 
  private:
@@ -68,21 +87,30 @@ class Owned {
   Id id_ = {0};
 };
 
+/// Owns a compute pipeline.
 using Pipeline = Owned<grisaille_pipeline, &grisaille_host::destroy_pipeline>;
+/// Owns a texture.
 using Texture = Owned<grisaille_texture, &grisaille_host::destroy_texture>;
+/// Owns a buffer.
 using Buffer = Owned<grisaille_buffer, &grisaille_host::destroy_buffer>;
+/// Owns a sampler.
 using Sampler = Owned<grisaille_sampler, &grisaille_host::destroy_sampler>;
 
+/// Describes a 2D texture.
 struct TextureSpec {
-  const char* label = nullptr;
-  grisaille_format format = GRISAILLE_FORMAT_R32F;
-  uint32_t width = 0;  // texels
-  uint32_t height = 0;
+  const char* label = nullptr;                      ///< for messages and debuggers; may be null
+  grisaille_format format = GRISAILLE_FORMAT_R32F;  ///< its format
+  uint32_t width = 0;                               ///< texels, 1 to the device's limit
+  uint32_t height = 0;                              ///< texels, 1 to the device's limit
+  /// grisaille_texture_usage combined
   uint32_t usage = GRISAILLE_TEXTURE_SAMPLED | GRISAILLE_TEXTURE_STORAGE;
-  uint32_t mips = 1;
-  uint32_t layers = 1;
+  uint32_t mips = 1;    ///< number of levels
+  uint32_t layers = 1;  ///< number of layers
 };
 
+/// The same as the C interface takes it.
+/// @param spec the texture
+/// @return its description
 constexpr grisaille_texture_desc textureDesc(const TextureSpec& spec) {
   return {.struct_size = sizeof(grisaille_texture_desc),
           .format = static_cast<uint32_t>(spec.format),
@@ -94,32 +122,50 @@ constexpr grisaille_texture_desc textureDesc(const TextureSpec& spec) {
           .label = spec.label};
 }
 
+/// Describes a sampler.
 struct SamplerSpec {
-  const char* label = nullptr;
-  bool linear = false;     // within a level
-  bool linearMip = false;  // between levels
-  bool repeat = false;     // else clamped to the edge
+  const char* label = nullptr;  ///< for messages and debuggers; may be null
+  bool linear = false;          ///< true: bilinear within a level; false: nearest
+  bool linearMip = false;       ///< true: linear between levels; false: nearest
+  bool repeat = false;          ///< true: repeat; false: clamp to the edge
 };
 
-// The value of a specialization constant.
+/// The value of a specialization constant.
+/// @param id constant_id in the shader
+/// @param value the value
+/// @return the constant, for PipelineCache::get() and Host::computePipeline()
 constexpr grisaille_constant specialize(uint32_t id, uint32_t value) {
   return {id, value};
 }
+/// @copydoc specialize(uint32_t,uint32_t)
 constexpr grisaille_constant specialize(uint32_t id, int32_t value) {
   return {id, std::bit_cast<uint32_t>(value)};
 }
+/// @copydoc specialize(uint32_t,uint32_t)
 constexpr grisaille_constant specialize(uint32_t id, float value) {
   return {id, std::bit_cast<uint32_t>(value)};
 }
+/// @copydoc specialize(uint32_t,uint32_t)
 constexpr grisaille_constant specialize(uint32_t id, bool value) {
   return {id, value ? 1u : 0u};
 }
 
-// The host as seen by one instance; a view, free to copy. Every function throws Failure.
+/// @}
+/// @addtogroup effect_host
+/// @{
+
+/// A view of the host for one instance, free to copy. Every function that returns a resource throws
+/// Failure.
 class Host {
  public:
+  /// @param host the services that create() gets
   explicit Host(const grisaille_host* host) : host_(host) {}
 
+  /// Creates a compute pipeline.
+  /// @param label for messages and debuggers; may be null
+  /// @param shader a compute shader; valid while the pipeline lives
+  /// @param constants values of specialization constants; the others keep their defaults
+  /// @return the pipeline, which the caller owns
   Pipeline computePipeline(const char* label, const grisaille_shader& shader,
                            std::span<const grisaille_constant> constants) const {
     const grisaille_pipeline_desc desc = {.struct_size = sizeof(grisaille_pipeline_desc),
@@ -131,11 +177,15 @@ class Host {
     require(host_->create_pipeline(host_, &desc, &id), "a compute pipeline");
     return {host_, id};
   }
+  /// @copydoc computePipeline()
   Pipeline computePipeline(const char* label, const grisaille_shader& shader,
                            std::initializer_list<grisaille_constant> constants = {}) const {
     return computePipeline(label, shader, std::span(constants.begin(), constants.size()));
   }
 
+  /// Creates a texture. Its contents are undefined.
+  /// @param spec describes it
+  /// @return the texture, which the caller owns
   Texture texture(const TextureSpec& spec) const {
     const grisaille_texture_desc desc = textureDesc(spec);
     grisaille_texture id = {0};
@@ -143,7 +193,10 @@ class Host {
     return {host_, id};
   }
 
-  // A storage buffer.
+  /// Creates a storage buffer. Its contents are undefined.
+  /// @param label for messages and debuggers; may be null
+  /// @param bytes size, 1 to the device's limit
+  /// @return the buffer, which the caller owns
   Buffer buffer(const char* label, uint64_t bytes) const {
     const grisaille_buffer_desc desc = {.struct_size = sizeof(grisaille_buffer_desc),
                                         .reserved = 0,
@@ -154,8 +207,11 @@ class Host {
     return {host_, id};
   }
 
-  // What each ray hits; false where the host casts none. Only inside record(). As many hits as
-  // rays.
+  /// Casts rays through the scene. Call it only inside record().
+  /// @param rays the rays
+  /// @param[out] hits one for each ray
+  /// @return false if the host casts no rays
+  /// @throws Failure a ray is not as grisaille_ray says
   bool castRays(std::span<const grisaille_ray> rays, std::span<grisaille_hit> hits) const {
     const grisaille_result result =
         host_->cast_rays(host_, rays.data(), std::min(rays.size(), hits.size()), hits.data());
@@ -164,9 +220,11 @@ class Host {
     return true;
   }
 
-  // Decodes a picture file; nothing where this host decodes none or cannot read the file, of which
-  // it warns by itself. Only inside record(). The pixels are valid until the next readPicture() or
-  // the end of record().
+  /// Decodes a picture file. Call it only inside record().
+  /// @param path path of the file
+  /// @return the picture, or nothing if the host decodes no pictures or cannot read the file, of
+  /// which it warns itself. The pixels are valid until the next readPicture() or the end of
+  /// record().
   std::optional<grisaille_picture> readPicture(const char* path) const {
     grisaille_picture picture = {};
     picture.struct_size = sizeof(picture);
@@ -174,6 +232,9 @@ class Host {
     return picture;
   }
 
+  /// Creates a sampler.
+  /// @param spec describes it
+  /// @return the sampler, which the caller owns
   Sampler sampler(const SamplerSpec& spec) const {
     const grisaille_sampler_desc desc = {.struct_size = sizeof(grisaille_sampler_desc),
                                          .linear = spec.linear ? 1u : 0u,
@@ -189,16 +250,22 @@ class Host {
   const grisaille_host* host_;
 };
 
-// Pipelines of one shader, made on first use of each set of specialization constants. Keeps the
-// `kept` sets used last, so that a slider moved to and fro compiles nothing twice.
+/// Pipelines of one shader, created on first use of each set of specialization constants. It keeps
+/// the sets used last, so that a slider moved to and fro compiles nothing twice.
 class PipelineCache {
  public:
-  // `label` and `shader` are static. `kept` counts from 1.
+  /// Creates no pipeline yet.
+  /// @param host the host
+  /// @param label for messages and debuggers; static; may be null
+  /// @param shader a compute shader; static
+  /// @param kept number of sets to keep, at least 1
   PipelineCache(Host host, const char* label, const grisaille_shader& shader, size_t kept = 8)
       : host_(host), label_(label), shader_(&shader), kept_(std::max<size_t>(kept, 1)) {}
 
-  // The same constants in another order count as another set. The handle is good until `kept` other
-  // sets were asked for. Throws Failure, and keeps what it has then.
+  /// The pipeline with a set of constants.
+  /// @param constants the set; the same constants in another order are another set
+  /// @return the pipeline, which the cache owns; valid until `kept` other sets were asked for
+  /// @throws Failure the host refuses the pipeline; the cache keeps what it has
   grisaille_pipeline get(std::span<const grisaille_constant> constants) {
     const auto same = [](const grisaille_constant& a, const grisaille_constant& b) {
       return a.id == b.id && a.bits == b.bits;
@@ -215,6 +282,7 @@ class PipelineCache {
     if (entries_.size() > kept_) entries_.pop_back();
     return entries_.front().pipeline;
   }
+  /// @copydoc get()
   grisaille_pipeline get(std::initializer_list<grisaille_constant> constants = {}) {
     return get(std::span(constants.begin(), constants.size()));
   }
@@ -230,6 +298,8 @@ class PipelineCache {
   size_t kept_;
   std::vector<Entry> entries_;  // the one used last first
 };
+
+/// @}
 
 }  // namespace grisaille::plugin
 

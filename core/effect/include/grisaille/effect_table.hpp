@@ -1,5 +1,8 @@
 // SPDX-License-Identifier: MIT
-// The static tables of an effect, written in C++: parameters and outputs. Part of effect.hpp.
+/// @file
+/// The static tables of an effect in C++: parameters, outputs, objects. Part of effect.hpp.
+///
+/// All text and all arrays that a table points to are static.
 #ifndef GRISAILLE_EFFECT_TABLE_HPP
 #define GRISAILLE_EFFECT_TABLE_HPP
 
@@ -10,62 +13,76 @@
 
 #include "grisaille/effect.h"
 
+/// The C++20 interface of an effect: see effect.hpp.
 namespace grisaille::plugin {
 
-// All text is static. See grisaille_param_desc for the meaning, units and limits of each field.
+/// @addtogroup effect_parameters
+/// @{
+
+/// A parameter that is a number, for floatParam().
 struct FloatParam {
-  const char* key = nullptr;
-  const char* label = nullptr;
-  const char* unit = "";
-  const char* tooltip = nullptr;
-  double hardMin = 0;
-  double hardMax = 0;
-  double softMin = 0;
-  double softMax = 0;
-  double defaultValue = 0;
-  double step = 0;  // may stay 0 where log is set
-  bool log = false;
-  bool advanced = false;
+  const char* key = nullptr;      ///< a-z, 0-9, _; begins with a letter; unique in the effect
+  const char* label = nullptr;    ///< for people: "Kernel size"
+  const char* unit = "";          ///< "m", "px", "rad", "s", or ""
+  const char* tooltip = nullptr;  ///< one sentence, without a line break
+  double hardMin = 0;             ///< least value that the host accepts
+  double hardMax = 0;             ///< greatest value that the host accepts
+  double softMin = 0;             ///< where the slider begins, at least hardMin
+  double softMax = 0;             ///< where the slider ends, over softMin, at most hardMax
+  double defaultValue = 0;        ///< from hardMin to hardMax
+  double step = 0;                ///< step of the slider, over 0; may stay 0 if `log` is set
+  bool log = false;               ///< whether the slider is logarithmic; softMin must be over 0
+  bool advanced = false;          ///< whether the panel folds it away
 };
 
+/// A parameter that is a whole number, for intParam().
 struct IntParam {
-  const char* key = nullptr;
-  const char* label = nullptr;
-  const char* unit = "";
-  const char* tooltip = nullptr;
-  int32_t hardMin = 0;
-  int32_t hardMax = 0;
-  int32_t softMin = 0;
-  int32_t softMax = 0;
-  int32_t defaultValue = 0;
-  int32_t step = 1;
-  bool log = false;
-  bool advanced = false;
+  const char* key = nullptr;      ///< a-z, 0-9, _; begins with a letter; unique in the effect
+  const char* label = nullptr;    ///< for people: "Samples"
+  const char* unit = "";          ///< "m", "px", "rad", "s", or ""
+  const char* tooltip = nullptr;  ///< one sentence, without a line break
+  int32_t hardMin = 0;            ///< least value that the host accepts
+  int32_t hardMax = 0;            ///< greatest value that the host accepts
+  int32_t softMin = 0;            ///< where the slider begins, at least hardMin
+  int32_t softMax = 0;            ///< where the slider ends, over softMin, at most hardMax
+  int32_t defaultValue = 0;       ///< from hardMin to hardMax
+  int32_t step = 1;               ///< step of the slider, over 0
+  bool log = false;               ///< whether the slider is logarithmic; softMin must be over 0
+  bool advanced = false;          ///< whether the panel folds it away
 };
 
+/// A parameter that is on or off, for boolParam().
 struct BoolParam {
-  const char* key = nullptr;
-  const char* label = nullptr;
-  const char* tooltip = nullptr;
-  bool defaultValue = false;
-  bool advanced = false;
+  const char* key = nullptr;      ///< a-z, 0-9, _; begins with a letter; unique in the effect
+  const char* label = nullptr;    ///< for people: "Back faces"
+  const char* tooltip = nullptr;  ///< one sentence, without a line break
+  bool defaultValue = false;      ///< the default
+  bool advanced = false;          ///< whether the panel folds it away
 };
 
+/// A parameter that is one of a list, for enumParam().
 struct EnumParam {
-  const char* key = nullptr;
-  const char* label = nullptr;
-  const char* tooltip = nullptr;
-  std::span<const char* const> keys;    // static, as long as labels
-  std::span<const char* const> labels;  // static
-  uint32_t defaultValue = 0;            // index
-  bool advanced = false;
+  const char* key = nullptr;            ///< a-z, 0-9, _; begins with a letter; unique in the effect
+  const char* label = nullptr;          ///< for people: "Method"
+  const char* tooltip = nullptr;        ///< one sentence, without a line break
+  std::span<const char* const> keys;    ///< static, 2 to 64: a-z, 0-9, _, -; unique
+  std::span<const char* const> labels;  ///< static, for people, as many as keys
+  uint32_t defaultValue = 0;            ///< index of the default
+  bool advanced = false;                ///< whether the panel folds it away
 };
 
+/// Combines grisaille_param_flags.
+/// @param log whether the slider is logarithmic
+/// @param advanced whether the panel folds it away
+/// @return grisaille_param_desc::flags
 constexpr uint32_t paramFlags(bool log, bool advanced) {
   return (log ? uint32_t{GRISAILLE_PARAM_LOG} : 0u) |
          (advanced ? uint32_t{GRISAILLE_PARAM_ADVANCED} : 0u);
 }
 
+/// The table entry of a number.
+/// @param p the parameter
+/// @return the entry
 constexpr grisaille_param_desc floatParam(const FloatParam& p) {
   return {.struct_size = sizeof(grisaille_param_desc),
           .type = GRISAILLE_PARAM_FLOAT,
@@ -85,6 +102,9 @@ constexpr grisaille_param_desc floatParam(const FloatParam& p) {
           .enum_labels = nullptr};
 }
 
+/// The table entry of a whole number.
+/// @param p the parameter
+/// @return the entry
 constexpr grisaille_param_desc intParam(const IntParam& p) {
   grisaille_param_desc desc = floatParam({.key = p.key,
                                           .label = p.label,
@@ -102,6 +122,9 @@ constexpr grisaille_param_desc intParam(const IntParam& p) {
   return desc;
 }
 
+/// The table entry of a switch.
+/// @param p the parameter
+/// @return the entry
 constexpr grisaille_param_desc boolParam(const BoolParam& p) {
   grisaille_param_desc desc = floatParam({.key = p.key,
                                           .label = p.label,
@@ -115,6 +138,12 @@ constexpr grisaille_param_desc boolParam(const BoolParam& p) {
   return desc;
 }
 
+/// The table entry of a list.
+/// @param p the parameter
+/// @return the entry
+/// @throws std::invalid_argument fewer than two entries, or another number of labels than of keys;
+/// in
+///   a constant table this is an error of compilation
 constexpr grisaille_param_desc enumParam(const EnumParam& p) {
   if (p.keys.size() != p.labels.size() || p.keys.size() < 2) {
     throw std::invalid_argument("an enum needs two entries or more, each with key and label");
@@ -135,13 +164,21 @@ constexpr grisaille_param_desc enumParam(const EnumParam& p) {
   return desc;
 }
 
+/// @}
+/// @addtogroup effect_pictures
+/// @{
+
+/// A texture that an effect writes, for output().
 struct Output {
-  const char* key = nullptr;
-  grisaille_format format = GRISAILLE_FORMAT_R32F;
-  grisaille_role role = GRISAILLE_ROLE_NONE;
-  const char* tooltip = nullptr;
+  const char* key = nullptr;                        ///< a key, as in `--write KEY=FILE`
+  grisaille_format format = GRISAILLE_FORMAT_R32F;  ///< its format
+  grisaille_role role = GRISAILLE_ROLE_NONE;        ///< how the composed picture uses it
+  const char* tooltip = nullptr;  ///< one line: what the channels mean, with units and range
 };
 
+/// The table entry of an output.
+/// @param o the output
+/// @return the entry
 constexpr grisaille_output_desc output(const Output& o) {
   return {.struct_size = sizeof(grisaille_output_desc),
           .format = static_cast<uint32_t>(o.format),
@@ -150,21 +187,28 @@ constexpr grisaille_output_desc output(const Output& o) {
           .tooltip = o.tooltip};
 }
 
-// A field of the objects that users make, as grisaille_field_desc has it.
+/// @}
+/// @addtogroup effect_objects
+/// @{
+
+/// A field of the objects that users make, for field().
 struct Field {
-  const char* key = nullptr;
-  const char* label = nullptr;
-  const char* unit = "";
-  const char* tooltip = nullptr;
-  grisaille_field_type type = GRISAILLE_FIELD_NUMBER;
-  size_t offset = 0;  // offsetof(the effect's struct, the member)
-  double min = 0;     // of a number
-  double max = 0;
-  double defaults[3] = {0, 0, 0};
-  const char* text = nullptr;  // the default of a text or a file
-  bool required = false;       // in files
+  const char* key = nullptr;      ///< a key, for files and the command line; unique in the object
+  const char* label = nullptr;    ///< for people
+  const char* unit = "";          ///< of a number: "m", "px", "rad", "s", or ""; else ""
+  const char* tooltip = nullptr;  ///< one line
+  grisaille_field_type type = GRISAILLE_FIELD_NUMBER;  ///< type of the field and of its member
+  size_t offset = 0;               ///< offsetof() the member in the effect's struct
+  double min = 0;                  ///< number: least value, finite; else 0
+  double max = 0;                  ///< number: greatest value, finite, over min; else 0
+  double defaults[3] = {0, 0, 0};  ///< a number uses the first; text and file: 0
+  const char* text = nullptr;      ///< text, file: the default, not null; else null
+  bool required = false;           ///< whether a file must give it; only the panel uses the default
 };
 
+/// The table entry of a field.
+/// @param f the field
+/// @return the entry
 constexpr grisaille_field_desc field(const Field& f) {
   return {.struct_size = sizeof(grisaille_field_desc),
           .type = static_cast<uint32_t>(f.type),
@@ -180,18 +224,21 @@ constexpr grisaille_field_desc field(const Field& f) {
           .default_text = f.text};
 }
 
-// The objects that users make for an effect, as grisaille_object_desc has them.
+/// The objects that users make for an effect, for objects().
 struct ObjectSpec {
-  const char* key = nullptr;
-  const char* label = nullptr;
-  const char* tooltip = nullptr;
-  std::span<const grisaille_field_desc> fields;  // static
-  grisaille_placement placement = GRISAILLE_PLACE_RAY;
-  uint32_t pointField = 0;  // by index
-  uint32_t directionField = 0;
+  const char* key = nullptr;                            ///< a key, of the list in files: "decals"
+  const char* label = nullptr;                          ///< of the list, for people: "Decals"
+  const char* tooltip = nullptr;                        ///< one line: what one object is
+  std::span<const grisaille_field_desc> fields;         ///< static, 1 to 64
+  grisaille_placement placement = GRISAILLE_PLACE_RAY;  ///< which fields a click sets
+  uint32_t pointField = 0;                              ///< index of the point that placing sets
+  uint32_t directionField = 0;  ///< index of the direction that placing sets
 };
 
-// `Object`: the effect's struct, which the fields' offsets are of.
+/// The table of an effect's objects.
+/// @tparam Object the effect's struct; Field::offset counts from its beginning
+/// @param spec the objects
+/// @return the table
 template <typename Object>
 constexpr grisaille_object_desc objects(const ObjectSpec& spec) {
   static_assert(std::is_standard_layout_v<Object>, "a table of offsets needs a plain struct");
@@ -207,13 +254,20 @@ constexpr grisaille_object_desc objects(const ObjectSpec& spec) {
           .fields = spec.fields.data()};
 }
 
-// The parameter values of one frame, by index in the table or by an enum that counts like it. A
-// view.
+/// @}
+/// @addtogroup effect_frame
+/// @{
+
+/// A view of the parameter values of one frame.
 class Values {
  public:
+  /// @param values one for each parameter, in the table's order
   explicit Values(const double* values) : values_(values) {}
 
-  // T: float or double for a float, an integer for an int, bool, an enum for an enum.
+  /// One value.
+  /// @tparam T float or double for a float, an integer for an int, bool, an enum for an enum
+  /// @param parameter index in the table, or an enum that counts like the table
+  /// @return the value
   template <typename T, typename Index>
   requires std::is_arithmetic_v<T> || std::is_enum_v<T> T get(Index parameter)
   const {
@@ -230,6 +284,8 @@ class Values {
  private:
   const double* values_;
 };
+
+/// @}
 
 }  // namespace grisaille::plugin
 

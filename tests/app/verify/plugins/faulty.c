@@ -10,7 +10,8 @@
 
 #include "grisaille/effect.h"
 
-static uint32_t reads(const double* values) {
+static uint32_t reads(const double* values, uint32_t wanted) {
+  (void)wanted;
   (void)values;
   return 0;
 }

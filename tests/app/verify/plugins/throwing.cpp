@@ -12,7 +12,7 @@ struct Thrown : std::exception {
   const char* what() const noexcept override { return "thrown on purpose"; }
 };
 
-uint32_t reads(const double*) {
+uint32_t reads(const double*, uint32_t) {
 #if defined(THROWS_IN_READS)
   throw Thrown();
 #endif
@@ -54,7 +54,7 @@ constexpr grisaille_effect_desc kEffect = {
     .struct_size = sizeof(grisaille_effect_desc),
     .param_count = 0,
     .output_count = 1,
-    .reserved = 0,
+    .flags = 0,
     .key = KEY,
     .label = "Throwing",
     .version = "1.0.0",
@@ -65,10 +65,8 @@ constexpr grisaille_effect_desc kEffect = {
     .create = create,
     .record = record,
     .destroy = destroy,
-    .flags = 0,
-    .reserved2 = 0,
-    .reads_for = nullptr,
     .guard_band = nullptr,
+    .objects = nullptr,
 };
 
 constexpr const grisaille_effect_desc* kEffects[] = {&kEffect};

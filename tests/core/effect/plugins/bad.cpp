@@ -21,7 +21,9 @@ constexpr grisaille_effect_desc named(const char* key) {
 }
 
 struct Reads {
-  static uint32_t reads(plugin::Values) noexcept { return GRISAILLE_READS(GRISAILLE_VIEW_DEPTH); }
+  static uint32_t reads(plugin::Values, uint32_t) noexcept {
+    return GRISAILLE_READS(GRISAILLE_VIEW_DEPTH);
+  }
 };
 
 struct ThrowsInCreate : Reads {

@@ -49,7 +49,7 @@ constexpr grisaille_output_desc kOutputs[] = {
                     .tooltip = "View depth times gain, metres"}),
     plugin::output({.key = "second",
                     .format = GRISAILLE_FORMAT_RGBA16F,
-                    .role = GRISAILLE_ROLE_PAINT,
+                    .role = GRISAILLE_ROLE_OVERLAY,
                     .tooltip = "Zero everywhere"})};
 
 class Copy {
@@ -60,7 +60,7 @@ class Copy {
         near_(host.sampler({.label = "near", .linear = false})),
         scratch_(host.texture({.label = "scratch", .width = 4, .height = 4, .mips = 2})) {}
 
-  static uint32_t reads(plugin::Values values) noexcept {
+  static uint32_t reads(plugin::Values values, uint32_t) noexcept {
     return values.get<bool>(kSkip) ? 0u : GRISAILLE_READS(GRISAILLE_VIEW_DEPTH);
   }
 

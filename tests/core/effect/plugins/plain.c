@@ -1,8 +1,7 @@
 /* SPDX-License-Identifier: MIT
  *
- * A sound effect in plain C; with -DVERSION_1_0 as the first version's header made it; with
- * -DFAULT_... the same with one thing wrong. KEY is its key. */
-#include <stddef.h>
+ * A sound effect in plain C; with -DFAULT_... the same with one thing wrong. KEY is its key. With
+ * -DMARKED it runs where nobody names effects. */
 #include <stdlib.h>
 
 #include "grisaille/effect.h"
@@ -22,8 +21,9 @@ typedef struct Plain {
   grisaille_buffer left; /* the host destroys it */
 } Plain;
 
-static uint32_t reads(const double* values) {
+static uint32_t reads(const double* values, uint32_t wanted) {
   (void)values;
+  (void)wanted;
   return 0;
 }
 
@@ -92,19 +92,14 @@ static const grisaille_output_desc kOutputs[] = {{
 static const grisaille_effect_desc kEffect = {
 #if defined(FAULT_EFFECT_SIZE)
     .struct_size = sizeof(grisaille_effect_desc) + 8,
-#elif defined(VERSION_1_0)
-    .struct_size = offsetof(grisaille_effect_desc, flags),
-    .flags = ~0u, /* what lies behind that version's struct */
-    .reserved2 = ~0u,
-    .reads_for = (uint32_t(*)(const double*, uint32_t))1,
-#elif defined(VERSION_1_1)
-    .struct_size = offsetof(grisaille_effect_desc, reads_for),
-    .reads_for = (uint32_t(*)(const double*, uint32_t))1,
 #else
     .struct_size = sizeof(grisaille_effect_desc),
 #endif
     .param_count = 1,
     .output_count = 1,
+#ifdef MARKED
+    .flags = GRISAILLE_EFFECT_DEFAULT,
+#endif
 #ifndef FAULT_NULL_KEY
     .key = KEY,
 #endif
@@ -128,15 +123,13 @@ static const grisaille_effect_desc* const kEffects[] = {&kEffect};
 #endif
 #if defined(FAULT_MAJOR)
 #define MAJOR (GRISAILLE_ABI_MAJOR + 1)
+#elif defined(FAULT_OLD_MAJOR)
+#define MAJOR (GRISAILLE_ABI_MAJOR - 1)
 #else
 #define MAJOR GRISAILLE_ABI_MAJOR
 #endif
 #if defined(FAULT_MINOR)
 #define MINOR (GRISAILLE_ABI_MINOR + 1)
-#elif defined(VERSION_1_0)
-#define MINOR 0
-#elif defined(VERSION_1_1)
-#define MINOR 1
 #else
 #define MINOR GRISAILLE_ABI_MINOR
 #endif

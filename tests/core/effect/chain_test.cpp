@@ -1,0 +1,266 @@
+// SPDX-License-Identifier: MIT
+// The chain of effects at work: its selection, its objects, its instances.
+#include "core/effect/chain.h"
+
+#include <unistd.h>
+
+#include <filesystem>
+
+#include "tests/core/effect/instance_fixture.h"
+#include "tests/core/effect/plugins/mark.h"
+#include "tests/support/expect_error.h"
+#include "tests/support/selections.h"
+
+namespace grisaille::effect {
+namespace {
+
+namespace fs = std::filesystem;
+using Keys = std::vector<std::string>;
+using Lines = std::vector<std::string>;
+
+struct ChainTest : InstanceTest {
+  const std::vector<gpu::Texture> outputs = {makeTexture("told", gpu::Format::kR32Float)};
+
+  objects::Object mark(double x) const {
+    const objects::Table& table = *registry.find("teller").objects();
+    objects::Object made(table);
+    made.at(table, "position").numbers = {x, 0, 0};
+    made.at(table, "note").text = fmt::format("number {}", x);
+    return made;
+  }
+  // The index of the instance's frame, from 0.
+  float frameOf(Chain& chain) {
+    record(chain, "teller", outputs);
+    return texelsOf(outputs[0])[11];
+  }
+};
+
+TEST_F(ChainTest, ObjectsAreThereWhetherTheEffectIsOnOrOff) {
+  Chain chain{Selection(registry)};
+  objects::ObjectList* list = chain.objects("teller");
+  ASSERT_NE(list, nullptr);
+  list->add(mark(1));
+  chain.selection.find("teller")->on = true;
+  EXPECT_EQ(chain.objects("teller"), list);
+  chain.selection.move(0, 2);
+  EXPECT_EQ(chain.objects("teller"), list);
+  EXPECT_EQ(list->size(), 1u);
+  EXPECT_EQ(chain.objects("plain"), nullptr);  // its table declares none
+  EXPECT_EQ(chain.objects("nothing"), nullptr);
+  EXPECT_EQ(chain.objectLists().size(), 1u);
+}
+
+TEST_F(ChainTest, AnExchangedSelectionFindsObjectsAndInstancesAgain) {
+  Chain chain{Selection(registry, Keys{"teller"})};
+  chain.objects("teller")->add(mark(1));
+  const StartedChain started(chain, *device);
+  EXPECT_EQ(frameOf(chain), 0);
+  chain.selection = Selection(registry, Keys{"plain"});
+  EXPECT_EQ(chain.objects("teller"), nullptr);
+  chain.selection = Selection(registry, Keys{"plain", "teller"});
+  ASSERT_NE(chain.objects("teller"), nullptr);
+  EXPECT_EQ(chain.objects("teller")->size(), 1u);
+  EXPECT_EQ(frameOf(chain), 1);
+  EXPECT_EQ(texelsOf(outputs[0])[1], 1);
+}
+
+TEST_F(ChainTest, EveryChangeOfAListChangesTheRevision) {
+  Chain chain{Selection(registry)};
+  EXPECT_EQ(chain.objectsRevision(), 0u);
+  objects::ObjectList& list = *chain.objects("teller");
+  uint64_t before = chain.objectsRevision();
+  EXPECT_EQ(before, 0u);
+  const auto grown = [&] { return std::exchange(before, chain.objectsRevision()) < before; };
+  list.add(mark(1));
+  EXPECT_TRUE(grown());
+  list.undo();
+  EXPECT_TRUE(grown());
+  list.redo();
+  EXPECT_TRUE(grown());
+  chain.selection.find("teller")->on = true;
+  EXPECT_FALSE(grown());
+}
+
+// --- On a device
+
+TEST_F(ChainTest, StartingCreatesTheEffectsThatAreOn) {
+  Chain chain{Selection(registry)};
+  chain.selection.find("throws_in_create")->on = true;
+  EXPECT_ERROR(ErrorId::kEffectCreate, chain.start(*device));
+  chain.selection.find("throws_in_create")->on = false;
+  chain.selection.find("teller")->on = true;
+  const StartedChain started(chain, *device);
+  EXPECT_EQ(frameOf(chain), 0);
+  EXPECT_EQ(frameOf(chain), 1);
+  chain.start(*device);
+  EXPECT_EQ(frameOf(chain), 0);
+}
+
+TEST_F(ChainTest, EffectsTurnedOnLaterAreCreatedByTheirFirstFrame) {
+  Chain chain{Selection(registry)};
+  const StartedChain started(chain, *device);
+  chain.selection.find("teller")->on = true;
+  EXPECT_EQ(frameOf(chain), 0);
+  chain.selection.find("throws_in_create")->on = true;
+  EXPECT_ERROR(ErrorId::kEffectCreate, record(chain, "throws_in_create", outputs));
+  EXPECT_ERROR(ErrorId::kEffectCreate, record(chain, "throws_in_create", outputs));
+  EXPECT_EQ(frameOf(chain), 1);
+}
+
+// The device complains of what is left at its end.
+TEST_F(ChainTest, StoppingEndsAllInstances) {
+  Chain chain{Selection(registry, Keys{"plain", "copy", "teller"})};
+  { const StartedChain started(chain, *device); }
+  chain.start(*device);
+  chain.end();
+  chain.stop();
+}
+
+TEST_F(ChainTest, ValuesAndWhatWaitsCrossTheChain) {
+  Chain chain{Selection(registry, Keys{"teller"})};
+  const StartedChain started(chain, *device);
+  EXPECT_EQ(record(chain, "teller", outputs), 0u);
+  chain.selection.set(Assignment{{"teller", "waits"}, "12"});
+  EXPECT_EQ(record(chain, "teller", outputs), 12u);
+}
+
+// --- Plugins that are loaded anew
+
+// A copy of a plugin, which the loader takes for another library.
+struct Copied {
+  Copied(const char* from, const char* name) {
+    fs::create_directory(folder);
+    fs::copy_file(fs::path(PLUGIN_DIR) / from, folder / name, fs::copy_options::overwrite_existing);
+    registry.scan(folder);
+    registry.scan(PLUGIN_DIR "/sound");
+  }
+  ~Copied() { fs::remove_all(folder); }
+
+  fs::path folder = fs::temp_directory_path() / fmt::format("grisaille_chain_{}", getpid());
+  Registry registry;
+};
+
+TEST_F(ChainTest, TheSameTableKeepsObjectsAndSteps) {
+  Chain chain{Selection(registry, Keys{"copy", "teller"})};
+  chain.selection.set(Assignment{{"copy", "entry"}, "7"});
+  objects::ObjectList& list = *chain.objects("teller");
+  list.add(mark(1));
+  list.add(mark(2));
+  list.undo();
+  Copied fresh("objects/teller.so", "again.so");
+  {
+    const StartedChain started(chain, *device);
+    EXPECT_EQ(frameOf(chain), 0);
+    EXPECT_EQ(chain.rebind(fresh.registry), Lines());
+    EXPECT_EQ(frameOf(chain), 0);  // a new instance, of the new plugin
+    EXPECT_EQ(texelsOf(outputs[0])[0], 1);
+    EXPECT_EQ(texelsOf(outputs[0])[1], 0);
+  }
+  const auto on = chain.selection.effects();
+  ASSERT_EQ(on.size(), 2u);
+  EXPECT_EQ(on[0]->key(), "copy");
+  EXPECT_EQ(on[1]->key(), "teller");
+  EXPECT_EQ(chain.selection.values("copy").get("entry"), 7);
+  objects::ObjectList& kept = *chain.objects("teller");
+  EXPECT_EQ(&kept.table(), fresh.registry.find("teller").objects());
+  EXPECT_NE(&kept.table(), registry.find("teller").objects());
+  ASSERT_EQ(kept.size(), 1u);
+  EXPECT_EQ(kept.object(0), mark(1));
+  kept.redo();
+  ASSERT_EQ(kept.size(), 2u);
+  EXPECT_EQ(kept.object(1), mark(2));
+}
+
+TEST_F(ChainTest, AnotherTableKeepsTheFieldsAndObjectsThatFit) {
+  Chain chain{Selection(registry, Keys{"teller"})};
+  objects::ObjectList& list = *chain.objects("teller");
+  objects::Object large = mark(2);
+  large.at(list.table(), "size").numbers[0] = 50;  // more than the later table allows
+  for (const objects::Object& one : {mark(1), large, mark(3)}) list.add(one);
+  const uint64_t revision = chain.objectsRevision();
+  Copied fresh("objects_later/teller_later.so", "later.so");
+  const Lines dropped = chain.rebind(fresh.registry);
+  ASSERT_EQ(dropped.size(), 3u);
+  EXPECT_NE(dropped[0].find("marks.colour"), std::string::npos) << dropped[0];
+  EXPECT_NE(dropped[1].find("marks.note"), std::string::npos) << dropped[1];
+  EXPECT_NE(dropped[2].find("marks[1].size"), std::string::npos) << dropped[2];
+  EXPECT_GT(chain.objectsRevision(), revision);
+
+  objects::ObjectList& kept = *chain.objects("teller");
+  const objects::Table& table = kept.table();
+  ASSERT_EQ(kept.size(), 2u);
+  for (size_t i = 0; i < 2; ++i) {
+    objects::Object expected(table);  // `colour` and `weight` at their defaults
+    expected.at(table, "position").numbers = {static_cast<double>(2 * i + 1), 0, 0};
+    EXPECT_EQ(kept.object(i), expected) << i;
+  }
+  EXPECT_FALSE(kept.canUndo());
+}
+
+TEST_F(ChainTest, WhatThereIsNoMoreIsNamed) {
+  Chain chain{Selection(registry, Keys{"teller", "plain"})};
+  chain.objects("teller")->add(mark(1));
+  const uint64_t revision = chain.objectsRevision();
+  Registry fresh;
+  fresh.scan(PLUGIN_DIR "/sound");
+  const Lines dropped = chain.rebind(fresh);
+  ASSERT_EQ(dropped.size(), 2u);
+  EXPECT_NE(dropped[0].find("effect teller"), std::string::npos) << dropped[0];
+  EXPECT_NE(dropped[1].find("marks of teller"), std::string::npos) << dropped[1];
+  EXPECT_EQ(chain.objects("teller"), nullptr);
+  EXPECT_TRUE(chain.objectLists().empty());
+  EXPECT_GT(chain.objectsRevision(), revision);
+  ASSERT_EQ(chain.selection.effects().size(), 1u);
+}
+
+TEST_F(ChainTest, AnEmptyListGoesWithoutAWord) {
+  Chain chain{Selection(registry)};
+  chain.objects("teller");
+  Registry fresh;
+  fresh.scan(PLUGIN_DIR "/sound");
+  for (const std::string& line : chain.rebind(fresh)) {
+    EXPECT_EQ(line.find("marks"), std::string::npos) << line;
+  }
+}
+
+// Parameters and values, over random selections.
+TEST(Rebinding, ALaterVersionOfAPluginKeepsWhatStillFits) {
+  const tests::Tables now, later("later");
+  std::mt19937_64 random(2);
+  for (int i = 0; i < 300; ++i) {
+    Chain chain{Selection(now.registry)};
+    tests::randomise(random, chain.selection);
+    const Selection old = chain.selection;
+    const Lines dropped = chain.rebind(later.registry);
+    ASSERT_EQ(chain.selection.entries().size(), 2u);
+    size_t expected = 1;  // gamma
+    size_t place = 0;
+    for (const Selection::Entry& entry : old.entries()) {
+      if (std::string_view(entry.key()) == "gamma") continue;
+      const Selection::Entry& kept = chain.selection.entries()[place++];
+      EXPECT_STREQ(kept.key(), entry.key());
+      EXPECT_EQ(kept.on, entry.on);
+      EXPECT_EQ(kept.values.get("count"), entry.values.get("count"));
+      const bool inside = std::abs(entry.values.get("amount")) <= 10;
+      EXPECT_EQ(kept.values.get("amount"), inside ? entry.values.get("amount") : 0.5);
+      const std::string kind = entry.values.text("kind");
+      const bool there = kind == "first" || kind == "1e5";
+      EXPECT_EQ(kept.values.text("kind"), there ? kind : "1e5");
+      expected += 1u + (inside ? 0u : 1u) + (there ? 0u : 1u);  // `hard` is gone
+    }
+    EXPECT_EQ(dropped.size(), expected);
+    EXPECT_EQ(chain.rebind(now.registry).size(), 2u);  // `soft`, of two effects
+  }
+}
+
+TEST_F(ChainTest, TheGuardBandIsAShareOfTheHeight) {
+  grisaille_effect_desc desc = *registry.find("plain").desc;
+  EXPECT_EQ(guardBand(Values(Effect{&desc, "memory"}), 100), 0u);
+  desc.guard_band = [](const double*) { return 0.101; };
+  EXPECT_EQ(guardBand(Values(Effect{&desc, "memory"}), 100), 11u);
+  desc.guard_band = [](const double*) { return 1.5; };
+  EXPECT_EQ(guardBand(Values(Effect{&desc, "memory"}), 100), 0u);
+}
+
+}  // namespace
+}  // namespace grisaille::effect

@@ -1,0 +1,208 @@
+// SPDX-License-Identifier: MIT
+// What an effect sees of its objects from frame to frame.
+#include <random>
+
+#include "tests/core/effect/instance_fixture.h"
+#include "tests/core/effect/plugins/mark.h"
+#include "tests/support/expect_error.h"
+
+namespace grisaille::effect {
+namespace {
+
+struct ObjectsTest : InstanceTest {
+  using Keys = std::vector<std::string>;
+
+  const std::vector<gpu::Texture> outputs = {makeTexture("told", gpu::Format::kR32Float)};
+  const objects::Table& table = *registry.find("teller").objects();
+  Chain chain{Selection(registry, Keys{"teller"})};
+  objects::ObjectList& list = *chain.objects("teller");
+
+  ObjectsTest() { chain.start(*device); }
+  ~ObjectsTest() override { chain.stop(); }
+
+  // So many objects that no two calls make alike.
+  objects::Objects marks(size_t count) {
+    objects::Objects made(table);
+    objects::Object mark(table);
+    for (size_t i = 0; i < count; ++i) {
+      mark.at(table, "position").numbers = {static_cast<double>(++made_), 0, 0};
+      made.append(mark);
+    }
+    return made;
+  }
+
+  std::vector<float> told() {
+    record(chain, "teller", outputs);
+    return texelsOf(outputs[0]);
+  }
+  // How many leading objects the effect hears to have stayed, in a frame that shows all of them.
+  size_t kept() {
+    const std::vector<float> texels = told();
+    EXPECT_EQ(texels[0], static_cast<float>(list.size()));
+    return static_cast<size_t>(texels[1]);
+  }
+
+  int made_ = 0;
+};
+
+TEST_F(ObjectsTest, TheEffectSeesTheList) {
+  EXPECT_EQ(told()[0], 0);
+  list.add(marks(3).view());
+  const std::vector<float> texels = told();
+  EXPECT_EQ(texels[0], 3);
+  EXPECT_EQ(texels[3], 3);
+}
+
+TEST_F(ObjectsTest, NothingIsKeptFromBeforeTheFirstFrame) {
+  list.add(marks(5).view());
+  EXPECT_EQ(kept(), 0u);
+  EXPECT_EQ(kept(), 5u);
+}
+
+TEST_F(ObjectsTest, AddingKeepsAllAndUndoingAllBefore) {
+  list.add(marks(5).view());
+  kept();
+  list.add(marks(2).view());
+  EXPECT_EQ(kept(), 5u);
+  EXPECT_EQ(kept(), 7u);
+  list.undo();
+  EXPECT_EQ(kept(), 5u);
+  list.redo();
+  EXPECT_EQ(kept(), 5u);
+  // Two steps between frames: the shortest of the lists counts.
+  list.undo();
+  list.redo();
+  EXPECT_EQ(kept(), 5u);
+  EXPECT_EQ(kept(), 7u);
+}
+
+TEST_F(ObjectsTest, ChangingOneKeepsThoseBeforeIt) {
+  list.add(marks(6).view());
+  kept();
+  list.set(4, marks(1).view().object(0));
+  EXPECT_EQ(kept(), 4u);
+  list.remove(2);
+  EXPECT_EQ(kept(), 2u);
+  list.move(3, 1);
+  EXPECT_EQ(kept(), 1u);
+}
+
+TEST_F(ObjectsTest, ReplacingKeepsNone) {
+  list.add(marks(6).view());
+  kept();
+  list.replace(marks(8).view());
+  EXPECT_EQ(kept(), 0u);
+  list.clear();
+  EXPECT_EQ(kept(), 0u);
+  list.undo();
+  EXPECT_EQ(kept(), 0u);
+  EXPECT_EQ(kept(), 8u);
+}
+
+// As hosts do, which hand over the whole list time and again.
+TEST_F(ObjectsTest, AssigningKeepsTheCommonBeginning) {
+  objects::Objects all = marks(6);
+  list.assign(all.view());
+  EXPECT_EQ(kept(), 0u);
+  list.assign(all.view());
+  EXPECT_EQ(kept(), 6u);
+  all.append(marks(1).view());
+  list.assign(all.view());
+  EXPECT_EQ(kept(), 6u);
+  list.assign({&table, all.view().data, 3});
+  EXPECT_EQ(kept(), 3u);
+  objects::Objects others(table);
+  others.append(objects::View{&table, all.view().data, 2});
+  others.append(marks(4).view());
+  list.assign(others.view());
+  EXPECT_EQ(kept(), 2u);
+  list.assign({});
+  EXPECT_EQ(kept(), 0u);
+}
+
+TEST_F(ObjectsTest, AFailedFrameDoesNotCount) {
+  list.add(marks(5).view());
+  kept();
+  list.undo();
+  chain.selection.set(Assignment{{"teller", "fails"}, "true"});
+  EXPECT_ERROR(ErrorId::kEffectRecord, told());
+  chain.selection.set(Assignment{{"teller", "fails"}, "false"});
+  list.add(marks(7).view());
+  EXPECT_EQ(kept(), 0u);
+  EXPECT_EQ(kept(), 7u);
+}
+
+// Nor does one in which the effect is off or its output is not wanted: it does not record then.
+TEST_F(ObjectsTest, WhatChangesWhileItDoesNotRecordIsNotKept) {
+  list.add(marks(5).view());
+  kept();
+  chain.selection.find("teller")->on = false;
+  list.set(3, marks(1).view().object(0));
+  list.add(marks(2).view());
+  frame(outputs, {}, [](FrameInputs&) {});
+  chain.selection.find("teller")->on = true;
+  EXPECT_EQ(kept(), 3u);
+}
+
+TEST_F(ObjectsTest, ANewInstanceHasSeenNone) {
+  list.add(marks(5).view());
+  kept();
+  EXPECT_EQ(kept(), 5u);
+  chain.start(*device);
+  EXPECT_EQ(kept(), 0u);
+  EXPECT_EQ(kept(), 5u);
+  chain.stop();
+  EXPECT_EQ(kept(), 0u);  // created again by its first frame
+}
+
+// Whatever is done to the list, the objects that are said to be kept are those of the frame before.
+TEST_F(ObjectsTest, WhatIsSaidToBeKeptIsThere) {
+  std::mt19937_64 random(1);
+  std::vector<objects::Object> before;
+  for (int step = 0; step < 400; ++step) {
+    for (uint64_t changes = random() % 3; changes > 0; --changes) {
+      const size_t size = list.size();
+      switch (random() % 8) {
+        case 0:
+          list.replace(marks(random() % 6).view());
+          break;
+        case 1:
+        case 2:
+          list.undo();
+          break;
+        case 3:
+          list.redo();
+          break;
+        case 4:
+          if (size > 0) list.remove(random() % size);
+          break;
+        case 5:
+          list.assign({&table, list.view().data, size - size / 3});
+          break;
+        default:
+          list.add(marks(1 + random() % 3).view());
+      }
+    }
+    const bool fails = random() % 5 == 0;
+    chain.selection.set(Assignment{{"teller", "fails"}, fails ? "true" : "false"});
+    if (fails) {
+      EXPECT_ERROR(ErrorId::kEffectRecord, told());
+      continue;
+    }
+    const size_t same = kept();
+    ASSERT_LE(same, before.size());
+    for (size_t i = 0; i < same; ++i) ASSERT_EQ(list.object(i), before[i]) << step << " at " << i;
+    before.clear();
+    for (size_t i = 0; i < list.size(); ++i) before.push_back(list.object(i));
+  }
+}
+
+TEST_F(ObjectsTest, EffectsWithoutATableSeeNone) {
+  const std::vector<gpu::Texture> plain = {makeTexture("plain", gpu::Format::kR32Float)};
+  chain.selection = Selection(registry, Keys{"plain"});
+  EXPECT_EQ(chain.objects("plain"), nullptr);
+  EXPECT_EQ(record(chain, "plain", plain), 0u);
+}
+
+}  // namespace
+}  // namespace grisaille::effect

@@ -1,0 +1,32 @@
+/* SPDX-License-Identifier: MIT
+ *
+ * An object of the test plugin `teller`. */
+#pragma once
+
+namespace grisaille::tests {
+
+#ifdef LATER
+// Of a later version of the plugin: `note` is gone, `colour` is a text, `weight` is new, and the
+// largest size is smaller.
+struct Mark {
+  double position[3];
+  double size;
+  float direction[3];
+  const char* colour;
+  const char* picture;
+  double weight;
+};
+constexpr double kLargestMark = 10;
+#else
+struct Mark {
+  double position[3];
+  float direction[3];
+  float colour[3];
+  double size;
+  const char* note;
+  const char* picture;
+};
+constexpr double kLargestMark = 100;
+#endif
+
+}  // namespace grisaille::tests
