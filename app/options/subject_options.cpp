@@ -2,7 +2,6 @@
 #include "app/options/subject_options.h"
 
 #include <fmt/format.h>
-#include <unistd.h>
 
 #include <algorithm>
 #include <filesystem>
@@ -53,7 +52,7 @@ void SubjectOptions::addTo(CLI::App& command) {
       ->allow_extra_args(false);
   command
       .add_option("--effects", effects,
-                  "Effects in the order they run; default: those that `grisaille effects` marks")
+                  "Effects that run, in order; default: those that `grisaille effects` marks")
       ->delimiter(',')
       ->allow_extra_args(false);
   command.add_option("--output", output,
@@ -139,7 +138,7 @@ study::View LoadedSubject::viewOf(const std::string& name, const scene::Camera& 
   view.camera.size = subject_.size;
   truth::OcclusionTruth traced =
       truth::traceOcclusion(scene_, view.camera, subject_.size, options_.radius, options_.samples,
-                            options_.progress || isatty(STDERR_FILENO) == 1, bar);
+                            options_.progress, bar);
   view.truth = std::move(traced.visibility);
   view.noise = traced.error;
   onSurfacesAlone(view, traced.hits);

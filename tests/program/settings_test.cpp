@@ -4,6 +4,7 @@
 #include <gtest/gtest.h>
 
 #include "app/settings/load_effects.h"
+#include "app/settings/settings.h"
 #include "app/viewer/command_line.h"
 #include "core/image/image.h"
 #include "tests/program/run.h"
