@@ -213,10 +213,16 @@ void Renderer::render(const FrameDesc& desc) {
   for (auto& [name, slot] : targets_) slot.used = false;
   outputs_.clear();
   waiting_ = 0;
+  betweenPasses_ = false;
   gpu::Commands& commands = device_.begin();
   try {
     record(commands, desc, plan);
   } catch (...) {
+    // What the scene and the other effects uploaded in this frame, they do not upload again.
+    try {
+      if (betweenPasses_) device_.submit();
+    } catch (const Error&) {  // the first error tells more
+    }
     device_.abandon();
     throw;
   }
@@ -296,7 +302,9 @@ void Renderer::recordEffects(gpu::Commands& commands, const FrameDesc& desc, con
     inputs.outputs = outputs;
     inputs.patience = desc.patience;
     inputs.services = desc.services;
+    betweenPasses_ = true;
     waiting_ += desc.chain->record(*active.entry, inputs);
+    betweenPasses_ = false;
   }
 }
 

@@ -164,10 +164,10 @@ void CallUses::addView(const grisaille_shader_slot& slot, const Binding& binding
     throw Error(ErrorId::kBindingFormat, "{} is declared {}, texture '{}' is {}", slotName(slot),
                 slot.format, texture.label, format);
   }
-  if ((slot.arrayed != 0) != (view.layerCount > 1)) {
+  if (slot.arrayed == 0 && view.layerCount > 1) {
     throw Error(ErrorId::kBindingFormat,
-                "{} is declared {}, the view of texture '{}' has {} layers", slotName(slot),
-                slot.arrayed != 0 ? "an array" : "2D", texture.label, view.layerCount);
+                "{} is declared 2D, the view of texture '{}' has {} layers", slotName(slot),
+                texture.label, view.layerCount);
   }
   if (!image) {
     SamplerRecord& sampler = account_.samplers.get(binding.sampler);

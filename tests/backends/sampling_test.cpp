@@ -175,6 +175,12 @@ TEST_P(Sampling, ArraysGiveTheirLayers) {
   EXPECT_EQ(part[1][0], 3.5f);
 }
 
+TEST_P(Sampling, AnArrayMayHaveOneLayer) {
+  const auto samples = sampled({.texture = texture()}, {.label = "array"},
+                               {{2.5f / kWidth, 1.5f / kHeight, 0, 0}}, true);
+  EXPECT_EQ(samples[0][0], texel(2, 1));
+}
+
 TEST_P(Sampling, SrgbBecomesLinear) {
   const gpu::Texture source = makeTexture(
       {.format = Format::kRgba8Srgb, .width = 256, .height = 1, .usage = TextureUsage::kSampled});

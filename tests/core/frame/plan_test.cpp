@@ -277,6 +277,24 @@ TEST_F(PlanTest, ObjectsReachTheEffectsAndWhatWaitsComesBack) {
   EXPECT_EQ(told({"told"})[1], 3);
 }
 
+// Scene and effects upload once. What they uploaded in a frame in which a later effect failed is
+// there in the next one.
+TEST_F(PlanTest, AnEffectThatFailsTakesNoUploadsAlong) {
+  effect::Chain chain{effect::Selection(registry_, Labels{"ssao", "teller"})};
+  const effect::StartedChain started(chain, *device_);
+  const auto render = [&] {
+    renderer_->render({.camera = camera_,
+                       .width = 16,
+                       .height = 8,
+                       .chain = &chain,
+                       .outputs = Labels{"ao", "told"}});
+  };
+  chain.selection.set(effect::Assignment{{"teller", "fails"}, "true"});
+  EXPECT_ERROR(ErrorId::kEffectRecord, render());
+  chain.selection.set(effect::Assignment{{"teller", "fails"}, "false"});
+  render();
+}
+
 TEST_F(PlanTest, EffectsRunInTheOrderOfTheSelection) {
   effect::Chain chain{effect::Selection(registry_, Labels{"ssao", "teller"})};
   const effect::StartedChain started(chain, *device_);

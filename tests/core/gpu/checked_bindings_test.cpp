@@ -137,7 +137,7 @@ TEST_F(CheckedBindings, FormatsAndLayers) {
   accepted(array_, {gpu::textureBinding(0, {layers}, sampler_)});
   accepted(filter_, filtering({.texture = layers, .layer = 1, .layerCount = 1},
                               gpu::imageBinding(0, result_)));
-  refused(ErrorId::kBindingFormat, array_, {gpu::textureBinding(0, {texels_}, sampler_)});
+  accepted(array_, {gpu::textureBinding(0, {texels_}, sampler_)});  // an array of one
   refused(ErrorId::kBindingFormat, filter_, filtering({layers}, gpu::imageBinding(0, result_)));
   refused(ErrorId::kBindingFormat, imageStep_, {gpu::imageBinding(0, layers)});
   const gpu::Texture integers = texture(TextureUsage::kSampled, {.format = Format::kR32Uint});

@@ -238,7 +238,7 @@ typedef struct grisaille_texture_desc {
   uint32_t width;       /**< texels, 1 to the device's limit */
   uint32_t height;      /**< texels, 1 to the device's limit */
   uint32_t mips;        /**< number of levels; 0 counts as 1 */
-  uint32_t layers;      /**< number of layers; 0 counts as 1 */
+  uint32_t layers;      /**< number of layers; 0 counts as 1; over 1: an array in shaders */
   const char* label;    /**< for messages and debuggers; may be null */
 } grisaille_texture_desc;
 
