@@ -74,6 +74,10 @@ void Panel::drawObjectsOf(const std::string& effect, const Status& status) {
     ImGui::SameLine();
     ImGui::TextDisabled("%llu wait", static_cast<unsigned long long>(status.waiting));
   }
+  ImGui::SameLine();
+  if (ImGui::SmallButton("Clear")) session_.clearObjects(effect);
+  if (ImGui::IsItemHovered()) ImGui::SetTooltip("Deletes all; Ctrl+Z brings them back");
+  layout.note(effect + ".clear");
   bool placing = session_.placing && session_.placer() == effect;
   const char* tip = table.placement == GRISAILLE_PLACE_RAY
                         ? "Click through a pixel, hold to go on; else it turns the camera (B)"
@@ -91,9 +95,6 @@ void Panel::drawObjectsOf(const std::string& effect, const Status& status) {
 }
 
 void Panel::drawObjectFile(const std::string& effect) {
-  if (button("Clear", (effect + ".clear").c_str(), "Deletes all; Ctrl+Z brings them back")) {
-    session_.clearObjects(effect);
-  }
   std::string& file = objectPaths_.try_emplace(effect, effect + ".json").first->second;
   path("##objects", (effect + ".path").c_str(), file);
   ImGui::SameLine();
