@@ -121,6 +121,13 @@ class Panel {
   void drawObjectFile(const std::string& effect);
   void drawObjectList(const std::string& effect);
   void drawSelected(const std::string& effect, size_t index);
+  struct Draft {  // a text that is being typed
+    std::string effect;
+    size_t index, field;  // of the object, of its field
+    std::string text;
+  };
+  void draftText(const objects::Field& field, const std::string& id, Draft draft);
+  void takeDraft();
   bool editField(const objects::Field& field, const std::string& id, objects::Value& value);
   void drawCoverage(const Status& status);
   // panel_truth.cpp
@@ -140,9 +147,12 @@ class Panel {
   std::vector<SavedSettings> savedList_;
   bool listsFresh_ = false;
   size_t messagesSeen_ = 0;
-  std::map<std::string, TuneWish> wishes_;               // by effect
-  std::map<std::string, std::string> objectPaths_;       // by effect
-  std::map<std::string, size_t> selected_;               // by effect, index of an object
+  std::map<std::string, TuneWish> wishes_;          // by effect
+  std::map<std::string, std::string> objectPaths_;  // by effect
+  std::map<std::string, size_t> selected_;          // by effect, index of an object
+  std::map<std::string, size_t> sizes_;             // by effect, objects in the last frame
+  std::optional<Draft> draft_;
+  bool drafting_ = false;                                // its control still has the focus
   std::string editing_;                                  // the field that is being edited; "": none
   std::optional<std::pair<std::string, double>> typed_;  // parameter and value, not yet taken
 };

@@ -5,7 +5,9 @@
 
 #include <algorithm>
 #include <cmath>
+#include <filesystem>
 #include <glm/gtc/color_space.hpp>
+#include <utility>
 
 #include "app/viewer/panel.h"
 
@@ -23,13 +25,15 @@ std::string tooltipOf(const objects::Field& field) {
   return text;
 }
 
-// What tells an object from others in a list: its texts, else its point.
+// What tells an object from others in a list: its texts, the names of its files, its point.
 std::string nameOf(const objects::ObjectList& list, size_t index) {
   const objects::Table& table = list.table();
   std::string name = fmt::format("{}", index);
   for (const objects::Field& field : objects::fieldsOf(table)) {
     const std::string text = list.view().value(index, field).text;
-    if (objects::isText(field) && !text.empty()) name += "  " + text;
+    if (text.empty()) continue;
+    const bool file = field.type == GRISAILLE_FIELD_FILE;
+    name += "  " + (file ? std::filesystem::path(text).filename().string() : text);
   }
   const auto at = list.view().value(index, table.fields[table.point_field]).numbers;
   return name + fmt::format("  ({:.2f}, {:.2f}, {:.2f})", at[0], at[1], at[2]);
@@ -52,12 +56,14 @@ bool editColour(const char* label, std::array<double, 3>& linear) {
 
 void Panel::drawObjects(const Status& status) {
   const std::vector<std::string> effects = session_.effectsWithObjects();
+  drafting_ = false;
   if (effects.empty()) ImGui::TextDisabled("No effect that is on has objects.");
   for (const std::string& effect : effects) {
     ImGui::PushID(effect.c_str());
     drawObjectsOf(effect, status);
     ImGui::PopID();
   }
+  if (draft_ && !drafting_) takeDraft();
   if (!findOwned(session_.chain.selection.effects())) return;
   wantsCoverage = ImGui::TreeNodeEx("Coverage", ImGuiTreeNodeFlags_NoTreePushOnOpen);
   layout.note("coverage", wantsCoverage ? "open" : "closed");
@@ -67,6 +73,8 @@ void Panel::drawObjects(const Status& status) {
 void Panel::drawObjectsOf(const std::string& effect, const Status& status) {
   const objects::ObjectList& list = session_.listOf(effect);
   const objects::Table& table = list.table();
+  const size_t before = std::exchange(sizes_[effect], list.size());
+  if (session_.placing && list.size() == before + 1) selected_[effect] = before;  // one was placed
   ImGui::Text("%s: %zu", table.label, list.size());
   if (ImGui::IsItemHovered()) ImGui::SetTooltip("%s", table.tooltip);
   layout.note(effect + ".objects", fmt::format("{}", list.size()));
@@ -85,11 +93,13 @@ void Panel::drawObjectsOf(const std::string& effect, const Status& status) {
   if (toggle("Left button places", (effect + ".placing").c_str(), placing, tip)) {
     session_.placeWith(effect, placing);
   }
+  ImGui::Indent();
   objects::Object& next = session_.nextObject(effect);
   for (size_t i = 0; i < next.values.size(); ++i) {
     if (i == table.point_field || i == table.direction_field) continue;
     editField(table.fields[i], effect + ".next.", next.values[i]);
   }
+  ImGui::Unindent();
   drawObjectList(effect);
   drawObjectFile(effect);
 }
@@ -123,11 +133,15 @@ void Panel::drawObjectList(const std::string& effect) {
     for (int row = clipper.DisplayStart; row < clipper.DisplayEnd; ++row) {
       const auto index = static_cast<size_t>(row);
       ImGui::PushID(row);
-      if (ImGui::Selectable(nameOf(list, index).c_str(), chosen == index)) {
+      if (ImGui::Selectable("##row", chosen == index)) {
         chosen = index;
         selected_[effect] = index;
       }
       layout.note(fmt::format("{}.object.{}", effect, index), chosen == index ? "true" : "false");
+      const std::string name = nameOf(list, index);
+      if (ImGui::IsItemHovered()) ImGui::SetTooltip("%s", name.c_str());
+      ImGui::SameLine(0, 0);
+      ImGui::TextUnformatted(name.c_str());
       ImGui::PopID();
     }
   }
@@ -138,9 +152,14 @@ void Panel::drawObjectList(const std::string& effect) {
 void Panel::drawSelected(const std::string& effect, size_t index) {
   const objects::Table& table = session_.listOf(effect).table();
   objects::Object object = session_.listOf(effect).object(index);
+  ImGui::Indent();
   for (size_t i = 0; i < object.values.size(); ++i) {
     const objects::Field& field = table.fields[i];
     const std::string id = effect + ".field.";
+    if (objects::isText(field)) {
+      draftText(field, id, {effect, index, i, object.values[i].text});
+      continue;
+    }
     const bool edited = editField(field, id, object.values[i]);
     const std::string name = fmt::format("{}{}.{}", id, index, field.key);
     if (edited) {
@@ -168,6 +187,35 @@ void Panel::drawSelected(const std::string& effect, size_t index) {
     session_.changeObjects(effect, "delete", false,
                            [&](objects::ObjectList& list) { list.remove(index); });
   }
+  ImGui::Unindent();
+}
+
+// A text of a selected object is taken as a whole, once its control is left: a part of a path would
+// name another picture or none.
+void Panel::draftText(const objects::Field& field, const std::string& id, Draft draft) {
+  const bool before = draft_ && draft_->effect == draft.effect && draft_->index == draft.index &&
+                      draft_->field == draft.field;
+  objects::Value value{.numbers = {}, .text = before ? draft_->text : draft.text};
+  const bool edited = editField(field, id, value);
+  if (!edited && !before) return;
+  drafting_ = drafting_ || ImGui::IsItemActive();
+  draft.text = value.text;
+  draft_ = std::move(draft);
+}
+
+void Panel::takeDraft() {
+  const Draft draft = *std::exchange(draft_, std::nullopt);
+  session_.attempt([&] {
+    const objects::Table& table = session_.listOf(draft.effect).table();
+    const std::string what =
+        fmt::format("{}[{}].{}", table.key, draft.index, table.fields[draft.field].key);
+    session_.changeObjects(draft.effect, what, false, [&](objects::ObjectList& list) {
+      if (draft.index >= list.size()) return;
+      objects::Object object = list.object(draft.index);
+      object.values[draft.field].text = draft.text;
+      list.set(draft.index, object);
+    });
+  });
 }
 
 // Draws the control of one field; true where `value` is another now.
