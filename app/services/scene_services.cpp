@@ -5,15 +5,16 @@
 
 namespace grisaille::app {
 
+void printWarning(const std::string& text) {
+  fmt::print(stderr, "warning: {}\n", text);
+}
+
 void PictureFiles::read(const char* path, grisaille_picture& out) {
-  const auto before = failed_.find(path);
-  if (before != failed_.end()) throw before->second;
   try {
     const std::string bytes = readRegularFile(path, ErrorId::kImageUnreadable);
     picture_ = image::decode(std::as_bytes(std::span(bytes)), oneLine(path));
   } catch (const Error& error) {
-    fmt::print(stderr, "warning: {}\n", error.detail());
-    failed_.emplace(path, error);
+    if (warned_.insert(path).second) warn_(error.detail());
     throw;
   }
   out.width = picture_.width;

@@ -2,9 +2,11 @@
 // What effects may ask of the program: rays through the scene, and decoded picture files.
 #pragma once
 
-#include <map>
+#include <functional>
 #include <optional>
+#include <set>
 #include <string>
+#include <utility>
 
 #include "core/effect/instance.h"
 #include "core/image/image.h"
@@ -28,20 +30,27 @@ class SceneRays : public effect::RayService {
   std::optional<trace::RayTracer> tracer_;
 };
 
+// Who hears of a warning; by default it is printed on standard error.
+using Warn = std::function<void(const std::string&)>;
+void printWarning(const std::string& text);
+
 // Any format that OpenImageIO reads, of up to 16384 pixels a side. A file that cannot be read is
-// warned of once, on standard error.
+// warned of once, and read again whenever an effect asks.
 class PictureFiles : public effect::PictureService {
  public:
+  explicit PictureFiles(Warn warn) : warn_(std::move(warn)) {}
   void read(const char* path, grisaille_picture& out) override;
 
  private:
-  image::Image8 picture_;                             // the last one
-  std::map<std::string, Error, std::less<>> failed_;  // by path
+  Warn warn_;
+  image::Image8 picture_;         // the last one
+  std::set<std::string> warned_;  // of these paths
 };
 
 class SceneServices {
  public:
-  explicit SceneServices(const scene::Scene& scene) : rays_(scene) {}
+  explicit SceneServices(const scene::Scene& scene, Warn warn = printWarning)
+      : rays_(scene), pictures_(std::move(warn)) {}
 
   effect::Services all() { return {.rays = &rays_, .pictures = &pictures_}; }
   effect::RayService& rays() { return rays_; }

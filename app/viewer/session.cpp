@@ -90,7 +90,8 @@ void Session::apply(const Settings& settings, const std::vector<std::string>& pr
 void Session::setScene(std::shared_ptr<const scene::Scene> loaded, const std::string& path) {
   scenePath = path;
   scene = std::move(loaded);
-  services = std::make_unique<SceneServices>(*scene);
+  services = std::make_unique<SceneServices>(
+      *scene, [this](const std::string& warning) { say("warning: " + warning, true); });
   homeCamera = path.empty() ? scene::atriumCamera() : scene::overviewCamera(scene->bounds);
   if (std::exchange(firstScene_, false) && !options_.camera.empty()) homeCamera = camera;
   camera = homeCamera;
