@@ -1,0 +1,46 @@
+// SPDX-License-Identifier: MIT
+#include "tests/decals/built.h"
+
+#include <cmath>
+#include <stdexcept>
+
+namespace grisaille::tests {
+
+const std::string& builtDecals() {
+  static const TemporaryFolder kFolder;
+  static const std::string kPlugins = [] {
+    const Outcome outcome =
+        runShell(CMAKE " --install " BUILD_FOLDER " --prefix prefix && cp -r " SOURCE_FOLDER
+                       "/examples/decals decals && " CMAKE
+                       " -G Ninja -S decals -B built -DCMAKE_PREFIX_PATH=$PWD/prefix && " CMAKE
+                       " --build built",
+                 kFolder.path());
+    if (outcome.status != 0) throw std::runtime_error(outcome.out + outcome.err);
+    return kFolder / "built/lib/grisaille/effects";
+  }();
+  return kPlugins;
+}
+
+image::Image8 squares(const std::array<Colour, 4>& colours) {
+  image::Image8 picture{.width = 64, .height = 64, .pixels = {}};
+  for (size_t y = 0; y < 64; ++y) {
+    for (size_t x = 0; x < 64; ++x) {
+      const Colour& colour = colours[y / 32 * 2 + x / 32];
+      picture.pixels.insert(picture.pixels.end(), colour.begin(), colour.end());
+    }
+  }
+  return picture;
+}
+
+void writePng(const image::Image8& picture, const TemporaryFolder& folder,
+              const std::string& name) {
+  const std::vector<std::byte> bytes = image::encodePng(picture);
+  folder.write(name, {reinterpret_cast<const char*>(bytes.data()), bytes.size()});
+}
+
+float linear(uint8_t srgb) {
+  const float c = static_cast<float>(srgb) / 255;
+  return c > 0.04045f ? std::pow((c + 0.055f) / 1.055f, 2.4f) : c / 12.92f;
+}
+
+}  // namespace grisaille::tests
