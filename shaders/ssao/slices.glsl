@@ -3,6 +3,8 @@
 // Levesque and Gilet 2023, "Screen Space Indirect Lighting with Visibility Bitmask", on the slices
 // of Jimenez et al. 2016, "Practical Real-Time Strategies for Accurate Indirect Occlusion".
 //
+// Lines are those of Algorithm 1 of either paper; of Jimenez 2016 in Technical Memo ATVI-TR-19-01.
+//
 // A slice is the plane through the view vector and a direction drawn with the cosine's density about
 // the normal: slices then weigh alike. Angles in it run from the view vector, negative on one side.
 // A sector is a 32nd of the slice's cosine-weighted solid angle, so that the share of clear bits is
@@ -53,7 +55,7 @@ struct Slice {
 
 // The share of the slice's cosine-weighted solid angle that lies below the direction of a point on
 // this side of the view vector. With h the direction's angle and n the normal's, the integral of
-// |sin h| cos(h - n) from 0 to h is (cos n - cos(2 h - n)) / 4 + h sin(n) / 2.
+// |sin h| cos(h - n) from 0 to h is (cos n - cos(2 h - n)) / 4 + h sin(n) / 2 (Jimenez 2016, line 28).
 //
 // A tap is the middle of a pixel and lies beside the slice. It is moved into it at its own height
 // over the surface, which keeps planes open however near the tap is.
@@ -82,22 +84,22 @@ uint sectorOf(Slice s, float angle) {
   return uint(clamp((s.offset + side * part * s.scale) * 32.0, 0.0, 31.0));
 }
 
-// The cosine-weighted mean of the slice's directions in sectors that are not shut.
-vec3 meanOpen(Slice s, float n, vec3 across, vec3 toward, uint shut) {
+// The cosine-weighted mean of the slice's directions in sectors that are not occluded.
+vec3 meanOpen(Slice s, float n, vec3 ortho_direction, vec3 view_vec, uint occluded) {
   const uint kDirections = 16u;
   vec3 sum = vec3(0.0);
   for (uint i = 0u; i < kDirections; ++i) {
     const float angle = n + ((float(i) + 0.5) / float(kDirections) - 0.5) * kPi;
     const float weight = abs(sin(angle)) * cos(angle - n);
-    const bool open = (shut >> sectorOf(s, angle) & 1u) == 0u;
-    if (open) sum += weight * (across * sin(angle) + toward * cos(angle));
+    const bool open = (occluded >> sectorOf(s, angle) & 1u) == 0u;
+    if (open) sum += weight * (ortho_direction * sin(angle) + view_vec * cos(angle));
   }
   return sum * (s.scale * kPi / float(kDirections));
 }
 #endif
 
-// Bits [from, to) of 32.
-uint bitsOf(uint from, uint to) {
+// The sectors [from, to) of 32 (Therrien 2023, Algorithm 1, lines 14 to 19).
+uint sectorRange(uint from, uint to) {
   const uint count = to - min(from, to);
   return count == 0u ? 0u : (0xffffffffu >> (32u - count)) << from;
 }
@@ -110,8 +112,8 @@ struct Side {
   float seen;        // taps that lay in the picture
 };
 
-uint bitsBetween(float low, float high, float dither) {
-  return bitsOf(uint(clamp(low * 32.0 + dither, 0.0, 32.0)),
+uint sectorsBetween(float low, float high, float dither) {
+  return sectorRange(uint(clamp(low * 32.0 + dither, 0.0, 32.0)),
                 uint(clamp(high * 32.0 + dither, 0.0, 32.0)));
 }
 
@@ -122,7 +124,7 @@ vec3 leavesAt(Side before, vec3 step) {
   return before.point + clamp(sqrt(max(b * b - c, 0.0)) - b, 0.0, 1.0) * step;
 }
 
-uint tapBits(Slice s, vec2 at, float side, float dither, inout Side before) {
+uint sectorsOfTap(Slice s, vec2 at, float side, float dither, inout Side before) {
   const vec2 place = attachmentAt(at);
   const bool seen = all(equal(clamp(place, vec2(0.0), vec2(1.0)), place));
   const float depth = textureLod(view_depth, place, 0.0).x;
@@ -157,13 +159,13 @@ uint tapBits(Slice s, vec2 at, float side, float dither, inout Side before) {
   before.share = first;
   before.depth = present && inside ? depth : -1e30;
   before.seen += seen ? 1.0 : 0.0;
-  return present ? bitsBetween(low, high, dither) : 0u;
+  return present ? sectorsBetween(low, high, dither) : 0u;
 }
 
 // What the surface of the last tap covers that goes on as it came.
-uint bitsBeyond(Slice s, Side last, float side, float dither) {
+uint sectorsBeyond(Slice s, Side last, float side, float dither) {
   const float share = shareOf(s, leavesAt(last, last.step), side);
-  return last.depth > 0.0 ? bitsBetween(min(last.share, share), max(last.share, share), dither) : 0u;
+  return last.depth > 0.0 ? sectorsBetween(min(last.share, share), max(last.share, share), dither) : 0u;
 }
 
 // The pixel of the tap so many pixels on. Far ones fall on a grid, as wide as an eighth to a sixteenth
@@ -177,17 +179,18 @@ vec2 tapAt(vec2 pixel, vec2 way, float pixels) {
 }
 
 // Visibility of one slice; what it has to say of the mean open direction is added to `bent`.
-float sliceOf(vec3 position, vec3 toward, vec3 normal, vec3 direction, vec2 pixel, float jitter,
+float sliceOf(vec3 position, vec3 view_vec, vec3 normal, vec3 direction, vec2 pixel, float jitter,
               inout vec3 bent) {
-  vec3 across = direction - toward * dot(direction, toward);
-  across *= inversesqrt(max(dot(across, across), 1e-12));
-  vec2 at = vec2(dot(normal, across), dot(normal, toward));
-  const float projected = inversesqrt(max(dot(at, at), 1e-4));
+  vec3 ortho_direction = direction - view_vec * dot(direction, view_vec);
+  ortho_direction *= inversesqrt(max(dot(ortho_direction, ortho_direction), 1e-12));
+  vec2 at = vec2(dot(normal, ortho_direction), dot(normal, view_vec));
+  const float inverse_length = inversesqrt(max(dot(at, at), 1e-4));
   at *= inversesqrt(max(dot(at, at), 1e-12));
+  // The slice's frame and the projected normal's angle n (Jimenez 2016, lines 9 to 15).
   Slice s;
   s.position = position;
-  s.along = across * at.y - toward * at.x;
-  s.up = normal * projected;
+  s.along = ortho_direction * at.y - view_vec * at.x;
+  s.up = normal * inverse_length;
   s.cos_n = at.y;
   s.sin_n = at.x;
   // The integral over the whole slice is cos n + n sin n, and below the view vector half of
@@ -200,12 +203,12 @@ float sliceOf(vec3 position, vec3 toward, vec3 normal, vec3 direction, vec2 pixe
   // The slice's line on the screen, and how far the sphere reaches along it: to the view ray that
   // touches it.
   const float depth = -position.z;
-  vec2 way = (across.xy * depth + position.xy * across.z) * view.pixel_from_view.xy;
+  vec2 way = (ortho_direction.xy * depth + position.xy * ortho_direction.z) * view.pixel_from_view.xy;
   const float stretch = dot(way, way);
   way *= inversesqrt(max(stretch, 1e-20));
   const float near = settings.radius * settings.radius / dot(position, position);
   const float reach = settings.radius / (depth * depth) * sqrt(stretch / max(1.0 - near, 0.0625));
-  uint bits = 0u;
+  uint occluded = 0u;
   Side ahead = Side(vec3(0.0), vec3(0.0), 1.0, -1e30, 0.0);
   Side behind = Side(vec3(0.0), vec3(0.0), 0.0, -1e30, 0.0);
   // Not unrolled: that costs a third more on lavapipe, and nothing elsewhere.
@@ -216,23 +219,24 @@ float sliceOf(vec3 position, vec3 toward, vec3 normal, vec3 direction, vec2 pixe
     const float least = float(i) + 1.0;
     const float to = max(one * sqrt(sqrt(one)) * reach, least);
     const float back = max(two * sqrt(sqrt(two)) * reach, least);
-    bits |= tapBits(s, tapAt(pixel, way, to), 1.0, jitter, ahead);
-    bits |= tapBits(s, tapAt(pixel, -way, back), -1.0, jitter, behind);
+    occluded |= sectorsOfTap(s, tapAt(pixel, way, to), 1.0, jitter, ahead);
+    occluded |= sectorsOfTap(s, tapAt(pixel, -way, back), -1.0, jitter, behind);
   }
-  bits |= bitsBeyond(s, ahead, 1.0, jitter) | bitsBeyond(s, behind, -1.0, jitter);
+  occluded |= sectorsBeyond(s, ahead, 1.0, jitter) | sectorsBeyond(s, behind, -1.0, jitter);
 #if BENT
-  bent += meanOpen(s, n, across, toward, bits);
+  bent += meanOpen(s, n, ortho_direction, view_vec, occluded);
 #endif
+  // The share of clear bits (Therrien 2023, line 26), of each side by itself.
   // A side that leaves the picture takes the other's share for the taps that it lacks.
   const float low = clamp(round(s.offset * 32.0), 1.0, 31.0);
   const uint low_bits = (1u << uint(low)) - 1u;
-  const float shut_behind = float(bitCount(bits & low_bits)) / low;
-  const float shut_ahead = float(bitCount(bits & ~low_bits)) / (32.0 - low);
+  const float occluded_behind = float(bitCount(occluded & low_bits)) / low;
+  const float occluded_ahead = float(bitCount(occluded & ~low_bits)) / (32.0 - low);
   const float lacks_behind = 1.0 - behind.seen / float(kSteps);
   const float lacks_ahead = 1.0 - ahead.seen / float(kSteps);
   const float share = low / 32.0;
-  return 1.0 - mix(max(shut_ahead, lacks_ahead * (1.0 - lacks_behind) * shut_behind),
-                   max(shut_behind, lacks_behind * (1.0 - lacks_ahead) * shut_ahead), share);
+  return 1.0 - mix(max(occluded_ahead, lacks_ahead * (1.0 - lacks_behind) * occluded_behind),
+                   max(occluded_behind, lacks_behind * (1.0 - lacks_ahead) * occluded_ahead), share);
 }
 
 // Whether fewer than 7 of 8 texels, each two texels off, are in the plane of the pixel's surface,
@@ -254,7 +258,7 @@ bool isEdge(vec2 pixel, float depth, vec3 normal) {
 float openAt(uvec2 texel, vec2 pixel, float depth, out vec3 bent) {
   bent = vec3(0.0);
   const vec3 position = viewPosition(pixel, depth);
-  const vec3 toward = position * -inversesqrt(dot(position, position));
+  const vec3 view_vec = position * -inversesqrt(dot(position, position));
   vec3 normal = viewNormal(textureLod(world_normal, attachmentAt(pixel), 0.0).xyz);
   uint count = kSlices;
   if (kEdgeSlices > 1u) {
@@ -262,8 +266,8 @@ float openAt(uvec2 texel, vec2 pixel, float depth, out vec3 bent) {
   }
   // Normals of bent surfaces may turn away from the eye: to the silhouette with them, and a little
   // over it where they do so by more than their rounding, since what is edge-on hangs on roundings.
-  const float facing = dot(normal, toward);
-  normal = normalize(normal + toward * max((facing < -1e-3 ? 1e-2 : 1e-3) - facing, 0.0));
+  const float facing = dot(normal, view_vec);
+  normal = normalize(normal + view_vec * max((facing < -1e-3 ? 1e-2 : 1e-3) - facing, 0.0));
   const mat3 axes = basisAbout(normal);
   // 25 texels, 5x5, hold the 25 points of a Hammersley set. Every row, column and diagonal of five
   // has each fifth of the circle once, so that little is left of the pattern where what denoises finds
@@ -278,7 +282,7 @@ float openAt(uvec2 texel, vec2 pixel, float depth, out vec3 bent) {
     const float u = fract(jitter + float(k) * 0.618034);
     const float r = sqrt(u);
     const vec3 direction = axes * vec3(r * cos(phi), r * sin(phi), sqrt(1.0 - u));
-    open += sliceOf(position, toward, normal, direction, pixel, u, bent);
+    open += sliceOf(position, view_vec, normal, direction, pixel, u, bent);
   }
   bent /= float(count);
   return open / float(count);
