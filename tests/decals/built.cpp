@@ -6,17 +6,29 @@
 
 namespace grisaille::tests {
 
-const std::string& builtDecals() {
+namespace {
+
+const TemporaryFolder& folder() {
   static const TemporaryFolder kFolder;
+  return kFolder;
+}
+
+}  // namespace
+
+std::string installedPrefix() {
+  return folder() / "prefix";
+}
+
+const std::string& builtDecals() {
   static const std::string kPlugins = [] {
     const Outcome outcome =
         runShell(CMAKE " --install " BUILD_FOLDER " --prefix prefix && cp -r " SOURCE_FOLDER
                        "/examples/decals decals && " CMAKE
                        " -G Ninja -S decals -B built -DCMAKE_PREFIX_PATH=$PWD/prefix && " CMAKE
                        " --build built",
-                 kFolder.path());
+                 folder().path());
     if (outcome.status != 0) throw std::runtime_error(outcome.out + outcome.err);
-    return kFolder / "built/lib/grisaille/effects";
+    return folder() / "built/lib/grisaille/effects";
   }();
   return kPlugins;
 }

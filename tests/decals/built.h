@@ -15,6 +15,8 @@ namespace grisaille::tests {
 // The folder of the plugin. Its project was copied to a folder of its own and built there against
 // an installation, by the first call. Throws std::runtime_error where that fails.
 const std::string& builtDecals();
+// The installation that it was built against.
+std::string installedPrefix();
 
 using Colour = std::array<uint8_t, 4>;  // sRGB, straight alpha
 inline constexpr Colour kRed{200, 40, 30, 255}, kGreen{30, 160, 60, 255}, kBlue{20, 60, 220, 255},

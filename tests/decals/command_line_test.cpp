@@ -6,6 +6,7 @@
 #include <cmath>
 #include <glm/glm.hpp>
 
+#include "tests/build/session.h"
 #include "tests/decals/built.h"
 
 namespace grisaille::tests {
@@ -30,6 +31,27 @@ TEST(DecalsFolder, BuildsAnEffectWithoutAFault) {
       runProgram({"effects", "--verify", builtDecals() + "/decals.so"}, folder.path());
   EXPECT_EQ(outcome.status, 0) << outcome.out << outcome.err;
   EXPECT_NE(outcome.out.find(" 0 faults"), std::string::npos) << outcome.out;
+}
+
+TEST(DecalsFolder, ReadmeRunsAndShowsItsPicture) {
+  GRISAILLE_NEEDS_INSTALLATION();
+  builtDecals();
+  const fs::path source = SOURCE_FOLDER;
+  const TemporaryFolder folder;
+  const std::string script =
+      folder.write("readme.sh", "export PATH='" + installedPrefix() + "/bin':\"$PATH\"\ncp -r '" +
+                                    (source / "examples/decals").string() + "' mine\ncd mine\n" +
+                                    sessionOf(source / "examples/decals/README.md"));
+  const Outcome outcome = runShell("bash " + script, folder.path());
+  ASSERT_EQ(outcome.status, 0) << outcome.out << outcome.err;
+  EXPECT_LT(image::shareOver(image::read(folder / "mine/decals.png"),
+                             image::read(source / "docs/pictures/decals.png"), 8.0 / 255),
+            0.002);
+  const Outcome table = runShell(
+      "GRISAILLE_EFFECT_PATH='" + builtDecals() + "' grisaille effects --markdown decals", ".");
+  EXPECT_NE(readFile(source / "examples/decals/README.md").find(table.out), std::string::npos)
+      << "lacks this table:\n"
+      << table.out;
 }
 
 // A tile of the atrium's floor, from above. Its picture's up is -z, as the camera's is.

@@ -126,7 +126,7 @@ std::set<fs::path> linkedFiles() {
   for (const auto& entry : fs::directory_iterator(kSource)) {
     if (entry.path().extension() == ".md") pages.push_back(entry.path());
   }
-  for (const char* folder : {"docs", "effects", "studies"}) {
+  for (const char* folder : {"docs", "effects", "examples", "studies"}) {
     std::ranges::copy(pagesOf(kSource / folder), std::back_inserter(pages));
   }
   std::set<fs::path> linked;
