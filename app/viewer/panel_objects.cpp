@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: MIT
 // The panel's objects: tools and lists made from the tables of the effects.
 #include <fmt/format.h>
+#include <imgui/imgui.h>
 #include <imgui/imgui_stdlib.h>
 
 #include <algorithm>
