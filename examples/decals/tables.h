@@ -14,7 +14,7 @@ struct Decal {
   const char *picture, *name;
 };
 
-// clang-format off: few lines for each row
+// clang-format off
 constexpr grisaille_field_desc kFields[] = {
     plugin::field({.key = "position", .label = "Position", .tooltip = "Centre of the box",
         .type = GRISAILLE_FIELD_POINT, .offset = offsetof(Decal, position), .required = true}),
