@@ -54,7 +54,9 @@ TEST_F(InputPaths, EveryReaderNamesWhatIsNoRegularFile) {
       {render + "--config", "toml", 5103},
       {render + "--effects sspm --load sspm=", "json", 3411},
       {"apply --camera '{}' --write ao=out.exr --depth", "exr", 4101},
-      {"measure --size 8x8 --out out --effects sspm --output sspm.paint --reference r.exr --load sspm=", "json", 3411},
+      {"measure --size 8x8 --out out --effects sspm --output sspm.paint --reference r.exr --load "
+       "sspm=",
+       "json", 3411},
       {"measure --size 8x8 --out out --sweep ssao.steps=1 --camera", "json", 2201},
       {"measure --size 8x8 --out out --sweep ssao.steps=1 --path", "json", 2201},
       {"tune --size 8x8 --max-error 1 --out out.toml --validate", "json", 2201},
