@@ -45,7 +45,7 @@ class Chain {
   // Creates the instances that are missing of effects that are on. Outside of a frame. Throws
   // kEffectCreate.
   void create();
-  // Ends all instances; start() creates new ones. What an effect throws is printed.
+  // Ends all instances; create() creates new ones. What an effect throws is printed.
   void stop() { running_.clear(); }
   // The same, and throws kEffectRecord where an effect throws.
   void end();
