@@ -12,7 +12,7 @@
 #include "app/options/object_options.h"
 #include "app/options/option_checks.h"
 #include "app/options/output_file.h"
-#include "app/options/size.h"
+#include "app/options/scene_options.h"
 #include "app/options/start_device.h"
 #include "app/report/coverage.h"
 #include "app/report/timings.h"
@@ -26,7 +26,8 @@ namespace grisaille::app {
 namespace {
 
 struct RenderOptions : EffectOptions {
-  std::string scene, camera, size, timings, coverage;
+  SceneOptions view;
+  std::string timings, coverage;
   ObjectOptions objects;
   uint32_t frames = 1;
 };
@@ -34,9 +35,7 @@ struct RenderOptions : EffectOptions {
 // What the command line asks for, checked before anything slow is done.
 struct RenderJob : ChosenEffects {
   std::vector<OutputFile> writes;
-  scene::Scene scene;
-  scene::Camera camera;
-  glm::uvec2 size = glm::uvec2(1280, 720);
+  SceneView view;
 
   // What --coverage counts.
   std::optional<Owned> owned;
@@ -51,19 +50,10 @@ struct RenderJob : ChosenEffects {
     for (const std::string& file : {options.timings, options.coverage}) {
       if (!file.empty() && file != "-") requireWritable(file);
     }
-    glm::uvec2 given(0);
-    if (!options.size.empty()) given = parseSize(options.size);
     for (const OutputFile& write : writes)
       frame::checkOutput(write.output, chain.selection.effects());
     options.objects.check(chain);
-
-    if (!options.camera.empty()) camera = cameraOf(options.camera, "--camera");
-    scene = options.scene.empty() ? scene::makeAtrium() : scene::loadGltf(options.scene);
-    if (options.camera.empty()) {
-      camera = options.scene.empty() ? scene::atriumCamera() : scene::overviewCamera(scene.bounds);
-    }
-    if (camera.size.x > 0) size = camera.size;
-    if (given.x > 0) size = given;
+    view = loadView(options.view);
     if (options.coverage.empty()) return;
     owned = findOwned(chain.selection.effects());
     if (!owned) {
@@ -110,7 +100,7 @@ void writeTimings(const RenderOptions& options, gpu::Device& device) {
 void writeCoverage(const RenderOptions& options, RenderJob& job, frame::Renderer& renderer) {
   const auto shares =
       colorShares(renderer.read(job.owned->owner), renderer.read(job.owned->overlay),
-                  renderer.read("depth"), renderer.read("facet_normal"), job.camera,
+                  renderer.read("depth"), renderer.read("facet_normal"), job.view.camera,
                   job.chain.objects(job.owned->effect)->view(), *job.owned->colour);
   writeText(options.coverage, coverageCsv(shares));
 }
@@ -119,25 +109,25 @@ void writeOutputs(const RenderOptions& options, const RenderJob& job, frame::Ren
   for (const OutputFile& write : job.writes) {
     writeOutput(renderer.read(write.output), write,
                 {.transfer = frame::transferOf(write.output),
-                 .matrices = scene::matricesOf(job.camera, job.size.x, job.size.y)});
+                 .matrices = scene::matricesOf(job.view.camera, job.view.size.x, job.view.size.y)});
     fmt::print(notesOf(options), "wrote {}\n", write.file);
   }
 }
 
 void renderFrames(const RenderOptions& options, RenderJob& job, gpu::Device& device) {
-  SceneServices services(job.scene);
-  options.objects.apply(job.chain, job.camera, job.size, services.rays());
+  SceneServices services(job.view.scene);
+  options.objects.apply(job.chain, job.view.camera, job.view.size, services.rays());
   const effect::StartedChain started(job.chain, device);
   std::vector<std::string> outputs;
   for (const OutputFile& write : job.writes) outputs.push_back(write.output);
   if (job.owned) {
     outputs.insert(outputs.end(), {job.owned->owner, job.owned->overlay, "depth", "facet_normal"});
   }
-  frame::Renderer renderer(device, job.scene);
+  frame::Renderer renderer(device, job.view.scene);
   for (uint32_t i = 0; i < options.frames; ++i) {
-    renderer.render({.camera = job.camera,
-                     .width = job.size.x,
-                     .height = job.size.y,
+    renderer.render({.camera = job.view.camera,
+                     .width = job.view.size.x,
+                     .height = job.view.size.y,
                      .surface = job.surface,
                      .chain = &job.chain,
                      .outputs = outputs,
@@ -172,14 +162,7 @@ void render(const RenderOptions& options) {
 void addRender(CLI::App& program) {
   auto options = std::make_shared<RenderOptions>();
   CLI::App* command = program.add_subcommand("render", "Render a scene to files");
-  command->add_option("scene", options->scene,
-                      "A .gltf or .glb file; without one, the built-in atrium");
-  command
-      ->add_option("--camera", options->camera,
-                   "A camera file: JSON with eye, target, fovy_degrees; or that JSON itself")
-      ->type_name("FILE|{...}");
-  command->add_option("--size", options->size, "Pixels; default: the camera's size, else 1280x720")
-      ->type_name("WxH");
+  options->view.addTo(*command);
   options->addTo(
       *command,
       "color, depth and back_depth (metres, 0 = sky), normal and facet_normal (world), base_colour "

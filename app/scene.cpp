@@ -13,16 +13,15 @@
 namespace grisaille::app {
 namespace {
 
-struct SceneOptions {
+struct SceneCommand {
   std::string scene, write, writeCamera;
 };
 
-void showScene(const SceneOptions& options) {
+void showScene(const SceneCommand& options) {
   const NamedOutput outputs[] = {{"--write " + options.write, options.write},
                                  {"--write-camera " + options.writeCamera, options.writeCamera}};
   requireDistinct(outputs);
-  const scene::Scene scene =
-      options.scene.empty() ? scene::makeAtrium() : scene::loadGltf(options.scene);
+  const scene::Scene scene = scene::loadScene(options.scene);
   const scene::Bounds& b = scene.bounds;
   fmt::print(
       "{}: {} triangles, {} primitives, {} instances, {} materials, {} textures\n"
@@ -35,9 +34,7 @@ void showScene(const SceneOptions& options) {
     fmt::print("wrote {}\n", options.write);
   }
   if (!options.writeCamera.empty()) {
-    scene::saveCamera(
-        options.scene.empty() ? scene::atriumCamera() : scene::overviewCamera(scene.bounds),
-        options.writeCamera);
+    scene::saveCamera(scene::defaultCamera(scene), options.writeCamera);
     fmt::print("wrote {}\n", options.writeCamera);
   }
 }
@@ -45,11 +42,11 @@ void showScene(const SceneOptions& options) {
 }  // namespace
 
 void addScene(CLI::App& program) {
-  auto options = std::make_shared<SceneOptions>();
+  auto options = std::make_shared<SceneCommand>();
   CLI::App* command =
       program.add_subcommand("scene", "Show what a scene holds, or write it and its camera");
   command->add_option("scene", options->scene,
-                      "A .gltf or .glb file; without one, the built-in atrium");
+                      "A .gltf or .glb file; default: the built-in atrium");
   command->add_option("--write", options->write, "Write the scene, textures and all")
       ->type_name("FILE.glb");
   command

@@ -10,10 +10,9 @@
 #include <optional>
 
 #include "app/command.h"
-#include "app/options/camera_option.h"
 #include "app/options/option_checks.h"
 #include "app/options/output_file.h"
-#include "app/options/size.h"
+#include "app/options/scene_options.h"
 #include "app/truth/content_hash.h"
 #include "app/truth/occlusion_truth.h"
 #include "app/truth/progress.h"
@@ -29,7 +28,7 @@ namespace {
 constexpr double kFarthest = 1e6;
 
 struct TruthOptions {
-  std::string scene, camera, size;
+  SceneOptions view;
   std::vector<std::string> writes;
   double radius = 0.5, error = 0;
   double thickness = 0;  // 0: not given
@@ -58,9 +57,7 @@ void requireLength(const char* option, double metres) {
 struct TruthJob {
   std::vector<OutputFile> writes;
   double thickness;
-  scene::Scene scene;
-  scene::Camera camera;
-  glm::uvec2 size = glm::uvec2(1280, 720);
+  SceneView view;
 
   explicit TruthJob(const TruthOptions& options)
       : thickness(options.thickness > 0 ? options.thickness : options.radius / 5) {
@@ -73,15 +70,7 @@ struct TruthJob {
     }
     checkUse("--thickness", options.thickness != 0, "ceiling");
     if (options.thickness != 0) requireLength("--thickness", options.thickness);
-    glm::uvec2 given(0);
-    if (!options.size.empty()) given = parseSize(options.size);
-    if (!options.camera.empty()) camera = cameraOf(options.camera, "--camera");
-    scene = options.scene.empty() ? scene::makeAtrium() : scene::loadGltf(options.scene);
-    if (options.camera.empty()) {
-      camera = options.scene.empty() ? scene::atriumCamera() : scene::overviewCamera(scene.bounds);
-    }
-    if (camera.size.x > 0) size = camera.size;
-    if (given.x > 0) size = given;
+    view = loadView(options.view);
   }
 
   bool wants(std::string_view output) const {
@@ -99,8 +88,8 @@ struct TruthJob {
 class Truth {
  public:
   Truth(const TruthOptions& options, const TruthJob& job)
-      : options_(options), job_(job), tracer_(job.scene, job.camera.eye) {
-    hits_ = tracer_.castPrimary(job.camera, job.size.x, job.size.y);
+      : options_(options), job_(job), tracer_(job.view.scene, job.view.camera.eye) {
+    hits_ = tracer_.castPrimary(job.view.camera, job.view.size.x, job.view.size.y);
   }
 
   // All that takes long; nothing is written before.
@@ -111,7 +100,7 @@ class Truth {
       });
     }
     if (job_.wants("ceiling") || job_.wants("ceiling_error")) {
-      const trace::DepthField field(hits_, job_.camera, job_.size.x, job_.size.y);
+      const trace::DepthField field(hits_, job_.view.camera, job_.view.size.x, job_.view.size.y);
       const std::string more = fmt::format("thickness {}\n", job_.thickness);
       ceiling_ = refine("ceiling", more, [&](auto hits, uint32_t from, uint32_t to, auto counts) {
         field.addOcclusion(hits, options_.radius, job_.thickness, options_.seed, from, to, counts);
@@ -120,7 +109,7 @@ class Truth {
   }
 
   image::Image image(std::string_view output) const {
-    const auto [width, height] = std::pair(job_.size.x, job_.size.y);
+    const auto [width, height] = std::pair(job_.view.size.x, job_.view.size.y);
     if (output == "depth") return trace::depthImage(hits_, width, height);
     if (output == "normal") return trace::normalImage(hits_, width, height);
     if (output == "ao") return trace::visibilityImage(ao_->values, width, height);
@@ -140,10 +129,10 @@ class Truth {
  private:
   truth::Estimate refine(const std::string& name, const std::string& more,
                          const truth::AddRays& addRays) {
-    scene::Camera camera = job_.camera;
-    camera.size = job_.size;
+    scene::Camera camera = job_.view.camera;
+    camera.size = job_.view.size;
     const std::string key =
-        truth::keyOf(name, truth::hashOf(job_.scene), camera, options_.radius, options_.seed) +
+        truth::keyOf(name, truth::hashOf(job_.view.scene), camera, options_.radius, options_.seed) +
         more;
     truth::Cache cache(options_.noCache ? std::filesystem::path() : truth::cacheFolder(), key);
     return truth::refine(name, hits_, addRays,
@@ -192,14 +181,7 @@ void addTruth(CLI::App& program) {
   auto options = std::make_shared<TruthOptions>();
   CLI::App* command =
       program.add_subcommand("truth", "Trace what effects are measured against, by rays");
-  command->add_option("scene", options->scene,
-                      "A .gltf or .glb file; without one, the built-in atrium");
-  command
-      ->add_option("--camera", options->camera,
-                   "A camera file: JSON with eye, target, fovy_degrees; or that JSON itself")
-      ->type_name("FILE|{...}");
-  command->add_option("--size", options->size, "Pixels; default: the camera's size, else 1280x720")
-      ->type_name("WxH");
+  options->view.addTo(*command);
   command->add_option("--radius", options->radius, "Length of occlusion rays, metres")
       ->type_name("R")
       ->capture_default_str();

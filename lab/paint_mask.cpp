@@ -4,8 +4,7 @@
 
 #include <memory>
 
-#include "app/options/camera_option.h"
-#include "app/options/size.h"
+#include "app/options/scene_options.h"
 #include "app/settings/load_effects.h"
 #include "core/base/error.h"
 #include "core/image/image.h"
@@ -18,7 +17,8 @@ namespace {
 constexpr double kFarthest = 1e6;  // metres, as sspm's paint_range
 
 struct PaintMaskOptions {
-  std::string scene, camera, size, load, write;
+  app::SceneOptions view;
+  std::string load, write;
   std::vector<std::string> pluginPaths;
   double paintRange = 0;  // metres; 0: not given
 };
@@ -42,16 +42,7 @@ void writePaintMask(const PaintMaskOptions& options) {
                 kFarthest);
   }
   const std::vector<Shot> shots = shotsFrom(options);
-  glm::uvec2 size(0);
-  if (!options.size.empty()) size = app::parseSize(options.size);
-  scene::Camera camera;
-  if (!options.camera.empty()) camera = app::cameraOf(options.camera, "--camera");
-  const bool atrium = options.scene.empty();
-  const scene::Scene scene = atrium ? scene::makeAtrium() : scene::loadGltf(options.scene);
-  if (options.camera.empty()) {
-    camera = atrium ? scene::atriumCamera() : scene::overviewCamera(scene.bounds);
-  }
-  if (size.x == 0) size = camera.size.x > 0 ? camera.size : glm::uvec2(1280, 720);
+  const auto [scene, camera, size] = app::loadView(options.view);
 
   const trace::RayTracer tracer(scene, camera.eye);
   const std::vector<uint8_t> mask =
@@ -70,14 +61,7 @@ void addPaintMask(CLI::App& program) {
   auto options = std::make_shared<PaintMaskOptions>();
   CLI::App* command = program.add_subcommand(
       "paint-mask", "Trace which pixels shots of paint should cover: 1 there, 0 elsewhere");
-  command->add_option("scene", options->scene,
-                      "A .gltf or .glb file; without one, the built-in atrium");
-  command
-      ->add_option("--camera", options->camera,
-                   "A camera file: JSON with eye, target, fovy_degrees; or that JSON itself")
-      ->type_name("FILE|{...}");
-  command->add_option("--size", options->size, "Pixels; default: the camera's size, else 1280x720")
-      ->type_name("WxH");
+  options->view.addTo(*command);
   command->add_option("--load", options->load, "The shots: objects of sspm")
       ->type_name("FILE.json")
       ->required();

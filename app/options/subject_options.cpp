@@ -125,11 +125,10 @@ void LoadedSubject::loadObjects(effect::Chain& chain) {
 }
 
 void LoadedSubject::loadScene() {
-  scene_ = options_.scene.empty() ? scene::makeAtrium() : scene::loadGltf(options_.scene);
+  scene_ = scene::loadScene(options_.scene);
   if (!options_.cameras.empty()) return;
   if (cameras_.empty()) cameras_.push_back({"default", {}, ""});
-  cameras_[0].camera =
-      options_.scene.empty() ? scene::atriumCamera() : scene::overviewCamera(scene_.bounds);
+  cameras_[0].camera = scene::defaultCamera(scene_);
 }
 
 study::View LoadedSubject::viewOf(const std::string& name, const scene::Camera& camera,

@@ -14,8 +14,7 @@ void SceneLoading::start(const std::string& path) {
   *progress_ = 0;
   result_ = std::async(std::launch::async, [path, progress = progress_] {
     const auto report = [&](double share) { *progress = share; };
-    return std::make_shared<const scene::Scene>(path.empty() ? scene::makeAtrium()
-                                                             : scene::loadGltf(path, report));
+    return std::make_shared<const scene::Scene>(scene::loadScene(path, report));
   });
 }
 

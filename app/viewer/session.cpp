@@ -92,7 +92,7 @@ void Session::setScene(std::shared_ptr<const scene::Scene> loaded, const std::st
   scene = std::move(loaded);
   services = std::make_unique<SceneServices>(
       *scene, [this](const std::string& warning) { say("warning: " + warning, true); });
-  homeCamera = path.empty() ? scene::atriumCamera() : scene::overviewCamera(scene->bounds);
+  homeCamera = scene::defaultCamera(*scene);
   if (std::exchange(firstScene_, false) && !options_.camera.empty()) homeCamera = camera;
   camera = homeCamera;
   speed = flySpeed(scene->bounds);

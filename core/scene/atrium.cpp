@@ -394,7 +394,9 @@ class Atrium {
 }  // namespace
 
 Scene makeAtrium() {
-  return Atrium().build();
+  Scene scene = Atrium().build();
+  scene.camera = atriumCamera();
+  return scene;
 }
 
 Camera atriumCamera() {

@@ -7,7 +7,7 @@
 #include <string>
 #include <string_view>
 
-#include "core/scene/scene.h"
+#include "core/scene/bounds.h"
 
 namespace grisaille::scene {
 

@@ -47,4 +47,12 @@ uint64_t triangleCount(const Scene& scene) {
   return count;
 }
 
+Scene loadScene(const std::string& path, const std::function<void(double)>& progress) {
+  return path.empty() ? makeAtrium() : loadGltf(path, progress);
+}
+
+Camera defaultCamera(const Scene& scene) {
+  return scene.camera ? *scene.camera : overviewCamera(scene.bounds);
+}
+
 }  // namespace grisaille::scene

@@ -7,11 +7,14 @@
 #include <cstdint>
 #include <functional>
 #include <glm/glm.hpp>
+#include <optional>
 #include <string>
 #include <string_view>
 #include <vector>
 
 #include "core/image/image.h"
+#include "core/scene/bounds.h"
+#include "core/scene/camera.h"
 
 namespace grisaille::scene {
 
@@ -51,11 +54,6 @@ struct Instance {
   glm::dmat4 worldFromObject = glm::dmat4(1);
 };
 
-struct Bounds {
-  glm::dvec3 min = glm::dvec3(0);
-  glm::dvec3 max = glm::dvec3(0);
-};
-
 // Vertex arrays are of equal length. Indices count from the arrays' start. Counter-clockwise
 // triangles face the viewer, unless the instance's transform mirrors.
 struct Scene {
@@ -68,7 +66,8 @@ struct Scene {
   std::vector<Material> materials;
   std::vector<Texture> textures;
   std::vector<Instance> instances;
-  Bounds bounds;  // of all instances, world
+  Bounds bounds;                 // of all instances, world
+  std::optional<Camera> camera;  // the one that the scene was made for
 };
 
 // Sets scene.bounds from its instances.
@@ -90,5 +89,12 @@ void writeGlb(const Scene& scene, const std::string& path);
 // The built-in scene: an atrium of columns, arches, vases, steps, a hanging cloth and foliage cards
 // with an alpha mask, at least 50,000 triangles. The same on every machine, to the bit.
 Scene makeAtrium();
+
+// The scene that a user names: the file at `path`, read as loadGltf() reads it, or the atrium where
+// `path` is empty.
+Scene loadScene(const std::string& path, const std::function<void(double)>& progress = {});
+
+// The camera of a user who names none: the scene's own, or else one that sees all of it.
+Camera defaultCamera(const Scene& scene);
 
 }  // namespace grisaille::scene

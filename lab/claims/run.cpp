@@ -297,8 +297,7 @@ ClaimsRunner::~ClaimsRunner() = default;
 const scene::Scene& ClaimsRunner::sceneOf(const std::string& path) {
   const auto found = scenes_.find(path);
   if (found != scenes_.end()) return found->second;
-  return scenes_.emplace(path, path.empty() ? scene::makeAtrium() : scene::loadGltf(path))
-      .first->second;
+  return scenes_.emplace(path, scene::loadScene(path)).first->second;
 }
 
 ClaimResult ClaimsRunner::run(const Claim& claim) {

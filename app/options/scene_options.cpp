@@ -1,0 +1,33 @@
+// SPDX-License-Identifier: MIT
+#include "app/options/scene_options.h"
+
+#include <optional>
+
+#include "app/options/camera_option.h"
+#include "app/options/size.h"
+
+namespace grisaille::app {
+
+void SceneOptions::addTo(CLI::App& command) {
+  command.add_option("scene", scene, "A .gltf or .glb file; default: the built-in atrium");
+  command
+      .add_option("--camera", camera,
+                  "A camera file: JSON with eye, target, fovy_degrees; or that JSON itself")
+      ->type_name("FILE|{...}");
+  command.add_option("--size", size, "Pixels; default: the camera's size, or else 1280x720")
+      ->type_name("WxH");
+}
+
+SceneView loadView(const SceneOptions& options) {
+  SceneView view;
+  std::optional<glm::uvec2> given;
+  if (!options.size.empty()) given = parseSize(options.size);
+  if (!options.camera.empty()) view.camera = cameraOf(options.camera, "--camera");
+  view.scene = scene::loadScene(options.scene);
+  if (options.camera.empty()) view.camera = scene::defaultCamera(view.scene);
+  if (view.camera.size.x > 0) view.size = view.camera.size;
+  if (given) view.size = *given;
+  return view;
+}
+
+}  // namespace grisaille::app
