@@ -213,16 +213,10 @@ void Renderer::render(const FrameDesc& desc) {
   for (auto& [name, slot] : targets_) slot.used = false;
   outputs_.clear();
   waiting_ = 0;
-  betweenPasses_ = false;
   gpu::Commands& commands = device_.begin();
   try {
     record(commands, desc, plan);
   } catch (...) {
-    // What the scene and the other effects uploaded in this frame, they do not upload again.
-    try {
-      if (betweenPasses_) device_.submit();
-    } catch (const Error&) {  // the first error tells more
-    }
     device_.abandon();
     throw;
   }
@@ -302,9 +296,17 @@ void Renderer::recordEffects(gpu::Commands& commands, const FrameDesc& desc, con
     inputs.outputs = outputs;
     inputs.patience = desc.patience;
     inputs.services = desc.services;
-    betweenPasses_ = true;
-    waiting_ += desc.chain->record(*active.entry, inputs);
-    betweenPasses_ = false;
+    try {
+      waiting_ += desc.chain->record(*active.entry, inputs);
+    } catch (...) {
+      // No pass is open here. The scene and the other effects do not repeat the uploads of this
+      // frame, so the device runs them.
+      try {
+        device_.submit();
+      } catch (const Error&) {  // the effect's error tells more
+      }
+      throw;
+    }
   }
 }
 

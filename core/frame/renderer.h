@@ -119,7 +119,6 @@ class Renderer {
   gpu::Sampler nearest_;
   gpu::Texture white_, clear_;
   uint64_t waiting_ = 0;
-  bool betweenPasses_ = false;  // an effect records; whatever it throws, no pass is open then
 };
 
 }  // namespace grisaille::frame
