@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: MIT
-// grisaille apply: effects on pictures made elsewhere, one or a numbered sequence.
+// grisaille apply: runs effects on pictures of another renderer, one frame or a numbered sequence.
 #include <fmt/format.h>
 
 #include <algorithm>
@@ -31,7 +31,8 @@ namespace {
 struct ApplyOptions : EffectOptions {
   std::string depth, normal, baseColour, camera, frames;
   std::string depthKind = "view", depthChannel, normalChannels, normalSpace = "world";
-  double near = 0, far = std::numeric_limits<double>::infinity();  // metres; near 0: the camera's
+  // Metres. A near plane of 0 stands for the camera's.
+  double near = 0, far = std::numeric_limits<double>::infinity();
 };
 
 frame::DepthKind kindOf(const std::string& name) {
@@ -45,12 +46,12 @@ struct Output {
   FileName file;
 };
 
-// What the command line asks for, checked before anything slow is done.
+// The parsed command line, checked before any slow work starts.
 struct ApplyJob : ChosenEffects {
   const ApplyOptions& options;
   FileName depth, normal, baseColour, camera;
   std::vector<Output> outputs;
-  std::vector<int> frames;  // one that means nothing where nothing is numbered
+  std::vector<int> frames;  // frame numbers; {0} if the file names are not numbered
 
   explicit ApplyJob(const ApplyOptions& given)
       : ChosenEffects(given),
@@ -62,7 +63,7 @@ struct ApplyJob : ChosenEffects {
     const auto writes = parseOutputFiles(options.writes);
     for (const OutputFile& write : writes) outputs.push_back({write.output, FileName(write.file)});
     if (!(options.far > std::max(options.near, 0.0))) {
-      throw Error(ErrorId::kUsage, "--far {} is no farther than --near {}", options.far,
+      throw Error(ErrorId::kUsage, "--far {} is not greater than --near {}", options.far,
                   options.near);
     }
     for (const Output& output : outputs) frame::checkOutput(output.name, chain.selection.effects());
@@ -77,7 +78,7 @@ struct ApplyJob : ChosenEffects {
   void requireDistinctOutputs() const;
 };
 
-// Of all frames.
+// Compares the output files of all frames.
 void ApplyJob::requireDistinctOutputs() const {
   std::vector<NamedOutput> all;
   for (const int number : frames) {
@@ -89,18 +90,18 @@ void ApplyJob::requireDistinctOutputs() const {
   requireDistinct(all);
 }
 
-// Every file of every frame is there before the first is worked on.
+// Lists the frames, and checks that every file of every frame exists before work starts.
 void ApplyJob::findFrames() {
   const bool sequence = depth.numbered();
   for (const Output& output : outputs) {
     if (output.file.numbered() != sequence) {
       throw Error(ErrorId::kSequence, "'{}' {}", output.file.at(0),
-                  sequence ? "has no place for the frame's number, the depth has"
-                           : "has a place for a number, the depth has none");
+                  sequence ? "has no frame number, but --depth is a numbered sequence"
+                           : "has a frame number, but --depth is a single file");
     }
   }
   if (!sequence && !options.frames.empty()) {
-    throw Error(ErrorId::kSequence, "--frames is given, and '{}' has no place for a number",
+    throw Error(ErrorId::kSequence, "--frames needs a numbered --depth, but '{}' is a single file",
                 options.depth);
   }
   frames = !sequence                ? std::vector<int>{0}
@@ -108,18 +109,19 @@ void ApplyJob::findFrames() {
                                     : parseFrames(options.frames);
   for (const FileName* file : {&depth, &normal, &baseColour, &camera}) {
     if (file->numbered() && !sequence) {
-      throw Error(ErrorId::kSequence, "'{}' is numbered, the depth is not", file->at(frames[0]));
+      throw Error(ErrorId::kSequence, "'{}' has a frame number, but --depth is a single file",
+                  file->at(frames[0]));
     }
     for (const int number : frames) {
       const std::string path = file->at(number);
       std::error_code failed;
       if (!file->numbered() || std::filesystem::exists(path, failed)) continue;
-      throw Error(ErrorId::kSequence, "frame {} has no '{}'", number, path);
+      throw Error(ErrorId::kSequence, "frame {} lacks the file '{}'", number, path);
     }
   }
 }
 
-// From --camera or, without it, the matrices of the depth's file.
+// The camera of --camera or, without that option, of the matrices in the depth's file.
 scene::Camera ApplyJob::cameraOf(int number, const image::Picture& picture) const {
   scene::Camera result;
   if (isInlineCamera(options.camera)) {
@@ -130,12 +132,12 @@ scene::Camera ApplyJob::cameraOf(int number, const image::Picture& picture) cons
     result = scene::cameraOf(*picture.matrices, picture.image.width, picture.image.height,
                              depth.at(number));
   } else {
-    throw Error(ErrorId::kPictureCamera, "{}: nothing tells where it was seen from",
+    throw Error(ErrorId::kPictureCamera, "{}: the file holds no camera, and --camera is not given",
                 depth.at(number));
   }
   const bool buffer = options.depthKind.starts_with("clip");
   if (buffer && options.near <= 0 && options.camera.empty()) {
-    throw Error(ErrorId::kUsage, "--depth-kind {} needs the near plane: give --near",
+    throw Error(ErrorId::kUsage, "--depth-kind {} needs a near plane; pass --near or --camera",
                 options.depthKind);
   }
   if (options.near > 0) result.nearPlane = options.near;
@@ -225,7 +227,7 @@ void applyFrames(ApplyJob& job, LoadedFrame loaded, gpu::Device& device) {
 
 void apply(const ApplyOptions& options) {
   ApplyJob job(options);
-  LoadedFrame first = load(job, job.frames.front());  // what does not fit is known before the rest
+  LoadedFrame first = load(job, job.frames.front());  // fails before the device starts
   DriverMessages messages;
   {
     const auto device =
@@ -240,43 +242,51 @@ void apply(const ApplyOptions& options) {
 void addPictures(CLI::App& command, ApplyOptions& options) {
   command
       .add_option("--depth", options.depth,
-                  "Depth, as .exr; %04d or #### in this and other names: a numbered sequence")
+                  "Depth picture, .exr; %04d or #### in a file name stands for the frame number")
       ->required()
       ->type_name("FILE");
-  command.add_option("--normal", options.normal, "Normals; without, those of the depth's facets")
-      ->type_name("FILE");
-  command.add_option("--base-colour", options.baseColour, "Linear colour, for --surface base")
+  command
+      .add_option("--normal", options.normal,
+                  "Normals; default: the normals of the facets that the depth shows")
       ->type_name("FILE");
   command
-      .add_option(
-          "--camera", options.camera,
-          "A camera file, also numbered, or its JSON; default: the depth's own worldToCamera "
-          "and worldToNDC")
+      .add_option("--base-colour", options.baseColour,
+                  "Base colours, linear, 0 to 1, for --surface base")
+      ->type_name("FILE");
+  command
+      .add_option("--camera", options.camera,
+                  "A camera file, which may be numbered, or its JSON; default: worldToCamera and "
+                  "worldToNDC of the depth's file")
       ->type_name("FILE|{...}");
-  command.add_option("--frames", options.frames, "Of a sequence; default: those that are there")
+  command
+      .add_option("--frames", options.frames,
+                  "Frames of the sequence; default: all frames that exist")
       ->type_name("FIRST-LAST[xSTEP]");
   command
       .add_option("--depth-kind", options.depthKind,
-                  "What the depth holds: metres along the view direction or from the eye, or a "
-                  "depth buffer with 0 or, reversed, 1 at the near plane")
+                  "Meaning of the depth. view: metres along the view direction; distance: metres "
+                  "from the eye; clip: a depth buffer, 0 at the near plane; clip-reversed: a depth "
+                  "buffer, 1 at the near plane")
       ->check(CLI::IsMember({"view", "distance", "clip", "clip-reversed"}))
       ->capture_default_str();
-  command.add_option("--near", options.near, "Near plane, metres; default: the camera file's")
+  command.add_option("--near", options.near, "Near plane, metres; default: near plane of --camera")
       ->check(positiveNumber());
   command
       .add_option("--far", options.far,
-                  "Far plane, metres; of depths in metres what is as far is sky; default: none")
+                  "Far plane, metres; depths in metres of at least this are sky; default: inf")
       ->check(positiveNumber(Infinite::kTaken));
-  command.add_option("--normal-space", options.normalSpace, "Axes of the normals")
+  command.add_option("--normal-space", options.normalSpace, "Space of the normals")
       ->check(CLI::IsMember({"world", "view"}))
       ->capture_default_str();
   command
       .add_option("--depth-channel", options.depthChannel,
-                  "Which channel holds the depth; default: the only one, Z or one named depth")
+                  "Channel that holds the depth; default: the only channel, else Z, else the "
+                  "only channel with \"depth\" in its name")
       ->type_name("NAME");
   command
       .add_option("--normal-channels", options.normalChannels,
-                  "Which channels hold the normal; default: X, Y and Z of a layer that is named so")
+                  "Channels that hold the normal; default: X, Y and Z of the layer N or of a layer "
+                  "with \"normal\" in its name, else the first three")
       ->type_name("X,Y,Z");
 }
 
@@ -285,9 +295,10 @@ void addPictures(CLI::App& command, ApplyOptions& options) {
 void addApply(CLI::App& program) {
   auto options = std::make_shared<ApplyOptions>();
   CLI::App* command =
-      program.add_subcommand("apply", "Run effects on pictures of depth that were made elsewhere");
+      program.add_subcommand("apply", "Run effects on depth pictures of another renderer");
   addPictures(*command, *options);
-  options->addTo(*command, "As of `grisaille render`, numbered where the depth is")->required();
+  options->addTo(*command, "Output and its file, as for `grisaille render`; numbered if --depth is")
+      ->required();
   command->callback([options] { apply(*options); });
 }
 

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: MIT
-// grisaille backends: which backends start here, and the devices each can be told to take.
+// grisaille backends: lists the backends, and the devices that --device can choose from.
 #include <fmt/format.h>
 
 #include <cstdio>
@@ -44,7 +44,7 @@ void listBackends(bool asJson) {
 void addBackends(CLI::App& program) {
   auto json = std::make_shared<bool>(false);
   CLI::App* command = program.add_subcommand("backends", "List the backends and their devices");
-  command->add_flag("--json", *json, "As JSON");
+  command->add_flag("--json", *json, "Print JSON");
   command->callback([json] { listBackends(*json); });
 }
 

@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: MIT
-// The subcommands of the program, one file each. Every function adds its subcommand, whose callback
-// does the work and throws grisaille::Error.
+// The subcommands of the program, one file each. Every function adds one subcommand. The callback
+// of the subcommand does the work and throws grisaille::Error.
 #pragma once
 
 #include <CLI/CLI.hpp>

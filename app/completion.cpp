@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: MIT
-// grisaille completion: the bash completion, made from the program's own options; the keys of
-// effects are asked of the program when Tab is pressed.
+// grisaille completion: prints a bash completion script with the program's own options. When the
+// user presses Tab, the script runs the program to list the keys of the effects.
 #include <fmt/format.h>
 
 #include <cstdio>
@@ -46,7 +46,7 @@ _grisaille() {{
     --preset)
       compopt -o nospace
       words=$("${{COMP_WORDS[0]}}" completion --presets 2>/dev/null) ;;
-    =)  # at which bash breaks words
+    =)  # bash splits words at '='
       [[ ${{COMP_WORDS[COMP_CWORD-3]}} == --preset ]] &&
         words=$("${{COMP_WORDS[0]}}" completion --presets 2>/dev/null |
           sed -n "s/^${{COMP_WORDS[COMP_CWORD-2]}}=//p") ;;
@@ -73,7 +73,8 @@ complete -o filenames -F _grisaille grisaille
                      cases, commands);
 }
 
-// One a line. An effect whose presets file is damaged has none here: `effects` says why.
+// One preset per line; none for an effect with a damaged presets file. `grisaille effects` reports
+// the damage.
 std::string presetNames(const effect::Effect& effect) {
   std::string text;
   try {
@@ -105,7 +106,7 @@ std::string outputKeys(const effect::Effect& effect) {
   return text;
 }
 
-// Of an effect with objects that users make.
+// The key of an effect that has objects, else "".
 std::string objectsKey(const effect::Effect& effect) {
   return effect.objects() != nullptr ? fmt::format("{}=\n", effect.key()) : "";
 }
@@ -114,17 +115,18 @@ std::string objectsKey(const effect::Effect& effect) {
 
 void addCompletion(CLI::App& program) {
   CLI::App* command = program.add_subcommand("completion", "Print the bash completion script");
-  // What is listed of each effect instead of the script.
+  // The function that prints a list entry for each effect; null: print the script.
   auto list = std::make_shared<std::string (*)(const effect::Effect&)>(nullptr);
   const auto lists = [&](const char* option, auto* words, const char* help) {
     command->add_flag_callback(
         option, [list, words] { *list = words; }, help);
   };
-  lists("--effects", &effectKey, "Print the effects' keys instead");
-  lists("--parameters", &parameterKeys, "Print the parameters' keys instead");
-  lists("--outputs", &outputKeys, "Print the effects' outputs instead");
-  lists("--objects", &objectsKey, "Print the effects that have objects instead");
-  lists("--presets", &presetNames, "Print the effects' presets instead");
+  lists("--effects", &effectKey, "Print the keys of the effects instead of the script");
+  lists("--parameters", &parameterKeys, "Print the keys of the parameters instead of the script");
+  lists("--outputs", &outputKeys, "Print the outputs of the effects instead of the script");
+  lists("--objects", &objectsKey,
+        "Print the keys of effects that have objects instead of the script");
+  lists("--presets", &presetNames, "Print the presets of the effects instead of the script");
   command->callback([&program, list] {
     if (*list == nullptr) {
       std::fputs(script(program).c_str(), stdout);

@@ -1,5 +1,6 @@
 // SPDX-License-Identifier: MIT
-// grisaille effects: what is there, what was refused and why; the whole check of one plugin.
+// grisaille effects: lists the effects, and the plugins that were refused with the reason; with
+// --verify, checks one plugin.
 #include <cstdio>
 #include <memory>
 
@@ -48,26 +49,29 @@ void addEffects(CLI::App& program) {
   auto options = std::make_shared<EffectsOptions>();
   CLI::App* command = program.add_subcommand(
       "effects", "List the effects with their parameters, and the plugins that were refused");
-  command->add_flag("--json", options->json, "As JSON");
-  command->add_option("--markdown", options->markdown, "One effect's tables, for a manual")
+  command->add_flag("--json", options->json, "Print JSON");
+  command
+      ->add_option("--markdown", options->markdown,
+                   "Print the tables of one effect as Markdown, for a manual")
       ->type_name("EFFECT");
-  command->add_option("--plugin-path", options->pluginPaths, "A further folder of effects")
+  command->add_option("--plugin-path", options->pluginPaths, "Another folder to load effects from")
       ->type_name("DIR")
       ->allow_extra_args(false);
   CLI::Option* verified =
       command
           ->add_option(
               "--verify", options->verify,
-              "Check a plugin whole instead: its table, then on every backend, validated, "
-              "sizes, parameters at their extremes and at random, every pixel; print a report")
+              "Check a plugin instead, and print a report: its tables; then, on every backend with "
+              "validation on, picture sizes, parameters at their extremes and at random, and "
+              "that it writes every pixel")
           ->type_name("FILE.so");
   command
       ->add_flag("--in-process", options->inProcess,
-                 "Check it in this process, where a debugger sees it crash")
+                 "Run --verify in this process, for a debugger to stop at a crash")
       ->needs(verified);
   command
       ->add_option("--patience", options->patience,
-                   "Seconds that one step of the check may take before it counts as endless")
+                   "Longest time of one step of --verify, in seconds; a longer step is a fault")
       ->needs(verified)
       ->check(wholeNumberFrom(1, 86400))
       ->capture_default_str();

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: MIT
-// grisaille: screen-space effects whose error is measured. See README.md.
+// grisaille: screen-space effects with a measured error. See README.md.
 #include "app/command.h"
 #include "app/options/option_checks.h"
 #include "app/process/program.h"
@@ -28,7 +28,7 @@ void addCommands(CLI::App& program) {
 int main(int argc, char** argv) {
   return grisaille::app::runProgram(argc, argv,
                                     {.name = "grisaille",
-                                     .description = "Screen-space effects whose error is measured",
+                                     .description = "Screen-space effects with a measured error",
                                      .version = GRISAILLE_VERSION,
                                      .addCommands = addCommands});
 }

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: MIT
-// grisaille measure: what settings cost, and how wrong they are.
+// grisaille measure: measures the cost and the error of settings.
 #include <fmt/format.h>
 
 #include <filesystem>
@@ -35,13 +35,13 @@ struct MeasureOptions {
   bool check = false, reportOnly = false;
 };
 
-// What the command line asks for, checked before anything slow is done.
+// The parsed command line, checked before any slow work starts.
 struct MeasureJob {
   std::unique_ptr<LoadedSubject> subject;
   std::vector<study::Setting> settings;
   std::vector<std::string> backendNames;
-  std::vector<scene::Camera> path;             // of the flicker; none: it is not measured
-  std::vector<trace::FlickerFrame> pathTruth;  // one a camera of the path
+  std::vector<scene::Camera> path;             // for the flicker; empty: flicker is not measured
+  std::vector<trace::FlickerFrame> pathTruth;  // one per camera of the path
 
   explicit MeasureJob(const MeasureOptions& options);
 };
@@ -66,7 +66,7 @@ MeasureJob::MeasureJob(const MeasureOptions& options) {
   study::checkPathSize(options.path, path.size(), subject->subject().size);
 }
 
-// Traces the path's truth; what results depend on, as text.
+// Traces the truth of the path. Returns the path's part of the study's key.
 std::string tracePath(const MeasureOptions& options, MeasureJob& job) {
   std::string key;
   const study::Subject& subject = job.subject->subject();
@@ -79,7 +79,7 @@ std::string tracePath(const MeasureOptions& options, MeasureJob& job) {
   return key;
 }
 
-// False where a signal ended it.
+// Returns false if a signal interrupted the study.
 bool measureOn(const std::string& backend, const MeasureOptions& options, const MeasureJob& job,
                const study::StudyDesc& desc, DriverMessages& messages) {
   const auto device = backends::create(backend, {.device = options.device,
@@ -97,7 +97,7 @@ bool measureOn(const std::string& backend, const MeasureOptions& options, const 
       truth::Interruption::asked);
 }
 
-// The report's files and the presets.
+// Compares the files of the report with that of --presets.
 void requireDistinctOutputs(const MeasureOptions& options) {
   std::vector<NamedOutput> outputs = {{"--presets " + options.presets, options.presets}};
   for (const char* name : study::kReportFiles) {
@@ -137,7 +137,7 @@ void measure(const MeasureOptions& options) {
                                 return job.subject->renderCommand(setting, backend);
                               }};
   std::error_code failed;
-  fs::create_directories(options.out, failed);  // for the report, where nothing is measured
+  fs::create_directories(options.out, failed);  // for the report, if nothing is measured
   DriverMessages messages;
   bool whole = true;
   for (const std::string& name : job.backendNames) {
@@ -146,7 +146,7 @@ void measure(const MeasureOptions& options) {
   }
   report(options);
   if (!whole) {
-    fmt::print(stderr, "note: interrupted; the same command goes on from here\n");
+    fmt::print(stderr, "note: interrupted; run the same command again to continue\n");
     throw truth::Interrupted();
   }
   if (options.check) messages.throwIfAny();
@@ -157,39 +157,44 @@ void measure(const MeasureOptions& options) {
 void addMeasure(CLI::App& program) {
   auto options = std::make_shared<MeasureOptions>();
   CLI::App* command = program.add_subcommand(
-      "measure", "Measure what settings cost and how far they are from the truth");
+      "measure", "Measure the cost of settings and their error against ray-traced truth");
   command->add_option("scene", options->subject.scene,
-                      "A .gltf or .glb file; without one, the built-in atrium");
-  command->add_option("--sweep", options->sweeps, "A parameter and its values; several make a grid")
+                      "A .gltf or .glb file; default: the built-in atrium");
+  command
+      ->add_option("--sweep", options->sweeps,
+                   "A parameter and the values to measure; several --sweep span a grid")
       ->type_name("EFFECT.PARAMETER=VALUE,...")
       ->allow_extra_args(false);
   options->subject.addTo(*command);
-  command->add_option("--rounds", options->rounds, "How often each setting's cost is measured")
+  command->add_option("--rounds", options->rounds, "Number of times that each cost is measured")
       ->check(wholeNumberFrom(1, 1000))
       ->capture_default_str();
   command->add_option("--backend", options->backend, "opengl, vulkan or both")
       ->capture_default_str();
-  command->add_option("--device", options->device, "Number or part of a device's name");
+  command->add_option("--device", options->device,
+                      "Number of a device or part of its name, see `grisaille backends`");
   command
       ->add_option("--path", options->path,
-                   "A camera path: JSON with cameras, and frames from the first to the last; adds "
-                   "the flicker along it")
+                   "A camera path; adds the error and the flicker along it. JSON with \"cameras\" "
+                   "and \"frames\", the number of frames from the first camera to the last")
       ->type_name("FILE");
   command
       ->add_option("--shard", options->shard,
-                   "Part I of N of the settings; parts of one study may share --out")
+                   "Measure part I of N of the settings; all parts may share one --out")
       ->type_name("I/N");
-  command->add_option("--out", options->out, "The study's folder; what it holds is not done again")
+  command
+      ->add_option("--out", options->out,
+                   "Folder of the study; measurements that it holds are not repeated")
       ->type_name("DIR")
       ->required();
   command->add_flag("--report", options->reportOnly,
-                    "Measure nothing: write the report of what --out holds");
+                    "Only write the report of the measurements in --out");
   command
       ->add_option("--presets", options->presets,
-                   "Choose the swept effect's presets from the front, and write them")
+                   "Choose presets of the swept effect from the front, and write them")
       ->type_name("FILE.toml");
   command->add_flag("--check", options->check,
-                    "Validate every call, in the layer and in the driver");
+                    "Validate every graphics call, in the rendering layer and in the driver");
   command->callback([options] { measure(*options); });
 }
 

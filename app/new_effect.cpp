@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: MIT
-// grisaille new-effect: a whole project of an effect of one's own.
+// grisaille new-effect: writes a complete project for a new effect.
 #include <fmt/format.h>
 
 #include <algorithm>
@@ -26,7 +26,7 @@ struct NewEffectOptions {
 };
 
 constexpr size_t kLongestKey = 40;
-// Settings files have these beside the effects' tables.
+// Settings files use these keys beside the tables of the effects.
 constexpr const char* kTaken[] = {"effects", "surface"};
 
 void checkKey(const std::string& key) {
@@ -34,15 +34,15 @@ void checkKey(const std::string& key) {
   const auto fits = [&](char c) { return small(c) || (c >= '0' && c <= '9') || c == '_'; };
   if (key.empty() || key.size() > kLongestKey || !small(key[0]) ||
       !std::ranges::all_of(key, fits)) {
-    throw Error(ErrorId::kProjectName, "'{}' cannot be the key of an effect", oneLine(key));
+    throw Error(ErrorId::kProjectName, "'{}' is not a valid effect key", oneLine(key));
   }
   if (std::ranges::find(kTaken, key) != std::end(kTaken)) {
-    throw Error(ErrorId::kProjectName, "'{}' has a meaning of its own in settings files", key);
+    throw Error(ErrorId::kProjectName, "'{}' is a reserved key of settings files", key);
   }
   const auto registry = loadEffects({});
   for (const effect::Effect& effect : registry->effects()) {
     if (key == effect.desc->key) {
-      throw Error(ErrorId::kProjectName, "there is an effect '{}' already, {}", key, effect.path);
+      throw Error(ErrorId::kProjectName, "an effect '{}' already exists: {}", key, effect.path);
     }
   }
 }
@@ -52,14 +52,14 @@ void checkFolder(const fs::path& folder) {
   const fs::file_status status = fs::status(folder, failed);
   if (status.type() == fs::file_type::not_found) return;
   if (status.type() != fs::file_type::directory) {
-    throw Error(ErrorId::kProjectFolder, "{} is there and no folder", folder.string());
+    throw Error(ErrorId::kProjectFolder, "{} exists and is not a folder", folder.string());
   }
   const bool empty = fs::is_empty(folder, failed);
   if (failed) throw Error(ErrorId::kProjectFolder, "{}: {}", folder.string(), failed.message());
-  if (!empty) throw Error(ErrorId::kProjectFolder, "{} holds files already", folder.string());
+  if (!empty) throw Error(ErrorId::kProjectFolder, "{} is not empty", folder.string());
 }
 
-// "edge_lines": "Edge lines" for people, EdgeLinesEffect for C++.
+// For the key "edge_lines": labelOf() gives "Edge lines", classOf() gives "EdgeLinesEffect".
 std::string labelOf(std::string key) {
   std::ranges::replace(key, '_', ' ');
   key[0] = static_cast<char>(key[0] - 'a' + 'A');
@@ -91,8 +91,8 @@ std::string filled(std::string text, const NewEffectOptions& options) {
   return text;
 }
 
-// Where CMake finds this program's package by itself: beside a folder of the PATH, or in a folder
-// of the system's.
+// Whether CMake finds this program's package without CMAKE_PREFIX_PATH: under /usr, /usr/local, or
+// a prefix with its bin folder in PATH.
 bool isFoundByCMake(const fs::path& prefix) {
   if (prefix == "/usr" || prefix == "/usr/local") return true;
   const char* variable = std::getenv("PATH");
@@ -127,7 +127,7 @@ void newEffect(const NewEffectOptions& options) {
       writeFileAtomically(folder / name, filled(text, options));
     }
   } catch (const Error&) {
-    // A project that is not whole would be in the way of the next try.
+    // checkFolder() would refuse an incomplete project at the next try.
     for (const auto& [name, text] : files) fs::remove(folder / name, failed);
     if (isNew) fs::remove(folder, failed);
     throw;
@@ -136,7 +136,7 @@ void newEffect(const NewEffectOptions& options) {
   const fs::path prefix = libraryFolder().parent_path().parent_path();
   const std::string where =
       isFoundByCMake(prefix) ? "" : "CMAKE_PREFIX_PATH=" + shellQuoted(prefix.string()) + " ";
-  fmt::print("build and test it: cd {} && {}cmake --workflow --preset effect\n",
+  fmt::print("to build and test it, run: cd {} && {}cmake --workflow --preset effect\n",
              shellQuoted(folder.string()), where);
 }
 
@@ -145,10 +145,12 @@ void newEffect(const NewEffectOptions& options) {
 void addNewEffect(CLI::App& program) {
   auto options = std::make_shared<NewEffectOptions>();
   CLI::App* command = program.add_subcommand(
-      "new-effect", "Begin an effect of your own: a project that builds, runs and tests itself");
-  command->add_option("name", options->key, "The effect's key: a-z, 0-9 and _")->required();
-  command->add_option("folder", options->folder, "Where to; default: a new folder of that name");
-  command->add_option("--language", options->language, "What the effect is written in")
+      "new-effect", "Create the project of a new effect, ready to build, run and test");
+  command->add_option("name", options->key, "Key of the effect: a-z, 0-9 and _")->required();
+  command->add_option("folder", options->folder,
+                      "Folder of the project, empty or new; default: a new folder named after the "
+                      "effect");
+  command->add_option("--language", options->language, "Language of the effect")
       ->check(CLI::IsMember({"c++", "c"}))
       ->capture_default_str();
   command->callback([options] { newEffect(*options); });

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: MIT
-// grisaille render: one scene, one camera, pictures into files.
+// grisaille render: renders a scene from one camera and writes pictures to files.
 #include <fmt/format.h>
 
 #include <cstdio>
@@ -32,12 +32,12 @@ struct RenderOptions : EffectOptions {
   uint32_t frames = 1;
 };
 
-// What the command line asks for, checked before anything slow is done.
+// The parsed command line, checked before any slow work starts.
 struct RenderJob : ChosenEffects {
   std::vector<OutputFile> writes;
   SceneView view;
 
-  // What --coverage counts.
+  // Outputs that --coverage reads; none without --coverage.
   std::optional<Owned> owned;
 
   explicit RenderJob(const RenderOptions& options)
@@ -58,7 +58,8 @@ struct RenderJob : ChosenEffects {
     owned = findOwned(chain.selection.effects());
     if (!owned) {
       throw Error(ErrorId::kEffectTakesNoObjects,
-                  "--coverage is given, but no active effect tells whose object lies where");
+                  "--coverage needs an active effect with an overlay, an owner output and objects "
+                  "with a colour");
     }
   }
 
@@ -76,7 +77,7 @@ void RenderJob::requireDistinctOutputs(const RenderOptions& options) const {
   requireDistinct(outputs);
 }
 
-// Standard output is for a table where one was asked for there.
+// Messages go to standard error when a table goes to standard output.
 std::FILE* notesOf(const RenderOptions& options) {
   return options.timings == "-" || options.coverage == "-" ? stderr : stdout;
 }
@@ -137,7 +138,7 @@ void renderFrames(const RenderOptions& options, RenderJob& job, gpu::Device& dev
   if (job.owned) writeCoverage(options, job, renderer);
   options.objects.save(job.chain);
   if (renderer.waiting() > 0) {
-    fmt::print(stderr, "warning: {} objects are not drawn: they wait for rays that nobody casts\n",
+    fmt::print(stderr, "warning: {} objects are not drawn: the rays that they need were not cast\n",
                renderer.waiting());
   }
 }
@@ -165,19 +166,23 @@ void addRender(CLI::App& program) {
   options->view.addTo(*command);
   options->addTo(
       *command,
-      "color, depth and back_depth (metres, 0 = sky), normal and facet_normal (world), base_colour "
-      "or an effect's output, as .exr or .png; default: color=grisaille.png");
-  command->add_option("--frames", options->frames, "How often to render; the last one is written")
+      "Output and its .exr or .png file. Outputs: color, depth and back_depth (metres, 0 = sky), "
+      "normal and facet_normal (world space), base_colour, and those of the effects; default: "
+      "color=grisaille.png");
+  command
+      ->add_option("--frames", options->frames,
+                   "Number of frames to render; the last one is written")
       ->check(wholeNumberFrom(1, 1000000))
       ->capture_default_str();
   command
-      ->add_option("--timings", options->timings, "CSV of every pass's time; -: to standard output")
+      ->add_option("--timings", options->timings,
+                   "Write the time of every pass as CSV; -: to standard output")
       ->type_name("FILE.csv|-");
   options->objects.addTo(*command);
   command
       ->add_option(
           "--coverage", options->coverage,
-          "CSV of the share of the visible surface that objects of each colour hold; -: to "
+          "Write as CSV which share of the visible surface the objects of each colour cover; -: to "
           "standard output")
       ->type_name("FILE.csv|-");
   command->callback([options] { render(*options); });

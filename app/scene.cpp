@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: MIT
-// grisaille scene: what a scene holds; writes it, and a camera for it, to files.
+// grisaille scene: prints the contents of a scene; writes the scene and a camera for it to files.
 #include <fmt/format.h>
 
 #include <cstdio>
@@ -44,13 +44,14 @@ void showScene(const SceneCommand& options) {
 void addScene(CLI::App& program) {
   auto options = std::make_shared<SceneCommand>();
   CLI::App* command =
-      program.add_subcommand("scene", "Show what a scene holds, or write it and its camera");
+      program.add_subcommand("scene", "Print the contents of a scene; write the scene or a camera");
   command->add_option("scene", options->scene,
                       "A .gltf or .glb file; default: the built-in atrium");
-  command->add_option("--write", options->write, "Write the scene, textures and all")
+  command->add_option("--write", options->write, "Write the scene with its textures")
       ->type_name("FILE.glb");
   command
-      ->add_option("--write-camera", options->writeCamera, "Write the camera that render would use")
+      ->add_option("--write-camera", options->writeCamera,
+                   "Write the default camera of `grisaille render`")
       ->type_name("FILE.json");
   command->callback([options] { showScene(*options); });
 }

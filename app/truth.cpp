@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: MIT
-// grisaille truth: what effects are measured against, by rays.
+// grisaille truth: traces the reference that effects are measured against.
 #include <fmt/format.h>
 
 #include <algorithm>
@@ -40,7 +40,7 @@ OutputFile parseWrite(const std::string& text) {
   constexpr std::array kOutputs = {"ao", "ao_error", "ceiling", "ceiling_error", "depth", "normal"};
   OutputFile write = parseOutputFile(text);
   if (std::ranges::find(kOutputs, write.output) == kOutputs.end()) {
-    throw Error(ErrorId::kTruthUnknown, "'{}' is nothing that truth writes", write.output);
+    throw Error(ErrorId::kTruthUnknown, "'{}' is not an output of truth", write.output);
   }
   image::checkWritable(write.file);
   return write;
@@ -48,12 +48,12 @@ OutputFile parseWrite(const std::string& text) {
 
 void requireLength(const char* option, double metres) {
   if (!(metres > 0 && metres <= kFarthest)) {
-    throw Error(ErrorId::kUsage, "{} is {:g}, not metres over 0 and up to {:g}", option, metres,
-                kFarthest);
+    throw Error(ErrorId::kUsage, "{} is {:g}; give a length in metres, over 0 and up to {:g}",
+                option, metres, kFarthest);
   }
 }
 
-// What the command line asks for, checked before anything slow is done.
+// The parsed command line, checked before any slow work starts.
 struct TruthJob {
   std::vector<OutputFile> writes;
   double thickness;
@@ -65,7 +65,7 @@ struct TruthJob {
     requireDistinct(namedOutputs(writes));
     requireLength("--radius", options.radius);
     if (!(options.error >= 0 && std::isfinite(options.error))) {
-      throw Error(ErrorId::kUsage, "--error is {:g}, not a finite number of 0 or more",
+      throw Error(ErrorId::kUsage, "--error is {:g}; give a finite number of 0 or more",
                   options.error);
     }
     checkUse("--thickness", options.thickness != 0, "ceiling");
@@ -92,7 +92,7 @@ class Truth {
     hits_ = tracer_.castPrimary(job.view.camera, job.view.size.x, job.view.size.y);
   }
 
-  // All that takes long; nothing is written before.
+  // Does all slow work. No file is written before it ends.
   void trace() {
     if (job_.wants("ao") || job_.wants("ao_error")) {
       ao_ = refine("ao", "", [this](auto hits, uint32_t from, uint32_t to, auto counts) {
@@ -118,7 +118,7 @@ class Truth {
     if (output == "ceiling_error") {
       return trace::standardErrorImage(ceiling_->values, width, height);
     }
-    throw Error(ErrorId::kTruthUnknown, "'{}' is nothing that truth writes", output);
+    throw Error(ErrorId::kTruthUnknown, "'{}' is not an output of truth", output);
   }
 
   void summarise() const {
@@ -162,16 +162,18 @@ void writeTruth(const TruthOptions& options) {
 
 void addOutputs(CLI::App& command, TruthOptions& options) {
   command
-      .add_option("--write", options.writes,
-                  "ao, ao_error (the standard error), ceiling (of what a depth buffer allows), "
-                  "ceiling_error, depth (metres, 0 = sky) or normal (world), as .exr or .png")
+      .add_option(
+          "--write", options.writes,
+          "Output and its .exr or .png file. Outputs: ao, ceiling (the best ao that a depth "
+          "buffer allows), ao_error and ceiling_error (their standard errors), depth "
+          "(metres, 0 = sky), normal (world space)")
       ->type_name("NAME=FILE")
       ->required()
       ->allow_extra_args(false);
   command
       .add_option("--thickness", options.thickness,
-                  "Metres of matter that the ceiling takes to be behind what the picture shows; "
-                  "default: a fifth of the radius")
+                  "Thickness of the visible surface for the ceiling, metres; default: a fifth of "
+                  "the radius")
       ->type_name("T");
 }
 
@@ -180,25 +182,25 @@ void addOutputs(CLI::App& command, TruthOptions& options) {
 void addTruth(CLI::App& program) {
   auto options = std::make_shared<TruthOptions>();
   CLI::App* command =
-      program.add_subcommand("truth", "Trace what effects are measured against, by rays");
+      program.add_subcommand("truth", "Ray trace the reference that effects are measured against");
   options->view.addTo(*command);
   command->add_option("--radius", options->radius, "Length of occlusion rays, metres")
       ->type_name("R")
       ->capture_default_str();
-  command->add_option("--samples", options->samples, "Occlusion rays a pixel, at most")
+  command->add_option("--samples", options->samples, "Largest number of occlusion rays per pixel")
       ->check(wholeNumberFrom(16, trace::kMostOcclusionRays))
       ->capture_default_str();
   command
       ->add_option("--error", options->error,
-                   "End earlier, once the picture's rms standard error is no more than this")
+                   "Stop early when the picture's rms standard error is at most this; 0: never")
       ->type_name("E")
       ->capture_default_str();
-  command->add_option("--seed", options->seed, "Of the sample points")->capture_default_str();
+  command->add_option("--seed", options->seed, "Seed of the sample points")->capture_default_str();
   addOutputs(*command, *options);
   command->add_flag("--no-cache", options->noCache,
-                    "Neither take up what an earlier run kept nor keep anything");
+                    "Neither read nor write the cache of traced rays");
   command->add_flag("--progress", options->progress,
-                    "Draw the progress bar though standard error is no terminal");
+                    "Draw the progress bar even if standard error is not a terminal");
   command->callback([options] { writeTruth(*options); });
 }
 

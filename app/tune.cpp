@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: MIT
-// grisaille tune: the cheapest setting that is good enough, or the best within a budget.
+// grisaille tune: finds the cheapest setting within an error, or the best setting within a budget.
 #include <fmt/format.h>
 
 #include <algorithm>
@@ -36,8 +36,8 @@ struct TuneOptions {
   bool json = false;
 };
 
-// The parameters that may change: those of --vary, else those of the effects' presets and the
-// others that the panel does not fold away.
+// The parameters that may change: those of --vary, else those that a preset of the effect names and
+// all that are not advanced.
 std::vector<study::Axis> axesOf(const TuneOptions& options, const study::Subject& subject) {
   std::vector<study::Axis> axes;
   const auto add = [&](const effect::Effect& effect, const grisaille_param_desc& param) {
@@ -57,7 +57,8 @@ std::vector<study::Axis> axesOf(const TuneOptions& options, const study::Subject
   return axes;
 }
 
-// Effects with their values: beneath, --set; over it, a preset of every effect that has it.
+// The starting points of the search: one per preset name, and the defaults. For each point, every
+// effect with presets takes the preset of that name; values of --set override it.
 class Starts {
  public:
   Starts(const study::Subject& subject, const std::vector<study::Axis>& axes)
@@ -95,7 +96,7 @@ class Starts {
   std::vector<study::Point> points_;
 };
 
-// A device's errors and costs of points.
+// Measures the error and the cost of points on one device.
 class Bench {
  public:
   Bench(const study::Subject& subject, const std::vector<study::Axis>& axes, gpu::Device& device)
@@ -113,7 +114,7 @@ class Bench {
     return sum / static_cast<double>(subject_.views.size());
   }
 
-  // The median of a few rounds, milliseconds.
+  // Median of kRounds measurements, milliseconds.
   double cost(const study::Point& point) {
     effect::Chain& own = running(point);
     std::vector<double> all;
@@ -121,7 +122,7 @@ class Bench {
     return study::medianOf(all);
   }
 
-  // In turns with what is known.
+  // Measures in turns with `known`, and scales its cost by the median ratio. Milliseconds.
   double costBeside(const study::Point& point, const study::Evaluated& known) {
     effect::Chain& a = running(known.point);
     effect::Chain& b = running(point);
@@ -137,7 +138,8 @@ class Bench {
   static constexpr int kRounds = 3;
   static constexpr size_t kKept = 4;
 
-  // The last few stay: the one that others are measured beside is among them.
+  // The started chain of a point. Keeps the kKept last used chains, so that the point that others
+  // are measured beside stays started.
   effect::Chain& running(const study::Point& point) {
     auto found = std::ranges::find(running_, point, &Kept::point);
     if (found == running_.end()) {
@@ -160,7 +162,7 @@ class Bench {
   std::vector<Kept> running_;
 };
 
-// Those of --validate.
+// The cameras of --validate.
 std::vector<scene::Camera> givenCameras(const TuneOptions& options) {
   std::vector<scene::Camera> cameras;
   for (const std::string& text : options.validate) {
@@ -169,7 +171,7 @@ std::vector<scene::Camera> givenCameras(const TuneOptions& options) {
   return cameras;
 }
 
-// Cameras that were not tuned on.
+// Views that the search does not use: those of --validate, else random ones.
 std::vector<study::View> unseenViews(const TuneOptions& options,
                                      const std::vector<scene::Camera>& given,
                                      const LoadedSubject& subject) {
@@ -187,7 +189,7 @@ std::vector<study::View> unseenViews(const TuneOptions& options,
     views.push_back(subject.viewOf(fmt::format("random {}", i + 1), cameras[i], bar));
   }
   if (cameras.size() < options.random) {
-    fmt::print(stderr, "warning: only {} of {} random cameras inside the scene have a free view\n",
+    fmt::print(stderr, "warning: found only {} of {} random cameras with a free view\n",
                cameras.size(), options.random);
   }
   return views;
@@ -198,7 +200,7 @@ std::string wishText(const study::Wish& wish) {
                            : fmt::format("{} ms or less", wish.budget);
 }
 
-// How many settings a grid of the search's smallest steps would have.
+// Number of settings that a grid of the search's smallest steps would have.
 double gridSize(const std::vector<study::Axis>& axes) {
   double all = 1;
   for (const study::Axis& axis : axes) {
@@ -237,7 +239,7 @@ study::Found find(const TuneOptions& options, const LoadedSubject& subject,
   return study::search(axes, starts.points(), wish, oracle, options.evaluations);
 }
 
-// A settings file that says where it comes from.
+// Writes the setting as a settings file. `story`: comment lines that say how it was found.
 void writeSetting(const TuneOptions& options, const LoadedSubject& subject,
                   const study::Setting& setting, const std::string& story) {
   Settings settings{.effects = subject.subject().effects, .surface = {}, .values = {}};
@@ -248,26 +250,28 @@ void writeSetting(const TuneOptions& options, const LoadedSubject& subject,
   writeFileAtomically(options.out, story + settingsToml(settings));
 }
 
-// What a search has found.
+// The result of a search.
 struct Tuned {
   study::Found found;
   study::Setting setting;
-  std::vector<study::CameraErrors> unseen;  // on cameras that were not tuned on
-  std::vector<scene::Camera> cameras;       // of them
-  std::string result, effort;               // a line each
+  std::vector<study::CameraErrors> unseen;  // errors of cameras that the search did not use
+  std::vector<scene::Camera> cameras;       // the cameras of `unseen`
+  std::string result, effort;               // one line each
 
-  // The mean of the unseen cameras; 0: there are none.
+  // Mean RMSE of the unseen cameras; 0 if there are none.
   double unseenRmse() const {
     double sum = 0;
     for (const study::CameraErrors& one : unseen) sum += one.rmse;
     return unseen.empty() ? 0 : sum / static_cast<double>(unseen.size());
   }
-  // How much worse that is than what was promised; "": it is not.
+  // A sentence if the unseen cameras' RMSE is above --max-error or, with a budget, above that of
+  // the tuned cameras; else "".
   std::string warning(const study::Wish& wish) const {
     const double promised = wish.maxError > 0 ? wish.maxError : found.best.error;
     if (unseenRmse() <= promised) return "";
-    return fmt::format("that is {:.4f} more than {:.4f}: tune on cameras like them",
-                       unseenRmse() - promised, promised);
+    return fmt::format(
+        "the RMSE on unseen cameras is {:.4f} above {:.4f}; tune on cameras like them",
+        unseenRmse() - promised, promised);
   }
 };
 
@@ -289,13 +293,13 @@ void describe(const LoadedSubject& subject, const std::vector<study::Axis>& axes
                              found.best.error, found.best.cost, gpu::clockName(info.clock),
                              of.size.x, of.size.y, of.views.size());
   tuned.effort = fmt::format(
-      "{} evaluations: {} starts, {} steps ({} of them without a clock); a grid of such steps over "
-      "{} parameters has {:.2g}",
+      "{} evaluations: {} starts, {} steps (for {} of them the cost was not needed); a grid of the "
+      "same steps over {} parameters has {:.2g} settings",
       found.starts + found.steps, found.starts, found.steps, found.costsSaved, axes.size(),
       gridSize(axes));
 }
 
-// One object on one line.
+// Prints one JSON object on one line.
 void printJson(const Tuned& tuned, const study::Wish& wish) {
   nlohmann::json setting = nlohmann::json::object();
   for (const effect::ParameterValue& one : tuned.setting) setting[one.name.text()] = one.value;
@@ -317,7 +321,7 @@ void printText(const LoadedSubject& subject, const Tuned& tuned, const study::Wi
                scene::cameraJson(tuned.cameras[i]));
   }
   if (tuned.unseen.empty()) return;
-  fmt::print("validated on cameras not tuned on: RMSE {:.4f}\n", tuned.unseenRmse());
+  fmt::print("on unseen cameras: RMSE {:.4f}\n", tuned.unseenRmse());
   const std::string warning = tuned.warning(wish);
   if (!warning.empty()) fmt::print(stderr, "warning: {}\n", warning);
 }
@@ -326,10 +330,10 @@ void tune(const TuneOptions& options) {
   const study::Wish wish{options.maxError, options.budget};
   LoadedSubject subject(options.subject, loadEffects(options.subject.pluginPaths), {});
   const std::vector<study::Axis> axes = axesOf(options, subject.subject());
-  if (axes.empty()) throw Error(ErrorId::kUsage, "there is no parameter to vary");
+  if (axes.empty()) throw Error(ErrorId::kUsage, "the effects have no parameter to vary");
   const std::vector<scene::Camera> given = givenCameras(options);
   if (!options.out.empty()) requireWritable(options.out);
-  // A device that cannot start says so before truth is traced, which takes long.
+  // Starts the device first: a device that cannot start must fail before the slow tracing.
   DriverMessages messages;
   const auto device = backends::create(
       options.backend, {.device = options.device, .timed = true, .message = messages.sink()});
@@ -344,7 +348,7 @@ void tune(const TuneOptions& options) {
   const study::Evaluated& best = tuned.found.best;
   if (tuned.found.stopped) throw truth::Interrupted();
   if (!tuned.found.meetsWish) {
-    throw Error(ErrorId::kTuneImpossible, "{} was not found; nearest: RMSE {:.4f} at {:.3f} ms",
+    throw Error(ErrorId::kTuneImpossible, "no setting with {}; nearest: RMSE {:.4f} at {:.3f} ms",
                 wishText(wish), best.error, best.cost);
   }
   tuned.setting = bench.settingOf(best.point);
@@ -359,7 +363,7 @@ void tune(const TuneOptions& options) {
   std::string story = fmt::format("# grisaille tune: {}; {}\n# {}: {}\n", wishText(wish),
                                   tuned.result, info.backend, info.name);
   if (!tuned.unseen.empty()) {
-    story += fmt::format("# on cameras not tuned on: RMSE {:.4f}\n", tuned.unseenRmse());
+    story += fmt::format("# on unseen cameras: RMSE {:.4f}\n", tuned.unseenRmse());
   }
   writeSetting(options, subject, tuned.setting, story);
   if (!options.json) fmt::print("wrote {}\n", options.out);
@@ -368,10 +372,10 @@ void tune(const TuneOptions& options) {
 void checkOptions(TuneOptions& options) {
   if (options.json) options.subject.progress = truth::ProgressStyle::kJson;
   if (options.out.empty() && !options.json) {
-    throw Error(ErrorId::kUsage, "give --out, or --json for the result on standard output");
+    throw Error(ErrorId::kUsage, "--out is missing; give it, or --json to print the result");
   }
   if ((options.maxError > 0) == (options.budget > 0)) {
-    throw Error(ErrorId::kUsage, "give either --max-error or --budget-ms");
+    throw Error(ErrorId::kUsage, "give exactly one of --max-error and --budget-ms");
   }
 }
 
@@ -380,43 +384,48 @@ void checkOptions(TuneOptions& options) {
 void addTune(CLI::App& program) {
   auto options = std::make_shared<TuneOptions>();
   CLI::App* command = program.add_subcommand(
-      "tune", "Find the cheapest setting that is good enough for a scene, or the best in a budget");
+      "tune", "Find the cheapest setting within an error, or the best setting within a budget");
   command->add_option("scene", options->subject.scene,
-                      "A .gltf or .glb file; without one, the built-in atrium");
+                      "A .gltf or .glb file; default: the built-in atrium");
   command
       ->add_option("--max-error", options->maxError,
-                   "The cheapest setting with this RMSE against the truth or less")
+                   "Find the cheapest setting with at most this RMSE against the truth")
       ->check(positiveNumber());
   command
       ->add_option("--budget-ms", options->budget,
-                   "The most accurate setting whose effects take so many milliseconds or less")
+                   "Find the most accurate setting with effects that take at most this time, "
+                   "milliseconds")
       ->check(positiveNumber());
   options->subject.addTo(*command);
   command
       ->add_option("--vary", options->vary,
-                   "Parameters that may change; default: those of the presets and all that are "
-                   "not advanced")
+                   "Parameters that the search may change; default: those of the presets and all "
+                   "that are not advanced")
       ->type_name("EFFECT.PARAMETER,...")
       ->delimiter(',')
       ->allow_extra_args(false);
-  command->add_option("--validate", options->validate, "Cameras to validate on, not tuned on")
+  command
+      ->add_option("--validate", options->validate,
+                   "Cameras to check the result on; the search does not use them")
       ->type_name("FILE|{...}")
       ->allow_extra_args(false);
   command
       ->add_option("--random", options->random,
-                   "Without --validate: so many random cameras inside the scene")
+                   "Number of random cameras inside the scene to check the result on, if "
+                   "--validate is not given")
       ->check(wholeNumberFrom(0, 64))
       ->capture_default_str();
-  command->add_option("--seed", options->seed, "Of the random cameras")->capture_default_str();
-  command->add_option("--evaluations", options->evaluations, "Settings that are tried at most")
+  command->add_option("--seed", options->seed, "Seed of the random cameras")->capture_default_str();
+  command->add_option("--evaluations", options->evaluations, "Largest number of settings to try")
       ->check(wholeNumberFrom(1, 100000))
       ->capture_default_str();
   command->add_option("--backend", options->backend, "opengl or vulkan")->capture_default_str();
-  command->add_option("--device", options->device, "Number or part of a device's name");
-  command->add_option("--out", options->out, "The settings file; not needed with --json")
+  command->add_option("--device", options->device,
+                      "Number of a device or part of its name, see `grisaille backends`");
+  command->add_option("--out", options->out, "Settings file to write; optional with --json")
       ->type_name("FILE.toml");
   command->add_flag("--json", options->json,
-                    "Progress and result as JSON on standard output, an object a line");
+                    "Print progress and result as JSON, one object per line");
   command->callback([options] {
     checkOptions(*options);
     tune(*options);

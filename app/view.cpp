@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: MIT
-// grisaille view: a window to look, tune and shoot.
+// grisaille view: opens the interactive viewer.
 #include <charconv>
 #include <memory>
 
@@ -24,59 +24,69 @@ void addView(CLI::App& program) {
   auto options = std::make_shared<ViewOptions>();
   viewer::SessionOptions& session = options->session;
   CLI::App* command =
-      program.add_subcommand("view", "Open a window on a scene: look, tune, place objects");
+      program.add_subcommand("view", "View a scene in a window: move, tune effects, place objects");
   command->add_option("scene", session.scene, "A .gltf or .glb file; default: the built-in atrium");
   command->add_option("--camera", session.camera,
-                      "A camera file or its JSON; default: one that sees the scene");
-  command->add_option("--size", options->windowSize, "Of the window; default: as it was left")
+                      "A camera file or its JSON; default: a view of the scene");
+  command
+      ->add_option("--size", options->windowSize,
+                   "Size of the window; default: its size when it was last closed")
       ->type_name("WxH");
   command->add_option("--backend", options->backend,
                       "opengl or vulkan; default: the first that opens a window");
-  command->add_option("--device", options->device, "Number or part of a device's name");
+  command->add_option("--device", options->device,
+                      "Number of a device or part of its name, see `grisaille backends`");
   CLI::Option* effects =
       command->add_option("--effects", session.effects, "Effects, in the order they run")
           ->delimiter(',');
   command
       ->add_option("--preset", session.presets,
-                   "fast, balanced, fine or reference; --config and --set go over it")
+                   "fast, balanced, fine or reference; --config and --set override it")
       ->type_name("EFFECT=NAME")
       ->allow_extra_args(false);
-  command->add_option("--set", session.sets, "A parameter's value")
+  command->add_option("--set", session.sets, "Value of a parameter, see `grisaille effects`")
       ->type_name("EFFECT.PARAMETER=VALUE")
       ->allow_extra_args(false);
-  command->add_option("--config", session.config, "Settings, as TOML");
-  command->add_option("--surface", session.surface, "What the light falls on")
+  command->add_option("--config", session.config, "Settings file, TOML; --set overrides it");
+  command
+      ->add_option("--surface", session.surface, "Surfaces in color: white, or their base colours")
       ->check(CLI::IsMember({"white", "base"}));
-  command->add_option("--view", session.view, "The output to look at; default: color");
+  command->add_option("--view", session.view, "Output to show; default: color");
   command->add_option("--split", session.split,
-                      "A second output, right of a line that can be dragged");
+                      "Second output, shown to the right of a line that you can drag");
   command->add_flag("--compare-truth", session.compareTruth,
-                    "Trace the view and show how far the first effect's visibility is from it");
+                    "Ray trace the view, and show the error of the first effect's visibility");
   command
       ->add_option("--truth-radius", session.truthRadius,
-                   "Length of its rays, metres; default: the effect's own radius")
+                   "Length of the rays of --compare-truth, metres; default: the effect's radius")
       ->type_name("R")
       ->check(positiveNumber());
-  command->add_option("--truth-rays", session.truthRays, "Rays a pixel in the end; default: 256")
+  command
+      ->add_option("--truth-rays", session.truthRays,
+                   "Rays per pixel at which --compare-truth ends; default: 256")
       ->check(wholeNumberFrom(viewer::TruthSettings::kLeastRays, viewer::TruthSettings::kMostRays));
-  command->add_option("--load", session.loads, "Objects of an effect, as a file that --save wrote")
+  command
+      ->add_option("--load", session.loads,
+                   "Load objects of an effect from a file that `grisaille render --save` wrote")
       ->type_name("EFFECT=FILE")
       ->allow_extra_args(false);
-  command->add_option("--plugin-path", session.pluginPaths, "A further folder of effects")
+  command->add_option("--plugin-path", session.pluginPaths, "Another folder to load effects from")
       ->type_name("DIR")
       ->allow_extra_args(false);
-  command->add_option("--bookmarks", options->bookmarks, "A folder of camera files")
+  command->add_option("--bookmarks", options->bookmarks, "Folder of the bookmarks, camera files")
       ->type_name("DIR");
   command
       ->add_option("--layout", options->layoutFile,
-                   "Write where each control lies, as JSON, for programs that drive the window")
+                   "Write the position of each control as JSON, for programs that drive the window")
       ->type_name("FILE");
   command->add_option("--frames", options->frames,
-                      "End after so many whole frames; default: when the window is closed");
-  command->add_option("--capture", options->capture, "Write what the window holds at the end")
+                      "Close the window after this many frames that show the scene; default: stay "
+                      "open");
+  command
+      ->add_option("--capture", options->capture, "Write the last picture of the window to a file")
       ->type_name("FILE.png");
   command->add_flag("--check", options->check,
-                    "Validate every call, in the layer and in the driver");
+                    "Validate every graphics call, in the rendering layer and in the driver");
   command->callback([options, effects] {
     options->session.effectsGiven = effects->count() > 0;
     if (!options->windowSize.empty()) options->size = parseSize(options->windowSize);

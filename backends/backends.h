@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: MIT
-// Every backend of this program, by name.
+// The backends of this program, by name.
 #pragma once
 
 #include <memory>
@@ -15,7 +15,7 @@ namespace grisaille::backends {
 struct Backend {
   const char* name;   // "opengl", "vulkan"
   const char* label;  // "OpenGL", "Vulkan": for titles
-  // Both throw kBackendMissing where the driver library is not there.
+  // Both throw kBackendMissing if the driver library is not installed.
   std::vector<gpu::ListedDevice> (*list)();
   std::unique_ptr<gpu::Device> (*create)(const gpu::DeviceOptions& options);
 };
@@ -25,8 +25,8 @@ std::span<const Backend> all();
 // Throws kBackendUnknown.
 const Backend& find(std::string_view name);
 
-// A device of the named backend, inside the checking device when options.check (or in a debug
-// build).
+// Creates a device of the named backend. With options.check, and in every debug build, the device
+// is wrapped in the checking device. Throws kBackendUnknown, and what Backend::create throws.
 std::unique_ptr<gpu::Device> create(std::string_view name, const gpu::DeviceOptions& options);
 
 }  // namespace grisaille::backends

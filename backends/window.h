@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: MIT
-// The window as a device sees it. The library that opened the window implements this interface.
-// It includes no API header: handles are void pointers, and comments name their types.
+// The window interface that a device uses. The library that opened the window implements it. It
+// includes no API header: handles are void pointers, and comments name their types.
 #pragma once
 
 #include <cstdint>
@@ -22,19 +22,19 @@ class Window {
 
   virtual ~Window() = default;
 
-  // Of the picture that fills the window; 0 x 0 while it is iconified.
+  // The size of a picture that fills the window; 0 x 0 while the window is iconified.
   virtual Size size() const = 0;
 
-  // The window's own OpenGL context, which this call makes current, with a swap interval of 1. Null
-  // handles: the window has none of EGL.
+  // Makes the window's own OpenGL context current, with a swap interval of 1, and returns its
+  // handles. They are null if EGL did not create that context.
   virtual EglHandles makeEglCurrent() = 0;
 
-  // The Vulkan instance extensions that surfaces need; empty: no driver here shows pictures in a
-  // window. The names live as long as the window library.
+  // The Vulkan instance extensions that surfaces need. Empty if no installed driver can present to
+  // a window. The names live as long as the window library.
   virtual std::span<const char* const> instanceExtensions() const = 0;
 
-  // Makes a surface of a VkInstance and stores it at `surface`, a VkSurfaceKHR*. The caller
-  // destroys it. Returns a VkResult.
+  // Creates a surface for `instance`, a VkInstance, and stores it at `surface`, a VkSurfaceKHR*.
+  // The caller destroys it. Returns a VkResult.
   virtual int createSurface(void* instance, void* surface) = 0;
 };
 

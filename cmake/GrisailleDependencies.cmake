@@ -1,10 +1,10 @@
 # SPDX-License-Identifier: MIT
-# The libraries and tools that a build needs. All that is missing is named at once, each with what
-# needs it and the Debian package that holds it; then CMake stops.
+# Finds the libraries and tools that a build needs. If any are missing, CMake stops with a list of
+# all of them, each with the part that needs it and its Debian package.
 
 set_property(GLOBAL PROPERTY GRISAILLE_MISSING "")
 
-# grisaille_found(VARIABLE NAME PACKAGE REASON): notes NAME as missing unless the variable is true.
+# grisaille_found(VARIABLE NAME PACKAGE REASON): records NAME as missing if VARIABLE is false.
 function(grisaille_found variable name package reason)
   if(NOT ${variable})
     set_property(GLOBAL APPEND_STRING PROPERTY GRISAILLE_MISSING
@@ -13,13 +13,13 @@ function(grisaille_found variable name package reason)
   endif()
 endfunction()
 
-# A CMake package. Its targets are visible to the folder that calls.
+# Finds a CMake package. Its targets are visible in the calling directory.
 macro(grisaille_package name package reason)
   find_package(${name} QUIET ${ARGN})
   grisaille_found(${name}_FOUND ${name} ${package} "${reason}")
 endmacro()
 
-# A pkg-config module, as the target PkgConfig::PREFIX.
+# Finds a pkg-config module, as the target PkgConfig::PREFIX.
 macro(grisaille_module prefix module package reason)
   if(PKG_CONFIG_FOUND)
     pkg_check_modules(${prefix} QUIET IMPORTED_TARGET ${module})
@@ -27,14 +27,14 @@ macro(grisaille_module prefix module package reason)
   grisaille_found(${prefix}_FOUND ${module} ${package} "${reason}")
 endmacro()
 
-# A header of a library that has no file for CMake or pkg-config.
+# Finds the header of a library without files for CMake or pkg-config.
 function(grisaille_header variable header package reason)
   find_path(${variable} ${header})
   mark_as_advanced(${variable})
   grisaille_found(${variable} ${header} ${package} "${reason}")
 endfunction()
 
-# Stops where anything is missing.
+# Stops if anything is missing.
 function(grisaille_require_found)
   get_property(missing GLOBAL PROPERTY GRISAILLE_MISSING)
   get_property(packages GLOBAL PROPERTY GRISAILLE_MISSING_PACKAGES)
@@ -44,9 +44,9 @@ function(grisaille_require_found)
   list(REMOVE_DUPLICATES packages)
   list(JOIN packages " " packages)
   message(FATAL_ERROR
-    "Grisaille does not find on this machine:${missing}\n"
+    "Grisaille needs these libraries and tools, which CMake does not find:${missing}\n"
     "On Debian or Ubuntu: sudo apt install ${packages}\n"
-    "Or leave parts out: -DGRISAILLE_VIEWER=OFF, -DGRISAILLE_TRUTH=OFF, -DGRISAILLE_TESTS=OFF.")
+    "Or turn parts off: -DGRISAILLE_VIEWER=OFF, -DGRISAILLE_TRUTH=OFF, -DGRISAILLE_TESTS=OFF.")
 endfunction()
 
 grisaille_package(PkgConfig pkg-config "the build, which finds libraries with it")
@@ -62,14 +62,14 @@ grisaille_module(EGL egl libegl-dev "the OpenGL backend")
 grisaille_header(VOLK_HEADER volk.h libvulkan-volk-dev "the Vulkan backend")
 grisaille_header(VULKAN_HEADER vulkan/vulkan.h libvulkan-dev "the Vulkan backend")
 grisaille_module(TOMLPLUSPLUS tomlplusplus libtomlplusplus-dev "settings files")
-# OpenImageIO's CMake config names a folder that Debian does not have; its pkg-config file is sound.
+# OpenImageIO's CMake config names a folder that Debian lacks; its pkg-config file is correct.
 grisaille_module(OPENIMAGEIO OpenImageIO libopenimageio-dev "pictures")
 grisaille_module(SPIRV_CROSS spirv-cross-c-shared libspirv-cross-c-shared-dev "compiling shaders")
 find_program(GRISAILLE_GLSLC glslc)
 grisaille_found(GRISAILLE_GLSLC glslc glslc "compiling shaders")
 
 if(GRISAILLE_TRUTH)
-  # Either major release will do: core/trace/embree.h knows both.
+  # core/trace/embree.h supports both major releases.
   find_package(embree 4 QUIET)
   if(NOT embree_FOUND)
     find_package(embree 3.13 QUIET)
@@ -80,7 +80,7 @@ endif()
 if(GRISAILLE_VIEWER)
   grisaille_package(glfw3 libglfw3-dev "windows (GRISAILLE_VIEWER)" 3.3)
   grisaille_module(IMGUI imgui libimgui-dev "the panel (GRISAILLE_VIEWER)")
-  # Debian's libimgui leaves it to its users to link stb; elsewhere Dear ImGui has its own copy.
+  # Programs that use Debian's libimgui must link stb; elsewhere Dear ImGui has its own copy.
   find_library(STB_LIBRARY stb)
   mark_as_advanced(STB_LIBRARY)
 endif()

@@ -2,17 +2,20 @@
 # grisaille_add_effect(<name> SOURCES <file>... [SHADERS <shader>=<file>...] [DEFINES <NAME[=VALUE]>...]
 #                      [PRESETS <file>] [OUTPUT_DIR <folder>])
 #
-# Builds the plugin <name>.so as the target effect_<name>. It sees the installed effect headers and
-# its own shaders (`#include "shaders/<shader>.h"`), nothing else of the project; what more it needs
-# is linked with target_link_libraries(effect_<name> PRIVATE ...). Nothing but the symbol
-# `grisaille_plugin` leaves it, and all that it calls must be linked, so that it loads and unloads
-# anywhere. OUTPUT_DIR is lib/grisaille/effects of the build folder, where the program looks; those
-# that go there are installed, to lib/grisaille/effects, with their presets.
+# Builds the plugin <name>.so as the target effect_<name>.
+# - It may include the effect interface's headers and its own shaders
+#   (`#include "shaders/<shader>.h"`), no other header of the project. Link further libraries with
+#   target_link_libraries(effect_<name> PRIVATE ...).
+# - It exports only the symbol `grisaille_plugin`, and must link every library that it calls, so
+#   that any process can load and unload it.
+# - OUTPUT_DIR is by default lib/grisaille/effects of the build folder, where the program looks for
+#   effects. Without OUTPUT_DIR, the plugin and its presets are installed to lib/grisaille/effects.
 
 function(grisaille_add_effect name)
   cmake_parse_arguments(ARG "" "OUTPUT_DIR;PRESETS" "SOURCES;SHADERS;DEFINES" ${ARGN})
   if(ARG_UNPARSED_ARGUMENTS OR NOT ARG_SOURCES)
-    message(FATAL_ERROR "grisaille_add_effect(${name}): give SOURCES; unknown: ${ARG_UNPARSED_ARGUMENTS}")
+    message(FATAL_ERROR "grisaille_add_effect(${name}): SOURCES is missing, or these arguments are "
+                        "unknown: ${ARG_UNPARSED_ARGUMENTS}")
   endif()
   set(target effect_${name})
   add_library(${target} MODULE ${ARG_SOURCES})
@@ -23,7 +26,7 @@ function(grisaille_add_effect name)
       install(FILES ${ARG_PRESETS} DESTINATION lib/grisaille/effects RENAME ${name}.presets.toml)
     endif()
   endif()
-  # Folders included by the directory above would let the project's own headers in.
+  # The include folders of the parent directory would make the project's own headers visible.
   set_target_properties(${target} PROPERTIES
     PREFIX "" OUTPUT_NAME ${name} LIBRARY_OUTPUT_DIRECTORY ${ARG_OUTPUT_DIR}
     INCLUDE_DIRECTORIES "" C_VISIBILITY_PRESET hidden CXX_VISIBILITY_PRESET hidden
@@ -37,7 +40,7 @@ function(grisaille_add_effect name)
   # A unique symbol of the standard library's templates would keep the plugin from unloading.
   target_compile_options(${target} PRIVATE $<$<CXX_COMPILER_ID:GNU>:-fno-gnu-unique>)
   if(NOT GRISAILLE_SANITIZE)
-    # The sanitizers' functions are the program's, found when the plugin is loaded.
+    # The program defines the sanitizers' functions; they are resolved when the plugin is loaded.
     target_link_options(${target} PRIVATE LINKER:-z,defs)
   endif()
   if(ARG_PRESETS)
@@ -53,7 +56,7 @@ function(grisaille_add_effect name)
     cmake_path(GET file PARENT_PATH folder)
     list(APPEND watched ${folder})
   endforeach()
-  # For the viewer, which builds the plugin anew when one of these changes.
+  # For the viewer, which rebuilds the plugin when one of these files changes.
   foreach(source ${ARG_SOURCES})
     cmake_path(ABSOLUTE_PATH source NORMALIZE)
     list(APPEND watched ${source})

@@ -1,7 +1,7 @@
 # SPDX-License-Identifier: MIT
-# What authors of effects need, where find_package(Grisaille) finds it: beside the installed program,
-# and in the build folder, which so serves as a prefix of its own (its bin/ on the PATH is enough).
-# Then the Debian package.
+# Writes the files that find_package(Grisaille) needs: for the installation, and for the build
+# folder, which then serves as an installation prefix (its bin/ on the PATH is enough). Then
+# configures the Debian package.
 include(CMakePackageConfigHelpers)
 
 function(grisaille_write_config folder shaders functions prefix)
@@ -34,15 +34,15 @@ set(CPACK_GENERATOR DEB)
 set(CPACK_PACKAGE_NAME grisaille)
 set(CPACK_PACKAGE_VENDOR "The Grisaille authors")
 set(CPACK_PACKAGE_DESCRIPTION "Ambient occlusion and paint as plugins over OpenGL and Vulkan, a viewer that tunes them live, and
-a study that says what each setting costs and how wrong it is. With all that effects of one's own are
-written with: `grisaille new-effect`.")
+a study of the cost and error of each setting. Includes everything needed to write an effect: see
+`grisaille new-effect`.")
 set(CPACK_STRIP_FILES ON)
 set(CPACK_PACKAGING_INSTALL_PREFIX /usr)
 set(CPACK_DEBIAN_FILE_NAME DEB-DEFAULT)
 set(CPACK_DEBIAN_PACKAGE_MAINTAINER "The Grisaille authors <grisaille@localhost>")
 set(CPACK_DEBIAN_PACKAGE_SECTION graphics)
 set(CPACK_DEBIAN_PACKAGE_SHLIBDEPS ON)
-# Drivers are loaded while the program runs, so that no library tells of them; one is enough.
+# The program loads drivers at run time, so that shlibdeps does not find them. One is enough.
 set(CPACK_DEBIAN_PACKAGE_DEPENDS "libegl1 | libvulkan1")
 set(CPACK_DEBIAN_PACKAGE_RECOMMENDS
   "fonts-dejavu-core, libegl1, libgl1, libgl1-mesa-dri, libvulkan1, mesa-vulkan-drivers")

@@ -1,23 +1,23 @@
 # SPDX-License-Identifier: MIT
 # grisaille_add_shader(<target> <name> <source> [DEFINES <NAME[=VALUE]>...])
 #
-# Compiles one Vulkan GLSL stage (.vert .frag .comp) into <target>: glslc makes SPIR-V 1.6, the
-# project's shader compiler makes GLSL 4.50 and the reflection of it. The target then finds
+# Compiles one Vulkan GLSL stage (.vert .frag .comp) into <target>. glslc compiles it to SPIR-V 1.6,
+# from which the project's shader compiler generates GLSL 4.50 and reflection. The target can use
 #   #include "shaders/<name>.h"    extern const grisaille_shader grisaille_shader_<name>;
-# and in it, for every uniform block of the shader, a macro that checks a C++ struct against it:
+# For every uniform block of the shader this header has a macro that checks a C++ struct against it:
 #   GRISAILLE_CHECK_BLOCK_<name>_<Block>(Struct);
-# Sources may include "common/..." (the shared GLSL) and files beside themselves.
+# Sources may include "common/..." (the shared GLSL) and files in their own folder.
 
 
 function(grisaille_add_shader target name source)
   get_property(languages GLOBAL PROPERTY ENABLED_LANGUAGES)
   if(NOT C IN_LIST languages)
-    message(FATAL_ERROR "grisaille_add_shader(${target} ${name}): name C among the project's languages; "
-                        "a compiled shader is a C file")
+    message(FATAL_ERROR "grisaille_add_shader(${target} ${name}): the language C is not enabled; a "
+                        "compiled shader is a C file: add C to project(... LANGUAGES)")
   endif()
   if(NOT GRISAILLE_GLSLC)
-    message(FATAL_ERROR "grisaille_add_shader(${target} ${name}): glslc, which compiles shaders, is "
-                        "missing: install the package glslc")
+    message(FATAL_ERROR "grisaille_add_shader(${target} ${name}): glslc is missing, which compiles "
+                        "shaders: install the package glslc")
   endif()
   cmake_parse_arguments(ARG "" "" "DEFINES" ${ARGN})
   cmake_path(ABSOLUTE_PATH source NORMALIZE OUTPUT_VARIABLE source)
@@ -37,7 +37,7 @@ function(grisaille_add_shader target name source)
     DEPFILE ${stem}.d
     COMMENT "Compiling shader ${name}"
     VERBATIM)
-  # Each has its own `spirv`, `glsl` and so on.
+  # Each of these files defines `spirv`, `glsl` and other static names: a unity build would clash.
   set_source_files_properties(${stem}.c PROPERTIES SKIP_UNITY_BUILD_INCLUSION ON)
   target_sources(${target} PRIVATE ${stem}.c ${stem}.h)
   set_property(GLOBAL APPEND PROPERTY GRISAILLE_GENERATED ${stem}.h)

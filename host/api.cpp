@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: MIT
-// The C functions of grisaille/host.h: nothing but a number leaves them.
+// The C functions of grisaille/host.h. They return error numbers and let no exception out.
 #include <algorithm>
 #include <array>
 #include <new>
@@ -31,16 +31,16 @@ int guarded(Work&& work) noexcept {
     } catch (const Error& error) {
       return note(error.id(), error.what());
     } catch (const std::bad_alloc&) {
-      return note(ErrorId::kOutOfMemory, "error E9002: no memory; close other programs");
+      return note(ErrorId::kOutOfMemory, "error E9002: out of memory; close other programs");
     } catch (const std::exception& error) {
       return note(ErrorId::kUnexpected, Error(ErrorId::kUnexpected, oneLine(error.what())).what());
     }
   } catch (...) {
-    return note(ErrorId::kUnexpected, "error E9001: something unknown was thrown");
+    return note(ErrorId::kUnexpected, "error E9001: an unknown exception was thrown; report it");
   }
 }
 
-// What the host gets is null unless all went well.
+// Sets `out` to null before the work, so that it stays null after an error.
 template <typename Made, typename Make>
 int making(Made** out, Make&& make) noexcept {
   return guarded([&] {
@@ -107,7 +107,7 @@ int grisaille_host_device_destroy(grisaille_host_device* device) {
   return guarded([&] {
     if (device == nullptr) return;
     if (device->textures + device->effects > 0) {
-      throw Error(ErrorId::kHostInUse, "{} textures and {} effects are left", device->textures,
+      throw Error(ErrorId::kHostInUse, "{} textures and {} effects still exist", device->textures,
                   device->effects);
     }
     device->gpu->requireUsable();
@@ -174,8 +174,8 @@ int grisaille_host_effect_set_objects(grisaille_host_effect* effect, const void*
   return guarded([&] {
     objects::ObjectList& list = present(effect, "effect").objects();
     if (object_size != list.table().object_size) {
-      throw Error(ErrorId::kHostValue, "object_size is {}, the effect's table says {}", object_size,
-                  list.table().object_size);
+      throw Error(ErrorId::kHostValue, "object_size is {}, but the effect's table has {}",
+                  object_size, list.table().object_size);
     }
     const auto* bytes = static_cast<const std::byte*>(objects);
     if (count > 0) present(bytes, "objects");

@@ -26,21 +26,21 @@ constexpr KernelRow kRows[Kernels::kKernels] = {
     {"host normal", &grisaille_shader_host_normal},
     {"host facet normal", &grisaille_shader_host_facet_normal}};
 
-// Of the attachments, in their order. Storage images hold clip depth as colour; samplers see no
-// difference.
+// Formats of the attachments, by grisaille_attachment. Clip depth has a colour format, because
+// storage images need one; shaders that sample it see no difference.
 constexpr gpu::Format kFormats[GRISAILLE_ATTACHMENT_COUNT] = {
     gpu::Format::kR32Float,    gpu::Format::kR32Float,    gpu::Format::kRgba16Float,
     gpu::Format::kRgba16Float, gpu::Format::kRgba16Float, gpu::Format::kR32Float};
 constexpr const char* kLabels[GRISAILLE_ATTACHMENT_COUNT] = {
     "clip depth", "depth", "normal", "base_colour", "facet_normal", "back_depth"};
 
-// A depth kind that is none: sky everywhere.
+// Not a grisaille_host_depth: the shader writes sky everywhere.
 constexpr int kNothing = -1;
 
 constexpr auto kComputed = gpu::TextureUsage::kStorage | gpu::TextureUsage::kSampled;
 
 uint32_t groups(uint32_t pixels) {
-  constexpr uint32_t kGroup = 8;  // threads a side, in all shaders of this room
+  constexpr uint32_t kGroup = 8;  // threads per side of a workgroup, in all shaders of shaders/host
   return (pixels + kGroup - 1) / kGroup;
 }
 
@@ -100,7 +100,7 @@ void Attachments::prepare(uint32_t reads, bool normalsGiven) {
   if ((reads & GRISAILLE_READS(GRISAILLE_BASE_COLOUR)) != 0) {
     kernels_.turn(kFormats[GRISAILLE_BASE_COLOUR]);
   }
-  reads |= GRISAILLE_READS(GRISAILLE_VIEW_DEPTH);  // all others are made with it
+  reads |= GRISAILLE_READS(GRISAILLE_VIEW_DEPTH);  // all other attachments are computed with it
   for (size_t i = 0; i < targets_.size(); ++i) {
     const bool read = (reads & GRISAILLE_READS(i)) != 0;
     if (read && !targets_[i]) {
@@ -128,7 +128,8 @@ void Attachments::dispatch(gpu::Commands& commands, std::string_view label,
   commands.endPass();
 }
 
-// What facets are found in: an orthographic camera's depths lose digits on the way back.
+// View depth for facet normals. An orthographic camera's view depth is shifted by the pinhole's
+// distance, which costs precision; this one is not shifted.
 gpu::Texture Attachments::exactDepth(gpu::Commands& commands, SourceBlock source,
                                      gpu::Texture depth) {
   if (source.shift.x == 0) return targets_[GRISAILLE_VIEW_DEPTH];

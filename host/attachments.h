@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: MIT
-// A host's textures as the attachments that effects read: rows from the top, linear view depth in
-// metres, world normals.
+// Converts a host's textures to the attachments that effects read: top row first, linear view depth
+// in metres, world normals.
 #pragma once
 
 #include <array>
@@ -12,12 +12,12 @@
 
 namespace grisaille::host {
 
-// The host's; all but depth may be null.
+// The host's textures; all but depth may be null.
 struct Textures {
   gpu::Texture depth, normal, backDepth, baseColour;
 };
 
-// The shaders that read them, one set a device; made when first used.
+// The pipelines that convert them, one set per device; each is created on first use.
 class Kernels {
  public:
   explicit Kernels(gpu::HostDevice& device) : device_(device) {}
@@ -27,7 +27,7 @@ class Kernels {
 
   enum Kernel : uint8_t { kDepth, kClipDepth, kNormal, kFacetNormal, kKernels };
   gpu::ComputePipeline get(Kernel kernel);
-  // Of the picture that is written.
+  // `format`: of the texture that the pipeline writes.
   gpu::ComputePipeline turn(gpu::Format format);
   gpu::Sampler nearest();
 
@@ -45,21 +45,22 @@ class Attachments {
   Attachments(const Attachments&) = delete;
   Attachments& operator=(const Attachments&) = delete;
 
-  // Of another size from now on; those that there are go.
+  // Sets the size and destroys the attachments of the old size.
   void resize(uint32_t width, uint32_t height);
 
-  // Makes those of `reads`, of GRISAILLE_READS, that there are not yet. Throws kOutOfDeviceMemory.
+  // Creates the missing attachments of `reads`, a combination of GRISAILLE_READS, and destroys the
+  // others. Throws kOutOfDeviceMemory.
   void prepare(uint32_t reads, bool normalsGiven);
 
-  // Fills those that were prepared. Not inside a pass.
+  // Fills the prepared attachments. Call it outside a pass.
   void record(gpu::Commands& commands, const SourceBlock& source, const Textures& textures);
 
-  // Copies a picture, turning its rows over where the source says that the host's are the other way
-  // round. `to` is of this format. Not inside a pass.
+  // Copies a picture, and flips its rows if `source` says that the host's rows begin at the bottom.
+  // `format` is the format of `to`. Call it outside a pass.
   void copy(gpu::Commands& commands, gpu::BufferRange source, gpu::Texture from, gpu::Texture to,
             gpu::Format format, std::string_view label);
 
-  // Null for what was not prepared.
+  // Null for an attachment that was not prepared.
   gpu::Texture get(grisaille_attachment attachment) const { return targets_[attachment]; }
 
  private:

@@ -9,7 +9,7 @@
 namespace grisaille::host {
 namespace {
 
-// What renderers write for the sky is more; what they write of a scene is not. As `apply` has it.
+// Renderers write more than this for the sky, and less for a scene. Same as in `grisaille apply`.
 constexpr double kSky = 1e9;  // metres
 
 [[noreturn]] void refuse(const std::string& why) {
@@ -22,10 +22,10 @@ glm::dmat3 rotationOf(const grisaille_host_camera& camera) {
   const glm::dmat3 product = glm::transpose(axes) * axes;
   for (int i = 0; i < 9; ++i) {
     if (!(std::abs(product[i / 3][i % 3] - (i % 4 == 0 ? 1 : 0)) <= 1e-3)) {
-      refuse("the columns of world_from_view are no right-angled axes of length 1");
+      refuse("the columns of world_from_view are not perpendicular axes of length 1");
     }
   }
-  if (glm::determinant(axes) < 0) refuse("world_from_view mirrors");
+  if (glm::determinant(axes) < 0) refuse("world_from_view is a reflection");
   return axes;
 }
 
@@ -36,24 +36,26 @@ double farOf(const grisaille_host_camera& camera) {
 void check(const grisaille_host_camera& camera, bool orthographic) {
   checkReserved(camera.reserved, "camera.reserved");
   for (const double x : camera.position) {
-    if (!(std::abs(x) <= 1e15)) refuse(fmt::format("position holds {}", x));
+    if (!(std::abs(x) <= 1e15)) refuse(fmt::format("position holds {}, not within 1e15", x));
   }
   if (!(camera.near_plane > 0 && camera.near_plane <= 1e6)) {
-    refuse(fmt::format("near_plane is {}, out of over 0 to 1e6", camera.near_plane));
+    refuse(fmt::format("near_plane is {}, not over 0 and at most 1e6", camera.near_plane));
   }
   const double far = farOf(camera);
   if (!(far > camera.near_plane)) {
-    refuse(fmt::format("far_plane is {}, near_plane {}", far, camera.near_plane));
+    refuse(fmt::format("far_plane is {}, not over near_plane {}", far, camera.near_plane));
   }
   if (orthographic) {
     const double height = camera.orthographic_height;
     if (!(height > 0 && height <= 1e9)) {
-      refuse(fmt::format("vertical_angle is 0 and orthographic_height {}", height));
+      refuse(fmt::format(
+          "vertical_angle is 0, and orthographic_height is {}, not over 0 and at most 1e9",
+          height));
     }
-    if (!(far <= kSky)) refuse("an orthographic camera has no far plane");
+    if (!(far <= kSky)) refuse("an orthographic camera needs a far_plane of at most 1e9");
   } else {
     if (!(camera.vertical_angle >= 0.01 && camera.vertical_angle <= 3.1)) {
-      refuse(fmt::format("vertical_angle is {} radians, out of 0.01 to 3.1, and not 0",
+      refuse(fmt::format("vertical_angle is {} radians, neither 0 nor from 0.01 to 3.1",
                          camera.vertical_angle));
     }
     if (camera.orthographic_height != 0) {
@@ -81,7 +83,7 @@ View viewOf(const grisaille_host_frame& frame, uint32_t width, uint32_t height, 
   view.camera.up = axes[1];
   view.camera.fovyDegrees = glm::degrees(camera.vertical_angle);
   view.camera.nearPlane = near;
-  double half = std::tan(camera.vertical_angle / 2);  // of the height, at a view depth of 1
+  double half = std::tan(camera.vertical_angle / 2);  // half the height, at a view depth of 1
   if (orthographic) {
     const double seen = camera.orthographic_height;
     view.camera = scene::orthographicCamera(view.camera, seen, seen * aspect, far);

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: MIT
-// A host's camera as the effects see it, and how its textures are read.
+// Converts a host's camera to the camera that effects see, and describes how to read its textures.
 #pragma once
 
 #include <glm/glm.hpp>
@@ -9,7 +9,7 @@
 
 namespace grisaille::host {
 
-// shaders/host/source.glsl, std140. Field meanings stand there.
+// The std140 block of shaders/host/source.glsl, which documents the fields.
 struct SourceBlock {
   glm::mat4 world_from_view;
   glm::vec4 view_from_pixel;
@@ -19,12 +19,12 @@ struct SourceBlock {
 };
 
 struct View {
-  scene::Camera camera;  // a pinhole: what the effects see
-  SourceBlock source;    // of this camera and these textures
+  scene::Camera camera;  // the pinhole camera that effects see
+  SourceBlock source;    // for this camera and its textures
 };
 
-// An orthographic camera becomes what scene::orthographicCamera() says. Throws kHostCamera,
-// kHostValue, kHostNull, kHostStruct.
+// Replaces an orthographic camera by the pinhole camera of scene::orthographicCamera(). Throws
+// kHostCamera, kHostValue, kHostNull, kHostStruct.
 View viewOf(const grisaille_host_frame& frame, uint32_t width, uint32_t height, uint32_t rows);
 
 }  // namespace grisaille::host

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: MIT
-// What is wrong with what a host gives.
+// Checks of the arguments that a host passes.
 #pragma once
 
 #include <cstdint>
@@ -8,15 +8,15 @@
 
 namespace grisaille::host {
 
-// Throws kHostNull.
+// The pointee of `given`. Throws kHostNull if it is null.
 template <typename T>
 T& present(T* given, const char* name) {
   if (given == nullptr) throw Error(ErrorId::kHostNull, "{} is null", name);
   return *given;
 }
 
-// The same of a struct that begins with its size, and kHostStruct. No version has given any another
-// size, so that a size is right or wrong.
+// The same for a struct that begins with its size. Also throws kHostStruct unless the size is
+// right: each struct has the same size in all versions.
 template <typename Struct>
 Struct& whole(Struct* given, const char* name) {
   Struct& found = present(given, name);
@@ -27,11 +27,12 @@ Struct& whole(Struct* given, const char* name) {
   return found;
 }
 
-// Throws kHostNull.
+// Throws kHostNull if `handle` is null.
 void checkHandle(const void* handle, const char* name);
 
 // Throws kHostValue unless value < count.
 void checkEnum(uint32_t value, uint32_t count, const char* name);
+// Throws kHostValue unless value is 0.
 void checkReserved(uint32_t value, const char* name);
 
 }  // namespace grisaille::host

@@ -15,7 +15,7 @@ namespace {
 
 namespace fs = std::filesystem;
 
-// lib/grisaille/effects of the library's own folder; "" where the loader does not tell it.
+// grisaille/effects beside the library's file; "" if the loader does not report that file.
 fs::path ownEffects() {
   Dl_info info{};
   if (dladdr(reinterpret_cast<const void*>(grisaille_host_version), &info) == 0) return {};
@@ -38,22 +38,23 @@ void Rays::cast(std::span<const grisaille_ray> rays, std::span<grisaille_hit> hi
   rays_.cast(rays_.context, rays.data(), rays.size(), hits.data());
   const auto wrong = std::ranges::find_if_not(hits, isHit);
   if (wrong == hits.end()) return;
-  throw Error(
-      ErrorId::kHostValue,
-      "hit {} of {} of the host's rays has the kind {}, a distance of {}, a normal of {}, {}, {}",
-      wrong - hits.begin(), hits.size(), wrong->kind, wrong->distance, wrong->normal[0],
-      wrong->normal[1], wrong->normal[2]);
+  throw Error(ErrorId::kHostValue,
+              "hit {} of {} from the host's function has the kind {}, the distance {} and the "
+              "normal {}, {}, {}",
+              wrong - hits.begin(), hits.size(), wrong->kind, wrong->distance, wrong->normal[0],
+              wrong->normal[1], wrong->normal[2]);
 }
 
 void Pictures::read(const char* path, grisaille_picture& out) {
   grisaille_picture picture = {};
   picture.struct_size = sizeof(picture);
   if (pictures_.read(pictures_.context, path, &picture) != GRISAILLE_OK) {
-    throw Error(ErrorId::kHostValue, "the host reads no picture from {}", oneLine(path));
+    throw Error(ErrorId::kHostValue, "the host's function cannot read the picture {}",
+                oneLine(path));
   }
   if (picture.width == 0 || picture.height == 0 || picture.rgba == nullptr) {
-    throw Error(ErrorId::kHostValue, "the host's picture of {} has {} x {} pixels{}", oneLine(path),
-                picture.width, picture.height, picture.rgba == nullptr ? ", and none given" : "");
+    throw Error(ErrorId::kHostValue, "the host's picture {} has {} x {} pixels{}", oneLine(path),
+                picture.width, picture.height, picture.rgba == nullptr ? ", and rgba is null" : "");
   }
   out = picture;
 }

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: MIT
-// What grisaille_host_device and grisaille_host_texture point to.
+// The objects behind grisaille_host_device and grisaille_host_texture.
 #pragma once
 
 #include <memory>
@@ -13,26 +13,26 @@
 
 namespace grisaille::host {
 
-// What the host casts.
+// Ray casts by the host's function.
 class Rays : public effect::RayService {
  public:
   void set(const grisaille_host_rays& rays) { rays_ = rays; }
   explicit operator bool() const { return rays_.cast != nullptr; }
 
-  // Throws kHostValue where a hit is none.
+  // Throws kHostValue if a hit is invalid.
   void cast(std::span<const grisaille_ray> rays, std::span<grisaille_hit> hits) override;
 
  private:
   grisaille_host_rays rays_ = {};
 };
 
-// What the host decodes.
+// Pictures that the host's function decodes.
 class Pictures : public effect::PictureService {
  public:
   void set(const grisaille_host_pictures& pictures) { pictures_ = pictures; }
   explicit operator bool() const { return pictures_.read != nullptr; }
 
-  // Throws kHostValue where the host reads none, or what it says is no picture.
+  // Throws kHostValue if the host's function fails or returns an invalid picture.
   void read(const char* path, grisaille_picture& out) override;
 
  private:
@@ -42,15 +42,15 @@ class Pictures : public effect::PictureService {
 }  // namespace grisaille::host
 
 struct grisaille_host_device {
-  // The effects beside the library, and those of a further folder, which may be null. Throws
-  // kPluginPath.
+  // Loads the effects installed with the library and the effects in `effectFolder`, which may be
+  // null. Throws kPluginPath.
   grisaille_host_device(std::unique_ptr<grisaille::gpu::HostDevice> made, const char* effectFolder);
 
   grisaille::effect::Registry registry;
-  std::vector<const grisaille_effect_desc*> tables;  // of its effects
+  std::vector<const grisaille_effect_desc*> tables;  // of the registry's effects
   std::unique_ptr<grisaille::gpu::HostDevice> gpu;
   grisaille::host::Kernels kernels;
-  uint32_t textures = 0, effects = 0;  // that live
+  uint32_t textures = 0, effects = 0;  // numbers of live objects
   grisaille::host::Rays rays;
   grisaille::host::Pictures pictures;
 };

@@ -27,15 +27,16 @@ gpu::Texture checked(const grisaille_host_texture* texture, const grisaille_host
                      uint32_t channels, const char* name) {
   if (texture == nullptr) return {};
   if (&texture->device != &effect.device) {
-    throw Error(ErrorId::kHostForeign, "{} and the effect are of two devices", name);
+    throw Error(ErrorId::kHostForeign, "{} and the effect belong to different devices", name);
   }
   const gpu::ForeignInfo& info = texture->info;
   if (info.width != effect.width || info.height != effect.height) {
-    throw Error(ErrorId::kHostTexture, "{} has {} x {} pixels, the effect {} x {}", name,
+    throw Error(ErrorId::kHostTexture, "{} has {} x {} pixels, but the effect has {} x {}", name,
                 info.width, info.height, effect.width, effect.height);
   }
   if (info.channels < channels && !(info.depth && channels == 1)) {
-    throw Error(ErrorId::kHostTexture, "{} has {} channels, not {}", name, info.channels, channels);
+    throw Error(ErrorId::kHostTexture, "{} has {} channels, but needs {}", name, info.channels,
+                channels);
   }
   return texture->texture;
 }
@@ -110,7 +111,7 @@ void grisaille_host_effect::makePictures(std::vector<Picture>& pictures, uint32_
       device.kernels.turn(desc.format);
       picture.shown = device.gpu->createTexture(desc);
     }
-    device.gpu->native(picture.shown);  // its view is made with it
+    device.gpu->native(picture.shown);  // creates the texture's view now
   }
 }
 
@@ -159,7 +160,7 @@ host::Textures grisaille_host_effect::texturesOf(const grisaille_host_frame& fra
   if (!read(GRISAILLE_BASE_COLOUR)) {
     textures.baseColour = {};
   } else if (!textures.baseColour) {
-    throw Error(ErrorId::kHostMissing, "{} reads base colours, and frame.base_colour is null",
+    throw Error(ErrorId::kHostMissing, "{} reads base colours, but frame.base_colour is null",
                 values().effect().desc->key);
   }
   return textures;
@@ -220,8 +221,8 @@ void grisaille_host_effect::recordInto(gpu::Commands& commands, const host::View
 gpu::NativeTexture grisaille_host_effect::output(std::string_view key, uint32_t& format) const {
   const uint32_t index = indexOf(key);
   if ((wanted_ & (1u << index)) == 0) {
-    throw Error(ErrorId::kOutputUnknown, "output '{}' of {} was not asked for", key,
-                values().effect().desc->key);
+    throw Error(ErrorId::kOutputUnknown, "output '{}' was not named when effect {} was created",
+                key, values().effect().desc->key);
   }
   format = values().effect().outputs()[index].format;
   return device.gpu->native(pictures_[index].shown);

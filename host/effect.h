@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: MIT
-// What grisaille_host_effect points to.
+// The object behind grisaille_host_effect.
 #pragma once
 
 #include <span>
@@ -10,14 +10,14 @@
 #include "host/device.h"
 
 struct grisaille_host_effect {
-  // Throws as grisaille_host_effect_create() has it.
+  // Throws the errors of grisaille_host_effect_create().
   grisaille_host_effect(grisaille_host_device& of, const grisaille_host_effect_desc& desc);
   ~grisaille_host_effect();
   grisaille_host_effect(const grisaille_host_effect&) = delete;
   grisaille_host_effect& operator=(const grisaille_host_effect&) = delete;
 
   void resize(uint32_t width, uint32_t height);
-  // The effect's one list. Throws kEffectTakesNoObjects.
+  // The effect's list of objects. Throws kEffectTakesNoObjects.
   grisaille::objects::ObjectList& objects();
   grisaille::effect::Values& values() { return chain_.selection.entries()[0].values; }
   const grisaille::effect::Values& values() const { return chain_.selection.entries()[0].values; }
@@ -29,8 +29,8 @@ struct grisaille_host_effect {
 
  private:
   struct Picture {
-    grisaille::gpu::Texture made;   // by the effect, rows from the top; null: not wanted
-    grisaille::gpu::Texture shown;  // to the host: the same, or with its rows turned over
+    grisaille::gpu::Texture made;   // the effect writes it, top row first; null: not wanted
+    grisaille::gpu::Texture shown;  // the host reads it: the same, or with flipped rows
   };
 
   uint32_t indexOf(std::string_view key) const;
@@ -41,9 +41,9 @@ struct grisaille_host_effect {
                   const grisaille::host::Textures& textures, uint32_t reads);
 
   const uint32_t rows_;
-  grisaille::effect::Chain chain_;  // of this effect alone
-  uint32_t wanted_ = 0;             // outputs, by bit
-  std::vector<Picture> pictures_;   // one an output
+  grisaille::effect::Chain chain_;  // holds only this effect
+  uint32_t wanted_ = 0;             // wanted outputs, by bit
+  std::vector<Picture> pictures_;   // one per output
   std::vector<grisaille::gpu::Texture> made_, shown_;
   grisaille::host::Attachments attachments_;
 };

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: MIT
-// grisaille-lab claims: what is said of effects, measured.
+// grisaille-lab claims: measures whether statements about effects hold.
 #include <fmt/format.h>
 
 #include <algorithm>
@@ -36,11 +36,11 @@ struct ClaimsOptions {
   bool check = false;
 };
 
-// Those named by --only, in the file's order.
+// Keeps only the claims that --only names, in the file's order.
 void choose(claims::ClaimsFile& file, const std::vector<std::string>& only) {
   for (const std::string& key : only) {
     if (std::ranges::find(file.claims, key, &claims::Claim::key) == file.claims.end()) {
-      throw Error(ErrorId::kUsage, "--only names '{}', which is no claim of the file", key);
+      throw Error(ErrorId::kUsage, "--only names '{}', but the file has no such claim", key);
     }
   }
   if (only.empty()) return;
@@ -64,18 +64,19 @@ fs::path partsOf(const ClaimsOptions& options) {
   return fs::path(options.out) / "claims.part";
 }
 
-// All that a claim's result depends on, so that another run takes it up only where it is the same.
+// Everything that a claim's result depends on. A later run reuses a result only if its key is
+// equal.
 std::string keyOf(const claims::Claim& claim, const ClaimsOptions& options,
                   const gpu::DeviceInfo& device) {
   const std::string text = readRegularFile(options.file, ErrorId::kSettingsUnreadable);
-  std::error_code none;  // the built-in scene has no time
+  std::error_code none;  // set for the built-in scene, which has no file
   const auto written = fs::last_write_time(claim.scene, none).time_since_epoch().count();
   return fmt::format("{}\n{}\n{}\n{}\n{} samples, {} rounds, scale {}\nscene of {}\n{}\n{}",
                      GRISAILLE_COMMIT, device.backend, device.name, device.driver, options.samples,
                      options.rounds, options.scale, none ? 0 : written, claim.key, text);
 }
 
-// Those that an interrupted run has done are taken from there.
+// Runs all claims on one backend, and reuses the results of an interrupted run.
 claims::ClaimsOfBackend runOn(const std::string& backend, const ClaimsOptions& options,
                               const claims::ClaimsDesc& desc, const claims::ClaimsFile& file,
                               app::DriverMessages& messages) {
@@ -104,7 +105,7 @@ claims::ClaimsOfBackend runOn(const std::string& backend, const ClaimsOptions& o
                whence);
     std::fflush(stdout);
     if (!app::truth::Interruption::asked()) continue;
-    fmt::print(stderr, "note: interrupted; the same command goes on from here\n");
+    fmt::print(stderr, "note: interrupted; run the same command again to continue\n");
     throw app::truth::Interrupted();
   }
   return result;
@@ -143,16 +144,16 @@ void runClaims(const ClaimsOptions& options) {
 void addClaims(CLI::App& program) {
   auto options = std::make_shared<ClaimsOptions>();
   CLI::App* command =
-      program.add_subcommand("claims", "Measure what is said of effects, and tell what holds");
+      program.add_subcommand("claims", "Measure whether statements about effects hold");
   command->add_option("file", options->file, "A study file, such as studies/claims.toml")
       ->type_name("FILE.toml")
       ->required();
   command
       ->add_option("--out", options->out,
-                   "The folder of the report; an interrupted run goes on from what it holds")
+                   "Folder for the report; an interrupted run goes on from the results in it")
       ->type_name("DIR")
       ->required();
-  command->add_option("--only", options->only, "These claims of the file alone")
+  command->add_option("--only", options->only, "Measure only these claims of the file")
       ->type_name("KEY,...")
       ->delimiter(',');
   command->add_option("--backend", options->backend, "opengl, vulkan or both")
@@ -160,16 +161,16 @@ void addClaims(CLI::App& program) {
   command->add_option("--device", options->device, "Number or part of a device's name");
   command
       ->add_option("--scale", options->scale,
-                   "Multiplies the pictures' sizes, to no less than 16 pixels")
+                   "Multiplies the pictures' sizes; the result is at least 16 pixels")
       ->check(app::numberFrom(0.05, 4))
       ->capture_default_str();
-  command->add_option("--samples", options->samples, "The truth's rays a pixel")
+  command->add_option("--samples", options->samples, "Rays per pixel for the truth")
       ->check(app::wholeNumberFrom(16, 65536))
       ->capture_default_str();
-  command->add_option("--rounds", options->rounds, "How often each run's cost is measured")
+  command->add_option("--rounds", options->rounds, "Times that each run's cost is measured")
       ->check(app::wholeNumberFrom(1, 1000))
       ->capture_default_str();
-  command->add_option("--plugin-path", options->pluginPaths, "A further folder of effects")
+  command->add_option("--plugin-path", options->pluginPaths, "Another folder to load effects from")
       ->type_name("DIR")
       ->allow_extra_args(false);
   command->add_flag("--check", options->check,

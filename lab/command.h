@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: MIT
-// The subcommands of grisaille-lab, one file each. Every function adds its subcommand, whose
-// callback does the work and throws grisaille::Error.
+// The subcommands of grisaille-lab, one file each. Each function adds its subcommand; the
+// subcommand's callback does the work and throws grisaille::Error.
 #pragma once
 
 #include <CLI/CLI.hpp>

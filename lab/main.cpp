@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: MIT
-// grisaille-lab: measures what is claimed of the effects, and tests them at the limits of their
-// parameters against double precision. See README.md.
+// grisaille-lab: measures claims about the effects, and tests the effects at the limits of their
+// parameters against double precision. See docs/manual/lab.md.
 #include "app/options/option_checks.h"
 #include "app/process/program.h"
 #include "lab/command.h"

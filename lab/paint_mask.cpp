@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: MIT
-// grisaille-lab paint-mask: what shots ought to cover, by rays.
+// grisaille-lab paint-mask: traces the mask that shots of paint should cover.
 #include <fmt/format.h>
 
 #include <memory>
@@ -14,7 +14,7 @@
 namespace grisaille::lab {
 namespace {
 
-constexpr double kFarthest = 1e6;  // metres, as sspm's paint_range
+constexpr double kFarthest = 1e6;  // metres, same limit as sspm's paint_range
 
 struct PaintMaskOptions {
   app::SceneOptions view;
@@ -28,8 +28,7 @@ std::vector<Shot> shotsFrom(const PaintMaskOptions& options) {
   std::vector<Shot> shots = loadShots(*registry, options.load);
   for (size_t i = 0; options.paintRange == 0 && i < shots.size(); ++i) {
     if (shots[i].range > 0) continue;
-    throw Error(ErrorId::kUsage, "shot {} of {} has no range, and --paint-range gives none", i,
-                options.load);
+    throw Error(ErrorId::kUsage, "shot {} of {} has no range; pass --paint-range", i, options.load);
   }
   return shots;
 }
@@ -38,8 +37,8 @@ void writePaintMask(const PaintMaskOptions& options) {
   image::checkWritable(options.write);
   const double range = options.paintRange;
   if (range != 0 && !(range > 0 && range <= kFarthest)) {
-    throw Error(ErrorId::kUsage, "--paint-range is {:g}, not metres over 0 and up to {:g}", range,
-                kFarthest);
+    throw Error(ErrorId::kUsage, "--paint-range is {:g}; it must be over 0 and at most {:g} metres",
+                range, kFarthest);
   }
   const std::vector<Shot> shots = shotsFrom(options);
   const auto [scene, camera, size] = app::loadView(options.view);
@@ -70,7 +69,7 @@ void addPaintMask(CLI::App& program) {
   command->add_option("--write", options->write, "The mask, one channel, as .exr or .png")
       ->type_name("FILE")
       ->required();
-  command->add_option("--plugin-path", options->pluginPaths, "A further folder of effects")
+  command->add_option("--plugin-path", options->pluginPaths, "Another folder to load effects from")
       ->type_name("DIR")
       ->allow_extra_args(false);
   command->callback([options] { writePaintMask(*options); });

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: MIT
-// grisaille-lab stability: every effect at the edges of what is allowed, against its oracle.
+// grisaille-lab stability: compares every effect with its oracle, at the limits of its inputs.
 #include <fmt/format.h>
 
 #include <algorithm>
@@ -34,14 +34,14 @@ struct StabilityOptions {
   bool quick = false, check = false;
 };
 
-constexpr const char* kMovement = "movement";  // a group that is no case
+constexpr const char* kMovement = "movement";  // a group of --only without cases
 
 std::vector<stability::Case> chosenCases(const StabilityOptions& options) {
   std::vector<stability::Case> cases = stability::sweepCases(options.combinations, options.seed);
   for (const std::string& group : options.only) {
     if (group != kMovement &&
         std::ranges::find(cases, group, &stability::Case::group) == cases.end()) {
-      throw Error(ErrorId::kUsage, "--only names '{}', which is no group of cases", group);
+      throw Error(ErrorId::kUsage, "--only names '{}', but the sweep has no such group", group);
     }
   }
   std::erase_if(cases, [&](const stability::Case& one) {
@@ -69,7 +69,7 @@ std::string commandOf(const StabilityOptions& options) {
   return command + " --out " + shellQuoted(options.out);
 }
 
-// Does every case; those that an interrupted run of the same program has done are taken from there.
+// Runs all cases, and reuses the results of an interrupted run of the same program.
 void runCases(const fs::path& done, stability::Runner& runner, stability::Sweep& sweep) {
   std::string machine = sweep.commit;
   for (const std::string& device : sweep.devices) machine += "\n" + device;
@@ -93,7 +93,7 @@ void runCases(const fs::path& done, stability::Runner& runner, stability::Sweep&
     sweep.results.push_back(std::move(*result));
     if (app::truth::Interruption::asked()) {
       progress.clear();
-      fmt::print(stderr, "note: interrupted; the same command goes on from here\n");
+      fmt::print(stderr, "note: interrupted; run the same command again to continue\n");
       throw app::truth::Interrupted();
     }
   }
@@ -125,7 +125,7 @@ void runSweep(const StabilityOptions& options) {
                          .results = {},
                          .movements = {}};
   if (sweep.cases.empty() && !wantsMovement(options))
-    throw Error(ErrorId::kUsage, "no case is left of what was chosen");
+    throw Error(ErrorId::kUsage, "the options select no case");
   const std::vector<std::string> names = app::chosenBackends(options.backend);
   requireWritableFolder(options.out);
   app::DriverMessages messages;
@@ -154,7 +154,7 @@ void runSweep(const StabilityOptions& options) {
              (fs::path(options.out) / "stability.md").string());
   if (options.check) messages.throwIfAny();
   if (sweep.failed() > 0) {
-    throw Error(ErrorId::kUnstable, "{} of {} cases break a limit", sweep.failed(), sweep.count());
+    throw Error(ErrorId::kUnstable, "{} of {} cases exceed a limit", sweep.failed(), sweep.count());
   }
 }
 
@@ -163,23 +163,23 @@ void runSweep(const StabilityOptions& options) {
 void addStability(CLI::App& program) {
   auto options = std::make_shared<StabilityOptions>();
   CLI::App* command = program.add_subcommand(
-      "stability", "Run the effects at the edges of what is allowed, against double precision");
+      "stability", "Compare the effects with double precision, at the limits of their inputs");
   command
       ->add_option("--out", options->out,
-                   "The folder of the table; an interrupted run goes on from what it holds")
+                   "Folder for the tables; an interrupted run goes on from the results in it")
       ->type_name("DIR")
       ->required();
   command->add_option("--backend", options->backend, "opengl, vulkan or both")
       ->capture_default_str();
   command->add_option("--device", options->device, "Number or part of a device's name");
-  command->add_option("--only", options->only, "These groups of cases alone")
+  command->add_option("--only", options->only, "Run only this group of cases; repeatable")
       ->type_name("GROUP")
       ->allow_extra_args(false);
-  command->add_flag("--quick", options->quick, "A part of the cases, for a first look");
-  command->add_option("--combinations", options->combinations, "Cases drawn at random")
+  command->add_flag("--quick", options->quick, "Run a part of the cases, for a first look");
+  command->add_option("--combinations", options->combinations, "Number of random cases")
       ->check(app::wholeNumberFrom(0, 100000))
       ->capture_default_str();
-  command->add_option("--seed", options->seed, "Of those cases")->capture_default_str();
+  command->add_option("--seed", options->seed, "Seed of the random cases")->capture_default_str();
   command->add_flag("--check", options->check,
                     "Validate every call, in the layer and in the driver");
   command->callback([options] { runSweep(*options); });

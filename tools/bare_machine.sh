@@ -1,15 +1,15 @@
 #!/usr/bin/env bash
 # SPDX-License-Identifier: MIT
-# bare_machine.sh run|test|package [SUITE [FOLDER]]: what this project does on a bare Debian SUITE
-# (bookworm, the default, or trixie), in a root folder of its own that debootstrap makes in FOLDER.
-# Default: a temporary folder, removed afterwards; a FOLDER that is given stays and is used again.
-#   run      adds git, clones what is committed here, calls `./dev run`
-#   test     the same with `./dev test`
-#   package  the same with `./dev package`; then, in a second bare root, installs that .deb with apt
-#            and nothing else, renders on both backends from several folders, adds what the package
-#            suggests and takes the time from `new-effect` to a picture of the new effect
-# Each prints how many packages came in, and seconds by part. Needs root, the network and
-# debootstrap; downloads 200 to 900 MB.
+# bare_machine.sh run|test|package [SUITE [FOLDER]]: tests this project on a bare Debian SUITE
+# (bookworm, the default, or trixie), in a root folder that debootstrap creates in FOLDER. The
+# default is a temporary folder, removed afterwards; a FOLDER that you pass stays and is reused.
+#   run      adds git, clones the committed files, runs `./dev run`
+#   test     same with `./dev test`
+#   package  same with `./dev package`; then installs only the .deb with apt in a second bare root,
+#            renders on both backends from several folders, installs the packages that the .deb
+#            suggests, and measures the time from `new-effect` to a picture of the new effect
+# Prints the number of packages installed, and the time of each part in seconds. Needs root, the
+# network and debootstrap; downloads 200 to 900 MB.
 set -euo pipefail
 cd "$(dirname "${BASH_SOURCE[0]}")/.."
 
@@ -30,14 +30,14 @@ leave() {
 [[ -z ${3:-} ]] || keep=1
 trap leave EXIT
 
-# make_root NAME: a bare system in $folder/NAME, with git and certificates alone.
+# make_root NAME: creates a bare system in $folder/NAME, with only git and certificates.
 make_root() {
   root=$folder/$1
   [[ -x $root/usr/bin/apt-get ]] ||
     debootstrap --variant=minbase --include=git,ca-certificates "$suite" "$root" >/dev/null
   roots+=("$root")
   mount -t proc proc "$root/proc"
-  # Private, so that what is mounted below does not show in the machine's own /dev.
+  # Private: the mounts below must not appear in the machine's own /dev.
   mount --bind --make-private /dev "$root/dev"
   for below in pts shm; do mount --bind "/dev/$below" "$root/dev/$below"; done
   cp /etc/resolv.conf "$root/etc/"
@@ -45,7 +45,7 @@ make_root() {
 
 inside() { env -i HOME=/root PATH=/usr/sbin:/usr/bin:/sbin:/bin TERM=dumb chroot "$root" bash -euo pipefail -c "$1"; }
 
-# dev COMMAND: clones what is committed here and calls `./dev COMMAND`.
+# dev COMMAND: clones the committed files and runs `./dev COMMAND`.
 dev() {
   make_root "$1"
   rm -rf "$root/root/grisaille"
@@ -54,7 +54,7 @@ dev() {
   before=$(inside "dpkg-query -W | wc -l")
   inside "cd /root/grisaille && time ./dev $1"
   after=$(inside "dpkg-query -W | wc -l")
-  echo "== $suite: ./dev $1 passes; $((after - before)) packages came in"
+  echo "== $suite: ./dev $1 passes; $((after - before)) packages installed"
 }
 
 install_package() {

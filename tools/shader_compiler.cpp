@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: MIT
-// shader_compiler FILE.spv NAME STEM: writes STEM.c and STEM.h, the grisaille_shader of one stage:
-// its SPIR-V without source text, its GLSL 4.50 and its reflection. Refuses what the layer does not
-// support, with one line and exit status 1.
+// shader_compiler FILE.spv NAME STEM: writes STEM.c and STEM.h with the grisaille_shader of one
+// stage: its SPIR-V without source text, its GLSL 4.50 and its reflection. For a shader that the
+// layer does not support, prints one line and exits with status 1.
 #include <fmt/format.h>
 #include <spirv_cross/spirv_cross_c.h>
 
@@ -39,8 +39,8 @@ std::vector<SpvId> readWords(const std::string& path) {
   return words;
 }
 
-// Drops source text, lines and processing notes, which would carry the build machine's paths; names
-// stay, for debuggers.
+// Removes source text, line numbers and processing notes, which contain paths of the build machine.
+// Keeps names, for debuggers.
 std::vector<SpvId> withoutSource(const std::vector<SpvId>& words) {
   std::vector<SpvId> kept(words.begin(), words.begin() + 5);
   for (size_t i = 5; i < words.size();) {
@@ -79,7 +79,7 @@ const char* imageFormatName(SpvImageFormat format) {
   }
 }
 
-// grisaille_scalar of a type.
+// The grisaille_scalar of a type.
 unsigned scalarOf(spvc_type type, std::string_view what) {
   switch (spvc_type_get_basetype(type)) {
     case SPVC_BASETYPE_UINT32:
@@ -217,8 +217,8 @@ class Reflection {
                           number, reads, writes, blockSize, arrayed, format, label);
   }
 
-  // readonly and writeonly stand on the variable of an image, and on the variable or on every
-  // member of a storage block.
+  // Whether the resource is readonly or writeonly. SPIR-V decorates the variable of an image, and
+  // the variable or every member of a storage block.
   bool decorated(const spvc_reflected_resource& resource, spvc_type type,
                  SpvDecoration decoration) {
     if (spvc_compiler_has_decoration(compiler_, resource.id, decoration)) return true;

@@ -17,7 +17,7 @@ std::string lower(std::string text) {
 
 [[noreturn]] void refuse(const image::Picture& picture, const std::string& file,
                          const std::string& what) {
-  throw Error(ErrorId::kPictureChannels, "{}: {} among its channels {}", file, what,
+  throw Error(ErrorId::kPictureChannels, "{}: {} among the channels {}", file, what,
               fmt::join(picture.channels, ", "));
 }
 
@@ -29,7 +29,7 @@ std::optional<size_t> find(const image::Picture& picture, const std::string& nam
 
 size_t named(const image::Picture& picture, const std::string& name, const std::string& file) {
   const auto found = find(picture, name);
-  if (!found) refuse(picture, file, fmt::format("there is no '{}'", name));
+  if (!found) refuse(picture, file, fmt::format("no channel '{}'", name));
   return *found;
 }
 
@@ -58,7 +58,7 @@ std::vector<std::string> split(const std::string& text) {
   return parts;
 }
 
-// x, y and z of one layer whose name tells that it holds normals.
+// The channels x, y and z of the first layer named "N" or with "normal" in its name.
 std::optional<std::vector<size_t>> normalLayer(const image::Picture& picture) {
   for (const std::string& channel : picture.channels) {
     const size_t dot = channel.rfind('.');
@@ -86,7 +86,8 @@ image::Image depthChannel(const image::Picture& picture, const std::string& name
   for (size_t i = 0; i < picture.channels.size(); ++i) {
     if (lower(picture.channels[i]).find("depth") != std::string::npos) telling.push_back(i);
   }
-  if (telling.size() != 1) refuse(picture, file, "nothing tells which holds the depth");
+  if (telling.size() != 1)
+    refuse(picture, file, "no single channel is named Z or has \"depth\" in its name");
   return pick(picture.image, telling);
 }
 
@@ -96,17 +97,17 @@ image::Image normalChannels(const image::Picture& picture, const std::string& na
     std::vector<size_t> channels;
     for (const std::string& name : split(names)) channels.push_back(named(picture, name, file));
     if (channels.size() == 3) return pick(picture.image, channels);
-    refuse(picture, file, fmt::format("'{}' are not three", names));
+    refuse(picture, file, fmt::format("'{}' does not name three channels", names));
   }
   if (const auto layer = normalLayer(picture)) return pick(picture.image, *layer);
   if (picture.image.channels == 3 || picture.image.channels == 4) {
     return pick(picture.image, {0, 1, 2});
   }
-  refuse(picture, file, "nothing tells which three hold the normal");
+  refuse(picture, file, "no layer is named N or has \"normal\" in its name");
 }
 
 image::Image colourChannels(const image::Picture& picture, const std::string& file) {
-  if (picture.image.channels < 3) refuse(picture, file, "there is no colour");
+  if (picture.image.channels < 3) refuse(picture, file, "no colour");
   return pick(picture.image, {0, 1, 2});
 }
 

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: MIT
-// Which channels of a picture hold what.
+// Picks the channels of a picture that hold depth, normal or colour.
 #pragma once
 
 #include <string>
@@ -8,18 +8,19 @@
 
 namespace grisaille::app {
 
-// One channel: the named one; else the only one, the one called Z or the only one with "depth" in
-// its name. `file` is for messages. Throws kPictureChannels with those that there are.
+// Returns one channel: the one called `name`; if `name` is "", the only channel, else the one
+// called Z, else the only one with "depth" in its name. `file`: for messages. Throws
+// kPictureChannels with the names of all channels.
 image::Image depthChannel(const image::Picture& picture, const std::string& name,
                           const std::string& file);
 
-// Three channels, in the order x, y, z: the named ones ("N.X,N.Y,N.Z"); else those that end in X,
-// Y, Z of N or of a name with "normal" in it, or the first three of a picture of three or four.
-// Throws as depthChannel() does.
+// Returns three channels, in the order x, y, z: those of `names` ("N.X,N.Y,N.Z"); if `names` is "",
+// X, Y, Z or R, G, B of a layer named N or with "normal" in its name, else the first three of a
+// picture of three or four channels. Throws as depthChannel() does.
 image::Image normalChannels(const image::Picture& picture, const std::string& names,
                             const std::string& file);
 
-// The first three of three or more.
+// Returns the first three channels. Throws kPictureChannels if there are fewer.
 image::Image colourChannels(const image::Picture& picture, const std::string& file);
 
 }  // namespace grisaille::app

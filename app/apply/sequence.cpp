@@ -13,14 +13,14 @@ namespace {
 
 namespace fs = std::filesystem;
 
-constexpr size_t kMostDigits = 9;  // what an int holds
+constexpr size_t kMostDigits = 9;  // every number of 9 digits fits an int
 constexpr size_t kLongestName = 4096;
 
 bool isDigit(char c) {
   return c >= '0' && c <= '9';
 }
 
-// The number that stands between, as FileName::at() would write it.
+// The frame number of `digits`; none if FileName::at() would not write these digits.
 std::optional<int> numberIn(std::string_view digits, size_t width) {
   if (digits.size() < width || digits.size() > kMostDigits || digits.empty() ||
       !std::ranges::all_of(digits, isDigit)) {
@@ -35,9 +35,9 @@ std::optional<int> numberIn(std::string_view digits, size_t width) {
 }  // namespace
 
 FileName::FileName(const std::string& text) : text_(text), before_(text) {
-  // std::regex takes stack for every character.
+  // std::regex uses stack space for every character.
   if (text.size() > kLongestName) {
-    throw Error(ErrorId::kSequence, "'{}...' is longer than a path can be, {} bytes",
+    throw Error(ErrorId::kSequence, "'{}...' is longer than the longest path, {} bytes",
                 text.substr(0, 40), kLongestName);
   }
   static const std::regex kNumber("##+|%(0([1-9]))?d");
@@ -47,13 +47,15 @@ FileName::FileName(const std::string& text) : text_(text), before_(text) {
   after_ = match.suffix();
   width_ = match.str()[0] == '#' ? match.length() : match[2].matched ? std::stoul(match[2]) : 1;
   if (std::regex_search(after_, kNumber)) {
-    throw Error(ErrorId::kSequence, "'{}' has more than one place for a number", text);
+    throw Error(ErrorId::kSequence, "'{}' has more than one frame number", text);
   }
   if (after_.find('/') != std::string::npos) {
-    throw Error(ErrorId::kSequence, "'{}' has a number in its folder", text);
+    throw Error(ErrorId::kSequence, "'{}' has a frame number in its folder, not in its file name",
+                text);
   }
   if (width_ > kMostDigits) {
-    throw Error(ErrorId::kSequence, "'{}' has numbers of more than {} digits", text, kMostDigits);
+    throw Error(ErrorId::kSequence, "'{}' has frame numbers of more than {} digits", text,
+                kMostDigits);
   }
 }
 
@@ -79,7 +81,7 @@ std::vector<int> FileName::numbers() const {
         width_);
     if (number) found.push_back(*number);
   }
-  if (found.empty()) throw Error(ErrorId::kSequence, "there is no file '{}'", text_);
+  if (found.empty()) throw Error(ErrorId::kSequence, "no file matches '{}'", text_);
   std::ranges::sort(found);
   return found;
 }
@@ -95,7 +97,7 @@ std::vector<int> parseFrames(const std::string& text) {
   const int step = match[5].matched ? std::stoi(match[5]) : 1;
   constexpr int kMost = 1000000;
   if (last < first || step < 1 || (last - first) / step >= kMost) {
-    throw Error(ErrorId::kUsage, "'{}' is no range of 1 to {} frames", text, kMost);
+    throw Error(ErrorId::kUsage, "'{}' is not a range of 1 to {} frames", text, kMost);
   }
   std::vector<int> frames;
   for (int number = first; number <= last; number += step) frames.push_back(number);

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: MIT
-// Files of a numbered sequence: "depth.%04d.exr" or "depth.####.exr".
+// File names of a numbered sequence: "depth.%04d.exr" or "depth.####.exr".
 #pragma once
 
 #include <optional>
@@ -10,23 +10,25 @@ namespace grisaille::app {
 
 class FileName {
  public:
-  // Two or more '#' or one %d or %0Nd in the file's name number it; without, it is one file. Throws
-  // kSequence for more than one number, or one in the folder.
+  // Two or more '#', %d or %0Nd stand for the frame number; a name without any of them is a single
+  // file. Throws kSequence for more than one frame number, for a frame number in the folder, and
+  // for more than 9 digits.
   explicit FileName(const std::string& text);
 
   bool numbered() const { return width_ > 0; }
+  // The name of one frame's file; the same for all frames if the name is not numbered.
   std::string at(int number) const;
 
-  // The numbers of the files that are there, ascending. Throws kSequence where there is none.
+  // The numbers of the files that exist, ascending. Throws kSequence if no file exists.
   std::vector<int> numbers() const;
 
  private:
   std::string text_;
-  std::string before_, after_;  // around the number
-  size_t width_ = 0;            // digits at least; 0: not numbered
+  std::string before_, after_;  // the text around the number
+  size_t width_ = 0;            // smallest number of digits; 0: not numbered
 };
 
-// "7", "1-100" or "1-100x2", ascending. Throws kUsage.
+// Parses "7", "1-100" or "1-100x2" into ascending frame numbers. Throws kUsage.
 std::vector<int> parseFrames(const std::string& text);
 
 }  // namespace grisaille::app

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: MIT
-// A camera as the command line gives it.
+// Parses a camera of the command line.
 #pragma once
 
 #include <string>
@@ -12,8 +12,8 @@ inline bool isInlineCamera(const std::string& text) {
   return text.starts_with('{');
 }
 
-// A camera file or, beginning with '{', what would be in one. `option` is for messages. Throws as
-// scene::parseCamera() and scene::loadCamera() do.
+// `text`: the path of a camera file or, if it begins with '{', the file's JSON. `option`: for
+// messages. Throws as scene::parseCamera() and scene::loadCamera() do.
 inline scene::Camera cameraOf(const std::string& text, const std::string& option) {
   return isInlineCamera(text) ? scene::parseCamera(text, option) : scene::loadCamera(text);
 }

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: MIT
-// Which device a command runs on, and what its driver or the validation says meanwhile.
+// Prints the device of a command, and the messages of its driver and of the validation.
 #pragma once
 
 #include <fmt/format.h>
@@ -11,7 +11,7 @@
 
 namespace grisaille::app {
 
-// The line by which a command says which device it took.
+// Prints one line: backend, device and driver.
 inline void printDevice(const gpu::DeviceInfo& info, std::FILE* file = stdout) {
   fmt::print(file, "{}: {} ({}){}\n", info.backend, info.name, info.driver,
              info.software ? ", software" : "");
@@ -20,7 +20,7 @@ inline void printDevice(const gpu::DeviceInfo& info, std::FILE* file = stdout) {
 
 class DriverMessages {
  public:
-  // Prints to standard error and counts; outlived by this.
+  // The sink prints to standard error and counts warnings and errors. It must not outlive this.
   gpu::MessageSink sink() {
     return [this](gpu::Severity severity, std::string_view text) {
       const bool info = severity == gpu::Severity::kInfo;
@@ -29,10 +29,11 @@ class DriverMessages {
     };
   }
 
-  // Throws kDriverMessages: a command that was to check must cause none. Once the device is gone.
+  // Throws kDriverMessages if the sink counted any message. Call it after the device is destroyed.
   void throwIfAny() const {
     if (count_ == 0) return;
-    throw Error(ErrorId::kDriverMessages, "{} messages of the driver or its validation", count_);
+    throw Error(ErrorId::kDriverMessages, "the driver or its validation printed {} messages",
+                count_);
   }
 
  private:

@@ -9,34 +9,39 @@ namespace grisaille::app {
 CLI::Option* EffectOptions::addTo(CLI::App& command, const std::string& help) {
   command.add_option("--backend", backend, "opengl or vulkan; default: the first that starts")
       ->type_name("NAME");
-  command.add_option("--device", device, "Number or part of the name, see `grisaille backends`")
+  command
+      .add_option("--device", device,
+                  "Number of a device or part of its name, see `grisaille backends`")
       ->type_name("N|NAME");
   effectsGiven =
       command
           .add_option(
               "--effects", effects,
-              "Effects in the order they run; default: those that `grisaille effects` marks")
+              "Effects, in the order they run; default: those that `grisaille effects` marks")
           ->type_name("KEY,...")
           ->delimiter(',')
           ->expected(0, 64);
   command
       .add_option("--preset", presets,
-                  "fast, balanced, fine or reference; --config and --set go over it")
+                  "fast, balanced, fine or reference; --config and --set override it")
       ->type_name("EFFECT=NAME")
       ->allow_extra_args(false);
-  command.add_option("--set", sets, "A parameter's value, see `grisaille effects`")
+  command.add_option("--set", sets, "Value of a parameter, see `grisaille effects`")
       ->type_name("EFFECT.PARAMETER=VALUE")
       ->allow_extra_args(false);
   command
-      .add_option("--config", config, "Settings: effects, surface and values; options go over it")
+      .add_option("--config", config,
+                  "Settings file: effects, surface and values; other options override it")
       ->type_name("FILE.toml");
-  surfaceGiven = command.add_option("--surface", surface, "What the light falls on in color")
-                     ->check(CLI::IsMember({"white", "base"}))
-                     ->capture_default_str();
-  command.add_option("--plugin-path", pluginPaths, "A further folder of effects")
+  surfaceGiven =
+      command.add_option("--surface", surface, "Surfaces in color: white, or their base colours")
+          ->check(CLI::IsMember({"white", "base"}))
+          ->capture_default_str();
+  command.add_option("--plugin-path", pluginPaths, "Another folder to load effects from")
       ->type_name("DIR")
       ->allow_extra_args(false);
-  command.add_flag("--check", check, "Validate every call, in the layer and in the driver");
+  command.add_flag("--check", check,
+                   "Validate every graphics call, in the rendering layer and in the driver");
   return command.add_option("--write", writes, help)
       ->type_name("NAME=FILE")
       ->allow_extra_args(false);

@@ -1,6 +1,5 @@
 // SPDX-License-Identifier: MIT
-// Which effects run, with what values, on which device, into which files: the options that `render`
-// and `apply` share.
+// The options that `render` and `apply` share: effects, their values, device and output files.
 #pragma once
 
 #include <CLI/CLI.hpp>
@@ -19,21 +18,22 @@ struct EffectOptions {
   std::vector<std::string> effects, presets, sets, writes, pluginPaths;
   std::string surface = "white", backend, device, config;
   bool check = false;
-  // Null before addTo(): whether the command line has them.
+  // The options, to tell whether the command line has them; null before addTo().
   const CLI::Option *effectsGiven = nullptr, *surfaceGiven = nullptr;
 
-  // This outlives the command. Returns --write, which has `help`.
+  // Adds the options to `command`, which keeps references to this. Returns --write, with `help` as
+  // its help text.
   CLI::Option* addTo(CLI::App& command, const std::string& help);
 };
 
-// The chain that options ask for.
+// The chain of effects that the options describe.
 struct ChosenEffects {
   std::unique_ptr<effect::Registry> registry;
   effect::Chain chain;
   frame::Surface surface = frame::Surface::kWhite;
 
-  // Presets, the file of settings, and single values go over one another in this order. Throws as
-  // what these are read by does.
+  // Applies presets, then the settings file, then single values; later ones override earlier ones.
+  // Throws as loadEffects(), readSettings(), chosenEffects() and Selection::set() do.
   explicit ChosenEffects(const EffectOptions& options);
 };
 

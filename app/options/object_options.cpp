@@ -30,10 +30,10 @@ objects::ObjectList& listOf(effect::Chain& chain, const std::string& effect) {
   if (chain.selection.find(effect) == nullptr) chain.selection.values(effect);  // throws
   objects::ObjectList* list = chain.objects(effect);
   if (list != nullptr) return *list;
-  throw Error(ErrorId::kEffectTakesNoObjects, "effect '{}' has no objects that users make", effect);
+  throw Error(ErrorId::kEffectTakesNoObjects, "effect '{}' has no objects", effect);
 }
 
-// What lies between commas.
+// Splits at commas.
 std::vector<std::string_view> partsOf(std::string_view text) {
   std::vector<std::string_view> parts;
   for (size_t at = 0; at <= text.size();) {
@@ -52,11 +52,11 @@ uint32_t pixelOf(std::string_view text, uint32_t size, const std::string& option
     throw Error(ErrorId::kUsage, "--add '{}' is not of the form {}", oneLine(option), kAddForm);
   }
   if (pixel < size) return pixel;
-  throw Error(ErrorId::kUsage, "--add '{}' is outside the picture, which has pixels 0 to {}",
+  throw Error(ErrorId::kUsage, "--add '{}' lies outside the picture; give a pixel from 0 to {}",
               oneLine(option), size - 1);
 }
 
-// "640,360,color=#ff8000": a pixel of the picture, from its top left corner, and fields.
+// Parses "640,360,color=#ff8000": a pixel, counted from the picture's top left corner, and fields.
 objects::Object placedObject(const std::string& option, std::string_view text,
                              const objects::Table& table, const scene::Camera& camera,
                              glm::uvec2 size, effect::RayService& rays) {
@@ -68,7 +68,7 @@ objects::Object placedObject(const std::string& option, std::string_view text,
   auto object =
       placedAt(glm::dvec2(pixel) + 0.5, size, camera, rays, table, objects::Object(table));
   if (!object) {
-    throw Error(ErrorId::kUsage, "--add '{}' is placed on a surface, and none is seen there",
+    throw Error(ErrorId::kUsage, "--add '{}': no surface is visible at this pixel; give another",
                 oneLine(option));
   }
   for (const std::string_view part : std::span(parts).subspan(2)) {
@@ -85,16 +85,17 @@ objects::Object placedObject(const std::string& option, std::string_view text,
 }  // namespace
 
 void ObjectOptions::addTo(CLI::App& command) {
-  command.add_option("--load", loads, "Objects of an effect, as a file that --save wrote")
+  command.add_option("--load", loads, "Load objects of an effect from a file that --save wrote")
       ->type_name("EFFECT=FILE.json")
       ->allow_extra_args(false);
   command
-      .add_option("--add", adds,
-                  "An object, after those of --load: placed at a pixel (from the top left), with "
-                  "values of its fields, or as it stands in a file; see `grisaille effects`")
+      .add_option(
+          "--add", adds,
+          "Add an object after those of --load: at a pixel, counted from the top left, with "
+          "values of its fields; or as the JSON of an object file; see `grisaille effects`")
       ->type_name("EFFECT=X,Y[,FIELD=VALUE...]|EFFECT={...}")
       ->allow_extra_args(false);
-  command.add_option("--save", saves, "Save an effect's objects")
+  command.add_option("--save", saves, "Save the objects of an effect to a file")
       ->type_name("EFFECT=FILE.json")
       ->allow_extra_args(false);
 }

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: MIT
-// The objects of a command: what --load, --add and --save say of the lists of a chain's effects.
+// The options --load, --add and --save, which fill and save the objects of a chain's effects.
 #pragma once
 
 #include <CLI/CLI.hpp>
@@ -18,21 +18,22 @@ struct ObjectOptions {
 
   void addTo(CLI::App& command);
 
-  // Throws kUsage, kEffectUnknown where an effect is not active, kEffectTakesNoObjects,
-  // kObjectFileEnding: what can be told before anything is loaded.
+  // Checks the options without loading a file. Throws kUsage, kEffectUnknown if an effect is not
+  // active, kEffectTakesNoObjects, kObjectFileEnding.
   void check(effect::Chain& chain) const;
 
-  // Throws kObject*.
+  // Adds the objects of --load. Throws kObject*.
   void load(effect::Chain& chain) const;
 
-  // Loads, then adds as seen from the camera in a picture of this size. Throws kObject*, kUsage.
+  // Calls load(), then adds the objects of --add. `camera` and `size` (pixels) place an object that
+  // names a pixel; `rays` find the surface there. Throws kObject*, kUsage.
   void apply(effect::Chain& chain, const scene::Camera& camera, glm::uvec2 size,
              effect::RayService& rays) const;
 
-  // What --save asks for. Throws as objects::save() does.
+  // Writes the files of --save. Throws as objects::save() does.
   void save(effect::Chain& chain) const;
 
-  // The files of --save, with their words.
+  // The files of --save, named for messages.
   std::vector<NamedOutput> outputs() const;
 };
 

@@ -11,7 +11,7 @@
 namespace grisaille::app {
 namespace {
 
-// Takes what CLI11 converts to a number afterwards.
+// Accepts the texts that CLI11 later converts to a number.
 std::optional<double> numberOf(const std::string& text) {
   char* end = nullptr;
   const double number = std::strtod(text.c_str(), &end);
@@ -19,7 +19,8 @@ std::optional<double> numberOf(const std::string& text) {
   return number;
 }
 
-// `allowed` is false for NaN. `kind` is for the message: "a number over 0".
+// `shown`: the range in the help. `kind`: for the message, e.g. "a number over 0". `allowed` must
+// return false for NaN.
 template <typename Allowed>
 CLI::Validator checkOf(const std::string& shown, const std::string& kind, Allowed allowed) {
   return {[kind, allowed](const std::string& text) {

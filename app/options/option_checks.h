@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: MIT
-// Checks of options' values, whose messages and help tell a range in few digits.
+// Validators of option values. Their messages and help texts print a range in few digits.
 #pragma once
 
 #include <CLI/CLI.hpp>
@@ -14,12 +14,12 @@ CLI::Validator numberFrom(double least, double most);
 // Whole numbers from `least` to `most`.
 CLI::Validator wholeNumberFrom(uint32_t least, uint32_t most);
 
-// Numbers over 0. `infinite`: whether "inf" is one of them.
+// Numbers over 0. `infinite`: whether "inf" is allowed.
 enum class Infinite : uint8_t { kRefused, kTaken };
 CLI::Validator positiveNumber(Infinite infinite = Infinite::kRefused);
 
-// Makes an empty value of any option of the command a mistake: a script's variable that is unset
-// must not stand for a default. The empty list of --effects is a choice and stays one.
+// Makes every option of the command refuse an empty value, so that an unset variable of a script
+// does not select a default. --effects still accepts an empty list.
 void refuseEmptyValues(CLI::App& command);
 
 }  // namespace grisaille::app

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: MIT
-// What to write where, as the command line gives it: NAME=FILE.
+// Output files of the command line: NAME=FILE.
 #pragma once
 
 #include <span>
@@ -15,20 +15,20 @@ struct OutputFile {
   std::string output, file;
 };
 
-// A file that a command is to write, with the words of the command line that name it.
+// A file that a command writes.
 struct NamedOutput {
-  std::string words;  // "--write ao=x.exr"
-  std::string file;   // "": none
+  std::string words;  // the option that names it, for messages: "--write ao=x.exr"
+  std::string file;   // "": no file
 };
 
-// Throws kUsage where two of these name the same file, by whatever path. Character devices, such as
-// /dev/null, take any number of outputs.
+// Throws kUsage if two outputs name the same file, even by different paths. Character devices, for
+// example /dev/null, accept any number of outputs.
 void requireDistinct(std::span<const NamedOutput> outputs);
 
-// With the words of --write.
+// The files of --write, named for messages.
 std::vector<NamedOutput> namedOutputs(std::span<const OutputFile> writes);
 
-// Throws Error(kUsage).
+// Parses NAME=FILE. Throws kUsage.
 inline OutputFile parseOutputFile(const std::string& text) {
   const size_t equals = text.find('=');
   if (equals == std::string::npos || equals == 0 || equals + 1 == text.size()) {
@@ -47,16 +47,16 @@ inline std::vector<OutputFile> parseOutputFiles(const std::vector<std::string>& 
   return writes;
 }
 
-// Writes what an effect or the scene put out. What is not finite is written as it is, for whoever
-// looks for the fault, and a warning says so.
+// Writes an output of the scene or of an effect. Values that are not finite are written unchanged,
+// so that the user can find the fault, and a warning counts them.
 inline void writeOutput(const image::Image& picture, const OutputFile& write,
                         const image::WriteOptions& options) {
   image::write(picture, write.file, options);
   const size_t odd = image::countNonFinite(picture);
   if (odd == 0) return;
   fmt::print(stderr,
-             "warning: {} holds {} values that are no finite numbers; `grisaille effects --verify "
-             "FILE` checks an effect's plugin\n",
+             "warning: {} holds {} values that are not finite; `grisaille effects --verify FILE` "
+             "checks the plugin of an effect\n",
              write.output, odd);
 }
 

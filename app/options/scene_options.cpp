@@ -12,9 +12,10 @@ void SceneOptions::addTo(CLI::App& command) {
   command.add_option("scene", scene, "A .gltf or .glb file; default: the built-in atrium");
   command
       .add_option("--camera", camera,
-                  "A camera file: JSON with eye, target, fovy_degrees; or that JSON itself")
+                  "A camera file (JSON with eye, target and fovy_degrees) or its JSON; default: "
+                  "a view of the scene")
       ->type_name("FILE|{...}");
-  command.add_option("--size", size, "Pixels; default: the camera's size, or else 1280x720")
+  command.add_option("--size", size, "Size in pixels; default: the camera's size, else 1280x720")
       ->type_name("WxH");
 }
 

@@ -7,9 +7,9 @@
 
 namespace grisaille::app {
 
-constexpr uint32_t kLargestSide = 16384;  // of a picture, pixels
+constexpr uint32_t kLargestSide = 16384;  // longest side of a picture, pixels
 
-// "1280x720". Throws kUsage.
+// Parses "1280x720". Throws kUsage.
 glm::uvec2 parseSize(const std::string& text);
 
 }  // namespace grisaille::app

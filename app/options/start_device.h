@@ -9,13 +9,13 @@
 
 namespace grisaille::app {
 
-// A device of the backend asked for or, where `backend` is "", of the first one that starts. Throws
-// as backends::create() does, and kNoDevice with every backend's reason.
+// Starts a device of `backend`; "": of the first backend that starts. Throws as backends::create()
+// does; for "", kNoDevice with the reason of every backend.
 std::unique_ptr<gpu::Device> startDevice(const std::string& backend,
                                          const gpu::DeviceOptions& options);
 
-// Starts a device of each backend and lets go of it: what is missing says so before work that takes
-// long. Throws as backends::create() does.
+// Starts and destroys a device of each backend, so that a missing device fails before slow work.
+// Throws as backends::create() does.
 void requireDevices(const std::vector<std::string>& backends, const std::string& device);
 
 // The backends that "opengl", "vulkan" or "both" names. Throws as backends::find() does.

@@ -29,10 +29,10 @@ std::string defaultOutput(const effect::Selection& selection) {
       return std::string(effect->key()) + "." + output.key;
     }
   }
-  throw Error(ErrorId::kUsage, "no effect has a visibility; name an --output");
+  throw Error(ErrorId::kUsage, "no effect has a visibility output; give --output");
 }
 
-// Where a view shows no surface there is no truth.
+// Sets the truth to NaN at pixels that see no surface.
 void onSurfacesAlone(study::View& view, std::span<const trace::Hit> hits) {
   for (size_t i = 0; i < hits.size(); ++i) {
     if (hits[i].viewDepth == 0) view.truth.pixels[i] = std::numeric_limits<float>::quiet_NaN();
@@ -44,37 +44,38 @@ void onSurfacesAlone(study::View& view, std::span<const trace::Hit> hits) {
 void SubjectOptions::addTo(CLI::App& command) {
   command
       .add_option("--camera", cameras,
-                  "Camera files, or their JSON itself; errors are averaged over them")
+                  "A camera file or its JSON; errors are averaged over all --camera")
       ->type_name("FILE|{...}")
       ->allow_extra_args(false);
-  command.add_option("--set", sets, "A parameter's value in all settings")
+  command.add_option("--set", sets, "Value of a parameter in all settings")
       ->type_name("EFFECT.PARAMETER=VALUE")
       ->allow_extra_args(false);
   command
       .add_option("--effects", effects,
-                  "Effects that run, in order; default: those that `grisaille effects` marks")
+                  "Effects, in the order they run; default: those that `grisaille effects` marks")
       ->delimiter(',')
       ->allow_extra_args(false);
   command.add_option("--output", output,
-                     "What is compared with the truth; default: the first visibility");
+                     "Output that is compared with the truth; default: the first visibility");
   command
       .add_option("--reference", references,
-                  "A picture that stands for the truth, one a camera, in their order; default: "
-                  "visibility, traced")
+                  "A picture to use as the truth, one per --camera, in the same order; default: "
+                  "trace the visibility")
       ->type_name("FILE")
       ->allow_extra_args(false);
   command
-      .add_option("--load", loads, "Objects of an effect, as `grisaille render --save` wrote them")
+      .add_option("--load", loads,
+                  "Load objects of an effect from a file that `grisaille render --save` wrote")
       ->type_name("EFFECT=FILE.json")
       ->allow_extra_args(false);
   command.add_option("--radius", radius, "Length of the truth's rays, metres")
       ->check(numberFrom(1e-6, 1e6))
       ->capture_default_str();
-  command.add_option("--samples", samples, "The truth's rays a pixel")
+  command.add_option("--samples", samples, "Number of the truth's rays per pixel")
       ->check(wholeNumberFrom(16, 65536))
       ->capture_default_str();
-  command.add_option("--size", size, "Pixels")->type_name("WxH")->capture_default_str();
-  command.add_option("--plugin-path", pluginPaths, "A further folder of effects")
+  command.add_option("--size", size, "Size in pixels")->type_name("WxH")->capture_default_str();
+  command.add_option("--plugin-path", pluginPaths, "Another folder to load effects from")
       ->type_name("DIR")
       ->allow_extra_args(false);
 }
@@ -109,7 +110,7 @@ LoadedSubject::LoadedSubject(const SubjectOptions& options,
   if (options.references.empty()) return;
   if (cameras_.empty()) cameras_.push_back({"default", {}, ""});
   if (options.references.size() != cameras_.size()) {
-    throw Error(ErrorId::kUsage, "there are {} --reference, and {} cameras",
+    throw Error(ErrorId::kUsage, "{} --reference for {} cameras; give one for each camera",
                 options.references.size(), cameras_.size());
   }
   for (size_t i = 0; i < cameras_.size(); ++i) cameras_[i].reference = options.references[i];

@@ -1,5 +1,6 @@
 // SPDX-License-Identifier: MIT
-// What is measured and against what: the options that `measure` and `tune` share.
+// The options that `measure` and `tune` share: scene, cameras, effects, and the truth to compare
+// them with.
 #pragma once
 
 #include <CLI/CLI.hpp>
@@ -16,18 +17,18 @@ struct SubjectOptions {
   std::string scene, size = "640x360", output;
   std::vector<std::string> cameras, references, loads, sets, effects, pluginPaths;
   double radius = 0.5;     // metres
-  uint32_t samples = 256;  // rays a pixel
+  uint32_t samples = 256;  // rays per pixel
   truth::ProgressStyle progress = truth::usualProgress();
 
   void addTo(CLI::App& command);
 };
 
-// A study's subject with all that it points to.
+// A study's subject, with the scene, effects and objects that it points to.
 class LoadedSubject {
  public:
-  // Checks the options, but loads neither the scene nor the truth: see trace(). `registry`: the
-  // effects of options.pluginPaths. `swept`: effects that run even if no option names them. Throws
-  // as what it loads does, and kUsage.
+  // Checks the options and loads objects and cameras; loadScene() and trace() load the rest.
+  // `registry`: the effects of options.pluginPaths. `swept`: effects that run even if no option
+  // names them. Throws kUsage, and the errors of cameras, objects, effects and their parameters.
   LoadedSubject(const SubjectOptions& options, std::unique_ptr<effect::Registry> registry,
                 const std::vector<std::string>& swept);
 
@@ -37,20 +38,21 @@ class LoadedSubject {
   const effect::Registry& registry() const { return *registry_; }
   const study::Subject& subject() const { return subject_; }
 
-  // Loads the scene and the cameras.
+  // Loads the scene, and takes its default camera if no option gives one.
   void loadScene();
 
   // Traces the truth of every camera, or takes it from the cache. Throws truth::Interrupted.
   void trace();
 
-  // Of one more camera. `bar` is the progress bar's name.
+  // Traces the truth of one more camera. `name`: the view's name. `bar`: name of the progress bar.
+  // Throws truth::Interrupted.
   study::View viewOf(const std::string& name, const scene::Camera& camera,
                      const std::string& bar) const;
 
-  // Text: all that results depend on but setting and backend.
+  // Everything that results depend on except setting and backend, as text. Call it after trace().
   std::string key() const;
 
-  // The command that makes a setting's picture of the first camera.
+  // The command line that renders a setting's picture from the first camera.
   std::string renderCommand(const study::SettingText& setting, const std::string& backend) const;
 
  private:
@@ -63,7 +65,7 @@ class LoadedSubject {
   struct Place {
     std::string name;
     scene::Camera camera;
-    std::string reference;  // a picture; "": traced
+    std::string reference;  // a picture file; "": trace the truth
   };
   study::View referenceOf(const Place& place) const;
 

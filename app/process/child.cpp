@@ -17,17 +17,18 @@
 namespace grisaille::app {
 namespace {
 
-constexpr std::chrono::milliseconds kLook(10);  // between two looks of who waits
+constexpr std::chrono::milliseconds kLook(10);  // polling interval of wait()
 
-// In the new process, where other threads' locks may be held for ever: nothing that takes one.
+// Runs in the new process after fork(), before exec. Locks of other threads may be held for ever
+// here: call no function that takes one.
 [[noreturn]] void become(char* const* words, int out, int err, pid_t parent) {
   prctl(PR_SET_PDEATHSIG, SIGTERM);
-  if (getppid() != parent) _exit(127);  // it has ended already
+  if (getppid() != parent) _exit(127);  // the parent ended before prctl()
   const int nothing = open("/dev/null", O_RDONLY);
   dup2(nothing, STDIN_FILENO);
   dup2(out, STDOUT_FILENO);
   dup2(err, STDERR_FILENO);
-  close_range(STDERR_FILENO + 1, ~0u, 0);  // the window's connections
+  close_range(STDERR_FILENO + 1, ~0u, 0);  // the display connections of the window
   execvp(words[0], words);
   const char* const why = strerrordesc_np(errno);
   for (const char* text : {static_cast<const char*>(words[0]), ": ", why, "\n"}) {
@@ -82,7 +83,7 @@ bool Child::running() {
   if (asked_ && Clock::now() - askedAt_ > kGrace) kill(process_, SIGKILL);
   int status = 0;
   const bool ended = waitpid(process_, &status, WNOHANG) != 0;
-  read();  // after that: what it wrote last is there
+  read();  // after waitpid(), to get the last output of an ended process
   if (!ended) return true;
   process_ = 0;
   status_ = WIFEXITED(status) ? WEXITSTATUS(status) : -1;

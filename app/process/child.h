@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: MIT
-// A program that runs beside the window. Nothing here waits for it unless its name says so.
+// A child process. Only wait() and the destructor wait for it.
 #pragma once
 
 #include <sys/types.h>
@@ -13,30 +13,30 @@ namespace grisaille::app {
 
 class Child {
  public:
-  // Words: the program, looked up in $PATH where it has no '/', and its arguments. It reads nothing
-  // and is asked to end when the thread that started it ends, however that comes about. One that
-  // cannot be started ends with status 127 and says why. Throws kUnexpected where there is no room
-  // for a process.
+  // `words`: the program, searched in $PATH if it has no '/', and its arguments. Its standard input
+  // is /dev/null. The kernel sends it SIGTERM when the thread that started it ends. A program that
+  // cannot be executed ends with status 127 and the reason in err(). Throws kUnexpected if the
+  // process cannot be created.
   explicit Child(std::vector<std::string> words);
-  ~Child();  // ends it and waits for that, kGrace at most
+  ~Child();  // calls end() and waits, about kGrace at most
   Child(const Child&) = delete;
   Child& operator=(const Child&) = delete;
 
-  // Takes up what it has written meanwhile.
+  // Whether the process still runs. Also reads its new output into out() and err().
   bool running();
 
-  // Asks it to end (SIGTERM). One that still runs after kGrace is killed by running().
+  // Sends SIGTERM. If the process still runs after kGrace, running() kills it.
   void end();
 
-  // Until it has ended by itself.
+  // Waits until the process has ended.
   void wait();
 
-  // Once it has ended: its exit status; -1: a signal ended it.
+  // The exit status of the ended process; -1: a signal ended it.
   int status() const { return status_; }
   // The signal that ended it; 0: none.
   int signal() const { return signal_; }
 
-  // What it has written until now.
+  // Output read so far.
   const std::string& out() const { return streams_[0].text; }
   const std::string& err() const { return streams_[1].text; }
 
@@ -45,12 +45,12 @@ class Child {
   static constexpr std::chrono::milliseconds kGrace{1000};
 
   struct Stream {
-    int file = -1;  // to read from
+    int file = -1;  // read end of the pipe
     std::string text = {};
   };
   void read();
 
-  pid_t process_ = 0;  // 0: it has ended
+  pid_t process_ = 0;  // 0: the process has ended
   int status_ = -1;
   int signal_ = 0;
   std::array<Stream, 2> streams_ = {};  // standard output, standard error

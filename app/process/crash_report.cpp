@@ -21,9 +21,9 @@ std::array<Handled, 5> handled = {{{.signal = SIGSEGV},
                                    {.signal = SIGFPE},
                                    {.signal = SIGILL},
                                    {.signal = SIGABRT}}};
-std::array<char, 65536> stack;  // a crash may be that of a stack that is full
+std::array<char, 65536> stack;  // the handler's own: the crash may be a stack overflow
 
-// A handler may write, and little else: no formatting, which takes memory.
+// write() is allowed in a signal handler; formatting, which allocates memory, is not.
 void say(const char* text) {
   if (write(STDERR_FILENO, text, std::strlen(text)) < 0) return;
 }
@@ -33,14 +33,15 @@ void tell(int signal, siginfo_t* info, void*) {
   if (call.effect != nullptr) {
     say("error E3107: ");
     say(call.effect);
-    say(" crashes in its ");
+    say(" crashed in its ");
     say(call.function);
-    say("(); repair the plugin, with what `grisaille effects --verify FILE` says of it\n");
+    say("(); check the plugin with `grisaille effects --verify FILE` and repair it\n");
   }
   for (const Handled& one : handled) {
     if (one.signal == signal) sigaction(signal, &one.before, nullptr);
   }
-  // What the processor raised comes again by itself; what somebody sent does not.
+  // A fault of the processor (si_code > 0) repeats when the handler returns; a sent signal does
+  // not.
   if (info->si_code <= 0) raise(signal);
 }
 

@@ -3,8 +3,9 @@
 
 namespace grisaille::app {
 
-// From then on, a crash inside of a plugin's function ends the program with a line that names both,
-// and then as it would have ended: by its signal, and with a core dump where there are any.
+// Installs the crash handler. If a plugin's function crashes, the handler prints a line with the
+// names of the effect and the function. The program then ends as without a handler: by the signal,
+// with a core dump if the system writes them.
 void nameCrashes();
 
 }  // namespace grisaille::app

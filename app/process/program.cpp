@@ -19,11 +19,11 @@
 namespace grisaille::app {
 namespace {
 
-constexpr int kUsageStatus = 2;  // of E5101, whoever finds the mistake
+constexpr int kUsageStatus = 2;  // exit status of E5101, from CLI11 or from a command
 
-// A stream that is closed at the start becomes /dev/null: a file that is opened later would else
-// take its number, and messages would go into that file. Standard output becomes one that cannot be
-// written, since a table that nobody gets is an error.
+// Opens /dev/null for each standard stream that is closed at the start. Otherwise a file opened
+// later would get the stream's descriptor, and messages would go into that file. Standard output is
+// opened read-only: printing a table that nobody can read must fail.
 void occupyClosedStreams() {
   constexpr int kModes[] = {O_RDONLY, O_RDONLY, O_WRONLY};
   for (const int stream : {STDIN_FILENO, STDOUT_FILENO, STDERR_FILENO}) {
@@ -31,24 +31,24 @@ void occupyClosedStreams() {
   }
 }
 
-// Tables go there: a full disk behind it must not pass for success.
+// Throws if standard output failed: a table cut off by a full disk is not a success.
 void requireStandardOutput() {
   errno = 0;
   if (std::fflush(stdout) == 0 && std::ferror(stdout) == 0) return;
   throw Error(ErrorId::kFileUnwritable, "standard output: {}",
               errno == EBADF ? "it is closed"
               : errno != 0   ? std::strerror(errno)
-                             : "not all of it was taken");
+                             : "not all of it was written");
 }
 
-// What fmt throws where it prints to a file that takes no more is no fault of the program's.
+// An exception of fmt while standard output fails is a write error, not a fault of the program.
 Error asError(const std::exception& error) {
   const bool printing = std::ferror(stdout) != 0;
   if (printing) return {ErrorId::kFileUnwritable, fmt::format("standard output: {}", error.what())};
   return {ErrorId::kUnexpected, error.what()};
 }
 
-// Not by fmt::print(), which throws where standard error takes no more.
+// Does not use fmt::print(), which throws if standard error cannot be written.
 void tell(const Error& error) {
   std::fputs(error.what(), stderr);
   std::fputc('\n', stderr);
@@ -60,7 +60,7 @@ int run(CLI::App& program, int argc, char** argv) {
   try {
     program.parse(argc, argv);
   } catch (const CLI::ParseError& error) {
-    // Help and version come this way too, with status 0.
+    // --help and --version are parse errors of CLI11 too, with status 0.
     status = program.exit(error) == 0 ? 0 : kUsageStatus;
   }
   if (status == 0) requireStandardOutput();
@@ -72,7 +72,7 @@ int run(CLI::App& program, int argc, char** argv) {
 int runProgram(int argc, char** argv, const ProgramDesc& desc) {
   occupyClosedStreams();
   nameCrashes();
-  signal(SIGXFSZ, SIG_IGN);  // a limit of files' sizes is an error of the write, and has a line
+  signal(SIGXFSZ, SIG_IGN);  // over the limit of file sizes, write() fails and causes an error line
   CLI::App program(desc.description, desc.name);
   program.set_version_flag("--version", desc.version);
   program.require_subcommand(1);

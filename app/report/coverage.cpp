@@ -41,7 +41,7 @@ std::vector<ColorShare> colorShares(const image::Image& owner, const image::Imag
     for (uint32_t x = 0; x < depth.width; ++x) {
       const double z = depth.at(x, y);
       if (z <= 0) continue;
-      // Its length is 1 along the view direction.
+      // The ray has a length of 1 along the view direction.
       const glm::dvec3 ray =
           scene::pixelDirection(camera, depth.width, depth.height, glm::dvec2(x + 0.5, y + 0.5));
       const glm::dvec3 n(normal.at(x, y, 0), normal.at(x, y, 1), normal.at(x, y, 2));

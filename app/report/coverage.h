@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: MIT
-// Which colour holds how much of what the picture shows, where an effect's objects have colours.
+// Measures how much of the visible surface the objects of each colour cover.
 #pragma once
 
 #include <optional>
@@ -15,32 +15,36 @@
 
 namespace grisaille::app {
 
-// The outputs that tell which of an effect's objects lies where, by their whole names, and the
-// field that holds an object's colour.
+// An effect's overlay and owner outputs, by their full names ("EFFECT.OUTPUT"), and the field that
+// holds an object's colour.
 struct Owned {
   std::string effect, overlay, owner;
   const grisaille_field_desc* colour = nullptr;
 };
 
-// The first effect that has all of them; none: there is none.
+// The first effect with an overlay, an owner output and a colour field; none: no effect has all.
 std::optional<Owned> findOwned(std::span<const effect::Effect* const> effects);
 
 struct ColorShare {
-  std::string color;  // "#rrggbb", sRGB; "none": no object's
+  std::string color;  // "#rrggbb", sRGB; "none": surface without an object
   double share = 0;   // of the visible surface's area, 0 ... 1
 };
 
-// The greatest share first, "none" last. Of one size: whose each pixel is (1 + index of the object,
-// 0: nobody's), the overlay's alpha in the fourth channel, view depth in metres (0: sky, which is
-// no surface), world normals. A pixel counts as the area of surface that it shows, where the
-// surface is seen at more than 84 degrees from its normal as if at 84: a sliver does not decide a
-// game.
+// Returns the largest share first, "none" last. Pictures, all of one size:
+//
+//   owner    1 + index of the object at the pixel; 0: no object
+//   overlay  alpha in the fourth channel
+//   depth    view depth, metres; 0: sky, which does not count as surface
+//   normal   world space
+//
+// A pixel weighs as much as the surface area that it shows. Angles of view over 84 degrees from the
+// normal count as 84 degrees, so that thin slivers do not dominate.
 std::vector<ColorShare> colorShares(const image::Image& owner, const image::Image& overlay,
                                     const image::Image& depth, const image::Image& normal,
                                     const scene::Camera& camera, const objects::View& objects,
                                     const objects::Field& colour);
 
-// With the header color,share.
+// CSV with the header "color,share".
 std::string coverageCsv(std::span<const ColorShare> shares);
 
 }  // namespace grisaille::app

@@ -36,7 +36,7 @@ const char* typeName(const objects::Field& field) {
   return kNames[field.type];
 }
 
-// "0 ... 1000000 m", or the type where it has no range of its own.
+// "0 ... 1000000 m"; for a field without a range, its type.
 std::string rangeText(const objects::Field& field) {
   if (field.type != GRISAILLE_FIELD_NUMBER) return typeName(field);
   return fmt::format("{} ... {}{}{}", field.min, field.max, *field.unit != 0 ? " " : "",
@@ -54,7 +54,7 @@ std::string placementText(const objects::Table& table) {
   return table.placement == GRISAILLE_PLACE_RAY
              ? fmt::format("placing sets {} to the camera's eye, {} to the pixel's ray", point,
                            direction)
-             : fmt::format("placing sets {} to the surface that is seen, {} to its normal", point,
+             : fmt::format("placing sets {} to the visible surface, {} to its normal", point,
                            direction);
 }
 
@@ -77,7 +77,8 @@ nlohmann::ordered_json jsonOf(const objects::Table& table) {
   return json;
 }
 
-// With its defaults, for all outputs; an effect that cannot tell does not keep the others from it.
+// The attachments that an effect reads with its defaults, for all outputs. If reads() fails, the
+// error's text, so that the other effects are still listed.
 std::string readsText(const effect::Effect& effect) {
   std::vector<double> defaults;
   for (const grisaille_param_desc& param : effect.params()) defaults.push_back(param.default_value);
@@ -119,16 +120,16 @@ std::string valuesText(const Preset& preset) {
   return text;
 }
 
-// A line each; where the file cannot be read, why not.
+// One line per preset; if the presets file cannot be read, one line with the reason.
 std::string presetsText(const effect::Effect& effect) {
   std::string text;
   try {
     const Presets presets = loadPresets(effect);
     for (const Preset& preset : presets.all) {
-      text += fmt::format("  preset {:<10} error {:.4f}, cost {:.2f} of balanced: {}\n",
-                          preset.name, preset.error, preset.cost, valuesText(preset));
+      text += fmt::format("  preset {:<10} error {:.4f}, cost {:.2f} x balanced: {}\n", preset.name,
+                          preset.error, preset.cost, valuesText(preset));
     }
-    if (!presets.all.empty()) text += fmt::format("  presets by {}\n", presets.study);
+    if (!presets.all.empty()) text += fmt::format("  source of the presets: {}\n", presets.study);
   } catch (const Error& error) {
     text = fmt::format("  no presets: {}\n", error.what());
   }
@@ -160,8 +161,8 @@ std::string effectsText(const effect::Registry& registry) {
   for (const effect::Effect& effect : registry.effects()) {
     const bool runs = std::ranges::count(defaults, effect.key()) > 0;
     text += fmt::format("{} {}: {}\n  {}{}\n  reads {}\n", effect.desc->key, effect.desc->version,
-                        effect.desc->tooltip, runs ? "runs where no effects are named\n  " : "",
-                        effect.path, readsText(effect));
+                        effect.desc->tooltip, runs ? "runs by default\n  " : "", effect.path,
+                        readsText(effect));
     for (const grisaille_param_desc& param : effect.params()) {
       text +=
           fmt::format("  {:<14} {:<10} {:<32} {}\n", param.key,

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: MIT
-// The effects' own tables as text: for people, for programs, for the manual.
+// Prints the tables of effects: as text for people, as JSON for programs, as Markdown for manuals.
 #pragma once
 
 #include <string>
@@ -11,7 +11,8 @@ namespace grisaille::app {
 std::string effectsText(const effect::Registry& registry);
 std::string effectsJson(const effect::Registry& registry);
 
-// One effect's parameters and outputs as two Markdown tables.
+// Markdown tables of one effect: parameters, outputs, and fields of objects and presets if the
+// effect has them. Throws as loadPresets() does.
 std::string effectMarkdown(const effect::Effect& effect);
 
 }  // namespace grisaille::app

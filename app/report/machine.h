@@ -5,7 +5,7 @@
 
 namespace grisaille::app {
 
-// The processor and how many of it, as the system tells: what a measurement says it was made on.
+// Names the machine of a measurement: processor, number of hardware threads, system and release.
 std::string machineName();
 
 }  // namespace grisaille::app

@@ -36,9 +36,8 @@ std::string timingsDoubt(std::span<const gpu::FrameTimes> frames) {
   }
   if (doubtful == 0) return "";
   return fmt::format(
-      "in {} of {} frames the passes' times differ from the frame's by more than 5 % (at most "
-      "{:.0f} "
-      "%); work outside passes, or a busy machine",
+      "in {} of {} frames, the sum of the passes' times differs from the frame's time by more than "
+      "5 % (at most {:.0f} %); the frame has work outside passes, or the machine is busy",
       doubtful, frames.size(), worst * 100);
 }
 

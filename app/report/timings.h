@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: MIT
-// --timings: what every pass of every frame took, as CSV.
+// --timings: the time of every pass of every frame, as CSV.
 #pragma once
 
 #include <span>
@@ -9,12 +9,12 @@
 
 namespace grisaille::app {
 
-// Header "frame,effect,pass,milliseconds,clock". A pass labelled "ssao/blur" is effect "ssao", pass
-// "blur".
+// CSV with the header "frame,effect,pass,milliseconds,clock". A pass labelled "ssao/blur" has the
+// effect "ssao" and the pass "blur"; a label without '/' has the effect "".
 std::string timingsCsv(std::span<const gpu::FrameTimes> frames, gpu::Clock clock);
 
-// A sentence when the passes of any frame sum to something that differs from its whole by more than
-// 5 %, else "".
+// A warning if, in any frame, the sum of the passes' times differs from the frame's time by more
+// than 5 %; else "".
 std::string timingsDoubt(std::span<const gpu::FrameTimes> frames);
 
 }  // namespace grisaille::app

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: MIT
-// Objects placed with the pointer, as their table says.
+// Places objects at a pixel, by the placement rule of their table.
 #pragma once
 
 #include <glm/glm.hpp>
@@ -11,9 +11,10 @@
 
 namespace grisaille::app {
 
-// `object` with the point and the direction that placing it at a pixel of a picture of `size` sets;
-// `point`: pixels from the picture's top left corner. None: nothing is seen there that it could be
-// placed on.
+// Returns `object` with its point field and its direction field set. With surface placement, they
+// are the surface point seen at `point` and its normal; with ray placement, the camera's eye and
+// the direction of the ray through `point`. `point`: pixels from the top left corner of a picture
+// of `size` pixels. None: surface placement, and no surface is visible at `point`.
 std::optional<objects::Object> placedAt(glm::dvec2 point, glm::uvec2 size,
                                         const scene::Camera& camera, effect::RayService& rays,
                                         const objects::Table& table, objects::Object object);

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: MIT
-// What effects may ask of the program: rays through the scene, and decoded picture files.
+// Services of the program for effects: ray casts through the scene, and decoded picture files.
 #pragma once
 
 #include <functional>
@@ -14,10 +14,10 @@
 
 namespace grisaille::app {
 
-// Embree's scene is built with the first rays.
+// Casts rays with Embree. The first cast() builds Embree's scene.
 class SceneRays : public effect::RayService {
  public:
-  // `scene` outlives this and stays unchanged.
+  // `scene` must outlive this and must not change.
   explicit SceneRays(const scene::Scene& scene) : scene_(scene) {}
 
   void cast(std::span<const grisaille_ray> rays, std::span<grisaille_hit> hits) override {
@@ -30,12 +30,12 @@ class SceneRays : public effect::RayService {
   std::optional<trace::RayTracer> tracer_;
 };
 
-// Who hears of a warning; by default it is printed on standard error.
+// Receives a warning. printWarning() prints it to standard error.
 using Warn = std::function<void(const std::string&)>;
 void printWarning(const std::string& text);
 
-// Any format that OpenImageIO reads, of up to 16384 pixels a side. A file that cannot be read is
-// warned of once, and read again whenever an effect asks.
+// Reads any format of OpenImageIO, up to 16384 pixels a side. A file that cannot be read causes one
+// warning; every later call tries to read it again.
 class PictureFiles : public effect::PictureService {
  public:
   explicit PictureFiles(Warn warn) : warn_(std::move(warn)) {}
@@ -43,8 +43,8 @@ class PictureFiles : public effect::PictureService {
 
  private:
   Warn warn_;
-  image::Image8 picture_;         // the last one
-  std::set<std::string> warned_;  // of these paths
+  image::Image8 picture_;         // the last picture read
+  std::set<std::string> warned_;  // paths with a warning
 };
 
 class SceneServices {

@@ -8,8 +8,9 @@
 
 namespace grisaille::app {
 
-// These effects, on, in this order, with the values of presets ("EFFECT=NAME") beneath those of the
-// settings. Throws kEffectUnknown, kEffectTwice, and as applyPresets() and applySettings() do.
+// Selects the effects `keys`, all on, in this order. Values of the settings override those of the
+// presets ("EFFECT=NAME"). Throws kEffectUnknown, kEffectTwice, and as applyPresets() and
+// applySettings() do.
 effect::Selection chosenEffects(const effect::Registry& registry,
                                 const std::vector<std::string>& keys,
                                 const std::vector<std::string>& presets, const Settings& settings);

@@ -14,7 +14,7 @@ namespace {
 double numberOf(const toml::table& table, const char* key, const std::string& place) {
   const auto value = table[key].value<double>();
   if (!value || !(*value >= 0)) {
-    throw Error(ErrorId::kPresetFile, "{}: '{}' is not a number of 0 or more", place, key);
+    throw Error(ErrorId::kPresetFile, "{}: '{}' must be a number of 0 or more", place, key);
   }
   return *value;
 }
@@ -26,7 +26,8 @@ Preset presetFrom(const effect::Effect& effect, const std::string& name, const t
                 .cost = numberOf(table, "cost", place),
                 .values = {}};
   const toml::table* values = table["values"].as_table();
-  if (values == nullptr) throw Error(ErrorId::kPresetFile, "{}: no values", place);
+  if (values == nullptr)
+    throw Error(ErrorId::kPresetFile, "{}: the table 'values' is missing", place);
   effect::Values checked(effect);
   for (const auto& [key, node] : *values) {
     try {
@@ -45,7 +46,7 @@ const Preset& Presets::find(const std::string& effect, const std::string& name) 
   const auto found = std::ranges::find(all, name, &Preset::name);
   if (found != all.end()) return *found;
   if (all.empty()) throw Error(ErrorId::kPresetUnknown, "effect '{}' has no presets", effect);
-  throw Error(ErrorId::kPresetUnknown, "effect '{}' has no preset '{}', but {}", effect, name,
+  throw Error(ErrorId::kPresetUnknown, "effect '{}' has no preset '{}', only {}", effect, name,
               fmt::join(kPresetNames, ", "));
 }
 
@@ -67,7 +68,8 @@ Presets loadPresets(const effect::Effect& effect) {
   presets.study = table["study"].value_or(std::string());
   for (const char* name : kPresetNames) {
     const toml::table* own = table[name].as_table();
-    if (own == nullptr) throw Error(ErrorId::kPresetFile, "{} lacks '{}'", path, name);
+    if (own == nullptr)
+      throw Error(ErrorId::kPresetFile, "{}: the table '{}' is missing", path, name);
     presets.all.push_back(
         presetFrom(effect, name, *own, fmt::format("{}:{}", path, own->source().begin.line)));
   }

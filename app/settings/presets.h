@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: MIT
-// Presets of an effect, each with its price: a file beside the plugin, KEY.presets.toml, that a
-// study wrote.
+// Presets of an effect, each with its error and cost. A study writes them to KEY.presets.toml
+// beside the plugin.
 //
 //   study = "where the numbers come from, in a sentence"
 //   [fast]
@@ -23,8 +23,9 @@ inline constexpr const char* kPresetNames[] = {"fast", "balanced", "fine", "refe
 struct Preset {
   std::string name;  // of kPresetNames
   double error = 0;
-  double cost = 0;  // as a multiple of what `balanced` costs
-  std::vector<std::pair<std::string, std::string>> values;  // key and text; others: the defaults
+  double cost = 0;  // as a multiple of the cost of `balanced`
+  // Key and value as text. Parameters that are not listed have their defaults.
+  std::vector<std::pair<std::string, std::string>> values;
 };
 
 struct Presets {
@@ -37,29 +38,29 @@ struct Presets {
 
 std::filesystem::path presetsFile(const effect::Effect& effect);
 
-// None where there is no such file. Throws kPresetFile, also where a value does not fit the
-// effect's table.
+// Reads the presets file; no presets if it does not exist. Throws kPresetFile if the file is
+// damaged or a value does not fit the effect's table.
 Presets loadPresets(const effect::Effect& effect);
 
-// What loadPresets() reads back.
+// The text of a file that loadPresets() reads.
 std::string presetsToml(const Presets& presets);
 
-// Sets an effect's values: those of the preset, and the defaults of the parameters that another
-// one names. Throws kPresetUnknown.
+// Sets the values of the preset, and the defaults of parameters that only other presets name.
+// Throws kPresetUnknown.
 void applyPreset(effect::Values& values, const Presets& presets, const std::string& name);
 
-// The parameters that a search may change: those that the presets name, and the others that the
-// panel does not fold away.
+// The parameters that a search may change: those that a preset names, and all that are not
+// advanced.
 std::vector<const grisaille_param_desc*> tunable(const effect::Effect& effect,
                                                  const Presets& presets);
 
-// The first preset that would change nothing; null: the values are another setting.
+// The first preset that matches the values; null: none does.
 const Preset* presetOf(const effect::Values& values, const Presets& presets);
 
 // "error 0.106, cost 0.54 x balanced"
 std::string priceOf(const Preset& preset);
 
-// "ssao=balanced", one after the other. Throws kUsage, kEffectUnknown where the effect is not
+// Applies "EFFECT=NAME" assignments in order. Throws kUsage, kEffectUnknown if the effect is not
 // active, kPresetUnknown, kPresetFile.
 void applyPresets(const std::vector<std::string>& assignments, effect::Selection& selection);
 

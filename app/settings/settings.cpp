@@ -26,7 +26,7 @@ std::vector<std::string> effectKeys(const std::string& path, const toml::node& n
     }
   }
   if (array == nullptr) {
-    throw Error(ErrorId::kSettingsInvalid, "{}: 'effects' is not an array of strings",
+    throw Error(ErrorId::kSettingsInvalid, "{}: 'effects' must be an array of strings",
                 placeOf(path, node));
   }
   return keys;
@@ -35,7 +35,7 @@ std::vector<std::string> effectKeys(const std::string& path, const toml::node& n
 std::string surfaceOf(const std::string& path, const toml::node& node) {
   const toml::value<std::string>* surface = node.as_string();
   if (surface == nullptr || (surface->get() != "white" && surface->get() != "base")) {
-    throw Error(ErrorId::kSettingsInvalid, "{}: 'surface' is neither \"white\" nor \"base\"",
+    throw Error(ErrorId::kSettingsInvalid, "{}: 'surface' must be \"white\" or \"base\"",
                 placeOf(path, node));
   }
   return surface->get();
@@ -49,10 +49,11 @@ std::string keyToml(const std::string& key) {
   return !key.empty() && std::ranges::all_of(key, bare) ? key : tomlText(key);
 }
 
-// The values of one effect, each once.
+// The table of one effect. If a parameter has several values, the last one counts.
 std::string tableToml(const Settings& settings, const std::string& effect) {
   if (effect == "effects" || effect == "surface") {
-    throw Error(ErrorId::kSettingsInvalid, "effect '{}' cannot have a table of its own", effect);
+    throw Error(ErrorId::kSettingsInvalid,
+                "effect '{}' has the name of a reserved key of settings files", effect);
   }
   std::vector<const Settings::Value*> values;
   for (const Settings::Value& value : settings.values) {
@@ -91,7 +92,7 @@ Settings readSettings(const std::string& path) {
       }
     } else {
       throw Error(ErrorId::kSettingsInvalid,
-                  "{}: '{}' is neither 'effects', 'surface' nor an effect's table",
+                  "{}: '{}' is neither 'effects' nor 'surface' nor the table of an effect",
                   placeOf(path, node), key.str());
     }
   }

@@ -15,18 +15,19 @@
 namespace grisaille::app {
 namespace {
 
-// As effect::Values::text() gives it: the shortest that reads back to the same number.
+// Same as effect::Values::text(): the shortest text that reads back to the same number.
 std::string numberText(double value) {
   std::array<char, 32> text;
   return {text.data(), std::to_chars(text.data(), text.data() + text.size(), value).ptr};
 }
 
 constexpr size_t kLargestFile = size_t{1} << 20;
-// Each part of a dotted key is a table in a table, which toml++ ends by recursion without a limit.
-// (Lists and tables in braces it refuses by itself from 256 on.)
+// Each part of a dotted key is a nested table. toml++ destroys nested tables recursively without a
+// limit. (It refuses arrays and inline tables from a depth of 256 on.)
 constexpr size_t kMostKeyParts = 16;
 
-// The end of the string whose first quote is at `at`; of a line where it is not closed.
+// The end of the string with its first quote at `at`. A one-line string that is not closed ends
+// with its line.
 size_t endOfString(std::string_view text, size_t at) {
   const char quote = text[at];
   const std::string three(3, quote);
@@ -37,7 +38,7 @@ size_t endOfString(std::string_view text, size_t at) {
     } else if (!isLong && (text[at] == quote || text[at] == '\n')) {
       return at + 1;
     } else if (isLong && text.substr(at).starts_with(three)) {
-      // Up to two more quotes are the string's own.
+      // Up to two quotes before the closing three belong to the string.
       const size_t end = std::min(text.find_first_not_of(quote, at + 3), at + 5);
       return std::min(end, text.size());
     }
@@ -60,7 +61,7 @@ void checkKeys(std::string_view text, const std::string& path) {
       dots = 0;
     }
     if (dots >= kMostKeyParts) {
-      throw Error(ErrorId::kSettingsUnreadable, "{}:{}: a key has over {} parts", path, line,
+      throw Error(ErrorId::kSettingsUnreadable, "{}:{}: a key has more than {} parts", path, line,
                   kMostKeyParts);
     }
     line += static_cast<size_t>(std::ranges::count(text.substr(at, end - at), '\n'));
@@ -86,7 +87,7 @@ std::string tomlNodeText(const toml::node& node, std::string_view key, const std
   if (const auto* value = node.as_floating_point()) return numberText(value->get());
   if (const auto* value = node.as_boolean()) return value->get() ? "true" : "false";
   if (const auto* value = node.as_string()) return value->get();
-  throw Error(ErrorId::kSettingsInvalid, "{}: '{}' is not a number, a boolean or a string", place,
+  throw Error(ErrorId::kSettingsInvalid, "{}: '{}' must be a number, a boolean or a string", place,
               key);
 }
 
@@ -102,7 +103,7 @@ std::string tomlValue(const std::string& text) {
   const auto [end, status] = std::from_chars(text.data(), text.data() + text.size(), value);
   const bool whole = status == std::errc() && end == text.data() + text.size();
   if (!whole || !std::isfinite(value) || numberText(value) != text) return tomlText(text);
-  // TOML's whole numbers have 64 bits and no -0.
+  // TOML integers have 64 bits and no -0.
   const bool floating = text.find_first_of(".e") != std::string::npos;
   const bool integer = !floating && std::abs(value) < 9e18 && text != "-0";
   return floating || integer ? text : text + ".0";

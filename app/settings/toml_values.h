@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: MIT
-// Values of parameters in TOML files, as text on the one side and TOML on the other.
+// Converts parameter values between text and TOML.
 #pragma once
 
 #include <toml++/toml.h>
@@ -9,15 +9,15 @@
 
 namespace grisaille::app {
 
-// A number, boolean or string as effect::Values::set() takes it. Throws kSettingsInvalid with
-// `place` for anything else.
+// The text of a number, boolean or string, for effect::Values::set(). Throws kSettingsInvalid with
+// `place` for any other node. `key`: for the message.
 std::string tomlNodeText(const toml::node& node, std::string_view key, const std::string& place);
 
-// Parses a file. Throws kSettingsUnreadable where it cannot be read, is too large to be a person's
-// or is no TOML, with the line.
+// Parses a file. Throws kSettingsUnreadable, with the line where possible, if the file cannot be
+// read, is larger than 1 MiB, has a key of too many parts or is not TOML.
 toml::table parseTomlFile(const std::string& path);
 
-// The text as TOML: a number or a boolean where that reads back to the same text, else a string.
+// The text as TOML: a number or a boolean if it reads back to the same text, else a string.
 std::string tomlValue(const std::string& text);
 
 // The text as a TOML string.

@@ -28,14 +28,14 @@ std::map<std::string, double> medianCosts(std::span<const Record> records) {
   return medians;
 }
 
-// The same in all.
+// Throws kUsage unless all settings are of one and the same effect.
 void requireOneEffect(std::span<const Choice> choices) {
   std::set<std::string> effects;
   for (const Choice& choice : choices) {
     for (const effect::Assignment& one : choice.setting) effects.insert(one.name.effect);
   }
   if (effects.size() != 1) {
-    throw Error(ErrorId::kUsage, "--presets: the settings are of {} effects, not of one",
+    throw Error(ErrorId::kUsage, "--presets needs settings of one effect; --out holds {} effects",
                 effects.size());
   }
 }
@@ -81,7 +81,7 @@ std::vector<Choice> choicesOf(std::span<const Record> records) {
 
 std::vector<size_t> presetsOn(std::span<const Price> front) {
   if (front.size() < std::size(kPresetNames)) {
-    throw Error(ErrorId::kFrontSmall, "the front has {} settings; presets take at least {}",
+    throw Error(ErrorId::kFrontSmall, "the front has {} settings; presets need at least {}",
                 front.size(), std::size(kPresetNames));
   }
   const size_t reference = front.size() - 1;

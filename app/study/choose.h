@@ -12,36 +12,44 @@
 
 namespace grisaille::app::study {
 
-// One setting, over all backends that measured it: the mean of their errors, and the geometric mean
-// of their costs, each as a multiple of the median cost on its backend, since milliseconds of two
-// drivers do not add.
+// One setting over all backends. `price.error`: mean of the backends' errors. `price.cost`:
+// geometric mean of the backends' costs, each as a multiple of the median cost on its backend,
+// since milliseconds of different drivers do not add up.
 struct Choice {
   SettingText setting;
   Price price;
 };
 
-// Those settings that every backend of the records has measured, in the order of the records.
+// The settings that every backend of the records has measured, in the order of the records.
 std::vector<Choice> choicesOf(std::span<const Record> records);
 
-// A front without the settings that are not worth their price, which err less than the next cheaper
-// one that stays by under a hundredth; and, of those left, without those than which the next dearer
-// one that stays costs less than kDistinct more, since clocks do not tell these apart. `front`: as
-// frontOf() gives it.
+// Thins out a front, in two steps:
+//
+// - It drops a setting unless its error is below kWorth times that of the next cheaper kept
+// setting.
+// - It then drops a setting if the next dearer kept setting costs at most kDistinct times as much:
+//   clocks do not tell these two apart.
+//
+// `front`: indices into `prices`, from frontOf().
 constexpr double kWorth = 0.99, kDistinct = 1.08;
 std::vector<size_t> thinned(std::span<const Price> prices, std::span<const size_t> front);
 
-// Indices into a front (by cost, ascending) of kPresetNames. `reference` errs least, at any cost;
-// `fine` is the dearest that costs at most 1 / kReferenceRatio of it, and going down from there
-// each is the dearest that costs at most 1 / kPresetRatio of what the one above may cost. Where
-// nothing is so cheap they are spread evenly over the front. (Knees of the front would be the
-// natural choice, but a front is nearly straight in error and logarithm of cost, and its knees jump
-// from one end to the other with the noise of the clock.) Throws kFrontSmall for fewer than four
-// points.
+// Chooses a point of a front (ascending cost) for each of kPresetNames, and returns its index.
+//
+// - `reference`: the least error, at any cost.
+// - `fine`: the dearest point that costs at most 1 / kReferenceRatio of `reference`.
+// - `balanced`, then `fast`: the dearest point within 1 / kPresetRatio of the limit of the preset
+//   above.
+//
+// A preset with no point below its limit takes its place in an even spread over the front. (Knees
+// of the front would be the natural choice, but a front is nearly straight in error and logarithm
+// of cost. Its knees jump from one end to the other with the noise of the clock.) Throws
+// kFrontSmall for fewer than four points.
 constexpr double kReferenceRatio = 3, kPresetRatio = 2.6;
 std::vector<size_t> presetsOn(std::span<const Price> front);
 
-// Writes the presets of the one effect that the settings are of. Throws kFrontSmall, kUsage where
-// they are of several effects, kFileUnwritable.
+// Chooses the presets of an effect from the records and writes the presets file. Throws
+// kFrontSmall, kUsage if the settings are not all of one effect, kFileUnwritable.
 void writePresets(std::span<const Record> records, const std::string& file);
 
 }  // namespace grisaille::app::study

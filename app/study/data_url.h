@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: MIT
-// Pictures inside a page.
+// Data URLs, for pictures inside an HTML page.
 #pragma once
 
 #include <cstddef>
@@ -9,7 +9,7 @@
 
 namespace grisaille::app::study {
 
-// A file of a type ("image/png") as the text that an <img> takes for its source.
+// The contents of a file as a data URL. `type`: its MIME type, e.g. "image/png".
 std::string dataUrl(std::string_view type, std::span<const std::byte> file);
 
 }  // namespace grisaille::app::study

@@ -11,8 +11,8 @@ namespace grisaille::app::study {
 void checkPathSize(const std::string& name, size_t frames, glm::uvec2 size) {
   const uint64_t pixels = uint64_t{frames} * size.x * size.y;
   if (pixels > kMostPathPixels) {
-    throw Error(ErrorId::kUsage, "{}: {} frames of {}x{} are {} pixels, and {} is the most", name,
-                frames, size.x, size.y, pixels, kMostPathPixels);
+    throw Error(ErrorId::kUsage, "{}: {} frames of {}x{} are {} pixels; at most {} are possible",
+                name, frames, size.x, size.y, pixels, kMostPathPixels);
   }
 }
 

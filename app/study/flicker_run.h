@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: MIT
-// How much a setting flickers along a camera path: trace::flicker() of what it shows.
+// Measures how much a setting flickers along a camera path, with trace::flicker().
 #pragma once
 
 #include <functional>
@@ -12,22 +12,22 @@
 
 namespace grisaille::app::study {
 
-// Frames times pixels of a path: each takes some 130 bytes of memory.
+// Limit of frames times pixels of a path. Each pixel takes about 130 bytes of memory.
 constexpr uint64_t kMostPathPixels = 1 << 24;
 
-// Throws kUsage where the path has more pixels than that; `name` is for the message.
+// Throws kUsage if the path exceeds kMostPathPixels. `name`: for the message.
 void checkPathSize(const std::string& name, size_t frames, glm::uvec2 size);
 
-// The truth of one camera, as truth::traceOcclusion() has it: one channel, NaN where there is no
-// surface. `ao` is empty. Throws Interrupted.
+// Traces the truth of one camera with truth::traceOcclusion(): one channel, NaN at pixels without a
+// surface. Leaves `ao` empty. `radius`: metres. `samples`: rays per pixel. Throws Interrupted.
 trace::FlickerFrame traceFrame(const scene::Scene& scene, const scene::Camera& camera,
                                glm::uvec2 size, double radius, uint32_t samples,
                                truth::ProgressStyle progress);
 
-// What a setting shows of a camera, one channel.
+// Renders a setting from a camera. Returns one channel.
 using ShowCamera = std::function<image::Image(const scene::Camera&)>;
 
-// Shows every frame and keeps the pictures as the frames' `ao`.
+// Renders every frame into its `ao`, and returns the flicker.
 trace::Flicker flickerAlong(std::vector<trace::FlickerFrame>& frames, const ShowCamera& show);
 
 }  // namespace grisaille::app::study

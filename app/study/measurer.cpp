@@ -9,7 +9,7 @@
 namespace grisaille::app::study {
 namespace {
 
-// Where there is a surface; elsewhere a copy of what it is compared with.
+// Copies `picture`; pixels with a truth that is not finite (no surface) become `elsewhere`.
 image::Image onSurfaces(const image::Image& picture, const image::Image& truth, float elsewhere) {
   image::Image result = picture;
   for (size_t i = 0; i < result.pixels.size(); ++i) {
@@ -23,11 +23,12 @@ image::Image onSurfaces(const image::Image& picture, const image::Image& truth, 
 image::Image oneChannel(image::Image picture, const std::string& name) {
   const size_t odd = image::countNonFinite(picture);
   if (odd > 0) {
-    throw Error(ErrorId::kEffectOutput, "{} holds {} values that are no finite numbers", name, odd);
+    throw Error(ErrorId::kEffectOutput, "{} holds {} values that are not finite", name, odd);
   }
   if (picture.channels == 1) return picture;
   if (picture.channels != 4) {
-    throw Error(ErrorId::kSettingsInvalid, "output '{}' has {} channels, not 1 or 4", name,
+    throw Error(ErrorId::kSettingsInvalid,
+                "'{}' has {} channels; give an output or a picture of 1 or 4", name,
                 picture.channels);
   }
   for (size_t i = 0; i < picture.pixels.size() / 4; ++i) {

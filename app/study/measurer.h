@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: MIT
-// Renders settings of effects and tells how far each is from the truth and what it costs.
+// Renders settings of effects, and measures the error and the cost of each.
 #pragma once
 
 #include <functional>
@@ -13,58 +13,61 @@
 #include "core/frame/renderer.h"
 #include "core/image/image.h"
 #include "core/scene/camera.h"
+#include "core/scene/scene.h"
 
 namespace grisaille::app::study {
 
-// One camera with what is right there.
+// One camera with its truth.
 struct View {
-  std::string name;  // as it was given
+  std::string name;  // for reports
   scene::Camera camera;
-  image::Image truth;  // one channel; NaN where there is no surface
-  double noise = 0;    // the truth's own rms standard error
+  image::Image truth;  // one channel; NaN at pixels without a surface
+  double noise = 0;    // rms standard error of the truth
 };
 
+// The scene, cameras and effects that a study measures.
 struct Subject {
   const scene::Scene* scene = nullptr;
   std::vector<View> views;
   glm::uvec2 size = glm::uvec2(640, 360);
   const effect::Registry* registry = nullptr;
-  std::vector<std::string> effects;                 // that run, in order
-  std::vector<effect::Assignment> sets;             // beneath a setting's values
-  std::string output;                               // that is compared with the truth
+  std::vector<std::string> effects;                 // in the order they run
+  std::vector<effect::Assignment> sets;             // a setting's values override them
+  std::string output;                               // the output to compare with the truth
   std::map<std::string, objects::Objects> objects;  // by effect
 };
 
-// One channel of an output: the only one, or of four the last, which is alpha. Throws
-// kSettingsInvalid where there are others.
+// Returns the only channel of an output, or the last of four, which is alpha. Throws kEffectOutput
+// if a value is not finite, kSettingsInvalid for any other number of channels.
 image::Image oneChannel(image::Image picture, const std::string& name);
 
-// Milliseconds a frame that the passes of these effects took, as their own labels name them, and
-// what they add to drawing the scene: frame::shareForEffects(); `guardShare` is
-// frame::guardShare()'s. 0: no frames.
+// Mean cost of `effects` per frame, milliseconds: the passes with labels "EFFECT/...", and the
+// effects' share of the passes that draw the scene, see frame::shareForEffects(). `guardShare`:
+// from frame::guardShare(). Returns 0 if there are no frames.
 double costOf(const std::vector<gpu::FrameTimes>& frames, const std::vector<std::string>& effects,
               double guardShare);
 
 class Measurer {
  public:
-  // Both outlive this. The device measures times.
+  // `subject` and `device` must outlive this. The device must measure pass times.
   Measurer(const Subject& subject, gpu::Device& device);
 
-  // The chain with a setting's values, started: pipelines are created with the first frame. Throws
-  // as Selection::set() and Chain::start() do.
+  // Starts a chain with the values of a setting. The first frame creates its pipelines. Throws as
+  // Selection::set() and Chain::start() do.
   std::unique_ptr<effect::Chain> start(const Setting& setting);
 
-  // The output as a camera sees it, as oneChannel() takes it.
+  // Renders the output from a camera. Returns its oneChannel().
   image::Image show(effect::Chain& chain, const scene::Camera& camera);
 
-  // Of each view, what is shown there.
+  // Receives the rendered picture of each view.
   using Seen = std::function<void(const View& view, const image::Image& shown)>;
 
-  // One a view. The truth's noise is taken out of rmse: its square is less the truth's squared
-  // standard error, which is what independent errors add. Throws as show() does.
+  // The errors of each view. The rmse excludes the truth's noise: the truth's squared standard
+  // error is subtracted from the squared rmse, since squares of independent errors add up. Throws
+  // as show() does.
   std::vector<CameraErrors> errors(effect::Chain& chain, const Seen& seen = {});
 
-  // Of the effects' passes, the mean of the views, milliseconds.
+  // Cost of the effects, mean over the views, milliseconds; see costOf().
   double cost(effect::Chain& chain);
 
  private:

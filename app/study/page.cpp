@@ -15,8 +15,8 @@ namespace fs = std::filesystem;
 using nlohmann::json;
 namespace {
 
-// A study's pictures as the page holds them, hundreds: small, and good enough to be looked at. ""
-// where there is no such file.
+// The picture as a JPEG data URL, small because a page holds hundreds of pictures. "" if the file
+// does not exist.
 std::string pictureUrl(const fs::path& file) {
   constexpr int kQuality = 85;
   if (!fs::exists(file)) return "";
@@ -71,7 +71,7 @@ std::string pageOf(const fs::path& folder, std::span<const Record> records) {
   std::string data =
       json{{"records", all}, {"kinds", kinds}, {"truth", pictureUrl(truthPictureOf(folder))}}
           .dump();
-  // Nothing in it may end the script element.
+  // The data must not contain "</script>", which would end the script element.
   for (size_t at = 0; (at = data.find("</", at)) != std::string::npos; at += 3) {
     data.replace(at, 2, "<\\/");
   }

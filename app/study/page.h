@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: MIT
-// A study as one page that needs nothing besides itself, and as JSON.
+// A study as one self-contained HTML page, and as JSON.
 #pragma once
 
 #include <filesystem>
@@ -10,11 +10,11 @@
 
 namespace grisaille::app::study {
 
-// All records as JSON, without pictures; those on their backend's front say so.
+// All records as JSON, without pictures. Records on the front of their backend have "front": true.
 std::string resultsOf(std::span<const Record> records);
 
-// HTML (page.html with the data put in): the plot of cost against error, each point's pictures,
-// numbers and command line.
+// page.html with the data filled in: a plot of cost against error, and the pictures, numbers and
+// command line of each point. `folder`: the study's folder, for the pictures.
 std::string pageOf(const std::filesystem::path& folder, std::span<const Record> records);
 
 }  // namespace grisaille::app::study

@@ -16,7 +16,8 @@ constexpr double kClearance = 0.01;  // of the scene's diagonal
 constexpr double kFarthest = 1e6;    // metres
 constexpr double kSteepest = 0.35;   // radians up or down
 
-// [0, 1), the same on every machine, which std::uniform_real_distribution is not bound to be.
+// A number in [0, 1), the same on every machine; std::uniform_real_distribution does not promise
+// that.
 double unit(std::mt19937& random) {
   return static_cast<double>(random()) / 4294967296.0;
 }
@@ -71,7 +72,7 @@ class Finder {
       if (hit.viewDepth < clearance_) return false;
       ++surfaces;
       if (hit.viewDepth > 3 * clearance_) ++far;
-      // To just before what is seen: only the back of something can be in between.
+      // A ray to just before the visible point can only hit the back of a surface.
       const glm::dvec3 way = hit.position - camera.eye;
       rays.push_back(rayOf(camera.eye, glm::normalize(way), 0.99 * glm::length(way)));
     }

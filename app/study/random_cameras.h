@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: MIT
-// Cameras drawn at random inside a scene, where the view isn't blocked.
+// Draws random cameras inside a scene, at places with a free view.
 #pragma once
 
 #include <cstdint>
@@ -10,12 +10,17 @@
 
 namespace grisaille::app::study {
 
-// At most `count`, fewer where so many tries find no more; each seed draws the same ones always.
-// An eye stands in free space: half of all directions meet the scene at least, none closer than a
-// hundredth of the scene's diagonal; a view looks level or somewhat up or down, sees surfaces on
-// three quarters of the picture at least, half of them farther than three times that distance, and
-// hardly any through the back of something, as from inside of a wall.
-// `like` gives angle, near plane and size.
+// Returns at most `count` cameras; fewer if 400 tries per camera find no more. A seed always gives
+// the same cameras. `like`: gives angle of view, near plane and size. Every camera satisfies:
+//
+// - At least half of all directions from the eye hit the scene, none of them closer than 1/100 of
+//   the scene's diagonal.
+// - The view is level, or looks up or down by at most 0.35 radians.
+// - Surfaces cover at least three quarters of the picture, all of them beyond that distance and
+// half
+//   of them beyond three times that distance.
+// - At most 5 % of these surfaces are seen through the back of another surface, as from the inside
+//   of a wall.
 std::vector<scene::Camera> randomCameras(const scene::Scene& scene, const scene::Camera& like,
                                          size_t count, uint32_t seed);
 

@@ -92,8 +92,8 @@ std::optional<Record> load(const fs::path& file) {
   try {
     const json j = json::parse(*stream);
     if (j.at("version") != kVersion) {
-      throw Error(ErrorId::kStudyRecord, "{} is of version {}, not {}", file.string(),
-                  j.at("version").dump(), kVersion);
+      throw Error(ErrorId::kStudyRecord, "{} has version {}; this program reads version {}",
+                  file.string(), j.at("version").dump(), kVersion);
     }
     Record r;
     r.study = j.at("study");

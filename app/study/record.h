@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: MIT
-// What a study knows of one setting on one backend: a file of its own in the study's folder,
-// written aside after every step, so that an interruption loses the step in progress alone and the
-// parts of a study that was split are put together by putting their files together.
+// The measurements of one setting on one backend, in a file of its own in the study's folder. The
+// file is written atomically after every step, so that an interruption loses only the step in
+// progress. To join the parts of a study, copy their files into one folder.
 #pragma once
 
 #include <filesystem>
@@ -13,45 +13,47 @@
 
 namespace grisaille::app::study {
 
-// Against the truth of one camera, over the pixels that see a surface.
+// Errors against the truth of one camera, over the pixels that see a surface.
 struct CameraErrors {
-  std::string camera;  // as it was given
+  std::string camera;  // name of the view
   double rmse = 0, meanAbsolute = 0, bias = 0, percentile99 = 0, ssim = 0;
 
   bool operator==(const CameraErrors&) const = default;
 };
 
-// 0: there are none.
+// The median; 0 if there are no values.
 double medianOf(const std::vector<double>& values);
 
 struct Record {
-  std::string study;  // all that results depend on but setting and backend
+  std::string study;  // everything that results depend on except setting and backend
   SettingText setting;
   std::string backend, device, driver, clock;
   std::string machine, commit;
-  std::string command;               // that makes its picture of the first camera
-  std::vector<CameraErrors> errors;  // one a camera, once they are known
-  std::vector<double> milliseconds;  // the effects' passes, mean of the cameras, one a round
-  // Along the study's camera path, where it has one: trace::Flicker's rms and error.
+  std::string command;               // command line that renders the picture of the first camera
+  std::vector<CameraErrors> errors;  // one per camera; empty: not measured yet
+  std::vector<double> milliseconds;  // cost of the effects, mean of the cameras; one per round
+  // trace::Flicker's rms and error along the study's camera path; none: no path, or not measured
+  // yet.
   std::optional<double> flicker, pathRmse;
 
   bool operator==(const Record&) const = default;
 
   double rmse() const;    // mean of the cameras
-  double cost() const;    // median, milliseconds; 0: none yet
-  double spread() const;  // from the first quartile to the third, milliseconds
+  double cost() const;    // median, milliseconds; 0: not measured yet
+  double spread() const;  // distance of the first and third quartile, milliseconds
 };
 
 // DIR/records/<hash of study, setting, backend>.json
 std::filesystem::path fileOf(const std::filesystem::path& folder, const Record& record);
 
+// Writes fileOf(). Throws kFileUnwritable.
 void save(const std::filesystem::path& folder, const Record& record);
 
-// None: there is no file, or it is of another study. Throws kStudyRecord where it is damaged
-// or no regular file.
+// Reads a record; none if the file does not exist. Throws kStudyRecord if the file is damaged, not
+// a regular file or of another version.
 std::optional<Record> load(const std::filesystem::path& file);
 
-// All of a folder, by the name of their files.
+// All records of a study's folder, in the order of their file names. Throws as load() does.
 std::vector<Record> loadAll(const std::filesystem::path& folder);
 
 }  // namespace grisaille::app::study

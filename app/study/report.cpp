@@ -16,7 +16,7 @@ namespace grisaille::app::study {
 namespace fs = std::filesystem;
 namespace {
 
-// Of one backend, for a plot: cost, error.
+// Plot data for gnuplot: cost and error of each chosen record.
 std::string rows(std::span<const Record> records, const std::vector<size_t>& chosen) {
   std::string text;
   for (const size_t i : chosen)
@@ -24,7 +24,7 @@ std::string rows(std::span<const Record> records, const std::vector<size_t>& cho
   return text + "e\n";
 }
 
-// No price: the record is another backend's, or not whole.
+// One price per record. The cost is 0 for records of other backends and incomplete records.
 std::vector<Price> pricesOn(std::span<const Record> records, const std::string& backend) {
   std::vector<Price> prices;
   for (const Record& r : records) {
@@ -34,7 +34,7 @@ std::vector<Price> pricesOn(std::span<const Record> records, const std::string& 
   return prices;
 }
 
-// A script that draws both pictures.
+// A gnuplot script that draws front.svg and front.png; "" if nothing is measured.
 std::string plotScript(const fs::path& folder, std::span<const Record> records) {
   constexpr const char* kColours[] = {"#0072B2", "#D55E00"};
   std::string script =
@@ -73,7 +73,7 @@ std::string plotScript(const fs::path& folder, std::span<const Record> records) 
   return script;
 }
 
-// The mean of a record's cameras.
+// The mean errors over a record's cameras.
 CameraErrors meanOf(const Record& r) {
   CameraErrors mean;
   for (const CameraErrors& e : r.errors) {
@@ -87,7 +87,7 @@ CameraErrors meanOf(const Record& r) {
   return mean;
 }
 
-// Every parameter that a setting names, in the order they first come.
+// Every parameter that a setting names, in the order of first occurrence.
 std::vector<std::string> parametersOf(std::span<const Record> records) {
   std::vector<std::string> names;
   for (const Record& r : records) {
@@ -172,7 +172,7 @@ std::vector<size_t> paretoFront(std::span<const Record> records, const std::stri
 
 std::vector<Kind> kindsOf(std::span<const Record> records) {
   std::vector<std::pair<std::vector<std::string>, Kind>> kinds;
-  std::vector<SettingText> shared;  // of each kind
+  std::vector<SettingText> shared;  // the values that all settings of a kind share
   const auto keepShared = [](SettingText& all, const SettingText& one) {
     std::erase_if(all, [&](const auto& value) { return !std::ranges::count(one, value); });
   };
@@ -222,7 +222,7 @@ void writeReport(const fs::path& folder) {
   writeFileAtomically(file.string(), script);
   const std::string command = "gnuplot " + shellQuoted(file.string());
   if (std::system(command.c_str()) != 0) {
-    fmt::print(stderr, "note: no plots: gnuplot fails or is not installed\n");
+    fmt::print(stderr, "note: no plots: gnuplot failed or is not installed\n");
   }
 }
 

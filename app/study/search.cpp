@@ -8,12 +8,13 @@
 namespace grisaille::app::study {
 namespace {
 
-// Shares of a parameter's usual range.
+// Steps as shares of a parameter's soft range.
 constexpr double kFirstStep = 0.25;
 constexpr double kLastStep = 0.03;
-// Costs that differ by less are the same.
+// Costs that differ by a smaller share count as equal.
 constexpr double kSameCost = 0.02;
-// Until it is known: an error of 0.01 is worth a fifth of the cost.
+// The rate of cost (logarithm) per error until it is measured: an error of 0.01 is worth a fifth of
+// the cost.
 constexpr double kFirstRate = 20;
 constexpr int kMostRounds = 8;
 
@@ -35,7 +36,8 @@ class Search {
     at_ = found_.best;
     screen();
     for (double step = kFirstStep; step >= kLastStep && goesOn(); step /= 2) {
-      // Rates change from place to place, so that steps could go round in circles.
+      // The rate differs from point to point, and steps could go round in circles: limit the
+      // rounds.
       for (int round = 0; round < kMostRounds && goesOn(); ++round) {
         settle(step);
         if (!exchange(step)) break;
@@ -47,11 +49,11 @@ class Search {
   }
 
  private:
-  // What the steps along an axis have changed so far, at most.
+  // The largest changes that a step along an axis has made so far.
   struct Effect {
     double error = 0;
-    double cost = 0;     // of its logarithm
-    int direction = -1;  // that paid last
+    double cost = 0;     // of the logarithm of the cost
+    int direction = -1;  // the last direction that paid
   };
 
   bool goesOn() {
@@ -67,8 +69,8 @@ class Search {
     if (found_.starts++ == 0 || isBetter(start, found_.best, wish_)) found_.best = start;
   }
 
-  // The neighbour of where the search stands, with its cost unless `ruledOut(error)`; none where it
-  // is ruled out, is no other point, or the search is to end.
+  // Evaluates the neighbour of at_ along an axis. Does not measure its cost if `ruledOut(error)`.
+  // None: the neighbour is ruled out, is at_ itself, or the search must end.
   template <typename RuledOut>
   std::optional<Evaluated> look(size_t axis, double step, int direction, const RuledOut& ruledOut) {
     Point point = at_.point;
@@ -94,8 +96,8 @@ class Search {
     return next;
   }
 
-  // One large step along each axis either way, to learn what each does; the one that moves the cost
-  // most is the axis that the others are paid for with.
+  // Takes one large step along each axis in either direction, to learn its effect. The axis that
+  // changes the cost most becomes the paying axis: it pays for changes of the others.
   void screen() {
     for (size_t axis = 0; axis < axes_.size(); ++axis) {
       for (const int direction : {-1, 1}) {
@@ -114,14 +116,14 @@ class Search {
     }
   }
 
-  // The rate at which the paying axis trades cost for error, where a step along it does.
+  // Updates the rate at which the paying axis trades cost for error, if this step traded them.
   void learn(size_t axis, const Evaluated& next) {
     if (axis != payer_) return;
     const double rate = -std::log(next.cost / at_.cost) / (next.error - at_.error);
     if (std::isfinite(rate) && rate > 0) rate_ = rate;
   }
 
-  // Along the paying axis to the best place that the wish allows.
+  // Moves along the paying axis to the best point that the wish allows.
   void settle(double step) {
     for (const int direction : {-1, 1}) {
       while (const auto next = look(payer_, step, direction, [](double) { return false; })) {
@@ -133,7 +135,8 @@ class Search {
     if (meets(found_.best, wish_) && !meets(at_, wish_)) at_ = found_.best;
   }
 
-  // Steps along the other axes that the paying axis can more than pay for; whether there was one.
+  // Takes the steps along the other axes that cost less than the paying axis gains by them. Returns
+  // whether it took any.
   bool exchange(double step) {
     bool paid = false;
     for (size_t axis = 0; axis < axes_.size() && goesOn(); ++axis) {
@@ -157,7 +160,7 @@ class Search {
       return error >= at_.error && effects_[axis].cost < kSameCost;
     };
     while (const auto next = look(axis, step, direction, ruledOut)) {
-      // An axis that leaves the cost alone is not charged for the clock's noise.
+      // If an axis does not change the cost, measured differences are noise of the clock.
       const double ratio = effects_[axis].cost < kSameCost ? 0 : std::log(next->cost / at_.cost);
       if (ratio + rate_ * (next->error - at_.error) >= 0) break;
       at_ = *next;
@@ -197,7 +200,7 @@ double stepped(const grisaille_param_desc& param, double value, double step, int
     const auto count = static_cast<double>(param.enum_count);
     return std::fmod(value + direction + count, count);
   }
-  // The usual range, but from where the value is if that is outside.
+  // The soft range, extended to the value if that is outside.
   const double low = std::min(param.soft_min, value), high = std::max(param.soft_max, value);
   double next = 0;
   if ((param.flags & GRISAILLE_PARAM_LOG) != 0 && low > 0) {

@@ -1,14 +1,15 @@
 // SPDX-License-Identifier: MIT
-// Finds the cheapest setting under an error, or the most accurate under a cost, in few evaluations:
-// a pattern search (Hooke and Jeeves 1961, "'Direct Search' Solution of Numerical and Statistical
-// Problems"), which changes one parameter at a time and goes on in a direction that paid. The
-// parameter that moves the cost most (kernel size, say) is found first and pays for the others: it
-// is moved until the wish is just met, which tells at what rate cost buys error there, and a step
-// of another parameter is taken where it buys error cheaper than that.
+// Finds the cheapest setting within an error, or the most accurate one within a cost, in few
+// evaluations. It is a pattern search (Hooke and Jeeves 1961, "'Direct Search' Solution of
+// Numerical and Statistical Problems"): it changes one parameter at a time and continues in a
+// direction that paid. It first finds the parameter that changes the cost most (kernel size, for
+// example), which then pays for the others. The search moves it until the wish is just met. This
+// shows the rate at which cost buys accuracy there. A step of another parameter is taken if it buys
+// accuracy at a lower rate.
 //
-// Why not a grid: with p parameters of v values each, a grid is v^p settings, most of which are
-// wrong in every parameter at once. What a search costs grows with the number of parameters, not
-// with its power, and a step that the error alone rules out has its cost never measured.
+// Why not a grid: with p parameters of v values each, a grid has v^p settings, and most of them are
+// wrong in every parameter at once. The cost of this search grows linearly with p. It does not
+// measure the cost of a step that the error alone rules out.
 #pragma once
 
 #include <functional>
@@ -27,13 +28,13 @@ struct Axis {
   const grisaille_param_desc* param = nullptr;
 };
 
-// A value an axis, in the parameters' own units.
+// One value per axis, in the unit of its parameter.
 using Point = std::vector<double>;
 
-// One of them is given.
+// The goal of a search. Exactly one of the two is above 0.
 struct Wish {
-  double maxError = 0;
-  double budget = 0;  // milliseconds
+  double maxError = 0;  // RMSE
+  double budget = 0;    // milliseconds
 };
 
 struct Evaluated {
@@ -42,13 +43,13 @@ struct Evaluated {
   double cost = 0;  // milliseconds; 0: never measured
 };
 
-// How the search learns of settings. A cost is measured in turns with that of a setting whose cost
-// is known, so that what disturbs the machine falls on both.
+// Evaluates settings for the search. costBeside() measures a cost in turns with that of a setting
+// of known cost, so that other load of the machine affects both.
 struct Oracle {
   std::function<double(const Point&)> error;
   std::function<double(const Point&)> cost;
   std::function<double(const Point& point, const Evaluated& known)> costBeside;
-  std::function<bool()> stop;  // asked before each evaluation
+  std::function<bool()> stop;  // called before each evaluation; true ends the search
 };
 
 struct Found {
@@ -56,24 +57,28 @@ struct Found {
   bool meetsWish = false;
   bool stopped = false;
   size_t starts = 0;      // evaluations of the starting points
-  size_t steps = 0;       // further ones
-  size_t costsSaved = 0;  // of these, whose cost nobody had to know
+  size_t steps = 0;       // all other evaluations
+  size_t costsSaved = 0;  // steps that the error alone ruled out, with no cost measured
 };
 
-// Begins at the best of `starts` (at least one) and ends when no step of the smallest size helps,
-// or after so many evaluations.
+// Starts at the best of `starts` (at least one). Ends when no step of the smallest size helps,
+// after `mostEvaluations`, or when Oracle::stop returns true.
 Found search(const std::vector<Axis>& axes, const std::vector<Point>& starts, const Wish& wish,
              const Oracle& oracle, size_t mostEvaluations);
 
-// Whether `a` is what is wished for rather than `b`. One that meets the wish goes before one that
-// does not. Under an error, the cheaper, and of two that cost the same within 2 %, a clock's
-// repeatability, the more accurate; under a budget, the more accurate. Where neither meets it, the
-// one that is nearer to it.
+// Whether `a` fulfils the wish better than `b`:
+//
+// - If only one of them meets the wish, that one is better.
+// - If both meet a maximal error, the cheaper one is better. If their costs agree within 2 %, the
+//   repeatability of a clock, the more accurate one is better.
+// - If both meet a budget, the more accurate one is better.
+// - If neither meets the wish, the one nearer to it is better.
 bool isBetter(const Evaluated& a, const Evaluated& b, const Wish& wish);
 
-// The next value of a parameter from `value`, `step` times its usual range up or down (-1, 1): on a
-// logarithmic scale where the parameter's is. Whole numbers move by 1 at least. `value` itself
-// where there is no further one. Enumerations and switches go to the next or the last one, around.
+// The next value of a parameter from `value`: `step` times its soft range up or down (`direction` 1
+// or -1), on a logarithmic scale if the parameter has one. Whole numbers move by at least 1.
+// Enumerations and booleans move by one entry and wrap around. Returns `value` at the end of the
+// range.
 double stepped(const grisaille_param_desc& param, double value, double step, int direction);
 
 }  // namespace grisaille::app::study

@@ -55,7 +55,7 @@ void Study::writePictures(const Record& record, const View& view, const image::I
                errorMapOf(desc_.folder, record).string());
   if (fs::exists(truthPictureOf(desc_.folder))) return;
   image::Image truth = view.truth;
-  for (float& value : truth.pixels) value = std::isnan(value) ? 1 : value;  // the sky is open
+  for (float& value : truth.pixels) value = std::isnan(value) ? 1 : value;  // sky: visibility 1
   image::write(truth, truthPictureOf(desc_.folder).string());
 }
 
@@ -84,7 +84,7 @@ void Study::measureFlicker(Job& job) {
 void Study::measureCost(Job& job) {
   if (!job.chain) {
     job.chain = measurer_.start(job.setting);
-    measurer_.cost(*job.chain);  // pipelines are made outside the clock
+    measurer_.cost(*job.chain);  // creates the pipelines, outside the measurement
   }
   job.record.milliseconds.push_back(measurer_.cost(*job.chain));
   save(desc_.folder, job.record);

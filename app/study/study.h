@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: MIT
-// Measures every setting of a grid: its error against the truth of each camera, once, and its cost,
-// round by round over all settings (A B C A B C ...), so that what disturbs the machine is shared.
+// Measures every setting of a grid: the error against the truth of each camera once, and the cost
+// in rounds over all settings (A B C A B C ...), so that other load of the machine affects all
+// alike.
 #pragma once
 
 #include <filesystem>
@@ -17,26 +18,27 @@ namespace grisaille::app::study {
 
 struct StudyDesc {
   Subject subject;
-  // A camera path's frames, whose pictures the study fills in; null: no flicker is measured.
+  // The frames of a camera path; the study fills in their `ao`. Null: flicker is not measured.
   std::vector<trace::FlickerFrame>* path = nullptr;
-  std::string key;  // all that results depend on but setting and backend
+  std::string key;  // everything that results depend on except setting and backend
   std::string machine, commit;
   uint32_t rounds = 5;
   std::filesystem::path folder;
-  // The command that makes a setting's picture from the first camera.
+  // Returns the command line that renders a setting's picture from the first camera.
   std::function<std::string(const SettingText&, const std::string& backend)> commandOf;
 };
 
-// What is done of all that there is to do, in renderings of all views.
+// Receives the progress: steps done, of all steps. A step renders all views, or the camera path.
 using Told = std::function<void(size_t done, size_t all)>;
 
 class Study {
  public:
-  // All outlive this.
+  // `desc` and `device` must outlive this. Reads the records that the folder holds; throws as
+  // load() does.
   Study(const StudyDesc& desc, gpu::Device& device, std::vector<Setting> settings);
 
-  // Begins where the folder's records end; `stop` is asked before each step. False where it
-  // stopped.
+  // Continues from the folder's records, and saves a record after each step. Calls `stop` before
+  // each step; returns false if `stop` returned true.
   bool run(const Told& told, const std::function<bool()>& stop);
 
  private:
@@ -56,11 +58,11 @@ class Study {
   std::vector<Job> jobs_;
 };
 
-// Pictures of a record: what it shows of the first view, and how that differs from the truth: blue
-// where it is too dark, orange where it is too bright, full at 0.25.
+// The picture files of a record, for the first view: the picture, and its error against the truth
+// (blue: too dark, orange: too bright, full colour at 0.25).
 std::filesystem::path pictureOf(const std::filesystem::path& folder, const Record& record);
 std::filesystem::path errorMapOf(const std::filesystem::path& folder, const Record& record);
-// The truth of the first view.
+// The picture file of the first view's truth.
 std::filesystem::path truthPictureOf(const std::filesystem::path& folder);
 
 }  // namespace grisaille::app::study

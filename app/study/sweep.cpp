@@ -22,7 +22,7 @@ Sweep parseSweep(const effect::Registry& registry, const std::string& text) {
     values.set(sweep.name.key, text.substr(from, end - from));
     const double value = values.get(sweep.name.key);
     if (std::ranges::find(sweep.values, value) != sweep.values.end()) {
-      throw Error(ErrorId::kUsage, "--sweep '{}' names {} twice", text,
+      throw Error(ErrorId::kUsage, "--sweep '{}' names the value {} twice", text,
                   values.text(sweep.name.key));
     }
     sweep.values.push_back(value);
@@ -48,7 +48,8 @@ std::vector<Setting> gridOf(const std::vector<Sweep>& sweeps) {
         std::ranges::any_of(grid[0], [&](const auto& v) { return v.name == sweep.name; });
     if (twice) throw Error(ErrorId::kUsage, "{} is swept twice", sweep.name.text());
     if (grid.size() * sweep.values.size() > kMostSettings) {
-      throw Error(ErrorId::kUsage, "the sweeps make more than {} settings", kMostSettings);
+      throw Error(ErrorId::kUsage, "the sweeps give more than {} settings; sweep fewer values",
+                  kMostSettings);
     }
     std::vector<Setting> wider;
     for (const Setting& setting : grid) {
@@ -78,7 +79,7 @@ Shard parseShard(const std::string& text) {
   const auto second = slash ? std::from_chars(first.ptr + 1, end, shard.count) : first;
   if (!slash || second.ec != std::errc() || second.ptr != end || shard.index < 1 ||
       shard.index > shard.count) {
-    throw Error(ErrorId::kUsage, "--shard '{}' is not I/N with I from 1 to N", text);
+    throw Error(ErrorId::kUsage, "--shard '{}' is not of the form I/N with I from 1 to N", text);
   }
   return shard;
 }

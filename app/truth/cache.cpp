@@ -38,7 +38,7 @@ std::string headOf(const std::string& key) {
   return head + key;
 }
 
-// False where the bytes are not those of a whole file.
+// Returns false if the bytes are not a complete, undamaged file.
 bool parse(std::string_view bytes, const std::string& head, size_t pixels, Counts& counts) {
   constexpr size_t kNumbers = 2 * sizeof(uint32_t);
   uint64_t hash = 0;
@@ -77,7 +77,7 @@ Counts Cache::load(size_t pixels) const {
   const std::string bytes = readRegularFile(file_, ErrorId::kTruthCache);
   Counts counts;
   if (parse(bytes, headOf(key_), pixels, counts)) return counts;
-  fmt::print(stderr, "note: {} is damaged and is thrown away\n", file_.string());
+  fmt::print(stderr, "note: removing the damaged cache file {}\n", file_.string());
   fs::remove(file_, failed);
   return none;
 }
@@ -92,12 +92,12 @@ bool Cache::save(const Counts& counts) {
                counts.pixels.size() * kPixelBytes);
   put(bytes, hashOf(bytes));
   try {
-    std::error_code failed;  // shows when the file is written
+    std::error_code failed;  // a failure shows when the file is written
     fs::create_directories(file_.parent_path(), failed);
     writeFileAtomically(file_.string(), bytes);
     return true;
   } catch (const Error& error) {
-    fmt::print(stderr, "note: nothing is kept for another run: {}\n", error.detail());
+    fmt::print(stderr, "note: the traced rays cannot be cached: {}\n", error.detail());
     file_.clear();
     return false;
   }

@@ -9,7 +9,7 @@ namespace grisaille::app::truth {
 Comparison compare(const image::Image& shown, std::span<const trace::Visibility> truth) {
   Comparison result;
   double errors = 0, squares = 0, fourths = 0, noise = 0, noises = 0;
-  uint64_t left = 0;  // not traced
+  uint64_t left = 0;  // pixels not traced yet
   for (size_t i = 0; i < truth.size(); ++i) {
     if (!isTraced(truth[i])) {
       ++left;
@@ -17,7 +17,7 @@ Comparison compare(const image::Image& shown, std::span<const trace::Visibility>
     }
     const double d = double{shown.pixels[i]} - double{truth[i].mean};
     if (!std::isfinite(d)) continue;
-    // Where the spread of the rays is not known, there are too few for it to matter.
+    // A pixel without a standard error has too few rays to matter.
     const double s = std::isnan(truth[i].standardError) ? 0 : truth[i].standardError;
     const double square = d * d - s * s;
     errors += d;
@@ -34,7 +34,7 @@ Comparison compare(const image::Image& shown, std::span<const trace::Visibility>
   const double spread = std::max(fourths / n - mean * mean, 0.0);
   const double variance = ((1 - share) * spread + share * noises / n) / n;
   result.rmse = std::sqrt(std::max(mean, 0.0));
-  // As far as the root goes with one standard error more.
+  // The change of the rmse when the mean grows by one standard error.
   result.error = std::sqrt(std::max(mean, 0.0) + std::sqrt(variance)) - result.rmse;
   result.bias = errors / n;
   result.noise = std::sqrt(noise / n);

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: MIT
-// A number that tells contents apart.
+// A hash of contents, for cache keys.
 #pragma once
 
 #include <cstdint>
@@ -12,7 +12,7 @@
 
 namespace grisaille::app::truth {
 
-// FNV-1a, 64 bits: each step is a bijection, so that no single changed byte goes unseen.
+// FNV-1a, 64 bits. Each step is a bijection, so that a change of a single byte changes the hash.
 class ContentHash {
  public:
   uint64_t value() const { return value_; }
@@ -35,8 +35,8 @@ class ContentHash {
   uint64_t value_ = 0xcbf29ce484222325u;
 };
 
-// Of all that rays can meet: the scene as it was read, so that the files beside a .gltf and the
-// built-in scene count as well as one .glb.
+// Hashes everything that rays can hit. It hashes the loaded scene, so that the external files of a
+// .gltf and the built-in scene are covered like a .glb.
 uint64_t hashOf(const scene::Scene& scene);
 
 }  // namespace grisaille::app::truth

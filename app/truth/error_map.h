@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: MIT
-// Errors of a visibility as colours.
+// Shows errors of a visibility as colours.
 #pragma once
 
 #include <glm/glm.hpp>
@@ -8,17 +8,17 @@
 
 namespace grisaille::app::truth {
 
-// Of visibility, either way: from here on the colour is full, where nothing else is asked for.
+// The error of visibility, positive or negative, that has the full colour by default.
 constexpr float kFullError = 0.25f;
 
-// White where nothing is wrong, blue where it is too dark, orange where it is too bright; as
-// encoded. Grey where the error is not known (NaN).
+// The sRGB-encoded colour of an error: white for 0, blue for too dark, orange for too bright, grey
+// for an unknown error (NaN). `full`: the error of full colour.
 glm::vec3 errorColor(float error, float full = kFullError);
 
-// shown - truth of pictures of one channel and one size; NaN where either is no number.
+// shown - truth, for pictures of one channel and the same size; NaN where either is NaN.
 image::Image errorsOf(const image::Image& shown, const image::Image& truth);
 
-// The colours of a picture of errors.
+// Maps each pixel of `errors` to its errorColor().
 image::Image errorMap(const image::Image& errors, float full = kFullError);
 
 }  // namespace grisaille::app::truth

@@ -3,14 +3,14 @@
 
 namespace grisaille::app::truth {
 
-// Thrown where a signal ended the work early; what there is to say has been said. The program's
-// exit status is kStatus.
+// Thrown when a signal ended the work early, after the message to the user. The program exits with
+// kStatus.
 struct Interrupted {
   static constexpr int kStatus = 130;
 };
 
-// While it lives, the first SIGINT or SIGTERM only asks for an end; the second one ends the process
-// as ever. One at a time.
+// While an object of this class lives, the first SIGINT or SIGTERM only sets asked(); a second one
+// ends the process. Only one object may live at a time.
 class Interruption {
  public:
   Interruption();

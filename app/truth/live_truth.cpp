@@ -18,14 +18,14 @@
 namespace grisaille::app::truth {
 namespace {
 
-// A window that draws goes first; yet on a busy machine the lowest priority of all, 19, gets
-// nothing done for minutes.
+// Niceness of the tracing thread, so that the window draws first. At 19, the lowest priority, a
+// busy machine traces nothing for minutes.
 constexpr int kNiceness = 10;
 
-// Rays a pixel of the first pass, the least whose spread tells an error well.
+// Rays per pixel of the first pass: the fewest that give a good standard error.
 constexpr uint32_t kFirstRays = 2 * trace::kScrambles;
 
-// Pixels between two looks at whether to stop: some ten milliseconds of one core.
+// Pixels between two checks of stop_: about ten milliseconds of one core.
 constexpr size_t kLiveSlice = 1024;
 
 uint32_t passEnd(uint32_t from, uint32_t samples) {
@@ -33,7 +33,7 @@ uint32_t passEnd(uint32_t from, uint32_t samples) {
   return std::min(to, samples);
 }
 
-// The window's thread and the driver's come first. Linux counts this by thread.
+// Lets the threads of the window and the driver run first. On Linux, niceness is set per thread.
 void giveWay() {
   setpriority(PRIO_PROCESS, static_cast<id_t>(gettid()), kNiceness);
 }
@@ -49,8 +49,8 @@ bool LiveView::operator==(const LiveView& o) const {
 
 struct LiveTruth::Job {
   const LiveView& view;
-  std::vector<trace::OcclusionCounts> counts;  // in the order of the pixels
-  std::vector<glm::uvec2> pixels;              // of a slice
+  std::vector<trace::OcclusionCounts> counts;  // in the order of order_
+  std::vector<glm::uvec2> pixels;              // pixels of the current slice
 };
 
 LiveTruth::LiveTruth() : thread_([this] { work(); }) {}
@@ -131,7 +131,7 @@ void LiveTruth::work() {
   });
 }
 
-// The tracer is kept from view to view, so that a move of the camera does not wait for it.
+// Keeps the tracer from view to view, so that a move of the camera does not wait for a new one.
 void LiveTruth::trace(const LiveView& view) {
   if (scene_ != view.scene || !tracer_) {
     tracer_.reset();
@@ -155,7 +155,7 @@ void LiveTruth::trace(const LiveView& view) {
     if (stop_) return;
     traced_ = {.size = view.size, .values = std::vector<trace::Visibility>(size, {0, kUntraced})};
   }
-  // The first pass shows what was kept where something was.
+  // If the cache has counts, the first pass only shows them.
   uint32_t from = kept.samples;
   uint32_t to = from > 0 ? from : passEnd(0, view.samples);
   for (;; from = to, to = passEnd(from, view.samples)) {
@@ -168,8 +168,8 @@ void LiveTruth::trace(const LiveView& view) {
   if (!stop_) traced_.done = fresh_ = true;
 }
 
-// What the pixels see is found anew for every pass: one ray more for each kPassRays, instead of a
-// hundred bytes a pixel. False: it is no longer wanted.
+// Traces one slice of a pass. Casts the primary rays again in every pass: one more ray for each
+// kPassRays, instead of storing a hundred bytes per pixel. Returns false if the view was cancelled.
 bool LiveTruth::addSlice(Job& job, size_t first, uint32_t from, uint32_t to) {
   if (stop_) return false;
   const LiveView& view = job.view;
@@ -186,7 +186,7 @@ bool LiveTruth::addSlice(Job& job, size_t first, uint32_t from, uint32_t to) {
 
   const std::lock_guard lock(mutex_);
   if (stop_) return false;
-  // The first pass has no pixels with fewer rays.
+  // During the first pass, all known pixels have the same number of rays.
   const bool all = traced_.pixels == order_.size();
   const double share = static_cast<double>(first + count) / static_cast<double>(order_.size());
   traced_.rays = all ? from + share * (to - from) : to;

@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: MIT
-// The ambient visibility of one view after another, traced beside the caller's thread and refined
-// until it is as good as wanted: first of a few pixels, then of all, then with more rays.
+// Traces the ambient visibility of the current view on a thread of its own. It traces a few pixels
+// first, then all pixels, then adds rays until each pixel has LiveView::samples.
 #pragma once
 
 #include <atomic>
@@ -13,48 +13,50 @@
 #include <vector>
 
 #include "core/scene/camera.h"
+#include "core/scene/scene.h"
 #include "core/trace/ray_tracer.h"
 
 namespace grisaille::app::truth {
 
-// What is traced.
+// The view to trace.
 struct LiveView {
   std::shared_ptr<const scene::Scene> scene;
-  scene::Camera camera;             // its own size does not count
+  scene::Camera camera;             // camera.size is ignored
   glm::uvec2 size = glm::uvec2(0);  // pixels
   double radius = 0.5;              // metres
-  uint32_t samples = 0;             // rays a pixel in the end, to kMostOcclusionRays
+  uint32_t samples = 0;             // final rays per pixel, at most kMostOcclusionRays
 
   bool operator==(const LiveView& other) const;
 };
 
-// What there is of it by now.
+// The result so far.
 struct Traced {
   glm::uvec2 size = glm::uvec2(0);
-  std::vector<trace::Visibility> values;  // by rows; kUntraced where none is known
-  uint64_t pixels = 0;                    // that are known
-  double rays = 0;                        // a known pixel, on average
+  std::vector<trace::Visibility> values;  // by rows; standard error kUntraced: not traced yet
+  uint64_t pixels = 0;                    // number of traced pixels
+  double rays = 0;                        // mean rays per traced pixel
   bool done = false;
 };
 
 class LiveTruth {
  public:
   LiveTruth();
-  ~LiveTruth();  // waits for some thousand rays, or for the scene to be prepared for rays
+  ~LiveTruth();  // waits for the current slice, or for Embree's scene to be built
   LiveTruth(const LiveTruth&) = delete;
   LiveTruth& operator=(const LiveTruth&) = delete;
 
-  // Anew, whatever is being traced. Does not wait. Begins with what `grisaille truth` has kept of
-  // this view; keeps nothing itself, since a view that is passed by is seldom seen again.
+  // Starts tracing `view` and drops the view before it. Does not wait. Starts from the counts that
+  // `grisaille truth` cached for this view; does not write the cache, since a view that the camera
+  // passes is seldom seen again.
   void start(const LiveView& view);
 
-  // Ends it and lets go of the scene. Does not wait.
+  // Stops tracing and releases the scene. Does not wait.
   void cancel();
 
   bool running() const;
 
-  // True where there is more than at the last call: it is in `traced`. Throws Error, once, where
-  // the scene cannot be traced.
+  // Returns whether the result has changed since the last call, and copies it to `traced` if so.
+  // Rethrows, once, the error of a scene that cannot be traced.
   bool poll(Traced& traced);
 
  private:
@@ -63,11 +65,11 @@ class LiveTruth {
   void trace(const LiveView& view);
   bool addSlice(Job& job, size_t first, uint32_t from, uint32_t to);
 
-  // Of the thread alone.
-  std::shared_ptr<const scene::Scene> scene_;  // that the tracer is of
+  // Used by the tracing thread only.
+  std::shared_ptr<const scene::Scene> scene_;  // the scene of tracer_
   std::unique_ptr<trace::RayTracer> tracer_;
   std::optional<uint64_t> sceneHash_;
-  std::vector<uint32_t> order_;  // of the pixels of a picture of this size
+  std::vector<uint32_t> order_;  // pixelOrder(orderSize_)
   glm::uvec2 orderSize_ = glm::uvec2(0);
 
   mutable std::mutex mutex_;
@@ -77,7 +79,7 @@ class LiveTruth {
   std::exception_ptr failure_;
   bool running_ = false, fresh_ = false, forget_ = false, quit_ = false;
   std::atomic<bool> stop_ = false;  // written under the lock, read between slices
-  std::thread thread_;              // last: all else is there when it starts
+  std::thread thread_;              // last member: it uses all others from its start
 };
 
 }  // namespace grisaille::app::truth

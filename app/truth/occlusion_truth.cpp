@@ -9,7 +9,7 @@
 namespace grisaille::app::truth {
 namespace {
 
-// Part of every key: a number that changes with whatever changes the counts.
+// Part of every key. Increase it with every change of the code that changes the counts.
 constexpr int kTracing = 1;
 
 }  // namespace

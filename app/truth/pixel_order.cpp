@@ -8,7 +8,8 @@
 namespace grisaille::app::truth {
 namespace {
 
-// A pixel by chance of the square of this side that `pixel` is in, as far as it is in the picture.
+// A random pixel of the square around `pixel`. Squares have `side` pixels a side and are clipped to
+// the picture.
 glm::uvec2 anyOfSquare(glm::uvec2 pixel, uint32_t side, glm::uvec2 size) {
   const glm::uvec2 corner = pixel / side * side;
   const glm::uvec2 extent = glm::min(glm::uvec2(side), size - corner);
@@ -16,7 +17,7 @@ glm::uvec2 anyOfSquare(glm::uvec2 pixel, uint32_t side, glm::uvec2 size) {
   return corner + glm::uvec2((bits & 0xffffu) % extent.x, (bits >> 16) % extent.y);
 }
 
-// How many runs a third of the order is made of; each is as wide as the picture.
+// Number of runs in each of the three levels. Each run is spread over the whole picture.
 constexpr size_t kRuns = 64;
 
 }  // namespace

@@ -1,8 +1,9 @@
 // SPDX-License-Identifier: MIT
-// Which pixels of a picture are traced first, so that a few of them stand for all: one of each 4 x
-// 4 square, then one of each 2 x 2, then the rest. Which one of a square is a matter of chance, so
-// that no pattern that repeats from square to square, as a kernel's rotations do, is met at one and
-// the same place of it. Within each of the three, every run of pixels is spread over the picture.
+// The order in which the pixels of a picture are traced, so that the first ones represent all: one
+// pixel of each 4 x 4 square, then one of each 2 x 2 square, then all others. The pixel of a square
+// is random: a pattern that repeats from square to square, for example a kernel's rotations, is not
+// always sampled at the same place. In each of the three levels, every run of pixels is spread over
+// the picture.
 #pragma once
 
 #include <cstdint>
@@ -11,15 +12,16 @@
 
 namespace grisaille::app::truth {
 
-// Indices by rows, each once. The same for one size.
+// Every pixel index (by rows) once, in tracing order. Depends on the size only.
 std::vector<uint32_t> pixelOrder(glm::uvec2 size);
 
-// The index of the pixel that stands for this one: itself where it is traced, else the one of its
-// 2 x 2 square, else the one of its 4 x 4 square, else none (UINT32_MAX). isTraced(index) tells.
+// The index of the traced pixel that stands for `pixel`: the pixel itself, else the first one of
+// its 2 x 2 square, else the first one of its 4 x 4 square. UINT32_MAX: none of them is traced.
+// `isTraced`: called with an index.
 template <typename IsTraced>
 uint32_t standIn(glm::uvec2 pixel, glm::uvec2 size, const IsTraced& isTraced);
 
-// The pixel that comes first of the 2 x 2 or 4 x 4 square that this one is in.
+// The pixel that is traced first in the 2 x 2 or 4 x 4 square around `pixel`.
 glm::uvec2 firstOfTwo(glm::uvec2 pixel, glm::uvec2 size);
 glm::uvec2 firstOfFour(glm::uvec2 pixel, glm::uvec2 size);
 

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: MIT
-// How far long work is: a bar on standard error, or lines of JSON on standard output.
+// Shows the progress of long work: a bar on standard error, or lines of JSON on standard output.
 #pragma once
 
 #include <chrono>
@@ -8,10 +8,10 @@
 
 namespace grisaille::app::truth {
 
-// kJson: one object a line, {"progress": name, "share": 0 ... 1, "text": "..."}.
+// kJson: one object per line, {"progress": name, "share": 0 ... 1, "text": "..."}.
 enum class ProgressStyle : uint8_t { kNone, kBar, kJson };
 
-// A bar where standard error is a terminal.
+// kBar if standard error is a terminal, else kNone.
 ProgressStyle usualProgress();
 
 class Progress {
@@ -22,13 +22,13 @@ class Progress {
   Progress& operator=(const Progress&) = delete;
 
   struct State {
-    double done = 0, total = 1;  // of the work that this object has seen the whole of
+    double done = 0, total = 1;  // work since the constructor, in any unit
     std::string text;
   };
-  // Draws or prints some times a second, however often it is called.
+  // Draws or prints at most five times a second, however often it is called.
   void show(const State& state);
 
-  // Takes the bar off the terminal.
+  // Erases the bar.
   void clear();
 
  private:

@@ -16,7 +16,7 @@ namespace {
 
 using Clock = std::chrono::steady_clock;
 
-// Pixels between two looks at the clock.
+// Pixels between two progress reports.
 constexpr size_t kRefineSlice = 8192;
 constexpr double kSaveSeconds = 5;
 // Saving takes no more than this share of the time.
@@ -26,7 +26,7 @@ double secondsSince(Clock::time_point start) {
   return std::chrono::duration<double>(Clock::now() - start).count();
 }
 
-// When to save: what is saved often enough to lose little and seldom enough to cost little.
+// Saves the counts often enough to lose little work, and seldom enough to cost little time.
 class Saver {
  public:
   explicit Saver(Cache& cache) : cache_(cache) {}
@@ -51,19 +51,20 @@ class Saver {
   uint32_t saved_ = 0;
 };
 
-// How many samples the goal will take, as far as can be told. Scrambled points converge about as
-// n^-0.75 where visibility jumps.
+// An estimate of the samples per pixel that reach the goal. The error of scrambled points falls
+// about as n^-0.75 where visibility is discontinuous.
 double expectedSamples(const Goal& goal, uint32_t samples, double error) {
   if (goal.error <= 0 || samples == 0 || error <= goal.error) return goal.samples;
   return std::min<double>(goal.samples, samples * std::pow(error / goal.error, 1 / 0.75));
 }
 
 std::string progressText(const Goal& goal, double samples, double error) {
-  const std::string text = fmt::format("{:.0f} of {} samples a pixel", samples, goal.samples);
+  const std::string text = fmt::format("{:.0f} of {} samples per pixel", samples, goal.samples);
   return error > 0 ? text + fmt::format(", error {:.4f}", error) : text;
 }
 
-// Casts all pixels' rays up to `to`; report(samples a pixel so far) is called now and then.
+// Casts the rays of all pixels up to number `to`. Calls report(samples per pixel so far) after each
+// slice.
 template <typename Report>
 void castPass(std::span<const trace::Hit> hits, const AddRays& addRays, Counts& counts, uint32_t to,
               const Report& report) {
@@ -94,7 +95,7 @@ Estimate refine(const std::string& name, std::span<const trace::Hit> hits, const
     estimate.values = trace::visibilityOf(hits, counts.pixels);
     estimate.error = trace::rmsError(hits, estimate.values);
     estimate.samples = counts.samples;
-    // Too few rays for an error to be known are too few to stop at.
+    // Does not stop before every sequence has two rays, which a reliable error needs.
     const bool good =
         counts.samples >= trace::kScrambles * 2 && estimate.error <= goal.error && goal.error > 0;
     if (counts.samples >= goal.samples || good || Interruption::asked()) break;
@@ -112,20 +113,20 @@ Estimate refine(const std::string& name, std::span<const trace::Hit> hits, const
   estimate.rays = surfaces * (counts.samples - estimate.kept);
   bar.clear();
   if (Interruption::asked()) {
-    fmt::print(stderr, "note: interrupted; {} of {} samples a pixel of {} are {}\n", counts.samples,
-               goal.samples, name, cache.file().empty() ? "lost" : "kept for the next run");
+    fmt::print(stderr, "note: interrupted; {} of {} samples per pixel of {} are {}\n",
+               counts.samples, goal.samples, name, cache.file().empty() ? "lost" : "cached");
     throw Interrupted();
   }
   return estimate;
 }
 
 std::string summaryOf(const std::string& name, const Estimate& estimate) {
-  std::string line = fmt::format("{}: {} samples a pixel", name, estimate.samples);
-  if (estimate.kept > 0) line += fmt::format(" ({} of them kept from before)", estimate.kept);
+  std::string line = fmt::format("{}: {} samples per pixel", name, estimate.samples);
+  if (estimate.kept > 0) line += fmt::format(" ({} of them from the cache)", estimate.kept);
   line += fmt::format(", rms standard error {:.5f}, {:.2f} s", estimate.error, estimate.seconds);
   if (estimate.rays == 0) return line + ", no rays cast";
   return line +
-         fmt::format(", {:.2f} million rays a second", estimate.rays / estimate.seconds * 1e-6);
+         fmt::format(", {:.2f} million rays per second", estimate.rays / estimate.seconds * 1e-6);
 }
 
 }  // namespace grisaille::app::truth

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: MIT
-// An estimate of ambient visibility, refined pass by pass until it is good enough.
+// Refines an estimate of ambient visibility pass by pass until it reaches a goal.
 #pragma once
 
 #include <functional>
@@ -13,34 +13,34 @@
 
 namespace grisaille::app::truth {
 
-// Rays a pixel of one pass at most.
+// Largest number of rays per pixel in one pass.
 constexpr uint32_t kPassRays = 64;
 
-// Casts the rays `from` ... `to` - 1 of these pixels, as RayTracer::addOcclusion() does.
+// Casts the rays `from` ... `to` - 1 of these pixels; see RayTracer::addOcclusion().
 using AddRays = std::function<void(std::span<const trace::Hit> hits, uint32_t from, uint32_t to,
                                    std::span<trace::OcclusionCounts> counts)>;
 
 struct Goal {
-  uint32_t samples = 0;  // rays a pixel at most, to kMostOcclusionRays
-  double error = 0;      // an rms standard error that ends it earlier
+  uint32_t samples = 0;  // largest number of rays per pixel, at most kMostOcclusionRays
+  double error = 0;      // rms standard error at which it stops early; 0: never
 };
 
 struct Estimate {
   std::vector<trace::Visibility> values;
-  uint32_t samples = 0;  // rays a pixel; more than asked for where more were kept
-  uint32_t kept = 0;     // of these, from the cache
+  uint32_t samples = 0;  // rays per pixel; above Goal::samples if the cache held more
+  uint32_t kept = 0;     // rays per pixel that came from the cache
   double error = 0;      // rms standard error of the picture
   double seconds = 0;
-  double rays = 0;  // cast in this run
+  double rays = 0;  // rays cast in this run
 };
 
-// Begins with what the cache keeps, and keeps what is done there every few seconds and at the end.
-// Where a signal asks for an end, the pass is finished and kept, and Interrupted is thrown after a
-// note. `name` is for the note and how far it is.
+// Starts from the cached counts; saves to the cache every few seconds and at the end. After SIGINT
+// or SIGTERM, finishes the pass, saves it, prints a note and throws Interrupted. `name`: for the
+// note and the progress bar.
 Estimate refine(const std::string& name, std::span<const trace::Hit> hits, const AddRays& addRays,
                 const Goal& goal, Cache& cache, ProgressStyle progress);
 
-// One line: samples a pixel, rms standard error, seconds, rays a second.
+// One line: samples per pixel, rms standard error, seconds, rays per second.
 std::string summaryOf(const std::string& name, const Estimate& estimate);
 
 }  // namespace grisaille::app::truth

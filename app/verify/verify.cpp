@@ -19,14 +19,14 @@ namespace {
 using Clock = std::chrono::steady_clock;
 constexpr std::chrono::milliseconds kLook(10);
 
-// What the checking process has said.
+// The output of the checking process.
 struct Transcript {
-  size_t read = 0;  // bytes of its output
+  size_t read = 0;  // bytes of the output that are printed
   bool ended = false;
   size_t faults = 0;
   std::string summary;
 
-  // Prints the whole lines that came since the last call.
+  // Prints the complete lines that arrived since the last call.
   void take(const std::string& out) {
     for (size_t end = 0; (end = out.find('\n', read)) != std::string::npos; read = end + 1) {
       const std::string_view line = std::string_view(out).substr(read, end - read);
@@ -42,7 +42,7 @@ struct Transcript {
   }
 };
 
-// What it was doing last.
+// The last step that the process announced.
 std::string lastStep(const std::string& err) {
   const size_t at = err.rfind(Report::kStep);
   if (at == std::string::npos) return "starting";
@@ -79,7 +79,7 @@ void verifyPlugin(const std::string& file, std::chrono::seconds patience) {
     ++said.faults;
     fmt::print("{}{} while: {}\n", Report::kFault, endingOf(child, stalled, patience),
                lastStep(child.err()));
-    said.summary = fmt::format("{} faults, the rest was not checked", said.faults);
+    said.summary = fmt::format("{} faults; the check did not finish", said.faults);
   }
   if (said.faults > 0) throw Error(ErrorId::kEffectFaulty, "{}: {}", file, said.summary);
   fmt::print("{}: {}\n", file, said.summary);

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: MIT
-// The whole check of a plugin, of one's own or another's: `grisaille effects --verify FILE`.
+// Checks a plugin: `grisaille effects --verify FILE`.
 #pragma once
 
 #include <chrono>
@@ -8,13 +8,14 @@
 
 namespace grisaille::app {
 
-// Runs checkPlugin() in a process of its own, so that a plugin which crashes or never ends is a
-// fault in the report; `patience` is how long one step of it may take. Throws kEffectFaulty where
-// there is a fault.
+// Runs checkPlugin() in a process of its own, so that a plugin that crashes or never returns is a
+// fault in the report. `patience`: longest time without output of that process. Throws
+// kEffectFaulty if there is a fault.
 void verifyPlugin(const std::string& file, std::chrono::seconds patience);
 
-// The report as the checks write it: on standard output a line each, which begins with one of the
-// words below, at the end how many there were; on standard error what is being done.
+// The report of the checks. Standard output gets one line per result, which begins with one of the
+// prefixes below, and at the end a line with the number of faults and checks. Standard error gets
+// one line per step.
 class Report {
  public:
   static constexpr const char* kOk = "ok    ";
@@ -23,15 +24,16 @@ class Report {
   static constexpr const char* kEnd = "end   ";
   static constexpr const char* kStep = "step  ";
 
-  // What is about to be done.
+  // Announces the next step.
   void step(const std::string& what);
   void note(const std::string& text);
 
-  // One check: counted, and a line where it fails, unless kMostFaults did since the last summary.
+  // Counts one check. If `holds` is false, prints `fault`, but at most kMostFaults lines until the
+  // next conclude().
   void expect(bool holds, const std::string& fault);
   void fault(const std::string& text) { expect(false, text); }
 
-  // A line that sums up what was checked since the last one, or how many more faults it had.
+  // Ends a group of checks: prints an ok line if all passed, or the number of faults not printed.
   void conclude(const std::string& what);
   void end();
 
@@ -43,10 +45,10 @@ class Report {
   size_t concludedChecks_ = 0, concludedFaults_ = 0;
 };
 
-// Every check, in this process: that the plugin loads, that its tables fit, and on every backend
-// with all validation on that each of its effects draws whole pictures at any size and with every
-// parameter at its extremes and all of them at random. Faults are the report's; throws nothing for
-// them.
+// Runs all checks in this process. The plugin must load, and its tables must be valid. Then, on
+// every backend with all validation on, each of its effects must draw complete pictures: at several
+// sizes, with each parameter at its extremes, and with random values of all parameters. Faults go
+// to `report`; they throw nothing.
 void checkPlugin(const std::string& file, Report& report);
 
 }  // namespace grisaille::app

@@ -24,15 +24,15 @@ namespace grisaille::app {
 namespace {
 
 constexpr glm::uvec2 kSize(96, 54);
-// Odd, small, thin, and not a multiple of any group's size; then the first once more.
+// Odd, small and thin sizes, most of them not multiples of a workgroup's size; then kSize again.
 constexpr glm::uvec2 kSizes[] = {{1, 1}, {33, 17}, {7, 129}, {257, 3}, {64, 64}, {96, 54}};
 
-// Vectors of values drawn at random, and the size that they are drawn at.
+// Number of random settings, and the picture size to render them at.
 constexpr uint32_t kRandomVectors = 20;
 constexpr glm::uvec2 kRandomSize(33, 21);
 
-// Anything that a parameter may be: half the time what its slider gives, else near its ends on
-// either scale, or an end itself. The same on every machine.
+// A random value of a parameter: half the time from its soft range, else from its hard range on a
+// linear or logarithmic scale, or an end of the hard range. The same on every machine.
 double randomValue(const grisaille_param_desc& param, std::mt19937& random) {
   const double share = static_cast<double>(random()) * 0x1p-32;
   const double low = param.hard_min, high = param.hard_max;
@@ -45,13 +45,13 @@ double randomValue(const grisaille_param_desc& param, std::mt19937& random) {
   } else if (kind == 3 && low > 0) {
     value = low * std::pow(high / low, share);
   } else if (kind < 5) {
-    value = (1 - share) * low + share * high;  // high - low need not be a number
+    value = (1 - share) * low + share * high;  // high - low can overflow
   }
   if (param.type != GRISAILLE_PARAM_FLOAT) value = std::floor(value);
   return std::clamp(value, low, high);
 }
 
-// What the driver and its validation say.
+// Collects the messages of the driver and of the validation.
 class Messages {
  public:
   explicit Messages(Report& report) : report_(report) {}
@@ -72,7 +72,7 @@ class Messages {
   std::vector<std::string> heard_;
 };
 
-// One effect on one device.
+// Checks one effect on one device.
 class EffectCheck {
  public:
   EffectCheck(Report& report, gpu::Device& device, Messages& messages, const scene::Scene& scene,
@@ -97,27 +97,27 @@ class EffectCheck {
     if (!create()) return;
     const effect::Values values(effect_);
     draw("with its defaults", kSize, values, names_);
-    report_.conclude(title_ + "draws whole pictures with its defaults");
+    report_.conclude(title_ + "draws complete pictures with its defaults");
     checkWrites(values);
     for (const glm::uvec2& size : kSizes) {
       draw(fmt::format("at {}x{}", size.x, size.y), size, values, names_);
     }
-    report_.conclude(title_ + "is resized");
+    report_.conclude(title_ + "draws at other sizes");
     for (const std::string& name : names_)
       draw("writing " + name + " alone", kSize, values, {name});
-    report_.conclude(title_ + "writes what is wanted alone");
+    report_.conclude(title_ + "writes each output alone");
     checkExtremes();
     checkRandom();
     for (int i = 0; i < 3; ++i) {
       if (!create()) return;
-      draw("made anew", kSize, values, names_);
+      draw("created again", kSize, values, names_);
     }
     destroy();
-    report_.conclude(title_ + "is destroyed and made anew");
+    report_.conclude(title_ + "is destroyed and created again");
   }
 
  private:
-  // A few objects in the picture, for effects that have some.
+  // Places a few objects in the picture if the effect has objects.
   void placeObjects() {
     objects::ObjectList* list = chain_.objects(effect_.key());
     if (list == nullptr) return;
@@ -134,7 +134,7 @@ class EffectCheck {
 
   void heardNothing(const std::string& what) {
     for (const std::string& text : messages_.take()) {
-      expect(false, fmt::format("{}: the driver or its validation says: {}", what, text));
+      expect(false, fmt::format("{}: message of the driver or its validation: {}", what, text));
     }
   }
 
@@ -148,7 +148,7 @@ class EffectCheck {
     heardNothing("destroying it");
   }
 
-  // Whether it can be made.
+  // Creates the effect. Returns whether this succeeded.
   bool create() {
     destroy();
     step("creating it");
@@ -166,15 +166,15 @@ class EffectCheck {
   }
 
   void checkReads() {
-    step("asking what it reads");
+    step("calling reads()");
     const effect::Values values(effect_);
     try {
       for (uint32_t wanted = 1; wanted < 1u << names_.size(); wanted <<= 1) {
         const uint32_t reads = effect_.reads(values.all().data(), wanted);
         expect(reads < 1u << GRISAILLE_ATTACHMENT_COUNT,
-               fmt::format("it reads {:#x}, of which there is not all", reads));
+               fmt::format("reads() returns {:#x}, which has bits of no attachment", reads));
         expect(reads == effect_.reads(values.all().data(), wanted),
-               "what it reads differs for the same values");
+               "reads() returns different attachments for the same values");
       }
     } catch (const Error& error) {
       expect(false, error.detail());
@@ -217,7 +217,7 @@ class EffectCheck {
     heardNothing(what);
   }
 
-  // Numbers, and in the range that the output's role has.
+  // Checks that all values are finite and in the range of the output's role.
   void checkPicture(const std::string& what, const grisaille_output_desc& output,
                     const image::Image& picture) {
     constexpr float kRounding = 1e-3f;
@@ -233,19 +233,20 @@ class EffectCheck {
       const auto objects = static_cast<float>(objects_);
       if (output.role == GRISAILLE_ROLE_OWNER && value > objects) ++nobodys;
     }
-    expect(odd == 0, fmt::format("{} holds {} values that are no finite numbers", what, odd));
+    expect(odd == 0, fmt::format("{} holds {} values that are not finite", what, odd));
     expect(outside == 0, fmt::format("{} holds {} values outside 0 to 1", what, outside));
-    expect(nobodys == 0, fmt::format("{} holds {} numbers of no object", what, nobodys));
+    expect(nobodys == 0, fmt::format("{} holds {} numbers that no object has", what, nobodys));
   }
 
-  // Which bytes of an output it leaves as they were: `left` becomes 1 where they are.
+  // Fills the output with the byte `before`, then renders. A texel of `left` stays 1 only if the
+  // effect left it unchanged.
   void findLeft(const std::string& name, std::byte before, const effect::Values& values,
                 std::vector<uint8_t>& left, size_t texel) {
     const gpu::Texture texture = renderer_.texture(name);
     const std::vector<std::byte> fill(left.size() * texel, before);
     device_.begin().upload(texture, 0, 0, fill);
     device_.submit();
-    if (!render("over what " + name + " held", kSize, values, {name})) return;
+    if (!render("over " + name + ", which was filled", kSize, values, {name})) return;
     const std::vector<std::byte> bytes = device_.read(renderer_.texture(name));
     for (size_t i = 0; i < left.size(); ++i) {
       const bool same = std::memcmp(&bytes[i * texel], &fill[i * texel], texel) == 0;
@@ -253,8 +254,8 @@ class EffectCheck {
     }
   }
 
-  // Every pixel of every output. A pixel that holds what was there before, whatever that was, is
-  // one that was not written.
+  // Checks that the effect writes every pixel of every output. A pixel that keeps both of two
+  // different fills was not written.
   void checkWrites(const effect::Values& values) {
     for (size_t i = 0; i < names_.size(); ++i) {
       if (!render("writing " + names_[i], kSize, values, {names_[i]})) continue;
@@ -291,8 +292,8 @@ class EffectCheck {
       least.set(param.key, param.hard_min);
       most.set(param.key, param.hard_max);
     }
-    draw("all parameters at their least", kSize, least, names_);
-    draw("all parameters at their most", kSize, most, names_);
+    draw("all parameters at their minimum", kSize, least, names_);
+    draw("all parameters at their maximum", kSize, most, names_);
     report_.conclude(title_ + "draws with every parameter at its extremes");
   }
 
@@ -307,7 +308,7 @@ class EffectCheck {
       }
       draw(what, kRandomSize, values, names_);
     }
-    report_.conclude(title_ + "draws with values drawn at random");
+    report_.conclude(title_ + "draws with random values");
   }
 
   Report& report_;
@@ -318,35 +319,35 @@ class EffectCheck {
   const scene::Camera camera_ = scene::atriumCamera();
   frame::Renderer renderer_;
   SceneServices services_;
-  std::vector<std::string> names_;  // of its outputs
+  std::vector<std::string> names_;  // full names of the outputs
   size_t objects_ = 0;
-  effect::Chain chain_;  // of this effect alone
+  effect::Chain chain_;  // only this effect
 };
 
-// A device that is lost takes what is left of the check along.
+// A lost device ends the check of this effect with a fault.
 void checkEffect(Report& report, gpu::Device& device, Messages& messages, const scene::Scene& scene,
                  const effect::Registry& registry, const effect::Effect& effect,
                  const std::string& backend) {
   try {
     EffectCheck(report, device, messages, scene, registry, effect, backend).run();
   } catch (const Error& error) {
-    report.fault(fmt::format("{}: {}: the rest is not checked: {}", backend, effect.desc->key,
+    report.fault(fmt::format("{}: {}: the check did not finish: {}", backend, effect.desc->key,
                              error.detail()));
   }
 }
 
-// Loads it over and over; the last time it stays.
+// Loads and unloads the plugin several times, then loads it into `registry`.
 bool checkLoading(const std::string& file, effect::Registry& registry, Report& report) {
   try {
     for (int i = 0; i < 3; ++i) {
       report.step("loading and unloading " + file);
       effect::Registry().load(file);
-      // An absolute path, as it was loaded by: a bare name would be looked for in system folders.
+      // The absolute path that load() used; dlopen() searches a bare name in system folders.
       const std::string path = std::filesystem::absolute(file);
       void* left = dlopen(path.c_str(), RTLD_LAZY | RTLD_NOLOAD);
       report.expect(left == nullptr,
-                    "it stays loaded when it is unloaded, so that no newer build "
-                    "of it can be loaded: build it with -fno-gnu-unique");
+                    "it stays in memory after unloading, and a newer build cannot be loaded: "
+                    "build it with -fno-gnu-unique");
       if (left != nullptr) dlclose(left);
     }
     report.step("loading " + file);
@@ -357,7 +358,7 @@ bool checkLoading(const std::string& file, effect::Registry& registry, Report& r
   }
   for (const effect::Effect& effect : registry.effects()) {
     report.expect(true, "");
-    report.conclude(fmt::format("{} {}: its table of {} parameters and {} outputs fits",
+    report.conclude(fmt::format("{} {}: its tables of {} parameters and {} outputs are valid",
                                 effect.desc->key, effect.desc->version, effect.params().size(),
                                 effect.outputs().size()));
   }
@@ -378,7 +379,7 @@ void checkPlugin(const std::string& file, Report& report) {
     try {
       device = backends::create(backend.name, {.check = true, .message = messages.sink()});
     } catch (const Error& error) {
-      report.note(fmt::format("{}: nothing is checked, since {}", backend.name, error.detail()));
+      report.note(fmt::format("{}: not checked: {}", backend.name, error.detail()));
       continue;
     }
     ++devices;
@@ -390,7 +391,7 @@ void checkPlugin(const std::string& file, Report& report) {
       report.fault(fmt::format("{}: at the end: {}", backend.name, text));
     }
   }
-  report.expect(devices > 0, "no backend starts, so that nothing was drawn");
+  report.expect(devices > 0, "no backend starts; nothing was drawn");
 }
 
 }  // namespace grisaille::app

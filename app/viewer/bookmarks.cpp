@@ -10,7 +10,7 @@ namespace grisaille::app::viewer {
 namespace fs = std::filesystem;
 
 namespace {
-constexpr size_t kLongestName = 200;  // bytes; file systems allow 255 with ending and part
+constexpr size_t kLongestName = 200;  // bytes; file systems allow 255, with all suffixes
 }  // namespace
 
 void Bookmarks::checkName(std::string_view name) {
@@ -50,7 +50,7 @@ std::vector<Bookmarks::Entry> Bookmarks::list() const {
 void Bookmarks::save(const std::string& name, const scene::Camera& camera) const {
   const fs::path file = fileOf(name);
   std::error_code failed;
-  fs::create_directories(folder_, failed);  // that it is not there is seen by the next line
+  fs::create_directories(folder_, failed);  // on failure, saveCamera() throws
   scene::saveCamera(camera, file.string());
 }
 

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: MIT
-// Named cameras: a folder of camera files, one NAME.json each.
+// Bookmarks: named cameras, kept in a folder as one camera file NAME.json per bookmark.
 #pragma once
 
 #include <filesystem>
@@ -16,24 +16,24 @@ class Bookmarks {
  public:
   struct Entry {
     std::string name;
-    std::optional<scene::Camera> camera;  // none: the file is broken
-    std::string error;                    // why it is, as one line
+    std::optional<scene::Camera> camera;  // none: the file is invalid
+    std::string error;                    // why the file is invalid, one line; else ""
   };
 
-  // The folder is made with the first save().
+  // The first save() creates the folder.
   explicit Bookmarks(std::filesystem::path folder) : folder_(std::move(folder)) {}
 
-  // As the folder is now, by name; none where there is no folder.
+  // Reads the folder and returns its bookmarks, sorted by name. A missing folder has none.
   std::vector<Entry> list() const;
 
-  // In the place of one of that name. Throws kBookmarkName, kFileUnwritable.
+  // Replaces a bookmark of the same name. Throws kBookmarkName, kFileUnwritable.
   void save(const std::string& name, const scene::Camera& camera) const;
 
-  // Nothing happens where there is none. Throws kBookmarkName, kFileUnwritable.
+  // Does nothing without a bookmark of this name. Throws kBookmarkName, kFileUnwritable.
   void remove(const std::string& name) const;
 
-  // Throws kBookmarkName unless `name` can be a file's: 1 to 200 bytes, no slashes or control
-  // characters, no dot at its beginning.
+  // Throws kBookmarkName unless `name` can name a file: 1 to 200 bytes, no slash, backslash or
+  // control character, no leading dot.
   static void checkName(std::string_view name);
 
  private:

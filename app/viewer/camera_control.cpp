@@ -10,12 +10,13 @@
 namespace grisaille::app::viewer {
 namespace {
 
-constexpr double kPoleMargin = 0.01;  // radians that a drag stays off the poles
-// The shortest distance to the target, as a share of 1 m and of the coordinates: under 1e-9 their
-// rounding would turn the view. Who moves the target pushes it so far away.
+constexpr double kPoleMargin = 0.01;  // radians; the least angle between a drag and a pole
+// The shortest distance to the target, relative to 1 m plus the length of the coordinates. Below
+// 1e-9 their rounding would turn the view. Functions that move the target keep at least this
+// distance.
 constexpr double kLeastDistance = 1e-6;
 
-// Takes the step unless it ends at no camera.
+// Moves the camera to `next` if that is a valid camera.
 void take(scene::Camera& camera, const scene::Camera& next) {
   try {
     scene::validate(next);
@@ -33,8 +34,8 @@ double leastDistance(const glm::dvec3& place) {
   return kLeastDistance * (1 + glm::length(place));
 }
 
-// A unit direction turned about the unit axis `up` by `yaw`, and towards `up` by `rise`, at most up
-// to the margin before the poles; one inside the margin may stay there.
+// Turns a unit direction about the unit axis `up` by `yaw`, and towards `up` by `rise`, radians.
+// Stops at kPoleMargin before the poles; a direction inside the margin may stay there.
 glm::dvec3 turned(const glm::dvec3& direction, const glm::dvec3& up, double yaw, double rise) {
   const glm::dvec3 level = direction - up * glm::dot(direction, up);
   const double sine = glm::length(level);
@@ -60,7 +61,7 @@ void orbit(scene::Camera& camera, glm::dvec2 dragPixels, double heightPixels) {
 }
 
 void pan(scene::Camera& camera, glm::dvec2 dragPixels, double heightPixels) {
-  // What a pixel spans as deep as the target.
+  // Metres per pixel at the target's depth.
   const double metres =
       2 * std::tan(glm::radians(camera.fovyDegrees) / 2) * distanceOf(camera) / heightPixels;
   const glm::dmat3 axes = scene::worldFromView(camera);

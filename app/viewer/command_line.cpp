@@ -39,10 +39,10 @@ std::vector<std::string> renderArguments(const RenderCommand& command) {
   const auto add = [&](const char* option, const std::string& value) {
     arguments.insert(arguments.end(), {option, value});
   };
-  // Before --effects, which would take it for one more.
+  // Before --effects, which would take the path as another effect.
   if (!command.scene.empty()) arguments.push_back(plainPath(command.scene));
   scene::Camera camera = command.camera;
-  camera.size = glm::uvec2(0);  // --size says it
+  camera.size = glm::uvec2(0);  // --size gives it
   add("--camera", scene::cameraJson(camera));
   add("--size", fmt::format("{}x{}", command.size.x, command.size.y));
   if (!command.backend.empty()) add("--backend", command.backend);

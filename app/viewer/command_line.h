@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: MIT
-// The `grisaille render` command that makes the viewer's picture, and what other commands share
-// with it.
+// Writes the `grisaille render` command that makes the viewer's picture, and the arguments that it
+// shares with `grisaille tune`.
 #pragma once
 
 #include <string>
@@ -14,29 +14,30 @@
 namespace grisaille::app::viewer {
 
 struct RenderCommand {
-  std::string scene = {};  // a file; "": the built-in scene
+  std::string scene = {};  // path; "": the built-in scene
   scene::Camera camera = {};
   glm::uvec2 size = glm::uvec2(1280, 720);     // pixels
-  std::string backend = {}, device = {};       // "": left out
-  const effect::Selection* effects = nullptr;  // those that are on; null: none
+  std::string backend = {}, device = {};       // "": no option
+  const effect::Selection* effects = nullptr;  // only those switched on; null: none
   std::string surface = "white";
-  // Effect and file, output and file.
+  // --load as effect and file; --write as output and file.
   std::vector<std::pair<std::string, std::string>> loads = {}, writes = {};
   std::vector<std::string> pluginPaths = {};
 };
 
-// The program's name and its arguments, unquoted. Only values that differ from their defaults.
+// The program's name and its arguments, unquoted. --set names only the parameters that differ from
+// their defaults.
 std::vector<std::string> renderArguments(const RenderCommand& command);
 
-// The same as one line for a shell.
+// renderArguments() as one line, quoted for a shell.
 std::string renderCommand(const RenderCommand& command);
 
-// --effects with those that are on, and --set for their values that differ from the defaults, but
-// for those of the parameters that are left out.
+// Appends --effects with the effects that are on, and --set for each of their values that differs
+// from its default. Skips the parameters in `leftOut`.
 void addEffects(const effect::Selection& effects, const std::vector<effect::ParameterName>& leftOut,
                 std::vector<std::string>& arguments);
 
-// A path that no command line takes for an option.
+// The path, with "./" in front if it starts with '-', so that no parser takes it for an option.
 std::string plainPath(const std::string& path);
 
 }  // namespace grisaille::app::viewer

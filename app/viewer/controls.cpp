@@ -14,10 +14,10 @@ namespace grisaille::app::viewer {
 namespace {
 
 constexpr double kSprayInterval = 1.0 / 20;  // seconds
-constexpr int kMostSprayed = 8;              // a frame
+constexpr int kMostSprayed = 8;              // per frame
 constexpr double kSprayRadius = 12;          // pixels
-constexpr double kLineReach = 6;             // pixels on either side, to take hold of the line
-constexpr double kArrowStep = 24;            // pixels of a drag
+constexpr double kLineReach = 6;             // pixels on either side where a click grabs the line
+constexpr double kArrowStep = 24;            // pixels; an arrow key acts like this drag
 
 }  // namespace
 
@@ -152,7 +152,7 @@ bool Controls::updateFlight(double seconds) {
   return true;
 }
 
-// Those that mean nothing in a text field.
+// Keys that also work while the user types in a text field.
 void Controls::updateKeysAnywhere(Requests& requests) {
   const bool ctrl = ImGui::GetIO().KeyCtrl;
   if (isKeyPressed(GLFW_KEY_F1)) panel_.help = !panel_.help;
@@ -184,7 +184,7 @@ void Controls::updateKeys(const Place& place, Requests& requests) {
     return;
   }
   updateViewKeys();
-  if (io.WantCaptureKeyboard) return;  // the panel has them
+  if (io.WantCaptureKeyboard) return;  // the panel takes the keys
   if (isKeyPressed(GLFW_KEY_TAB) && panel_.shown) ImGui::SetWindowFocus("Grisaille");
   if (isKeyPressed(GLFW_KEY_SPACE)) {
     session_.attempt([&] { session_.place(0.5 * glm::dvec2(place.size), place.size, false); });

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: MIT
-// What mouse and keys do outside the panel: move, place objects, look closer.
+// Mouse and keyboard outside the panel: move the camera, place objects, zoom, change views.
 #pragma once
 
 #include <glm/glm.hpp>
@@ -10,7 +10,7 @@
 
 namespace grisaille::app::viewer {
 
-// Where the picture lies in the window, pixels.
+// The picture's rectangle in the window, pixels.
 struct Place {
   glm::ivec2 corner = glm::ivec2(0);
   glm::uvec2 size = glm::uvec2(0);
@@ -21,11 +21,13 @@ class Controls {
   Controls(Session& session, Panel& panel, Bookmarks& bookmarks, ViewerState& state)
       : session_(session), panel_(panel), bookmarks_(bookmarks), state_(state) {}
 
-  // Between ImGui::NewFrame() and ImGui::Render(), after the panel. `pixelsAUnit`: of the window.
-  // Adds to `requests`. True while something moves or is placed by itself: the next frame is due.
+  // Call between ImGui::NewFrame() and ImGui::Render(), after the panel. `seconds`: since the last
+  // frame. `pixelsAUnit`: pixels per unit of the window. Adds to `requests`. True while a held key
+  // or button moves the camera or sprays objects: the next frame must be drawn.
   bool update(const Place& place, double seconds, float pixelsAUnit, Requests& requests);
 
-  // The texel under the cursor, and on which side; none while the cursor is elsewhere.
+  // The texel under the cursor, none while the cursor is outside the picture or over the panel; and
+  // whether the cursor is right of the split line.
   std::optional<glm::ivec2> texel(const Place& place) const;
   bool rightSide(const Place& place) const;
 
@@ -44,7 +46,7 @@ class Controls {
   void updateViewKeys();
   void updateBookmarkKeys();
   void placeObject(const Place& place, glm::dvec2 offset, bool joins);
-  // In texels of the picture, from its top left corner; `at` in pixels of the window.
+  // Converts window pixels to texels of the picture, from its top left corner.
   glm::dvec2 pointAt(const Place& place, glm::dvec2 at) const;
 
   Session& session_;

@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: MIT
-// One line of undo over settings and objects. A settings step keeps only what it changed, a step of
-// objects only how many steps of their list it is, so that a hundred thousand cost little.
+// One undo history for settings and objects. A settings step stores only the changed lines; an
+// object step stores only the number of steps in the object list. 100,000 steps therefore cost
+// little memory.
 #pragma once
 
 #include <cstddef>
@@ -19,45 +20,45 @@ class History {
   using Restore = std::function<void(const effect::Selection::State&)>;
   using ListOf = std::function<objects::ObjectList&(std::string_view effect)>;
 
-  // `now`: the state before the first step. undo() and redo() hand a whole state to `restore`, and
-  // undo and redo steps of the list that `listOf` names, which must be there for every effect that
-  // was noted.
+  // `now`: the state before the first step. undo() and redo() pass the whole state to `restore` for
+  // a settings step, and undo or redo the list that `listOf` returns for an object step. `listOf`
+  // must return a list for every effect passed to noteObjects().
   History(const effect::Selection::State& now, Restore restore, ListOf listOf);
 
-  // To be called when a change is complete (a slider let go): adds a step if `now` differs from the
-  // state at the last one. `what` names it: "ssao.radius". Steps that were undone are forgotten.
+  // Call when a change is complete (the user releases a slider): adds a step if `now` differs from
+  // the state at the last step. `what` names the step: "ssao.radius". Drops undone steps.
   void noteSettings(const effect::Selection::State& now, std::string what);
 
-  // So many steps of that list were done; 0: nothing happens. `joins`: they go on with the step
-  // before, if that is the same list's and nothing is undone (a held spray passes false first, then
-  // true).
+  // Records that the list of `effect` did this number of steps; 0: does nothing. `joins`: merges
+  // them into the last step if that is of the same list and nothing is undone. A held spray passes
+  // false first, then true.
   void noteObjects(const std::string& effect, size_t steps, std::string what, bool joins = false);
 
   bool canUndo() const { return done_ > 0; }
   bool canRedo() const { return done_ < steps_.size(); }
-  // Nothing happens where there is no such step.
+  // Each does nothing without a step to undo or redo.
   void undo();
   void redo();
 
-  // What the next undo() or redo() is about; "": there is none.
+  // The name of the step that the next undo() or redo() takes; "": none.
   std::string undoName() const { return canUndo() ? steps_[done_ - 1].what : std::string(); }
   std::string redoName() const { return canRedo() ? steps_[done_].what : std::string(); }
 
  private:
-  // A state as a list of lines, so that a change is a run of lines that takes another's place: a
-  // line for each effect, one for each of its values behind it.
+  // A state is stored as a list of lines: one per effect, followed by one per value of the effect.
+  // A change replaces one run of lines by another.
   struct Line {
-    std::string key, value;  // of an effect: "on" or "off"
+    std::string key, value;  // for an effect, `value` is "on" or "off"
     bool effect = false;
 
     bool operator==(const Line&) const = default;
   };
   struct Step {
     std::string what;
-    // Of settings: at line `at`, `after` takes the place of `before`.
+    // For settings: at line `at`, `after` replaces `before`.
     size_t at = 0;
     std::vector<Line> before, after;
-    // Of objects: number of steps of an effect's list; 0: the step is of settings.
+    // For objects: number of steps in the effect's list; 0: a settings step.
     size_t objectSteps = 0;
     std::string effect;
   };
@@ -67,7 +68,7 @@ class History {
 
   void add(Step step);
   void forgetUndone();
-  // Puts `to` where `from` stands in the settings.
+  // Replaces the lines `from` at `at` by `to`, and restores that state.
   void change(size_t at, const std::vector<Line>& from, const std::vector<Line>& to);
 
   Restore restore_;

@@ -19,7 +19,8 @@ struct NamedKey {
   ImGuiKey key;
 };
 
-// Letters, digits and function keys follow one another in both libraries; these do not.
+// Keys outside the contiguous rows. Letters, digits and function keys are contiguous in GLFW and in
+// ImGui.
 constexpr NamedKey kKeys[] = {{GLFW_KEY_TAB, ImGuiKey_Tab},
                               {GLFW_KEY_LEFT, ImGuiKey_LeftArrow},
                               {GLFW_KEY_RIGHT, ImGuiKey_RightArrow},
@@ -63,7 +64,7 @@ constexpr NamedKey kKeys[] = {{GLFW_KEY_TAB, ImGuiKey_Tab},
                               {GLFW_KEY_RIGHT_SUPER, ImGuiKey_RightSuper},
                               {GLFW_KEY_MENU, ImGuiKey_Menu}};
 
-// The key at the same place in a row of ImGui's that begins with `first`.
+// ImGui's key at the same offset from `first` as `key` has from `firstGlfw`.
 ImGuiKey inRow(int key, int firstGlfw, ImGuiKey first) {
   return static_cast<ImGuiKey>(first + (key - firstGlfw));
 }
@@ -125,9 +126,9 @@ bool isKeyDown(int key) {
   return keyOf(key) != ImGuiKey_None && ImGui::IsKeyDown(keyOf(key));
 }
 
-#else  // before 1.87 a backend fills arrays, and a key is the window library's own number
+#else  // before 1.87 the backend fills arrays, indexed by the window library's key numbers
 
-// The glue to GLFW has filled the map; where there is no window, any map will do.
+// ImGui's GLFW backend has filled the map; without a window, any map works.
 void prepareInput() {
   ImGuiIO& io = ImGui::GetIO();
   for (int key = 0; key < ImGuiKey_COUNT; ++key) {

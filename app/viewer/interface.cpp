@@ -16,14 +16,14 @@ namespace {
 
 constexpr float kTextPixels = 16;
 
-// As shaders/viewer/interface.vert has it.
+// Same layout as in shaders/viewer/interface.vert.
 struct InterfaceBlock {
   float clip_from_unit[2];
   float origin[2];
 };
 GRISAILLE_CHECK_BLOCK_interface_vert_Interface(InterfaceBlock);
 
-// Any of these scales; ImGui's built-in font is a bitmap.
+// Scalable fonts, the first that exists; ImGui's built-in font is a bitmap.
 constexpr const char* kFonts[] = {"/usr/share/fonts/truetype/dejavu/DejaVuSans.ttf",
                                   "/usr/share/fonts/TTF/DejaVuSans.ttf",
                                   "/usr/share/fonts/dejavu-sans-fonts/DejaVuSans.ttf"};
@@ -44,11 +44,11 @@ InterfaceContext::InterfaceContext() {
   IMGUI_CHECKVERSION();
   ImGui::CreateContext();
   ImGuiIO& io = ImGui::GetIO();
-  io.IniFilename = nullptr;  // the panel's place is no setting
+  io.IniFilename = nullptr;  // do not save the panel's position
   io.ConfigFlags |= ImGuiConfigFlags_NavEnableKeyboard;
   io.BackendFlags |= ImGuiBackendFlags_RendererHasVtxOffset;
-  io.ConfigInputTextCursorBlink = false;  // nothing is drawn while nothing changes
-  io.ConfigDragClickToInputText = true;   // a click on a slider types a value
+  io.ConfigInputTextCursorBlink = false;  // a blinking cursor would need frames
+  io.ConfigDragClickToInputText = true;   // a click on a slider opens a text field
 }
 
 InterfaceContext::~InterfaceContext() {
@@ -105,7 +105,7 @@ void InterfaceRenderer::uploadFont(gpu::Commands& commands) {
   commands.upload(font_, 0, 0, std::as_bytes(std::span(pixels, bytes)));
 }
 
-// All lists in one buffer of vertices and one of indices, 32 bits each and counted from its start.
+// Joins all draw lists into one array of vertices and one of 32-bit indices into the whole array.
 void InterfaceRenderer::gather(const ImDrawData& data) {
   vertexData_.clear();
   indexData_.clear();

@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: MIT
-// Dear ImGui on the layer: its context, its font, and its triangles drawn over a picture. ImGui's
-// own renderers are not used: each would need its API's headers here, and the one for Vulkan its
-// loader.
+// Dear ImGui on the rendering layer: its context, its font, and a renderer that draws its triangles
+// over a picture. ImGui's own renderers are not used: each needs the headers of its API, and the
+// Vulkan renderer needs the loader.
 #pragma once
 
 #include <cstdint>
@@ -13,9 +13,9 @@ struct ImDrawData;
 
 namespace grisaille::app::viewer {
 
-constexpr float kSmallestText = 0.5f, kLargestText = 4;  // times the usual size
+constexpr float kSmallestText = 0.5f, kLargestText = 4;  // times the default size
 
-// Dear ImGui's one context of the process, with the style of this program. One at a time.
+// Creates and owns Dear ImGui's context, in this program's style. At most one per process.
 class InterfaceContext {
  public:
   InterfaceContext();
@@ -23,9 +23,9 @@ class InterfaceContext {
   InterfaceContext(const InterfaceContext&) = delete;
   InterfaceContext& operator=(const InterfaceContext&) = delete;
 
-  // Text and all measures that follow it; `scale` is the display's times the user's. Not between
-  // ImGui::NewFrame() and ImGui::Render(). True where the font is another now: InterfaceRenderer is
-  // to be told by fontChanged().
+  // Scales the text and all sizes that depend on it; `scale` is the display's scale times the
+  // user's. Do not call between ImGui::NewFrame() and ImGui::Render(). True if the font changed:
+  // then call InterfaceRenderer::fontChanged().
   bool setScale(float scale);
 
  private:
@@ -34,7 +34,7 @@ class InterfaceContext {
 
 class InterfaceRenderer {
  public:
-  // The device outlives this.
+  // The device must outlive this.
   explicit InterfaceRenderer(gpu::Device& device) : device_(device) {}
   ~InterfaceRenderer();
   InterfaceRenderer(const InterfaceRenderer&) = delete;
@@ -42,7 +42,8 @@ class InterfaceRenderer {
 
   void fontChanged();
 
-  // Inside a pass: draws over what `target` (kRgba8Unorm, of the window's size) holds.
+  // Draws over the content of `target` (kRgba8Unorm, `width` x `height` pixels: the window's size).
+  // Call inside a pass.
   void draw(gpu::Commands& commands, const ImDrawData& data, gpu::Texture target, uint32_t width,
             uint32_t height);
 
@@ -58,7 +59,7 @@ class InterfaceRenderer {
   gpu::Texture font_;
   gpu::Buffer vertices_, indices_;
   uint64_t vertexBytes_ = 0, indexBytes_ = 0;  // capacities
-  std::vector<std::byte> vertexData_;          // of the frame; kept for their memory
+  std::vector<std::byte> vertexData_;          // of the frame; reused, to keep their memory
   std::vector<uint32_t> indexData_;
 };
 

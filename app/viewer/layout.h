@@ -1,5 +1,6 @@
 // SPDX-License-Identifier: MIT
-// Where each control lies, for programs that drive the viewer from outside: tests, screen readers.
+// Records the rectangle of each control, for programs that drive the viewer from outside: tests,
+// screen readers.
 #pragma once
 
 #include <map>
@@ -11,9 +12,9 @@ class Layout {
  public:
   void begin() { controls_.clear(); }
 
-  // The item that ImGui drew last, where it can be seen. `value` as the control shows it.
+  // Records the last item that ImGui drew, if it is visible. `value`: as the control shows it.
   void note(const std::string& name, const std::string& value = "");
-  // Pixels of the window: left, top, right, bottom.
+  // Records a rectangle in pixels of the window.
   void note(const std::string& name, float left, float top, float right, float bottom,
             const std::string& value = "");
 

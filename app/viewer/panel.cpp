@@ -10,40 +10,40 @@
 namespace grisaille::app::viewer {
 namespace {
 
-constexpr float kWidth = 26;  // of the panel, heights of a line of text
+constexpr float kWidth = 26;  // of the panel, in font heights
 
 constexpr struct {
   const char *keys, *what;
 } kHelp[] = {
-    {"F1", "this help"},
+    {"F1", "list all keys"},
     {"F2", "hide or show the panel"},
     {"Tab, arrows, Space, Enter", "move in the panel and use it; Esc leaves it"},
-    {"Ctrl + + / - / 0", "larger, smaller, usual text"},
+    {"Ctrl + + / - / 0", "larger, smaller, default text"},
     {"", ""},
     {"left drag", "orbit"},
     {"middle drag", "pan"},
-    {"right drag", "look about"},
-    {"scroll", "nearer, farther; with the right button: faster, slower"},
-    {"W A S D, E Q", "fly ahead, left, back, right, up, down; Shift: four times as fast"},
+    {"right drag", "look around"},
+    {"scroll", "move nearer or farther; with the right button: fly faster or slower"},
+    {"W A S D, E Q", "fly forward, left, back, right, up, down; Shift: four times as fast"},
     {"arrows", "orbit"},
     {"Home", "the scene's own camera"},
-    {"1 ... 9", "a bookmark; with Ctrl: sets it"},
+    {"1 ... 9", "go to a bookmark; with Ctrl: set it"},
     {"", ""},
-    {"B", "left button places an object, or turns"},
-    {"Space", "place an object in the picture's middle"},
+    {"B", "left button places an object, or orbits again"},
+    {"Space", "place an object in the middle of the picture"},
     {"Ctrl + Z, Ctrl + Shift + Z", "undo, redo"},
     {"", ""},
-    {"V, Shift + V", "next view, the one before"},
-    {"X, [ ]", "split; its line to the left, to the right"},
-    {"T", "compare with truth, traced meanwhile"},
-    {"I", "the value under the cursor"},
+    {"V, Shift + V", "next view, previous view"},
+    {"X, [ ]", "split; move the line left, right"},
+    {"T", "compare with truth"},
+    {"I", "value under the cursor"},
     {"Ctrl + scroll, + / -", "zoom into pixels"},
-    {"P, N", "pause, one step"},
+    {"P, N", "pause, one frame"},
     {"", ""},
-    {"Ctrl + C", "copy as command line"},
+    {"Ctrl + C", "copy the command line"},
     {"Ctrl + S", "save the settings"},
-    {"F5", "rescan plugins"},
-    {"F11", "fill the screen"},
+    {"F5", "look for plugins again"},
+    {"F11", "full screen"},
     {"F12", "save the picture"},
     {"Ctrl + Q", "quit"},
 };
@@ -64,7 +64,7 @@ bool Panel::toggle(const char* label, const char* id, bool& value, const char* t
   return changed;
 }
 
-// True where Enter was pressed.
+// Draws a text field for a path or a name. True if the user pressed Enter.
 bool Panel::path(const char* label, const char* id, std::string& text) {
   ImGui::SetNextItemWidth(ImGui::GetContentRegionAvail().x * 0.58f);
   const bool entered = ImGui::InputText(label, &text, ImGuiInputTextFlags_EnterReturnsTrue);
@@ -163,7 +163,7 @@ void Panel::drawSettings(Requests& requests) {
   }
   path("##saved", "saved name", savedName_);
   ImGui::SameLine();
-  if (button("Save under this name", "save named", "Listed here, in every session")) {
+  if (button("Save under this name", "save named", "Lists the settings here, in every session")) {
     session_.attempt([&] {
       Bookmarks::checkName(savedName_);
       std::filesystem::create_directories(configFolder() / "settings");
@@ -172,7 +172,7 @@ void Panel::drawSettings(Requests& requests) {
     listsFresh_ = false;
   }
   if (button("Copy as command line", "copy command",
-             "The `grisaille render` that makes this picture (Ctrl+C)")) {
+             "Copies the `grisaille render` command that makes this picture (Ctrl+C)")) {
     requests.copyCommand = true;
   }
 }
@@ -229,7 +229,7 @@ void Panel::drawScene(const Status& status, Requests& requests) {
   ImGui::BeginDisabled(status.loading.has_value());
   bool open = path("##scene", "scene path", scenePath_);
   ImGui::SameLine();
-  open |= button("Open", "open scene", "A .glb or .gltf; or drop one on the window");
+  open |= button("Open", "open scene", "A .glb or .gltf file; or drop the file on the window");
   if (open && !scenePath_.empty()) requests.scene = scenePath_;
   if (ImGui::Selectable("built-in atrium")) requests.scene = "";
   layout.note("scene.builtin");

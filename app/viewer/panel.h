@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: MIT
-// The panel: every effect's parameters from its own table, views, objects, cost, files. It edits
-// the session and asks the viewer for what a session cannot do.
+// The panel: the parameters of every effect, built from the effect's table; views, objects, cost,
+// files. It edits the session, and returns requests for the viewer to perform.
 #pragma once
 
 #include <imgui/imgui.h>
@@ -21,26 +21,26 @@
 
 namespace grisaille::app::viewer {
 
-inline const ImVec4 kErrorColour(0.90f, 0.62f, 0.00f, 1);  // of words about what went wrong
+inline const ImVec4 kErrorColour(0.90f, 0.62f, 0.00f, 1);  // text of error messages
 
-// Of the comparing with truth.
+// State of the comparison with the truth.
 struct TruthStatus {
   bool running = false;
   truth::Comparison comparison;
-  double rays = 0;                          // a traced pixel, on average
-  double share = 0;                         // of the picture's pixels
-  std::optional<truth::Point> cursor = {};  // of the texel under it
+  double rays = 0;                          // mean per traced pixel
+  double share = 0;                         // traced share of the pixels, 0 ... 1
+  std::optional<truth::Point> cursor = {};  // of the texel under the cursor
 };
 
-// Of the search for a setting.
+// State of the search that `grisaille tune` runs.
 struct TuneStatus {
-  std::string effect;  // that it is for, or was; "": there was none yet
+  std::string effect;  // of this search, or of the last one; "": no search yet
   bool running = false;
   TuneRun::State state;
-  TuneRun::Outcome outcome;  // of the last one
+  TuneRun::Outcome outcome;  // of the last search
 };
 
-// What the panel shows besides the session.
+// State that the panel shows besides the session.
 struct Status {
   gpu::DeviceInfo device;
   std::vector<PassStats> passes;
@@ -49,18 +49,18 @@ struct Status {
   std::vector<float> cursorValue;  // of the texel under the cursor; empty: none
   glm::ivec2 cursorTexel = glm::ivec2(0);
   glm::uvec2 picture = glm::uvec2(0);  // pixels
-  uint64_t waiting = 0;                // objects that are not drawn yet
+  uint64_t waiting = 0;                // objects still to be drawn
   TruthStatus truth;
   TuneStatus tune;
-  std::optional<double> loading;  // share of a scene that is read
+  std::optional<double> loading;  // share of the scene that is read, 0 ... 1
   std::string loadingPath;
-  std::string rebuilding;    // the effect whose plugin is being built; "": none
-  std::string buildMessage;  // why the last build failed; "": it did not
+  std::string rebuilding;    // build target of the plugin being built; "": none
+  std::string buildMessage;  // why the last build failed; "": it succeeded
 };
 
-// What the panel asks for.
+// Actions that the panel and the keys request from the viewer.
 struct Requests {
-  std::optional<std::string> scene;  // to open; "": the built-in one
+  std::optional<std::string> scene;  // to open; "": the built-in scene
   std::optional<TuneWish> tune;
   bool cancelTune = false;
   bool rescan = false, picture = false, copyCommand = false, help = false, quit = false;
@@ -71,10 +71,10 @@ class Panel {
   Panel(Session& session, ViewerState& state, Bookmarks& bookmarks)
       : session_(session), state_(state), bookmarks_(bookmarks) {}
 
-  // Between ImGui::NewFrame() and ImGui::Render(); the units of the window.
+  // Call between ImGui::NewFrame() and ImGui::Render(). `window`: size, in the window's units.
   Requests draw(const Status& status, glm::vec2 window);
 
-  // Units of the window that it takes from the left; 0 when it is hidden.
+  // Width at the left of the window, in the window's units; 0 if hidden.
   float width(glm::vec2 window) const;
 
   void refreshLists() { listsFresh_ = false; }
@@ -83,8 +83,8 @@ class Panel {
   }
 
   bool shown = true, help = false, wantsCoverage = false;
-  glm::uvec2 pictureSize = glm::uvec2(1920, 1080);  // of pictures that are saved
-  bool pictureAsShown = true;                       // with the size on the screen
+  glm::uvec2 pictureSize = glm::uvec2(1920, 1080);  // of saved pictures
+  bool pictureAsShown = true;                       // save at the size on the screen
   Layout layout;
 
  private:
@@ -121,9 +121,9 @@ class Panel {
   void drawObjectFile(const std::string& effect);
   void drawObjectList(const std::string& effect);
   void drawSelected(const std::string& effect, size_t index);
-  struct Draft {  // a text that is being typed
+  struct Draft {  // text of an object that the user is typing
     std::string effect;
-    size_t index, field;  // of the object, of its field
+    size_t index, field;  // of the object, and of the field in its table
     std::string text;
   };
   void draftText(const objects::Field& field, const std::string& id, Draft draft);
@@ -149,12 +149,12 @@ class Panel {
   size_t messagesSeen_ = 0;
   std::map<std::string, TuneWish> wishes_;          // by effect
   std::map<std::string, std::string> objectPaths_;  // by effect
-  std::map<std::string, size_t> selected_;          // by effect, index of an object
-  std::map<std::string, size_t> sizes_;             // by effect, objects in the last frame
+  std::map<std::string, size_t> selected_;          // by effect: index of an object
+  std::map<std::string, size_t> sizes_;             // by effect: number of objects last frame
   std::optional<Draft> draft_;
-  bool drafting_ = false;                                // its control still has the focus
-  std::string editing_;                                  // the field that is being edited; "": none
-  std::optional<std::pair<std::string, double>> typed_;  // parameter and value, not yet taken
+  bool drafting_ = false;                                // the draft's control still has the focus
+  std::string editing_;                                  // the field being edited; "": none
+  std::optional<std::pair<std::string, double>> typed_;  // parameter and value, not applied yet
 };
 
 }  // namespace grisaille::app::viewer

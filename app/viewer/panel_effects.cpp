@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: MIT
-// The panel's effects: all of it made from their tables.
+// The panel's effects, and their cost. The effects' tables give all labels, ranges and tooltips.
 #define GLFW_INCLUDE_NONE
 #include <GLFW/glfw3.h>
 #include <fmt/format.h>
@@ -14,8 +14,8 @@
 namespace grisaille::app::viewer {
 namespace {
 
-// Okabe and Ito's colours, told apart with any colour vision; black left out, as the ground is
-// dark.
+// Okabe and Ito's palette, safe for all kinds of colour vision; without black, since the background
+// is dark.
 const std::array<ImVec4, 7> kColours = {{{0.90f, 0.62f, 0.00f, 1},
                                          {0.34f, 0.71f, 0.91f, 1},
                                          {0.00f, 0.62f, 0.45f, 1},
@@ -25,7 +25,7 @@ const std::array<ImVec4, 7> kColours = {{{0.90f, 0.62f, 0.00f, 1},
                                          {0.80f, 0.47f, 0.65f, 1}}};
 constexpr size_t kFrameColour = 6;
 
-// printf's format of a value with its unit, in which '%' stands for itself.
+// A printf format for a value with its unit; escapes '%' in the unit.
 std::string formatOf(const grisaille_param_desc& param, const char* number) {
   std::string text = number;
   if (*param.unit == '\0') return text;
@@ -129,7 +129,7 @@ void Panel::drawEffect(effect::Selection::Entry& entry, size_t index, const Stat
     drawTune(entry, status.tune, requests);
     ImGui::Unindent();
   }
-  // Last: `entry` is another one then.
+  // Last, since `entry` then refers to another effect.
   if (target && *target < session_.chain.selection.entries().size()) {
     session_.chain.selection.move(index, *target);
     session_.changed("order of effects");
@@ -166,7 +166,7 @@ void Panel::drawParameter(effect::Selection::Entry& entry, const grisaille_param
   double value = entry.values.get(param.key);
   ImGui::SetNextItemWidth(ImGui::GetContentRegionAvail().x * 0.58f);
   bool edited = editParameter(entry, param, value);
-  // What is being typed counts when it is whole.
+  // A typed value is applied when the user leaves the text field; Esc drops it.
   if (ImGui::TempInputIsActive(ImGui::GetItemID())) {
     if (edited) typed_ = {name, value};
     edited = false;
@@ -191,7 +191,7 @@ void Panel::drawParameter(effect::Selection::Entry& entry, const grisaille_param
   layout.note(name, entry.values.text(param.key));
 }
 
-// Draws the control; true where `value` is another now.
+// Draws the control; true if the user changed `value`.
 bool Panel::editParameter(const effect::Selection::Entry& entry, const grisaille_param_desc& param,
                           double& value) {
   const std::string label = fmt::format("{}##{}.{}", param.label, entry.key(), param.key);
@@ -224,7 +224,7 @@ bool Panel::editParameter(const effect::Selection::Entry& entry, const grisaille
       const bool edited =
           ImGui::SliderScalar(label.c_str(), ImGuiDataType_Double, &value, &param.soft_min,
                               &param.soft_max, formatOf(param, "%.5g").c_str(), scale);
-      // A dragged slider moves by whole steps; what is typed stays as it is.
+      // A dragged slider snaps to whole steps; a typed value stays exact.
       if (edited && scale == 0 && ImGui::IsMouseDown(ImGuiMouseButton_Left) && param.step > 0) {
         const double steps = std::round((value - param.soft_min) / param.step);
         value = std::clamp(param.soft_min + steps * param.step, param.soft_min, param.soft_max);
@@ -238,7 +238,7 @@ void Panel::drawCost(const Status& status) {
   const char* clock = gpu::clockName(status.device.clock);
   ImGui::TextDisabled("%s clock, last %zu frames", clock, status.whole.recent.size());
   toggle("Render all the time", "continuous", session_.continuous,
-         "Else a frame is rendered when something has changed");
+         "Off: renders a frame only when something has changed");
   std::vector<PassStats> rows = status.passes;
   rows.push_back(status.whole);
   float most = 0;

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: MIT
-// The panel's objects: tools and lists made from the tables of the effects.
+// The panel's objects: controls and lists, built from the effects' tables of objects.
 #include <fmt/format.h>
 #include <imgui/imgui.h>
 #include <imgui/imgui_stdlib.h>
@@ -15,7 +15,7 @@
 namespace grisaille::app::viewer {
 namespace {
 
-constexpr float kListLines = 6;  // of the list of objects, at most
+constexpr float kListLines = 6;  // height of the list of objects, at most
 
 std::string tooltipOf(const objects::Field& field) {
   std::string text = fmt::format("{}\n{}", field.tooltip, field.key);
@@ -26,7 +26,7 @@ std::string tooltipOf(const objects::Field& field) {
   return text;
 }
 
-// What tells an object from others in a list: its texts, the names of its files, its point.
+// The object's line in the list: its index, its texts, the names of its files, its point.
 std::string nameOf(const objects::ObjectList& list, size_t index) {
   const objects::Table& table = list.table();
   std::string name = fmt::format("{}", index);
@@ -75,22 +75,22 @@ void Panel::drawObjectsOf(const std::string& effect, const Status& status) {
   const objects::ObjectList& list = session_.listOf(effect);
   const objects::Table& table = list.table();
   const size_t before = std::exchange(sizes_[effect], list.size());
-  if (session_.placing && list.size() == before + 1) selected_[effect] = before;  // one was placed
+  if (session_.placing && list.size() == before + 1) selected_[effect] = before;  // just placed
   ImGui::Text("%s: %zu", table.label, list.size());
   if (ImGui::IsItemHovered()) ImGui::SetTooltip("%s", table.tooltip);
   layout.note(effect + ".objects", fmt::format("{}", list.size()));
   if (status.waiting > 0) {
     ImGui::SameLine();
-    ImGui::TextDisabled("%llu wait", static_cast<unsigned long long>(status.waiting));
+    ImGui::TextDisabled("%llu waiting", static_cast<unsigned long long>(status.waiting));
   }
   ImGui::SameLine();
   if (ImGui::SmallButton("Clear")) session_.clearObjects(effect);
-  if (ImGui::IsItemHovered()) ImGui::SetTooltip("Deletes all; Ctrl+Z brings them back");
+  if (ImGui::IsItemHovered()) ImGui::SetTooltip("Deletes all objects; Ctrl+Z restores them");
   layout.note(effect + ".clear");
   bool placing = session_.placing && session_.placer() == effect;
   const char* tip = table.placement == GRISAILLE_PLACE_RAY
-                        ? "Click through a pixel, hold to go on; else it turns the camera (B)"
-                        : "Click on a surface; else it turns the camera (B)";
+                        ? "Click through a pixel to place an object, hold to spray. Off: orbits (B)"
+                        : "Click on a surface to place an object. Off: orbits (B)";
   if (toggle("Left button places", (effect + ".placing").c_str(), placing, tip)) {
     session_.placeWith(effect, placing);
   }
@@ -191,8 +191,8 @@ void Panel::drawSelected(const std::string& effect, size_t index) {
   ImGui::Unindent();
 }
 
-// A text of a selected object is taken as a whole, once its control is left: a part of a path would
-// name another picture or none.
+// Keeps the text of a selected object as a draft until the user leaves the control: part of a path
+// would name another file or none.
 void Panel::draftText(const objects::Field& field, const std::string& id, Draft draft) {
   const bool before = draft_ && draft_->effect == draft.effect && draft_->index == draft.index &&
                       draft_->field == draft.field;
@@ -219,7 +219,7 @@ void Panel::takeDraft() {
   });
 }
 
-// Draws the control of one field; true where `value` is another now.
+// Draws the control of one field; true if the user changed `value`.
 bool Panel::editField(const objects::Field& field, const std::string& id, objects::Value& value) {
   const std::string label = fmt::format("{}##{}{}", field.label, id, field.key);
   ImGui::SetNextItemWidth(ImGui::GetContentRegionAvail().x * 0.58f);
@@ -244,7 +244,7 @@ bool Panel::editField(const objects::Field& field, const std::string& id, object
       edited = ImGui::InputText(label.c_str(), &value.text);
       break;
     default: {
-      const double step = 0.01;  // metres, or of a unit vector
+      const double step = 0.01;  // metres; for a direction, a share of its length
       edited = ImGui::DragScalarN(label.c_str(), ImGuiDataType_Double, value.numbers.data(), 3,
                                   static_cast<float>(step), nullptr, nullptr, "%.3f");
     }

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: MIT
-// The panel's comparing with truth.
+// The panel's comparison with truth.
 #include <fmt/format.h>
 
 #include <algorithm>
@@ -10,7 +10,7 @@
 namespace grisaille::app::viewer {
 namespace {
 
-// The colours of the error map, with what they stand for.
+// The error map's colours with their values.
 void drawLegend() {
   const float width = ImGui::GetContentRegionAvail().x;
   const float height = 0.6f * ImGui::GetTextLineHeight();
@@ -37,11 +37,11 @@ void drawLegend() {
 void drawNumbers(const TruthStatus& status) {
   const truth::Comparison& c = status.comparison;
   if (c.pixels == 0) {
-    ImGui::TextDisabled(status.running ? "the scene is prepared for rays" : "nothing is traced");
+    ImGui::TextDisabled(status.running ? "preparing the scene for tracing" : "nothing is traced");
     return;
   }
   ImGui::Text("RMSE %.4f \u00b1 %.1g, mean error %+.4f", c.rmse, c.error, c.bias);
-  ImGui::Text("truth \u00b1%.3f a pixel, %.0f rays, %.3g %% of pixels%s", c.noise, status.rays,
+  ImGui::Text("truth \u00b1%.3f per pixel, %.0f rays, %.3g %% of pixels%s", c.noise, status.rays,
               100 * status.share, status.running ? " \u2026" : "");
 }
 
@@ -71,13 +71,13 @@ void Panel::drawTruthSettings() {
     session_.attempt([&] { session_.setTruthRadius(radius); });
   }
   if (ImGui::IsItemHovered()) {
-    ImGui::SetTooltip("Length of the rays; a right click: the effect's own radius");
+    ImGui::SetTooltip("Length of the rays. Right click: the effect's radius");
   }
   if (ImGui::IsItemClicked(ImGuiMouseButton_Right)) session_.comparing.radius.reset();
   layout.note("truth radius", fmt::format("{}", session_.truthRadius()));
   int rays = static_cast<int>(session_.comparing.rays);
   ImGui::SetNextItemWidth(width);
-  ImGui::SliderInt("Truth's rays a pixel", &rays, TruthSettings::kLeastRays,
+  ImGui::SliderInt("Truth's rays per pixel", &rays, TruthSettings::kLeastRays,
                    TruthSettings::kMostRays, "%d",
                    ImGuiSliderFlags_Logarithmic | ImGuiSliderFlags_AlwaysClamp);
   session_.comparing.rays = static_cast<uint32_t>(rays);
@@ -87,11 +87,11 @@ void Panel::drawTruthSettings() {
 void Panel::drawTruth(const TruthStatus& status) {
   bool on = session_.comparing.on;
   if (toggle("Compare with truth", "compare", on,
-             "Traces the view meanwhile and shows the error (T)")) {
+             "Traces the view in the background and shows the error (T)")) {
     session_.compareWithTruth(on);
   }
   if (session_.comparedOutput().empty()) {
-    if (on) ImGui::TextDisabled("No effect that is on has a visibility.");
+    if (on) ImGui::TextDisabled("No effect that is on has a visibility output.");
     return;
   }
   drawTruthSettings();

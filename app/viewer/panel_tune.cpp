@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: MIT
-// The panel's presets, and its search for a setting.
+// The panel's presets, and its controls for `grisaille tune`.
 #include <fmt/format.h>
 
 #include <algorithm>
@@ -61,7 +61,7 @@ void Panel::drawPresets(effect::Selection::Entry& entry) {
   if (!chosen.empty()) session_.attempt([&] { session_.choosePreset(entry, chosen); });
 }
 
-// What was asked last; at first the error of the preset that others are priced by.
+// The effect's last request; at first, the error bound is that of the preset "balanced".
 TuneWish& Panel::wishOf(const std::string& effect) {
   const auto [found, fresh] = wishes_.try_emplace(effect);
   if (fresh) {
@@ -91,7 +91,7 @@ void Panel::drawMayChange(const effect::Selection::Entry& entry, TuneWish& wish)
     ImGui::EndDisabled();
     if (fixed) {
       ImGui::SameLine();
-      ImGui::TextDisabled("is the truth's too");
+      ImGui::TextDisabled("also the truth's radius");
     }
   }
   ImGui::Unindent();
@@ -145,8 +145,8 @@ void Panel::drawTune(const effect::Selection::Entry& entry, const TuneStatus& st
       ImGui::TreeNodeEx("tune", ImGuiTreeNodeFlags_NoTreePushOnOpen, "Tune for this view");
   if (ImGui::IsItemHovered()) {
     ImGui::SetTooltip(
-        "Searches for the cheapest setting that is good enough here, or the best\n"
-        "in a budget, as `grisaille tune` does, while the window goes on");
+        "Runs `grisaille tune` in the background: finds the cheapest setting under\n"
+        "an error, or the best setting within a budget");
   }
   layout.note(key + ".tune", open ? "open" : "closed");
   if (!open && !own) return;
@@ -163,7 +163,7 @@ void Panel::drawTune(const effect::Selection::Entry& entry, const TuneStatus& st
     const double bound = wish.byBudget ? wish.budget : wish.maxError;
     ImGui::BeginDisabled(status.running || !(bound > 0));
     if (button("Tune", (key + ".tune.start").c_str(),
-               "One search at a time; what it finds is one step of undo")) {
+               "One search at a time. The setting that it finds is one step of undo")) {
       requests.tune = wish;
     }
     ImGui::EndDisabled();

@@ -25,17 +25,18 @@ void Panel::drawViewChoice(const char* label, const char* id, std::string& outpu
 
 void Panel::drawViews(const Status& status, Requests& requests) {
   drawViewChoice("View", "view", session_.left, session_.views(false));
-  toggle("Split", "split", session_.split, "A line to drag between two sides (X)");
+  toggle("Split", "split", session_.split,
+         "Two sides, with a line between them that you can drag (X)");
   if (session_.split) {
     drawViewChoice("Right side", "view right", session_.right, session_.views(true));
-    if (button("Hold", "hold", "Keeps these settings for the right side, to compare with")) {
+    if (button("Hold", "hold", "Keeps the current settings for the right side")) {
       session_.hold();
     }
     if (session_.held) {
       ImGui::SameLine();
       if (button("Swap", "swap", "Exchanges the settings of both sides")) session_.swapHeld();
       ImGui::SameLine();
-      if (button("Let go", "let go", "The right side has the live settings again")) {
+      if (button("Let go", "let go", "Shows the live settings on the right side again")) {
         session_.held.reset();
         session_.checkViews();
       }
@@ -43,11 +44,11 @@ void Panel::drawViews(const Status& status, Requests& requests) {
   }
   drawTruth(status.truth);
   bool base = session_.surface == frame::Surface::kBaseColour;
-  if (toggle("Base colour under the light", "base", base, "Else all is white")) {
+  if (toggle("Base colour under the light", "base", base, "Off: all surfaces are white")) {
     session_.surface = base ? frame::Surface::kBaseColour : frame::Surface::kWhite;
   }
   ImGui::SetNextItemWidth(ImGui::GetContentRegionAvail().x * 0.58f);
-  ImGui::SliderFloat("Zoom", &session_.zoom, 1, 64, "%.3g px a texel",
+  ImGui::SliderFloat("Zoom", &session_.zoom, 1, 64, "%.3g px per texel",
                      ImGuiSliderFlags_Logarithmic);
   layout.note("zoom", fmt::format("{}", session_.zoom));
   toggle("Value under the cursor", "inspect", session_.inspecting, "(I)");
@@ -57,7 +58,7 @@ void Panel::drawViews(const Status& status, Requests& requests) {
     ImGui::TextUnformatted(text.c_str());
     layout.note("value", text);
   }
-  toggle("Pause", "pause", session_.paused, "The picture stays as it is (P)");
+  toggle("Pause", "pause", session_.paused, "Keeps the picture as it is (P)");
   ImGui::SameLine();
   if (button("Step", "step", "Renders one frame (N)")) session_.step = true;
 

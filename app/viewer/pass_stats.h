@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: MIT
-// What each pass cost in the last frames.
+// Times of each pass in the last frames: mean and 95th percentile.
 #pragma once
 
 #include <span>
@@ -13,24 +13,24 @@ namespace grisaille::app::viewer {
 struct PassStats {
   std::string label;
   std::vector<float> recent;  // milliseconds, oldest first, at most kFramesKept
-  double mean = 0;            // of them
-  double p95 = 0;             // of them, nearest rank: 95 % take no longer
+  double mean = 0;            // milliseconds
+  double p95 = 0;             // milliseconds; 95th percentile, nearest rank
 };
 
 class PassTimes {
  public:
   static constexpr size_t kFramesKept = 240;
 
-  // Passes of one label in one frame count as one. What is not in this frame is forgotten.
+  // Adds one frame. Sums passes with the same label. Drops passes that this frame does not have.
   void add(const gpu::FrameTimes& frame);
   void add(std::span<const gpu::FrameTimes> frames) {
     for (const gpu::FrameTimes& frame : frames) add(frame);
   }
 
-  // In the order of the last frame.
+  // One entry per pass, in the order of the last frame.
   std::vector<PassStats> all() const;
 
-  // The frames themselves, labelled "frame".
+  // The times of whole frames, labelled "frame".
   PassStats whole() const;
 
   void clear() { *this = {}; }

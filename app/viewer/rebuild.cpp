@@ -12,7 +12,7 @@ namespace grisaille::app::viewer {
 namespace fs = std::filesystem;
 namespace {
 
-// What matters of a build's words: the lines that tell of errors, else the last ones.
+// The important lines of a build's output: the first lines with errors, else the last lines.
 std::string gist(const std::string& words) {
   constexpr size_t kLines = 8;
   constexpr const char* kTelling[] = {"error", "Error", "undefined"};
@@ -33,7 +33,7 @@ std::string gist(const std::string& words) {
   for (size_t i = first; i < std::min(chosen.size(), first + kLines); ++i) {
     text += (text.empty() ? "" : "\n") + chosen[i];
   }
-  return text.empty() ? "the build failed without a word" : text;
+  return text.empty() ? "the build failed without a message" : text;
 }
 
 }  // namespace
@@ -93,7 +93,7 @@ void Rebuild::watch(const effect::Registry& registry) {
     if (!fs::exists(description, failed)) continue;
     auto plugin = read(description);
     if (!plugin) continue;
-    // What was edited while it was being built is seen at the next look.
+    // Keep the old times: look() then sees files that were edited during the build.
     const auto known = std::ranges::find(before, plugin->target, &Plugin::target);
     if (known != before.end()) plugin->times = known->times;
     plugins_.push_back(std::move(*plugin));

@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: MIT
-// Plugins of a build folder follow their sources: a change of a file starts the build of the plugin
-// beside the window. What a build folder says of a plugin is in NAME.build.json beside
-// NAME.so (cmake/GrisailleEffect.cmake writes it); a plugin without that file is left alone.
+// Rebuilds the plugins of a build folder when their sources change. The build runs as a child
+// process. NAME.build.json beside NAME.so describes the build of a plugin
+// (cmake/GrisailleEffect.cmake writes it); plugins without this file are never rebuilt.
 #pragma once
 
 #include <filesystem>
@@ -20,29 +20,29 @@ class Rebuild {
  public:
   struct Outcome {
     bool good = false;
-    std::string message;  // the compiler's words; "" where it is good
+    std::string message;  // the compiler's output, shortened; "" if `good`
   };
 
   Rebuild() = default;
-  ~Rebuild();  // waits for a build that runs
+  ~Rebuild();  // waits for a running build
 
-  // Watches the sources of these plugins and of no others.
+  // Watches the sources of these plugins, and of no others.
   void watch(const effect::Registry& registry);
 
-  // Looks at the files and starts a build where one has changed since the last look.
+  // Starts a build if a watched file has changed since the last call. One build at a time.
   void look();
 
-  // The target that is being built; "": none.
+  // The build target in progress; "": none.
   const std::string& building() const { return building_; }
 
-  // Of a build that has ended since the last call.
+  // The outcome of a build that has ended since the last call; else none.
   std::optional<Outcome> take();
 
  private:
   using Times = std::map<std::filesystem::path, std::filesystem::file_time_type>;
   struct Plugin {
-    std::string folder, target;                  // of the build
-    std::vector<std::filesystem::path> watched;  // files, and folders whose files count
+    std::string folder, target;                  // build folder and build target
+    std::vector<std::filesystem::path> watched;  // files, and folders with all their files
     Times times;
   };
   static std::optional<Plugin> read(const std::filesystem::path& description);

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: MIT
-// A scene read beside the window's thread.
+// Reads a scene on its own thread, while the window's thread goes on drawing.
 #pragma once
 
 #include <atomic>
@@ -14,17 +14,17 @@ namespace grisaille::app::viewer {
 
 class SceneLoading {
  public:
-  ~SceneLoading();  // waits for what is being read
+  ~SceneLoading();  // waits until the scene is read
 
   bool running() const { return result_.valid(); }
   double progress() const { return *progress_; }  // 0 ... 1
   const std::string& path() const { return path_; }
 
-  // "": the built-in scene. Not while one is running.
+  // Starts to read a scene; "": the built-in scene. Do not call while running().
   void start(const std::string& path);
 
-  // The scene once it is read. Throws Error as scene::loadGltf() does. Null: it is still being
-  // read.
+  // The scene, once; null while it is still being read or nothing was started. Throws the errors of
+  // scene::loadGltf().
   std::shared_ptr<const scene::Scene> take();
 
  private:

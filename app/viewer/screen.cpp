@@ -37,7 +37,7 @@ Screen::Shown Screen::wanted(const ScreenDesc& desc) const {
     all.sides[0].texture = all.sides[1].texture = blank_;
     return all;
   }
-  // The sides may be of another size than the place until the next frame.
+  // After a resize, the sides differ in size from `place` until the next frame.
   all.block.centre = desc.centre * glm::vec2(desc.texels);
   all.sides = desc.sides;
   all.revision = desc.revision;
@@ -68,7 +68,7 @@ void Screen::prepare(gpu::Commands& commands, const ScreenDesc& desc) {
                                      .height = desc.pixels.y,
                                      .usage = gpu::TextureUsage::kStorage | usage});
   };
-  size_ = glm::uvec2(0);  // where one cannot be made
+  size_ = glm::uvec2(0);  // in case a texture cannot be created
   remake(picture_, "picture", gpu::TextureUsage::kSampled);
   remake(window_, "window", gpu::TextureUsage::kTarget);
   size_ = desc.pixels;

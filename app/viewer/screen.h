@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: MIT
-// What the window holds: the stage's picture, in its place, with the interface over it.
+// Composes the window: the stage's picture in its rectangle, with the interface drawn over it.
 #pragma once
 
 #include <array>
@@ -14,7 +14,7 @@ struct ImDrawData;
 
 namespace grisaille::app::viewer {
 
-// What one side of the picture shows.
+// The texture that one side of the picture shows.
 struct Side {
   gpu::Texture texture = {};
   Kind kind = Kind::kLight;
@@ -22,24 +22,24 @@ struct Side {
   bool operator==(const Side&) const = default;
 };
 
-// How the picture is to be seen.
+// Parameters of Screen::draw().
 struct ScreenDesc {
   glm::uvec2 pixels = glm::uvec2(0);  // of the window, over 0
   Place place;
-  std::array<Side, 2> sides = {};     // without textures: there is nothing yet
+  std::array<Side, 2> sides = {};     // without a texture: the picture stays empty
   glm::uvec2 texels = glm::uvec2(0);  // of the sides
-  uint64_t revision = 0;              // changes with what the sides hold
+  uint64_t revision = 0;              // changes with the content of the sides
   bool split = false;
-  float line = 0.5f;  // of the picture's width
-  float zoom = 1;     // pixels a texel
-  glm::vec2 centre = glm::vec2(0.5f);
-  float farDepth = 1;   // metres, drawn as mid grey
-  float lineWidth = 1;  // pixels
+  float line = 0.5f;                   // of the split, as a share of the picture's width
+  float zoom = 1;                      // pixels per texel
+  glm::vec2 centre = glm::vec2(0.5f);  // point in the middle, as a share of the picture
+  float farDepth = 1;                  // metres, drawn as mid grey
+  float lineWidth = 1;                 // pixels
 };
 
 class Screen {
  public:
-  // The device outlives this.
+  // The device must outlive this.
   explicit Screen(gpu::Device& device) : device_(device), interface_(device) {}
   ~Screen();
   Screen(const Screen&) = delete;
@@ -47,12 +47,12 @@ class Screen {
 
   void fontChanged() { interface_.fontChanged(); }
 
-  // One frame of the device: the picture, where it has changed, and the interface. The result is
-  // valid until the next call.
+  // Draws the picture, if it has changed, and the interface, as one frame of the device. The result
+  // is valid until the next call.
   gpu::Texture draw(const ScreenDesc& desc, const ImDrawData& interfaceData);
 
  private:
-  // As shaders/viewer/show.comp has it.
+  // Same layout as in shaders/viewer/show.comp.
   struct ShowBlock {
     glm::ivec2 place, size;
     glm::vec2 centre;
@@ -60,7 +60,7 @@ class Screen {
 
     bool operator==(const ShowBlock&) const = default;
   };
-  // All that the shown picture depends on.
+  // Every input of the shown picture.
   struct Shown {
     ShowBlock block;
     std::array<Side, 2> sides;
@@ -77,7 +77,7 @@ class Screen {
   gpu::Device& device_;
   InterfaceRenderer interface_;
   gpu::Texture picture_, window_;  // of the window's size: without and with the interface
-  gpu::Texture blank_;             // a texel for where there is no picture
+  gpu::Texture blank_;             // 1 x 1 texel, shown without a picture
   glm::uvec2 size_ = glm::uvec2(0);
   std::map<std::array<Kind, 2>, gpu::ComputePipeline> show_;
   gpu::ComputePipeline copy_;

@@ -27,7 +27,7 @@ const char* nameOf(frame::Surface surface) {
   return surface == frame::Surface::kBaseColour ? "base" : "white";
 }
 
-// The command line's settings over a file's.
+// A file's settings, overridden by those of the command line.
 Settings asked(const SessionOptions& options, Settings settings) {
   if (options.effectsGiven) settings.effects = options.effects;
   for (const std::string& text : options.sets) {
@@ -66,7 +66,7 @@ Session::Session(SessionOptions options)
     *view = *wanted;
     checkViews();
     if (*view != *wanted) {
-      throw Error(ErrorId::kOutputUnknown, "there is no output '{}' to look at", *wanted);
+      throw Error(ErrorId::kOutputUnknown, "there is no output '{}' to show", *wanted);
     }
   }
   const ObjectOptions objects{.loads = options_.loads, .adds = {}, .saves = {}};
@@ -74,8 +74,9 @@ Session::Session(SessionOptions options)
   objects.load(chain);
 }
 
-// The effects that the settings name, or those that run by default, come first, on, with defaults
-// beneath presets beneath the settings' values; the others are off and keep their order and values.
+// First come the effects that the settings name, else those that run by default. They are on;
+// presets override defaults, and the settings' values override presets. The other effects are off
+// and keep order and values.
 void Session::apply(const Settings& settings, const std::vector<std::string>& presets) {
   effect::Selection fresh = chosenEffects(
       *registry_, settings.effects ? *settings.effects : registry_->defaults(), presets, settings);
@@ -172,7 +173,7 @@ void Session::openFile(const std::string& path) {
     camera = scene::loadCamera(path);
     return;
   }
-  throw Error(ErrorId::kFileUnknown, "what '{}' holds is unknown", path);
+  throw Error(ErrorId::kFileUnknown, "the viewer cannot open '{}'", path);
 }
 
 void Session::loadSettings(const std::string& path) {
@@ -193,9 +194,9 @@ void Session::saveSettings(const std::string& path) {
 
 std::string Session::rescue(const fs::path& folder) {
   std::error_code failed;
-  fs::create_directories(folder, failed);  // else the next line says so
+  fs::create_directories(folder, failed);  // on failure, saving throws
   std::vector<std::string> words = {"grisaille", "view"};
-  const std::string& path = scene ? scenePath : options_.scene;  // that was being read
+  const std::string& path = scene ? scenePath : options_.scene;  // maybe not loaded yet
   if (!path.empty()) words.push_back(plainPath(path));
   const auto keep = [&](const char* option, const std::string& prefix, const fs::path& file) {
     words.insert(words.end(), {option, prefix + file.string()});
@@ -229,7 +230,7 @@ std::string Session::commandLine(glm::uvec2 size, const std::string& backend,
   for (const std::string& effect : effectsWithObjects()) {
     const objects::ObjectList& list = listOf(effect);
     if (list.size() == 0) continue;
-    // Named by what it holds: a command that was copied earlier keeps its objects.
+    // A hash of the content names the file: commands copied earlier keep their objects.
     const std::string text = objects::jsonOf(list.view());
     const fs::path file =
         stateFolder() / fmt::format("{}-{:016x}.json", effect, std::hash<std::string>()(text));
@@ -250,7 +251,7 @@ void Session::attempt(const std::function<void()>& action) {
   try {
     action();
   } catch (const Error& error) {
-    if (error.id() == ErrorId::kDeviceLost) throw;  // nothing more is drawn
+    if (error.id() == ErrorId::kDeviceLost) throw;  // no further frame is possible
     say(error.what(), true);
   } catch (const fs::filesystem_error& error) {
     say(Error(ErrorId::kFileUnwritable, "{}", error.what()).what(), true);

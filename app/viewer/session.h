@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: MIT
-// What is looked at and how: scene, camera, the chain of effects, views. No window,
-// no device; every change of it goes through here or through the members that the panel edits.
+// The state of the viewer without window and device: scene, camera, chain of effects, views. The
+// panel and the keys change it through the functions and public members of Session.
 #pragma once
 
 #include <deque>
@@ -21,99 +21,103 @@
 #include "core/base/error.h"
 #include "core/effect/selection.h"
 #include "core/scene/camera.h"
+#include "core/scene/scene.h"
 
 namespace grisaille::app::viewer {
 
-// As the command line has them.
+// Options of the command line.
 struct SessionOptions {
   std::string scene, camera, config, surface, view, split;
   std::vector<std::string> effects, presets, sets, loads, pluginPaths;
   bool effectsGiven = false;
   bool compareTruth = false;
-  double truthRadius = 0;  // metres; 0: the effect's own
-  uint32_t truthRays = 0;  // 0: as many as usual
+  double truthRadius = 0;  // metres; 0: the effect's radius
+  uint32_t truthRays = 0;  // per pixel; 0: the default
 };
 
-// What the picture is compared with while it is looked at.
+// Settings of the comparison with the truth.
 struct TruthSettings {
   static constexpr uint32_t kLeastRays = 16, kMostRays = 4096;
   static constexpr double kFarthest = 1e6;  // metres
 
   bool on = false;
-  std::string output = "";            // that is compared; "": the first there is
-  std::optional<double> radius = {};  // metres, over 0 to kFarthest; none: the effect's own
-  uint32_t rays = 256;                // a pixel, kLeastRays ... kMostRays
+  std::string output = "";            // compared output; "": the first comparable one
+  std::optional<double> radius = {};  // metres, over 0 to kFarthest; none: the effect's
+  uint32_t rays = 256;                // per pixel, kLeastRays ... kMostRays
 };
 
-// What `grisaille tune` is to find for an effect, in the view as it is.
+// A search that the user requests: `grisaille tune` for one effect in the current view.
 struct TuneWish {
   static constexpr uint32_t kMostEvaluations = 100000;
 
   std::string effect;
-  bool byBudget = false;
+  bool byBudget = false;                         // false: `maxError` counts; true: `budget`
   double maxError = 0.1;                         // RMSE, over 0
   double budget = 40;                            // milliseconds, over 0
-  uint32_t evaluations = 80;                     // at most, 1 to kMostEvaluations
-  std::set<std::string, std::less<>> stay = {};  // keys of parameters that may not change
+  uint32_t evaluations = 80;                     // limit, 1 to kMostEvaluations
+  std::set<std::string, std::less<>> stay = {};  // keys of parameters to keep
 };
 
-// An effect's presets, as their file had them when the plugins were scanned.
+// An effect's presets, read from their file when the plugins were loaded.
 struct EffectPresets {
   Presets presets;
-  std::string error;  // why they cannot be read; "": they can
+  std::string error;  // why they cannot be read; else ""
 };
 
-// Views that no frame has: of the truth that is traced, and how far the picture is from it.
+// Views that the renderer does not draw: the traced truth, and the error of the compared output
+// against it.
 constexpr std::string_view kTruthView = "truth", kErrorView = "error";
 
 inline bool isTruthView(std::string_view output) {
   return output == kTruthView || output == kErrorView;
 }
 
-// One line for the user to read.
+// One line of the panel's message list.
 struct Message {
   std::string text;
   bool error = false;
 };
 
 class Session {
-  std::unique_ptr<effect::Registry> registry_;  // before the effects that it holds
+  std::unique_ptr<effect::Registry> registry_;  // first: the members below use its effects
 
  public:
   static constexpr size_t kMessagesKept = 50;
 
-  // Reads what the options name but for the scene. Throws Error.
+  // Reads every file that the options name, except the scene. Throws Error.
   explicit Session(SessionOptions options);
   Session(const Session&) = delete;
   Session& operator=(const Session&) = delete;
 
   // --- The scene
-  // With its own camera: the file of the command line for the first scene, else an overview.
+  // Shows a loaded scene. `path`: its file; "": the built-in scene. The camera becomes --camera for
+  // the first scene if given, else the built-in scene's camera or an overview of the scene.
   void setScene(std::shared_ptr<const scene::Scene> loaded, const std::string& path);
   std::string scenePath;  // "": the built-in scene
   std::shared_ptr<const scene::Scene> scene;
   std::unique_ptr<SceneServices> services;  // of the scene
   scene::Camera camera, homeCamera;
-  double speed = 1;  // metres a second, of flying
+  double speed = 1;  // of flying, metres per second
 
   // --- Effects
-  effect::Chain chain;    // of all effects there are
-  uint64_t revision = 1;  // of its selection; to be raised with every change
+  effect::Chain chain;    // all loaded effects, on or off
+  uint64_t revision = 1;  // of the chain's selection; grows with every change
+  // Call after every change of the selection. `what` names the step of undo.
   void changed(std::string what) {
     ++revision;
     lastChange_ = std::move(what);
   }
-  // Makes what has changed since the last call one step of undo. When no control is being dragged.
+  // Makes all changes since the last call one step of undo. Call when the user drags no control.
   void noteChanges();
   History history;
   void undo();
   void redo();
   const effect::Registry& registry() const { return *registry_; }
-  // Loads plugins that are new or have changed. `before` is called before instances of the old ones
-  // end.
+  // Loads plugins that are new or have changed. Calls `before` before it destroys instances of the
+  // old plugins.
   void rescan(const std::function<void()>& before);
 
-  // The settings that the picture is compared with.
+  // Held settings, for the right side; none: the right side shows the live settings.
   std::optional<effect::Selection> held;
   uint64_t heldRevision = 0;
   void hold();
@@ -122,93 +126,98 @@ class Session {
   // --- Views
   std::string left = "color", right = "normal";  // outputs
   bool split = false;
-  float line = 0.5f;  // of the picture's width
+  float line = 0.5f;  // of the split, as a share of the picture's width
   frame::Surface surface = frame::Surface::kWhite;
-  float zoom = 1;                      // pixels a texel
-  glm::vec2 centre = glm::vec2(0.5f);  // of what is seen, in parts of the picture
-  bool inspecting = false;             // the value under the cursor
+  float zoom = 1;                      // pixels per texel
+  glm::vec2 centre = glm::vec2(0.5f);  // point in the middle, as a share of the picture
+  bool inspecting = false;             // show the value under the cursor
   bool paused = false, step = false, continuous = false;
-  // What a side can show.
+  // The outputs that a side can show.
   std::vector<Viewable> views(bool rightSide) const;
-  // Outputs that are gone become the final picture.
+  // Resets a view to the final picture if its output no longer exists.
   void checkViews();
 
-  // --- Comparing with truth
+  // --- Comparison with truth
   TruthSettings comparing;
-  // The left side shows the error, or again what it showed before.
+  // Switches the comparison. On: the left side shows the error. Off: it shows its earlier view
+  // again. Without a comparable output, adds a message and stays off.
   void compareWithTruth(bool on);
-  std::vector<std::string> comparable() const;  // outputs of one channel: each effect's visibility
-  std::string comparedOutput() const;           // "": there is none, or nothing is compared
+  std::vector<std::string> comparable() const;  // visibility outputs with one channel
+  std::string comparedOutput() const;           // "": no comparison, or no comparable output
   double truthRadius() const { return truthRadius(comparedOutput()); }  // metres
   double truthRadius(const std::string& output) const;
   void setTruthRadius(double metres);  // throws kUsage
 
-  // --- Presets, and settings that are searched for: each a step of undo
+  // --- Presets and tuned settings: each is one step of undo
   const EffectPresets& presetsOf(const std::string& effect) const;
   void choosePreset(effect::Selection::Entry& entry, const std::string& name);
-  std::string outputToTune(const std::string& effect) const;  // "": there is none
-  // The radius says what is asked for where the truth has it too.
+  std::string outputToTune(const std::string& effect) const;  // "": none
+  // True for a parameter that a search must keep: the radius, if the truth takes its own from it.
   bool staysInTune(std::string_view parameter) const;
-  // `view`: pixels. Throws kUsage.
+  // The search as a command. `view`: size of the picture, pixels. Throws kUsage.
   TuneCommand tuneCommand(const TuneWish& wish, glm::uvec2 view, const std::string& backend,
                           const std::string& device);
-  // Values of that effect. Throws as effect::Values does and where the effect is gone, and then
-  // changes nothing.
+  // Sets tuned values of an effect. Throws kUsage if the effect does not exist, and the errors of
+  // effect::Values; then changes nothing.
   void takeTuned(const std::string& effect, const std::vector<effect::ParameterValue>& values);
 
-  // --- Objects that users make; session_objects.cpp
-  // Effects that are on and whose tables declare some, in order.
+  // --- Objects that users place; session_objects.cpp
+  // Keys of the effects that are on and have a table of objects, in order.
   std::vector<std::string> effectsWithObjects() const;
   bool placing = false;  // the left button places an object
-  // The effect that it is placed for: the one chosen last, or the first; "": there is none.
+  // The effect that receives placed objects: the one chosen last, else the first; "": none.
   std::string placer() const;
   void placeWith(const std::string& effect, bool on);
-  // What the next object is like, but for its place.
+  // Field values of the next placed object; place() sets point and direction.
   objects::Object& nextObject(const std::string& effect);
   objects::ObjectList& listOf(const std::string& effect);  // throws kEffectTakesNoObjects
-  // One step of undo, where `change` changes anything; `joins` the step before.
+  // Calls `change` on the list; a change is one step of undo named `what`. `joins`: merges it into
+  // the last step.
   void changeObjects(const std::string& effect, const std::string& what, bool joins,
                      const std::function<void(objects::ObjectList&)>& change);
-  // While the left button is held, objects follow each other: those that rays place.
+  // True if a held left button places one object after another: objects placed by a ray.
   bool sprays();
-  // At a point of a picture of this size, from its top left corner. False: nothing is seen there
-  // that it could be placed on.
+  // Places the next object at a point of a picture of this size, both in texels, from the top left
+  // corner. False: no surface to place it on.
   bool place(glm::dvec2 point, glm::uvec2 size, bool joins);
   void clearObjects(const std::string& effect);
   void loadObjects(const std::string& effect, const std::string& path);
   void saveObjects(const std::string& effect, const std::string& path);
 
   // --- Files
-  // A file of settings, objects or a camera, by its ending and content. Throws Error.
+  // Opens a file of settings, objects or a camera, told apart by ending and content. Throws Error.
   void openFile(const std::string& path);
   void loadSettings(const std::string& path);
   void saveSettings(const std::string& path);
 
-  // Writes what no file holds yet into a folder: settings, objects, camera. The command that goes
-  // on from there. Throws kFileUnwritable.
+  // Saves settings, objects and camera to a folder. Returns the `grisaille view` command that loads
+  // them. Throws kFileUnwritable.
   std::string rescue(const std::filesystem::path& folder);
 
-  // The command that makes the picture on the screen; objects are written to a file.
+  // The `grisaille render` command that makes the picture on the screen. Writes the objects to
+  // files.
   std::string commandLine(glm::uvec2 size, const std::string& backend, const std::string& device);
 
-  // --- What there is to say
+  // --- Messages
   std::deque<Message> messages;  // oldest first
   void say(std::string text, bool error = false);
-  // Does it, and says why it failed where it did. Throws kDeviceLost alone.
+  // Calls `action` and adds a message if it throws Error or a file system error. Rethrows only
+  // kDeviceLost.
   void attempt(const std::function<void()>& action);
 
  private:
   void apply(const Settings& settings, const std::vector<std::string>& presets);
-  std::string ownerOf(const std::string& path);  // the effect whose objects a file holds; "": none
+  // The effect whose objects a file holds; "": none.
+  std::string ownerOf(const std::string& path);
   void beginComparing();
   void loadAllPresets();
 
   SessionOptions options_;
   std::map<std::string, EffectPresets> presets_;  // by effect
   std::string lastChange_;
-  std::string placer_;                                        // chosen last
+  std::string placer_;                                        // effect chosen last
   std::map<std::string, objects::Object, std::less<>> next_;  // by effect
-  std::string leftBefore_ = "color";                          // comparing
+  std::string leftBefore_ = "color";                          // left view before the comparison
   bool firstScene_ = true;
 };
 

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: MIT
-// The session's objects: lists of things that users make, by the tables of the effects.
+// The session's objects: lists of objects that users place, as the effects' tables describe them.
 #include <fmt/format.h>
 
 #include "app/services/placement.h"

@@ -1,12 +1,12 @@
 // SPDX-License-Identifier: MIT
-// The session's comparing with truth.
+// The session's comparison with truth.
 #include <algorithm>
 
 #include "app/viewer/session.h"
 
 namespace grisaille::app::viewer {
 
-// As the command line has it.
+// Applies --compare-truth, --truth-radius and --truth-rays.
 void Session::beginComparing() {
   const double radius = options_.truthRadius;
   const uint32_t rays = options_.truthRays;
@@ -14,7 +14,7 @@ void Session::beginComparing() {
   if (rays != 0) comparing.rays = rays;
   if (!options_.compareTruth) {
     if (radius == 0 && rays == 0) return;
-    throw Error(ErrorId::kUsage, "the truth is described, but --compare-truth is not given");
+    throw Error(ErrorId::kUsage, "--truth-radius and --truth-rays need --compare-truth");
   }
   compareWithTruth(true);
   if (!comparing.on) throw Error(ErrorId::kUsage, "{}", messages.back().text);
@@ -43,7 +43,7 @@ std::string Session::comparedOutput() const {
 }
 
 double Session::truthRadius(const std::string& output) const {
-  constexpr double kUsual = 0.5;  // metres
+  constexpr double kUsual = 0.5;  // metres; for effects without a radius
   if (comparing.radius) return *comparing.radius;
   for (const effect::Selection::Entry& entry : chain.selection.entries()) {
     if (!output.starts_with(std::string(entry.key()) + ".")) continue;
@@ -58,8 +58,8 @@ double Session::truthRadius(const std::string& output) const {
 
 void Session::setTruthRadius(double metres) {
   if (!(metres > 0 && metres <= TruthSettings::kFarthest)) {
-    throw Error(ErrorId::kUsage, "the truth's radius is {}, not metres over 0 and up to {}", metres,
-                TruthSettings::kFarthest);
+    throw Error(ErrorId::kUsage, "the truth's radius is {} m; allowed: over 0 and up to {} m",
+                metres, TruthSettings::kFarthest);
   }
   comparing.radius = metres;
 }
@@ -67,7 +67,7 @@ void Session::setTruthRadius(double metres) {
 void Session::compareWithTruth(bool on) {
   if (on && comparable().empty()) {
     comparing.on = false;
-    say("no effect that is on has a visibility to compare with the truth");
+    say("no effect that is on has a visibility output to compare with the truth");
     return;
   }
   comparing.on = on;

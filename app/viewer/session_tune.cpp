@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: MIT
-// The session's presets, and what `grisaille tune` is asked and finds.
+// The session's presets, and the commands and results of `grisaille tune`.
 #include <algorithm>
 
 #include "app/viewer/session.h"
@@ -48,7 +48,7 @@ TuneCommand Session::tuneCommand(const TuneWish& wish, glm::uvec2 view, const st
   TuneCommand command;
   command.output = outputToTune(wish.effect);
   if (entry == nullptr || command.output.empty()) {
-    throw Error(ErrorId::kUsage, "'{}' has no visibility to tune", wish.effect);
+    throw Error(ErrorId::kUsage, "effect '{}' has no visibility output to tune", wish.effect);
   }
   command.scene = scenePath;
   command.camera = camera;
@@ -67,14 +67,15 @@ TuneCommand Session::tuneCommand(const TuneWish& wish, glm::uvec2 view, const st
     if (staysInTune(param->key) || wish.stay.contains(param->key)) continue;
     command.vary.push_back({.effect = wish.effect, .key = param->key});
   }
-  if (command.vary.empty()) throw Error(ErrorId::kUsage, "there is no parameter to vary");
+  if (command.vary.empty())
+    throw Error(ErrorId::kUsage, "no parameter is ticked under 'May change'");
   return command;
 }
 
 void Session::takeTuned(const std::string& effect,
                         const std::vector<effect::ParameterValue>& values) {
   effect::Selection::Entry* entry = chain.selection.find(effect);
-  if (entry == nullptr) throw Error(ErrorId::kUsage, "'{}' is there no more", effect);
+  if (entry == nullptr) throw Error(ErrorId::kUsage, "effect '{}' no longer exists", effect);
   effect::Values found = entry->values;
   for (const effect::ParameterValue& one : values) found.set(one.name.key, one.value);
   noteChanges();

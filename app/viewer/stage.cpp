@@ -26,7 +26,7 @@ Kind kindOf(const effect::Selection& effects, const std::string& output) {
   return Kind::kEncoded;
 }
 
-// A chain with another selection, as long as this lives. Objects and instances are the same.
+// Gives a chain another selection while this lives. The chain keeps its objects and instances.
 class Exchanged {
  public:
   Exchanged(effect::Chain& chain, effect::Selection other)
@@ -107,7 +107,7 @@ void Stage::render(const StageDesc& desc, glm::uvec2 size, std::span<const std::
                     .services = services_.all()});
 }
 
-// The held settings' picture, copied, since the next frame takes its targets.
+// Renders with the held settings and copies the output: the next frame reuses its render targets.
 void Stage::updateHeld(const StageDesc& desc) {
   heldDone_ = wanted(desc, true);
   heldWaiting_ = 0;
@@ -157,7 +157,7 @@ void Stage::update(const StageDesc& desc) {
   const bool held = desc.held != nullptr && !desc.right.empty();
   if (held && (heldWaiting_ > 0 || !heldDone_ || !(*heldDone_ == wanted(desc, true)))) {
     updateHeld(desc);
-    done_.reset();  // the live side's targets are gone
+    done_.reset();  // the held frame has overwritten the live side's render targets
   }
   if (!held) heldWaiting_ = 0;
   done_ = wanted(desc, false);

@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: MIT
-// The scene on the screen: renders what the two sides of the picture show when something that it
-// depends on has changed, and keeps it while nothing has.
+// Renders the outputs that the two sides of the picture show. Renders again only when one of its
+// inputs has changed.
 #pragma once
 
 #include <array>
@@ -15,69 +15,70 @@
 
 namespace grisaille::app::viewer {
 
-// How numbers become colours; as shaders/viewer/show.comp has it.
+// How show.comp converts values to colours; same numbers as in shaders/viewer/show.comp.
 enum class Kind : uint32_t { kLight, kNumber, kSigned, kDepth, kOverlay, kEncoded };
 
-// An output of the frame that can be looked at.
+// An output of the frame that the viewer can show.
 struct Viewable {
   std::string output, label;
   Kind kind = Kind::kNumber;
 };
 
-// Of a frame with these effects, in the order of the outputs; those of integers left out.
+// The viewable outputs of a frame with these effects, in order. Leaves out integer outputs.
 std::vector<Viewable> viewables(const effect::Selection& effects);
 
-// What the picture is made of. Revisions change with what they stand for.
+// Inputs of the picture. A revision changes whenever the input that it belongs to changes.
 struct StageDesc {
   scene::Camera camera;
   glm::uvec2 size = glm::uvec2(0);
   frame::Surface surface = frame::Surface::kWhite;
   effect::Chain* chain = nullptr;
-  uint64_t liveRevision = 0;                // of its selection
-  const effect::Selection* held = nullptr;  // the right side's settings; null: the chain's
+  uint64_t liveRevision = 0;                // of the chain's selection
+  const effect::Selection* held = nullptr;  // settings of the right side; null: the chain's
   uint64_t heldRevision = 0;
   std::string left = "color";
-  std::string right;                    // "": there is no right side
-  std::vector<std::string> extra = {};  // outputs of the live settings to be read
-  double patience = 0.05;               // seconds of work that can wait which a frame may do
+  std::string right;                    // "": no right side
+  std::vector<std::string> extra = {};  // further outputs of the live settings, for read()
+  double patience = 0.05;               // seconds per frame for work that can wait
 };
 
 class Stage {
  public:
-  // All outlive this; the scene stays unchanged. The chain is started on the device.
+  // All arguments must outlive this; the scene must not change. Starts the chain on the device.
   Stage(gpu::Device& device, const scene::Scene& scene, SceneServices& services,
         effect::Chain& chain);
   ~Stage();
   Stage(const Stage&) = delete;
   Stage& operator=(const Stage&) = delete;
 
-  // Whether update() would render.
+  // True if update() would render.
   bool isStale(const StageDesc& desc) const;
 
-  // Renders what is stale. Throws Error where an effect or the device fails: the picture is then
-  // what it was, and is not stale until something changes.
+  // Renders stale sides. Throws Error if an effect or the device fails; isStale() is then false
+  // until an input changes.
   void update(const StageDesc& desc);
 
-  // Null where nothing has been rendered yet.
+  // Null before the first update().
   gpu::Texture texture(bool right) const;
   Kind kind(bool right) const { return (right ? right_ : left_).kind; }
   glm::uvec2 size() const { return size_; }
-  uint64_t revision() const { return revision_; }  // of the picture
+  uint64_t revision() const { return revision_; }  // of the picture's content
 
-  // The numbers of one texel, as many as the output has channels. Waits for the device at the first
-  // call after an update().
+  // The values of one texel, one per channel of the output. The first call after an update() waits
+  // for the device.
   std::vector<float> valueAt(bool right, glm::uvec2 texel);
 
-  // The next update() renders, whatever has changed.
+  // Makes the next update() render even if no input changes.
   void touch() { done_.reset(); }
 
-  // An output of the last update(): left, right where that is live, or one of the extra ones.
+  // Reads an output of the last update(): left, right unless it shows held settings, or an extra
+  // one.
   image::Image read(const std::string& output) { return renderer_.read(output); }
 
-  // One output at any size, for a file; the screen's picture is stale afterwards.
+  // Renders one output at any size, for a file. Makes the screen's picture stale.
   image::Image picture(const StageDesc& desc, const std::string& output);
 
-  // What waits to be drawn in a later frame: the picture is not whole.
+  // Number of objects still to be drawn in later frames; 0: the picture is complete.
   uint64_t waiting() const { return waiting_; }
 
  private:
@@ -85,9 +86,9 @@ class Stage {
     gpu::Texture texture;
     std::string output;
     Kind kind = Kind::kLight;
-    std::optional<image::Image> values;  // read when first asked for
+    std::optional<image::Image> values;  // read at the first valueAt()
   };
-  // All that a side's picture depends on.
+  // Every input of a side's picture.
   struct Wanted {
     scene::Camera camera;
     glm::uvec2 size;
@@ -107,7 +108,7 @@ class Stage {
   SceneServices& services_;
   frame::Renderer renderer_;
   effect::StartedChain started_;
-  std::optional<Wanted> done_, heldDone_;  // what the sides hold
+  std::optional<Wanted> done_, heldDone_;  // inputs of the rendered sides
   Side left_, right_;
   glm::uvec2 size_ = glm::uvec2(0);
   uint64_t waiting_ = 0, heldWaiting_ = 0, revision_ = 0;

@@ -33,7 +33,7 @@ fs::path home() {
   return user != nullptr ? user->pw_dir : "/";
 }
 
-// The standard wants paths that are not absolute ignored.
+// The XDG base directory specification says to ignore relative paths.
 fs::path baseFolder(const char* variable, const char* underHome) {
   const char* given = std::getenv(variable);
   const bool absolute = given != nullptr && *given == '/';
@@ -47,7 +47,7 @@ fs::path baseFolder(const char* variable, const char* underHome) {
 double numberOf(const json& value, const char* key, double least, double most) {
   const double number = value.is_number() ? value.get<double>() : NAN;
   if (!(number >= least && number <= most)) {
-    refuse(fmt::format("'{}' is no number from {} to {}", key, least, most));
+    refuse(fmt::format("'{}' is not a number from {} to {}", key, least, most));
   }
   return number;
 }
@@ -56,7 +56,7 @@ std::string contentOf(const fs::path& file) {
   std::error_code failed;
   const std::string why = whyNotRegular(file);
   if (!why.empty()) refuse(why);
-  if (fs::file_size(file, failed) > kLargestFile || failed) refuse("it is too large");
+  if (fs::file_size(file, failed) > kLargestFile || failed) refuse("it is larger than 1 MiB");
   std::ifstream stream(file, std::ios::binary);
   if (!stream) refuse("it cannot be opened");
   return {std::istreambuf_iterator<char>(stream), {}};
@@ -65,7 +65,7 @@ std::string contentOf(const fs::path& file) {
 ViewerState parse(const std::string& text) {
   ViewerState state;
   const json document = json::parse(text);
-  if (!document.is_object()) refuse("it holds no object");
+  if (!document.is_object()) refuse("it is not a JSON object");
   for (const auto& [key, value] : document.items()) {
     if (key == "recent") {
       state.recent = value.get<std::vector<std::string>>();
@@ -112,7 +112,7 @@ void ViewerState::noteRecent(const std::string& path) {
   if (path.empty()) return;
   std::error_code failed;
   const std::string whole = fs::absolute(path, failed).lexically_normal().string();
-  if (failed) return;  // there is no current folder
+  if (failed) return;  // the current folder does not exist
   std::erase(recent, whole);
   recent.insert(recent.begin(), whole);
   if (recent.size() > kMostRecent) recent.resize(kMostRecent);
@@ -148,7 +148,7 @@ void saveState(const ViewerState& state, const fs::path& file) {
   document["height"] = state.height;
   document["text_scale"] = state.textScale;
   std::error_code failed;
-  fs::create_directories(file.parent_path(), failed);  // else the next line says so
+  fs::create_directories(file.parent_path(), failed);  // on failure, writing throws
   writeFileAtomically(file.string(), document.dump(2) + "\n");
 }
 

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: MIT
-// What the viewer keeps from one run to the next, and where.
+// The viewer's state that persists between runs, and the folders for it.
 #pragma once
 
 #include <cstdint>
@@ -9,40 +9,40 @@
 
 namespace grisaille::app::viewer {
 
-// $XDG_STATE_HOME/grisaille or ~/.local/state/grisaille, $XDG_CONFIG_HOME/grisaille or
-// ~/.config/grisaille. They may not be there yet.
+// stateFolder(): $XDG_STATE_HOME/grisaille or ~/.local/state/grisaille. configFolder():
+// $XDG_CONFIG_HOME/grisaille or ~/.config/grisaille. Neither function creates the folder.
 std::filesystem::path stateFolder();
 std::filesystem::path configFolder();
 
-// Of now, for the names of files: "20261121-143000", local.
+// The current local time, for file names: "20261121-143000".
 std::string timeStamp();
 
 struct ViewerState {
   std::vector<std::string> recent;      // scenes, absolute paths, newest first, at most 12
-  uint32_t width = 1600, height = 900;  // of the window, screen units, 1 ... 16384
+  uint32_t width = 1600, height = 900;  // of the window, in screen units, 1 ... 16384
   double textScale = 1;                 // 0.5 ... 4
 
-  // Makes it the newest. An empty path, the built-in scene, is none.
+  // Makes `path` the newest scene. Ignores "", the built-in scene.
   void noteRecent(const std::string& path);
 
   bool operator==(const ViewerState&) const = default;
 };
 
-// Never fails. Without a file: the defaults. A damaged file is renamed to `<file>.damaged` and says
-// why in `message`, one line; else `message` is "".
+// Never throws. Returns the defaults if the file is missing or damaged. Renames a damaged file to
+// `<file>.damaged` and sets `message` to the reason, one line; else sets `message` to "".
 ViewerState loadState(const std::filesystem::path& file, std::string& message);
 
-// Writes the file aside and renames it; makes its folder. Throws kFileUnwritable. Recent paths that
-// are no UTF-8 are left out.
+// Writes the state atomically; creates the folder. Leaves out recent paths that are not UTF-8.
+// Throws kFileUnwritable.
 void saveState(const ViewerState& state, const std::filesystem::path& file);
 
-// A settings file of the user's own, not one of an effect's presets.
+// A settings file that the user saved under a name.
 struct SavedSettings {
-  std::string name;  // of the file, without its ending
+  std::string name;  // of the file, without .toml
   std::filesystem::path path;
 };
 
-// The files folder/settings/*.toml, by name.
+// The files folder/settings/*.toml, sorted by name.
 std::vector<SavedSettings> savedSettings(const std::filesystem::path& folder = configFolder());
 
 }  // namespace grisaille::app::viewer

@@ -12,11 +12,11 @@
 namespace grisaille::app::viewer {
 namespace {
 
-// Seconds between two pictures of a truth that is being traced: each takes some ten milliseconds
-// from the tracing and from whatever else is done.
+// Seconds between two updates of the picture during tracing. Each update takes some ten
+// milliseconds from the tracing and from other work.
 constexpr double kTruthInterval = 0.25;
 
-// For a texture of kRgba8Unorm.
+// RGB to the texels of a kRgba8Unorm texture.
 std::vector<uint32_t> packed(const image::Image& colors) {
   std::vector<uint32_t> texels(size_t{colors.width} * colors.height);
   for (size_t i = 0; i < texels.size(); ++i) {
@@ -135,7 +135,7 @@ image::Image TruthView::numbers(std::string_view view) const {
 }
 
 std::optional<Side> TruthView::side(std::string_view view) {
-  // One of each 4 x 4 pixels comes first: then each has one that stands for it.
+  // The first pass traces one pixel of each 4 x 4 square: then every pixel has a stand-in.
   const glm::uvec2 squares = (traced_.size + 3u) / 4u;
   if (traced_.pixels < std::max(uint64_t{squares.x} * squares.y, uint64_t{1})) return std::nullopt;
   const bool error = view == kErrorView;

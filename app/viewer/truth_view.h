@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: MIT
-// The picture on the screen beside its truth: what is traced, how far apart the two are, and both
-// as pictures.
+// Compares the picture on the screen with the traced truth: traces the view, computes the error,
+// and provides truth and error as textures and images.
 #pragma once
 
 #include <array>
@@ -16,43 +16,45 @@ namespace grisaille::app::viewer {
 
 class TruthView {
  public:
-  // The device outlives this.
+  // The device must outlive this.
   explicit TruthView(gpu::Device& device) : device_(device) {}
   ~TruthView();
   TruthView(const TruthView&) = delete;
   TruthView& operator=(const TruthView&) = delete;
 
-  // What is on the screen: the compared output of a view. Only another view is traced anew: another
-  // picture of the same one is compared with the truth that there is.
+  // Sets the view and its compared output. Traces only if the view differs from the last one; else
+  // compares the new picture with the truth traced already.
   void show(const truth::LiveView& view, image::Image picture);
 
-  // The same picture, compared with another truth. Nothing happens where there is none.
+  // Traces the same view with another radius (metres) or rays per pixel, if one of them differs.
+  // Does nothing without a picture.
   void follow(double radius, uint32_t rays);
 
-  // Nothing is compared any more.
+  // Ends the tracing and the comparison.
   void stop();
 
-  // Whether look() will have more to tell.
+  // True while the view is being traced.
   bool running() const { return running_; }
-  uint64_t started() const { return started_; }  // how many truths so far
+  uint64_t started() const { return started_; }  // number of truths started
 
-  // True where there is something new to be drawn: at once for the first of a view, then some times
-  // a second. Throws Error where the scene cannot be traced; then nothing is compared.
+  // Takes new results. True if they must be drawn: the first of a view at once, later ones a few
+  // times per second. Throws Error if the scene cannot be traced, and ends the tracing.
   bool look();
 
   const truth::Comparison& comparison() const { return comparison_; }
-  double rays() const { return traced_.rays; }  // a traced pixel, on average
-  double share() const;                         // of the picture's pixels that are traced
+  double rays() const { return traced_.rays; }  // mean per traced pixel
+  double share() const;                         // traced share of the pixels, 0 ... 1
 
-  // Of one pixel, or of the one that stands for it.
+  // The values at a pixel, or at the traced pixel that stands in for it; none if neither is traced.
   std::optional<truth::Point> at(glm::uvec2 texel) const;
 
-  // kTruthView or kErrorView as the screen shows it; none until there is something for every pixel.
-  // Valid until the next call. Between two frames of the device.
+  // The texture of kTruthView or kErrorView; none until every pixel is traced or has a stand-in.
+  // Valid until the next call. Call between two frames of the device.
   std::optional<Side> side(std::string_view view);
   uint64_t revision() const { return revision_; }
 
-  // The same as numbers; where a pixel is not traced, another may stand for it, else NaN.
+  // The values of kTruthView or kErrorView. A pixel that is not traced has its stand-in's value,
+  // else NaN.
   image::Image numbers(std::string_view view) const;
 
  private:
@@ -60,7 +62,7 @@ class TruthView {
   struct Sheet {
     gpu::Texture texture;
     glm::uvec2 size = glm::uvec2(0);
-    uint64_t revision = 0;  // of what it holds
+    uint64_t revision = 0;  // of its content
   };
 
   void restart();
@@ -70,7 +72,7 @@ class TruthView {
   gpu::Device& device_;
   truth::LiveTruth truth_;
   truth::LiveView view_;
-  image::Image picture_;  // without pixels: nothing is compared
+  image::Image picture_;  // without pixels: no comparison
   truth::Traced traced_;
   truth::Comparison comparison_;
   Clock::time_point looked_{};

@@ -14,7 +14,7 @@ namespace grisaille::app::viewer {
 using nlohmann::json;
 namespace {
 
-// The whole lines of JSON, the newest last.
+// The JSON objects of all complete lines, the newest last.
 std::vector<json> objectsOf(const std::string& written) {
   std::vector<json> objects;
   for (size_t from = 0; from < written.size();) {
@@ -28,7 +28,7 @@ std::vector<json> objectsOf(const std::string& written) {
   return objects;
 }
 
-// What it said last on standard error.
+// The last line that is not empty.
 std::string lastLine(const std::string& written) {
   const size_t end = written.find_last_not_of("\r\n");
   if (end == std::string::npos) return "";
@@ -54,7 +54,7 @@ std::vector<std::string> tuneArguments(const TuneCommand& command) {
   const auto add = [&](const char* option, const std::string& value) {
     arguments.insert(arguments.end(), {option, value});
   };
-  // Before --effects and --vary, which would take it for one more.
+  // Before --effects and --vary, which would take the path as another value.
   if (!command.scene.empty()) arguments.push_back(plainPath(command.scene));
   add("--camera", scene::cameraJson(command.camera));
   add("--size", fmt::format("{}x{}", command.size.x, command.size.y));
@@ -98,9 +98,9 @@ void TuneRun::start(const TuneCommand& command) {
 
 TuneRun::State TuneRun::state() const {
   if (!child_) return {};
-  if (cancelled_) return {0, "is being cancelled"};
+  if (cancelled_) return {0, "cancelling"};
   const std::vector<json> told = objectsOf(child_->out());
-  if (told.empty()) return {0, "starts"};
+  if (told.empty()) return {0, "starting"};
   const json& last = told.back();
   const std::string name = last.value("progress", "");
   const std::string doing = name == "tune" || name.empty() ? "" : "tracing " + name + ": ";
@@ -123,13 +123,14 @@ std::optional<TuneRun::Outcome> TuneRun::take() {
 TuneRun::Outcome TuneRun::outcomeOf(const Child& ended) const {
   if (cancelled_) return {.values = {}, .text = "cancelled", .warning = {}};
   if (ended.status() != 0) {
-    const std::string why = ended.status() < 0 ? "a signal ended it" : "it failed without a word";
+    const std::string why =
+        ended.status() < 0 ? "a signal ended it" : "it failed without a message";
     const std::string told = lastLine(ended.err());
     return {.values = {}, .text = told.empty() ? why : told, .warning = {}};
   }
   const std::vector<json> told = objectsOf(ended.out());
   if (told.empty() || !told.back().contains("setting")) {
-    return {.values = {}, .text = "it told no result", .warning = {}};
+    return {.values = {}, .text = "it printed no result", .warning = {}};
   }
   try {
     const json& found = told.back();

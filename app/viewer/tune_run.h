@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: MIT
-// `grisaille tune` beside the window: what it is asked, how far it is, what it found.
+// Runs `grisaille tune` as a child process: its command, its progress and its result.
 #pragma once
 
 #include <glm/glm.hpp>
@@ -16,54 +16,55 @@
 namespace grisaille::app::viewer {
 
 struct TuneCommand {
-  std::string scene = {};  // a file; "": the built-in scene
+  std::string scene = {};  // path; "": the built-in scene
   scene::Camera camera = {};
   glm::uvec2 size = glm::uvec2(640, 360);        // pixels
-  std::string backend = {}, device = {};         // "": left out
-  const effect::Selection* effects = nullptr;    // those that are on run
-  std::string output = {};                       // that is compared with the truth
+  std::string backend = {}, device = {};         // "": no option
+  const effect::Selection* effects = nullptr;    // runs those switched on
+  std::string output = {};                       // compared with the truth
   double radius = 0.5;                           // of the truth, metres
-  uint32_t samples = 256;                        // of the truth, rays a pixel
-  double maxError = 0, budget = 0;               // RMSE, milliseconds; one of them is 0
-  uint32_t evaluations = 80;                     // at most
-  std::vector<effect::ParameterName> vary = {};  // all others stay as they are
+  uint32_t samples = 256;                        // of the truth, rays per pixel
+  double maxError = 0, budget = 0;               // RMSE; milliseconds; one of them is 0
+  uint32_t evaluations = 80;                     // limit
+  std::vector<effect::ParameterName> vary = {};  // all others keep their values
   std::vector<std::string> pluginPaths = {};
 };
 
-// The arguments after the program's name, but for --json.
+// The arguments after the program's name, without --json.
 std::vector<std::string> tuneArguments(const TuneCommand& command);
 
-// Of the view's shape, with about as many pixels as a study has, but no more than the view.
+// The size of the tuned picture: the aspect ratio of `view`, about 640 x 360 pixels in all, and
+// never larger than `view`.
 glm::uvec2 tuneSize(glm::uvec2 view);
 
 class TuneRun {
  public:
   struct State {
-    double done = 0;   // share of what `text` says it does
-    std::string text;  // what it does now
+    double done = 0;   // 0 ... 1, of the step in `text`
+    std::string text;  // current step
   };
   struct Outcome {
-    // What was found for the parameters that may change; none: why is in `text`.
+    // Found values of the varied parameters; none if the run failed: `text` says why.
     std::optional<std::vector<effect::ParameterValue>> values;
-    std::string text;  // one line
+    std::string text;  // result or reason, one line
     std::string warning;
   };
 
-  // `program`: the words before the arguments.
+  // `program`: the program's path, and arguments before those of tuneArguments().
   explicit TuneRun(std::vector<std::string> program = {"/proc/self/exe"})
       : program_(std::move(program)) {}
   TuneRun(const TuneRun&) = delete;
   TuneRun& operator=(const TuneRun&) = delete;
 
-  // One at a time. Throws kUnexpected.
+  // Starts a run; does nothing while one is started(). Throws kUnexpected.
   void start(const TuneCommand& command);
-  bool started() const { return child_ != nullptr; }  // and its outcome is not yet taken
+  bool started() const { return child_ != nullptr; }  // until take() returns its outcome
   State state() const;
 
-  // take() says soon that it was cancelled.
+  // Ends the run; take() then returns the outcome "cancelled".
   void cancel();
 
-  // Of a run that has ended since the last call.
+  // The outcome of a run that has ended, once; else none.
   std::optional<Outcome> take();
 
  private:

@@ -12,16 +12,16 @@ namespace grisaille::app::viewer {
 namespace fs = std::filesystem;
 namespace {
 
-constexpr int kSettleFrames = 3;           // ImGui shows what hovers a frame or two late
-constexpr double kLookInterval = 0.5;      // seconds between two looks at files
-constexpr double kWaitInterval = 0.05;     // seconds between two looks at what runs beside
-constexpr double kLeastFrame = 1.0 / 120;  // seconds, where the display does not hold back
+constexpr int kSettleFrames = 3;           // ImGui shows hover effects a frame or two late
+constexpr double kLookInterval = 0.5;      // seconds between two checks of watched files
+constexpr double kWaitInterval = 0.05;     // seconds between two checks of background work
+constexpr double kLeastFrame = 1.0 / 120;  // seconds, if the display does not limit the rate
 
 fs::path stateFile() {
   return stateFolder() / "viewer.json";
 }
 
-// Where no window is left to say it.
+// Prints an error of `action` instead of throwing it: the window can no longer show it.
 void orNote(const std::function<void()>& action) {
   try {
     action();
@@ -60,7 +60,7 @@ Viewer::~Viewer() {
   window_.reset();
 }
 
-// The backend asked for, or the first that starts.
+// Opens the window with the requested backend, else with the first that starts.
 void Viewer::openWindow() {
   if (!options_.backend.empty()) {
     tryBackend(backends::find(options_.backend));
@@ -118,12 +118,12 @@ void Viewer::run() {
   orNote([&] { keepState(); });
 }
 
-// Before the program ends without being asked to by its window.
+// Saves state and unsaved work when an error or a signal ends the program.
 void Viewer::rescue() {
   orNote([&] { keepState(); });
   orNote([&] {
     const fs::path folder = stateFolder() / ("rescued-" + timeStamp());
-    fmt::print(stderr, "note: what was not saved is kept; go on with: {}\n",
+    fmt::print(stderr, "note: settings, objects and camera are saved; continue with: {}\n",
                session_.rescue(folder));
   });
 }
@@ -132,7 +132,7 @@ void Viewer::showFrames() {
   while (!window_->closing() && (options_.frames == 0 || complete_ < options_.frames)) {
     if (truth::Interruption::asked()) throw truth::Interrupted();
     if (window_->wait(patience())) settle_ = kSettleFrames;
-    // Frames that wait for the truth are no use.
+    // Frames drawn before the truth is traced do not count as complete.
     const bool hurry = options_.frames > 0 && !truth_->running();
     if (lookAround() || hurry) settle_ = std::max(settle_, 1);
     const bool stale = stage_ && !session_.paused && stage_->isStale(stageDesc());
@@ -153,7 +153,7 @@ void Viewer::showFrames() {
   }
 }
 
-// How long to wait for something to happen, seconds.
+// Seconds to wait for an event.
 double Viewer::patience() {
   const bool visible = window_->pixels().x > 0;
   const bool stale = stage_ && !session_.paused && stage_->isStale(stageDesc());
@@ -161,10 +161,10 @@ double Viewer::patience() {
   if (loading_.running() || !rebuild_.building().empty() || tune_.started() || truth_->running()) {
     return kWaitInterval;
   }
-  return kLookInterval;  // also for signals
+  return kLookInterval;  // the loop must also notice signals
 }
 
-// At what runs beside the window. True where there is news.
+// Checks scene loading, plugin builds, tune and truth. True if one of them has news.
 bool Viewer::lookAround() {
   bool news = loading_.running();  // its progress
   if (loading_.running()) takeScene();
@@ -191,7 +191,7 @@ void Viewer::startTune(const TuneWish& wish) {
   });
 }
 
-// True where there is news.
+// True if the search has news.
 bool Viewer::lookAtTune() {
   if (!tuning_.running) return false;
   const auto outcome = tune_.take();
@@ -213,7 +213,7 @@ void Viewer::frame(double seconds) {
   takeDropped();
   window_->feedInterface();
   ImGui::NewFrame();
-  if (drawn_ <= 1) ImGui::SetWindowFocus(nullptr);  // keys begin with the picture
+  if (drawn_ <= 1) ImGui::SetWindowFocus(nullptr);  // at first, the keys belong to the picture
   const ImGuiIO& io = ImGui::GetIO();
   Requests requests = panel_.draw(status(), {io.DisplaySize.x, io.DisplaySize.y});
   moving_ = controls_.update(place(), seconds, io.DisplayFramebufferScale.x, requests);
@@ -221,7 +221,7 @@ void Viewer::frame(double seconds) {
   ImGui::Render();
   if (window_->hasMoreEvents()) settle_ = kSettleFrames;
   perform(requests);
-  writeLayout();  // what is about to be drawn is told to be stale
+  writeLayout();  // marks a picture that must be rendered as stale before the work begins
   updateStage();
   drawWindow();
   writeLayout();
@@ -252,7 +252,7 @@ void Viewer::perform(const Requests& requests) {
 
 void Viewer::openScene(const std::string& path) {
   if (loading_.running()) {
-    session_.say("a scene is being read already: " + loading_.path());
+    session_.say("a scene is already loading: " + loading_.path());
     return;
   }
   std::error_code failed;
@@ -264,7 +264,7 @@ void Viewer::takeScene() {
     const auto scene = loading_.take();
     if (!scene) return;
     const std::string path = loading_.path();
-    // Uploads and rays are of the old scene.
+    // Truth and stage refer to the old scene.
     truth_->stop();
     stage_.reset();
     session_.setScene(scene, path);

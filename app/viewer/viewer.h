@@ -1,5 +1,6 @@
 // SPDX-License-Identifier: MIT
-// The viewer: a window, what it shows, and the loop that draws when there is something to draw.
+// The viewer: owns window, device, session and panel, and runs the loop that draws a frame when
+// something has changed.
 #pragma once
 
 #include <chrono>
@@ -18,16 +19,16 @@ namespace grisaille::app::viewer {
 
 struct ViewerOptions {
   SessionOptions session;
-  std::string backend, device;      // "": whatever starts
-  std::string bookmarks;            // a folder; "": configFolder()/bookmarks
-  std::string layoutFile;           // where the controls' places are written; "": nowhere
-  glm::uvec2 size = glm::uvec2(0);  // of the window; 0: as it was left
-  // Ends after so many frames with the scene's picture and, where it is compared with the truth,
-  // the whole of that; 0: when it is closed.
+  std::string backend, device;      // "": the first that starts
+  std::string bookmarks;            // folder; "": configFolder()/bookmarks
+  std::string layoutFile;           // receives the controls' rectangles; "": none
+  glm::uvec2 size = glm::uvec2(0);  // of the window, screen units; 0: as in the last run
+  // Ends after this number of complete frames: with the scene's picture and, if it is compared with
+  // the truth, all rays traced. 0: ends when the user closes the window.
   uint32_t frames = 0;
-  std::string capture;  // what the window holds at the end, .png or .exr; "": nowhere
-  bool check = false;
-  gpu::MessageSink message = {};  // what the driver says; none: standard error
+  std::string capture;            // file for the window's last content, .png or .exr; "": none
+  bool check = false;             // validate every call, in the layer and in the driver
+  gpu::MessageSink message = {};  // receives the driver's messages; none: standard error
 };
 
 class Viewer {
@@ -38,8 +39,8 @@ class Viewer {
   Viewer(const Viewer&) = delete;
   Viewer& operator=(const Viewer&) = delete;
 
-  // Until the window is closed. Where it ends otherwise, by an error or a signal, what the user has
-  // not saved is written to a folder first. Throws Error and truth::Interrupted.
+  // Runs until the user closes the window. If an error or a signal ends it, saves settings, objects
+  // and camera to a folder first. Throws Error and truth::Interrupted.
   void run();
 
  private:
@@ -87,7 +88,7 @@ class Viewer {
   std::unique_ptr<Window> window_;
   std::unique_ptr<gpu::Device> device_;
   std::unique_ptr<Screen> screen_;
-  std::unique_ptr<Stage> stage_;  // of the session's scene
+  std::unique_ptr<Stage> stage_;  // of the session's scene; null before the first
   std::unique_ptr<TruthView> truth_;
   Panel panel_;
   Controls controls_;
@@ -100,12 +101,12 @@ class Viewer {
   std::vector<ColorShare> coverage_;
 
   std::string backend_, layoutWritten_;
-  int settle_ = 0;            // frames still to be drawn, for what hovers and follows
-  bool moving_ = false;       // something moves by itself
-  double updateSeconds_ = 0;  // of the stage's last update
+  int settle_ = 0;            // further frames to draw, for hover and for late updates
+  bool moving_ = false;       // a held key or button moves the camera or sprays
+  double updateSeconds_ = 0;  // duration of the stage's last update
   uint64_t drawn_ = 0;        // frames
-  uint32_t complete_ = 0;     // frames with the scene's picture
-  gpu::Texture shown_;        // of the last frame
+  uint32_t complete_ = 0;     // complete frames; see ViewerOptions::frames
+  gpu::Texture shown_;        // the window's content in the last frame
   Clock::time_point lastFrame_ = Clock::now(), lastLook_ = Clock::now();
 };
 

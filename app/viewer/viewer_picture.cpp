@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: MIT
-// What the viewer puts into its window, and into files.
+// The viewer's picture: composes it in the window, and writes pictures and the layout to files.
 #include <algorithm>
 #include <cmath>
 #include <filesystem>
@@ -14,7 +14,8 @@ namespace {
 
 constexpr const char* kPictureEndings[] = {".png", ".exr"};
 
-// Without its ending, and of no picture that is there: two may be saved in a second.
+// A file name without ending. Adds a number if it is taken, since the user may save two pictures in
+// one second.
 std::string fileName(std::string output) {
   std::ranges::replace(output, '.', '-');
   const std::string first = fmt::format("grisaille-{}-{}", timeStamp(), output);
@@ -44,7 +45,7 @@ StageDesc Viewer::stageDesc() {
   desc.surface = session_.surface;
   desc.chain = &session_.chain;
   desc.liveRevision = session_.revision;
-  // What is compared stands for the truth and the error until these are there.
+  // The compared output stands in for truth and error until these have a texture.
   const std::string compared = session_.comparedOutput();
   desc.left = isTruthView(session_.left) ? compared : session_.left;
   if (session_.split) {
@@ -54,7 +55,8 @@ StageDesc Viewer::stageDesc() {
       desc.heldRevision = session_.heldRevision;
     }
   }
-  // Where a frame takes long anyway, work that can wait may take as long: it is whole sooner.
+  // If a frame takes long anyway, work that can wait may take as long: the picture is complete
+  // sooner.
   desc.patience = std::clamp(updateSeconds_, 0.03, 0.3);
   if (!compared.empty()) desc.extra.push_back(compared);
   if (panel_.wantsCoverage) {
@@ -88,10 +90,10 @@ void Viewer::updateStage() {
                   .samples = session_.comparing.rays},
                  stage_->read(compared));
   });
-  settle_ = std::max(settle_, 1);  // what is said of it
+  settle_ = std::max(settle_, 1);  // the panel shows the new values
 }
 
-// Where the picture stays and what it is compared with does not.
+// Follows changes of the truth's settings while the picture stays the same.
 void Viewer::compareWithTruth() {
   if (session_.comparedOutput().empty()) {
     truth_->stop();
@@ -174,7 +176,7 @@ void Viewer::drawWindow() {
   session_.attempt([&] { desc.sides = {side(false), side(session_.split)}; });
   if (stage_) {
     desc.texels = stage_->size();
-    desc.revision = stage_->revision() + truth_->revision();  // of a scene, neither falls
+    desc.revision = stage_->revision() + truth_->revision();  // for one scene, both only grow
   }
   desc.split = session_.split;
   desc.line = session_.line;
@@ -190,7 +192,7 @@ void Viewer::drawWindow() {
 image::Image Viewer::pictureOf(const std::string& view) {
   if (isTruthView(view)) {
     if (!panel_.pictureAsShown) {
-      throw Error(ErrorId::kUsage, "the truth is only there as large as on the screen");
+      throw Error(ErrorId::kUsage, "the truth can be saved only at the size on the screen");
     }
     if (truth_->share() == 0) throw Error(ErrorId::kUsage, "nothing is traced yet");
     return truth_->numbers(view);

@@ -18,7 +18,7 @@ namespace {
 std::string lastError() {
   const char* text = nullptr;
   glfwGetError(&text);
-  return text != nullptr ? text : "the window library does not say why";
+  return text != nullptr ? text : "GLFW gives no reason";
 }
 
 Window& windowOf(GLFWwindow* window) {
@@ -29,7 +29,8 @@ Window& windowOf(GLFWwindow* window) {
 
 WindowLibrary::WindowLibrary() {
   glfw::choosePlatform();
-  if (glfwInit() != GLFW_TRUE) throw Error(ErrorId::kNoDisplay, "no window opens: {}", lastError());
+  if (glfwInit() != GLFW_TRUE)
+    throw Error(ErrorId::kNoDisplay, "cannot open a window: {}", lastError());
 }
 
 WindowLibrary::~WindowLibrary() {
@@ -41,7 +42,8 @@ Window::Window(const backends::Backend& backend, bool check, glm::uvec2 size) {
   window_ = glfwCreateWindow(static_cast<int>(size.x), static_cast<int>(size.y), "Grisaille",
                              nullptr, nullptr);
   if (window_ == nullptr) {
-    throw Error(ErrorId::kWindowFailed, "no window for {}: {}", backend.label, lastError());
+    throw Error(ErrorId::kWindowFailed, "cannot open a window for {}: {}", backend.label,
+                lastError());
   }
   surface_.emplace(window_);
   glfwSetWindowUserPointer(window_, this);
@@ -97,7 +99,7 @@ void Window::setCallbacks() {
     Window& self = windowOf(w);
     self.woken_ = true;
     if (focused != GLFW_FALSE) return;
-    // What is let go elsewhere is not told.
+    // A window without focus receives no key releases.
     for (int key = 0; key <= GLFW_KEY_LAST; ++key) {
       if (!self.keys_[static_cast<size_t>(key)]) continue;
       self.events_.push_back({.type = Event::Type::kKey, .code = key, .down = false});
@@ -166,26 +168,27 @@ bool Window::wait(double seconds) {
   return std::exchange(woken_, false) || !events_.empty();
 }
 
-// False where this event would hide one that this frame has already taken.
+// Passes one event to ImGui. False if it would hide an event that this frame has already taken.
 bool Window::feed(const Event& event, std::vector<int>& touched) {
-  constexpr int kButtons = 1 << 16, kWheel = kButtons << 1;  // beside the keys in `touched`
+  constexpr int kButtons = 1 << 16, kWheel = kButtons << 1;  // values in `touched` beyond the keys
   const int name = event.type == Event::Type::kKey ? event.code : kButtons + event.code;
   const bool again = std::ranges::find(touched, name) != touched.end();
   const bool pointed = std::ranges::any_of(touched, [](int one) { return one >= kButtons; });
   const bool isPress = event.type == Event::Type::kKey || event.type == Event::Type::kButton;
   const bool isModifier = event.type == Event::Type::kKey && event.code >= GLFW_KEY_LEFT_SHIFT &&
                           event.code <= GLFW_KEY_RIGHT_SUPER;
-  // With or without Ctrl, what was pressed or turned before means another thing.
+  // A modifier or a release after a press would change the meaning of that press in this frame.
   if (acted_ && (isModifier || (isPress && !event.down))) return false;
   acted_ = acted_ || event.type == Event::Type::kWheel || (isPress && event.down);
   switch (event.type) {
     case Event::Type::kMove:
-      if (pointed) return false;  // a button or the wheel went where the cursor was
+      if (pointed) return false;  // the button or wheel event belongs to the old position
       moved_ = moved_ || cursor_ != event.place;
       cursor_ = event.place;
       return true;
     case Event::Type::kButton:
-      // Since 1.89.7 a control under others takes a press only if it was hovered the frame before.
+      // Since ImGui 1.89.7, a control under others takes a press only if it was hovered the frame
+      // before.
       if (again || (event.down && moved_)) return false;
       touched.push_back(name);
       if (event.code < 5) buttons_[static_cast<size_t>(event.code)] = event.down;
@@ -215,7 +218,7 @@ void Window::feedInterface() {
     prepareInput();
   }
   ImGui_ImplGlfw_NewFrame();
-  io.DeltaTime = std::min(io.DeltaTime, 0.05f);  // no slow frame makes a key repeat
+  io.DeltaTime = std::min(io.DeltaTime, 0.05f);  // a slow frame must not make a key repeat
   std::vector<int> touched;
   acted_ = moved_ = false;
   while (!events_.empty() && feed(events_.front(), touched)) events_.pop_front();

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: MIT
-// A window, and what people do in it. All of it belongs to the main thread.
+// A window and its input events. Call everything from the main thread.
 #pragma once
 
 #include <array>
@@ -17,7 +17,7 @@ struct GLFWwindow;
 
 namespace grisaille::app::viewer {
 
-// The window library. Throws kNoDisplay.
+// Initialises GLFW while it lives. The constructor throws kNoDisplay.
 class WindowLibrary {
  public:
   WindowLibrary();
@@ -28,17 +28,18 @@ class WindowLibrary {
 
 class Window {
  public:
-  // For a device of this backend. Throws kWindowFailed.
+  // Opens a window for a device of this backend. `check`: as in gpu::DeviceOptions. `size`: in the
+  // desktop's units. Throws kWindowFailed.
   Window(const backends::Backend& backend, bool check, glm::uvec2 size);
   ~Window();
   Window(const Window&) = delete;
   Window& operator=(const Window&) = delete;
 
-  // As a device sees it.
+  // The window as device creation takes it; owned by this.
   backends::Window* surface() { return &*surface_; }
-  glm::uvec2 pixels() const;  // of the picture that fills it; 0 while it is minimised
+  glm::uvec2 pixels() const;  // size of the framebuffer; 0 while minimised
   glm::uvec2 size() const;    // in the desktop's units
-  float scale() const;        // the display's: text and measures are to be so much larger
+  float scale() const;        // the display's scale of text and sizes, 0.5 ... 4
   bool closing() const;
   void close();
   void setTitle(const std::string& title);
@@ -46,12 +47,13 @@ class Window {
   void toggleFullScreen();
   void setClipboard(const std::string& text);
 
-  // Takes what has come, waiting up to so many seconds for it. True where something came, or is
-  // left from the last time.
+  // Collects events; waits up to `seconds` for the first. True if events came or are left from
+  // earlier calls.
   bool wait(double seconds);
 
-  // Before ImGui::NewFrame(), after this process's InterfaceContext was made: size, time, and as
-  // many of the events as one frame can tell apart. A click between two frames is not lost.
+  // Passes size, time and events to ImGui. Call before ImGui::NewFrame(), with an InterfaceContext.
+  // Stops before an event that would hide an earlier one in the same frame: a click between two
+  // frames is not lost.
   void feedInterface();
   bool hasMoreEvents() const { return !events_.empty(); }
 
@@ -60,10 +62,10 @@ class Window {
  private:
   struct Event {
     enum class Type : uint8_t { kMove, kButton, kWheel, kKey, kText } type = Type::kMove;
-    int code = 0;  // button, key
+    int code = 0;  // GLFW's number of the button or key
     bool down = false;
-    glm::dvec2 place = glm::dvec2(0);  // of the cursor, or the wheel's notches
-    unsigned text = 0;
+    glm::dvec2 place = glm::dvec2(0);  // cursor in window units, or notches of the wheel
+    unsigned text = 0;                 // Unicode code point
   };
   void setCallbacks();
   bool feed(const Event& event, std::vector<int>& touched);
@@ -73,12 +75,12 @@ class Window {
   std::deque<Event> events_;
   std::vector<std::string> dropped_;
   bool woken_ = true;
-  glm::ivec4 place_ = glm::ivec4(0);  // before it filled the screen
+  glm::ivec4 place_ = glm::ivec4(0);  // position and size before full screen
   glm::dvec2 cursor_ = glm::dvec2(-1e6);
   std::array<bool, 5> buttons_{};
-  std::bitset<512> keys_;  // held down, by GLFW's numbers
-  bool acted_ = false;     // something was pressed or turned in this frame
-  bool moved_ = false;     // the cursor, in this frame
+  std::bitset<512> keys_;  // held keys, by GLFW's numbers
+  bool acted_ = false;     // this frame took a press or a turn of the wheel
+  bool moved_ = false;     // the cursor moved in this frame
 };
 
 }  // namespace grisaille::app::viewer

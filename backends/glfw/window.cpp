@@ -3,7 +3,7 @@
 
 #include <epoxy/egl.h>
 #include <vulkan/vulkan.h>
-// After the APIs' headers, whose types it then uses.
+// Include after the API headers: GLFW then uses their types.
 #define GLFW_EXPOSE_NATIVE_EGL
 #define GLFW_INCLUDE_NONE
 #include <GLFW/glfw3.h>
@@ -21,17 +21,17 @@ void hintOpenGl(bool check) {
   glfwWindowHint(GLFW_CONTEXT_VERSION_MINOR, 5);
   glfwWindowHint(GLFW_OPENGL_PROFILE, GLFW_OPENGL_CORE_PROFILE);
   glfwWindowHint(GLFW_OPENGL_DEBUG_CONTEXT, check ? GLFW_TRUE : GLFW_FALSE);
-  glfwWindowHint(GLFW_ALPHA_BITS, 0);  // nothing behind the window shows through
+  glfwWindowHint(GLFW_ALPHA_BITS, 0);  // the window is opaque
   glfwWindowHint(GLFW_DEPTH_BITS, 0);
   glfwWindowHint(GLFW_STENCIL_BITS, 0);
-  glfwWindowHint(GLFW_SRGB_CAPABLE, GLFW_FALSE);  // pictures come encoded
+  glfwWindowHint(GLFW_SRGB_CAPABLE, GLFW_FALSE);  // pictures are sRGB encoded already
   glfwWindowHint(GLFW_DOUBLEBUFFER, GLFW_TRUE);
 }
 
 }  // namespace
 
 void choosePlatform() {
-#ifdef GLFW_PLATFORM_X11  // since 3.4; before, there is one platform
+#ifdef GLFW_PLATFORM_X11  // GLFW 3.4 and later; older versions have a single platform
   const char* wayland = std::getenv("WAYLAND_DISPLAY");
   const bool none = wayland == nullptr || *wayland == '\0';
   if (none && std::getenv("DISPLAY") != nullptr) {
@@ -60,7 +60,7 @@ Window::EglHandles Window::makeEglCurrent() {
   const EglHandles handles = {.display = glfwGetEGLDisplay(),
                               .context = glfwGetEGLContext(window_),
                               .surface = glfwGetEGLSurface(window_)};
-  // Not by EGL alone, since GLFW has to know it for the swap interval.
+  // Through GLFW instead of EGL: glfwSwapInterval() needs a context that GLFW knows as current.
   if (handles.context != nullptr) {
     glfwMakeContextCurrent(window_);
     glfwSwapInterval(1);

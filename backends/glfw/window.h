@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: MIT
-// GLFW's windows as the backends see them. Only programs that open windows link this room.
+// Implements backends::Window with GLFW. Only programs that open windows link this library.
 #pragma once
 
 #include <string_view>
@@ -10,17 +10,17 @@ struct GLFWwindow;
 
 namespace grisaille::glfw {
 
-// Before glfwInit(): GLFW 3.4 looks for a Wayland compositor first, and libwayland prints an error
-// where there is none. Without WAYLAND_DISPLAY, X11 is taken at once.
+// Call it before glfwInit(). Chooses X11 if DISPLAY is set and WAYLAND_DISPLAY is not: GLFW 3.4
+// looks for a Wayland compositor first, and libwayland prints an error if none runs.
 void choosePlatform();
 
-// Sets all of GLFW's hints to what the window of a device of this backend needs. `check` as in
-// DeviceOptions. The caller adds its own hints and makes the window.
+// Sets all GLFW window hints to the values that a device of this backend needs. `check`: same as
+// DeviceOptions::check. The caller adds its own hints and creates the window.
 void hintWindow(std::string_view backend, bool check);
 
 class Window : public backends::Window {
  public:
-  // Borrows the window, which was made after hintWindow() and outlives this.
+  // `window` must have been created after hintWindow(), and must outlive this object.
   explicit Window(GLFWwindow* window) : window_(window) {}
 
   Size size() const override;

@@ -20,17 +20,18 @@ constexpr EGLint kMaxDevices = 64;
 
 struct Display {
   EGLDisplay display = EGL_NO_DISPLAY;
-  EGLDeviceEXT device = EGL_NO_DEVICE_EXT;  // none when EGL does not tell
+  EGLDeviceEXT device = EGL_NO_DEVICE_EXT;  // none if EGL cannot query it
 };
 
-// Loads the first of the libraries that is there, for good.
+// Loads the first library of the list that is installed; it is never unloaded. Returns false if
+// none is.
 bool loads(std::initializer_list<const char*> names) {
   return std::any_of(names.begin(), names.end(), [](const char* name) {
     return dlopen(name, RTLD_LAZY | RTLD_LOCAL | RTLD_NODELETE) != nullptr;
   });
 }
 
-// libepoxy ends the process when it misses one of these.
+// libepoxy ends the process if one of these libraries is missing.
 void requireLibraries() {
   if (!loads({"libEGL.so.1"})) {
     throw Error(ErrorId::kBackendMissing, "OpenGL needs libEGL.so.1, which is not installed");
@@ -54,12 +55,13 @@ EGLDeviceEXT deviceOf(EGLDisplay display) {
   return reinterpret_cast<EGLDeviceEXT>(device);
 }
 
-// The surfaceless display first, since the driver chose its device, then every other EGL device.
+// The surfaceless display comes first, because the driver chose its device. Every other EGL device
+// follows.
 std::vector<Display> openDisplays() {
   std::vector<Display> displays;
   const auto open = [&](EGLenum platform, void* native) {
-    // Not eglGetPlatformDisplay: libepoxy 1.5.10 aborts there, having no display to ask for
-    // EGL 1.5.
+    // Not eglGetPlatformDisplay(): libepoxy 1.5.10 aborts in it, because it has no display yet on
+    // which to check for EGL 1.5.
     const EGLDisplay display = eglGetPlatformDisplayEXT(platform, native, nullptr);
     if (display == EGL_NO_DISPLAY || !eglInitialize(display, nullptr, nullptr)) return;
     displays.push_back({display, native != nullptr ? native : deviceOf(display)});
@@ -110,7 +112,7 @@ std::optional<Adapter> probe(EGLDisplay display, ContextKind kind) {
     adapter.display = display;
     return adapter;
   } catch (const Error&) {
-    return std::nullopt;  // a display without OpenGL is no device
+    return std::nullopt;  // a display without OpenGL does not count as a device
   }
 }
 
@@ -122,7 +124,7 @@ std::vector<Adapter> probeAll() {
     std::optional<Adapter> adapter = probe(display.display, ContextKind::kCore);
     if (!adapter) adapter = probe(display.display, ContextKind::kAny);
     if (!adapter) continue;
-    // A software driver answers for every device that has no driver of its own.
+    // EGL gives the software driver for every device without a driver of its own: list it once.
     const bool again = adapter->listed.software &&
                        std::any_of(found.begin(), found.end(), [&](const Adapter& other) {
                          return other.listed.name == adapter->listed.name;
@@ -132,7 +134,7 @@ std::vector<Adapter> probeAll() {
   return found;
 }
 
-// How well it serves as the device that nobody named.
+// Order of preference when the user names no device.
 int rank(const Adapter& adapter) {
   return (adapter.version >= 45 ? 2 : 0) + (adapter.listed.software ? 0 : 1);
 }
@@ -145,7 +147,7 @@ std::string listing(const std::vector<Adapter>& found) {
   return text;
 }
 
-// What `wanted` is as a number.
+// `wanted` as a device number; none if it is not a number, SIZE_MAX if the number is too large.
 std::optional<size_t> numberOf(std::string_view wanted) {
   size_t number = 0;
   const char* end = wanted.data() + wanted.size();
@@ -183,7 +185,7 @@ const std::vector<Adapter>& adapters() {
 const Adapter& chooseAdapter(std::string_view wanted) {
   const std::vector<Adapter>& found = adapters();
   if (found.empty()) {
-    throw Error(ErrorId::kNoDevice, "EGL reaches no device that has OpenGL without a display");
+    throw Error(ErrorId::kNoDevice, "EGL offers no OpenGL device that works without a display");
   }
   if (wanted.empty()) {
     return *std::max_element(found.begin(), found.end(),

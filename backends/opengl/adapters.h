@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: MIT
-// The devices that EGL reaches without a display.
+// The OpenGL devices that EGL reaches without a display.
 #pragma once
 
 #include <string_view>
@@ -11,21 +11,21 @@ namespace grisaille::opengl {
 
 struct Adapter {
   gpu::ListedDevice listed;
-  void* display = nullptr;  // EGLDisplay, initialised; never terminated, for others may share it
+  void* display = nullptr;  // EGLDisplay, initialised; never terminated: others may share it
   int version = 0;          // of OpenGL: 45 for 4.5
 };
 
-// All of them, each once; asked of EGL on the first call. Throws kBackendMissing.
+// All devices, each once. The first call queries EGL. Throws kBackendMissing.
 const std::vector<Adapter>& adapters();
 
-// "" is the first that will do, hardware before software; else a number, or a part of a name in
-// either case. Throws kBackendMissing, kNoDevice.
+// Chooses a device. `wanted` is "", the device's number, or a part of its name, ignoring case. For
+// "" it prefers devices with OpenGL 4.5, then hardware. Throws kBackendMissing, kNoDevice.
 const Adapter& chooseAdapter(std::string_view wanted);
 
-// The current context's device, which has no display here.
+// The device of the current context. Its `display` is null.
 Adapter currentAdapter();
 
-// Throws kNoDevice when `there`, a window's device, is not the wanted one, as above.
+// Throws kNoDevice if `there`, a window's device, does not match `wanted`; see chooseAdapter().
 void requireAdapter(const gpu::ListedDevice& there, std::string_view wanted);
 
 }  // namespace grisaille::opengl

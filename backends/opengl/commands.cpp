@@ -12,7 +12,7 @@ namespace {
 
 using gpu::Access;
 
-constexpr size_t kMaxGroupLabel = 255;  // bytes; OpenGL allows more everywhere
+constexpr size_t kMaxGroupLabel = 255;  // bytes; every OpenGL driver allows more
 
 gpu::TextureView oneSubresource(const gpu::TextureView& view) {
   return {.texture = view.texture,
@@ -47,8 +47,8 @@ void setBlend(gpu::Blend blend) {
   (blend == gpu::Blend::kNone ? glDisable : glEnable)(GL_BLEND);
 }
 
-// In force while it lives, so that clears and copies see none. OpenGL counts rows from the first
-// one of the framebuffer, which is the top.
+// Sets the scissor rectangle for one draw and removes it afterwards, because clears and copies must
+// not be clipped. OpenGL counts rows from the framebuffer's first row, which is the top one here.
 class ScissorGuard {
  public:
   explicit ScissorGuard(const gpu::Scissor& scissor) : on_(scissor.width != 0) {
@@ -232,7 +232,7 @@ void GlCommands::bindBuffer(uint32_t target, const gpu::Binding& binding) {
   const BufferResource& buffer = resources_.buffers.get(binding.buffer.buffer);
   const uint64_t rest = buffer.size - binding.buffer.offset;
   uint64_t size = binding.buffer.size == 0 ? rest : binding.buffer.size;
-  // OpenGL counts a std140 block in whole vec4s.
+  // OpenGL rounds the size of a std140 block up to whole vec4s.
   if (target == GL_UNIFORM_BUFFER) size = std::min((size + 15) / 16 * 16, rest);
   glBindBufferRange(target, binding.slot, buffer.object.name(),
                     static_cast<GLintptr>(binding.buffer.offset), static_cast<GLsizeiptr>(size));

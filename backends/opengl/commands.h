@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: MIT
-// Recording on OpenGL: every call is made at once, in the device's context.
+// Records commands on OpenGL: each call runs at once, in the device's context.
 #pragma once
 
 #include "backends/opengl/context.h"
@@ -15,7 +15,8 @@ class GlCommands final : public gpu::Commands {
  public:
   GlCommands(Context& context, Resources& resources, PassTimer& timer, uint32_t uniformAlignment);
 
-  // The frame's begin and end. `slot` is 0 ... kFramesInFlight - 1; its last frame is finished.
+  // Begin and end a frame. `slot` is 0 ... kFramesInFlight - 1. The GPU must have finished the
+  // previous frame of this slot.
   void beginFrame(uint32_t slot);
   void endFrame();
 

@@ -38,14 +38,14 @@ Context::Context(void* display, ContextKind kind) : display_(display) {
     }
   }
   eglBindAPI(EGL_OPENGL_API);
-  // A driver may offer the notification of resets and yet refuse it for this kind of context.
+  // A driver may advertise reset notification and still refuse it for this kind of context.
   if (kind != ContextKind::kAny &&
       epoxy_has_egl_extension(display, "EGL_EXT_create_context_robustness")) {
     context_ = createContext(display, kind, true);
   }
   if (context_ == nullptr) context_ = createContext(display, kind, false);
   if (context_ == nullptr) {
-    throw Error(ErrorId::kDeviceFailed, "EGL made no OpenGL{} context (error {:#x})",
+    throw Error(ErrorId::kDeviceFailed, "EGL cannot create an OpenGL{} context (error {:#x})",
                 kind == ContextKind::kAny ? "" : " 4.5 core", eglGetError());
   }
 }
@@ -56,7 +56,7 @@ Context::Context(backends::Window& window) {
   context_ = handles.context;
   surface_ = handles.surface;
   if (display_ == EGL_NO_DISPLAY || context_ == EGL_NO_CONTEXT || surface_ == EGL_NO_SURFACE) {
-    throw Error(ErrorId::kDeviceFailed, "the window has no OpenGL context of EGL");
+    throw Error(ErrorId::kDeviceFailed, "the window has no OpenGL context that EGL created");
   }
   makeCurrent();
 }

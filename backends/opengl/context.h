@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: MIT
-// An OpenGL context of EGL, without a window or a window's own. No header of this folder sees an
-// API header: EGL's handles are pointers and OpenGL's names 32-bit numbers.
+// An OpenGL context that EGL creates: a context without a window, or a window's own. No header of
+// this folder includes an API header: EGL handles are pointers, OpenGL names 32-bit numbers.
 #pragma once
 
 #include "backends/window.h"
@@ -10,27 +10,27 @@ namespace grisaille::opengl {
 enum class ContextKind {
   kCore,   // 4.5 core
   kDebug,  // the same with debug output
-  kAny,    // whatever the driver gives: to name a device that is too old
+  kAny,    // any version that the driver offers: to read the name of a device that is too old
 };
 
 class Context {
  public:
-  // Another program's, which is current whenever this is used.
+  // Stands for another program's context, which must be current whenever this object is used.
   Context() : display_(nullptr), foreign_(true) {}
   // Throws kDeviceFailed. `display` is an initialised EGLDisplay.
   Context(void* display, ContextKind kind);
-  // Borrows the window's own, of EGL, and makes it current. Throws kDeviceFailed.
+  // Borrows the window's own EGL context and makes it current. Throws kDeviceFailed.
   explicit Context(backends::Window& window);
   ~Context();
   Context(const Context&) = delete;
   Context& operator=(const Context&) = delete;
 
-  // Cheap when it is current on this thread already. Throws kDeviceFailed, as when another thread
-  // holds it.
+  // Cheap if the context is already current on this thread. Throws kDeviceFailed, for example if
+  // the context is current on another thread.
   void makeCurrent();
 
-  // Shows what is drawn in the window. Waits for the display when it is a picture ahead. False: the
-  // window refuses. Throws kDeviceLost.
+  // Swaps the window's buffers. Waits for the display when it is one picture ahead. Returns false
+  // if EGL refuses the swap. Throws kDeviceLost.
   bool swap();
 
  private:
@@ -40,7 +40,7 @@ class Context {
   bool foreign_ = false;
 };
 
-// Puts the calling thread's current context back.
+// Restores the calling thread's current context in its destructor.
 class CurrentContextGuard {
  public:
   CurrentContextGuard();

@@ -10,7 +10,8 @@ namespace {
 
 using Current = void* (*)();
 
-// One window system's question. Its library is not loaded for it: who has a context has loaded it.
+// Queries one window system for the current context. It does not load the system's library: a
+// program with a context has loaded it already.
 struct System {
   const char* libraries[2];  // null: no second one
   const char* function;
@@ -24,7 +25,7 @@ struct System {
       if (library == nullptr) continue;
       ask = reinterpret_cast<Current>(dlsym(library, function));
       found.store(ask, std::memory_order_relaxed);
-      // Kept open, so that the function stays.
+      // The library stays open, because `found` points into it.
     }
     return ask != nullptr ? ask() : nullptr;
   }

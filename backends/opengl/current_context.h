@@ -1,11 +1,11 @@
 // SPDX-License-Identifier: MIT
-// Which OpenGL context the calling thread has, whoever made it. Asked before any call of OpenGL,
-// since libepoxy ends the program where there is none.
+// The calling thread's current OpenGL context, whichever library created it. Check it before any
+// OpenGL call: libepoxy ends the program if no context is current.
 #pragma once
 
 namespace grisaille::opengl {
 
-// EGL's or GLX's; null: none. It is a name to compare, no more.
+// The EGLContext or GLXContext, or null if none is current. Use the pointer only for comparison.
 void* currentContext();
 
 }  // namespace grisaille::opengl

@@ -40,7 +40,7 @@ void startDebugOutput(const gpu::MessageSink& sink, bool check) {
   }
   glDebugMessageCallback(onMessage, &sink);
   glEnable(GL_DEBUG_OUTPUT);
-  glEnable(GL_DEBUG_OUTPUT_SYNCHRONOUS);  // on the thread that made the call
+  glEnable(GL_DEBUG_OUTPUT_SYNCHRONOUS);  // messages arrive on the thread that made the call
 }
 
 void stopDebugOutput() {

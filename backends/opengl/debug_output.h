@@ -1,19 +1,19 @@
 // SPDX-License-Identifier: MIT
-// KHR_debug: the driver's messages as lines of the device's message sink.
+// KHR_debug: passes the driver's messages to the device's message sink.
 #pragma once
 
 #include "core/gpu/device.h"
 
 namespace grisaille::opengl {
 
-// Turns the messages of the current context on, where it is a debug context: all but notifications
-// when `check`, else errors alone. The sink must outlive the context.
+// Turns on the messages of the current context if it is a debug context. With `check`, the sink
+// receives all messages except notifications, else only errors. It must outlive the context.
 void startDebugOutput(const gpu::MessageSink& sink, bool check);
 
-// Takes the sink out of the current context.
+// Detaches the sink from the current context.
 void stopDebugOutput();
 
-// Mutes the messages of calls whose failure is thrown as an Error.
+// Mutes the driver's messages while it lives: for calls that report failure as an Error.
 class QuietDebugOutput {
  public:
   QuietDebugOutput();

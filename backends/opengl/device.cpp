@@ -19,12 +19,12 @@
 namespace grisaille::opengl {
 namespace {
 
-// The state that no call of this backend changes.
+// Sets the state that no other call of this backend changes.
 void setFixedState() {
   glClipControl(GL_UPPER_LEFT, GL_ZERO_TO_ONE);  // y up, row 0 on top, depth from 0
   glDepthFunc(GL_GREATER);
   glBlendFuncSeparate(GL_SRC_ALPHA, GL_ONE_MINUS_SRC_ALPHA, GL_ONE, GL_ONE_MINUS_SRC_ALPHA);
-  glEnable(GL_FRAMEBUFFER_SRGB);  // of sRGB formats alone
+  glEnable(GL_FRAMEBUFFER_SRGB);  // affects sRGB formats only
   glPixelStorei(GL_PACK_ALIGNMENT, 1);
   glPixelStorei(GL_UNPACK_ALIGNMENT, 1);
 }
@@ -43,7 +43,7 @@ void requireVersion(const Adapter& adapter) {
 class GlDevice final : public gpu::Device {
  public:
   GlDevice(const Adapter& adapter, const gpu::DeviceOptions& options);
-  explicit GlDevice(const gpu::DeviceOptions& options);  // of options.window
+  explicit GlDevice(const gpu::DeviceOptions& options);  // uses the context of options.window
   ~GlDevice() override;
 
   const gpu::DeviceInfo& info() const override { return info_; }
@@ -69,7 +69,7 @@ class GlDevice final : public gpu::Device {
   std::vector<gpu::FrameTimes> takeTimes() override;
 
  private:
-  // What goes with the context, in the order of making.
+  // The objects that need the context, in the order of creation.
   struct Contents {
     Contents(Context& context, const gpu::DeviceInfo& info, gpu::Clock clock)
         : timer(clock), commands(context, resources, timer, info.capabilities.uniformAlignment) {}
@@ -92,7 +92,7 @@ class GlDevice final : public gpu::Device {
   gpu::DeviceInfo info_;
   std::optional<Contents> contents_;
   std::array<GLsync, kFramesInFlight> fences_ = {};
-  uint64_t frame_ = 0;  // the next one to begin, or the one being recorded
+  uint64_t frame_ = 0;  // the frame being recorded, else the next frame to begin
   bool recording_ = false;
 };
 
@@ -115,7 +115,7 @@ GlDevice::GlDevice(const gpu::DeviceOptions& options)
   start(adapter.listed, options);
 }
 
-// The context is current.
+// The context must be current.
 void GlDevice::start(const gpu::ListedDevice& device, const gpu::DeviceOptions& options) {
   startDebugOutput(sink_, options.check);
   info_ = readInfo(device);
@@ -127,12 +127,12 @@ GlDevice::~GlDevice() {
   try {
     context_.makeCurrent();
   } catch (const Error& error) {
-    // Another thread holds the context; OpenGL ignores what comes now, and the context's end frees
-    // what it owns.
+    // Another thread holds the context. OpenGL ignores the calls below, and frees the objects with
+    // the context.
     sink_(gpu::Severity::kError, error.what());
   }
   glFinish();
-  for (const GLsync fence : fences_) glDeleteSync(fence);  // ignores none
+  for (const GLsync fence : fences_) glDeleteSync(fence);  // ignores null
   contents_.reset();
   if (window_) stopDebugOutput();  // the window's context outlives the sink
 }
@@ -162,7 +162,7 @@ gpu::GraphicsPipeline GlDevice::createGraphicsPipeline(const gpu::GraphicsPipeli
   return contents_->resources.graphicsPipelines.add(buildGraphics(desc));
 }
 
-// OpenGL itself keeps what submitted work uses.
+// OpenGL itself keeps objects alive while submitted work uses them.
 void GlDevice::destroy(gpu::Buffer buffer) {
   if (!buffer) return;
   context_.makeCurrent();
@@ -217,7 +217,7 @@ void GlDevice::abandon() {
   endFrame();
 }
 
-// What was recorded is with the driver already.
+// The driver has received every command of the frame already.
 void GlDevice::endFrame() {
   contents_->commands.endFrame();
   fences_[slot()] = glFenceSync(GL_SYNC_GPU_COMMANDS_COMPLETE, 0);
@@ -264,7 +264,7 @@ std::vector<gpu::FrameTimes> GlDevice::takeTimes() {
 }
 
 void GlDevice::waitForFence(GLsync& fence) {
-  constexpr GLuint64 kPatience = 1'000'000'000;  // nanoseconds between two looks for a reset
+  constexpr GLuint64 kPatience = 1'000'000'000;  // nanoseconds between two checks for a reset
   if (fence == nullptr) return;
   GLenum status = GL_TIMEOUT_EXPIRED;
   while (status == GL_TIMEOUT_EXPIRED) {
@@ -285,12 +285,12 @@ void GlDevice::throwIfLost() {
               status);
 }
 
-// Errors that no debug output told of: each is a mistake of this backend or a lack of memory.
+// Reports errors that debug output did not: each is a bug of this backend, or memory ran out.
 void GlDevice::reportErrors() {
   const GLenum error = glGetError();
   if (error == GL_NO_ERROR) return;
   if (error == GL_OUT_OF_MEMORY) {
-    throw Error(ErrorId::kOutOfDeviceMemory, "no memory for what frame {} needs", frame_ - 1);
+    throw Error(ErrorId::kOutOfDeviceMemory, "OpenGL ran out of memory in frame {}", frame_ - 1);
   }
   if (check_) return;
   sink_(gpu::Severity::kError, fmt::format("OpenGL error {:#x} in frame {}", error, frame_ - 1));

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: MIT
-// The layer's formats in OpenGL's words.
+// Maps the layer's formats to OpenGL's enumerants.
 #pragma once
 
 #include <cstdint>

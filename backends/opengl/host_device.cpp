@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: MIT
-// A device in another program's context, whose state it leaves as it was.
+// A device in another program's context. It restores the state of the context after recording.
 #include <epoxy/gl.h>
 
 #include <array>
@@ -42,7 +42,7 @@ class GlHostDevice final : public gpu::HostDevice {
         timer_(gpu::Clock::kNone),
         commands_(context_, resources_, timer_, info_.capabilities.uniformAlignment) {}
   ~GlHostDevice() override {
-    for (const GLsync fence : fences_) glDeleteSync(fence);  // ignores none
+    for (const GLsync fence : fences_) glDeleteSync(fence);  // ignores null
   }
 
   const gpu::DeviceInfo& info() const override { return info_; }
@@ -97,8 +97,8 @@ class GlHostDevice final : public gpu::HostDevice {
   PassTimer timer_;
   GlCommands commands_;
   std::array<GLsync, kFramesInFlight> fences_ = {};
-  std::optional<uint64_t> frame_;  // the last one
-  uint64_t turns_ = 0;             // frames so far
+  std::optional<uint64_t> frame_;  // number of the last frame
+  uint64_t turns_ = 0;             // number of frames begun
 };
 
 void GlHostDevice::requireUsable() const {
@@ -114,7 +114,7 @@ gpu::Texture GlHostDevice::wrap(const gpu::ForeignTexture& texture) {
     throw Error(ErrorId::kHostTexture, "{} names no texture", texture.name);
   }
   if (ofTexture(name, GL_TEXTURE_TARGET) != GL_TEXTURE_2D) {
-    throw Error(ErrorId::kHostTexture, "texture {} is no 2D texture", name);
+    throw Error(ErrorId::kHostTexture, "texture {} is not a 2D texture", name);
   }
   const bool depth = ofLevel(name, GL_TEXTURE_DEPTH_SIZE) > 0;
   if (!sampledAsFloat(ofLevel(name, depth ? GL_TEXTURE_DEPTH_TYPE : GL_TEXTURE_RED_TYPE))) {
@@ -150,17 +150,18 @@ gpu::ForeignInfo GlHostDevice::foreign(gpu::Texture texture) {
           .depth = ofLevel(name, GL_TEXTURE_DEPTH_SIZE) > 0};
 }
 
-// The uniforms of as many frames before as there are slots are written over.
+// Starts a frame: waits for the earlier frame in the same slot, and reuses its uniform memory.
 void GlHostDevice::turnTo(uint64_t frame) {
   if (frame_ && frame < *frame_) {
-    throw Error(ErrorId::kHostFrame, "frame {} comes after frame {}", frame, *frame_);
+    throw Error(ErrorId::kHostFrame, "frame {} follows frame {}; numbers must not fall", frame,
+                *frame_);
   }
   if (frame_ == frame) return;
   if (frame_) commands_.endFrame();
   frame_ = frame;
   GLsync& fence = fences_[++turns_ % kFramesInFlight];
   if (fence != nullptr) {
-    constexpr GLuint64 kPatience = 10'000'000'000;  // nanoseconds: the driver hangs
+    constexpr GLuint64 kPatience = 10'000'000'000;  // nanoseconds; longer, and the driver hangs
     const GLenum status = glClientWaitSync(fence, GL_SYNC_FLUSH_COMMANDS_BIT, kPatience);
     glDeleteSync(fence);
     fence = nullptr;
@@ -174,7 +175,7 @@ void GlHostDevice::turnTo(uint64_t frame) {
 gpu::Commands& GlHostDevice::begin(void* commandBuffer, uint64_t frame,
                                    std::span<const gpu::Texture>) {
   if (commandBuffer != nullptr) {
-    throw Error(ErrorId::kHostFrame, "OpenGL has no command buffer, and one is given");
+    throw Error(ErrorId::kHostFrame, "OpenGL takes no command buffer, but one was given");
   }
   turnTo(frame);
   state_.save();

@@ -8,7 +8,7 @@
 namespace grisaille::opengl {
 namespace {
 
-// How rows of uploads lie, and what the layer needs.
+// A parameter of the row layout of uploads, and the value that the layer needs.
 struct Unpack {
   GLenum name;
   GLint needed;
@@ -67,7 +67,7 @@ void saveBuffers(Buffers& buffers, const BufferNames& names, uint32_t count) {
   }
 }
 
-// A slot's size of 0 is the whole buffer.
+// A slot with size 0 binds the whole buffer.
 template <typename Buffers>
 void restoreBuffers(const Buffers& buffers, const BufferNames& names, uint32_t count) {
   for (GLuint i = 0; i < count; ++i) {
@@ -111,7 +111,7 @@ void HostState::save() {
   saveBuffers(storage_, kStorage, storages_);
 }
 
-// Textures by target, since glBindTextureUnit(unit, 0) would unbind a unit's other targets too.
+// Binds textures by target: glBindTextureUnit(unit, 0) would unbind the unit's other targets too.
 void HostState::restore() const {
   for (GLuint i = 0; i < kSlots; ++i) {
     glActiveTexture(GL_TEXTURE0 + i);

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: MIT
-// The state of another program's context that recording compute work changes, kept and put back.
+// Saves and restores the state that recording compute work changes in another program's context.
 #pragma once
 
 #include <array>
@@ -11,7 +11,7 @@ namespace grisaille::opengl {
 
 class HostState {
  public:
-  HostState();  // in the context that is current from now on
+  HostState();  // the context must be current here and in all later calls
 
   void save();
   void restore() const;
@@ -29,11 +29,11 @@ class HostState {
     int64_t offset = 0, size = 0;
   };
   struct Buffers {
-    int32_t general = 0;  // the binding that is not of a slot
+    int32_t general = 0;  // the binding without an index
     std::array<Range, kSlots> slots;
   };
 
-  uint32_t images_, storages_;  // slots that there are
+  uint32_t images_, storages_;  // number of slots that the context has, at most kSlots
   int32_t program_ = 0, activeUnit_ = 0, unpackBuffer_ = 0;
   std::array<int32_t, 8> unpack_ = {};
   std::array<Unit, kSlots> units_;

@@ -8,7 +8,7 @@
 namespace grisaille::opengl {
 namespace {
 
-// OpenGL states no limit of a buffer's size, and drivers keep sizes in 31 bits.
+// OpenGL has no query for the largest buffer, and drivers keep sizes in 31 bits.
 constexpr uint64_t kMaxBufferBytes = 0x7fffffff;
 
 uint32_t integer(GLenum what) {

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: MIT
-// What the current context can do.
+// Reads the capabilities of the current context.
 #pragma once
 
 #include "core/gpu/device.h"

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: MIT
-// Owners of OpenGL's object names.
+// An owner of an OpenGL object name.
 #pragma once
 
 #include <cstdint>
@@ -19,14 +19,14 @@ enum class ObjectKind : uint8_t {
   kTimestamp,
 };
 
-// Deletes its object; the context must be current then.
+// Deletes its object in the destructor; the context must be current there.
 class Object {
  public:
   Object() = default;
   explicit Object(ObjectKind kind);  // any kind but kTexture
   static Object texture(uint32_t target);
-  static Object foreign(uint32_t texture);  // another program's, which deletes it
-  static Object textureView();              // a name alone, for glTextureView
+  static Object foreign(uint32_t texture);  // another program's texture; never deleted here
+  static Object textureView();              // a name without storage, for glTextureView
   ~Object() { reset(); }
   Object(Object&& other) noexcept
       : kind_(std::exchange(other.kind_, ObjectKind::kNone)),
@@ -40,7 +40,7 @@ class Object {
 
   uint32_t name() const { return name_; }
 
-  // What debuggers call it; "" leaves it unnamed.
+  // Sets the name that debuggers show; "" leaves the object unnamed.
   void label(std::string_view text) const;
 
  private:

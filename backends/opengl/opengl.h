@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: MIT
-// The opengl backend: what backends/backends.cpp needs of it.
+// Entry points of the opengl backend.
 #pragma once
 
 #include <memory>
@@ -15,7 +15,8 @@ std::vector<gpu::ListedDevice> listDevices();
 // Throws kBackendMissing, kNoDevice, kDeviceTooOld, kDeviceFailed.
 std::unique_ptr<gpu::Device> createDevice(const gpu::DeviceOptions& options);
 
-// In the context that is current, another program's. Throws kHostContext, kDeviceTooOld.
+// Creates a device in another program's context, which must be current. Throws kHostContext,
+// kDeviceTooOld.
 std::unique_ptr<gpu::HostDevice> createHostDevice();
 
 }  // namespace grisaille::opengl

@@ -25,7 +25,8 @@ std::string literal(const grisaille_shader_constant& constant, uint32_t bits) {
   }
 }
 
-// The shader's text with the values of its constants, which SPIRV-Cross reads from macros.
+// The shader's text with macros for its constants: SPIRV-Cross generates GLSL that reads
+// specialisation constants from macros.
 std::string specialised(const gpu::Shader& shader, std::span<const Specialization> values) {
   std::string defines;
   for (uint32_t i = 0; i < shader.constant_count; ++i) {
@@ -62,7 +63,7 @@ std::string shaderLog(GLuint shader) {
   return log;
 }
 
-// Attaches the stage to the program, which then owns it.
+// Compiles the shader and attaches it to the program, which then owns it.
 void attachStage(GLuint program, const gpu::Shader* shader, GLenum stage, std::string_view label,
                  std::span<const Specialization> values) {
   if (shader == nullptr) {
@@ -72,7 +73,7 @@ void attachStage(GLuint program, const gpu::Shader* shader, GLenum stage, std::s
   const char* source = text.c_str();
   const GLuint name = glCreateShader(stage);
   glAttachShader(program, name);
-  glDeleteShader(name);  // with the program
+  glDeleteShader(name);  // takes effect when the program is deleted
   glShaderSource(name, 1, &source, nullptr);
   glCompileShader(name);
   GLint compiled = GL_FALSE;

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: MIT
-// Programs from compiled shaders.
+// Builds OpenGL programs from compiled shaders.
 #pragma once
 
 #include "backends/opengl/resources.h"

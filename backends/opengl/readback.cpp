@@ -13,7 +13,8 @@ namespace {
 
 using gpu::Access;
 
-// Memory that the CPU reads well. Without it, drivers move the resource itself there, and say so.
+// A staging buffer in memory that the CPU reads fast. Without it, drivers move the resource itself
+// to such memory and print a message about it.
 class Staging {
  public:
   explicit Staging(uint64_t size) : size_(size), object_(ObjectKind::kBuffer) {

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: MIT
-// Copies back to the CPU; both wait for everything submitted.
+// Copies resources to the CPU. Both functions wait for all submitted work.
 #pragma once
 
 #include "backends/opengl/resources.h"

@@ -44,10 +44,11 @@ uint64_t bytesOf(const gpu::TextureDesc& desc) {
   return bytes * desc.layers * gpu::formatInfo(desc.format).texelBytes;
 }
 
-// What a shader's writes must become visible to: every use that the texture may be put to, since a
-// later read of another kind will find the state read already and ask for no barrier.
+// The barrier bits after a shader writes a texture: they cover every use that the texture allows. A
+// later read of another kind finds the texture in a read state and issues no barrier.
 GLbitfield textureBits(gpu::TextureUsage usage) {
-  GLbitfield bits = GL_TEXTURE_UPDATE_BARRIER_BIT | GL_FRAMEBUFFER_BARRIER_BIT;  // for windows too
+  // The framebuffer bit also covers the blit to a window.
+  GLbitfield bits = GL_TEXTURE_UPDATE_BARRIER_BIT | GL_FRAMEBUFFER_BARRIER_BIT;
   if (has(usage, gpu::TextureUsage::kSampled)) bits |= GL_TEXTURE_FETCH_BARRIER_BIT;
   if (has(usage, gpu::TextureUsage::kStorage)) bits |= GL_SHADER_IMAGE_ACCESS_BARRIER_BIT;
   return bits;
@@ -83,7 +84,7 @@ bool isArray(GLuint texture) {
 void allocateStorage(const char* kind, std::string_view label, uint64_t bytes,
                      const std::function<void()>& allocate) {
   const QuietDebugOutput quiet;
-  glGetError();  // an earlier call's error is not this one's
+  glGetError();  // discards the error of an earlier call
   allocate();
   const GLenum error = glGetError();
   if (error == GL_NO_ERROR) return;
@@ -121,8 +122,9 @@ gpu::Texture Resources::createTexture(const gpu::TextureDesc& desc) {
   GLint most = 0;
   glGetIntegerv(GL_MAX_TEXTURE_SIZE, &most);
   if (std::max(desc.width, desc.height) > static_cast<uint32_t>(most)) {
-    throw Error(ErrorId::kTextureSize, "texture '{}' of {}x{} texels, where OpenGL takes {} a side",
-                desc.label, desc.width, desc.height, most);
+    throw Error(ErrorId::kTextureSize,
+                "texture '{}' has {}x{} texels, and OpenGL allows {} per side", desc.label,
+                desc.width, desc.height, most);
   }
   const bool array = desc.layers > 1;
   TextureResource texture{.object = Object::texture(targetOf(array)), .desc = desc, .views = {}};
@@ -214,15 +216,15 @@ uint32_t Resources::framebuffer(const FramebufferKey& key) {
   glNamedFramebufferDrawBuffers(name, gpu::kMaxColorTargets, drawBuffers);
   const GLenum status = glCheckNamedFramebufferStatus(name, GL_DRAW_FRAMEBUFFER);
   if (status != GL_FRAMEBUFFER_COMPLETE) {
-    throw Error(ErrorId::kPipelineTargets, "OpenGL refuses these targets together (status {:#x})",
-                status);
+    throw Error(ErrorId::kPipelineTargets,
+                "OpenGL refuses this combination of render targets (status {:#x})", status);
   }
   framebuffers_.emplace(key, std::move(object));
   return name;
 }
 
-// OpenGL orders everything by itself but what shaders write (7.13 of its specification), and shader
-// writes after reads of any kind.
+// OpenGL orders all accesses by itself except two (section 7.13 of its specification): accesses
+// after a shader's writes, and a shader's writes after reads of any kind.
 uint32_t Resources::barrierBits(const gpu::Transition& transition) const {
   const bool texture = static_cast<bool>(transition.texture);
   if (has(transition.before, Access::kStorageWrite)) {

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: MIT
-// The OpenGL objects behind the handles, with what is derived from them: texture views and
+// The OpenGL objects behind the handles, and the objects derived from them: texture views and
 // framebuffers.
 #pragma once
 
@@ -51,7 +51,7 @@ struct GraphicsPipelineResource {
   gpu::Blend blend = gpu::Blend::kNone;
 };
 
-// One attachment, or none: texture name 0.
+// One attachment; texture name 0 stands for none.
 struct Attachment {
   uint32_t texture = 0;
   uint32_t mip = 0;
@@ -62,13 +62,13 @@ struct Attachment {
 // The colour targets, then the depth target.
 using FramebufferKey = std::array<Attachment, gpu::kMaxColorTargets + 1>;
 
-// Runs `allocate`, which gives storage to an object; throws kOutOfDeviceMemory when OpenGL refuses.
+// Runs `allocate`, which gives storage to an object. Throws kOutOfDeviceMemory if OpenGL refuses.
 void allocateStorage(const char* kind, std::string_view label, uint64_t bytes,
                      const std::function<void()>& allocate);
 
 class Resources {
  public:
-  // All throw kOutOfDeviceMemory, kTooManyResources, and kTextureSize over the limit.
+  // All throw kOutOfDeviceMemory and kTooManyResources; kTextureSize for a texture over the limit.
   gpu::Buffer createBuffer(const gpu::BufferDesc& desc);
   gpu::Texture createTexture(const gpu::TextureDesc& desc);
   gpu::Sampler createSampler(const gpu::SamplerDesc& desc);
@@ -76,16 +76,16 @@ class Resources {
   void destroy(gpu::Buffer buffer);
   void destroy(gpu::Texture texture);
 
-  // A buffer that stays mapped for writing and that barriers need not know.
+  // Creates a buffer that stays mapped for writing. Barriers need not cover it.
   gpu::Buffer createMapped(uint64_t size, std::byte*& memory);
 
-  // The name to bind for a shader's texture slot: the texture itself where that will do. `arrayed`
-  // as the slot says, so that an array of one layer can stand in an array's slot.
+  // The name to bind to a shader's texture slot: the texture itself if the view covers all of it,
+  // else a cached view. `arrayed`: the slot expects an array, which may have one layer.
   uint32_t viewName(const gpu::TextureView& view, bool arrayed);
 
   uint32_t framebuffer(const FramebufferKey& key);
 
-  // The tracker's transitions as memory barriers.
+  // Issues the memory barriers for the tracker's transitions.
   void barriers();
 
   gpu::HandlePool<gpu::Buffer, BufferResource> buffers{"buffer"};

@@ -1,11 +1,12 @@
 // SPDX-License-Identifier: MIT
-// In sanitizer builds alone. Mesa's software driver (22.3) keeps two blocks that its globals point
-// to. A window's end unloads it, and then nothing does: it stays.
+// Only in sanitizer builds. Mesa's software driver (22.3) keeps two allocations that only its
+// globals point to. Destroying a window unloads the driver, and the allocations then count as
+// leaks. This file keeps the driver loaded.
 #include <dlfcn.h>
 
 extern "C" {
 
-// Named on the link line, so that every program with this backend has this file.
+// The link line names this symbol, so that every program with this backend links this file.
 extern const bool grisaille_opengl_keeps_libraries;
 const bool grisaille_opengl_keeps_libraries =
     dlopen("/usr/lib/" LIBRARY_ARCHITECTURE "/dri/swrast_dri.so",

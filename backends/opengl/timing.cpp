@@ -12,7 +12,7 @@ double milliseconds(std::chrono::steady_clock::duration time) {
   return std::chrono::duration<double, std::milli>(time).count();
 }
 
-// Nanoseconds; the stamp must have arrived, or this waits.
+// Nanoseconds. Waits if the timestamp is not available yet.
 uint64_t read(const Object& query) {
   GLuint64 time = 0;
   glGetQueryObjectui64v(query.name(), GL_QUERY_RESULT, &time);
@@ -85,7 +85,7 @@ Object PassTimer::stamp() {
   return query;
 }
 
-// Stamps arrive in order.
+// Timestamps become available in order: checking the last one is enough.
 bool PassTimer::arrived(const Frame& frame) const {
   if (clock_ != Clock::kGpu || frame.passes.empty()) return true;
   GLint available = GL_FALSE;

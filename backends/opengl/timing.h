@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: MIT
-// The time of every pass. By the GPU's own stamps on hardware, read when they have arrived; on
-// software drivers, whose stamps are taken before the work is done, by the wall clock between two
-// waits.
+// Measures the time of every pass. Hardware drivers use GPU timestamps, read once they are
+// available. Software drivers take timestamps before the work is done, so the timer reads the wall
+// clock between two glFinish() calls.
 #pragma once
 
 #include <chrono>
@@ -17,20 +17,20 @@ namespace grisaille::opengl {
 
 class PassTimer {
  public:
-  // kNone times nothing. The context stays current through the timer's life.
+  // kNone measures nothing. The context must stay current for the timer's lifetime.
   explicit PassTimer(gpu::Clock clock) : clock_(clock) {}
 
   void beginPass(std::string_view label);
   void endPass();
 
-  // The frame's end: keeps its passes, or forgets them.
+  // End the frame: submit() keeps its passes, drop() discards them.
   void submit(uint64_t frame);
   void drop();
 
-  // Takes the stamps that have arrived, without a wait.
+  // Reads the timestamps that are available, without waiting.
   void collect();
 
-  // The finished frames since the last call, oldest first.
+  // Returns the frames finished since the last call, oldest first.
   std::vector<gpu::FrameTimes> take();
 
  private:

@@ -16,7 +16,7 @@ void UniformRing::beginFrame(uint32_t slot) {
   used_ = 0;
   std::vector<Chunk>& chunks = chunks_[slot_];
   if (chunks.size() < 2) return;
-  // One chunk that holds what the last frame in this slot needed.
+  // Replace the chunks by one of their total size, enough for the slot's previous frame.
   uint64_t total = 0;
   for (const Chunk& chunk : chunks) {
     total += chunk.size;

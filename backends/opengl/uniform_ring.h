@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: MIT
-// Memory for the uniforms of the frames in flight: written by the CPU through a lasting mapping,
-// and written again once the frame's fence has passed.
+// Memory for the uniforms of the frames in flight. The CPU writes it through a persistent mapping,
+// and reuses a frame's memory once the frame's fence has signalled.
 #pragma once
 
 #include <span>
@@ -14,11 +14,12 @@ constexpr uint32_t kFramesInFlight = 2;
 
 class UniformRing {
  public:
-  // `alignment` in bytes, of a uniform binding's offset.
+  // `alignment`: required alignment of a uniform binding's offset, in bytes.
   UniformRing(Resources& resources, uint32_t alignment)
       : resources_(resources), alignment_(alignment) {}
 
-  // Begins with the memory of slot 0 ... kFramesInFlight - 1, which no frame reads any more.
+  // Starts over in the memory of `slot`, 0 ... kFramesInFlight - 1. The GPU must have finished the
+  // frame that used it.
   void beginFrame(uint32_t slot);
 
   gpu::BufferRange push(std::span<const std::byte> bytes);

@@ -9,7 +9,7 @@ namespace grisaille::opengl {
 
 namespace {
 
-// Texel for pixel, to the top left corner; the rest is black.
+// Copies the picture unscaled to the window's top left corner; pixels beyond it are black.
 void copy(Resources& resources, gpu::Texture picture, int width, int height) {
   const TextureResource& texture = resources.textures.get(picture);
   const GLint right = std::min(width, static_cast<GLint>(texture.desc.width));
@@ -18,7 +18,7 @@ void copy(Resources& resources, gpu::Texture picture, int width, int height) {
   resources.tracker.use({.texture = picture, .mip = 0, .mipCount = 1, .layer = 0, .layerCount = 1},
                         gpu::Access::kCopyRead);
   resources.barriers();
-  glDisable(GL_FRAMEBUFFER_SRGB);  // for windows that are sRGB without having been asked to
+  glDisable(GL_FRAMEBUFFER_SRGB);  // a window may be sRGB although GLFW did not request it
   if (right < width || rows < height) {
     constexpr GLfloat kBlack[] = {0, 0, 0, 1};
     glClearNamedFramebufferfv(0, GL_COLOR, 0, kBlack);
@@ -31,10 +31,10 @@ void copy(Resources& resources, gpu::Texture picture, int width, int height) {
 
 }  // namespace
 
-// Drivers may look for the window's size once after a swap. Then the first picture at a new size
-// lies wrong, so it is shown again.
+// A driver may update the window's size only after a swap. The first picture at a new size is then
+// misplaced, and show() draws it again.
 bool Window::show(Context& context, Resources& resources, gpu::Texture picture) {
-  constexpr int kAttempts = 3;  // while the size goes on changing
+  constexpr int kAttempts = 3;  // at most, if the size keeps changing
   bool settled = false;
   for (int i = 0; i < kAttempts && !settled; ++i) {
     const backends::Window::Size size = window_->size();

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: MIT
-// A window as the place where pictures are shown.
+// Presents pictures in a window.
 #pragma once
 
 #include "backends/opengl/context.h"
@@ -12,7 +12,7 @@ class Window {
  public:
   explicit Window(backends::Window* window) : window_(window) {}
 
-  // Device::present(), in the window's context, which is current.
+  // Implements Device::present(). The window's context must be current.
   bool show(Context& context, Resources& resources, gpu::Texture picture);
 
  private:

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: MIT
-// The Vulkan API, and its results as errors.
+// Includes the Vulkan API, and turns its results into errors.
 #pragma once
 
 #include <volk.h>

@@ -32,7 +32,7 @@ gpu::BufferRange Arena::copy(std::span<const std::byte> bytes) {
   return {buffer, offset, bytes.size()};
 }
 
-// One chunk of the usual size stays for the next frame.
+// Keeps one chunk of kChunkBytes for the next frame.
 void Arena::reset() {
   used_ = 0;
   const auto usual = std::find_if(chunks_.begin(), chunks_.end(),

@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: MIT
-// Host memory that one frame hands to the device: uniform blocks and uploads. It grows as needed
-// and starts anew when the frame has finished.
+// Host memory from which the device reads one frame's uniform blocks and uploads. It grows as
+// needed, and is reused when the frame has finished.
 #pragma once
 
 #include <span>
@@ -17,10 +17,10 @@ class Arena {
   Arena(const Arena&) = delete;
   Arena& operator=(const Arena&) = delete;
 
-  // The bytes' copy, aligned for uniform bindings and copies.
+  // Copies `bytes` to an offset that is aligned for uniform bindings and copies.
   gpu::BufferRange copy(std::span<const std::byte> bytes);
 
-  // The device has finished with all of it.
+  // Frees all copies. The device must have finished with them.
   void reset();
 
  private:
@@ -32,9 +32,9 @@ class Arena {
   };
 
   Resources& resources_;
-  uint64_t alignment_ = 16;  // bytes: the largest texel's, and what the device asks for
+  uint64_t alignment_ = 16;  // bytes: the largest texel's, or more if the device requires it
   std::vector<Chunk> chunks_;
-  uint64_t used_ = 0;  // bytes of the last chunk
+  uint64_t used_ = 0;  // bytes used in the last chunk
 };
 
 }  // namespace grisaille::vulkan

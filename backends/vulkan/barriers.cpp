@@ -17,7 +17,7 @@ struct Row {
   VkImageLayout layout;
 };
 
-// Targets are also read: a target that is loaded, and depth by its test.
+// Targets are also read: a colour target by its load, a depth target by the depth test.
 constexpr Row kRows[] = {
     {Access::kVertex, VK_PIPELINE_STAGE_2_VERTEX_ATTRIBUTE_INPUT_BIT,
      VK_ACCESS_2_VERTEX_ATTRIBUTE_READ_BIT, VK_IMAGE_LAYOUT_GENERAL},
@@ -36,7 +36,7 @@ constexpr Row kRows[] = {
      VK_PIPELINE_STAGE_2_EARLY_FRAGMENT_TESTS_BIT | VK_PIPELINE_STAGE_2_LATE_FRAGMENT_TESTS_BIT,
      VK_ACCESS_2_DEPTH_STENCIL_ATTACHMENT_READ_BIT | VK_ACCESS_2_DEPTH_STENCIL_ATTACHMENT_WRITE_BIT,
      VK_IMAGE_LAYOUT_ATTACHMENT_OPTIMAL},
-    // Pictures are blitted to windows.
+    // Presentation blits pictures to windows.
     {Access::kCopyRead, VK_PIPELINE_STAGE_2_COPY_BIT | VK_PIPELINE_STAGE_2_BLIT_BIT,
      VK_ACCESS_2_TRANSFER_READ_BIT, VK_IMAGE_LAYOUT_TRANSFER_SRC_OPTIMAL},
     {Access::kCopyWrite, VK_PIPELINE_STAGE_2_COPY_BIT, VK_ACCESS_2_TRANSFER_WRITE_BIT,

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: MIT
-// What the layer's accesses mean in Vulkan: stages, access flags, image layouts, barriers. Pure
+// Translates the layer's accesses to Vulkan stages, access flags, image layouts and barriers. Pure
 // functions.
 #pragma once
 
@@ -13,15 +13,15 @@ struct Scope {
   VkAccessFlags2 accesses = VK_ACCESS_2_NONE;
 };
 
-// Everything that a use of `access` may do. Shader accesses name all shader stages, since a read
-// that follows a read of the same kind gets no barrier, whichever stage does it.
+// The stages and access flags of `access`. Shader accesses include all shader stages: a read that
+// follows a read of the same kind gets no barrier, whichever stage reads.
 Scope scopeOf(gpu::Access access);
 
-// The flags that write.
+// The flags of `accesses` that write.
 VkAccessFlags2 writesIn(VkAccessFlags2 accesses);
 
-// The layout a subresource must be in for `access`. kNone: UNDEFINED. Where two uses of one call
-// ask for different layouts, GENERAL.
+// The layout that a subresource must have for `access`: UNDEFINED for kNone, GENERAL if two uses
+// of one call need different layouts.
 VkImageLayout layoutOf(gpu::Access access);
 
 VkImageAspectFlags aspectOf(gpu::Format format);

@@ -32,7 +32,8 @@ bool hasSwapchains(VkPhysicalDevice device) {
   });
 }
 
-// Of those that draw and compute, and show pictures on the surface if there is one.
+// Finds the first queue family with graphics and compute that can present to `surface`, if there is
+// a surface. Returns false if there is no such family.
 bool findQueue(const Instance& instance, VkSurfaceKHR surface, Candidate& candidate) {
   uint32_t count = 0;
   vkGetPhysicalDeviceQueueFamilyProperties(candidate.device, &count, nullptr);
@@ -63,7 +64,7 @@ VkFormatFeatureFlags neededOf(const gpu::FormatInfo& info, Format format) {
   return needed;
 }
 
-// The first format that the device cannot use in every way the layer allows, or "".
+// The first format that the device does not support in every use that the layer allows, or "".
 std::string lackingFormat(VkPhysicalDevice device) {
   for (int i = static_cast<int>(Format::kR8Unorm); i <= static_cast<int>(Format::kD32Float); ++i) {
     const Format format = static_cast<Format>(i);
@@ -78,7 +79,8 @@ std::string lackingFormat(VkPhysicalDevice device) {
   return "";
 }
 
-// Who it is; what it lacks only of the version.
+// Reads the device's name, driver and type. Of the requirements it checks only the version and the
+// uniform range.
 Candidate named(VkPhysicalDevice device) {
   Candidate candidate;
   candidate.device = device;
@@ -97,7 +99,7 @@ Candidate named(VkPhysicalDevice device) {
       VK_STRUCTURE_TYPE_PHYSICAL_DEVICE_PROPERTIES_2, &driver, {}};
   vkGetPhysicalDeviceProperties2(device, &properties);
   candidate.listed.driver = oneLine(driver.driverName);
-  // SwiftShader has none.
+  // SwiftShader leaves driverInfo empty.
   if (driver.driverInfo[0] != '\0') candidate.listed.driver += " " + oneLine(driver.driverInfo);
   if (old.limits.maxUniformBufferRange < 65536) {
     candidate.lacks = "uniform ranges of 65536 bytes";
@@ -179,7 +181,7 @@ const Candidate& choose(const std::vector<Candidate>& candidates, const std::str
     for (size_t i = 0; i < candidates.size(); ++i) {
       list += fmt::format("{}{}: {}", i == 0 ? "" : ", ", i, candidates[i].listed.name);
     }
-    throw Error(ErrorId::kNoDevice, "there is no Vulkan device '{}'; there is {}", wanted, list);
+    throw Error(ErrorId::kNoDevice, "Vulkan has no device '{}', only {}", wanted, list);
   }
   if (!chosen->lacks.empty()) {
     throw Error(ErrorId::kDeviceTooOld, "{} lacks {}", chosen->listed.name, chosen->lacks);
@@ -195,13 +197,13 @@ Candidate foreignCandidate(VkPhysicalDevice device, uint32_t queueFamily) {
   std::vector<VkQueueFamilyProperties> families(count);
   vkGetPhysicalDeviceQueueFamilyProperties(device, &count, families.data());
   if (candidate.lacks.empty() && queueFamily >= count) {
-    candidate.lacks = fmt::format("a queue family {}, only {} of them", queueFamily, count);
+    candidate.lacks = fmt::format("queue family {} (it has {})", queueFamily, count);
   } else if (candidate.lacks.empty() &&
              (families[queueFamily].queueFlags & VK_QUEUE_COMPUTE_BIT) == 0) {
-    candidate.lacks = fmt::format("a queue family {} that computes", queueFamily);
+    candidate.lacks = fmt::format("compute in queue family {}", queueFamily);
   }
   if (!candidate.lacks.empty()) {
-    throw Error(ErrorId::kHostDevice, "{} has not {}", candidate.listed.name, candidate.lacks);
+    throw Error(ErrorId::kHostDevice, "{} lacks {}", candidate.listed.name, candidate.lacks);
   }
   candidate.queueFamily = queueFamily;
   return candidate;

@@ -170,7 +170,8 @@ void Recorder::declareRender(const gpu::Render& render, std::span<const gpu::Tex
   }
 }
 
-// All that may throw comes before the first use is declared; barriers cannot stand inside.
+// Everything that may throw runs before the first use is declared. The barriers come before
+// vkCmdBeginRendering(), because a rendering scope cannot contain them.
 void Recorder::render(const gpu::Render& render) {
   const Targets targets = targetsOf(render);
   std::vector<BoundCall> calls;
@@ -201,7 +202,7 @@ void Recorder::beginRendering(const Targets& targets) {
   info.pColorAttachments = targets.colors.data();
   if (targets.hasDepth) info.pDepthAttachment = &targets.depth;
   vk.vkCmdBeginRendering(commands(), &info);
-  // Of negative height, so that y points up in clip space.
+  // Negative height makes y point up in clip space.
   const float width = static_cast<float>(targets.extent.width);
   const float height = static_cast<float>(targets.extent.height);
   const VkViewport viewport{0, height, width, -height, 0, 1};

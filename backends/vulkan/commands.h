@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: MIT
-// Records a frame's calls.
+// Records a frame's commands into a command buffer.
 #pragma once
 
 #include <functional>
@@ -11,8 +11,8 @@ namespace grisaille::vulkan {
 
 class Recorder : public gpu::Commands {
  public:
-  // `drain` submits what is recorded, waits for it and begins the command buffer anew: for wall
-  // clocks, which not every device has.
+  // `drain` submits the recorded commands, waits for them and begins the command buffer again. Only
+  // timing by the wall clock calls it; it may be empty if the device never uses that clock.
   Recorder(Context& context, Resources& resources, std::function<void()> drain)
       : context_(context), resources_(resources), drain_(std::move(drain)) {}
 
@@ -20,8 +20,8 @@ class Recorder : public gpu::Commands {
   void end() { recording_ = nullptr; }
   bool recording() const { return recording_ != nullptr; }
 
-  // The transient textures may be handed out again. `count` as Resources::retire() has it, of the
-  // last frame.
+  // Makes the transient textures available again. `count`: the last frame's, as in
+  // Resources::retire().
   void endFrame(uint64_t count);
 
   void beginPass(std::string_view label) override;
@@ -35,7 +35,7 @@ class Recorder : public gpu::Commands {
               std::span<const std::byte> bytes) override;
 
  private:
-  // The targets of a render call as dynamic rendering wants them.
+  // The targets of a render call in the form that dynamic rendering takes.
   struct Targets {
     std::vector<VkRenderingAttachmentInfo> colors;
     VkRenderingAttachmentInfo depth{VK_STRUCTURE_TYPE_RENDERING_ATTACHMENT_INFO};
@@ -62,7 +62,7 @@ class Recorder : public gpu::Commands {
   gpu::TransientPool transients_;
   Recording* recording_ = nullptr;  // null: not recording
   VkCommandBuffer commands_ = VK_NULL_HANDLE;
-  bool pending_ = false;  // something is recorded that is not submitted
+  bool pending_ = false;  // commands are recorded that are not submitted
 };
 
 }  // namespace grisaille::vulkan

@@ -116,15 +116,15 @@ VkDeviceMemory Context::allocate(const VkMemoryRequirements& requirements, Memor
   uint32_t type = find(required | preferred);
   if (type == memory_.memoryTypeCount) type = find(required);
   if (type == memory_.memoryTypeCount) {
-    throw Error(ErrorId::kDeviceFailed, "{} has no memory of a type that is needed", info.name);
+    throw Error(ErrorId::kDeviceFailed, "{} has no memory type that fits the resource", info.name);
   }
   const uint64_t heap = memory_.memoryHeaps[memory_.memoryTypes[type].heapIndex].size;
   if (requirements.size > std::min(heap, maxAllocationBytes_)) {
-    throw Error(ErrorId::kOutOfDeviceMemory, "{} bytes are more than {} gives at once",
+    throw Error(ErrorId::kOutOfDeviceMemory, "{} bytes are more than {} allocates at once",
                 requirements.size, info.name);
   }
   if (allocations_ >= properties.limits.maxMemoryAllocationCount) {
-    throw Error(ErrorId::kTooManyResources, "{} allows {} pieces of memory", info.name,
+    throw Error(ErrorId::kTooManyResources, "{} allows {} memory allocations", info.name,
                 properties.limits.maxMemoryAllocationCount);
   }
   VkMemoryAllocateInfo allocation{VK_STRUCTURE_TYPE_MEMORY_ALLOCATE_INFO};

@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: MIT
-// An open device: its function table, queue, limits and memory. Every part of the backend holds a
-// reference to the one Context.
+// An open device: its function table, queue, limits and memory. All parts of the backend share one
+// Context by reference.
 #pragma once
 
 #include <optional>
@@ -12,17 +12,17 @@
 
 namespace grisaille::vulkan {
 
-// Where memory lies.
+// The kind of memory to allocate.
 enum class MemoryKind {
-  kDevice,    // the device's own
-  kUpload,    // written by the host, mapped
-  kReadback,  // read by the host, mapped, cached where there is such a type
+  kDevice,    // device-local
+  kUpload,    // mapped, written by the host
+  kReadback,  // mapped, read by the host; cached if the device has a cached type
 };
 
 class Context {
  public:
   explicit Context(const gpu::DeviceOptions& options);
-  // On another program's device, which it destroys after this.
+  // Uses another program's device. The program destroys it after this object.
   explicit Context(const HostHandles& host);
   ~Context();
   Context(const Context&) = delete;
@@ -32,7 +32,7 @@ class Context {
   VkDeviceMemory allocate(const VkMemoryRequirements& requirements, MemoryKind kind);
   void free(VkDeviceMemory memory);
 
-  // For debuggers and messages.
+  // Names an object for debuggers and validation messages.
   template <typename Object>
   void name(VkObjectType type, Object object, std::string_view label) const {
     if (debug().setName != nullptr && !label.empty()) {
@@ -41,7 +41,7 @@ class Context {
   }
   const DebugFunctions& debug() const { return instance_.debug(); }
 
-  // Null without a window.
+  // The window's surface; null without a window.
   Surface* surface() { return surface_ ? &*surface_ : nullptr; }
 
   VolkDeviceTable vk{};
@@ -54,7 +54,7 @@ class Context {
   gpu::DeviceInfo info;
 
  private:
-  // Delegated to, so that the destructor runs when the public constructor throws.
+  // A public constructor delegates to this one, so that the destructor runs when it throws.
   Context(bool check, const gpu::MessageSink& message, backends::Window* window);
   void open(const Candidate& chosen);
   void describe(const Candidate& chosen);

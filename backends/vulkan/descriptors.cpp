@@ -65,7 +65,7 @@ DescriptorPools::~DescriptorPools() {
 void DescriptorPools::addPool() {
   const uint32_t sets = kFirstSets << std::min<size_t>(pools_.size(), 8);
   std::array<VkDescriptorPoolSize, kClasses> sizes{};
-  // At least a whole class of slots, so that any one set fits into an empty pool.
+  // Each class has at least GRISAILLE_SLOTS_PER_CLASS descriptors: any set fits into an empty pool.
   for (uint32_t i = 0; i < kClasses; ++i) sizes[i] = {descriptorType(i), sets * 4};
   static_assert(kFirstSets * 4 >= GRISAILLE_SLOTS_PER_CLASS);
   VkDescriptorPoolCreateInfo info{VK_STRUCTURE_TYPE_DESCRIPTOR_POOL_CREATE_INFO};
@@ -103,7 +103,7 @@ void DescriptorPools::reset() {
   current_ = 0;
 }
 
-// Most calls have no image, and next to none finds one: nothing is kept but what is found.
+// Most calls bind no image, and very few match: the search allocates nothing unless it finds one.
 std::vector<gpu::Texture> readBothWays(Resources& resources, std::span<const BoundCall> calls) {
   std::vector<gpu::Texture> found;
   forViews(resources, calls, GRISAILLE_SLOT_IMAGE, [&](const gpu::TextureView& image) {

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: MIT
-// Descriptor sets of one frame.
+// Allocates and writes the descriptor sets of one frame.
 #pragma once
 
 #include <span>
@@ -9,7 +9,7 @@
 
 namespace grisaille::vulkan {
 
-// Sets live until reset(). Pools are added as needed, each twice as large as the last.
+// Sets live until reset(). Adds pools as needed, each twice as large as the previous one.
 class DescriptorPools {
  public:
   explicit DescriptorPools(Context& context) : context_(context) {}
@@ -19,7 +19,7 @@ class DescriptorPools {
 
   VkDescriptorSet allocate(VkDescriptorSetLayout layout);
 
-  // The device has finished with all sets.
+  // Frees all sets. The device must have finished with them.
   void reset();
 
  private:
@@ -30,17 +30,19 @@ class DescriptorPools {
   size_t current_ = 0;
 };
 
-// What one draw or dispatch binds.
+// The pipeline and bindings of one draw or dispatch.
 struct BoundCall {
   const PipelineObject* pipeline = nullptr;
   std::span<const gpu::Binding> bindings;
 };
 
-// The textures that `calls`, which share their barriers, read through a sampler and through an
-// image at the same subresource. All their sampled views are in the GENERAL layout.
+// The textures that `calls` read both through a sampler and through an image, at the same
+// subresource. `calls` share their barriers. All sampled views of these textures need the GENERAL
+// layout.
 std::vector<gpu::Texture> readBothWays(Resources& resources, std::span<const BoundCall> calls);
 
-// A set with the bindings of every slot. Throws kBindingMissing, kBindingRange, kStaleHandle.
+// Allocates a set and writes the bindings of every slot. `general`: the textures that
+// readBothWays() returns. Throws kBindingMissing, kBindingRange, kStaleHandle.
 VkDescriptorSet writeSet(Context& context, Resources& resources, DescriptorPools& pools,
                          const BoundCall& call, std::span<const gpu::Texture> general);
 

@@ -24,7 +24,7 @@ class VulkanDevice : public Making<gpu::Device> {
     if (context_.surface() != nullptr) swapchain_.emplace(context_, resources_, timeline_);
   }
 
-  // The device is idle before anything is released. A lost device is, too.
+  // Waits until the device is idle, before anything is released. A lost device counts as idle.
   ~VulkanDevice() override {
     context_.vk.vkDeviceWaitIdle(context_.device);
     release(context_, readbackMemory_);
@@ -69,7 +69,7 @@ class VulkanDevice : public Making<gpu::Device> {
   std::array<Frame, kFramesInFlight> frames_;
   Recorder recorder_;
   std::optional<Swapchain> swapchain_;  // none without a window
-  uint64_t begun_ = 0;                  // frames
+  uint64_t begun_ = 0;                  // number of frames begun
   std::vector<gpu::FrameTimes> times_;
 };
 
@@ -123,7 +123,7 @@ void VulkanDevice::wait() {
   resources_.releaseUpTo(timeline_.completed());
 }
 
-// Oldest first.
+// Collects the oldest frame first.
 void VulkanDevice::collectTimes() {
   const uint64_t completed = timeline_.completed();
   for (size_t i = 0; i < frames_.size(); ++i) {
@@ -147,7 +147,7 @@ void VulkanDevice::reserveReadback(uint64_t bytes) {
                                MemoryKind::kReadback);
 }
 
-// `copy` declares a use, records its barriers, and then a copy to readbackMemory_.
+// `copy` declares a use, then records the barriers and a copy to readbackMemory_.
 template <typename Copy>
 std::vector<std::byte> VulkanDevice::readBack(uint64_t bytes, Copy&& copy) {
   wait();

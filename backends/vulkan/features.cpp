@@ -7,23 +7,23 @@ namespace {
 struct Required {
   const char* name;
   VkBool32& (*of)(FeatureChain&);
-  bool effects = false;  // also by effects, in another program
+  bool effects = false;  // required also by effects in another program
 };
 
 constexpr Required kRequired[] = {
-    // Images of the formats r8, r16f and rg32f.
+    // For storage images of the formats r8, r16f and rg32f.
     {"shaderStorageImageExtendedFormats",
      [](FeatureChain& c) -> VkBool32& { return c.v10.features.shaderStorageImageExtendedFormats; },
      true},
     {"fragmentStoresAndAtomics",
      [](FeatureChain& c) -> VkBool32& { return c.v10.features.fragmentStoresAndAtomics; }},
-    // Indices above 2^24.
+    // For indices above 2^24.
     {"fullDrawIndexUint32",
      [](FeatureChain& c) -> VkBool32& { return c.v10.features.fullDrawIndexUint32; }},
     {"timelineSemaphore", [](FeatureChain& c) -> VkBool32& { return c.v12.timelineSemaphore; }},
     {"dynamicRendering", [](FeatureChain& c) -> VkBool32& { return c.v13.dynamicRendering; }},
     {"synchronization2", [](FeatureChain& c) -> VkBool32& { return c.v13.synchronization2; }, true},
-    // LocalSizeId, which SPIR-V 1.6 has for every compute shader with constant group sizes.
+    // For LocalSizeId, which SPIR-V 1.6 uses in every compute shader with constant group sizes.
     {"maintenance4", [](FeatureChain& c) -> VkBool32& { return c.v13.maintenance4; }, true},
 };
 

@@ -8,7 +8,7 @@
 
 namespace grisaille::vulkan {
 
-// The structures of Vulkan 1.0, 1.2 and 1.3, linked.
+// The feature structures of Vulkan 1.0, 1.2 and 1.3, linked through pNext.
 struct FeatureChain {
   FeatureChain() {
     v10.pNext = &v12;
@@ -22,13 +22,13 @@ struct FeatureChain {
   VkPhysicalDeviceVulkan13Features v13{VK_STRUCTURE_TYPE_PHYSICAL_DEVICE_VULKAN_1_3_FEATURES};
 };
 
-// The first required feature that a device of Vulkan 1.3 has not, or "".
+// The first required feature that a device of Vulkan 1.3 lacks, or "".
 std::string lackingFeature(VkPhysicalDevice device);
 
-// The same of what effects alone require, which draw and submit nothing.
+// Same for the features that effects in another program require; effects do not draw or submit.
 std::string lackingForEffects(VkPhysicalDevice device);
 
-// Sets what the backend uses: all that is required, and anisotropic filtering where it is there.
+// Enables all required features, and anisotropic filtering if the device has it.
 void enableFeatures(VkPhysicalDevice device, FeatureChain& chain);
 
 }  // namespace grisaille::vulkan

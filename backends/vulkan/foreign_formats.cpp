@@ -46,7 +46,7 @@ constexpr ForeignFormat kForeignFormats[] = {
 const ForeignFormat& foreignFormat(VkFormat format) {
   const auto found = std::ranges::find(kForeignFormats, format, &ForeignFormat::format);
   if (found != std::end(kForeignFormats)) return *found;
-  throw Error(ErrorId::kHostTexture, "VkFormat {} is none that shaders sample as floats here",
+  throw Error(ErrorId::kHostTexture, "VkFormat {} is not one of the formats sampled as floats",
               static_cast<int>(format));
 }
 
@@ -56,11 +56,12 @@ TextureObject makeForeign(Context& context, const gpu::ForeignTexture& texture) 
   const ForeignFormat& known = foreignFormat(format);
   if (texture.name == 0) throw Error(ErrorId::kHostTexture, "its image is VK_NULL_HANDLE");
   if (layout == VK_IMAGE_LAYOUT_UNDEFINED || layout == VK_IMAGE_LAYOUT_PREINITIALIZED) {
-    throw Error(ErrorId::kHostTexture, "in layout {} it holds nothing to read", texture.layout);
+    throw Error(ErrorId::kHostTexture, "an image in layout {} has no contents to read",
+                texture.layout);
   }
   const uint32_t most = context.info.capabilities.maxTextureSize;
   if (texture.width < 1 || texture.width > most || texture.height < 1 || texture.height > most) {
-    throw Error(ErrorId::kHostTexture, "it has {} x {} pixels, out of 1 to {}", texture.width,
+    throw Error(ErrorId::kHostTexture, "it has {} x {} pixels, outside 1 to {}", texture.width,
                 texture.height, most);
   }
   VkFormatProperties has{};
@@ -75,7 +76,7 @@ TextureObject makeForeign(Context& context, const gpu::ForeignTexture& texture) 
   object.home = layout;
   object.format = format;
   object.seen = known.depth() ? kDepthAlone : kColour;
-  object.desc.format = gpu::Format::kRgba32Float;  // what a shader sees, of whatever channels
+  object.desc.format = gpu::Format::kRgba32Float;  // as shaders see it, whatever its channels
   object.desc.width = texture.width;
   object.desc.height = texture.height;
   object.desc.usage = gpu::TextureUsage::kSampled;

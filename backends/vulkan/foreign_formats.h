@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: MIT
-// Textures of other programs: those formats that a shader samples as floats.
+// Textures of other programs, in the formats that a shader samples as floats.
 #pragma once
 
 #include "backends/vulkan/objects.h"
@@ -9,15 +9,16 @@ namespace grisaille::vulkan {
 struct ForeignFormat {
   VkFormat format;
   uint32_t channels;           // 1 ... 4
-  VkImageAspectFlags aspects;  // all that a layout is of
+  VkImageAspectFlags aspects;  // all aspects of the format: barriers must name each
 
   bool depth() const { return (aspects & VK_IMAGE_ASPECT_DEPTH_BIT) != 0; }
 };
 
-// Throws kHostTexture for a format that is not in the table.
+// Throws kHostTexture if the format is not in the table.
 const ForeignFormat& foreignFormat(VkFormat format);
 
-// The view alone is the layer's. Throws kHostTexture, kOutOfDeviceMemory.
+// Creates a view of the texture. The caller owns the view, the other program owns the image. Throws
+// kHostTexture, kOutOfDeviceMemory.
 TextureObject makeForeign(Context& context, const gpu::ForeignTexture& texture);
 
 }  // namespace grisaille::vulkan

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: MIT
-// What one frame in flight owns.
+// The objects that one frame in flight owns.
 #pragma once
 
 #include "backends/vulkan/arena.h"
@@ -9,7 +9,7 @@
 
 namespace grisaille::vulkan {
 
-// A command buffer with its pool.
+// A command buffer with its own pool.
 class CommandBuffer {
  public:
   explicit CommandBuffer(Context& context);
@@ -17,7 +17,7 @@ class CommandBuffer {
   CommandBuffer(const CommandBuffer&) = delete;
   CommandBuffer& operator=(const CommandBuffer&) = delete;
 
-  // Drops what was recorded; the device has finished with it.
+  // Discards the recorded commands and begins again. The device must have finished with them.
   void begin();
   uint64_t submit(Timeline& timeline, const ImageSemaphores& image = {});
 
@@ -29,7 +29,7 @@ class CommandBuffer {
   VkCommandBuffer commands_ = VK_NULL_HANDLE;
 };
 
-// What a frame records with; reset when the device has finished with it.
+// The memory, descriptors and timer of a frame; reset when the device has finished the frame.
 struct Recording {
   Recording(Context& context, Resources& resources, gpu::Clock clock)
       : arena(context, resources), descriptors(context), timer(context, clock) {}

@@ -1,5 +1,6 @@
 // SPDX-License-Identifier: MIT
-// A device on another program's: everything but queues, submission and waiting.
+// A device inside another program, which owns the VkDevice and the queues. This class records
+// commands; the program submits them and waits for them.
 #include <algorithm>
 #include <memory>
 #include <optional>
@@ -39,11 +40,11 @@ class VulkanHostDevice final : public Making<gpu::HostDevice> {
   void turnTo(uint64_t frame);
   void hand(bool toUs);
 
-  std::vector<std::unique_ptr<Recording>> recordings_;  // one a frame in flight
+  std::vector<std::unique_ptr<Recording>> recordings_;  // one per frame in flight
   Recorder recorder_;
-  std::optional<uint64_t> frame_;  // the last one
+  std::optional<uint64_t> frame_;  // number of the last frame
   VkCommandBuffer commands_ = VK_NULL_HANDLE;
-  std::vector<VkImageMemoryBarrier2> foreign_;  // of what is being read
+  std::vector<VkImageMemoryBarrier2> foreign_;  // for the program's textures that are read
 };
 
 gpu::Texture VulkanHostDevice::wrap(const gpu::ForeignTexture& texture) {
@@ -59,10 +60,11 @@ gpu::ForeignInfo VulkanHostDevice::foreign(gpu::Texture texture) {
           .depth = format.depth()};
 }
 
-// What the frame so many before used is free again.
+// Starts a frame: reuses the memory of the frame recordings_.size() before, which has finished.
 void VulkanHostDevice::turnTo(uint64_t frame) {
   if (frame_ && frame < *frame_) {
-    throw Error(ErrorId::kHostFrame, "frame {} comes after frame {}", frame, *frame_);
+    throw Error(ErrorId::kHostFrame, "frame {} follows frame {}; numbers must not fall", frame,
+                *frame_);
   }
   if (frame_ == frame) return;
   recorder_.endFrame(lastUse());
@@ -71,8 +73,9 @@ void VulkanHostDevice::turnTo(uint64_t frame) {
   resources_.releaseUpTo(finished());
 }
 
-// The program's textures between its layouts and that of sampling, and all its memory either way:
-// it need know nothing of what the layer does with which stage.
+// Records the barriers before (`toUs`) and after the layer's commands. They change the program's
+// textures between its layouts and the layout for sampling. They cover all memory and stages, so
+// that the program need not know which stages the layer uses.
 void VulkanHostDevice::hand(bool toUs) {
   VkMemoryBarrier2 all{VK_STRUCTURE_TYPE_MEMORY_BARRIER_2};
   all.srcStageMask = all.dstStageMask = VK_PIPELINE_STAGE_2_ALL_COMMANDS_BIT;
@@ -91,7 +94,7 @@ void VulkanHostDevice::hand(bool toUs) {
 
 gpu::Commands& VulkanHostDevice::begin(void* commandBuffer, uint64_t frame,
                                        std::span<const gpu::Texture> reads) {
-  if (commandBuffer == nullptr) throw Error(ErrorId::kHostFrame, "there is no command buffer");
+  if (commandBuffer == nullptr) throw Error(ErrorId::kHostFrame, "the command buffer is null");
   turnTo(frame);
   commands_ = static_cast<VkCommandBuffer>(commandBuffer);
   foreign_.clear();

@@ -11,7 +11,7 @@ namespace {
 
 constexpr const char* kLayer = "VK_LAYER_KHRONOS_validation";
 
-// By that entry of a loader, or by libvulkan.so.1's.
+// Loads Vulkan through `entry`, a loader's entry point; null takes libvulkan.so.1.
 void loadLibrary(PFN_vkGetInstanceProcAddr entry = nullptr) {
   static const VkResult loaded = [&] {
     if (entry == nullptr) return volkInitialize();
@@ -23,7 +23,7 @@ void loadLibrary(PFN_vkGetInstanceProcAddr entry = nullptr) {
   }
   const uint32_t version = volkGetInstanceVersion();
   if (version < VK_API_VERSION_1_3) {
-    throw Error(ErrorId::kDeviceTooOld, "the Vulkan loader speaks {}.{}, needed is 1.3",
+    throw Error(ErrorId::kDeviceTooOld, "the Vulkan loader supports {}.{}, and 1.3 is needed",
                 VK_API_VERSION_MAJOR(version), VK_API_VERSION_MINOR(version));
   }
 }
@@ -49,7 +49,8 @@ bool hasLayer(std::string_view name) {
                      [&](const VkLayerProperties& one) { return one.layerName == name; });
 }
 
-// The layer puts objects and numbers before its sentence, parted by bars.
+// The sentence of a validation message. The layer puts objects and numbers before it, separated by
+// bars.
 std::string_view sentenceOf(std::string_view text) {
   const size_t bar = text.rfind(" | ");
   return bar == std::string_view::npos ? text : text.substr(bar + 3);
@@ -68,7 +69,8 @@ VkBool32 VKAPI_PTR onMessage(VkDebugUtilsMessageSeverityFlagBitsEXT severity,
   return VK_FALSE;
 }
 
-// General messages while an instance is made are the loader's, about drivers of other devices.
+// Leaves out general messages: during instance creation the loader sends them, about the drivers of
+// other devices.
 VkDebugUtilsMessengerCreateInfoEXT messengerInfo(const gpu::MessageSink& sink) {
   VkDebugUtilsMessengerCreateInfoEXT info{VK_STRUCTURE_TYPE_DEBUG_UTILS_MESSENGER_CREATE_INFO_EXT};
   info.messageSeverity = VK_DEBUG_UTILS_MESSAGE_SEVERITY_WARNING_BIT_EXT |
@@ -109,7 +111,7 @@ Instance::Instance(const HostHandles& host)
 }
 
 void Instance::load(bool debugUtils) {
-  // The loader's own entry points serve every instance, so volk's globals are set once.
+  // The loader's own entry points serve every instance: set volk's globals once.
   static std::once_flag once;
   std::call_once(once, [this] { volkLoadInstanceOnly(instance_); });
   const auto find = [this](auto& function, const char* name) {

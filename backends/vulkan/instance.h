@@ -12,15 +12,15 @@
 
 namespace grisaille::vulkan {
 
-// VK_EXT_debug_utils; null where the extension is not there.
+// VK_EXT_debug_utils; null if the extension is not available.
 struct DebugFunctions {
   PFN_vkSetDebugUtilsObjectNameEXT setName = nullptr;
   PFN_vkCmdBeginDebugUtilsLabelEXT beginLabel = nullptr;
   PFN_vkCmdEndDebugUtilsLabelEXT endLabel = nullptr;
 };
 
-// VK_KHR_surface; null unless it is one of the instance's extensions. Not volk's globals, which are
-// of the process's first instance.
+// VK_KHR_surface; null unless the instance enables it. Loaded for each instance: volk's globals
+// belong to the process's first instance.
 struct SurfaceFunctions {
   PFN_vkDestroySurfaceKHR destroy = nullptr;
   PFN_vkGetPhysicalDeviceSurfaceSupportKHR support = nullptr;
@@ -30,10 +30,10 @@ struct SurfaceFunctions {
 
 class Instance {
  public:
-  // With `check`, the validation layer's messages go to `message`. `extensions` are enabled besides
-  // the instance's own. Throws kBackendMissing, kDeviceTooOld.
+  // With `check`, the validation layer's messages go to `message`. `extensions`: instance
+  // extensions to enable in addition. Throws kBackendMissing, kDeviceTooOld.
   Instance(bool check, gpu::MessageSink message, std::span<const char* const> extensions = {});
-  // Another program's, which it destroys after this.
+  // Uses another program's instance. The program destroys it after this object.
   explicit Instance(const HostHandles& host);
   ~Instance();
   Instance(const Instance&) = delete;
@@ -43,11 +43,11 @@ class Instance {
   const DebugFunctions& debug() const { return debug_; }
   const SurfaceFunctions& surface() const { return surface_; }
 
-  // In the loader's order.
+  // The physical devices, in the loader's order.
   std::vector<VkPhysicalDevice> devices() const;
 
  private:
-  // Delegated to, so that the destructor runs when the public constructor throws.
+  // The public constructor delegates to this one, so that the destructor runs when it throws.
   explicit Instance(gpu::MessageSink message);
   void create(bool debugUtils, bool validate, std::span<const char* const> others);
   void load(bool debugUtils);
@@ -62,23 +62,24 @@ class Instance {
   VkDebugUtilsMessengerEXT messenger_ = VK_NULL_HANDLE;
 };
 
-// A physical device and what the backend needs to know to open it.
+// A physical device, and the properties needed to choose and open it.
 struct Candidate {
   VkPhysicalDevice device = VK_NULL_HANDLE;
   VkPhysicalDeviceType type = VK_PHYSICAL_DEVICE_TYPE_OTHER;
   gpu::ListedDevice listed;
-  std::string lacks;         // what the backend requires and this device has not; "" when it fits
-  uint32_t queueFamily = 0;  // draws and computes
+  std::string lacks;         // the first requirement that the device does not meet; "": it fits
+  uint32_t queueFamily = 0;  // supports graphics and compute
   uint32_t timestampBits = 0;
 };
 
-// With a surface, the queue must show pictures there.
+// Lists all physical devices. With a surface, the queue must be able to present to it.
 std::vector<Candidate> candidates(const Instance& instance, VkSurfaceKHR surface = VK_NULL_HANDLE);
 
-// `wanted` as DeviceOptions::device. Throws kNoDevice, kDeviceTooOld.
+// `wanted`: same as DeviceOptions::device. Throws kNoDevice, kDeviceTooOld.
 const Candidate& choose(const std::vector<Candidate>& candidates, const std::string& wanted);
 
-// Of a device that another program has opened, with this queue family. Throws kHostDevice.
+// Describes a device that another program opened with this queue family. Throws kHostDevice if it
+// does not meet a requirement of effects.
 Candidate foreignCandidate(VkPhysicalDevice device, uint32_t queueFamily);
 
 VkFormat vulkanFormat(gpu::Format format);

@@ -1,5 +1,6 @@
 // SPDX-License-Identifier: MIT
-// What every device of this backend makes alike, whoever submits its work.
+// The base class of both devices of this backend: creates and destroys resources. The device itself
+// submits the work, or another program does.
 #pragma once
 
 #include "backends/vulkan/commands.h"
@@ -7,7 +8,7 @@
 
 namespace grisaille::vulkan {
 
-// `Interface` is a gpu::Maker.
+// `Interface`: gpu::Device or gpu::HostDevice, which both derive from gpu::Maker.
 template <typename Interface>
 class Making : public Interface {
  public:
@@ -30,13 +31,13 @@ class Making : public Interface {
   void destroy(gpu::GraphicsPipeline pipeline) override { retire(pipeline); }
 
  protected:
-  // `origin` is what a Context is made of.
+  // `origin`: the argument of Context's constructor, options or another program's handles.
   template <typename Origin>
   Making(const Origin& origin, CacheFile file)
       : context_(origin), cache_(context_, file), resources_(context_) {}
 
-  // As Resources::retire() and releaseUpTo() count: the last work that may use what there is now,
-  // and the last that has finished.
+  // Counts for Resources::retire() and releaseUpTo(): the last work that may use the existing
+  // objects, and the last work that has finished.
   virtual uint64_t lastUse() const = 0;
   virtual uint64_t finished() const = 0;
 

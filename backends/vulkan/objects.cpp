@@ -27,7 +27,7 @@ VkImageCreateInfo imageInfo(const gpu::TextureDesc& desc) {
   return info;
 }
 
-// Drivers bound one image's bytes besides its sides.
+// Checks an image against the driver's limits of size in texels and in bytes.
 void checkImageFits(const Context& context, const VkImageCreateInfo& info,
                     const gpu::TextureDesc& desc) {
   VkImageFormatProperties limits{};
@@ -35,12 +35,12 @@ void checkImageFits(const Context& context, const VkImageCreateInfo& info,
       context.physical, info.format, info.imageType, info.tiling, info.usage, info.flags, &limits);
   check(result, fmt::format("a texture of format {}", gpu::formatInfo(desc.format).name),
         ErrorId::kTextureFormat);
-  // A format's limit may lie over the device's, which also holds for targets and their viewports.
+  // A format's limit may exceed the device's, which also bounds render targets and viewports.
   const uint32_t most = context.info.capabilities.maxTextureSize;
   const uint32_t width = std::min(limits.maxExtent.width, most);
   const uint32_t height = std::min(limits.maxExtent.height, most);
   if (desc.width > width || desc.height > height) {
-    throw Error(ErrorId::kTextureSize, "texture '{}' of {}x{} texels, where {} takes {}x{}",
+    throw Error(ErrorId::kTextureSize, "texture '{}' has {}x{} texels, and {} allows {}x{}",
                 desc.label, desc.width, desc.height, context.info.name, width, height);
   }
   uint64_t bytes = 0;

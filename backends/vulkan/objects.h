@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: MIT
-// Vulkan objects behind the layer's handles, made and released as wholes. What is not made yet is
-// null, and releasing null does nothing.
+// The Vulkan objects behind the layer's handles. Each struct is created and released as a whole. A
+// member that is not created yet is null, and releasing null does nothing.
 #pragma once
 
 #include <cstddef>
@@ -27,13 +27,13 @@ struct TextureObject {
   VkImage image = VK_NULL_HANDLE;
   VkDeviceMemory memory = VK_NULL_HANDLE;
   VkFormat format = VK_FORMAT_UNDEFINED;
-  VkImageAspectFlags seen = 0;  // by views
-  // Another program's: neither released nor tracked here, and in the layout `home` between
-  // recordings.
+  VkImageAspectFlags seen = 0;  // aspects that views show
+  // Another program's image. The layer neither releases nor tracks it. It is in the layout `home`
+  // between recordings.
   bool foreign = false;
   VkImageLayout home = VK_IMAGE_LAYOUT_UNDEFINED;
   gpu::TextureDesc desc;    // its label is not kept
-  std::vector<View> views;  // made when they are first asked for
+  std::vector<View> views;  // created on first use
 };
 
 struct SamplerObject {
@@ -45,11 +45,12 @@ BufferObject makeBuffer(Context& context, std::string_view label, uint64_t size,
 TextureObject makeTexture(Context& context, const gpu::TextureDesc& desc);
 SamplerObject makeSampler(Context& context, const gpu::SamplerDesc& desc);
 
-// `range` has no zero counts.
+// Returns the cached view, or creates it. `range` has no zero counts.
 VkImageView viewOf(Context& context, TextureObject& texture, const gpu::TextureView& range,
                    VkImageViewType type);
 
-// One subresource against tightly packed rows in a buffer, either way.
+// The region of a copy between one subresource and tightly packed rows in a buffer, in either
+// direction.
 VkBufferImageCopy copyRegion(const gpu::TextureDesc& desc, uint32_t mip, uint32_t layer,
                              uint64_t bufferOffset);
 

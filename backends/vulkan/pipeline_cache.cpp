@@ -16,7 +16,8 @@ namespace {
 
 namespace fs = std::filesystem;
 
-// In the file, this and then the driver's data: drivers need not survive damaged data.
+// The file holds this preamble, then the driver's data. The hash detects damage, because a driver
+// may crash on damaged data.
 struct Preamble {
   uint64_t magic = 0x3165686361637267;  // "grcache1"
   uint64_t bytes = 0;                   // of the data
@@ -52,7 +53,7 @@ bool madeFor(const VkPhysicalDeviceProperties& properties, const std::string& da
          std::memcmp(header.pipelineCacheUUID, properties.pipelineCacheUUID, VK_UUID_SIZE) == 0;
 }
 
-// The driver's data, or "" for a file that is not whole or another device's.
+// Reads the driver's data; "" if the file is incomplete or belongs to another device.
 std::string load(const fs::path& path, const VkPhysicalDeviceProperties& properties) {
   if (!whyNotRegular(path).empty()) return "";
   std::ifstream file(path, std::ios::binary);
@@ -85,8 +86,8 @@ PipelineCache::PipelineCache(Context& context, CacheFile file)
   const std::string data = path_.empty() ? "" : load(path_, context.properties);
   if (!data.empty()) loadedHash_ = hashOf(data);
   VkPipelineCacheCreateInfo info{VK_STRUCTURE_TYPE_PIPELINE_CACHE_CREATE_INFO};
-  // A header alone helps no driver. SwiftShader answers one with that and another one: its file
-  // would grow from run to run.
+  // Data with only a header is useless. SwiftShader would also append another header to it, and the
+  // file would grow from run to run.
   if (data.size() > sizeof(VkPipelineCacheHeaderVersionOne)) {
     info.initialDataSize = data.size();
     info.pInitialData = data.data();
@@ -99,7 +100,7 @@ PipelineCache::~PipelineCache() {
   try {
     save();
   } catch (const std::exception&) {
-    // The next run compiles again.
+    // Without the file, the next run compiles the shaders again.
   }
   context_.vk.vkDestroyPipelineCache(context_.device, cache_, nullptr);
 }

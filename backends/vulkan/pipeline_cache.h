@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: MIT
-// What the driver made of shaders, kept on disk for the next run: one file for each device and
-// driver version in $XDG_CACHE_HOME/grisaille or ~/.cache/grisaille. A file that cannot be read,
-// written or trusted is as good as none.
+// Keeps the driver's compiled shaders on disk for the next run: one file per device and driver
+// version, in $XDG_CACHE_HOME/grisaille or ~/.cache/grisaille. Files that are unreadable or damaged
+// are ignored, and so are failures to write.
 #pragma once
 
 #include <filesystem>
@@ -10,7 +10,7 @@
 
 namespace grisaille::vulkan {
 
-// Whether there is a file: another program's folders are not ours to write in.
+// Whether the cache has a file. Inside another program it has none.
 enum class CacheFile { kOwn, kNone };
 
 class PipelineCache {
@@ -26,8 +26,8 @@ class PipelineCache {
   void save() const;
 
   Context& context_;
-  std::filesystem::path path_;  // empty: there is no place for it
-  size_t loadedHash_ = 0;       // of the driver's data as it was read
+  std::filesystem::path path_;  // empty: no file
+  size_t loadedHash_ = 0;       // hash of the driver's data after loading
   VkPipelineCache cache_ = VK_NULL_HANDLE;
 };
 

@@ -36,7 +36,8 @@ class Module {
   VkShaderModule module_ = VK_NULL_HANDLE;
 };
 
-// The span itself is the data: each entry points at its own bits.
+// The specialisation info of a shader. It refers to `values` itself: each entry points at the bits
+// of its Specialization.
 struct Constants {
   explicit Constants(std::span<const gpu::Specialization> values) {
     for (size_t i = 0; i < values.size(); ++i) {
@@ -124,7 +125,7 @@ struct VertexInput {
       VK_STRUCTURE_TYPE_PIPELINE_VERTEX_INPUT_STATE_CREATE_INFO};
 };
 
-// Straight alpha.
+// Blends with straight alpha.
 VkPipelineColorBlendAttachmentState blendState(gpu::Blend blend) {
   VkPipelineColorBlendAttachmentState state{};
   state.blendEnable = blend == gpu::Blend::kNone ? VK_FALSE : VK_TRUE;
@@ -137,8 +138,8 @@ VkPipelineColorBlendAttachmentState blendState(gpu::Blend blend) {
   return state;
 }
 
-// Everything between vertex input and targets, which is the same for every pipeline but for the
-// number of colour targets, their blending and whether there is depth.
+// The state between vertex input and targets. Pipelines differ in it only by the number of colour
+// targets, their blending, and whether they have depth.
 struct FixedState {
   explicit FixedState(const gpu::GraphicsPipelineDesc& desc) {
     const bool withDepth = desc.depthFormat != gpu::Format::kNone;

@@ -14,10 +14,10 @@ struct PipelineObject {
   VkPipelineLayout layout = VK_NULL_HANDLE;
   VkDescriptorSetLayout setLayout = VK_NULL_HANDLE;
   std::array<const gpu::Shader*, 2> shaders = {};   // compute; or vertex and fragment
-  std::vector<const grisaille_shader_slot*> slots;  // of all shaders, each binding once
+  std::vector<const grisaille_shader_slot*> slots;  // slots of all shaders, each binding once
 };
 
-// Both throw kShaderRefused when the driver does not take the shaders.
+// Both throw kShaderRefused if the driver rejects the shaders.
 PipelineObject makePipeline(Context& context, VkPipelineCache cache,
                             const gpu::ComputePipelineDesc& desc);
 PipelineObject makePipeline(Context& context, VkPipelineCache cache,
@@ -25,7 +25,7 @@ PipelineObject makePipeline(Context& context, VkPipelineCache cache,
 
 void release(Context& context, PipelineObject& object);
 
-// A slot's number in set 0.
+// A slot's binding number in set 0.
 inline uint32_t bindingNumber(uint32_t slotClass, uint32_t slot) {
   return GRISAILLE_SLOTS_PER_CLASS * slotClass + slot;
 }

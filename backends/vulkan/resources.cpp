@@ -114,7 +114,7 @@ gpu::TextureView Resources::resolve(gpu::TextureView view) {
   if (!starts || view.mipCount > desc.mips - view.mip ||
       view.layerCount > desc.layers - view.layer) {
     throw Error(ErrorId::kBindingRange,
-                "levels {} + {} and layers {} + {} leave a texture of {} levels and {} layers",
+                "mips {} + {} and layers {} + {} exceed a texture of {} mips and {} layers",
                 view.mip, view.mipCount, view.layer, view.layerCount, desc.mips, desc.layers);
   }
   return view;
@@ -125,7 +125,7 @@ gpu::BufferRange Resources::resolve(gpu::BufferRange range) {
   const bool starts = range.offset < size;
   if (starts && range.size == 0) range.size = size - range.offset;
   if (!starts || range.size > size - range.offset) {
-    throw Error(ErrorId::kBindingRange, "bytes {} + {} leave a buffer of {} bytes", range.offset,
+    throw Error(ErrorId::kBindingRange, "bytes {} + {} exceed a buffer of {} bytes", range.offset,
                 range.size, size);
   }
   return range;

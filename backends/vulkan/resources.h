@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: MIT
-// Everything that the layer's handles name, the states of it, and what waits to be released.
+// The objects behind the layer's handles, their states, and the queue of objects to release.
 #pragma once
 
 #include <deque>
@@ -16,23 +16,23 @@ namespace grisaille::vulkan {
 class Resources {
  public:
   explicit Resources(Context& context) : context_(context) {}
-  ~Resources();  // releases all; the device is idle
+  ~Resources();  // releases all objects; the device must be idle
   Resources(const Resources&) = delete;
   Resources& operator=(const Resources&) = delete;
 
   gpu::Buffer add(const gpu::BufferDesc& desc);
   gpu::Texture add(const gpu::TextureDesc& desc);
-  // Another program's, whose hazards are its own.
+  // Adds another program's texture. The layer does not track its hazards.
   gpu::Texture addForeign(const TextureObject& object);
   gpu::Sampler add(const gpu::SamplerDesc& desc);
   gpu::ComputePipeline add(VkPipelineCache cache, const gpu::ComputePipelineDesc& desc);
   gpu::GraphicsPipeline add(VkPipelineCache cache, const gpu::GraphicsPipelineDesc& desc);
 
-  // A buffer whose hazards are not tracked: the layer's own upload memory.
+  // Adds a buffer without hazard tracking: for the layer's own upload memory.
   gpu::Buffer addUntracked(std::string_view label, uint64_t size, VkBufferUsageFlags usage,
                            MemoryKind kind);
 
-  // The handle is stale at once; the object goes when release() is told that the timeline has
+  // The handle becomes stale at once. releaseUpTo() releases the object when the timeline has
   // reached `count`.
   void retire(gpu::Buffer buffer, uint64_t count);
   void retire(gpu::Texture texture, uint64_t count);
@@ -47,19 +47,21 @@ class Resources {
   const PipelineObject& get(gpu::ComputePipeline pipeline) { return computes_.get(pipeline); }
   const PipelineObject& get(gpu::GraphicsPipeline pipeline) { return graphics_.get(pipeline); }
 
-  // A view with its zero counts replaced. Throws kStaleHandle, kBindingRange.
+  // Replaces the view's zero counts by all remaining mips or layers. Throws kStaleHandle,
+  // kBindingRange.
   gpu::TextureView resolve(gpu::TextureView view);
-  // A range with its zero size replaced. Throws kStaleHandle, kBindingRange.
+  // Replaces the range's zero size by all remaining bytes. Throws kStaleHandle, kBindingRange.
   gpu::BufferRange resolve(gpu::BufferRange range);
 
-  // Of a resolved view.
+  // `view` must be resolved.
   VkImageView viewOf(const gpu::TextureView& view, VkImageViewType type);
 
-  // Declare uses to it, then record the barriers that they need.
+  // Declare uses to the tracker, then call recordBarriers() for the barriers that they need.
   gpu::StateTracker& tracker() { return tracker_; }
   void recordBarriers(VkCommandBuffer commands);
 
-  // What is recorded is submitted; or is dropped, and the states are again what they were.
+  // Call commit() when the recorded commands are submitted; rollBack() when they are dropped, to
+  // restore the states of the last submission.
   void commit() { committed_ = tracker_; }
   void rollBack() { tracker_ = committed_; }
 

@@ -1,10 +1,11 @@
 // SPDX-License-Identifier: MIT
-// In sanitizer builds alone. The validation layer's synchronization validation never frees its
-// record of a command buffer (seen in 1.3.239, for one that was only allocated), and Mesa's
-// software driver (22.3) leaves blocks of its own behind, some that its globals point to and, where
-// both backends ran in one process, some that nothing does. Objects that we forget are told by the
-// validation layer. Leaks are told apart by library, and that only while it is loaded, so both
-// stay.
+// Only in sanitizer builds: suppresses the leaks of two libraries.
+// - The validation layer's synchronization validation never frees its record of a command buffer
+//   (seen in 1.3.239, for a buffer that was only allocated).
+// - Mesa's software driver (22.3) leaves allocations behind: some that its globals point to and, if
+//   both backends ran in one process, some that nothing points to.
+// The validation layer reports the objects that this backend forgets to destroy. The sanitizer
+// matches leaks by library only while the library is loaded, so this file keeps both loaded.
 #include <dlfcn.h>
 
 namespace {
@@ -17,12 +18,13 @@ bool keep(const char* library) {
 
 extern "C" {
 
-// Named on the link line, so that every program with this backend has this file.
+// The link line names this symbol, so that every program with this backend links this file.
 extern const bool grisaille_vulkan_keeps_libraries;
 const bool grisaille_vulkan_keeps_libraries =
     keep("libVkLayer_khronos_validation.so") && keep("libvulkan_lvp.so");
 
-// Names that the sanitizer looks for. NOLINTBEGIN(*-reserved-identifier,*-identifier-naming)
+// Functions that the sanitizer looks up by name.
+// NOLINTBEGIN(*-reserved-identifier,*-identifier-naming)
 __attribute__((visibility("default"))) const char* __lsan_default_suppressions();
 const char* __lsan_default_suppressions() {
   return "leak:libVkLayer_khronos_validation\nleak:libvulkan_lvp.so\n";

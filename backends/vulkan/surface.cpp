@@ -6,7 +6,7 @@ namespace grisaille::vulkan {
 std::span<const char* const> surfaceExtensions(const backends::Window& window) {
   const std::span<const char* const> names = window.instanceExtensions();
   if (names.empty()) {
-    throw Error(ErrorId::kBackendMissing, "no Vulkan driver here shows pictures in a window");
+    throw Error(ErrorId::kBackendMissing, "no installed Vulkan driver can present to a window");
   }
   return names;
 }
@@ -24,7 +24,7 @@ void Surface::renew() {
   if (surface_ != VK_NULL_HANDLE) functions().destroy(instance_.handle(), surface_, nullptr);
   surface_ = VK_NULL_HANDLE;
   check(static_cast<VkResult>(window_->createSurface(instance_.handle(), &surface_)),
-        "making the window's surface (was the window made for Vulkan?)");
+        "creating the window's surface (was the window created for Vulkan?)");
 }
 
 VkExtent2D Surface::size() const {

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: MIT
-// A window as Vulkan sees it.
+// A window's Vulkan surface.
 #pragma once
 
 #include <span>
@@ -14,19 +14,20 @@ std::span<const char* const> surfaceExtensions(const backends::Window& window);
 
 class Surface {
  public:
-  // The window was made for Vulkan. Throws kDeviceFailed.
+  // The window must have been created for Vulkan. Throws kDeviceFailed.
   Surface(const Instance& instance, backends::Window* window);
   ~Surface();
   Surface(const Surface&) = delete;
   Surface& operator=(const Surface&) = delete;
 
-  // After VK_ERROR_SURFACE_LOST_KHR; nothing uses it any more. Throws kDeviceFailed.
+  // Recreates the surface after VK_ERROR_SURFACE_LOST_KHR. Nothing may still use the old one.
+  // Throws kDeviceFailed.
   void renew();
 
   VkSurfaceKHR handle() const { return surface_; }
   const SurfaceFunctions& functions() const { return instance_.surface(); }
 
-  // The window's area, in pixels; 0 while it is iconified.
+  // The window's size in pixels; 0 while the window is iconified.
   VkExtent2D size() const;
 
  private:

@@ -6,10 +6,10 @@
 namespace grisaille::vulkan {
 namespace {
 
-// A window that nobody sees may never give an image back.
+// Time to wait for an image: a hidden window may never release one.
 constexpr uint64_t kPatience = 500'000'000;  // nanoseconds
 
-// What writes a window's images.
+// The stages that write a window's images.
 constexpr VkPipelineStageFlags2 kWriters =
     VK_PIPELINE_STAGE_2_CLEAR_BIT | VK_PIPELINE_STAGE_2_BLIT_BIT;
 
@@ -49,7 +49,7 @@ Swapchain::~Swapchain() {
   context_.vk.vkDestroySwapchainKHR(context_.device, swapchain_, nullptr);
 }
 
-// The semaphores. The device is idle.
+// Destroys the semaphores and forgets the images. The device must be idle.
 void Swapchain::clear() {
   for (const Image& image : images_) {
     context_.vk.vkDestroySemaphore(context_.device, image.drawn, nullptr);
@@ -77,7 +77,7 @@ VkSemaphore Swapchain::makeSemaphore(const char* label) {
   return made;
 }
 
-// Eight bits that are shown as they are: pictures come encoded.
+// Chooses an 8-bit UNORM format: pictures are sRGB encoded already.
 VkSurfaceFormatKHR Swapchain::chooseFormat() const {
   const auto list = surface_.functions().formats;
   uint32_t count = 0;
@@ -91,10 +91,10 @@ VkSurfaceFormatKHR Swapchain::chooseFormat() const {
         one.format == VK_FORMAT_B8G8R8A8_UNORM || one.format == VK_FORMAT_R8G8B8A8_UNORM;
     if (eight && one.colorSpace == VK_COLOR_SPACE_SRGB_NONLINEAR_KHR) return one;
   }
-  throw Error(ErrorId::kDeviceFailed, "the window takes no pictures of 8 bits a channel");
+  throw Error(ErrorId::kDeviceFailed, "the window's surface has no format of 8 bits per channel");
 }
 
-// Makes nothing while the window has no area.
+// Creates nothing while the window has no area: returns VK_SUCCESS and leaves `made` unchanged.
 VkResult Swapchain::create(VkExtent2D window, VkSwapchainKHR& made) {
   VkSurfaceCapabilitiesKHR able{};
   const VkResult asked =
@@ -103,12 +103,12 @@ VkResult Swapchain::create(VkExtent2D window, VkSwapchainKHR& made) {
   extent_ = extentOf(able, window);
   if (extent_.width == 0 || extent_.height == 0) return VK_SUCCESS;
   if ((able.supportedUsageFlags & VK_IMAGE_USAGE_TRANSFER_DST_BIT) == 0) {
-    throw Error(ErrorId::kDeviceFailed, "pictures cannot be copied to the window");
+    throw Error(ErrorId::kDeviceFailed, "the window's surface does not allow copies to its images");
   }
   const VkSurfaceFormatKHR format = chooseFormat();
   VkSwapchainCreateInfoKHR info{VK_STRUCTURE_TYPE_SWAPCHAIN_CREATE_INFO_KHR};
   info.surface = surface_.handle();
-  info.minImageCount = able.minImageCount + 1;  // one to draw to while the others are shown
+  info.minImageCount = able.minImageCount + 1;  // one to draw to while the others are presented
   if (able.maxImageCount != 0) {
     info.minImageCount = std::min(info.minImageCount, able.maxImageCount);
   }
@@ -125,7 +125,7 @@ VkResult Swapchain::create(VkExtent2D window, VkSwapchainKHR& made) {
   return context_.vk.vkCreateSwapchainKHR(context_.device, &info, nullptr, &made);
 }
 
-// False when nothing can be shown now.
+// Recreates the swapchain. Returns false if nothing can be presented now.
 bool Swapchain::make(VkExtent2D window) {
   check(context_.vk.vkDeviceWaitIdle(context_.device), "vkDeviceWaitIdle");
   VkSwapchainKHR made = VK_NULL_HANDLE;
@@ -135,7 +135,7 @@ bool Swapchain::make(VkExtent2D window) {
     return false;
   }
   if (result == VK_SUCCESS && made == VK_NULL_HANDLE) return false;
-  // Even a failure retires the old one.
+  // Even a failed vkCreateSwapchainKHR() retires the old swapchain.
   clear();
   context_.vk.vkDestroySwapchainKHR(context_.device, swapchain_, nullptr);
   swapchain_ = made;
@@ -195,19 +195,19 @@ void Swapchain::record(VkCommandBuffer commands, gpu::Texture picture, VkImage i
     vk.vkCmdClearColorImage(commands, image, kTo, &black, 1, &kWhole);
     barrier(commands, between, image);
   }
-  VkImageBlit region{};  // not a copy: the window may have red and blue the other way round
+  VkImageBlit region{};  // not a copy: the window may have red and blue swapped
   region.srcSubresource = region.dstSubresource = {VK_IMAGE_ASPECT_COLOR_BIT, 0, 0, 1};
   region.srcOffsets[1] =
       region.dstOffsets[1] = {static_cast<int32_t>(width), static_cast<int32_t>(height), 1};
   vk.vkCmdBlitImage(commands, from.image, VK_IMAGE_LAYOUT_TRANSFER_SRC_OPTIMAL, image, kTo, 1,
                     &region, VK_FILTER_NEAREST);
-  between.dstStageMask = VK_PIPELINE_STAGE_2_NONE;  // the drawn semaphore makes the rest
+  between.dstStageMask = VK_PIPELINE_STAGE_2_NONE;  // the drawn semaphore orders presentation
   between.dstAccessMask = VK_ACCESS_2_NONE;
   between.newLayout = VK_IMAGE_LAYOUT_PRESENT_SRC_KHR;
   barrier(commands, between, image);
 }
 
-// Hands a drawn image to the window.
+// Presents an image. Returns false if the window did not take it.
 bool Swapchain::queue(uint32_t index) {
   VkPresentInfoKHR info{VK_STRUCTURE_TYPE_PRESENT_INFO_KHR};
   info.waitSemaphoreCount = 1;
@@ -227,8 +227,8 @@ bool Swapchain::queue(uint32_t index) {
   return true;
 }
 
-// Whatever goes wrong before the image is shown leaves the images stale, and their semaphores with
-// them.
+// A failure before presentation leaves stale_ set: the next call recreates the images and their
+// semaphores.
 bool Swapchain::show(gpu::Texture picture) {
   (void)resources_.get(picture);  // throws kStaleHandle
   const VkExtent2D window = surface_.size();

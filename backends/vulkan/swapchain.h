@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: MIT
-// The images of a window, and the copies of pictures to them.
+// The swapchain of a window, and the copies of pictures to its images.
 #pragma once
 
 #include <array>
@@ -11,21 +11,21 @@ namespace grisaille::vulkan {
 
 class Swapchain {
  public:
-  // For a context with a surface. Makes the images when they are first needed.
+  // `context` must have a surface. The images are created when they are first needed.
   Swapchain(Context& context, Resources& resources, Timeline& timeline);
-  ~Swapchain();  // the device is idle
+  ~Swapchain();  // the device must be idle
   Swapchain(const Swapchain&) = delete;
   Swapchain& operator=(const Swapchain&) = delete;
 
-  // Device::present().
+  // Implements Device::present().
   bool show(gpu::Texture picture);
 
  private:
-  static constexpr uint32_t kInFlight = 2;  // copies that the device may not have finished
+  static constexpr uint32_t kInFlight = 2;  // copies in flight
 
   struct Image {
     VkImage image = VK_NULL_HANDLE;
-    VkSemaphore drawn = VK_NULL_HANDLE;  // until the window shows it
+    VkSemaphore drawn = VK_NULL_HANDLE;  // presentation waits for it
   };
   struct Copy {
     explicit Copy(Context& context) : commands(context) {}
@@ -50,12 +50,12 @@ class Swapchain {
   Timeline& timeline_;
   Surface& surface_;
   std::array<Copy, kInFlight> copies_;
-  uint64_t shown_ = 0;  // copies begun
+  uint64_t shown_ = 0;  // number of copies begun
   VkSwapchainKHR swapchain_ = VK_NULL_HANDLE;
   std::vector<Image> images_;
-  VkExtent2D window_{};  // what the images were made for
-  VkExtent2D extent_{};  // of the images: as large, where the surface can choose
-  bool stale_ = true;    // the images must be made anew
+  VkExtent2D window_{};  // the window's size when the images were created
+  VkExtent2D extent_{};  // the images' size: the window's, unless the surface fixes another
+  bool stale_ = true;    // the images must be recreated
 };
 
 }  // namespace grisaille::vulkan

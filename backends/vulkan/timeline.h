@@ -1,12 +1,12 @@
 // SPDX-License-Identifier: MIT
-// The queue and a counter that every submission raises by one when it has finished.
+// Submits to the queue. A timeline semaphore counts the submissions that have finished.
 #pragma once
 
 #include "backends/vulkan/context.h"
 
 namespace grisaille::vulkan {
 
-// Semaphores of one image of a window; null for work that shows nothing.
+// Semaphores of one swapchain image; null for work that is not presented.
 struct ImageSemaphores {
   VkSemaphore acquired = VK_NULL_HANDLE;  // clears and blits wait for it
   VkSemaphore drawn = VK_NULL_HANDLE;     // signalled at the end
@@ -19,7 +19,7 @@ class Timeline {
   Timeline(const Timeline&) = delete;
   Timeline& operator=(const Timeline&) = delete;
 
-  // Returns the count that stands for this submission.
+  // Returns the count that completed() reaches when this submission has finished.
   uint64_t submit(VkCommandBuffer commands, const ImageSemaphores& image = {});
 
   uint64_t submitted() const { return submitted_; }

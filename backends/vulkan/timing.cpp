@@ -30,7 +30,7 @@ void PassTimer::endPass(VkCommandBuffer commands) {
   passes_.back().end = Wall::now();
 }
 
-// Both stamps wait for all work before them, so that the passes' times add up to the frame's.
+// Both timestamps of a pass wait for all earlier work: the passes' times add up to the frame's.
 void PassTimer::stamp(VkCommandBuffer commands) {
   const VolkDeviceTable& vk = context_.vk;
   const uint32_t pool = stamps_ / kPoolStamps, query = stamps_ % kPoolStamps;
@@ -86,7 +86,7 @@ void PassTimer::collectStamps(gpu::FrameTimes& times) const {
   const uint32_t bits = context_.timestampBits;
   const uint64_t valid = bits >= 64 ? UINT64_MAX : (uint64_t{1} << bits) - 1;
   const auto milliseconds = [&](uint64_t begin, uint64_t end) {
-    // timestampPeriod is nanoseconds a tick. The counter may wrap once in between.
+    // timestampPeriod is nanoseconds per tick. The counter may wrap once between the timestamps.
     return static_cast<double>((end - begin) & valid) *
            static_cast<double>(context_.properties.limits.timestampPeriod) * 1e-6;
   };

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: MIT
-// Times of one frame's passes, by the device's timestamps or by the wall clock.
+// Measures the passes of one frame, by the device's timestamps or by the wall clock.
 #pragma once
 
 #include <chrono>
@@ -19,15 +19,15 @@ class PassTimer {
   PassTimer(const PassTimer&) = delete;
   PassTimer& operator=(const PassTimer&) = delete;
 
-  // The wall clock is read when a pass begins and ends: before and after, the caller waits for the
-  // device.
+  // Whether passes are timed by the wall clock. The caller must then wait for the device before
+  // beginPass() and endPass().
   bool wall() const { return clock_ == gpu::Clock::kWall; }
 
   void beginFrame(uint64_t frame);
   void beginPass(VkCommandBuffer commands, std::string_view label);
   void endPass(VkCommandBuffer commands);
 
-  // The times of a frame that the device has finished; nothing when it is collected already.
+  // The times of the frame, which the device must have finished; none if already collected.
   std::optional<gpu::FrameTimes> collect();
   void drop() { frame_.reset(); }
 
@@ -49,7 +49,7 @@ class PassTimer {
   std::optional<uint64_t> frame_;
   std::vector<Pass> passes_;
   std::vector<VkQueryPool> pools_;
-  uint32_t stamps_ = 0;  // two a pass
+  uint32_t stamps_ = 0;  // timestamps written, two per pass
 };
 
 }  // namespace grisaille::vulkan

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: MIT
-// The vulkan backend: what backends/backends.cpp needs of it.
+// Entry points of the vulkan backend.
 #pragma once
 
 #include <memory>
@@ -15,15 +15,15 @@ std::vector<gpu::ListedDevice> listDevices();
 // Throws kBackendMissing, kNoDevice, kDeviceTooOld, kDeviceFailed.
 std::unique_ptr<gpu::Device> createDevice(const gpu::DeviceOptions& options);
 
-// What another program has: handles of the API, and its own loader's entry, a
-// PFN_vkGetInstanceProcAddr, or null for libvulkan.so.1's. The first device's loader is this
-// process's.
+// Another program's Vulkan handles. `getInstanceProcAddr`, a PFN_vkGetInstanceProcAddr, is the
+// entry point of the program's loader; null takes libvulkan.so.1. The loader of the first device
+// serves the whole process.
 struct HostHandles {
   void* instance = nullptr;
   void* physicalDevice = nullptr;
   void* device = nullptr;
   uint32_t queueFamily = 0;
-  uint32_t framesInFlight = 0;  // over 0
+  uint32_t framesInFlight = 0;  // at least 1
   void (*getInstanceProcAddr)() = nullptr;
 };
 

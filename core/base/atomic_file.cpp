@@ -39,14 +39,14 @@ class File {
 
   bool isOpen() const { return number_ >= 0; }
   int number() const { return number_; }
-  // False where the file system tells only now that something was not written.
+  // False if the file system reports only now that a write failed.
   bool close() { return ::close(std::exchange(number_, -1)) == 0; }
 
  private:
   int number_;
 };
 
-// False with errno.
+// On failure returns false and sets errno.
 bool writeAll(int file, std::string_view content) {
   while (!content.empty()) {
     const ssize_t count = ::write(file, content.data(), content.size());
@@ -57,14 +57,14 @@ bool writeAll(int file, std::string_view content) {
   return true;
 }
 
-// What `path` leads to; none where nothing is there.
+// Status of the file that `path` leads to; nullopt if it does not exist.
 std::optional<struct stat> statusOf(const std::string& path) {
   struct stat status = {};
   if (stat(path.c_str(), &status) == 0) return status;
   return std::nullopt;
 }
 
-// Standard output or standard error where it goes to this file, else -1.
+// Standard output or standard error if it is redirected to this file, else -1.
 int streamOf(const struct stat& status) {
   for (const int stream : {STDOUT_FILENO, STDERR_FILENO}) {
     struct stat own = {};
@@ -75,16 +75,16 @@ int streamOf(const struct stat& status) {
   return -1;
 }
 
-// `path`, or where its links lead. The last file need not be there.
+// `path`, or the file that its links lead to, which need not exist.
 fs::path followed(const std::string& path) {
-  constexpr int kMostLinks = 40;  // as in Linux
+  constexpr int kMostLinks = 40;  // same limit as Linux
   fs::path target = path;
   std::error_code failed;
   for (int links = 0; fs::is_symlink(target, failed); ++links) {
     if (links == kMostLinks) refuse(path, ELOOP);
     const fs::path next = fs::read_symlink(target, failed);
     if (failed) refuse(path, failed.message());
-    target = target.parent_path() / next;  // `next` alone where it is absolute
+    target = target.parent_path() / next;  // `next` itself if it is absolute
   }
   return target;
 }
@@ -93,8 +93,9 @@ std::string partOf(const std::string& target) {
   return fmt::format("{}.{}.part", target, getpid());
 }
 
-// Gives a part the owner, group and permission bits of the file that it replaces. Bits that were
-// meant for an owner or a group that cannot be kept are left out.
+// Gives the temporary file the owner, group and permission bits of the file that it replaces. If
+// the owner or the group cannot be kept, drops the special bits; if the group cannot be kept, gives
+// the new group only the permissions of others.
 void takeOver(int part, const struct stat& old) {
   constexpr auto kSame = static_cast<uid_t>(-1);
   struct stat own = {};
@@ -131,7 +132,7 @@ void replace(const std::string& path, const struct stat* old, std::string_view c
   }
 }
 
-// To a file that stays in its place.
+// Writes into an existing file without replacing it.
 void writeInto(const std::string& path, std::string_view content) {
   File file(path, O_WRONLY);
   if (!file.isOpen()) refuse(path, errno);
@@ -177,7 +178,7 @@ void requireWritableFolder(const std::string& folder) {
   const bool made = fs::create_directories(folder, code);
   if (code) refuse(folder, code.message());
   requireWritable((fs::path(folder) / "grisaille").string());
-  // What is refused for another reason leaves no empty folder behind.
+  // Only a check: do not leave an empty folder behind.
   if (made) fs::remove(folder, code);
 }
 

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: MIT
-// Output files that are whole or not there (atomic writes).
+// Atomic writes: an output file is complete or does not exist.
 #pragma once
 
 #include <filesystem>
@@ -8,27 +8,27 @@
 
 namespace grisaille {
 
-// Writes `content` to a part file beside the target, "<target>.<pid>.part", then renames the part
-// to the target. The target is `path`, or what its symbolic links lead to: the links stay, and a
-// missing target is created. If anything fails, the part is removed and an older target stays as it
-// was. A process that is killed meanwhile leaves its part, whose ending no reader looks for.
+// Writes `content` to a temporary file beside the target, "<target>.<pid>.part", then renames it to
+// the target. The target is `path`, or the file that its symbolic links lead to: the links stay,
+// and a missing target is created. If a step fails, the function removes the temporary file and
+// leaves an older target unchanged. A process killed during the write leaves its temporary file; no
+// reader looks for files with that ending.
 //
-// A replaced target keeps its permission bits and, where the system allows it, its owner and group;
-// a new one gets 0666 less the umask. A device, named pipe or socket is never replaced: `content`
-// is written to it, which waits for the reader of a named pipe. The file that standard output or
-// standard error goes to is written through that stream, after what was printed before.
+// A replaced target keeps its permission bits and, if the system allows it, its owner and group; a
+// new target gets 0666 minus the umask. The function never replaces a device, named pipe or socket:
+// it writes `content` into it, and for a named pipe waits for the reader. If standard output or
+// standard error is redirected to the target, it writes through that stream, after earlier output.
 //
 // Throws kFileUnwritable.
 void writeFileAtomically(const std::string& path, std::string_view content);
 
-// Before work that takes long: throws kFileUnwritable where nothing can be written at `path`, or
-// into a folder that is there or can be made. What is there stays as it is.
+// Checks, before long work, that a file can be written at `path`, or into `folder`, which may be
+// missing if it can be created. Existing files and folders stay unchanged. Throws kFileUnwritable.
 void requireWritable(const std::string& path);
 void requireWritableFolder(const std::string& folder);
 
-// The file that writeFileAtomically() writes, with an absolute path and no links in it: equal for
-// two paths exactly if they name the same file. Throws kFileUnwritable where the links go in a
-// circle.
+// The absolute path, without links, of the file that writeFileAtomically() writes: equal for two
+// paths exactly if they name the same file. Throws kFileUnwritable if the links form a cycle.
 std::filesystem::path targetOf(const std::string& path);
 
 }  // namespace grisaille

@@ -17,14 +17,14 @@ enum class ErrorId : int {
 #undef GRISAILLE_ERROR
 };
 
-// What to do about an error: the sentence of the list, without a full stop.
+// The remedy for an error, from the list, without a full stop.
 std::string_view remedyOf(ErrorId id);
 
-// Replaces every control character by '?', so that text taken from a file or a driver stays on one
-// line, and cuts it to 400 bytes.
+// Replaces every control character by '?', which keeps text from a file or a driver on one line,
+// and truncates the text to 400 bytes.
 std::string oneLine(std::string_view text);
 
-// Thrown by the whole core. `what()` is the full line.
+// The exception of all core code. what() returns the full line.
 class Error : public std::runtime_error {
  public:
   // `detail` says what failed and why, without a full stop.

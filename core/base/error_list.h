@@ -1,30 +1,32 @@
 // SPDX-License-Identifier: MIT
-// The one list of errors: GRISAILLE_ERROR(name, number, what to do). Numbers are never reused.
+// The list of all errors: GRISAILLE_ERROR(name, number, remedy). Numbers are never reused.
 // 1xxx the GPU layer, 2xxx scenes and cameras, 3xxx effects and plugins, 4xxx images and files,
 // 5xxx the command line and settings.
-// No include guard: included where GRISAILLE_ERROR is defined.
+// No include guard: a file that includes this list first defines GRISAILLE_ERROR.
 
 // --- 10xx: a device and its backend
 GRISAILLE_ERROR(kBackendMissing, 1001, "install its driver library or choose another --backend")
 GRISAILLE_ERROR(kBackendUnknown, 1002, "choose opengl or vulkan")
-GRISAILLE_ERROR(kNoDevice, 1003, "see `grisaille backends` for what is there")
+GRISAILLE_ERROR(kNoDevice, 1003, "see `grisaille backends` for the list of devices")
 GRISAILLE_ERROR(kDeviceTooOld, 1004, "update the driver or choose another --device or --backend")
 GRISAILLE_ERROR(kDeviceFailed, 1005, "report it with the line above, or try the other --backend")
 GRISAILLE_ERROR(kDeviceLost, 1006, "start again; lower the size or the settings if it repeats")
 GRISAILLE_ERROR(kOutOfDeviceMemory, 1007, "use a smaller --size or close other programs")
 GRISAILLE_ERROR(kShaderRefused, 1008,
                 "report it with the driver's name, or try the other --backend")
-GRISAILLE_ERROR(kDriverMessages, 1009, "report them; the program should cause none")
-GRISAILLE_ERROR(kNoWindow, 1010, "make the device with a window")
+GRISAILLE_ERROR(kDriverMessages, 1009, "report them; the program should not cause any")
+GRISAILLE_ERROR(kNoWindow, 1010, "create the device with a window")
 // --- 11xx: descriptors
 GRISAILLE_ERROR(kStaleHandle, 1101, "do not use a resource after destroying it")
 GRISAILLE_ERROR(kTooManyResources, 1102, "destroy resources that are no longer used")
 GRISAILLE_ERROR(kBufferSize, 1103, "give a size from 1 byte to the device's limit")
-GRISAILLE_ERROR(kBufferUsage, 1104, "name at least one usage, and bind a buffer only as named")
+GRISAILLE_ERROR(kBufferUsage, 1104,
+                "name at least one usage, and bind a buffer only for its usages")
 GRISAILLE_ERROR(kTextureSize, 1105, "give sizes from 1 to the device's limit")
 GRISAILLE_ERROR(kTextureMips, 1106, "give 1 to floor(log2(largest side)) + 1 levels")
 GRISAILLE_ERROR(kTextureFormat, 1107, "choose a format that allows the usage")
-GRISAILLE_ERROR(kTextureUsage, 1108, "name at least one usage, and bind a texture only as named")
+GRISAILLE_ERROR(kTextureUsage, 1108,
+                "name at least one usage, and bind a texture only for its usages")
 GRISAILLE_ERROR(kShaderMissing, 1109, "give a compiled shader of the right stage")
 GRISAILLE_ERROR(kSpecialization, 1110, "set only constants that the shader declares, each once")
 GRISAILLE_ERROR(kPipelineTargets, 1111, "match the target formats of pipeline and render call")
@@ -36,7 +38,8 @@ GRISAILLE_ERROR(kPassNesting, 1203, "end one pass before the next, and all befor
 GRISAILLE_ERROR(kPassMissing, 1204, "record work between beginPass() and endPass()")
 GRISAILLE_ERROR(kBindingMissing, 1205, "bind every slot that the shader reads or writes")
 GRISAILLE_ERROR(kBindingUnknown, 1206, "bind only slots that the shader declares, each once")
-GRISAILLE_ERROR(kBindingRange, 1207, "bind a range inside the resource, aligned as the device asks")
+GRISAILLE_ERROR(kBindingRange, 1207,
+                "bind a range inside the resource, aligned as the device requires")
 GRISAILLE_ERROR(kBindingSmall, 1208, "bind at least as many bytes as the shader's block holds")
 GRISAILLE_ERROR(kBindingFormat, 1209, "bind an image of the format that the shader declares")
 GRISAILLE_ERROR(kHazard, 1210, "do not read and write one subresource in the same call")
@@ -45,7 +48,7 @@ GRISAILLE_ERROR(kDispatchSize, 1212, "dispatch 1 to the device's limit of groups
 GRISAILLE_ERROR(kTargetMismatch, 1213, "give targets of one size, at least one")
 GRISAILLE_ERROR(kDrawRange, 1214, "draw only indices and vertices that the buffers hold")
 GRISAILLE_ERROR(kUploadRange, 1215, "upload exactly the bytes of a range inside the resource")
-GRISAILLE_ERROR(kTransientStale, 1216, "use a transient texture only in the frame that made it")
+GRISAILLE_ERROR(kTransientStale, 1216, "use a transient texture only in the frame that created it")
 GRISAILLE_ERROR(kReadbackRange, 1217, "read a subresource or range that exists")
 GRISAILLE_ERROR(kLeaked, 1218, "destroy every resource before its device")
 GRISAILLE_ERROR(kUniformSize, 1219, "give 1 to 65536 bytes")
@@ -72,23 +75,22 @@ GRISAILLE_ERROR(kPluginTable, 3104,
 GRISAILLE_ERROR(kPluginDuplicate, 3105, "remove one of the two plugins or rename the effect")
 GRISAILLE_ERROR(kPluginPath, 3106, "give a folder that exists and can be read")
 GRISAILLE_ERROR(kPluginCrashes, 3107,
-                "repair the plugin, with what `grisaille effects --verify FILE` says of it")
+                "repair the plugin; `grisaille effects --verify FILE` shows what fails")
 // --- 32xx: running effects
-GRISAILLE_ERROR(kEffectUnknown, 3201, "see `grisaille effects` for what is there")
+GRISAILLE_ERROR(kEffectUnknown, 3201, "see `grisaille effects` for the list of effects")
 GRISAILLE_ERROR(kEffectCreate, 3202, "leave the effect out of --effects or repair its plugin")
 GRISAILLE_ERROR(kEffectRecord, 3203, "leave the effect out of --effects or repair its plugin")
 GRISAILLE_ERROR(kEffectTwice, 3204, "name each effect once")
 GRISAILLE_ERROR(kEffectTakesNoObjects, 3205,
                 "name an active effect whose table declares objects, see `grisaille effects`")
-GRISAILLE_ERROR(kEffectFaulty, 3206, "repair what the report above calls a fault")
-GRISAILLE_ERROR(kEffectOutput, 3207,
-                "see what `grisaille effects --verify FILE` says of the effect's plugin")
+GRISAILLE_ERROR(kEffectFaulty, 3206, "repair the faults that the report above lists")
+GRISAILLE_ERROR(kEffectOutput, 3207, "run `grisaille effects --verify FILE` on the effect's plugin")
 // --- 33xx: parameter values
 GRISAILLE_ERROR(kParameterUnknown, 3301, "see `grisaille effects` for the keys")
 GRISAILLE_ERROR(kParameterRange, 3302, "give a value inside the range")
 GRISAILLE_ERROR(kParameterType, 3303, "give a value of the parameter's type")
 GRISAILLE_ERROR(kPresetUnknown, 3311, "see `grisaille effects` for an effect's presets")
-GRISAILLE_ERROR(kPresetFile, 3312, "make the file anew with `grisaille measure --presets`")
+GRISAILLE_ERROR(kPresetFile, 3312, "create the file again with `grisaille measure --presets`")
 // --- 34xx: objects that users make
 GRISAILLE_ERROR(kObjectField, 3401, "give a field of the effect's table a value inside its range")
 GRISAILLE_ERROR(kObjectIndex, 3402, "name an object of the list, counted from 0")
@@ -109,24 +111,24 @@ GRISAILLE_ERROR(kUsage, 5101, "see --help")
 GRISAILLE_ERROR(kOutputUnknown, 5102, "name an output of the frame or of an active effect")
 GRISAILLE_ERROR(kSettingsUnreadable, 5103, "check the path and that the file is TOML")
 GRISAILLE_ERROR(kSettingsInvalid, 5104, "correct the line that the message names")
-GRISAILLE_ERROR(kViewerState, 5105, "nothing needs doing; the viewer starts with its defaults")
+GRISAILLE_ERROR(kViewerState, 5105, "no action needed; the viewer starts with its defaults")
 GRISAILLE_ERROR(kTruthUnknown, 5106, "name ao, ao_error, ceiling, ceiling_error, depth or normal")
-GRISAILLE_ERROR(kTruthCache, 5107, "remove it; the truth is traced again")
-GRISAILLE_ERROR(kLeftOut, 5108, "build it again with the option that the message names")
+GRISAILLE_ERROR(kTruthCache, 5107, "remove the file; the program traces the truth again")
+GRISAILLE_ERROR(kLeftOut, 5108, "build the program again with the option that the message names")
 // --- 52xx: the viewer
 GRISAILLE_ERROR(kNoDisplay, 5201, "start it on a desktop, or use `grisaille render`")
 GRISAILLE_ERROR(kWindowFailed, 5202, "update the driver or choose another --backend")
 GRISAILLE_ERROR(kFileUnknown, 5203, "give a .glb, .gltf, .toml or .json file")
 // --- 53xx: studies
-GRISAILLE_ERROR(kStudyRecord, 5301, "remove the file; it is measured again")
+GRISAILLE_ERROR(kStudyRecord, 5301, "remove the file; the program measures again")
 GRISAILLE_ERROR(kFrontSmall, 5302, "measure a grid whose settings differ in cost and in error")
 GRISAILLE_ERROR(kTuneImpossible, 5303,
                 "allow more, --vary more parameters or a larger --evaluations")
-GRISAILLE_ERROR(kUnstable, 5304, "see the cases that the table in --out prints bold")
+GRISAILLE_ERROR(kUnstable, 5304, "see the cases in bold in the table in --out")
 // --- 54xx: new effects
 GRISAILLE_ERROR(kProjectName, 5401, "give 1 to 40 of a-z, 0-9 and _, beginning with a letter")
-GRISAILLE_ERROR(kProjectFolder, 5402, "name a folder that is empty or not there yet")
-// --- 55xx: pictures made elsewhere
+GRISAILLE_ERROR(kProjectFolder, 5402, "name a folder that is empty or does not exist")
+// --- 55xx: pictures of other renderers
 GRISAILLE_ERROR(kPictureCamera, 5501,
                 "give --camera FILE, or a depth that holds worldToCamera and worldToNDC")
 GRISAILLE_ERROR(kPictureMatrices, 5502, "give --camera FILE instead of the picture's own matrices")
@@ -134,23 +136,28 @@ GRISAILLE_ERROR(kPictureSize, 5503, "give whole pictures, all of one size")
 GRISAILLE_ERROR(kPictureDepth, 5504, "repair the picture, or name another --depth-kind")
 GRISAILLE_ERROR(kPictureChannels, 5505,
                 "name the channels with --depth-channel or --normal-channels")
-GRISAILLE_ERROR(kPictureMissing, 5506,
-                "give the picture that the message names, or leave out what reads it")
+GRISAILLE_ERROR(
+    kPictureMissing, 5506,
+    "give the picture that the message names, or leave out the effect or output that reads it")
 GRISAILLE_ERROR(kPictureDeep, 5508,
-                "flatten it, for example with `oiiotool DEEP.exr --flatten -o FLAT.exr`")
+                "flatten the picture, for example with `oiiotool DEEP.exr --flatten -o FLAT.exr`")
 GRISAILLE_ERROR(kSequence, 5507, "number the files with %04d or ####, the same frames in each")
-// --- 56xx: in other programs
-GRISAILLE_ERROR(kHostNull, 5601, "give what the message names")
+// --- 56xx: libgrisaille
+GRISAILLE_ERROR(kHostNull, 5601, "pass a pointer that is not null")
 GRISAILLE_ERROR(kHostStruct, 5602, "set struct_size to the size of the struct")
 GRISAILLE_ERROR(kHostDevice, 5603,
-                "give the handles of one device that has what the header asks for")
-GRISAILLE_ERROR(kHostContext, 5604, "make the OpenGL context current that the device was made in")
+                "give the handles of one device that meets the requirements in host.h")
+GRISAILLE_ERROR(kHostContext, 5604, "make the device's OpenGL context current")
 GRISAILLE_ERROR(kHostTexture, 5605, "describe a 2D texture of one sample that shaders can sample")
-GRISAILLE_ERROR(kHostFrame, 5606, "count frames upwards and give the frame's command buffer")
-GRISAILLE_ERROR(kHostCamera, 5607, "give a rotation, finite metres and near under far")
+GRISAILLE_ERROR(kHostFrame, 5606,
+                "count frames upwards; pass a command buffer with Vulkan, null with OpenGL")
+GRISAILLE_ERROR(kHostCamera, 5607,
+                "give a rotation, finite distances, and a near plane nearer than the far plane")
 GRISAILLE_ERROR(kHostInUse, 5608, "destroy textures and effects before their device")
-GRISAILLE_ERROR(kHostForeign, 5609, "use only what one device has made with each other")
-GRISAILLE_ERROR(kHostMissing, 5610, "give the texture that the message names, or ask for less")
+GRISAILLE_ERROR(kHostForeign, 5609, "use only objects of one device together")
+GRISAILLE_ERROR(
+    kHostMissing, 5610,
+    "give the texture that the message names, or choose outputs and parameters that do not read it")
 GRISAILLE_ERROR(kHostValue, 5611, "give one of the values that the header lists")
 // --- 90xx: the program itself
 GRISAILLE_ERROR(kUnexpected, 9001, "report it with the command that led here")

@@ -1,12 +1,12 @@
 // SPDX-License-Identifier: MIT
-// Where what the program loads while it runs lies.
+// The folder of the libraries that the program loads at run time.
 #pragma once
 
 #include <filesystem>
 
 namespace grisaille {
 
-// lib/grisaille beside the folder of the program; "" where the system does not tell it.
+// lib/grisaille beside the program's folder; "" if the system does not report that folder.
 inline std::filesystem::path libraryFolder() {
   std::error_code failed;
   const auto program = std::filesystem::read_symlink("/proc/self/exe", failed);

@@ -9,7 +9,7 @@
 namespace grisaille {
 namespace {
 
-// Edit distance with swaps of neighbours: insertions, deletions, changes and swaps count 1.
+// Edit distance in which an insertion, a deletion, a change and a swap of neighbours each count 1.
 size_t distance(std::string_view a, std::string_view b) {
   std::vector<size_t> beforeLast, last(b.size() + 1), current(b.size() + 1);
   std::iota(last.begin(), last.end(), size_t{0});
@@ -31,9 +31,9 @@ size_t distance(std::string_view a, std::string_view b) {
 
 std::string nearest(std::string_view word, std::span<const std::string> candidates) {
   const std::string* best = nullptr;
-  size_t least = word.size() / 3 + 2;  // one more than may be wrong
+  size_t least = word.size() / 3 + 2;  // one more than the largest allowed distance
   for (const std::string& candidate : candidates) {
-    // The lengths' difference alone is too much: a file's key may be as long as the file.
+    // Skip by length alone: a key taken from a file may be as long as the file.
     if (std::max(word.size(), candidate.size()) - std::min(word.size(), candidate.size()) >=
         least) {
       continue;

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: MIT
-// What a misspelt word meant.
+// Suggestions for misspelt words.
 #pragma once
 
 #include <span>
@@ -8,8 +8,8 @@
 
 namespace grisaille {
 
-// The candidate that `word` most likely meant (edit distance, at most a third of its letters plus
-// one wrong), or "" where none is near.
+// The candidate nearest to `word` by edit distance, or "" if no distance is at most a third of the
+// word's length plus 1.
 std::string nearest(std::string_view word, std::span<const std::string> candidates);
 
 }  // namespace grisaille

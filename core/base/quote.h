@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: MIT
-// Words for a shell.
+// Quoting for a shell.
 #pragma once
 
 #include <string>
@@ -7,7 +7,7 @@
 
 namespace grisaille {
 
-// `text` as one word of a POSIX shell: in single quotes where that is needed.
+// `text` as one word of a POSIX shell, in single quotes if necessary.
 std::string shellQuoted(std::string_view text);
 
 }  // namespace grisaille

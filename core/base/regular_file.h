@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: MIT
-// Readers of files that users name. They refuse a named pipe, which may block, a device, which may
-// never end, and a folder.
+// Readers of files that users name. They refuse named pipes (which may block), devices (which may
+// never end) and folders.
 #pragma once
 
 #include <cstdint>
@@ -13,8 +13,9 @@
 
 namespace grisaille {
 
-// Why the file at `path` cannot be read as a regular file, for messages: "it is a named pipe; only
-// regular files are read", or the system's reason, as when it is missing. "" for a regular file.
+// The reason why the file at `path` cannot be read as a regular file, for messages: "it is a named
+// pipe; only regular files are read", or the system's reason, for example that the file is missing.
+// "" for a regular file.
 std::string whyNotRegular(const std::filesystem::path& path);
 
 // Throws Error(id, "PATH: why") unless `path` names a regular file, directly or through links.
@@ -23,10 +24,10 @@ void requireRegularFile(const std::filesystem::path& path, ErrorId id);
 // Opens a regular file for reading, as bytes. Throws Error(id, "PATH: why").
 std::ifstream openRegularFile(const std::filesystem::path& path, ErrorId id);
 
-// The same where something is at `path`, else none.
+// The same if `path` exists; nullopt otherwise.
 std::optional<std::ifstream> openRegularFileIfThere(const std::filesystem::path& path, ErrorId id);
 
-// The whole of a regular file of at most `mostBytes`. Throws Error(id, "PATH: why").
+// The content of a regular file of at most `mostBytes`. Throws Error(id, "PATH: why").
 std::string readRegularFile(const std::filesystem::path& path, ErrorId id,
                             uintmax_t mostBytes = UINTMAX_MAX);
 

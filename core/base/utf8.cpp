@@ -6,8 +6,8 @@
 namespace grisaille {
 namespace {
 
-// Bytes of the character that `text` begins with; 0: it is none. Forms that are longer than needed
-// and surrogates are none (RFC 3629).
+// Bytes of the character that `text` begins with; 0 if it does not begin with a valid character.
+// Overlong forms and surrogates are invalid (RFC 3629).
 size_t lengthOf(std::string_view text) {
   const auto byte = [&](size_t i) { return i < text.size() ? static_cast<uint8_t>(text[i]) : 0u; };
   const uint32_t first = byte(0);

@@ -6,7 +6,8 @@
 
 namespace grisaille {
 
-// The first byte that begins no UTF-8 character; std::string_view::npos: all is UTF-8.
+// Index of the first byte that does not begin a UTF-8 character; std::string_view::npos if all of
+// `text` is UTF-8.
 size_t invalidUtf8(std::string_view text);
 
 }  // namespace grisaille

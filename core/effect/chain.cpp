@@ -10,11 +10,11 @@
 namespace grisaille::effect {
 namespace {
 
-// By the keys of the old table's fields, where the new one has the same field: its index there.
+// For each field of the old table: the index of the same field in the new table, or nullopt.
 using Counterparts = std::vector<std::optional<size_t>>;
 
-// Adds a line for each field that is gone or of another type. None: the new table requires a field
-// that the old objects do not have.
+// Adds a line to `dropped` for each field that is missing or has another type. Returns nullopt if
+// the new table requires a field that the old objects do not have.
 std::optional<Counterparts> counterpartsOf(const objects::Table& old, const objects::Table& table,
                                            std::vector<std::string>& dropped) {
   const std::span fields = objects::fieldsOf(table);
@@ -25,7 +25,7 @@ std::optional<Counterparts> counterpartsOf(const objects::Table& old, const obje
       return std::string_view(field.key) == other.key && field.type == other.type;
     });
     if (found == fields.end()) {
-      dropped.push_back(fmt::format("{}.{} is not there, or of another type", old.key, field.key));
+      dropped.push_back(fmt::format("{}.{} is missing or has another type", old.key, field.key));
       counterparts.emplace_back();
     } else {
       counterparts.emplace_back(found - fields.begin());
@@ -40,7 +40,7 @@ std::optional<Counterparts> counterpartsOf(const objects::Table& old, const obje
   return counterparts;
 }
 
-// What `old` holds, in a list of the new table, whose fields may be others. New fields have their
+// Converts `old` to a list of the new table, which may have other fields. New fields get their
 // defaults.
 objects::ObjectList converted(const objects::ObjectList& old, const objects::Table& table,
                               std::vector<std::string>& dropped) {

@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: MIT
-// The effects at work: the selection, the objects that users made for them, and, on a device, an
-// instance of each. Every command, the viewer and libgrisaille hand a chain to what draws.
+// The chain of effects: the selection, the objects that users made for each effect, and, on a
+// device, an instance of each. Every command, the viewer and libgrisaille render through a chain.
 #pragma once
 
 #include <map>
@@ -23,58 +23,58 @@ class Chain {
   Chain& operator=(Chain&&) = default;
   ~Chain() = default;
 
-  // Free to be changed, or exchanged for another of the same registry, between frames. Objects and
-  // instances stay with the effect's key.
+  // Between frames, callers may change it or replace it by another selection of the same registry.
+  // Objects and instances belong to the effect's key.
   Selection selection;
 
-  // --- Objects, by the effect's key. They are there whether the effect is on or off.
+  // --- Objects, by the effect's key. They exist whether the effect is on or off.
 
-  // Null: the selection has no such effect, or its table declares none.
+  // Null if the selection has no effect with this key or its table declares no objects.
   objects::ObjectList* objects(std::string_view effect);
-  // Those that were asked for so far.
+  // All lists that objects() has created.
   const std::map<std::string, objects::ObjectList, std::less<>>& objectLists() const {
     return lists_;
   }
-  // Grows with every change of any list, and with every list that rebind() drops or converts.
+  // Increases with every change of a list, and with every list that rebind() drops or converts.
   uint64_t objectsRevision() const;
 
   // --- On a device
 
-  // From now on instances are on this device, which outlives them; those before end.
+  // Ends all instances and sets the device of new ones; the device must outlive them.
   void start(gpu::Maker& device);
-  // Creates the instances that are missing of effects that are on. Outside of a frame. Throws
-  // kEffectCreate.
+  // Creates the missing instances of active effects. Call it outside a frame. Throws kEffectCreate.
   void create();
-  // Ends all instances; create() creates new ones. What an effect throws is printed.
+  // Ends all instances; create() creates new ones. Prints the exceptions of effects.
   void stop() { running_.clear(); }
-  // The same, and throws kEffectRecord where an effect throws.
+  // The same as stop(), but throws kEffectRecord if an effect throws.
   void end();
 
-  // Records one effect that was created into the frame that `inputs` describes but for values and
-  // objects. Returns how many things wait to be drawn in a later frame. Throws as Instance does.
+  // Records one effect, which create() has created. `inputs` describes the frame; the function
+  // fills in values and objects. Returns the number of pieces of work that wait for a later frame.
+  // Throws the errors of Instance::record().
   uint64_t record(const Selection::Entry& entry, FrameInputs inputs);
 
   // --- Plugins
 
-  // Takes over to a fresh registry, while the old one lives. Instances end. Effects that are still
-  // there keep their place, values and objects. Where an effect's table of objects is another one,
-  // each object keeps the fields of the same key and type, and the list starts without steps to
-  // undo. Returns a line for each effect, value, field and object that is dropped.
+  // Moves the chain to a fresh registry; call it while the old registry lives. All instances end.
+  // Effects that still exist keep their place, values and objects. If an effect's table of objects
+  // has changed, each object keeps the fields of the same key and type, and the list starts without
+  // steps to undo. Returns one line per effect, value, field and object that is dropped.
   std::vector<std::string> rebind(const Registry& fresh);
 
  private:
   struct Running {
     std::unique_ptr<Instance> instance;
-    uint64_t seen = 0;  // revision of the objects in the last frame that recorded without an error
+    uint64_t seen = 0;  // revision of the objects in the last frame recorded without error
   };
 
   gpu::Maker* device_ = nullptr;
-  uint64_t endedRevisions_ = 0;                                    // of lists that are gone
+  uint64_t endedRevisions_ = 0;                                    // sum over dropped lists
   std::map<std::string, objects::ObjectList, std::less<>> lists_;  // by effect
   std::map<std::string, Running, std::less<>> running_;            // by effect
 };
 
-// A chain that is started on a device, as long as this lives: its instances end before the device.
+// Starts a chain on a device for its own lifetime: the instances end before the device.
 class StartedChain {
  public:
   StartedChain(Chain& chain, gpu::Maker& device) : chain_(chain) { chain_.start(device); }
@@ -86,7 +86,8 @@ class StartedChain {
   Chain& chain_;
 };
 
-// The guard band that an effect wants with these values about a picture so high, pixels.
+// Width in pixels of the guard band that an effect wants with these values, for a picture of
+// `height` pixels.
 uint32_t guardBand(const Values& values, uint32_t height);
 
 }  // namespace grisaille::effect

@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: MIT
-// Calls of a plugin's functions. No exception may cross the C interface; one that does ends here,
-// while the code is loaded that it came from.
+// Calls of a plugin's functions. No exception may cross the C interface. If one does, it is caught
+// here, while the plugin's code is still loaded.
 #pragma once
 
 #include <exception>
@@ -9,14 +9,14 @@
 
 namespace grisaille::effect {
 
-// Which of a plugin's functions runs in this thread, for the last words of a program that crashes.
+// The plugin function that runs in this thread, for the crash handler's message.
 struct RunningCall {
-  const char* effect = nullptr;  // null: none
+  const char* effect = nullptr;  // null: no function runs
   const char* function = nullptr;
 };
 inline thread_local RunningCall runningCall;
 
-// Sets it for a scope.
+// Sets runningCall for a scope.
 class NamedCall {
  public:
   NamedCall(const char* effect, const char* function) : before_(runningCall) {
@@ -30,7 +30,7 @@ class NamedCall {
   RunningCall before_;
 };
 
-// What `call` returns. Throws an Error of this number where it throws anything.
+// Returns the result of `call`. Replaces any exception from it by an Error with this number.
 template <typename Call>
 auto foreignCall(ErrorId id, const char* effect, const char* function, Call&& call) {
   const NamedCall named(effect, function);

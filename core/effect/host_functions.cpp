@@ -21,7 +21,7 @@ template <typename... Args>
   throw Misuse(fmt::format(what, std::forward<Args>(args)...));
 }
 
-// No version has given these another size, so that a size is right or wrong.
+// These structs have the same size in all versions: any other size is wrong.
 template <typename Desc>
 const Desc& checked(const Desc* desc) {
   if (desc == nullptr) misuse("its description is null");
@@ -44,7 +44,7 @@ std::span<const std::byte> bytesOf(const void* data, uint64_t bytes) {
 
 template <typename T>
 T& present(T* out) {
-  if (out == nullptr) misuse("the place for its result is null");
+  if (out == nullptr) misuse("the pointer for its result is null");
   return *out;
 }
 
@@ -62,7 +62,7 @@ void checkRay(uint64_t index, const grisaille_ray& ray) {
 
 }  // namespace
 
-// What the tables point to. Nothing may leave them but a result.
+// The functions in the tables. They return a result and let no exception out.
 struct HostFunctions {
   template <typename Table, typename Work>
   static grisaille_result serve(const Table* self, const char* service, Work&& work) noexcept {
@@ -80,7 +80,7 @@ struct HostFunctions {
         note(services, fmt::format("{}: {}", service, error.what()));
       }
     } catch (...) {
-    }  // no memory for the words: failing without them is what is left
+    }  // out of memory for the message: fail without it
     return GRISAILLE_FAILED;
   }
 
@@ -105,7 +105,7 @@ struct HostFunctions {
                                          grisaille_pipeline* out) {
     return serve(self, "create_pipeline", [&](HostServices& s) {
       const grisaille_pipeline_desc& d = checked(desc);
-      if (checked(d.shader).stage != GRISAILLE_STAGE_COMPUTE) misuse("it is no compute shader");
+      if (checked(d.shader).stage != GRISAILLE_STAGE_COMPUTE) misuse("it is not a compute shader");
       std::vector<gpu::Specialization> constants;
       for (const grisaille_constant& c : array(d.constants, d.constant_count, "constants")) {
         constants.push_back({c.id, c.bits});
@@ -159,15 +159,15 @@ struct HostFunctions {
     });
   }
 
-  // Makes a resource and enters it into `own` and `out`.
+  // Creates a resource and stores its id in `own` and `out`.
   template <typename Id, typename Make>
   static void give(std::unordered_set<uint32_t>& own, Id& out, Make&& make) {
-    own.reserve(own.size() + 1);  // nothing may throw once the resource is there
+    own.reserve(own.size() + 1);  // nothing may throw once the resource exists
     out.id = make().value;
     own.insert(out.id);
   }
 
-  // Both kinds of list hold few.
+  // Linear search: the lists are short.
   static void enter(std::vector<uint32_t>& list, uint32_t id) {
     if (!holds(list, id)) list.push_back(id);
   }
@@ -195,7 +195,7 @@ struct HostFunctions {
     serve(self, service, [&](HostServices& s) {
       using Handle = typename decltype((s.*kind).buried)::value_type;
       if ((s.*kind).own.erase(id) == 0) {
-        if (s.misuse_.empty()) s.misuse_ = fmt::format("{}: {:#x} is not its own", service, id);
+        if (s.misuse_.empty()) s.misuse_ = fmt::format("{}: it does not own {:#x}", service, id);
       } else if (s.commands_ != nullptr) {
         (s.*kind).buried.push_back({id});
       } else {
@@ -311,12 +311,12 @@ struct HostFunctions {
     return record(self, "waiting", [&](HostServices& s) { s.waiting_ = count; });
   }
 
-  // Conversions. They throw Misuse for what is not the effect's to use.
+  // Conversions. They throw Misuse for a resource that the effect may not use.
   static gpu::TextureDesc textureDesc(const grisaille_texture_desc& desc) {
     const gpu::Format format = formatOf(desc.format);
-    if (format == gpu::Format::kNone) misuse("format {} is none", desc.format);
+    if (format == gpu::Format::kNone) misuse("format {} is not a grisaille_format", desc.format);
     constexpr uint32_t kUsages = GRISAILLE_TEXTURE_SAMPLED | GRISAILLE_TEXTURE_STORAGE;
-    if ((desc.usage & ~kUsages) != 0) misuse("usage {:#x} is none", desc.usage);
+    if ((desc.usage & ~kUsages) != 0) misuse("usage {:#x} has unknown bits", desc.usage);
     gpu::TextureUsage usage = gpu::TextureUsage::kNone;
     if ((desc.usage & GRISAILLE_TEXTURE_SAMPLED) != 0) usage = usage | gpu::TextureUsage::kSampled;
     if ((desc.usage & GRISAILLE_TEXTURE_STORAGE) != 0) usage = usage | gpu::TextureUsage::kStorage;
@@ -342,7 +342,7 @@ struct HostFunctions {
     const bool mine = s.textures_.own.contains(id) || holds(s.writable_, id);
     const bool attachment = std::ranges::any_of(s.attachments_, [&](auto a) { return a.id == id; });
     if (id == 0 || (!mine && !attachment)) misuse("texture {:#x} is not this effect's", id);
-    if (written && !mine) misuse("texture {:#x} is an attachment, which is only read", id);
+    if (written && !mine) misuse("texture {:#x} is a read-only attachment", id);
     return {id};
   }
 
@@ -363,7 +363,7 @@ struct HostFunctions {
       case GRISAILLE_SLOT_IMAGE:
         return gpu::imageBinding(b.slot, textureOf(s, b.texture.id, true), b.mip);
       default:
-        misuse("slot_class {} is none", b.slot_class);
+        misuse("slot_class {} is not a grisaille_slot_class", b.slot_class);
     }
   }
 };

@@ -88,7 +88,7 @@ void HostServices::close() {
   try {
     commands->endPass();
   } catch (const Error&) {
-    // The call has failed anyhow, and the frame will be abandoned.
+    // The call has already failed, and the caller abandons the frame.
   }
 }
 
@@ -116,7 +116,7 @@ void HostServices::destroyOwn(Kind<Handle>& kind) noexcept {
     try {
       device_.destroy(handle);
     } catch (const Error&) {
-      // The device is lost, or its own destruction will report what is left.
+      // The device is lost, or its destructor reports the remaining resources.
     }
   }
   kind.buried.clear();

@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: MIT
-// The host's side of grisaille_host and grisaille_frame for one instance: it turns the C structs
-// into the layer's, catches what the layer throws, and knows which resources are the effect's own.
+// The host's side of grisaille_host and grisaille_frame for one instance: it converts the C structs
+// to the GPU layer's, catches the layer's exceptions, and tracks the resources that the effect
+// owns.
 #pragma once
 
 #include <optional>
@@ -15,38 +16,38 @@ namespace grisaille::effect {
 
 class HostServices;
 
-// The tables with all functions, for one instance; the frame's data is empty.
+// The function tables for one instance; the frame's data members are empty.
 grisaille_host hostTable(HostServices* self);
 grisaille_frame frameTable(HostServices* self);
 
 class HostServices {
  public:
-  // The effect's key is in labels.
+  // Labels of passes and resources begin with the effect's key.
   HostServices(gpu::Maker& device, const Effect& effect);
   HostServices(const HostServices&) = delete;
   HostServices& operator=(const HostServices&) = delete;
 
-  // The table that the effect's create() gets; good until the end.
+  // The table that the effect's create() gets; valid while this lives.
   const grisaille_host* table() const { return &host_; }
 
-  // Around each of the effect's functions, which alone may ask for services. open() forgets the
-  // faults of the call before; openFrame() also destroys what was destroyed during the frame
-  // before.
+  // Call open() or openFrame() before each of the effect's functions, and close() after it: only
+  // these functions may call services. open() forgets the faults of the previous call. openFrame()
+  // also frees the resources that the effect destroyed during the previous frame.
   void open();
   const grisaille_frame* openFrame(const FrameInputs& inputs);
-  void close();  // ends a pass that was left open, which is a fault
+  void close();  // also ends a pass that the effect left open, which is a fault
 
-  // Why the call between open() and close() failed, in one line; "" when it did not.
+  // The reason why the call between open() and close() failed, in one line; "" if it succeeded.
   std::string failure(grisaille_result result) const;
 
-  // By what number: the device's where its memory ran out or it was lost, which is no fault of the
-  // effect's; else `otherwise`.
+  // The number of that error: the device's if it ran out of memory or was lost, which is not the
+  // effect's fault; else `otherwise`.
   ErrorId failureId(ErrorId otherwise) const { return deviceFault_.value_or(otherwise); }
 
-  // What the effect counted in the last frame.
+  // Number of waiting pieces of work that the effect reported in the last frame.
   uint64_t waiting() const { return waiting_; }
 
-  // Destroys what the effect left.
+  // Destroys the resources that the effect has not destroyed.
   void destroyAll() noexcept;
 
  private:
@@ -54,8 +55,8 @@ class HostServices {
 
   template <typename Handle>
   struct Kind {
-    std::unordered_set<uint32_t> own;  // the instance's; the C id is the handle's value
-    std::vector<Handle> buried;        // destroyed during the frame that may use them still
+    std::unordered_set<uint32_t> own;  // the instance owns these; the C id is the handle's value
+    std::vector<Handle> buried;        // to free after the frame, which may still use them
   };
 
   void noteDeviceFault(ErrorId id) {
@@ -68,39 +69,39 @@ class HostServices {
   template <typename Handle>
   void destroyOwn(Kind<Handle>& kind) noexcept;
 
-  // Kept from frame to frame, as all that recording fills: it allocates nothing then.
+  // Returns label_. Recording reuses its containers between frames and allocates no memory.
   const std::string& labelled(const char* label);
 
   gpu::Maker& device_;
   std::string key_;
   const bool takesObjects_;
   grisaille_host host_;
-  bool inside_ = false;  // an effect's function runs
+  bool inside_ = false;  // one of the effect's functions runs
 
   Kind<gpu::Buffer> buffers_;
   Kind<gpu::Texture> textures_;
   Kind<gpu::Sampler> samplers_;
   Kind<gpu::ComputePipeline> pipelines_;
 
-  // Of the frame being recorded.
+  // State of the frame that is being recorded.
   grisaille_frame frame_;
   grisaille_objects objects_ = {};
   Services offered_;
   uint64_t waiting_ = 0;
   gpu::Commands* commands_ = nullptr;
   bool passOpen_ = false;
-  std::vector<grisaille_texture> attachments_;  // may be read
+  std::vector<grisaille_texture> attachments_;  // the effect may read these
   std::vector<grisaille_texture> outputs_;
   std::vector<uint32_t> writable_;      // transients and outputs
   std::vector<uint32_t> uniforms_;      // buffers
   std::vector<gpu::Binding> bindings_;  // of a dispatch
-  std::string label_;                   // of a pass or a transient texture
+  std::string label_;                   // the last that labelled() built
   uint64_t frames_ = 0;
 
-  // Of the call since open().
-  std::string ownWords_;  // the effect's
-  std::string refused_;   // the first service that was refused, and why
-  std::string misuse_;    // the first fault that no result could tell the effect of
+  // State of the call since open().
+  std::string ownWords_;  // the effect's message
+  std::string refused_;   // the first service that failed, and why
+  std::string misuse_;    // the first fault that no result could report to the effect
   std::optional<ErrorId> deviceFault_;
 };
 

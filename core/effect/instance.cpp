@@ -37,8 +37,8 @@ struct Instance::State {
 
   const grisaille_effect_desc& desc;
   HostServices services;
-  void* effect = nullptr;  // what create() handed out
-  bool made = false;       // and destroy() has not been called
+  void* effect = nullptr;  // the instance from create()
+  bool made = false;       // create() succeeded and destroy() was not called yet
 };
 
 Instance::Instance(gpu::Maker& device, const Effect& effect)
@@ -82,7 +82,7 @@ void Instance::record(const FrameInputs& inputs) {
     result = foreignCall(ErrorId::kEffectRecord, state_->desc.key, "record",
                          [&] { return state_->desc.record(state_->effect, frame); });
   } catch (...) {
-    services.close();  // with the pass that it left open
+    services.close();  // also ends a pass that the effect left open
     throw;
   }
   services.close();

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: MIT
-// One effect at work on one device.
+// One instance of an effect on one device.
 #pragma once
 
 #include <array>
@@ -14,71 +14,71 @@
 
 namespace grisaille::effect {
 
-// kNone for a number that names no format.
+// kNone for a number that is not a grisaille_format.
 gpu::Format formatOf(uint32_t format);
 
-// Who casts an effect's rays through the scene.
+// Casts an effect's rays through the scene.
 class RayService {
  public:
   virtual ~RayService() = default;
 
-  // One hit a ray. Rays are as grisaille/effect.h has them. Throws Error.
+  // Writes one hit per ray. The rays are within the limits of grisaille_ray. Throws Error.
   virtual void cast(std::span<const grisaille_ray> rays, std::span<grisaille_hit> hits) = 0;
 };
 
-// Who decodes picture files for effects.
+// Decodes picture files for effects.
 class PictureService {
  public:
   virtual ~PictureService() = default;
 
-  // As grisaille_host.read_picture has it. Throws Error where the file cannot be read.
+  // See grisaille_host::read_picture. Throws Error if the file cannot be read.
   virtual void read(const char* path, grisaille_picture& out) = 0;
 };
 
-// Null: not offered.
+// The services that the host offers; null: not offered.
 struct Services {
   RayService* rays = nullptr;
   PictureService* pictures = nullptr;
 };
 
-// What one record() works on. Everything is valid during the call.
+// The inputs of one record(), valid during the call.
 struct FrameInputs {
   gpu::Commands* commands = nullptr;
   uint32_t width = 0;
   uint32_t height = 0;
-  uint32_t guard = 0;  // as grisaille_frame has it
+  uint32_t guard = 0;  // see grisaille_frame
   const grisaille_view* view = nullptr;
   gpu::BufferRange viewBlock;
   std::array<gpu::Texture, GRISAILLE_ATTACHMENT_COUNT> attachments;
-  std::span<const gpu::Texture> outputs;  // one an output; null where nobody wants it
-  double patience = std::numeric_limits<double>::infinity();  // as grisaille_frame has it
+  std::span<const gpu::Texture> outputs;                      // one per output; null: not wanted
+  double patience = std::numeric_limits<double>::infinity();  // see grisaille_frame
   Services services = {};
 
   // The chain fills these in.
   std::span<const double> values = {};
   objects::View objects = {};  // for effects whose table declares objects
-  size_t objectsKept = 0;      // as grisaille_objects has it
+  size_t objectsKept = 0;      // see grisaille_objects::kept
 };
 
 class Instance {
  public:
-  // Throws kEffectCreate with the effect's own words.
+  // Throws kEffectCreate with the effect's message.
   Instance(gpu::Maker& device, const Effect& effect);
   ~Instance();
   Instance(const Instance&) = delete;
   Instance& operator=(const Instance&) = delete;
 
-  // Destroys the effect, which is of no use from then on. Throws kEffectRecord where the effect
-  // throws. The destructor, which calls it, prints that instead.
+  // Destroys the effect's instance; do not call record() afterwards. Throws kEffectRecord if the
+  // effect throws. The destructor calls end() and prints that error instead of throwing it.
   void end();
 
   // Records the effect's passes, labelled "<effect key>/<pass>". Throws kEffectRecord with the
-  // effect's own words and the layer's error that made it fail, by its number; the frame is then to
-  // be abandoned. At most once between the device's begin() and submit(): what the effect destroys
-  // meanwhile is kept until the next call, since this frame may use it.
+  // effect's message and the number of the GPU layer's error behind it; the caller must then
+  // abandon the frame. Call it at most once between the device's begin() and submit(): resources
+  // that the effect destroys in record() stay until the next call, because this frame may use them.
   void record(const FrameInputs& inputs);
 
-  // What waits to be drawn, as the effect counted it in the last record().
+  // Number of waiting pieces of work that the effect reported in the last record().
   uint64_t waiting() const;
 
  private:

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: MIT
-// A parameter by name, "ssao.radius", as the command line, files and reports have it.
+// The name of a parameter on the command line, in files and in reports: "ssao.radius".
 #pragma once
 
 #include <compare>
@@ -20,13 +20,13 @@ struct ParameterName {
 // "ssao.radius=0.5"
 struct Assignment {
   ParameterName name;
-  std::string value;  // text, as on the command line
+  std::string value;  // in the form of the command line
 
   std::string text() const { return name.text() + "=" + value; }
   auto operator<=>(const Assignment&) const = default;
 };
 
-// A parameter's value, as grisaille_param_desc has it.
+// A parameter's value as a number: see grisaille_param_desc.
 struct ParameterValue {
   ParameterName name;
   double value = 0;

@@ -24,14 +24,15 @@ extern char** environ;
 namespace grisaille::effect {
 namespace {
 
-constexpr size_t kLongestAnswer = 4096;  // bytes: what a pipe takes at once
+constexpr size_t kLongestAnswer = 4096;  // bytes; a pipe takes this many in one write
 
-// The pipe through which the process answers.
+// The pipe through which the probe process answers.
 class Answer {
  public:
   Answer() {
     if (pipe2(ends_, O_CLOEXEC | O_NONBLOCK) == 0) return;
-    throw Error(ErrorId::kPluginCrashes, "it cannot be tried out: {}", std::strerror(errno));
+    throw Error(ErrorId::kPluginCrashes, "cannot start the probe process: {}",
+                std::strerror(errno));
   }
   ~Answer() {
     close(ends_[0]);
@@ -42,7 +43,7 @@ class Answer {
 
   int writingEnd() const { return ends_[1]; }
 
-  // Does not wait: a process that the plugin started may hold the other end open.
+  // Does not wait: a process that the plugin started may keep the other end open.
   std::string text() const {
     std::string text(kLongestAnswer, '\0');
     const ssize_t count = read(ends_[0], text.data(), text.size());
@@ -54,7 +55,7 @@ class Answer {
   int ends_[2] = {-1, -1};
 };
 
-// Its output is nobody's: what the plugin says while it loads, it says again to the host.
+// Starts the probe process. Discards its output: the plugin prints the same when the host loads it.
 pid_t start(const std::string& program, const std::string& plugin, const Answer& answer) {
   posix_spawn_file_actions_t actions;
   posix_spawn_file_actions_init(&actions);
@@ -68,15 +69,15 @@ pid_t start(const std::string& program, const std::string& plugin, const Answer&
   const int failed = posix_spawn(&process, program.c_str(), &actions, nullptr, arguments, environ);
   posix_spawn_file_actions_destroy(&actions);
   if (failed == 0) return process;
-  throw Error(ErrorId::kPluginCrashes, "it cannot be tried out: {}: {}", program,
+  throw Error(ErrorId::kPluginCrashes, "cannot start the probe process: {}: {}", program,
               std::strerror(failed));
 }
 
-// Whether it ended by itself.
+// Waits until the process ends. Returns false if it still runs after `patience`.
 bool ends(pid_t process, std::chrono::milliseconds patience) {
-  // Not by pidfd_open(): glibc 2.36 declares it without C linkage.
+  // Not pidfd_open(): glibc 2.36 declares it without C linkage.
   const auto file = static_cast<int>(syscall(SYS_pidfd_open, process, 0));
-  if (file < 0) return true;  // then the wait below is without a limit
+  if (file < 0) return true;  // waitpid() in probe() then waits without a limit
   pollfd ended = {.fd = file, .events = POLLIN, .revents = 0};
   int ready = 0;
   do {
@@ -86,7 +87,7 @@ bool ends(pid_t process, std::chrono::milliseconds patience) {
   return ready != 0;
 }
 
-// Throws the refusal that the process answered with. Returns where that is no error of plugins.
+// Throws the error in the process's answer. Returns if the answer is not an error of a plugin.
 void throwRefusal(const std::string& answer) {
   int number = 0;
   const char* end = answer.data() + answer.size();

@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: MIT
-// Plugins of others, loaded in a process of their own first: loading runs their code, and what ends
-// the process then is no error that a host could catch.
+// Loads third-party plugins in a separate process first: loading runs a plugin's code, and a host
+// cannot catch a crash in it.
 #pragma once
 
 #include <chrono>
@@ -9,13 +9,13 @@
 namespace grisaille::effect {
 
 // Loads and checks the plugin at `path` in another process, and unloads it there if it is accepted.
-// Throws the error by which the registry of that process refuses the plugin, so that nothing of it
-// is loaded here. Throws kPluginCrashes if that process crashes, exits early or takes longer than
-// `patience`.
+// If the registry of that process refuses the plugin, throws the same error here; this process then
+// does not load the plugin. Throws kPluginCrashes if that process crashes, exits early or takes
+// longer than `patience`.
 void probe(const std::string& path, std::chrono::milliseconds patience = std::chrono::seconds(10));
 
-// Exit statuses of that process, which no plugin is likely to exit with. A refusing process writes
-// the error's number, a space and its detail to kProbeAnswer.
+// Exit statuses of that process, which a plugin is unlikely to exit with. A process that refuses
+// the plugin writes the error's number, a space and its detail to kProbeAnswer.
 constexpr int kProbeAccepted = 83, kProbeRefused = 84;
 constexpr int kProbeAnswer = 3;  // file descriptor
 

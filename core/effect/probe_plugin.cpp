@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: MIT
-// grisaille_probe_plugin FILE: loads and checks a plugin, unloads it if it is accepted, and says by
-// its exit status that it got as far as that. See probe.h.
+// grisaille_probe_plugin FILE: loads and checks a plugin, and unloads it if it is accepted. Its
+// exit status tells the result. See probe.h.
 #include <sys/resource.h>
 #include <unistd.h>
 
@@ -13,7 +13,7 @@ namespace {
 
 using grisaille::Error;
 
-// The registry puts the path first, as the host's registry does with the path that it was given.
+// Removes the path that the registry puts first: the host's registry adds its own path.
 std::string answerOf(const Error& error, const std::string& path) {
   std::string detail = error.detail();
   if (detail.starts_with(path + ": ")) detail.erase(0, path.size() + 2);
@@ -25,7 +25,7 @@ std::string answerOf(const Error& error, const std::string& path) {
 int main(int argc, char** argv) {
   if (argc != 2) return 2;
   const rlimit none = {0, 0};
-  setrlimit(RLIMIT_CORE, &none);  // nobody looks into a crash that was expected
+  setrlimit(RLIMIT_CORE, &none);  // a crash here is expected: write no core dump
   try {
     grisaille::effect::Registry().load(argv[1]);
   } catch (const Error& error) {
@@ -34,5 +34,5 @@ int main(int argc, char** argv) {
     const bool whole = written == static_cast<ssize_t>(answer.size());
     _exit(whole ? grisaille::effect::kProbeRefused : 1);
   }
-  _exit(grisaille::effect::kProbeAccepted);  // past what the plugin left for the end
+  _exit(grisaille::effect::kProbeAccepted);  // skips the plugin's exit handlers
 }

@@ -22,12 +22,13 @@ void checkAbi(const grisaille_plugin_desc& plugin) {
                 plugin.magic, GRISAILLE_MAGIC);
   }
   if (plugin.abi_major != GRISAILLE_ABI_MAJOR || plugin.abi_minor > GRISAILLE_ABI_MINOR) {
-    throw Error(ErrorId::kPluginAbi, "it is made for version {}.{}, this program has {}.{}",
+    throw Error(ErrorId::kPluginAbi,
+                "it was built for interface version {}.{}, but this program has {}.{}",
                 plugin.abi_major, plugin.abi_minor, GRISAILLE_ABI_MAJOR, GRISAILLE_ABI_MINOR);
   }
 }
 
-// By grisaille_attachment.
+// Indexed by grisaille_attachment.
 constexpr std::array kAttachmentNames = {"depth",       "view_depth",   "normal",
                                          "base_colour", "facet_normal", "back_depth"};
 static_assert(kAttachmentNames.size() == GRISAILLE_ATTACHMENT_COUNT);
@@ -43,12 +44,12 @@ std::vector<std::string> attachmentNames(uint32_t reads) {
 }
 
 struct Registry::State {
-  std::vector<Effect> effects;                                      // by key
-  std::vector<std::unique_ptr<const grisaille_effect_desc>> descs;  // of them
+  std::vector<Effect> effects;                                      // sorted by key
+  std::vector<std::unique_ptr<const grisaille_effect_desc>> descs;  // the effects point to these
   std::vector<Refused> refused;
   std::vector<Library> libraries;
   std::set<fs::path> loadedFiles;   // real paths
-  std::set<fs::path> refusedFiles;  // real paths, by scan()
+  std::set<fs::path> refusedFiles;  // real paths, refused in scan()
 
   void take(const Library& library, const std::string& path, Origin origin);
   void add(const std::string& path, Origin origin);
@@ -68,7 +69,7 @@ void Registry::State::add(const std::string& path, Origin origin) {
   try {
     take(library, path, origin);
   } catch (...) {
-    // A refused plugin stays loaded: a thread that its loading started may still run its code.
+    // A refused plugin stays loaded: a thread that it started while loading may still run its code.
     static_cast<void>(library.release());
     throw;
   }
@@ -86,7 +87,7 @@ void Registry::State::take(const Library& library, const std::string& path, Orig
     const auto twin = std::ranges::find_if(
         effects, [&](const Effect& e) { return std::string_view(e.desc->key) == desc->key; });
     if (twin != effects.end()) {
-      throw Error(ErrorId::kPluginDuplicate, "its effect {} is in {} already", desc->key,
+      throw Error(ErrorId::kPluginDuplicate, "its effect {} is already in {}", desc->key,
                   twin->path);
     }
   }
@@ -100,7 +101,7 @@ void Registry::State::take(const Library& library, const std::string& path, Orig
 void Registry::scan(const std::string& folder, Origin origin) {
   std::vector<std::string> paths;
   std::error_code failed;
-  // increment(), not ++, so that a folder that fails halfway is an error of ours.
+  // increment(), not ++: an error in the middle of a folder then sets `failed` and does not throw.
   for (fs::directory_iterator file(folder, failed); !failed && file != fs::directory_iterator();
        file.increment(failed)) {
     if (file->path().extension() == ".so") paths.push_back(file->path().string());

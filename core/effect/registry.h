@@ -1,5 +1,6 @@
 // SPDX-License-Identifier: MIT
-// Which effects there are: plugins found in folders, checked by table, refused by name and reason.
+// The registry of effects: it finds plugins in folders, checks their tables, and refuses plugins
+// with a reason.
 #pragma once
 
 #include <memory>
@@ -14,14 +15,14 @@
 
 namespace grisaille::effect {
 
-// Whose a plugin is. Loading runs its code, so that those of others are tried out in a process of
-// their own first: see probe.h.
+// Whether a plugin belongs to the program or to a third party. Loading a plugin runs its code, so a
+// third-party plugin is loaded in a separate process first: see probe.h.
 enum class Origin : uint8_t { kOwn, kForeign };
 
-// An effect of a loaded plugin. What it points to is valid while its registry lives.
+// An effect of a loaded plugin. Its pointers are valid while its registry lives.
 struct Effect {
-  const grisaille_effect_desc* desc = nullptr;  // whole, however old the plugin
-  std::string path;                             // of the plugin
+  const grisaille_effect_desc* desc = nullptr;  // all fields present, even for an older plugin
+  std::string path;                             // the plugin's file
   Origin origin = Origin::kOwn;
 
   std::string_view key() const { return desc->key; }
@@ -29,14 +30,14 @@ struct Effect {
   std::span<const grisaille_output_desc> outputs() const {
     return {desc->outputs, desc->output_count};
   }
-  // Null: users make none for it.
+  // Null: the effect takes no objects.
   const grisaille_object_desc* objects() const { return desc->objects; }
-  // Which attachments it reads with these values for these outputs.
+  // The attachments that the effect reads with these values for these outputs.
   uint32_t reads(const double* values, uint32_t wanted) const {
     return foreignCall(ErrorId::kEffectRecord, desc->key, "reads",
                        [&] { return desc->reads(values, wanted); });
   }
-  // As guard_band() has it, 0 where the plugin's answer is no share.
+  // See grisaille_effect_desc::guard_band; 0 if the plugin's result is outside 0 to 1.
   double guardBand(const double* values) const {
     if (desc->guard_band == nullptr) return 0;
     const double share = foreignCall(ErrorId::kEffectRecord, desc->key, "guard_band",
@@ -45,7 +46,7 @@ struct Effect {
   }
 };
 
-// The names of GRISAILLE_READS' bits, as headers and messages have them: "view_depth", ...
+// The attachments' names for a combination of GRISAILLE_READS: "view_depth", ...
 std::vector<std::string> attachmentNames(uint32_t reads);
 
 struct Refused {
@@ -54,7 +55,7 @@ struct Refused {
 };
 
 // Throws kPluginTable with the field's path ("effects[0].params[3].hard_max"). The registry calls
-// it once magic and versions fit, before anything of the plugin is called.
+// it after checking magic and version, before it calls any function of the plugin.
 void checkTable(const grisaille_plugin_desc& plugin);
 
 class Registry {
@@ -64,24 +65,23 @@ class Registry {
   Registry(const Registry&) = delete;
   Registry& operator=(const Registry&) = delete;
 
-  // Loads every *.so of a folder, in the order of their names. Plugins that do not fit join
-  // refused(), each file once. Throws kPluginPath when the folder cannot be read.
+  // Loads every *.so of a folder, in the order of their names. Adds refused plugins to refused(),
+  // each file once. Throws kPluginPath if the folder cannot be read.
   void scan(const std::string& folder, Origin origin = Origin::kOwn);
 
-  // Loads one plugin: all its effects or none. A file that is loaded already, by whatever path, is
-  // passed over. Throws kPlugin*; what is already registered stays. A refused plugin is never
-  // unloaded, as its threads may still run; a foreign one is mostly refused by probe(), before
-  // anything of it is loaded here.
+  // Loads one plugin: all its effects or none. Skips a file that is already loaded, under any path.
+  // Throws kPlugin*; registered effects stay. A refused plugin is never unloaded, because its
+  // threads may still run; probe() refuses most foreign plugins before this process loads them.
   void load(const std::string& path, Origin origin = Origin::kOwn);
 
-  std::span<const Effect> effects() const;  // by key; good until the next scan() or load()
+  std::span<const Effect> effects() const;  // sorted by key; valid until the next scan() or load()
   std::span<const Refused> refused() const;
 
-  // The keys of the program's own effects that are marked GRISAILLE_EFFECT_DEFAULT.
+  // The keys of the program's own effects with the flag GRISAILLE_EFFECT_DEFAULT.
   std::vector<std::string> defaults() const;
 
-  // Throws kEffectUnknown, with the nearest key, and with the reason when a plugin whose file is
-  // named after the key was refused. The reference is good as long as effects().
+  // Throws kEffectUnknown with the nearest key, or with the reason if a plugin with that file name
+  // was refused. The reference is valid as long as effects().
   const Effect& find(std::string_view key) const;
 
  private:
@@ -89,9 +89,9 @@ class Registry {
   std::unique_ptr<State> state_;
 };
 
-// Where plugins are looked for: `lib/grisaille/effects` beside the program's folder, then the
-// folders of GRISAILLE_EFFECT_PATH (':' between), then `extra`. The first is the program's own and
-// may be missing; the others not.
+// The folders that are searched for plugins: `lib/grisaille/effects` beside the program's folder,
+// then the folders of GRISAILLE_EFFECT_PATH (separated by ':'), then `extra`. The first holds the
+// program's own plugins and may be missing; the others must exist.
 struct SearchPath {
   std::string folder;
   bool required = false;

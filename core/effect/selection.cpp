@@ -35,7 +35,7 @@ const Selection::Entry* Selection::find(std::string_view key) const {
 Values& Selection::values(std::string_view key) {
   Entry* entry = find(key);
   if (entry != nullptr && entry->on) return entry->values;
-  if (registry_ != nullptr) registry_->find(key);  // the likelier mistake: say so first
+  if (registry_ != nullptr) registry_->find(key);  // the likelier mistake: report it first
   throw Error(ErrorId::kEffectUnknown, "effect '{}' is set but not among the active effects",
               oneLine(key));
 }
@@ -73,13 +73,13 @@ Selection::State Selection::state() const {
 
 std::vector<std::string> Selection::restore(const State& state) {
   std::vector<std::string> dropped;
-  size_t placed = 0;  // entries that are in place
+  size_t placed = 0;  // number of entries already in place
   for (const State::One& one : state.effects) {
     const Entry* found = find(one.key);
     const auto index = found == nullptr ? 0 : static_cast<size_t>(found - entries_.data());
     if (found == nullptr || index < placed) {
       dropped.push_back(fmt::format("effect {} is {}", oneLine(one.key),
-                                    found == nullptr ? "not there" : "named twice"));
+                                    found == nullptr ? "unknown" : "named twice"));
       continue;
     }
     move(index, placed);

@@ -1,5 +1,6 @@
 // SPDX-License-Identifier: MIT
-// Which effects run, in which order and with what values: data that can be copied and compared.
+// The effects that run, with their order and parameter values: data that can be copied and
+// compared.
 #pragma once
 
 #include <span>
@@ -24,8 +25,8 @@ class Selection {
     const Effect& effect() const { return values.effect(); }
   };
 
-  // The same without pointers into plugins: what undo keeps while plugins come and go. Values are
-  // as Values::text() has them, which loses nothing.
+  // A selection without pointers into plugins, which undo can keep while plugins are reloaded.
+  // Values are the text of Values::text(), which is lossless.
   struct State {
     struct One {
       std::string key;
@@ -40,40 +41,40 @@ class Selection {
   };
 
   Selection() = default;
-  // All effects of the registry, by key, off, with defaults. The registry outlives the selection
-  // and scans nothing meanwhile.
+  // All effects of the registry, sorted by key, off, with default values. The registry must outlive
+  // the selection and load nothing in the meantime.
   explicit Selection(const Registry& registry);
-  // These effects, on, in this order, with defaults. Throws kEffectUnknown, kEffectTwice.
+  // These effects, on, in this order, with default values. Throws kEffectUnknown, kEffectTwice.
   Selection(const Registry& registry, std::span<const std::string> keys);
 
   std::vector<Entry>& entries() { return entries_; }
   const std::vector<Entry>& entries() const { return entries_; }
 
-  // Null: there is none. Good until the order changes.
+  // Null if there is no effect with this key. Valid until the order changes.
   Entry* find(std::string_view key);
   const Entry* find(std::string_view key) const;
 
-  // Of an effect that is on. Throws kEffectUnknown.
+  // The values of an effect that is on. Throws kEffectUnknown.
   Values& values(std::string_view key);
-  // Throws as values() and Values::set() do.
+  // Throws the errors of values() and Values::set().
   void set(const Assignment& assignment) {
     values(assignment.name.effect).set(assignment.name.key, assignment.value);
   }
 
   void set(const ParameterValue& one) { values(one.name.effect).set(one.name.key, one.value); }
 
-  // Those that are on, in order.
+  // The effects that are on, in order.
   std::vector<const Effect*> effects() const;
 
-  // The effect at `from` gets the index `to`; those between close up. Nothing happens where either
-  // is no index.
+  // Moves the effect at index `from` to index `to`; the effects between shift by one. Does nothing
+  // if an index is out of range.
   void move(size_t from, size_t to);
 
   State state() const;
 
-  // By the keys of effects and parameters. What the state does not name of an effect that it names
-  // gets its default; effects that it does not name stay behind the others, off, with their values.
-  // Returns a line for each effect, parameter or value that no longer exists or fits.
+  // Restores a state, by the keys of effects and parameters. A parameter that the state omits gets
+  // its default. Effects that the state omits move behind the others, off, and keep their values.
+  // Returns one line per effect, parameter or value of the state that does not exist or fit.
   std::vector<std::string> restore(const State& state);
 
  private:

@@ -28,9 +28,9 @@ bool read(std::ifstream& file, uint64_t offset, T* out, size_t count = 1) {
   return file.good();
 }
 
-// Whether the file ends before a part that its headers tell the loader to map. The loader does not
-// look: touching what is missing would end the program (SIGBUS). Files that are no ELF file of this
-// machine's word size are left to the loader, which refuses them.
+// Whether the file ends before a segment that its headers tell the loader to map. The loader does
+// not check this: an access to the missing part would crash the program (SIGBUS). Returns false for
+// files that are not ELF files of this machine's word size; the loader refuses them.
 bool isCutShort(const std::string& path, uint64_t bytes) {
   std::ifstream file(path, std::ios::binary);
   ElfW(Ehdr) header;
@@ -46,9 +46,9 @@ bool isCutShort(const std::string& path, uint64_t bytes) {
   return false;
 }
 
-// The same file by a name that no library of this process has: by a name that it knows, the loader
-// gives what it has, though the file may be another by now. Files that have not changed it knows
-// by their number all the same.
+// Another name of the same file, which this process has not loaded yet. For a known name, the
+// loader returns the loaded library even if the file has changed since. It still recognises an
+// unchanged file by its inode number.
 std::string freshName(const std::string& path) {
   static std::atomic<size_t> opened = 0;
   constexpr size_t kNames = 256;

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: MIT
-// A shared library as a file that may be anything.
+// Loads shared libraries, from files that may have any content.
 #pragma once
 
 #include <memory>
@@ -12,7 +12,7 @@ struct CloseLibrary {
 };
 using Library = std::unique_ptr<void, CloseLibrary>;
 
-// Throws kPluginUnloadable with the loader's words.
+// Throws kPluginUnloadable with the loader's message.
 Library openLibrary(const std::string& path);
 
 // Throws kPluginSymbol.

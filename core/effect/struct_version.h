@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: MIT
-// Structs of the C interface that grow with its versions: each begins with its size as the side
-// that filled it knows it. Fields beyond that size read as zero.
+// Structs of the C interface that grow with its versions: each begins with its size in the version
+// that its writer was built with. Fields beyond that size read as zero.
 #pragma once
 
 #include <fmt/format.h>
@@ -14,8 +14,8 @@
 
 namespace grisaille::effect {
 
-// `sizes`: of each version, this program's first. `owner` names the struct in messages. Throws
-// kPluginTable.
+// `sizes`: the struct's size in each version, this program's first. `owner` names the struct in
+// messages. Throws kPluginTable.
 inline void checkStructSize(const std::string& owner, uint32_t size,
                             std::initializer_list<size_t> sizes) {
   const size_t known = *sizes.begin();
@@ -25,11 +25,11 @@ inline void checkStructSize(const std::string& owner, uint32_t size,
                 known);
   }
   if (std::ranges::find(sizes, size) != sizes.end()) return;
-  throw Error(ErrorId::kPluginTable, "{}.struct_size is {}, which no version has; there are {}",
+  throw Error(ErrorId::kPluginTable, "{}.struct_size is {}, which no version has; versions have {}",
               owner, size, fmt::join(sizes, ", "));
 }
 
-// A struct whose size is checked, with the fields that it lacks as zero.
+// A copy of a struct with a checked size; fields beyond that size are zero.
 template <typename Desc>
 Desc whole(const Desc* desc) {
   Desc copy = {};

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: MIT
-// The rules of grisaille/effect.h for a plugin's tables, field by field.
+// Checks a plugin's tables, field by field, by the rules of grisaille/effect.h.
 #include <algorithm>
 #include <array>
 #include <cmath>
@@ -22,12 +22,12 @@ constexpr uint32_t kParamFlags = GRISAILLE_PARAM_LOG | GRISAILLE_PARAM_ADVANCED;
 constexpr uint32_t kMaxFields = 64;
 constexpr uint32_t kMaxObjectSize = 4096;
 constexpr uint32_t kEffectFlags = GRISAILLE_EFFECT_DEFAULT;
-// Of each version, this program's first.
+// Size of the struct in each version, this program's first.
 constexpr std::initializer_list<size_t> kEffectDescSizes = {sizeof(grisaille_effect_desc)};
 constexpr double kMaxWhole = 9007199254740992;  // 2^53: beyond it a double skips whole numbers
 constexpr std::array<std::string_view, 5> kUnits = {"", "m", "px", "rad", "s"};
 
-// `what` goes on from the field's path: "is 3, over 2".
+// `what` continues the sentence after the field's path: "is 3, over 2".
 template <typename... Args>
 [[noreturn]] void refuse(const std::string& field, fmt::format_string<Args...> what,
                          Args&&... args) {
@@ -45,7 +45,7 @@ void checkZero(const std::string& field, uint32_t value) {
 
 void checkFlags(const std::string& owner, uint32_t flags, uint32_t known) {
   if ((flags & ~known) != 0) {
-    refuse(owner + ".flags", "is {:#x}, of which this program knows {:#x}", flags, known);
+    refuse(owner + ".flags", "is {:#x}, but this program knows only {:#x}", flags, known);
   }
 }
 
@@ -54,7 +54,7 @@ void checkPresent(const std::string& field, Pointer pointer) {
   if (pointer == nullptr) refuse(field, "is null");
 }
 
-// One line for people, which is UTF-8: the panel shows it, and JSON holds nothing else.
+// One line of UTF-8: the panel shows it, and JSON requires UTF-8.
 void checkLine(const std::string& field, const char* text) {
   checkPresent(field, text);
   if (*text == '\0') refuse(field, "is empty");
@@ -65,7 +65,7 @@ void checkLine(const std::string& field, const char* text) {
   }
   const size_t wrong = invalidUtf8(text);
   if (wrong != std::string_view::npos) {
-    refuse(field, "holds the byte {:#04x}, which is no UTF-8 there",
+    refuse(field, "holds the byte {:#04x}, which is not valid UTF-8",
            static_cast<unsigned char>(text[wrong]));
   }
 }
@@ -85,13 +85,13 @@ void checkKey(const std::string& field, const char* key) {
   }
 }
 
-// `keyOf(n)` for n < index is checked already.
+// The caller has checked `keyOf(n)` for n < index.
 template <typename KeyOf>
 void checkUnique(const std::string& list, const char* member, uint32_t index, KeyOf&& keyOf) {
   const std::string_view key = keyOf(index);
   for (uint32_t i = 0; i < index; ++i) {
     if (key == keyOf(i)) {
-      refuse(fmt::format("{}[{}]{}", list, index, member), "is \"{}\", as {}[{}]{} is already", key,
+      refuse(fmt::format("{}[{}]{}", list, index, member), "is \"{}\", the same as {}[{}]{}", key,
              list, i, member);
     }
   }
@@ -114,7 +114,7 @@ void checkEnum(const std::string& at, const grisaille_param_desc& param) {
 }
 
 void checkType(const std::string& at, const grisaille_param_desc& param) {
-  if (param.type > GRISAILLE_PARAM_ENUM) refuse(at + ".type", "is {}, which is none", param.type);
+  if (param.type > GRISAILLE_PARAM_ENUM) refuse(at + ".type", "is {}, not a type", param.type);
   checkFlags(at, param.flags, kParamFlags);
   const bool isEnum = param.type == GRISAILLE_PARAM_ENUM;
   if (isEnum) {
@@ -124,7 +124,7 @@ void checkType(const std::string& at, const grisaille_param_desc& param) {
   }
   const bool isBool = param.type == GRISAILLE_PARAM_BOOL;
   if ((isEnum || isBool) && (param.flags & GRISAILLE_PARAM_LOG) != 0) {
-    refuse(at + ".flags", "asks for a logarithmic scale, which only numbers have");
+    refuse(at + ".flags", "sets GRISAILLE_PARAM_LOG, which only floats and ints may have");
   }
   if (isEnum || isBool) {
     const double last = isBool ? 1.0 : param.enum_count - 1.0;
@@ -194,25 +194,25 @@ void checkOutput(const std::string& at, const grisaille_output_desc& output) {
   checkLine(at + ".tooltip", output.tooltip);
   const uint32_t format = output.format;
   if (format < GRISAILLE_FORMAT_R8 || format > GRISAILLE_FORMAT_R32UI) {
-    refuse(at + ".format", "is {}, which is none", format);
+    refuse(at + ".format", "is {}, which is not a grisaille_format", format);
   }
   if (output.role > GRISAILLE_ROLE_TINT) {
-    refuse(at + ".role", "is {}, which is none", output.role);
+    refuse(at + ".role", "is {}, which is not a grisaille_role", output.role);
   }
   if (output.role == GRISAILLE_ROLE_VISIBILITY && format == GRISAILLE_FORMAT_R32UI) {
-    refuse(at + ".format", "is {}, whose whole numbers cannot be a visibility", format);
+    refuse(at + ".format", "is {}, an integer format, which cannot be a visibility", format);
   }
   if (output.role == GRISAILLE_ROLE_OWNER && format != GRISAILLE_FORMAT_R32UI) {
-    refuse(at + ".format", "is {}, which cannot number objects", format);
+    refuse(at + ".format", "is {}, must be GRISAILLE_FORMAT_R32UI for an owner", format);
   }
   const bool coloured = output.role == GRISAILLE_ROLE_OVERLAY || output.role == GRISAILLE_ROLE_TINT;
   if (coloured && format != GRISAILLE_FORMAT_RGBA8 && format != GRISAILLE_FORMAT_RGBA16F &&
       format != GRISAILLE_FORMAT_RGBA32F) {
-    refuse(at + ".format", "is {}, without four channels", format);
+    refuse(at + ".format", "is {}, which does not have four channels", format);
   }
 }
 
-// Bytes of one element, by grisaille_field_type, and how many a field has.
+// Bytes of one element and number of elements, by grisaille_field_type.
 constexpr std::array<uint32_t, 6> kElementSizes = {8, 4, 8, 4, sizeof(char*), sizeof(char*)};
 constexpr std::array<uint32_t, 6> kElements = {1, 3, 3, 3, 1, 1};
 
@@ -220,7 +220,7 @@ uint64_t endOf(const grisaille_field_desc& field) {
   return uint64_t{field.offset} + uint64_t{kElementSizes[field.type]} * kElements[field.type];
 }
 
-// The fields before it are checked already.
+// The caller has checked the fields before it.
 void checkFieldPlace(const std::string& at, uint32_t index, const grisaille_object_desc& object) {
   const grisaille_field_desc& field = object.fields[index];
   const uint32_t element = kElementSizes[field.type];
@@ -243,13 +243,13 @@ void checkFieldValues(const std::string& at, const grisaille_field_desc& field) 
   const bool number = field.type == GRISAILLE_FIELD_NUMBER;
   const bool text = field.type == GRISAILLE_FIELD_TEXT || field.type == GRISAILLE_FIELD_FILE;
   if (number && !(std::isfinite(field.min) && std::isfinite(field.max) && field.min < field.max)) {
-    refuse(at + ".max", "is {}, with a min of {}: the two are no range", field.max, field.min);
+    refuse(at + ".max", "is {}, must be over min {}, and both finite", field.max, field.min);
   }
-  if (!number && (field.min != 0 || field.max != 0)) refuse(at + ".max", "is for numbers alone");
+  if (!number && (field.min != 0 || field.max != 0)) refuse(at + ".max", "is only for numbers");
   if (text) {
     checkPresent(at + ".default_text", field.default_text);
   } else if (field.default_text != nullptr) {
-    refuse(at + ".default_text", "is for texts and files alone");
+    refuse(at + ".default_text", "is only for texts and files");
   }
   try {
     objects::checked(field, objects::defaultOf(field));
@@ -265,10 +265,10 @@ void checkField(const std::string& at, uint32_t index, const grisaille_object_de
   checkLine(at + ".label", field.label);
   checkUnit(at, field.unit);
   checkLine(at + ".tooltip", field.tooltip);
-  if (field.type > GRISAILLE_FIELD_FILE) refuse(at + ".type", "is {}, which is none", field.type);
+  if (field.type > GRISAILLE_FIELD_FILE) refuse(at + ".type", "is {}, not a type", field.type);
   checkFlags(at, field.flags, GRISAILLE_FIELD_REQUIRED);
   if (field.type != GRISAILLE_FIELD_NUMBER && *field.unit != '\0') {
-    refuse(at + ".unit", "is \"{}\", which is for numbers alone", field.unit);
+    refuse(at + ".unit", "is \"{}\", must be empty: only numbers have a unit", field.unit);
   }
   checkFieldPlace(at, index, object);
   checkFieldValues(at, field);
@@ -276,23 +276,25 @@ void checkField(const std::string& at, uint32_t index, const grisaille_object_de
 
 void checkPlacement(const std::string& at, const grisaille_object_desc& object) {
   if (object.placement > GRISAILLE_PLACE_SURFACE) {
-    refuse(at + ".placement", "is {}, which is none", object.placement);
+    refuse(at + ".placement", "is {}, which is not a grisaille_placement", object.placement);
   }
   const auto type = [&](uint32_t index) {
     return index < object.field_count ? object.fields[index].type : ~0u;
   };
   if (type(object.point_field) != GRISAILLE_FIELD_POINT) {
-    refuse(at + ".point_field", "is {}, which is no point", object.point_field);
+    refuse(at + ".point_field", "is {}, which is not the index of a point field",
+           object.point_field);
   }
   if (type(object.direction_field) != GRISAILLE_FIELD_DIRECTION) {
-    refuse(at + ".direction_field", "is {}, which is no direction", object.direction_field);
+    refuse(at + ".direction_field", "is {}, which is not the index of a direction field",
+           object.direction_field);
   }
 }
 
 void checkObjects(const std::string& at, const grisaille_object_desc& object) {
   checkStructSize(at, object.struct_size, {sizeof(grisaille_object_desc)});
   checkKey(at + ".key", object.key);
-  if (std::string_view(object.key) == "version") refuse(at + ".key", "is taken by every file");
+  if (std::string_view(object.key) == "version") refuse(at + ".key", "is reserved in files");
   checkLine(at + ".label", object.label);
   checkLine(at + ".tooltip", object.tooltip);
   if (object.object_size == 0 || object.object_size % 8 != 0 ||

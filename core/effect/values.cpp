@@ -60,7 +60,7 @@ double parseNumber(const std::string& name, const grisaille_param_desc& param,
     throw Error(ErrorId::kParameterType, "{} is {}, which is not a number", name, quoted(text));
   }
   if (status == std::errc::result_out_of_range) {
-    throw Error(ErrorId::kParameterRange, "{} is {}, which no number here can hold; give {} to {}",
+    throw Error(ErrorId::kParameterRange, "{} is {}, beyond the range of a double; give {} to {}",
                 name, quoted(text), number(param.hard_min), number(param.hard_max));
   }
   return value;

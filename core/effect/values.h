@@ -11,12 +11,12 @@
 
 namespace grisaille::effect {
 
-// A value that the parameter may have, as Values::set() takes it back without loss.
+// A valid value of the parameter, in the form that Values::set() reads back without loss.
 std::string textOf(const grisaille_param_desc& param, double value);
 
 class Values {
  public:
-  explicit Values(const Effect& effect);  // all defaults
+  explicit Values(const Effect& effect);  // all default values
 
   const Effect& effect() const { return effect_; }
   std::span<const double> all() const { return values_; }
@@ -25,13 +25,13 @@ class Values {
   size_t indexOf(std::string_view key) const;
   double get(std::string_view key) const { return values_[indexOf(key)]; }
 
-  // `text` as on the command line: a number, true|false|on|off|1|0, an enum's key. Throws
-  // kParameterUnknown, kParameterType, kParameterRange (naming the nearest valid value); the value
-  // is unchanged then.
+  // `text` as on the command line: a number, true|false|on|off|1|0, the key of an enum entry.
+  // Throws kParameterUnknown, kParameterType, kParameterRange (naming the nearest valid value), and
+  // then leaves the value unchanged.
   void set(std::string_view key, std::string_view text);
   void set(std::string_view key, double value);
 
-  // The value as set() takes it back without loss.
+  // The value in the form that set() reads back without loss.
   std::string text(std::string_view key) const;
 
  private:

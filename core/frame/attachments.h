@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: MIT
-// Where the attachments of a frame come from: a scene that is drawn, or pictures made elsewhere.
+// The source of a frame's attachments: a scene that is drawn, or pictures of another renderer.
 #pragma once
 
 #include <string_view>
@@ -9,7 +9,7 @@
 
 namespace grisaille::frame {
 
-// What a frame is to be given; all but depth may be null.
+// The attachments that a source fills; all but depth may be null.
 struct AttachmentTargets {
   gpu::Texture depth;        // kD32Float: clip depth
   gpu::Texture viewDepth;    // kR32Float
@@ -23,11 +23,11 @@ class AttachmentSource {
  public:
   virtual ~AttachmentSource() = default;
 
-  // Whether it has more to show than a camera's picture: guard bands.
+  // Whether the source can fill guard bands beyond the picture.
   virtual bool goesBeyond() const = 0;
 
-  // Fills the whole of each target, which are of this size. Not inside a pass; the labels of its
-  // own begin with `passes`. Throws kPictureMissing for what this source does not have.
+  // Fills every pixel of each target; all have this size. Call it outside a pass; the labels of its
+  // passes begin with `passes`. Throws kPictureMissing for an attachment that this source lacks.
   virtual void record(gpu::Commands& commands, const scene::Camera& camera, uint32_t width,
                       uint32_t height, gpu::BufferRange viewBlock, const AttachmentTargets& targets,
                       std::string_view passes) = 0;

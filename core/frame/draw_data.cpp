@@ -27,7 +27,7 @@ uint8_t toSrgb(float linear) {
   return static_cast<uint8_t>(std::lround(std::clamp(v, 0.0f, 1.0f) * 255.0f));
 }
 
-// A box of 2x2; the last row and column of an odd size count twice.
+// A 2x2 box filter. A side of 1 counts its texels twice; an odd side over 1 drops its last texels.
 std::vector<uint8_t> halved(const std::vector<uint8_t>& from, uint32_t width, uint32_t height) {
   const uint32_t w = std::max(1u, width / 2), h = std::max(1u, height / 2);
   std::vector<uint8_t> to(size_t{w} * h * 4);
@@ -74,7 +74,7 @@ glm::dmat4 normalTransform(const glm::dmat3& linear) {
   glm::dmat3 cofactor(glm::cross(linear[1], linear[2]), glm::cross(linear[2], linear[0]),
                       glm::cross(linear[0], linear[1]));
   if (glm::determinant(linear) < 0) cofactor = -cofactor;
-  // Scaled to lengths near 1, so that tiny and huge scenes stay inside single precision.
+  // Scale to lengths near 1: the matrices of tiny and huge scenes then fit single precision.
   const double largest =
       std::max({glm::length(cofactor[0]), glm::length(cofactor[1]), glm::length(cofactor[2])});
   return glm::dmat4(largest > 0 ? cofactor / largest : cofactor);

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: MIT
-// What the host prepares for a draw: texture levels, the transform of normals.
+// Data that the CPU prepares for a draw: mip levels, the transform of normals.
 #pragma once
 
 #include <cstdint>
@@ -10,15 +10,16 @@
 
 namespace grisaille::frame {
 
-// All levels down to 1x1, RGBA with sRGB colour, averaged in linear light; the top one is the
+// All mip levels down to 1x1, RGBA with sRGB colour, averaged in linear light. Level 0 is the
 // image.
 std::vector<std::vector<uint8_t>> mipChain(const image::Image8& image);
 
-// One level of the alpha channel, one byte a texel.
+// The alpha channel, one byte per texel, in one level.
 std::vector<std::vector<uint8_t>> alphaAlone(const image::Image8& image);
 
-// The transform of normals under a linear map: its cofactor matrix, which is the inverse transpose
-// up to scale and exists for flat maps too; turned so that a mirror does not flip normals.
+// The transform of normals under a linear map: its cofactor matrix, which equals the inverse
+// transpose up to scale and exists for singular maps too. For a mirroring map it is negated, so
+// that normals do not flip.
 glm::dmat4 normalTransform(const glm::dmat3& linear);
 
 }  // namespace grisaille::frame

@@ -29,8 +29,8 @@ void upload(gpu::Commands& commands, gpu::Texture texture, const std::vector<Tex
 
 using Half4 = std::array<uint16_t, 4>;
 
-// World normals of unit length. Those that are so already, to the half floats' precision, are kept
-// as they are: a picture of such a target comes back to it bit for bit.
+// World normals of unit length. Normals whose length is 1 within the precision of half floats are
+// not rescaled: a picture written from such a target gives the same bits again.
 std::vector<Half4> normalTexels(const image::Image& normal, const image::Image& depth) {
   constexpr float kHalfPrecision = 0.002f;
   std::vector<Half4> texels(depth.pixels.size(), Half4{});
@@ -79,7 +79,7 @@ void checkPictures(const Pictures& pictures) {
   const auto odd = std::ranges::find_if(normals, [](float n) { return !std::isfinite(n); });
   if (odd == normals.end()) return;
   const auto pixel = static_cast<size_t>(odd - normals.begin()) / 3;
-  throw Error(ErrorId::kPictureDepth, "the normal at ({}, {}) is no finite number",
+  throw Error(ErrorId::kPictureDepth, "the normal at ({}, {}) is not finite",
               pixel % pictures.normal.width, pixel / pictures.normal.width);
 }
 
@@ -103,7 +103,7 @@ void PictureAttachments::record(gpu::Commands& commands, const scene::Camera& ca
                 depth.width, depth.height, width, height);
   }
   if (targets.baseColour && pictures_.baseColour.pixels.empty()) {
-    throw Error(ErrorId::kPictureMissing, "base colours are read, and no picture has them");
+    throw Error(ErrorId::kPictureMissing, "base colours are needed, but no picture has any");
   }
   const bool given = !pictures_.normal.pixels.empty();
   const std::array facets = {targets.facetNormal, given ? gpu::Texture() : targets.normal};
@@ -119,7 +119,7 @@ void PictureAttachments::record(gpu::Commands& commands, const scene::Camera& ca
   upload(commands, targets.depth, clipDepth(depth, camera.nearPlane));
   if (viewDepth) upload(commands, viewDepth, depth.pixels);
   if (targets.backDepth) {
-    // Nothing is known of what is behind.
+    // Pictures have no back depth: 0 stands for no surface.
     upload(commands, targets.backDepth, std::vector<float>(depth.pixels.size(), 0.0f));
   }
   if (targets.baseColour) {
@@ -136,7 +136,7 @@ void PictureAttachments::record(gpu::Commands& commands, const scene::Camera& ca
 
 void PictureAttachments::drawFacets(gpu::Commands& commands, gpu::Texture viewDepth,
                                     gpu::BufferRange viewBlock, gpu::Texture to) {
-  if (!device_) throw Error(ErrorId::kPictureMissing, "normals are read, and no picture has them");
+  if (!device_) throw Error(ErrorId::kPictureMissing, "normals are needed, but no picture has any");
   if (!facets_) {
     constexpr gpu::Format kNormals[] = {gpu::Format::kRgba16Float};
     nearest_ = device_->createSampler({.label = "nearest facet"});

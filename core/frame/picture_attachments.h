@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: MIT
-// Attachments from pictures made elsewhere, of a scene that is not here.
+// Attachments from another renderer's pictures, without the scene.
 #pragma once
 
 #include "core/frame/attachments.h"
@@ -7,34 +7,33 @@
 
 namespace grisaille::frame {
 
-// All of one size. Those without pixels are not there.
+// The pictures of one frame, all of one size. A picture without pixels is missing.
 struct Pictures {
   image::Image viewDepth;   // one channel, metres, finite; 0: sky
-  image::Image normal;      // three channels, world; without, those of the depth's facets
+  image::Image normal;      // three channels, world; if missing: facet normals from depth
   image::Image baseColour;  // three channels, linear
 };
 
-// Throws kPictureSize, and kPictureDepth for a normal that is no number.
+// Throws kPictureSize, and kPictureDepth for a normal that is not finite.
 void checkPictures(const Pictures& pictures);
 
 class PictureAttachments : public AttachmentSource {
  public:
-  // `device` finds the facets that a depth shows. Without it, normals that no picture has are
-  // missing.
+  // `device` computes facet normals from depth. If it is null, normals come only from the picture.
   explicit PictureAttachments(gpu::Device* device = nullptr) : device_(device) {}
   ~PictureAttachments() override;
   PictureAttachments(const PictureAttachments&) = delete;
   PictureAttachments& operator=(const PictureAttachments&) = delete;
 
-  // What the frames from now on show. Throws as checkPictures() does.
+  // Sets the pictures, from the next frame on. Throws the errors of checkPictures().
   void show(Pictures pictures);
 
   uint32_t width() const { return pictures_.viewDepth.width; }
   uint32_t height() const { return pictures_.viewDepth.height; }
 
-  // Pictures end at their border.
+  // Pictures have no pixels beyond their border.
   bool goesBeyond() const override { return false; }
-  // Clip depth is 1 at most: nothing is nearer than the near plane.
+  // Clamps clip depth to 1, the near plane.
   void record(gpu::Commands& commands, const scene::Camera& camera, uint32_t width, uint32_t height,
               gpu::BufferRange viewBlock, const AttachmentTargets& targets,
               std::string_view passes) override;

@@ -9,10 +9,10 @@
 namespace grisaille::frame {
 namespace {
 
-// What renderers write for the sky is 1e10 or more; what they write of a scene is not.
+// Renderers write 1e10 or more for the sky. Depths of a scene are smaller.
 constexpr double kSky = 1e9;  // metres
 
-// Metres along the view direction of a depth buffer's value that is 1 at the near plane.
+// View depth in metres of a depth buffer's value that is 1 at the near plane.
 double viewDepth(double reversed, double near, double far) {
   if (reversed <= 0) return 0;
   if (std::isinf(far)) return near / reversed;
@@ -40,7 +40,7 @@ image::Image viewDepthOf(const image::Image& depth, const DepthMeaning& meaning,
   const bool buffer = meaning.kind == DepthKind::kClip || meaning.kind == DepthKind::kClipReversed;
   const double most = buffer ? 1 : std::numeric_limits<double>::infinity();
   const double half = std::tan(glm::radians(camera.fovyDegrees) / 2);
-  const double scale = 2 * half / depth.height;  // of a pixel at a view depth of 1
+  const double scale = 2 * half / depth.height;  // size of a pixel at a view depth of 1
   image::Image result = depth;
   for (uint32_t y = 0; y < depth.height; ++y) {
     for (uint32_t x = 0; x < depth.width; ++x) {

@@ -23,13 +23,13 @@ constexpr const char* kFacetNormal = "facet_normal";
 constexpr const char* kBackDepth = "back_depth";
 constexpr const char* kFrameOutputs[] = {kColor,      kDepth,       kNormal,
                                          kBaseColour, kFacetNormal, kBackDepth};
-// Clip depth is drawn into this; nobody can ask for it by name.
+// Target of clip depth, which is not an output.
 constexpr const char* kClipDepth = "clip depth";
 
-// How the labels of passes begin that draw the scene, as large as the picture or with a guard band.
+// Label prefixes of the passes that draw the scene: at the picture's size, or with a guard band.
 constexpr std::string_view kScenePasses = "scene/", kGuardedPasses = "scene/guarded ";
 
-constexpr uint32_t kGroup = 8;  // threads a side, in both shaders of this room
+constexpr uint32_t kGroup = 8;  // threads per side of a workgroup
 
 uint32_t groups(uint32_t pixels) {
   return (pixels + kGroup - 1) / kGroup;
@@ -40,14 +40,14 @@ std::string targetName(const effect::Effect& effect, const grisaille_output_desc
   return std::string(effect.desc->key) + "." + output.key;
 }
 
-// "ao" names the first active effect's output of that key, "ssao.ao" that of one effect.
+// "ao" names the output of the first active effect that has this key, "ssao.ao" the output of ssao.
 bool names(std::string_view name, const effect::Effect& effect,
            const grisaille_output_desc& output) {
   return name == output.key || name == targetName(effect, output);
 }
 
-// Is an output of this role a layer of the composed picture? Tints stand in for visibilities where
-// the picture shows base colours.
+// Whether an output of this role is a layer of the composed picture. If the picture shows base
+// colours, tints replace visibilities.
 bool composed(std::span<const grisaille_output_desc> outputs, uint32_t role, Surface surface) {
   const bool tinted = surface == Surface::kBaseColour &&
                       std::ranges::any_of(outputs, [](const grisaille_output_desc& output) {
@@ -60,7 +60,7 @@ bool composed(std::span<const grisaille_output_desc> outputs, uint32_t role, Sur
 constexpr auto kDrawn = gpu::TextureUsage::kTarget | gpu::TextureUsage::kSampled;
 constexpr auto kComputed = gpu::TextureUsage::kStorage | gpu::TextureUsage::kSampled;
 
-// The effects that are on, in the order they run.
+// The effects that are on, in the order in which they run.
 std::vector<const effect::Selection::Entry*> activeOf(const FrameDesc& desc) {
   std::vector<const effect::Selection::Entry*> active;
   if (desc.chain == nullptr) return active;
@@ -114,14 +114,14 @@ image::Transfer transferOf(std::string_view output) {
                                                    : image::Transfer::kData;
 }
 
-// What one frame needs, worked out before anything is recorded.
+// The needs of one frame, computed before recording.
 struct Renderer::Plan {
   uint32_t attachments = 0;  // of GRISAILLE_READS
-  // Those of effects that want a guard band, and its width, pixels.
+  // Attachments with a guard band, of GRISAILLE_READS, and the band's width in pixels.
   uint32_t guarded = 0, guard = 0;
   struct Active {
     const effect::Selection::Entry* entry;
-    uint32_t wanted;  // outputs that somebody wants, by bit; 0: it does not run
+    uint32_t wanted;  // wanted outputs, by bit; 0: the effect does not run
     uint32_t reads;   // attachments
     bool guarded;
 
@@ -172,13 +172,13 @@ struct Renderer::Plan {
   }
 };
 
-// The scene's attachments: of the picture, or with the guard band about it.
+// One set of attachments: of the picture's size, or with the guard band around it.
 struct Renderer::SceneView {
   scene::Camera camera;
   uint32_t width, height;  // pixels
   uint32_t attachments;    // of GRISAILLE_READS
   gpu::BufferRange block;
-  std::string prefix;  // of the targets' names
+  std::string prefix;  // of the names of targets
 
   bool reads(grisaille_attachment attachment) const {
     return (attachments & GRISAILLE_READS(attachment)) != 0;
@@ -310,7 +310,7 @@ void Renderer::recordEffects(gpu::Commands& commands, const FrameDesc& desc, con
   }
 }
 
-// One an output of the effect; null where nobody wants it.
+// One texture per output of the effect; null if the output is not wanted.
 std::vector<gpu::Texture> Renderer::outputTargets(const effect::Effect& effect, uint32_t wanted,
                                                   const FrameDesc& desc) {
   std::vector<gpu::Texture> outputs;
@@ -352,7 +352,7 @@ void Renderer::recordCompose(gpu::Commands& commands, const FrameDesc& desc, con
     white_ = neutral("white", 0xffffffffu);
     clear_ = neutral("clear", 0);
   }
-  // Layers that can share a dispatch do: an overlay and a visibility after it.
+  // An overlay and the visibility after it share one dispatch.
   std::vector<Layer> layers(1);
   for (const Plan::Active& active : plan.active) {
     for (const grisaille_output_desc& output : active.effect().outputs()) {
@@ -421,7 +421,7 @@ gpu::Texture Renderer::find(std::string_view name) const {
 gpu::Texture Renderer::texture(std::string_view output) const {
   const auto found = outputs_.find(output);
   if (found == outputs_.end()) {
-    throw Error(ErrorId::kOutputUnknown, "the last frame was not asked for '{}'", output);
+    throw Error(ErrorId::kOutputUnknown, "the last frame did not render the output '{}'", output);
   }
   return find(found->second);
 }

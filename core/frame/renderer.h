@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: MIT
-// One frame: draws exactly the attachments that the active effects and the wanted outputs read,
-// runs the effects in order, composes the picture.
+// Renders one frame: draws only the attachments that the active effects and the wanted outputs
+// read, runs the effects in order, and composes the picture.
 #pragma once
 
 #include <limits>
@@ -17,10 +17,11 @@
 #include "core/gpu/device.h"
 #include "core/image/image.h"
 #include "core/scene/camera.h"
+#include "core/scene/scene.h"
 
 namespace grisaille::frame {
 
-// What the light falls on in the composed picture.
+// The surface colour in the composed picture.
 enum class Surface : uint8_t { kWhite, kBaseColour };
 
 struct FrameDesc {
@@ -28,58 +29,59 @@ struct FrameDesc {
   uint32_t width = 0;  // pixels
   uint32_t height = 0;
   Surface surface = Surface::kWhite;
-  // Started on the renderer's device; its selection stays unchanged during render(). Null: no
+  // Started on the renderer's device. Its selection must not change during render(). Null: no
   // effects.
   effect::Chain* chain = nullptr;
   std::span<const std::string> outputs;  // names as outputNames() lists them
 
-  // For the effects, as effect::FrameInputs has them.
+  // Passed to the effects: see effect::FrameInputs.
   double patience = std::numeric_limits<double>::infinity();
   effect::Services services = {};
 };
 
-// Which share of the time of a pass that draws the scene with a guard band goes beyond the picture.
-// 0: no effect has one.
+// The share of the time of a pass with a guard band that is spent beyond the picture, estimated
+// from the area. 0 if no effect has a guard band.
 double guardShare(const effect::Selection& selection, uint32_t width, uint32_t height);
-// Which share of a pass of this label, of those that draw the scene, is what effects cost that want
-// more than most renderers have anyway: all of drawing back faces, and what guard bands add.
+// The share of a pass's time to count as a cost of the effects, although the pass draws the scene:
+// the whole pass for back faces, the added area for guard bands. Most renderers need neither.
 double shareForEffects(std::string_view pass, double guardShare);
 
 // Every frame has color (composed, linear light), depth (linear view depth in metres, 0 = sky),
-// normal and facet_normal (world), base_colour and back_depth (as depth); an active effect adds its
-// own outputs.
+// normal and facet_normal (world), base_colour and back_depth (same units as depth); an active
+// effect adds its own outputs.
 std::vector<std::string> outputNames(std::span<const effect::Effect* const> effects);
 
-// Throws kOutputUnknown, naming the nearest, unless outputNames() lists `name`.
+// Throws kOutputUnknown with the nearest name unless outputNames() lists `name`.
 void checkOutput(std::string_view name, std::span<const effect::Effect* const> effects);
 
-// How a file of integers holds an output: the composed picture and base colour are light, normals
-// have signs.
+// How a file of integers encodes an output: the composed picture and base colour are light, normals
+// are signed.
 image::Transfer transferOf(std::string_view output);
 
 class Renderer {
  public:
-  // Draws the scene. Device and scene outlive this; the scene stays unchanged.
+  // Draws the scene. Device and scene must outlive this; the scene must not change.
   Renderer(gpu::Device& device, const scene::Scene& scene);
-  // Takes the attachments from there; it outlives this as the device does.
+  // Takes the attachments from `source`. Device and source must outlive this.
   Renderer(gpu::Device& device, AttachmentSource& source);
   ~Renderer();
   Renderer(const Renderer&) = delete;
   Renderer& operator=(const Renderer&) = delete;
 
-  // Records and submits one frame, after creating what the chain lacks. What throws leaves no frame
-  // open.
+  // Creates the chain's missing instances, then records and submits one frame. If it throws, no
+  // frame stays open.
   void render(const FrameDesc& desc);
 
-  // What waits to be drawn in a later frame, summed over the effects of the last one. 0: its
-  // picture is whole.
+  // Number of pieces of work that wait for a later frame, summed over the effects of the last
+  // frame. 0: the last picture is complete.
   uint64_t waiting() const { return waiting_; }
 
-  // An output of the last frame, as numbers; 1, 3 or 4 channels. Waits for the device. Throws
-  // kOutputUnknown unless that frame was asked for it.
+  // Reads back an output of the last frame, with 1, 3 or 4 channels. Waits for the device. Throws
+  // kOutputUnknown unless that frame rendered the output.
   image::Image read(std::string_view output);
 
-  // The same as a texture, for presenting; valid until the next render().
+  // The texture of an output of the last frame, to present it; valid until the next render().
+  // Throws the same error.
   gpu::Texture texture(std::string_view output) const;
 
  private:
@@ -98,8 +100,8 @@ class Renderer {
   std::vector<gpu::Texture> outputTargets(const effect::Effect& effect, uint32_t wanted,
                                           const FrameDesc& desc);
   void recordCompose(gpu::Commands& commands, const FrameDesc& desc, const Plan& plan);
-  // One layer of the composition: `overlay` is laid over the surface, `visibility` multiplies it,
-  // by channel where it is tinted; null: the neutral texture.
+  // One layer of the composition: `overlay` is composited over the surface, then `visibility`
+  // multiplies it, per channel if tinted. Null: the neutral texture.
   struct Layer {
     gpu::Texture overlay, visibility;
     bool tinted = false;
@@ -111,10 +113,10 @@ class Renderer {
   gpu::Texture find(std::string_view name) const;
 
   gpu::Device& device_;
-  std::unique_ptr<AttachmentSource> scene_;  // null: the source is somebody else's
+  std::unique_ptr<AttachmentSource> scene_;  // null: the caller owns the source
   AttachmentSource& source_;
-  std::map<std::string, Slot, std::less<>> targets_;         // by output name, or attachment name
-  std::map<std::string, std::string, std::less<>> outputs_;  // of the last frame: name to target
+  std::map<std::string, Slot, std::less<>> targets_;         // by name of output or attachment
+  std::map<std::string, std::string, std::less<>> outputs_;  // of the last frame: output to target
   gpu::ComputePipeline compose_, composeTinted_;
   gpu::Sampler nearest_;
   gpu::Texture white_, clear_;

@@ -54,7 +54,7 @@ void SceneAttachments::viewDepth(gpu::Commands& commands, gpu::Texture clipDepth
       gpu::textureBinding(0, {.texture = clipDepth}, nearest_),
       gpu::imageBinding(0, to),
   };
-  constexpr uint32_t kViewDepthGroup = 8;  // threads a side
+  constexpr uint32_t kViewDepthGroup = 8;  // threads per side of a workgroup
   commands.beginPass(std::string(passes) + "view_depth");
   commands.dispatch({.pipeline = viewDepth_,
                      .bindings = bindings,

@@ -9,10 +9,10 @@ namespace grisaille::frame {
 
 class SceneAttachments : public AttachmentSource {
  public:
-  // How the labels begin of the passes that draw back faces, after the record()'s `passes`.
+  // Label prefix of the passes that draw back faces; it follows record()'s `passes`.
   static constexpr std::string_view kBackPasses = "back ";
 
-  // Device and scene outlive this; the scene stays unchanged.
+  // Device and scene must outlive this; the scene must not change.
   SceneAttachments(gpu::Device& device, const scene::Scene& scene)
       : device_(device), scene_(device, scene) {}
   ~SceneAttachments() override;
@@ -23,7 +23,7 @@ class SceneAttachments : public AttachmentSource {
               std::string_view passes) override;
 
  private:
-  // Clip depth to view depth.
+  // Converts clip depth to view depth.
   void viewDepth(gpu::Commands& commands, gpu::Texture clipDepth, gpu::BufferRange viewBlock,
                  gpu::Texture to, glm::uvec2 size, std::string_view passes);
 

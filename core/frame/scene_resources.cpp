@@ -25,7 +25,7 @@ struct DrawBlock {
 };
 GRISAILLE_CHECK_BLOCK_geometry_vert_110_DrawBlock(DrawBlock);
 
-// What shaders that know no facets see of it.
+// Bytes of the block that shaders without facet normals read.
 constexpr size_t kBlockWithoutFacet = offsetof(DrawBlock, camera_from_object);
 
 gpu::Address address(scene::Wrap wrap) {
@@ -54,7 +54,8 @@ std::vector<scene::Bounds> boundsOfPrimitives(const scene::Scene& scene) {
   return all;
 }
 
-// False when all corners lie outside one side of the frustum. The near side is left to the clipper.
+// False if all corners lie outside one side plane of the frustum. The clipper handles the near
+// plane.
 bool mayBeSeen(const scene::Bounds& bounds, const glm::dmat4& clipFromObject) {
   int outside[4] = {0, 0, 0, 0};
   for (int corner = 0; corner < 8; ++corner) {
@@ -171,7 +172,7 @@ gpu::Sampler SceneResources::sampler(const scene::Material& material, bool base)
     u = scene_.textures[static_cast<size_t>(material.baseColorTexture)].wrapU;
     v = scene_.textures[static_cast<size_t>(material.baseColorTexture)].wrapV;
   }
-  // A mask is read from one level, which drivers' anisotropic filters do not keep to.
+  // A mask is read from one level, but drivers' anisotropic filters may read other levels.
   const bool anisotropic = base && !material.masked;
   gpu::Sampler& sampler = samplers_[static_cast<size_t>(u) * 9 + static_cast<size_t>(v) * 3 +
                                     (anisotropic ? 2
@@ -203,7 +204,7 @@ void SceneResources::draw(gpu::Commands& commands, const scene::Camera& camera, 
   const glm::dmat4 clipFromCamera = scene::clipFromView(camera, double{1} * width / height) *
                                     glm::dmat4(glm::transpose(scene::worldFromView(camera)));
 
-  // Bindings and streams stay where they are until render() returns: reserved, so nothing moves.
+  // Draws point into bindings and streams until render() returns: reserve, so that they never move.
   std::vector<gpu::Draw> draws;
   std::vector<std::array<gpu::Binding, 3>> bindings;
   std::vector<std::array<gpu::BufferRange, 3>> streams;

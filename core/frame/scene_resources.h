@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: MIT
-// A scene on the device, and the one pass that draws it. What no draw has asked for yet takes
-// nothing: normals, texture coordinates and textures arrive with the first draw that needs them.
+// A scene on the device, and the render call that draws it. Normals, texture coordinates and
+// textures are uploaded by the first draw that needs them, and take no memory before.
 #pragma once
 
 #include <array>
@@ -13,43 +13,43 @@
 
 namespace grisaille::frame {
 
-// What one draw writes; all but depth may be null.
+// The targets of one draw; all but depth may be null.
 struct SceneTargets {
   gpu::Texture depth;             // kD32Float
   gpu::Texture normal = {};       // kRgba16Float
   gpu::Texture baseColour = {};   // kRgba8Srgb
   gpu::Texture facetNormal = {};  // kRgba16Float
-  // kD32Float, as drawn before: where it is there, only surfaces are drawn that face away or have
-  // two sides and are not in front of it. Into depth alone.
+  // kD32Float: the depth of an earlier draw. If not null, the draw writes only depth, of surfaces
+  // at or behind that depth that face away or are two-sided.
   gpu::Texture front = {};
 };
 
 class SceneResources {
  public:
-  // `scene` stays where it is and unchanged while this lives.
+  // Device and scene must outlive this; the scene must not change.
   SceneResources(gpu::Device& device, const scene::Scene& scene);
   ~SceneResources();
   SceneResources(const SceneResources&) = delete;
   SceneResources& operator=(const SceneResources&) = delete;
 
-  // Inside a pass. Draws every instance that may be seen.
+  // Draws every instance that may be visible. Call it inside a pass.
   void draw(gpu::Commands& commands, const scene::Camera& camera, uint32_t width, uint32_t height,
             const SceneTargets& targets);
 
  private:
-  // Which of the things below a draw needs.
+  // The inputs and outputs that a draw needs.
   struct Variant {
     bool facet = false, normal = false, base = false, mask = false, behind = false;
 
     bool uv() const { return base || mask; }
-    // In the lists of shaders/geometry_variants.h.
+    // Indices into the lists of shaders/geometry_variants.h.
     size_t vertex() const { return (facet ? 4u : 0u) + (normal ? 2u : 0u) + (uv() ? 1u : 0u); }
     size_t fragment() const {
       return (behind ? 16u : 0u) + (facet ? 8u : 0u) + (normal ? 4u : 0u) + (base ? 2u : 0u) +
              (mask ? 1u : 0u);
     }
   };
-  // A scene texture on the device: its alpha alone, or its colour with mip levels.
+  // A scene texture on the device: only its alpha, or its colour with mip levels.
   struct DeviceTexture {
     gpu::Texture alpha, colour;
   };
@@ -66,7 +66,7 @@ class SceneResources {
   std::array<gpu::GraphicsPipeline, 18> pipelines_;  // by Variant::fragment()
   std::vector<DeviceTexture> textures_;
   std::array<gpu::Sampler, 27> samplers_;       // wrap u, wrap v, one level | mips | anisotropic
-  gpu::Sampler nearest_;                        // for the front
+  gpu::Sampler nearest_;                        // for SceneTargets::front
   gpu::Texture white_;                          // for materials without a texture
   std::vector<scene::Bounds> primitiveBounds_;  // object space
 };

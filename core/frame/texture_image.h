@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: MIT
-// A texture's bytes as numbers.
+// Converts a texture's bytes to an image of floats.
 #pragma once
 
 #include <span>
@@ -9,7 +9,7 @@
 
 namespace grisaille::frame {
 
-// `bytes` as Device::read gives them; unorm formats become [0, 1], sRGB ones linear light.
+// `bytes` in the layout of Device::read. Unorm formats become [0, 1], sRGB formats linear light.
 image::Image toImage(std::span<const std::byte> bytes, gpu::Format format, uint32_t width,
                      uint32_t height);
 

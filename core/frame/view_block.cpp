@@ -23,7 +23,7 @@ glm::dvec2 halfExtent(const scene::Camera& camera, uint32_t width, uint32_t heig
 ViewBlock viewBlock(const scene::Camera& camera, uint32_t width, uint32_t height, uint32_t guard) {
   const glm::dvec2 half = halfExtent(camera, width, height);
   const glm::dvec2 size(width, height);
-  // x = -half + pixel * 2 half / size, and y the other way round, since row 0 is the top.
+  // x = -half + pixel * 2 half / size; y is negated, because row 0 is the top.
   const glm::dvec2 scale(2 * half.x / size.x, -2 * half.y / size.y);
   const glm::dvec2 offset(-half.x, half.y);
   const glm::dvec3 cell = glm::floor(camera.eye);

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: MIT
-// The camera as effects get it: in double precision for their host code, in single for shaders.
+// The camera that effects get: in double precision for their CPU code, in single for shaders.
 #pragma once
 
 #include <glm/glm.hpp>
@@ -9,7 +9,7 @@
 
 namespace grisaille::frame {
 
-// shaders/common/view.glsl, std140. Field meanings stand there.
+// The std140 block of shaders/common/view.glsl, which documents the fields.
 struct ViewBlock {
   glm::vec4 view_from_pixel;
   glm::vec4 pixel_from_view;
@@ -20,10 +20,10 @@ struct ViewBlock {
   glm::vec4 attachment;
 };
 
-// `guard`: pixels by which attachments go beyond the picture on each side.
+// `guard`: pixels by which attachments extend beyond the picture on each side.
 ViewBlock viewBlock(const scene::Camera& camera, uint32_t width, uint32_t height,
                     uint32_t guard = 0);
-// The camera whose picture goes so many pixels beyond on each side; pixels are of the same size.
+// The camera whose picture extends `guard` pixels further on each side, with the same pixel size.
 scene::Camera widened(const scene::Camera& camera, uint32_t height, uint32_t guard);
 
 grisaille_view viewOf(const scene::Camera& camera, uint32_t width, uint32_t height);

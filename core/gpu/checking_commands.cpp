@@ -15,7 +15,8 @@ struct TargetSize {
   uint32_t width = 0, height = 0;
 };
 
-// Checks one target and that its size is the others'.
+// Checks one target, and that it has the same size as the others. `size`: 0 before the first
+// target.
 void addTarget(Account& account, CallUses& uses, TargetSize& size, const TextureView& view,
                Load load, bool depth) {
   const char* what = depth ? "depth target" : "colour target";
@@ -24,12 +25,12 @@ void addTarget(Account& account, CallUses& uses, TargetSize& size, const Texture
   }
   const TextureRecord& texture = account.usable(view.texture);
   if (!has(texture.desc.usage, TextureUsage::kTarget)) {
-    throw Error(ErrorId::kTextureUsage, "texture '{}' of usage {:#x} is drawn to", texture.label,
-                static_cast<unsigned>(texture.desc.usage));
+    throw Error(ErrorId::kTextureUsage, "texture '{}' of usage {:#x} cannot be a target",
+                texture.label, static_cast<unsigned>(texture.desc.usage));
   }
   if (formatInfo(texture.desc.format).depth != depth) {
-    throw Error(ErrorId::kPipelineTargets, "texture '{}' of format {} is a {}", texture.label,
-                formatInfo(texture.desc.format).name, what);
+    throw Error(ErrorId::kPipelineTargets, "texture '{}' of format {} cannot be a {}",
+                texture.label, formatInfo(texture.desc.format).name, what);
   }
   TextureView one = view;
   one.mipCount = one.layerCount = 1;
@@ -38,7 +39,7 @@ void addTarget(Account& account, CallUses& uses, TargetSize& size, const Texture
                         std::max(1u, texture.desc.height >> view.mip)};
   if (size.width == 0) size = here;
   if (here.width != size.width || here.height != size.height) {
-    throw Error(ErrorId::kTargetMismatch, "texture '{}' is {}x{}, another target {}x{}",
+    throw Error(ErrorId::kTargetMismatch, "texture '{}' is {}x{}, but another target is {}x{}",
                 texture.label, here.width, here.height, size.width, size.height);
   }
   uses.addTarget(one, load == Load::kLoad, what);
@@ -67,9 +68,10 @@ void checkScissor(const Scissor& scissor, const TargetSize& size, const Pipeline
                       scissor.width <= size.width - scissor.x &&
                       scissor.height <= size.height - scissor.y;
   if (inside) return;
-  throw Error(ErrorId::kScissor, "pipeline '{}' draws in {}x{} pixels from {}, {} of targets {}x{}",
-              pipeline.label, scissor.width, scissor.height, scissor.x, scissor.y, size.width,
-              size.height);
+  throw Error(
+      ErrorId::kScissor,
+      "a draw with pipeline '{}' has a scissor of {}x{} pixels at {}, {} on targets of {}x{}",
+      pipeline.label, scissor.width, scissor.height, scissor.x, scissor.y, size.width, size.height);
 }
 
 void checkFormats(Account& account, const Render& render, const PipelineRecord& pipeline) {
@@ -78,13 +80,13 @@ void checkFormats(Account& account, const Render& render, const PipelineRecord& 
                 detail);
   };
   if (pipeline.colorFormats.size() != render.colors.size()) {
-    differ(fmt::format("{} colour targets, it was made for {}", render.colors.size(),
+    differ(fmt::format("{} colour targets, but was created for {}", render.colors.size(),
                        pipeline.colorFormats.size()));
   }
   const auto compare = [&](Texture texture, Format format) {
     const TextureRecord& record = account.textures.get(texture);
     if (record.desc.format == format) return;
-    differ(fmt::format("target '{}' of format {}, it was made for {}", record.label,
+    differ(fmt::format("target '{}' of format {}, but was created for {}", record.label,
                        formatInfo(record.desc.format).name, formatInfo(format).name));
   };
   for (size_t i = 0; i < render.colors.size(); ++i) {
@@ -92,26 +94,29 @@ void checkFormats(Account& account, const Render& render, const PipelineRecord& 
   }
   const bool depth = pipeline.depthFormat != Format::kNone;
   if (depth != static_cast<bool>(render.depth.view.texture)) {
-    differ(depth ? "no depth target, it needs one" : "a depth target, it has none");
+    differ(depth ? "no depth target, but needs one"
+                 : "a depth target, but was created without one");
   }
   if (depth) compare(render.depth.view.texture, pipeline.depthFormat);
 }
 
-// A range of a vertex or index buffer, with its size. Throws kBufferUsage, kDrawRange.
+// Returns a range of a vertex or index buffer with its size resolved. Throws kBufferUsage,
+// kDrawRange.
 BufferRange drawRange(Account& account, const BufferRange& range, BufferUsage usage,
                       const char* what) {
   const BufferRecord& buffer = account.buffers.get(range.buffer);
   if (!has(buffer.usage, usage)) {
-    throw Error(ErrorId::kBufferUsage, "buffer '{}' of usage {:#x} is bound as {}", buffer.label,
-                static_cast<unsigned>(buffer.usage), what);
+    throw Error(ErrorId::kBufferUsage, "buffer '{}' of usage {:#x} cannot be bound as {}",
+                buffer.label, static_cast<unsigned>(buffer.usage), what);
   }
   BufferRange result = range;
   if (range.size == 0 && range.offset < buffer.size) result.size = buffer.size - range.offset;
   if (range.offset % 4 != 0 || range.offset >= buffer.size ||
       result.size > buffer.size - range.offset) {
     throw Error(ErrorId::kDrawRange,
-                "{} are bytes {} + {} of buffer '{}', which has {}, from a multiple of 4", what,
-                range.offset, range.size, buffer.label, buffer.size);
+                "{} are bound to offset {}, size {}, of buffer '{}', which has {} bytes; offsets "
+                "are multiples of 4",
+                what, range.offset, range.size, buffer.label, buffer.size);
   }
   return result;
 }
@@ -124,15 +129,17 @@ void addDraw(Account& account, CallUses& uses, const Render& render, const Targe
   uses.addBindings(pipeline, draw.bindings);
   if (draw.count == 0 || draw.vertexStreams.size() < pipeline.streamStrides.size()) {
     throw Error(ErrorId::kDrawRange,
-                "a draw of {} vertices with pipeline '{}' has {} vertex streams of {}", draw.count,
-                pipeline.label, draw.vertexStreams.size(), pipeline.streamStrides.size());
+                "a draw of {} vertices with pipeline '{}' binds {} vertex streams of {}",
+                draw.count, pipeline.label, draw.vertexStreams.size(),
+                pipeline.streamStrides.size());
   }
   const bool indexed = static_cast<bool>(draw.indices.buffer);
   const uint64_t last = uint64_t{draw.first} + draw.count - 1;
   if (indexed) {
     const BufferRange range = drawRange(account, draw.indices, BufferUsage::kIndex, "indices");
     if (last >= range.size / 4) {
-      throw Error(ErrorId::kDrawRange, "index {} is drawn with pipeline '{}', {} are bound", last,
+      throw Error(ErrorId::kDrawRange,
+                  "index {} is drawn with pipeline '{}', but only {} are bound", last,
                   pipeline.label, range.size / 4);
     }
     uses.addRead(range, "indices");
@@ -140,7 +147,7 @@ void addDraw(Account& account, CallUses& uses, const Render& render, const Targe
   for (uint32_t i = 0; i < pipeline.streamStrides.size(); ++i) {
     const BufferRange range =
         drawRange(account, draw.vertexStreams[i], BufferUsage::kVertex, "vertices");
-    // What the indices say is not known here; at least one vertex must be there.
+    // The values of the indices are unknown here: an indexed draw needs at least one vertex.
     uint64_t end = 0;
     for (const VertexAttribute& attribute : pipeline.attributes) {
       if (attribute.stream != i) continue;
@@ -148,10 +155,11 @@ void addDraw(Account& account, CallUses& uses, const Render& render, const Targe
     }
     end += (indexed ? 0 : last) * pipeline.streamStrides[i];
     if (end > range.size) {
-      throw Error(ErrorId::kDrawRange,
-                  "vertex {} is drawn with pipeline '{}' and ends at byte {} of stream {}, {} are "
-                  "bound",
-                  indexed ? 0 : last, pipeline.label, end, i, range.size);
+      throw Error(
+          ErrorId::kDrawRange,
+          "vertex {} is drawn with pipeline '{}' and ends at byte {} of stream {}, but only "
+          "{} bytes are bound",
+          indexed ? 0 : last, pipeline.label, end, i, range.size);
     }
     uses.addRead(range, "vertices");
   }
@@ -161,20 +169,19 @@ void addDraw(Account& account, CallUses& uses, const Render& render, const Targe
 
 void CheckingCommands::requireRecording(const char* what) const {
   if (account_.recording) return;
-  throw Error(ErrorId::kNotRecording, "{} outside of a frame", what);
+  throw Error(ErrorId::kNotRecording, "{} outside a frame", what);
 }
 
 void CheckingCommands::requirePass(const char* what) const {
   requireRecording(what);
   if (account_.inPass) return;
-  throw Error(ErrorId::kPassMissing, "{} outside of a pass", what);
+  throw Error(ErrorId::kPassMissing, "{} outside a pass", what);
 }
 
 void CheckingCommands::beginPass(std::string_view label) {
   requireRecording("beginPass()");
   if (account_.inPass) {
-    throw Error(ErrorId::kPassNesting, "pass '{}' begins inside of pass '{}'", label,
-                account_.pass);
+    throw Error(ErrorId::kPassNesting, "pass '{}' begins inside pass '{}'", label, account_.pass);
   }
   commands_->beginPass(label);
   account_.inPass = true;
@@ -204,8 +211,8 @@ void CheckingCommands::dispatch(const Dispatch& dispatch) {
     const uint32_t limit = account_.capabilities.maxGroups[axis];
     if (dispatch.groups[axis] >= 1 && dispatch.groups[axis] <= limit) continue;
     throw Error(ErrorId::kDispatchSize,
-                "pipeline '{}' is given {} groups on axis {}, the limit is {}", pipeline.label,
-                dispatch.groups[axis], axis, limit);
+                "pipeline '{}' is dispatched with {} groups on axis {}; the limit is {}",
+                pipeline.label, dispatch.groups[axis], axis, limit);
   }
   CallUses uses(account_);
   uses.addBindings(pipeline, dispatch.bindings);
@@ -242,8 +249,8 @@ void CheckingCommands::upload(Buffer handle, uint64_t offset, std::span<const st
   requireRecording("upload()");
   BufferRecord& buffer = account_.buffers.get(handle);
   if (bytes.empty() || offset >= buffer.size || bytes.size() > buffer.size - offset) {
-    throw Error(ErrorId::kUploadRange, "{} bytes from {} into buffer '{}' of {}", bytes.size(),
-                offset, buffer.label, buffer.size);
+    throw Error(ErrorId::kUploadRange, "upload of {} bytes at offset {} into buffer '{}' of {}",
+                bytes.size(), offset, buffer.label, buffer.size);
   }
   commands_->upload(handle, offset, bytes);
   buffer.usedFrame = account_.frame;
@@ -258,8 +265,8 @@ void CheckingCommands::upload(Texture handle, uint32_t mip, uint32_t layer,
   if (mip >= desc.mips || layer >= desc.layers || bytes.size() != subresourceBytes(desc, mip)) {
     throw Error(
         ErrorId::kUploadRange,
-        "{} bytes into level {} of layer {} of texture '{}', {}x{} {} with {} levels and {} "
-        "layers",
+        "upload of {} bytes into level {} of layer {} of texture '{}', {}x{} {} with {} levels and "
+        "{} layers",
         bytes.size(), mip, layer, texture.label, desc.width, desc.height,
         formatInfo(desc.format).name, desc.mips, desc.layers);
   }

@@ -11,7 +11,7 @@ class CheckingCommands final : public Commands {
  public:
   explicit CheckingCommands(Account& account) : account_(account) {}
 
-  // The commands of the frame that passes on what was found valid.
+  // Sets the commands of this frame that receive every valid call.
   void wrap(Commands& commands) { commands_ = &commands; }
 
   void beginPass(std::string_view label) override;

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: MIT
-// What a descriptor must be before a resource is made of it. Each function throws an error of 11xx.
+// Validates descriptors before resources are created from them. Each function throws an error 11xx.
 #pragma once
 
 #include "core/gpu/types.h"

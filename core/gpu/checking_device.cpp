@@ -72,7 +72,8 @@ class CheckingDevice final : public Device {
   void destroy(Texture texture) override {
     const TextureRecord* record = account_.textures.find(texture);
     if (record != nullptr && record->transient) {
-      throw Error(ErrorId::kTransientStale, "transient texture '{}' is destroyed", record->label);
+      throw Error(ErrorId::kTransientStale,
+                  "transient texture '{}' cannot be destroyed: submit() ends it", record->label);
     }
     destroyIn(account_.textures, texture);
   }
@@ -93,7 +94,7 @@ class CheckingDevice final : public Device {
   void submit() override {
     if (!account_.recording) throw Error(ErrorId::kNotRecording, "submit() without begin()");
     if (account_.inPass) {
-      throw Error(ErrorId::kPassNesting, "submit() inside of pass '{}'", account_.pass);
+      throw Error(ErrorId::kPassNesting, "submit() inside pass '{}'", account_.pass);
     }
     try {
       device_->submit();
@@ -117,7 +118,8 @@ class CheckingDevice final : public Device {
  private:
   void requireIdle(const char* what) const {
     if (!account_.recording) return;
-    throw Error(ErrorId::kAlreadyRecording, "{} while frame {} is recorded", what, account_.frame);
+    throw Error(ErrorId::kAlreadyRecording, "{} while frame {} is being recorded", what,
+                account_.frame);
   }
 
   template <typename HandleType, typename Record>
@@ -161,12 +163,12 @@ std::vector<std::byte> CheckingDevice::read(Texture handle, uint32_t mip, uint32
   const TextureDesc& desc = texture.desc;
   if (mip >= desc.mips || layer >= desc.layers) {
     throw Error(ErrorId::kReadbackRange,
-                "level {} of layer {} of texture '{}', which has {} levels and {} layers", mip,
+                "read() of level {}, layer {} of texture '{}', which has {} levels, {} layers", mip,
                 layer, texture.label, desc.mips, desc.layers);
   }
   if (!texture.written[size_t{layer} * desc.mips + mip]) {
     throw Error(ErrorId::kUninitialised,
-                "level {} of layer {} of texture '{}' is read back and was never written", mip,
+                "level {} of layer {} of texture '{}' is read back but was never written", mip,
                 layer, texture.label);
   }
   return device_->read(handle, mip, layer);
@@ -176,11 +178,12 @@ std::vector<std::byte> CheckingDevice::read(BufferRange range) {
   const BufferRecord& buffer = account_.buffers.get(range.buffer);
   requireIdle("read()");
   if (range.offset >= buffer.size || range.size > buffer.size - range.offset) {
-    throw Error(ErrorId::kReadbackRange, "bytes {} + {} of buffer '{}', which has {}", range.offset,
+    throw Error(ErrorId::kReadbackRange,
+                "read() at offset {}, size {}, of buffer '{}', which has {} bytes", range.offset,
                 range.size, buffer.label, buffer.size);
   }
   if (!buffer.written) {
-    throw Error(ErrorId::kUninitialised, "buffer '{}' is read back and was never written",
+    throw Error(ErrorId::kUninitialised, "buffer '{}' is read back but was never written",
                 buffer.label);
   }
   return device_->read(range);
@@ -190,12 +193,12 @@ bool CheckingDevice::present(Texture handle) {
   requireIdle("present()");
   const TextureRecord& texture = account_.usable(handle);
   if (texture.desc.format != Format::kRgba8Unorm) {
-    throw Error(ErrorId::kTextureFormat, "texture '{}' of format {} is presented, not {}",
+    throw Error(ErrorId::kTextureFormat, "texture '{}' has format {}; present() takes only {}",
                 texture.label, formatInfo(texture.desc.format).name,
                 formatInfo(Format::kRgba8Unorm).name);
   }
   if (!texture.written[0]) {
-    throw Error(ErrorId::kUninitialised, "texture '{}' is presented and was never written",
+    throw Error(ErrorId::kUninitialised, "texture '{}' is presented but was never written",
                 texture.label);
   }
   return device_->present(handle);

@@ -1,15 +1,15 @@
 // SPDX-License-Identifier: MIT
-// A device that validates every call before it passes it on to another, and says what is wrong with
-// a numbered error. It holds its own account of every resource, so that it checks every backend
-// alike.
+// A device that validates every call, then forwards it to another device. An invalid call throws a
+// numbered error and is not forwarded. The checking device keeps its own records of every resource,
+// which makes its checks the same for every backend.
 #pragma once
 
 #include "core/gpu/device.h"
 
 namespace grisaille::gpu {
 
-// At destruction, resources that were not destroyed are reported to `message` (none: standard
-// error) as kLeaked, by label.
+// The destructor reports every resource that was not destroyed, with its label, as kLeaked.
+// `message`: receives these reports; empty: standard error.
 std::unique_ptr<Device> makeCheckingDevice(std::unique_ptr<Device> device, MessageSink message);
 
 }  // namespace grisaille::gpu

@@ -4,8 +4,8 @@
 namespace grisaille::gpu {
 namespace {
 
-// Transient textures are known as such for this many frames after theirs; a backend may destroy
-// them unseen, so that they would pile up.
+// Records of transient textures are kept for this many frames, to report late uses. The backend may
+// destroy these textures without telling; without a limit the records would pile up.
 constexpr uint64_t kRemembered = 64;
 
 }  // namespace

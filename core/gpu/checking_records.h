@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: MIT
-// The checking device's account: what it knows of every resource and of the frame being recorded.
+// The records of the checking device: the state of every resource and of the frame being recorded.
 #pragma once
 
 #include <string>
@@ -23,10 +23,10 @@ struct BufferRecord {
 
 struct TextureRecord {
   std::string label;
-  TextureDesc desc;           // its label is not kept
+  TextureDesc desc;           // without its label
   std::vector<bool> written;  // layer-major: layer * mips + mip
   bool transient = false;
-  uint64_t madeFrame = 0;  // of a transient texture
+  uint64_t madeFrame = 0;  // transient textures: the frame that created it
   uint64_t usedFrame = kNeverUsed;
 };
 
@@ -38,7 +38,7 @@ struct SamplerRecord {
 
 struct PipelineRecord {
   std::string label;
-  std::vector<const Shader*> shaders;  // compute; or vertex and perhaps fragment
+  std::vector<const Shader*> shaders;  // compute; or vertex and optionally fragment
   std::vector<uint32_t> streamStrides = {};
   std::vector<VertexAttribute> attributes = {};
   std::vector<Format> colorFormats = {};
@@ -46,7 +46,7 @@ struct PipelineRecord {
   uint64_t usedFrame = kNeverUsed;
 };
 
-// The records of one kind of resource, by handle. References stay valid until the record goes.
+// The records of one kind of resource, by handle. References stay valid until remove().
 template <typename HandleType, typename Record>
 class Records {
  public:
@@ -62,7 +62,7 @@ class Records {
   // Throws kStaleHandle.
   Record& get(HandleType handle) {
     if (Record* record = find(handle)) return *record;
-    throw Error(ErrorId::kStaleHandle, "{} {:#x} was never made or is destroyed", kind_,
+    throw Error(ErrorId::kStaleHandle, "{} {:#x} does not exist or is destroyed", kind_,
                 handle.value);
   }
   const char* kind() const { return kind_; }
@@ -81,20 +81,20 @@ struct Account {
   Records<ComputePipeline, PipelineRecord> computePipelines{"compute pipeline"};
   Records<GraphicsPipeline, PipelineRecord> graphicsPipelines{"graphics pipeline"};
 
-  uint64_t frame = 0;  // the one being recorded, or the next
+  uint64_t frame = 0;  // number of the frame being recorded, or of the next frame
   bool recording = false;
   bool inPass = false;
-  std::string pass;                   // its label
-  std::vector<BufferRange> uniforms;  // memory of this frame
+  std::string pass;                   // label of the current pass
+  std::vector<BufferRange> uniforms;  // returned by uniform() in this frame
 
-  // Throws kStaleHandle; kTransientStale outside of the frame that made it.
+  // Throws kStaleHandle; throws kTransientStale for a transient texture of another frame.
   TextureRecord& usable(Texture texture);
 
-  // Notes first writes, so that a dropped frame's can be taken back.
+  // Mark as written. First writes are recorded, for endFrame() to undo when a frame is dropped.
   void markWritten(Buffer buffer);
   void markWritten(Texture texture, size_t subresource);
 
-  // After begin(), and after submit() or abandon().
+  // Call beginFrame() after begin(), and endFrame() after submit() or abandon().
   void beginFrame();
   void endFrame(bool dropped);
 

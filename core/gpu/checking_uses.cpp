@@ -34,8 +34,8 @@ TextureView resolvedView(const TextureView& view, const TextureRecord& texture, 
   if (view.mip >= desc.mips || result.mipCount > desc.mips - view.mip ||
       view.layer >= desc.layers || result.layerCount > desc.layers - view.layer) {
     throw Error(ErrorId::kBindingRange,
-                "{} is a view of level {} + {}, layer {} + {} of texture '{}', which has {} levels "
-                "and {} layers",
+                "{} views level {} (count {}), layer {} (count {}) of texture '{}', which has {} "
+                "levels and {} layers",
                 what, view.mip, view.mipCount, view.layer, view.layerCount, texture.label,
                 desc.mips, desc.layers);
   }
@@ -80,8 +80,9 @@ void CallUses::addBinding(const PipelineRecord& pipeline, const grisaille_shader
   const bool sampler = slot.slot_class == GRISAILLE_SLOT_TEXTURE;
   if ((buffer && !binding.buffer.buffer) || (!buffer && !binding.view.texture) ||
       (sampler && !binding.sampler)) {
-    throw Error(ErrorId::kBindingMissing, "{} of pipeline '{}' is bound to no {}", slotName(slot),
-                pipeline.label, buffer ? "buffer" : (binding.view.texture ? "sampler" : "texture"));
+    throw Error(ErrorId::kBindingMissing, "the binding of {} of pipeline '{}' has no {}",
+                slotName(slot), pipeline.label,
+                buffer ? "buffer" : (binding.view.texture ? "sampler" : "texture"));
   }
   if (buffer) {
     addBuffer(slot, binding.buffer);
@@ -93,7 +94,7 @@ void CallUses::addBinding(const PipelineRecord& pipeline, const grisaille_shader
 BufferRange CallUses::resolved(const grisaille_shader_slot& slot, const BufferRange& range) {
   const bool uniform = slot.slot_class == GRISAILLE_SLOT_UNIFORM;
   BufferRange result = range;
-  // Memory that uniform() gave: it is no buffer of the account's.
+  // Memory returned by uniform() has no buffer record.
   for (const BufferRange& given : account_.uniforms) {
     if (!uniform || given.buffer != range.buffer || range.offset < given.offset ||
         range.offset >= given.offset + given.size) {
@@ -107,12 +108,13 @@ BufferRange CallUses::resolved(const grisaille_shader_slot& slot, const BufferRa
   const BufferUsage usage = uniform ? BufferUsage::kUniform : BufferUsage::kStorage;
   if (!has(buffer.usage, usage)) {
     throw Error(ErrorId::kBufferUsage,
-                "buffer '{}' of usage {:#x} is bound to {}, which needs {:#x}", buffer.label,
+                "buffer '{}' has usage {:#x}, but is bound to {}, which needs {:#x}", buffer.label,
                 static_cast<unsigned>(buffer.usage), slotName(slot), static_cast<unsigned>(usage));
   }
   if (range.size == 0 && range.offset < buffer.size) result.size = buffer.size - range.offset;
   if (range.offset >= buffer.size || result.size > buffer.size - range.offset) {
-    throw Error(ErrorId::kBindingRange, "{} is bytes {} + {} of buffer '{}', which has {}",
+    throw Error(ErrorId::kBindingRange,
+                "{} is bound to offset {}, size {}, of buffer '{}', which has {} bytes",
                 slotName(slot), range.offset, range.size, buffer.label, buffer.size);
   }
   return result;
@@ -126,11 +128,12 @@ void CallUses::addBuffer(const grisaille_shader_slot& slot, const BufferRange& g
   const uint64_t limit = uniform ? can.maxUniformRange : can.maxStorageRange;
   if (range.offset % alignment != 0 || range.size > limit) {
     throw Error(ErrorId::kBindingRange,
-                "{} is {} bytes from {}; the device asks for at most {} from a multiple of {}",
+                "{} is bound to {} bytes at offset {}; the device allows at most {} bytes, at "
+                "multiples of {}",
                 slotName(slot), range.size, range.offset, limit, alignment);
   }
   if (range.size < slot.block_size) {
-    throw Error(ErrorId::kBindingSmall, "{} has {} bytes, {} are bound", slotName(slot),
+    throw Error(ErrorId::kBindingSmall, "{} needs {} bytes, but only {} are bound", slotName(slot),
                 slot.block_size, range.size);
   }
   uses_.push_back({.buffer = range.buffer,
@@ -150,29 +153,31 @@ void CallUses::addView(const grisaille_shader_slot& slot, const Binding& binding
   const TextureUsage usage = image ? TextureUsage::kStorage : TextureUsage::kSampled;
   if (!has(texture.desc.usage, usage)) {
     throw Error(ErrorId::kTextureUsage,
-                "texture '{}' of usage {:#x} is bound to {}, which needs {:#x}", texture.label,
-                static_cast<unsigned>(texture.desc.usage), slotName(slot),
+                "texture '{}' has usage {:#x}, but is bound to {}, which needs {:#x}",
+                texture.label, static_cast<unsigned>(texture.desc.usage), slotName(slot),
                 static_cast<unsigned>(usage));
   }
   const TextureView view = resolvedView(binding.view, texture, slot.name);
   if (image && view.mipCount != 1) {
-    throw Error(ErrorId::kBindingRange, "{} is {} levels of texture '{}', an image is one",
-                slotName(slot), view.mipCount, texture.label);
+    throw Error(ErrorId::kBindingRange,
+                "{} is bound to {} levels of texture '{}'; an image takes one", slotName(slot),
+                view.mipCount, texture.label);
   }
   const char* format = formatInfo(texture.desc.format).name;
   if (image && std::string_view(format) != slot.format) {
-    throw Error(ErrorId::kBindingFormat, "{} is declared {}, texture '{}' is {}", slotName(slot),
-                slot.format, texture.label, format);
+    throw Error(ErrorId::kBindingFormat, "{} is declared {}, but texture '{}' is {}",
+                slotName(slot), slot.format, texture.label, format);
   }
   if (slot.arrayed == 0 && view.layerCount > 1) {
     throw Error(ErrorId::kBindingFormat,
-                "{} is declared 2D, the view of texture '{}' has {} layers", slotName(slot),
+                "{} is declared 2D, but the view of texture '{}' has {} layers", slotName(slot),
                 texture.label, view.layerCount);
   }
   if (!image) {
     SamplerRecord& sampler = account_.samplers.get(binding.sampler);
     if (texture.desc.format == Format::kR32Uint && sampler.filter == Filter::kLinear) {
-      throw Error(ErrorId::kBindingFormat, "{} filters the integers of texture '{}' with '{}'",
+      throw Error(ErrorId::kBindingFormat,
+                  "{} is bound to integer texture '{}' with the linear sampler '{}'",
                   slotName(slot), texture.label, sampler.label);
     }
     marks_.push_back(&sampler.usedFrame);
@@ -250,10 +255,10 @@ void CallUses::check() const {
     if (!writer.writes) continue;
     for (const Use& other : uses_) {
       if (&other == &writer || !overlap(writer, other)) continue;
-      // Two slots that write without reading may share a resource; a target is drawn to alone.
+      // Two slots that only write may share a resource; a target may not share its subresource.
       if (!other.reads && !writer.target) continue;
-      throw Error(ErrorId::kHazard, "'{}' writes what '{}' {} in the same call: '{}'", writer.what,
-                  other.what, other.reads ? "reads" : "writes", nameOf(writer));
+      throw Error(ErrorId::kHazard, "'{}' writes and '{}' {} the same part of '{}' in one call",
+                  writer.what, other.what, other.reads ? "reads" : "writes", nameOf(writer));
     }
   }
 }

@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: MIT
-// What one dispatch or render call reads and writes, for the checking device: collected from its
-// bindings, targets, streams and indices, then checked against the account and each other.
+// The reads and writes of one dispatch or render call, for the checking device. CallUses collects
+// them from bindings, targets, vertex streams and indices, then checks them against the records and
+// against each other.
 #pragma once
 
 #include <vector>
@@ -16,28 +17,28 @@ class CallUses {
   // Throw kBindingMissing ... kBindingFormat, kBufferUsage, kTextureUsage, kStaleHandle,
   // kTransientStale.
   void addBindings(PipelineRecord& pipeline, std::span<const Binding> bindings);
-  // One subresource that was found valid, as a target. `what` is for messages, and stays
-  // valid: "colour target".
+  // Adds one valid subresource as a target. `loads`: the target keeps its earlier contents. `what`
+  // is for messages ("colour target") and must outlive this object.
   void addTarget(const TextureView& view, bool loads, const char* what);
-  // A range of a buffer that was found valid and has a size, for vertices or indices. `what` is for
-  // messages, and stays valid.
+  // Adds a valid range of a buffer, with a size other than 0, for vertices or indices. `what` is
+  // for messages and must outlive this object.
   void addRead(const BufferRange& range, const char* what);
 
   // Throws kUninitialised and kHazard.
   void check() const;
 
-  // After the call was passed on: notes what is written now, and used by this frame.
+  // Call after the call was forwarded: marks its writes, and its resources as used by this frame.
   void commit();
 
  private:
   struct Use {
     Buffer buffer = {};
     Texture texture = {};
-    uint64_t begin = 0, end = 0;       // bytes; of a texture: mip levels
-    uint32_t layer = 0, layerEnd = 0;  // of a texture
+    uint64_t begin = 0, end = 0;       // buffers: bytes; textures: mip levels
+    uint32_t layer = 0, layerEnd = 0;  // textures only
     bool reads = false, writes = false;
     bool target = false;
-    const char* what = "";  // the slot's name, or the role
+    const char* what = "";  // name of the slot, or role: "colour target"
   };
 
   void addBinding(const PipelineRecord& pipeline, const grisaille_shader_slot& slot,
@@ -51,10 +52,10 @@ class CallUses {
 
   Account& account_;
   std::vector<Use> uses_;
-  std::vector<uint64_t*> marks_;  // the used frames of the records
+  std::vector<uint64_t*> marks_;  // usedFrame of each used record
 };
 
-// The view with its counts resolved. Throws kBindingRange.
+// Returns the view with counts of 0 resolved. `what` is for messages. Throws kBindingRange.
 TextureView resolvedView(const TextureView& view, const TextureRecord& texture, const char* what);
 
 }  // namespace grisaille::gpu

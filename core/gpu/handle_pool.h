@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: MIT
-// Slots behind handles: index and generation, so that a stale handle is found out.
-// The idea is sokol_gfx's: a slot's generation grows when it is freed.
+// Slots behind handles. A handle holds a slot's index and generation, which detects stale handles.
+// As in sokol_gfx, freeing a slot increments its generation.
 #pragma once
 
 #include <optional>
@@ -17,7 +17,7 @@ class HandlePool {
   // `kind` is for messages: "texture".
   explicit HandlePool(const char* kind) : kind_(kind) {}
 
-  // Throws kTooManyResources at 65535 live ones. References from get() may move.
+  // Throws kTooManyResources if 65535 values live already. Invalidates references from get().
   HandleType add(Value value) {
     uint32_t index = 0;
     if (!free_.empty()) {
@@ -25,7 +25,7 @@ class HandlePool {
       free_.pop_back();
     } else {
       if (slots_.size() >= 0xffffu) {
-        throw Error(ErrorId::kTooManyResources, "65535 of kind {} exist already", kind_);
+        throw Error(ErrorId::kTooManyResources, "the limit of 65535 live {}s is reached", kind_);
       }
       index = static_cast<uint32_t>(slots_.size());
       slots_.emplace_back();
@@ -39,7 +39,7 @@ class HandlePool {
   Value& get(HandleType handle) {
     const Slot* slot = find(handle);
     if (slot == nullptr) {
-      throw Error(ErrorId::kStaleHandle, "{} {:#x} was never made or is destroyed", kind_,
+      throw Error(ErrorId::kStaleHandle, "{} {:#x} does not exist or is destroyed", kind_,
                   handle.value);
     }
     return *const_cast<Slot*>(slot)->value;
@@ -56,7 +56,7 @@ class HandlePool {
     return value;
   }
 
-  // Calls visit(handle, value) for all that live.
+  // Calls visit(handle, value) for every live value.
   template <typename Visit>
   void forEach(Visit&& visit) {
     for (uint32_t i = 0; i < slots_.size(); ++i) {
@@ -66,7 +66,7 @@ class HandlePool {
 
  private:
   struct Slot {
-    uint32_t generation = 1;  // never 0, so that no handle is 0
+    uint32_t generation = 1;  // never 0, which keeps every handle different from 0
     std::optional<Value> value;
   };
 

@@ -16,7 +16,7 @@ struct NullBuffer {
 
 struct NullTexture {
   std::string label;
-  TextureDesc desc;                              // its label is not kept
+  TextureDesc desc;                              // without its label
   std::vector<std::vector<std::byte>> contents;  // layer-major; empty until uploaded
 };
 
@@ -27,7 +27,7 @@ struct NullPipeline {
 
 DeviceInfo nullInfo() {
   DeviceInfo info{.backend = "null", .name = "null device", .driver = "none", .software = true};
-  // The least that the layer's requirements guarantee, alignments as large as they come.
+  // The smallest limits and the largest alignments that the layer allows a device to have.
   info.capabilities = {.maxTextureSize = 4096,
                        .maxTextureLayers = 256,
                        .maxBufferBytes = uint64_t{1} << 28,
@@ -116,7 +116,7 @@ class NullDeviceImpl final : public NullDevice, private Commands {
     return {first, first + static_cast<ptrdiff_t>(size)};
   }
   bool present(Texture) override {
-    throw Error(ErrorId::kNoWindow, "the null device has no window to show a picture in");
+    throw Error(ErrorId::kNoWindow, "the null device cannot present: it has no window");
   }
   std::vector<FrameTimes> takeTimes() override { return {}; }
 
@@ -136,7 +136,7 @@ class NullDeviceImpl final : public NullDevice, private Commands {
   }
 
   BufferRange uniform(std::span<const std::byte> bytes) override {
-    // Memory of its own for each, which is dropped at the frame's end.
+    // Each call gets its own buffer, which endFrame() removes.
     const Buffer buffer = buffers_.add({"uniform", {bytes.begin(), bytes.end()}});
     uniforms_.push_back(buffer);
     return {.buffer = buffer, .offset = 0, .size = bytes.size()};

@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: MIT
-// A device without a driver: it keeps what is uploaded, draws and computes nothing, and records
-// what it was asked to do. Tests of everything above the layer run on it.
+// A device without a driver, for tests of the code above the GPU layer. It stores uploads, records
+// every command, and draws and computes nothing.
 #pragma once
 
 #include <variant>
@@ -10,7 +10,7 @@
 
 namespace grisaille::gpu {
 
-// What was recorded, in order, from the last begin() on.
+// The recorded commands.
 struct RecordedPass {
   std::string label;
   bool begins = true;
@@ -37,6 +37,7 @@ using Recorded =
 
 class NullDevice : public Device {
  public:
+  // All commands since the last begin(), in order.
   virtual const std::vector<Recorded>& recorded() const = 0;
 };
 

@@ -50,7 +50,7 @@ void StateTracker::use(TextureView view, Access access) {
       layerEnd > state.layers) {
     throw Error(
         ErrorId::kBindingRange,
-        "levels {} ... {} of layers {} ... {} are not in a texture of {} levels and {} layers",
+        "the view of levels [{}, {}) and layers [{}, {}) exceeds a texture of {} levels, {} layers",
         view.mip, mipEnd, view.layer, layerEnd, state.mips, state.layers);
   }
   if (!state.touched) touchedTextures_.push_back(view.texture.value);
@@ -68,7 +68,7 @@ void StateTracker::use(const Shader& shader, std::span<const Binding> bindings) 
     for (uint32_t i = 0; i < shader.slot_count; ++i) {
       const grisaille_shader_slot& slot = shader.slots[i];
       if (slot.slot_class != binding.slotClass || slot.slot != binding.slot) continue;
-      // A slot that is neither read nor written may still be asked for its size.
+      // The shader may query the size of a slot that it neither reads nor writes.
       const Access storage =
           (slot.writes != 0 ? Access::kStorageWrite : Access::kNone) |
           (slot.reads != 0 || slot.writes == 0 ? Access::kStorageRead : Access::kNone);
@@ -169,7 +169,7 @@ void StateTracker::appendTexture(Texture texture, uint32_t mip, uint32_t layer, 
   mergeLayers();
 }
 
-// Joins the last two when they are the same levels of neighbouring layers.
+// Merges the last two transitions if they cover the same levels of neighbouring layers.
 void StateTracker::mergeLayers() {
   if (transitions_.size() < 2) return;
   Transition& first = transitions_[transitions_.size() - 2];

@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: MIT
-// What state every subresource is in, and which barriers the next call needs. Backends turn the
-// transitions into their API's barriers; the null device records them, so that this is tested
-// without a driver. After nvrhi's state tracking, per mip level and layer.
+// Tracks the state of every subresource (mip level and layer) and finds the barriers that the next
+// call needs. Backends translate the transitions into barriers of their API. The null device
+// records them, for tests without a driver. Follows the state tracking of nvrhi.
 #pragma once
 
 #include <span>
@@ -35,7 +35,7 @@ constexpr bool has(Access set, Access any) {
 constexpr Access kWriteAccess =
     Access::kStorageWrite | Access::kColorTarget | Access::kDepthTarget | Access::kCopyWrite;
 
-// One of buffer and texture is set. `before` is kNone for contents that were never written.
+// Either `buffer` or `texture` is set. `before` is kNone for contents that were never written.
 struct Transition {
   Buffer buffer;
   Texture texture;
@@ -51,30 +51,31 @@ class StateTracker {
   void remove(Buffer buffer);
   void remove(Texture texture);
 
-  // Declares one use of the coming call. Several uses of one subresource are combined. Resources
-  // that were not added (a backend's own uniform memory) are ignored. A view's zero counts are
-  // resolved.
+  // Declare one use by the next call. Several uses of one subresource are combined. Resources that
+  // were not added (a backend's own uniform memory) are ignored. A count of 0 in a view means all
+  // remaining levels or layers.
   void use(Buffer buffer, Access access);
   void use(TextureView view, Access access);  // throws kBindingRange
 
-  // The same for all bindings of a shader, by its reflection. Slots it does not declare are
-  // ignored.
+  // Declares the uses of all bindings of a shader, from the shader's reflection. Bindings to slots
+  // that the shader does not declare are ignored.
   void use(const Shader& shader, std::span<const Binding> bindings);
 
-  // The transitions that the declared uses need. A read after a read of the same kind needs none; a
-  // texture's adjacent subresources with like states are merged. Valid until the next flush().
+  // Returns the transitions that the declared uses need. A read after a read of the same kind needs
+  // none. Adjacent subresources of a texture with equal states are merged. Valid until the next
+  // flush().
   std::span<const Transition> flush();
 
-  // Takes back the uses since `earlier` was copied from this, for a frame that is dropped. What was
-  // added since stays, as never used; what was removed since stays removed. `earlier` must have
-  // been copied right after a flush().
+  // Undoes all uses since `earlier` was copied from this tracker: for a frame that is dropped.
+  // Resources added since then stay, in the state of never used; removed resources stay removed.
+  // `earlier` must have been copied right after a flush().
   void rollBack(const StateTracker& earlier);
 
  private:
   struct TextureState {
     uint32_t mips = 1, layers = 1;
     std::vector<Access> states;   // layer-major: layer * mips + mip
-    std::vector<Access> pending;  // like states
+    std::vector<Access> pending;  // same order as `states`
     bool touched = false;
   };
   struct BufferState {

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: MIT
-// Textures that live for one frame, handed out again in later frames.
+// A pool of textures that live for one frame; later frames reuse them.
 #pragma once
 
 #include <functional>
@@ -14,11 +14,12 @@ class TransientPool {
   using Create = std::function<Texture(const TextureDesc&)>;
   using Destroy = std::function<void(Texture)>;
 
-  // A texture like `desc` that this frame has not handed out yet; makes one where there is none.
+  // Returns a texture that matches `desc` and that this frame has not taken yet. Creates one if the
+  // pool has none.
   Texture take(const TextureDesc& desc, const Create& create);
 
-  // The frame's end: all may be handed out again. Destroys those that `kIdleFrames` frames did not
-  // use.
+  // Ends the frame: all textures may be taken again. Destroys textures that were not taken for more
+  // than `kIdleFrames` frames.
   void endFrame(const Destroy& destroy);
 
  private:

@@ -1,9 +1,9 @@
 // SPDX-License-Identifier: MIT
-// What the GPU layer speaks of: handles, formats, descriptors. Plain data, no graphics API.
+// The types of the GPU layer: handles, formats, descriptors. Plain data, no graphics API.
 //
-// Every descriptor is an aggregate for designated initialisers; a zero field means the sensible
-// default. Labels are for messages, timings and debuggers; the layer copies them. Spans are read
-// during the call and never kept.
+// Every descriptor is an aggregate for designated initialisers. A field that is left out keeps its
+// default. Labels appear in messages, timings and debuggers; the layer copies them. The layer reads
+// spans during the call and never keeps them.
 #pragma once
 
 #include <array>
@@ -20,8 +20,8 @@ namespace grisaille::gpu {
 
 // --- Handles -------------------------------------------------------------------------------------
 
-// 16 bits of index, 16 of generation; 0 names nothing. A handle outlives its resource harmlessly:
-// using it then is kStaleHandle.
+// 16 bits of index, 16 of generation; 0 is the null handle. A handle may outlive its resource:
+// using it then throws kStaleHandle.
 template <typename Tag>
 struct Handle {
   uint32_t value = 0;
@@ -55,15 +55,15 @@ enum class Format : uint8_t {
 };
 
 struct FormatInfo {
-  const char* name;     // "r32f": as GLSL spells the image format, or a like short word
+  const char* name;     // "r32f": the GLSL image format, or a short name of the same style
   uint32_t texelBytes;  // bytes of one texel in memory and in uploads and readbacks
   uint32_t channels;    // 1 ... 4
-  bool depth;           // a depth target rather than a colour target
+  bool depth;           // true: for depth targets; false: for colour targets
   bool storage;         // may be bound as an image
-  bool blends;          // as a target: Blend::kOver, which not every device has for 32-bit floats
+  bool blends;          // a target may use Blend::kOver; not every device blends 32-bit floats
 };
 
-// Valid for every format but kNone.
+// Valid for every format except kNone.
 const FormatInfo& formatInfo(Format format);
 
 // --- Resources -----------------------------------------------------------------------------------
@@ -85,7 +85,7 @@ constexpr bool has(TextureUsage set, TextureUsage one) {
   return (static_cast<int>(set) & static_cast<int>(one)) != 0;
 }
 
-// Uploads into a buffer and reads back from it are always allowed.
+// Uploads and readbacks are always allowed.
 struct BufferDesc {
   std::string_view label = {};
   uint64_t size = 0;  // bytes, 1 ... Capabilities::maxBufferBytes
@@ -104,7 +104,7 @@ struct TextureDesc {
   TextureUsage usage = TextureUsage::kNone;
 };
 
-// Bytes of one layer of one level, in uploads and readbacks.
+// Bytes of one layer of mip level `mip`, in uploads and readbacks.
 uint64_t subresourceBytes(const TextureDesc& desc, uint32_t mip);
 
 enum class Filter : uint8_t { kNearest, kLinear };
@@ -112,21 +112,22 @@ enum class Address : uint8_t { kClamp, kRepeat, kMirror };
 
 struct SamplerDesc {
   std::string_view label = {};
-  Filter filter = Filter::kNearest;  // within a level, both ways
+  Filter filter = Filter::kNearest;  // within a level: minification and magnification
   Filter mipFilter = Filter::kNearest;
   Address addressU = Address::kClamp;
   Address addressV = Address::kClamp;
-  float maxAnisotropy = 1;  // 1: off; more is clamped to what the device has
+  float maxAnisotropy = 1;  // 1: off; clamped to Capabilities::maxAnisotropy
 };
 
-// Part of a buffer. size 0: to its end.
+// Part of a buffer. size 0: to the end of the buffer.
 struct BufferRange {
   Buffer buffer = {};
   uint64_t offset = 0;  // bytes
   uint64_t size = 0;    // bytes
 };
 
-// Part of a texture. A count of 0 means all that follow. A view of one layer of an array is 2D.
+// Part of a texture. A count of 0 means all remaining levels or layers. A view of one layer of an
+// array is 2D.
 struct TextureView {
   Texture texture = {};
   uint32_t mip = 0;
@@ -147,14 +148,14 @@ struct Specialization {
 
 struct ComputePipelineDesc {
   std::string_view label = {};
-  const Shader* shader = nullptr;                  // stays valid while the pipeline lives
-  std::span<const Specialization> constants = {};  // others keep their defaults
+  const Shader* shader = nullptr;                  // must outlive the pipeline
+  std::span<const Specialization> constants = {};  // constants not listed keep their defaults
 };
 
-// kUnorm8x4: four bytes, which the shader sees as a vec4 of 0 ... 1.
+// kUnorm8x4: four bytes, which the shader reads as a vec4 of 0 ... 1.
 enum class AttributeFormat : uint8_t { kFloat1, kFloat2, kFloat3, kFloat4, kUnorm8x4 };
 
-// What the shader sees of one attribute: 1 ... 4 floats.
+// Floats that the shader reads from one attribute: 1 ... 4.
 constexpr uint32_t attributeComponents(AttributeFormat format) {
   return format == AttributeFormat::kUnorm8x4 ? 4u : static_cast<uint32_t>(format) + 1u;
 }
@@ -168,33 +169,33 @@ struct VertexAttribute {
   uint32_t location = 0;
   uint32_t stream = 0;  // index into Draw::vertexStreams
   AttributeFormat format = AttributeFormat::kFloat3;
-  uint32_t offset = 0;  // bytes from the vertex's start
+  uint32_t offset = 0;  // bytes from the start of the vertex
 };
 
 constexpr uint32_t kMaxVertexStreams = 4;
 constexpr uint32_t kMaxColorTargets = 4;
 
-// How fragments join what a target holds. kOver: by the fragment's straight alpha a, as
-// colour * a + held * (1 - a), and for alpha a + held * (1 - a).
+// How fragments are blended into the target. kOver, with the fragment's straight alpha a: colour is
+// src * a + dst * (1 - a), and alpha is a + dst * (1 - a).
 enum class Blend : uint8_t { kNone, kOver };
 
-// Triangle lists, counter-clockwise is front. Depth, where there is a depth target, is tested with
-// GREATER (reversed depth) and written.
+// Draws triangle lists; counter-clockwise triangles face front. With a depth target, depth is
+// tested with GREATER (reversed depth) and written.
 struct GraphicsPipelineDesc {
   std::string_view label = {};
   const Shader* vertex = nullptr;
-  const Shader* fragment = nullptr;  // none: depth only
+  const Shader* fragment = nullptr;  // null: depth only
   std::span<const Specialization> constants = {};
-  std::span<const uint32_t> streamStrides = {};  // bytes, one a vertex stream
+  std::span<const uint32_t> streamStrides = {};  // bytes, one per vertex stream
   std::span<const VertexAttribute> attributes = {};
   std::span<const Format> colorFormats = {};
   Format depthFormat = Format::kNone;
-  Blend blend = Blend::kNone;  // of all colour targets, whose formats must then blend
+  Blend blend = Blend::kNone;  // for all colour targets; kOver needs formats that blend
 };
 
 // --- Work ----------------------------------------------------------------------------------------
 
-// What stands in one slot of a shader. Make it with the functions below.
+// A resource bound to one slot of a shader. Make it with the functions below.
 struct Binding {
   uint32_t slotClass = 0;  // grisaille_slot_class
   uint32_t slot = 0;
@@ -240,7 +241,7 @@ struct Dispatch {
 
 enum class Cull : uint8_t { kNone, kBack, kFront };
 
-// Pixels of the targets, from the top left. width 0: all of them.
+// A rectangle of the targets: pixels from the top left. width 0: the whole targets.
 struct Scissor {
   uint32_t x = 0;
   uint32_t y = 0;
@@ -252,40 +253,41 @@ struct Draw {
   GraphicsPipeline pipeline = {};
   std::span<const Binding> bindings = {};
   std::span<const BufferRange> vertexStreams = {};
-  BufferRange indices = {};  // 32-bit; no buffer: vertices in order
+  BufferRange indices = {};  // 32-bit; no buffer: a draw without indices
   uint32_t count = 0;        // indices, or vertices
   uint32_t first = 0;        // first index, or first vertex
   Cull cull = Cull::kNone;
-  Scissor scissor = {};  // nothing is drawn outside; inside the targets
+  Scissor scissor = {};  // clips the draw; must lie inside the targets
 };
 
-// What a target holds when drawing begins. kLoad: what it held before.
+// Contents of a target when drawing begins. kLoad keeps the earlier contents; after kDiscard they
+// are undefined.
 enum class Load : uint8_t { kClear, kLoad, kDiscard };
 
 // `view` is one mip level of one layer (its counts are ignored).
 struct ColorTarget {
   TextureView view = {};
   Load load = Load::kClear;
-  std::array<float, 4> clear = {0, 0, 0, 0};  // of kR32Uint: converted to integers
+  std::array<float, 4> clear = {0, 0, 0, 0};  // converted to integers for kR32Uint
 };
 
 struct DepthTarget {
-  TextureView view = {};  // no texture: none
+  TextureView view = {};  // no texture: no depth target
   Load load = Load::kClear;
-  float clear = 0;  // reversed depth: infinitely far
+  float clear = 0;  // 0 is infinitely far (reversed depth)
 };
 
-// The viewport is the whole of the targets.
+// One set of targets and the draws into it. The viewport covers the whole targets.
 struct Render {
   std::span<const ColorTarget> colors = {};
   DepthTarget depth = {};
-  std::span<const Draw> draws = {};  // in order
+  std::span<const Draw> draws = {};  // drawn in this order
 };
 
 // --- The device ----------------------------------------------------------------------------------
 
 struct Capabilities {
-  uint32_t maxTextureSize = 0;  // texels a side
+  uint32_t maxTextureSize = 0;  // texels per side
   uint32_t maxTextureLayers = 0;
   uint64_t maxBufferBytes = 0;    // of one buffer
   uint64_t maxStorageRange = 0;   // bytes of one storage binding
@@ -296,14 +298,14 @@ struct Capabilities {
   float maxAnisotropy = 1;
 };
 
-// Which clock passes are timed by. Software drivers' own timestamps lie, so there the wall clock is
-// read around each pass and a wait for its end.
+// The clock that times passes. Timestamps of software drivers are wrong. On these drivers the layer
+// reads the wall clock before each pass and after a wait for its end.
 enum class Clock : uint8_t { kNone, kGpu, kWall };
 const char* clockName(Clock clock);  // "none", "gpu", "wall"
 
 struct DeviceInfo {
   std::string backend = {};  // "opengl", "vulkan", "null"
-  std::string name = {};     // the device, as its driver calls it
+  std::string name = {};     // the driver's name for the device
   std::string driver = {};   // the driver and its version
   bool software = false;
   Clock clock = Clock::kNone;
@@ -315,8 +317,8 @@ struct PassTime {
   double milliseconds = 0;
 };
 
-// One finished frame. `whole` spans from the first pass's start to the last one's end, by the same
-// clock as the passes.
+// Times of one finished frame. `wholeMilliseconds` spans from the start of the first pass to the
+// end of the last pass, by the same clock as the passes.
 struct FrameTimes {
   uint64_t frame = 0;  // counted from 0 for the first begin()
   std::vector<PassTime> passes = {};

@@ -23,8 +23,9 @@ namespace {
 constexpr int kLargestSide = 16384;  // pixels
 constexpr uint64_t kMostValues = uint64_t{1} << 29;
 
-// Keeps the process's standard error shut while it lives: libpng prints each error there although
-// the library reports it too, and offers no way to stop it. Threads may overlap.
+// Redirects the process's standard error to /dev/null for its lifetime: libpng prints each error,
+// although OpenImageIO reports it too, and printing cannot be disabled. Lifetimes in several
+// threads may overlap.
 class SilentStderr {
  public:
   SilentStderr() {
@@ -52,7 +53,8 @@ class SilentStderr {
   static inline int saved_ = -1;
 };
 
-// OpenImageIO keeps errors in two places and prints those that nobody fetched: fetch both.
+// OpenImageIO keeps errors in two places and prints errors that the caller does not fetch: fetch
+// both.
 template <typename Stream>
 std::string errorOf(const Stream* stream) {
   std::string text = stream ? stream->geterror() : std::string();
@@ -92,14 +94,14 @@ OIIO::ImageSpec specOf(const Image& image, const OIIO::TypeDesc& type) {
                        static_cast<int>(image.channels), type);
   if (image.channels == 1) spec.channelnames = {"Y"};
   if (image.channels == 2) spec.channelnames = {"R", "G"};
-  // Store what is given: no division by alpha on the way.
+  // Store the values unchanged: no division by alpha.
   spec.attribute("oiio:UnassociatedAlpha", 1);
-  // Else OpenImageIO notes the time of writing, and equal pictures make different files.
+  // Otherwise OpenImageIO stores the current time, and equal pictures give different files.
   spec.attribute("DateTime", "1970:01:01 00:00:00");
   return spec;
 }
 
-// The bytes of a file. They go to memory first: the library overlooks a disk that is full.
+// The bytes of a file, encoded in memory: OpenImageIO does not report a full disk.
 std::vector<unsigned char> encode(const char* plugin, const OIIO::ImageSpec& spec,
                                   const void* pixels) {
   const SilentStderr silent;
@@ -108,7 +110,7 @@ std::vector<unsigned char> encode(const char* plugin, const OIIO::ImageSpec& spe
   const auto output = OIIO::ImageOutput::create(plugin);
   if (!output || !output->set_ioproxy(&memory) || !output->open(plugin, spec) ||
       !output->write_image(spec.format, pixels) || !output->close()) {
-    throw Error(ErrorId::kFileUnwritable, "an {} file cannot be made: {}", plugin,
+    throw Error(ErrorId::kFileUnwritable, "the {} encoder fails: {}", plugin,
                 errorOf(output.get()));
   }
   return bytes;
@@ -122,7 +124,7 @@ std::vector<unsigned char> pngOf(const Image& image, const WriteOptions& options
               : encode("png", spec, quantise<uint8_t>(image, options.transfer).data());
 }
 
-// As OpenImageIO calls OpenEXR's worldToCamera and worldToNDC.
+// OpenImageIO's names of OpenEXR's worldToCamera and worldToNDC.
 constexpr const char* kWorldToCamera = "worldtocamera";
 constexpr const char* kWorldToNdc = "worldtoNDC";
 
@@ -150,9 +152,9 @@ OIIO::ImageSpec readConfig() {
   return config;
 }
 
-// Whether the chunks lie inside the bytes up to the last one. OpenImageIO leaks where they do not.
+// Whether all chunks up to IEND lie inside the bytes. OpenImageIO leaks memory if they do not.
 bool isWholePng(std::span<const std::byte> bytes) {
-  constexpr size_t kSignature = 8, kFrame = 12;  // a chunk's length, type and checksum
+  constexpr size_t kSignature = 8, kFrame = 12;  // bytes of a chunk's length, type and checksum
   for (size_t at = kSignature; bytes.size() - at >= kFrame;) {
     size_t length = 0;
     for (size_t i = 0; i < 4; ++i) length = length << 8 | std::to_integer<size_t>(bytes[at + i]);
@@ -164,7 +166,7 @@ bool isWholePng(std::span<const std::byte> bytes) {
 }
 
 bool endsLikeJpeg(std::span<const std::byte> bytes) {
-  // A file cut short decodes to grey with no error: look for the end marker. Some writers pad.
+  // A truncated file decodes to grey without an error: look for the end marker. Some writers pad.
   const size_t from = bytes.size() > 64 ? bytes.size() - 64 : 0;
   for (size_t i = from; i + 1 < bytes.size(); ++i) {
     if (bytes[i] == std::byte{0xff} && bytes[i + 1] == std::byte{0xd9}) return true;
@@ -186,7 +188,7 @@ const char* pluginFor(std::span<const std::byte> encoded, const std::string& nam
   throw Error(ErrorId::kSceneImage, "image \"{}\": neither a PNG nor a JPEG", name);
 }
 
-// Grey, grey with alpha, RGB or RGBA to RGBA.
+// Converts grey, grey with alpha, RGB or RGBA to RGBA.
 std::vector<uint8_t> toRgba(const std::vector<uint8_t>& from, size_t channels) {
   const size_t count = from.size() / channels;
   std::vector<uint8_t> result(count * 4);
@@ -212,7 +214,7 @@ std::unique_ptr<OIIO::ImageInput> openPicture(const std::string& path) {
   }
   if (input->spec().deep) {
     throw Error(ErrorId::kPictureDeep,
-                "{}: it is a deep picture, with any number of samples a pixel", path);
+                "{}: it is a deep picture, with a variable number of samples per pixel", path);
   }
   return input;
 }

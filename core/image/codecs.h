@@ -1,14 +1,14 @@
 // SPDX-License-Identifier: MIT
-// What of pictures is OpenImageIO's work. It lies in a library of its own, which is loaded when the
-// first picture goes into or out of a file: OpenImageIO brings some 260 libraries along, and a
-// program that needs none of them would spend nearly all of its start on loading them.
+// The image functions that use OpenImageIO. They are in a separate library, which is loaded when
+// the program first reads or writes a picture file. OpenImageIO depends on some 260 libraries;
+// loading them would take nearly all of the start-up time of a program that needs none of them.
 #pragma once
 
 #include "core/image/image.h"
 
 namespace grisaille::image {
 
-// As the functions of image.h. What goes in was checked.
+// See the functions of image.h. The caller has checked the arguments.
 struct Codecs {
   std::vector<unsigned char> (*exrOf)(const Image& image, const WriteOptions& options);
   std::vector<unsigned char> (*pngOf)(const Image& image, const WriteOptions& options);
@@ -19,7 +19,7 @@ struct Codecs {
   std::vector<std::byte> (*encodeJpeg)(const Image& image, int quality);
 };
 
-// What the library exports.
+// The function that the library exports, and its name.
 using CodecsOf = const Codecs*();
 constexpr const char* kCodecsFunction = "grisaille_codecs";
 

@@ -29,12 +29,12 @@ Format formatOf(const std::string& path) {
 
 const Codecs& codecs() {
   static const Codecs& loaded = []() -> const Codecs& {
-    // Never unloaded.
+    // The library stays loaded until the process ends.
     const std::string file = libraryFolder() / "libgrisaille_codecs.so";
     void* library = dlopen(file.c_str(), RTLD_LAZY | RTLD_LOCAL);
     void* function = library != nullptr ? dlsym(library, kCodecsFunction) : nullptr;
     if (function == nullptr) {
-      throw Error(ErrorId::kNoCodecs, "no picture can be read or written: {}", dlerror());
+      throw Error(ErrorId::kNoCodecs, "cannot load the picture codecs: {}", dlerror());
     }
     return *reinterpret_cast<CodecsOf*>(function)();
   }();
@@ -61,7 +61,7 @@ void write(const Image& image, const std::string& path, const WriteOptions& opti
                 image.pixels.size(), image.width, image.height, image.channels);
   }
   if (format == Format::kPng && options.pngBits != 8 && options.pngBits != 16) {
-    throw Error(ErrorId::kImageFormat, "{}: a PNG of {} bits, only 8 and 16 are written", path,
+    throw Error(ErrorId::kImageFormat, "{}: a PNG cannot have {} bits, only 8 or 16", path,
                 options.pngBits);
   }
   const std::vector<unsigned char> bytes =

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: MIT
-// Pictures in memory, in and out of files (through OpenImageIO), and how far two of them differ.
+// Pictures in memory, reading and writing of picture files (with OpenImageIO), and image metrics.
 #pragma once
 
 #include <array>
@@ -12,7 +12,7 @@
 
 namespace grisaille::image {
 
-// Rows from the top, channels interleaved.
+// Top row first, channels interleaved.
 struct Image {
   uint32_t width = 0;
   uint32_t height = 0;
@@ -24,7 +24,7 @@ struct Image {
   }
 };
 
-// 8 bits a channel, RGBA, as stored (not linearised).
+// RGBA, 8 bits per channel, as stored (not linearised).
 struct Image8 {
   uint32_t width = 0;
   uint32_t height = 0;
@@ -32,13 +32,13 @@ struct Image8 {
 };
 
 enum class Transfer : uint8_t {
-  kData,    // numbers: files hold them as they are
-  kColour,  // linear light: files of integers hold it sRGB encoded
-  kSigned   // numbers from -1 to 1: files of integers hold (x + 1) / 2
+  kData,    // numbers, stored unchanged
+  kColour,  // linear light; files of integers store it with sRGB encoding
+  kSigned   // numbers from -1 to 1; files of integers store (x + 1) / 2
 };
 
-// The camera of a picture as OpenEXR's standard attributes hold it: row after row, for points that
-// are rows, so that the last row is what the origin goes to.
+// The camera of a picture, from OpenEXR's standard attributes: row-major, for row vectors, so that
+// the last row is the image of the origin.
 struct ViewMatrices {
   std::array<float, 16> worldToCamera{}, worldToNdc{};
 };
@@ -46,47 +46,50 @@ struct ViewMatrices {
 struct WriteOptions {
   Transfer transfer = Transfer::kData;
   uint32_t pngBits = 8;                       // 8 or 16
-  std::optional<ViewMatrices> matrices = {};  // for an EXR to hold
+  std::optional<ViewMatrices> matrices = {};  // stored in an EXR file; ignored for PNG
 };
 
-// By the name's ending: .exr holds 32-bit floats as they are, .png rounds to integers after
-// clamping to [0, 1] (NaN: 0). Written aside, then renamed: a failure leaves no half file and an
-// older file as it was. Throws kImageFormat, kFileUnwritable, kNoCodecs.
+// Writes a file whose format the name's ending selects: .exr stores 32-bit floats unchanged, .png
+// clamps to [0, 1] (NaN: 0) and rounds to integers. The write is atomic: a failure leaves no
+// partial file and an older file unchanged. Throws kImageFormat, kImageMismatch, kFileUnwritable,
+// kNoCodecs.
 void write(const Image& image, const std::string& path, const WriteOptions& options = {});
 
-// Throws kImageFormat when `path` has an ending that write() does not take, and kFileUnwritable
-// where nothing can be written there: ask before long work.
+// Checks, before long work, that write() can write to `path`. Throws kImageFormat for an ending
+// that write() does not support, and kFileUnwritable.
 void checkWritable(const std::string& path);
 
-// How many values are NaN or infinite.
+// Number of values that are NaN or infinite.
 size_t countNonFinite(const Image& image);
 
-// Any format OpenImageIO reads; integers become [0, 1]. Throws kImageUnreadable, kPictureDeep,
-// kNoCodecs.
+// Reads any format that OpenImageIO reads; integers become [0, 1]. Throws kImageUnreadable,
+// kPictureDeep, kNoCodecs.
 Image read(const std::string& path);
 
-// A picture with what its file says of it.
+// A picture with the metadata of its file.
 struct Picture {
   Image image;
-  std::vector<std::string> channels;  // names, as many as the image has
+  std::vector<std::string> channels;  // names, one per channel of the image
   std::optional<ViewMatrices> matrices;
 };
 
-// As read(). Throws kPictureSize as well, where the file holds a part of its picture, or more.
+// The same as read(), with metadata. Also throws kPictureSize if the data window of the file
+// differs from its display window.
 Picture readPicture(const std::string& path);
 
-// A PNG or JPEG in memory, of at most 16384 pixels a side. `name` is for messages. Throws
+// Decodes a PNG or JPEG in memory, of at most 16384 pixels per side. `name` is for messages. Throws
 // kSceneImage, kNoCodecs.
 Image8 decode(std::span<const std::byte> encoded, const std::string& name);
 
-// A PNG of 8 bits a channel, RGBA, in memory.
+// Encodes a PNG in memory, RGBA with 8 bits per channel.
 std::vector<std::byte> encodePng(const Image8& image);
 
-// A JPEG in memory of one or three channels of numbers, as write() rounds them; quality 1 ... 100.
+// Encodes a JPEG in memory, of one or three channels of numbers, rounded the same as in write().
+// `quality`: 1 to 100.
 std::vector<std::byte> encodeJpeg(const Image& image, int quality);
 
-// The number that holds for two images of one size and channel count. Pixels where either is not
-// finite count apart.
+// Error metrics of two images of the same size and channel count. Values that are not finite in
+// either image are left out and counted separately.
 struct Difference {
   uint64_t compared = 0;   // values
   uint64_t nonFinite = 0;  // values left out
@@ -100,21 +103,21 @@ struct Difference {
 // Throws kImageMismatch.
 Difference compare(const Image& a, const Image& b);
 
-// Share of values that differ by more than `threshold`. A value that is not finite differs from all
-// but its like. Throws kImageMismatch.
+// Share of values that differ by more than `threshold`. Infinity equals only the same infinity, and
+// NaN only NaN; all other pairs with a value that is not finite differ. Throws kImageMismatch.
 double shareOver(const Image& a, const Image& b, double threshold);
 
 struct Similarity {
-  double mean = 1;       // -1 ... 1; 1: equal, and where no window is left
-  uint64_t windows = 0;  // that the mean is over
-  uint64_t leftOut = 0;  // windows that hold a pixel which is not finite
+  double mean = 1;       // -1 to 1; 1: equal images, or no window counts
+  uint64_t windows = 0;  // number of windows in the mean
+  uint64_t leftOut = 0;  // number of windows with a pixel that is not finite
 };
 
-// Mean structural similarity of pictures of one channel and the range 0 ... 1: Wang, Bovik, Sheikh
+// Mean structural similarity of images with one channel and the range 0 to 1: Wang, Bovik, Sheikh
 // and Simoncelli, "Image Quality Assessment: From Error Visibility to Structural Similarity", IEEE
 // Transactions on Image Processing 13(4), 2004. A Gaussian window of 11 x 11 pixels, sigma 1.5,
-// K1 = 0.01, K2 = 0.03. As in the authors' ssim_index.m, only windows that lie whole in the picture
-// count, and the picture is not made smaller first. Throws kImageMismatch.
+// K1 = 0.01, K2 = 0.03. Same as in the authors' ssim_index.m, only windows that lie entirely inside
+// the image count, and the image is not downsampled first. Throws kImageMismatch.
 Similarity ssim(const Image& a, const Image& b);
 
 }  // namespace grisaille::image

@@ -9,16 +9,16 @@
 namespace grisaille::image {
 namespace {
 
-constexpr uint32_t kSide = 11;  // of a window, pixels
+constexpr uint32_t kSide = 11;  // side of a window, pixels
 constexpr double kSigma = 1.5;
 constexpr double kC1 = 0.01 * 0.01;  // (K1 x range)^2
 constexpr double kC2 = 0.03 * 0.03;
 
 using Weights = std::array<double, kSide>;
-// Means of a, b, a^2, b^2, a b, in a window or a row of one.
+// Weighted means of a, b, a^2, b^2 and a b, over a window or one row of it.
 using Moments = std::array<double, 5>;
 
-// The window is the product of one of these a row and a column.
+// The weights along one axis; the window is separable.
 Weights gaussian() {
   Weights weights;
   double sum = 0;
@@ -30,7 +30,7 @@ Weights gaussian() {
   return weights;
 }
 
-// Of a row of a window. NaN where a pixel is not finite.
+// Moments of one row of a window. NaN if a pixel is not finite.
 Moments rowMoments(const float* a, const float* b, const Weights& weights) {
   Moments sums{};
   for (uint32_t i = 0; i < kSide; ++i) {

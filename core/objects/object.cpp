@@ -20,7 +20,8 @@ namespace {
 
 using Numbers = std::array<double, 3>;
 
-constexpr double kUnitTolerance = 0x1p-22;  // of the squared length; rounding to floats costs half
+// For the squared length; twice the rounding error of floats.
+constexpr double kUnitTolerance = 0x1p-22;
 
 template <typename... Args>
 [[noreturn]] void refuse(fmt::format_string<Args...> what, Args&&... args) {
@@ -36,7 +37,8 @@ Numbers unitOf(const Field& field, const Numbers& direction) {
   const double largest =
       std::max({std::abs(direction[0]), std::abs(direction[1]), std::abs(direction[2])});
   if (largest == 0) refuse("{} has no length; give three numbers that are not all 0", field.key);
-  // Squares of very long or short components leave the range of a double; those of shares do not.
+  // Divide by the largest component first: squares of very large or small components would leave
+  // the range of a double.
   const Numbers share{direction[0] / largest, direction[1] / largest, direction[2] / largest};
   const double length = std::sqrt(squaredLength(share));
   return {share[0] / length, share[1] / length, share[2] / length};
@@ -56,7 +58,7 @@ std::pair<double, double> rangeOf(const Field& field) {
   refuse("{} is {}, out of {} to {}", name, value, least, most);
 }
 
-// As checked() has it.
+// See checked().
 Numbers checkedNumbers(const Field& field, const Numbers& numbers) {
   const bool direction = field.type == GRISAILLE_FIELD_DIRECTION;
   const auto [least, most] = rangeOf(field);
@@ -82,7 +84,8 @@ void checkText(const Field& field, const std::string& text) {
 template <typename T>
 void store(std::byte* object, const Field& field, const Numbers& numbers) {
   for (size_t i = 0; i < componentsOf(field); ++i) {
-    const T value = static_cast<T>(numbers[i] + 0.0);  // -0 becomes 0, which a file can leave out
+    // -0 becomes 0: a file may omit it as the default.
+    const T value = static_cast<T>(numbers[i] + 0.0);
     std::memcpy(object + field.offset + i * sizeof(T), &value, sizeof(T));
   }
 }
@@ -111,7 +114,7 @@ Numbers parseColour(const Field& field, std::string_view text) {
     refuse("{} is '{}', not of the form #rrggbb", field.key, oneLine(text));
   }
   const glm::dvec3 encoded = glm::dvec3(bits >> 16, bits >> 8 & 255u, bits & 255u) / 255.0;
-  const glm::vec3 linear(glm::convertSRGBToLinear(encoded));  // as the list keeps it
+  const glm::vec3 linear(glm::convertSRGBToLinear(encoded));  // the precision that the list stores
   return {linear.x, linear.y, linear.z};
 }
 
@@ -211,7 +214,7 @@ Objects& Objects::operator=(const Objects& other) {
   return *this;
 }
 
-// `valueOf(i)`: of field i.
+// `valueOf(i)` returns the value of field i.
 template <typename ValueOf>
 void Objects::write(std::string_view name, ValueOf&& valueOf) {
   const size_t before = bytes_.size();

@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: MIT
-// Objects that users make for an effect, by the effect's table: what a field may be, one object,
-// and many of them as they cross the ABI.
+// Objects that users make for an effect, described by the effect's table: fields and their values,
+// one object, and arrays of objects in the layout of the ABI.
 #pragma once
 
 #include <array>
@@ -27,15 +27,15 @@ inline std::span<const Field> fieldsOf(const Table& table) {
 inline bool isText(const Field& field) {
   return field.type == GRISAILLE_FIELD_TEXT || field.type == GRISAILLE_FIELD_FILE;
 }
-// How many numbers a field holds: 1, 3, or 0 for a text.
+// Number of numbers in a field: 1, 3, or 0 for a text.
 inline size_t componentsOf(const Field& field) {
   return field.type == GRISAILLE_FIELD_NUMBER ? 1 : isText(field) ? 0 : 3;
 }
 
-// Throws kObjectField with the nearest key.
+// The field with this key. Throws kObjectField with the nearest key.
 const Field& fieldOf(const Table& table, std::string_view key);
 
-// The value of one field: numbers, or a text.
+// The value of one field: numbers or a text.
 struct Value {
   std::array<double, 3> numbers{};
   std::string text;
@@ -45,27 +45,27 @@ struct Value {
 
 Value defaultOf(const Field& field);
 
-// `value` as a list keeps it: a direction is made unit (one that is unit to the rounding of floats
-// stays as it is, so that no bit changes when it is read back). Throws kObjectField: the field's
-// key, the value, what is allowed.
+// `value` in the form that a list stores: a direction is normalised. A direction whose length is 1
+// within the rounding of floats stays unchanged, so that reading it back changes no bit. Throws
+// kObjectField with the field's key, the value and the allowed range.
 Value checked(const Field& field, Value value);
 
-// As on the command line: "0.5", "#ff8000" (sRGB) for a colour, "1:2:3" for a point or a direction,
-// a text as it is. Throws kObjectField.
+// Parses the form of the command line: "0.5", "#ff8000" (sRGB) for a colour, "1:2:3" for a point or
+// a direction, a text unchanged. Throws kObjectField.
 Value parseValue(const Field& field, std::string_view text);
-// What parseValue() takes back; a colour is rounded to 8 bits.
+// The text that parseValue() reads back; rounds a colour to 8 bits.
 std::string textOf(const Field& field, const Value& value);
 
-// One object, one value a field, in the table's order.
+// One object: one value per field, in the table's order.
 struct Object {
   std::vector<Value> values;
 
-  explicit Object(const Table& table);  // all defaults
+  explicit Object(const Table& table);  // all default values
   Value& at(const Table& table, std::string_view key);
   bool operator==(const Object&) const = default;
 };
 
-// Many objects, laid out as the table says. Does not own them.
+// A view of an array of objects, laid out as the table says.
 struct View {
   const Table* table = nullptr;
   const std::byte* data = nullptr;
@@ -75,10 +75,10 @@ struct View {
   Object object(size_t index) const;
 };
 
-// Objects with the texts that they point to.
+// Owns an array of objects and the texts that they point to.
 class Objects {
  public:
-  // `first`: the index that messages give the first object.
+  // `first`: the index of the first object in messages.
   explicit Objects(const Table& table, size_t first = 0) : table_(&table), first_(first) {}
   Objects(const Objects& other) : Objects(*other.table_) { append(other.view()); }
   Objects& operator=(const Objects& other);
@@ -90,16 +90,16 @@ class Objects {
   View view() const { return {table_, bytes_.data(), size()}; }
 
   // Checks every field. Throws kObjectField, "decals[3].colour ...", and then appends nothing.
-  // `name`: the object's in messages, "": as above.
+  // `name`: the object's name in messages; "": the list's key and the index.
   void append(const Object& object, std::string_view name = {});
-  // Those of a table of the same layout. Checks every field.
+  // Appends objects of a table with the same layout. Checks every field.
   void append(const View& view);
   void reserve(size_t count) { bytes_.reserve(count * table_->object_size); }
 
  private:
   template <typename ValueOf>
   void write(std::string_view name, ValueOf&& valueOf);
-  void put(size_t object, const Field& field, const Value& value);  // `object`: its first byte
+  void put(size_t object, const Field& field, const Value& value);  // `object`: byte offset
 
   const Table* table_;
   size_t first_;

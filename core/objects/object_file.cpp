@@ -25,7 +25,7 @@ using Text = fmt::memory_buffer;
 
 constexpr int kVersion = 1;
 
-// Reads event by event: a document of a million objects would take several GiB.
+// A SAX reader: a DOM of a million objects would take several GiB.
 class Reader : public nlohmann::json_sax<json> {
  public:
   explicit Reader(const Table& table) : objects_(table), blank_(table), object_(table) {}
@@ -128,7 +128,7 @@ class Reader : public nlohmann::json_sax<json> {
     return true;
   }
 
-  // The error of a number beyond a double's range does not tell where it stands.
+  // The parser's error for a number beyond a double's range does not name the place.
   bool parse_error(size_t, const std::string&, const json::exception& error) override {
     const bool inObject = place_ == Place::kVector || (place_ == Place::kObject && given_[index_]);
     throw Error(ErrorId::kObjectFileInvalid, "{}{}", inObject ? "in " + fieldName() + ": " : "",
@@ -187,8 +187,8 @@ class Reader : public nlohmann::json_sax<json> {
   std::vector<bool> given_;  // fields of object_
   Place place_ = Place::kTop;
   std::string key_;
-  size_t index_ = 0;  // of the field
-  size_t count_ = 0;  // numbers of the vector
+  size_t index_ = 0;  // index of the current field
+  size_t count_ = 0;  // numbers read of the current vector
   bool hasVersion_ = false;
   bool hasList_ = false;
 };
@@ -199,8 +199,8 @@ Objects parse(const Table& table, std::string_view text) {
   return reader.take();
 }
 
-// The fewest digits that bring back the same float. Where reading them as a double first rounds
-// another way, those of the double.
+// Writes the fewest digits that read back as the same float. If reading them as a double and then
+// rounding gives another float, writes the digits of the double.
 void putNumber(Text& text, const Field& field, double value) {
   const bool isFloat =
       field.type == GRISAILLE_FIELD_COLOUR || field.type == GRISAILLE_FIELD_DIRECTION;

@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: MIT
-// Objects in JSON files. The members of an object may stand in any order; unknown ones are refused.
-// Saving and loading bring back every bit.
+// Objects in JSON files. The members of an object may have any order; unknown members are refused.
+// Saving and loading is lossless, to the last bit.
 //
 //   {"version": 1, "decals": [            the list's key in the effect's table
 //     {"position": [x, y, z],             a point or a direction: three numbers
@@ -9,7 +9,7 @@
 //      "picture": "moss.png"}             a text or a file
 //   ]}
 //
-// A field that the table does not require may be left out: it has its default then.
+// A file may omit a field that the table does not require; the field then has its default.
 #pragma once
 
 #include <string>
@@ -22,22 +22,23 @@ namespace grisaille::objects {
 // Throws kObjectFileEnding unless the path ends in .json.
 void checkEnding(const std::string& path);
 
-// The text of a file.
+// The text of the file that save() writes.
 std::string jsonOf(const View& objects);
 
-// An older file stays as it was, whatever fails. Throws kObjectFileEnding and kFileUnwritable.
+// Writes atomically: if it fails, an older file stays unchanged. Throws kObjectFileEnding and
+// kFileUnwritable.
 void save(const View& objects, const std::string& path);
 
-// Oldest first. Throws kObjectFileUnreadable; kObjectFileVersion; kObjectFileInvalid, which names
-// the line of a fault of JSON, or object and field: "decals[3].colour[1] is 2, out of 0 to
-// 1".
+// Loads objects, oldest first. Throws kObjectFileUnreadable; kObjectFileVersion;
+// kObjectFileInvalid, which names the line of a JSON error, or object and field:
+// "decals[3].colour[1] is 2, out of 0 to 1".
 Objects load(const Table& table, const std::string& path);
 
-// The key of the list that a file holds: the first member of its beginning that is no version. "":
-// it has none there, or is no such file. Throws kObjectFileUnreadable.
+// The key of the list in a file: the first member, in the file's first 256 bytes, other than
+// "version". "" if no such member exists. Throws kObjectFileUnreadable.
 std::string listKeyOf(const std::string& path);
 
-// One object as it stands in a file: {"position": [x, y, z], ...}. Throws kObjectField.
+// Parses one object in the form of the file: {"position": [x, y, z], ...}. Throws kObjectField.
 Object parseObject(const Table& table, std::string_view json);
 
 }  // namespace grisaille::objects

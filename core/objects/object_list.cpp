@@ -10,8 +10,8 @@
 namespace grisaille::objects {
 namespace {
 
-// Memory for `size` elements, so that what follows cannot fail; and for as many again, so that what
-// is added next need not move them.
+// Reserves memory for `size` elements, so that later insertions cannot throw. Reserves twice as
+// much when it grows, which amortises the moves.
 template <typename T>
 void makeRoom(std::vector<T>& vector, size_t size) {
   if (size > vector.capacity()) vector.reserve(2 * size);
@@ -25,7 +25,7 @@ View viewOf(const Table& table, const std::vector<std::byte>& bytes) {
   return {&table, bytes.data(), bytes.size() / table.object_size};
 }
 
-// Of objects with texts: fields may be equal where bytes, which are addresses, are not.
+// For objects with texts, whose bytes are addresses: compares the fields instead of the bytes.
 size_t sameObjects(const View& a, const View& b) {
   const size_t count = std::min(a.count, b.count);
   size_t same = 0;
@@ -41,7 +41,7 @@ size_t sameBytes(const View& a, const View& b) {
 
 }  // namespace
 
-// The objects from `first` on, checked, with texts of this list.
+// Checks the objects from index `first` on and returns their bytes, with texts that this list owns.
 ObjectList::Bytes ObjectList::sound(const View& objects, size_t first) {
   const size_t size = table_->object_size;
   Objects checked(*table_, first);
@@ -136,7 +136,7 @@ void ObjectList::splice(size_t at, size_t removed, const View& added) {
   noteChange(at);
 }
 
-// What stands in the list and what the step holds change places.
+// Swaps the objects in the list with the objects in the step.
 void ObjectList::exchange(Step& step) {
   const size_t size = table_->object_size;
   const auto first = bytes_.begin() + static_cast<std::ptrdiff_t>(step.at * size);
@@ -172,14 +172,14 @@ void ObjectList::assign(const View& objects) {
   makeRoom(kept_, kept_.size() + 1);
   size_t kept = 0;
   if (hasTexts(*table_)) {
-    // Texts that only the steps point to would pile up.
+    // Start with an empty set of texts: texts that only the steps used would accumulate.
     ObjectList fresh(*table_);
     fresh.bytes_ = fresh.sound(objects, 0);
     kept = sameObjects(view(), fresh.view());
     bytes_ = std::move(fresh.bytes_);
     texts_ = std::move(fresh.texts_);
   } else {
-    // Objects that the list holds already are sound.
+    // The leading objects that the list already holds are checked.
     const size_t held = sameBytes(view(), objects);
     const Bytes fresh = sound(objects, held);
     kept = held +

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: MIT
-// The objects that a user has made for one effect, and how they came about.
+// The objects that a user made for one effect, with their history for undo.
 #pragma once
 
 #include <cstddef>
@@ -10,12 +10,12 @@
 
 namespace grisaille::objects {
 
-// Every change but assign() is one step that can be undone, without a limit. A step costs a few
-// words beside the objects that it can bring back. A change that throws changes nothing; one that
-// would change nothing is no step.
+// Every change except assign() is one step of undo, without a limit. A step stores only the objects
+// that it can restore, and a few bytes more. A call that throws changes nothing. A call that would
+// change nothing adds no step.
 class ObjectList {
  public:
-  // The table outlives the list.
+  // The table must outlive the list.
   explicit ObjectList(const Table& table) : table_(&table) {}
   ObjectList(ObjectList&&) = default;
   ObjectList& operator=(ObjectList&&) = default;
@@ -23,32 +23,33 @@ class ObjectList {
   ObjectList& operator=(const ObjectList&) = delete;
 
   const Table& table() const { return *table_; }
-  // The same objects and steps under another table of the same layout, whose plugin outlives this
-  // one's. False, and nothing is changed, where the layout is another.
+  // Replaces the table by another of the same layout, such as the table of a reloaded plugin, which
+  // must outlive the list. Keeps objects and steps. Returns false and changes nothing if the layout
+  // differs.
   bool adopt(const Table& table);
 
-  // Each throws kObjectField, which names the object and the field, and checks all that it is
-  // given.
+  // All changes check every field of their objects, and throw kObjectField, which names the object
+  // and the field.
   void add(const Object& object);
   void add(const View& objects);
-  // The objects take the place of all that there are.
+  // Replaces all objects of the list.
   void replace(const View& objects);
-  // This and remove() throw kObjectIndex where there is no such object.
+  // set() and remove() throw kObjectIndex if the index is out of range.
   void set(size_t index, const Object& object);
 
   void remove(size_t index);
   void clear();
-  // The object at `from` gets the index `to`; those between close up. Nothing happens where either
-  // is no index.
+  // Moves the object at index `from` to index `to`; the objects between shift by one. Does nothing
+  // if an index is out of range.
   void move(size_t from, size_t to);
 
   bool canUndo() const { return done_ > 0; }
   bool canRedo() const { return done_ < steps_.size(); }
-  // Nothing happens where there is no such step.
+  // Both do nothing if there is no step.
   void undo();
   void redo();
 
-  // As replace(), but no step: nothing before it can be undone.
+  // Same as replace(), but not a step: it clears all steps.
   void assign(const View& objects);
 
   // Oldest first; valid until the next change.
@@ -56,18 +57,18 @@ class ObjectList {
   size_t size() const { return bytes_.size() / table_->object_size; }
   Object object(size_t index) const { return view().object(index); }
 
-  // 0 for a new list; grows with every change.
+  // 0 for a new list; increases with every change.
   uint64_t revision() const { return revision_; }
 
-  // A lower bound of the number of leading objects that have stayed since that revision; 0 for a
-  // revision that has not been.
+  // A lower bound of the number of leading objects unchanged since `revision`; 0 for a revision
+  // that the list has not reached.
   size_t keptSince(uint64_t revision) const;
 
  private:
   using Bytes = std::vector<std::byte>;
 
-  // `inserted` objects stand in the list at `at` where `other` stood or, once it is undone, will
-  // stand again.
+  // A change at index `at`: `inserted` objects of the list replaced `other`. Undoing the step swaps
+  // them; redoing swaps them back.
   struct Step {
     size_t at;        // index
     size_t inserted;  // objects in the list now
@@ -86,12 +87,13 @@ class ObjectList {
 
   const Table* table_;
   Bytes bytes_;
-  std::unordered_set<std::string> texts_;  // of the list and its steps
+  std::unordered_set<std::string> texts_;  // texts of the list and of its steps
   std::vector<Step> steps_;
   size_t done_ = 0;
   uint64_t revision_ = 0;
-  // The fewest objects that were kept from each entry's revision on. Counts grow from entry to
-  // entry: one that a later change fell below tells nothing more.
+  // Each entry: the least number of leading objects unchanged by this revision and all later ones.
+  // Counts increase from entry to entry; a change removes the entries with an equal or higher
+  // count.
   std::vector<Kept> kept_;
 };
 

@@ -10,19 +10,19 @@
 namespace grisaille::scene {
 namespace {
 
-// The plan, in metres. Columns stand on the axes round an open court; the outer walls follow at
-// some distance. Solids that meet overlap by centimetres: no two faces ever lie in one plane.
+// The ground plan, in metres. Columns stand on the axes round an open court; the outer walls stand
+// further out. Solids that meet overlap by centimetres, which keeps any two faces out of one plane.
 constexpr double kBay = 2.4;
 constexpr uint32_t kBaysX = 6, kBaysZ = 3;
 constexpr double kAxisX = kBaysX * kBay / 2, kAxisZ = kBaysZ * kBay / 2;
 constexpr double kWallX = 10, kWallZ = 6.2;  // inner faces of the outer walls
 constexpr double kLowerSpring = 2.5, kLowerRadius = 0.92, kLowerThickness = 0.4;
-constexpr double kGallery = 4.05;  // its floor
+constexpr double kGallery = 4.05;  // height of the gallery's floor
 constexpr double kPedestal = 5.04, kUpperSpring = 6.3, kUpperRadius = 0.99, kUpperThickness = 0.32;
-constexpr double kRoof = 7.45;  // underside
+constexpr double kRoof = 7.45;  // height of the underside of the roof
 constexpr double kVaultSpring = 2.72, kVaultRise = 0.85;
 
-// Cosines of the angles between faces from which an edge is sharp.
+// Crease cosines of addPrimitive(): edges are sharp from 35 degrees, from 60 degrees, or never.
 constexpr double kCrease35 = 0.819, kCrease60 = 0.5, kSmooth = -1;
 
 enum MaterialId : uint32_t {
@@ -85,8 +85,8 @@ class Atrium {
     return addPrimitive(scene_, solid, material, crease);
   }
 
-  // Calls `f` with the transform of each bay's middle, which puts the court at -z, and its corner
-  // axis at local x = -kBay / 2.
+  // Calls `f` with the transform of the centre of each bay. In local space the court lies at -z,
+  // and the bay's corner axis at x = -kBay / 2.
   template <typename F>
   static void eachBay(F&& f) {
     for (uint32_t i = 0; i < kBaysX; ++i) {
@@ -378,7 +378,7 @@ class Atrium {
     const uint32_t blue = add(banner(1.7, 2.3), kBlue, kSmooth);
     Solid rods;
     const std::array rod{glm::dvec2(0.03, -kAxisZ), glm::dvec2(0.03, kAxisZ)};
-    glm::dmat4 lay(1);  // +y to +z
+    glm::dmat4 lay(1);  // turns +y to +z
     lay[1] = {0, 0, 1, 0};
     lay[2] = {0, -1, 0, 0};
     for (const double x : {0.0, 4.8}) {

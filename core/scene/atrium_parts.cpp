@@ -12,7 +12,7 @@ double smooth(double t) {
   return t * t * (3 - 2 * t);
 }
 
-// Appends a quarter of a round moulding to a lathe profile, from the last point to `to`.
+// Appends a quarter-round moulding to a lathe profile, from the last point to `to`.
 void addRound(std::vector<glm::dvec2>& profile, const glm::dvec2& to, bool convexOut) {
   const glm::dvec2 from = profile.back();
   constexpr int kSteps = 2;
@@ -24,7 +24,7 @@ void addRound(std::vector<glm::dvec2>& profile, const glm::dvec2& to, bool conve
   }
 }
 
-// Base of a column on its plinth, up to the shaft's foot. Returns the height.
+// Adds the plinth and the base of a column. Returns the height of the shaft's foot.
 double addBase(Solid& solid, double radius, uint32_t segments) {
   const double r = radius, plinth = 0.45 * r;
   append(solid, box({-1.42 * r, 0, -1.42 * r}, {1.42 * r, plinth, 1.42 * r}, 0.06 * r));
@@ -40,7 +40,7 @@ double addBase(Solid& solid, double radius, uint32_t segments) {
   return plinth + 0.78 * r;
 }
 
-// Capital that ends at `height`. Returns the height where it begins.
+// Adds a capital whose top is at `height`. Returns the height of its foot.
 double addCapital(Solid& solid, double height, double radius, uint32_t segments) {
   const double r = radius, abacus = height - 0.4 * r, bottom = abacus - 0.75 * r;
   append(solid, box({-1.38 * r, abacus, -1.38 * r}, {1.38 * r, height, 1.38 * r}, 0.08 * r));
@@ -55,7 +55,7 @@ double addCapital(Solid& solid, double height, double radius, uint32_t segments)
   return bottom;
 }
 
-// A shaft that swells and tapers, between two heights.
+// The lathe profile of a shaft that swells and tapers, between two heights.
 std::vector<glm::dvec2> shaft(double from, double to, double radius, int rings) {
   std::vector<glm::dvec2> profile;
   for (int i = 0; i <= rings; ++i) {
@@ -91,7 +91,7 @@ Solid arcadeWall(const Arcade& arcade) {
 }
 
 Solid archivolt(double radius, double width, double thickness) {
-  // Across the ring: (share of the width, share of half the thickness).
+  // Cross-section of the ring: (fraction of the width, fraction of half the thickness).
   constexpr glm::dvec2 kProfile[] = {{-0.03, 0.88}, {0.3, 0.9},    {0.38, 1}, {0.8, 1},
                                      {1, 0.86},     {1, -0.86},    {0.8, -1}, {0.38, -1},
                                      {0.3, -0.9},   {-0.03, -0.88}};
@@ -132,7 +132,7 @@ Solid baluster(double height) {
 }
 
 Solid vase(double height) {
-  // Up the outside, over the lip and down the inside: (radius, height) as shares of the height.
+  // Up the outside, over the lip and down the inside: (radius, height) as fractions of the height.
   constexpr glm::dvec2 kProfile[] = {
       {0.17, 0},     {0.175, 0.02}, {0.16, 0.04},  {0.1, 0.065}, {0.085, 0.09}, {0.1, 0.115},
       {0.16, 0.16},  {0.23, 0.24},  {0.285, 0.35}, {0.31, 0.46}, {0.31, 0.55},  {0.28, 0.64},
@@ -177,7 +177,7 @@ Solid drape(double width, double drop, double railRadius) {
       const double turn = (along - kBehind) / over / 2;
       return {x, railRadius * sinTurns(turn), -railRadius * cosTurns(turn)};
     }
-    // Folds deepen with the distance from the rail, and gather the cloth.
+    // Folds deepen with the distance from the rail and narrow the cloth.
     const double below = along - kBehind - over;
     const double depth = smooth(below / 1.2);
     const double fold =
@@ -211,7 +211,7 @@ Solid plant(uint32_t leaves, double length, uint32_t seed) {
         sheet(
             2, 6,
             [=](double u, double v) -> glm::dvec3 {
-              // v 1 is the stem's end, as the picture has it.
+              // v = 1 is the stem end of the leaf texture.
               const double t = 1 - v, side = (u - 0.5) * width;
               const double out = reach * (0.75 * t - 0.1 * t * t);
               const double up = reach * (rise * t - (0.35 + 0.4 * rise) * t * t);

@@ -9,12 +9,12 @@ namespace {
 
 constexpr int kSide = 256;  // texels
 
-// How far inside the leaf a point is, as a share of the texture; under 0: in a hole. `x` counts
-// from the midrib, `y` from the tip, both as shares.
+// Returns how far inside the leaf a point lies, as a fraction of the texture's side; below 0: in a
+// hole. `x` is the distance from the midrib, `y` from the tip, both as fractions of the side.
 double insideLeaf(double x, double y) {
   const double side = std::abs(x);
   const double rib = 0.012 - side + 0.01 * y;
-  // Leaflets leave the midrib every tenth and point to the tip.
+  // Leaflets grow from the midrib at every tenth of the side and point to the tip.
   double best = y < 0.05 ? -1 : rib;
   for (int i = 1; i <= 9; ++i) {
     const double root = 0.1 * i + 0.04;
@@ -25,7 +25,7 @@ double insideLeaf(double x, double y) {
     const double half = 0.052 * std::sqrt(along) * (1 - along) * 2.2;
     best = std::max(best, half - std::abs(y - spine));
   }
-  // A last leaflet at the tip.
+  // The terminal leaflet.
   const double t = y / 0.2;
   if (t < 1) best = std::max(best, 0.06 * std::sqrt(t) * (1 - t) * 2 - side);
   return best;
@@ -40,7 +40,7 @@ image::Image8 leafTexture() {
     for (int column = 0; column < kSide; ++column) {
       const double x = (column + 0.5) / kSide - 0.5, y = (row + 0.5) / kSide;
       const double inside = insideLeaf(x, y);
-      // Half covered at the edge, over one texel to both sides: the cutoff then cuts smoothly.
+      // Alpha is 0.5 at the edge and ramps over one texel to either side, for a smooth cutoff.
       const double alpha = std::clamp(0.5 + inside * kSide / 2, 0.0, 1.0);
       const double shade = 0.75 + 0.25 * hashUnit(static_cast<uint32_t>(row * kSide + column) / 3) -
                            (std::abs(x) < 0.012 ? 0.2 : 0.0);

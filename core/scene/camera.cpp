@@ -18,7 +18,7 @@ namespace {
 
 using nlohmann::json;
 
-constexpr uint32_t kLargestSize = 16384;  // pixels a side
+constexpr uint32_t kLargestSize = 16384;  // pixels per side
 constexpr uintmax_t kLargestFile = 1 << 20;
 
 [[noreturn]] void refuse(std::string_view field, std::string_view why) {
@@ -60,7 +60,7 @@ json parse(std::string_view text, const std::string& name) {
   const std::string keys[] = {"eye", "target", "up", "fovy_degrees", "size", "near"};
   const std::string near = nearest(key, keys);
   refuse(fmt::format("\"{}\"", key),
-         fmt::format("is no key of a camera{}{}", near.empty() ? "" : ", nearest is ", near));
+         fmt::format("is not a key of a camera{}{}", near.empty() ? "" : ", nearest is ", near));
 }
 
 void set(Camera& camera, const std::string& key, const json& value) {
@@ -83,7 +83,7 @@ void set(Camera& camera, const std::string& key, const json& value) {
 
 void requireFinite(const glm::dvec3& vector, std::string_view field) {
   for (int i = 0; i < 3; ++i) {
-    // Beyond this, products of coordinates would not be finite either.
+    // Products of larger coordinates could overflow.
     if (!(std::abs(vector[i]) <= 1e15)) refuse(field, "is not finite");
   }
 }
@@ -95,18 +95,18 @@ void validate(const Camera& camera) {
   requireFinite(camera.target, "target");
   requireFinite(camera.up, "up");
   if (!(camera.fovyDegrees >= 0.01 && camera.fovyDegrees <= 170)) {
-    refuse("fovy_degrees", fmt::format("is {}, out of 0.01 to 170", camera.fovyDegrees));
+    refuse("fovy_degrees", fmt::format("is {}, not from 0.01 to 170", camera.fovyDegrees));
   }
   if (!(camera.nearPlane > 0 && camera.nearPlane <= 1e6)) {
-    refuse("near", fmt::format("is {}, out of over 0 to 1e6", camera.nearPlane));
+    refuse("near", fmt::format("is {}, not above 0 and at most 1e6", camera.nearPlane));
   }
   if ((camera.size.x == 0) != (camera.size.y == 0) || camera.size.x > kLargestSize ||
       camera.size.y > kLargestSize) {
-    refuse("size", fmt::format("is out of 1 to {} a side", kLargestSize));
+    refuse("size", fmt::format("is not from 1 to {} per side", kLargestSize));
   }
   const glm::dvec3 view = camera.target - camera.eye;
   const double distance = glm::length(view);
-  // The direction must survive the rounding of the coordinates that it is the difference of.
+  // The difference of the coordinates must be far larger than their rounding errors.
   if (!(distance > 1e-9 * (1 + glm::length(camera.eye)))) refuse("target", "is at the eye");
   const double upLength = glm::length(camera.up);
   if (!(upLength > 1e-9)) refuse("up", "has no length");
@@ -121,7 +121,7 @@ std::string readCameraText(const std::string& path) {
 
 Camera cameraFromJson(const json& document, const std::string& name) {
   try {
-    if (!document.is_object()) refuse("the file", "holds no object");
+    if (!document.is_object()) refuse("the file", "does not hold a JSON object");
     Camera camera;
     for (const auto& [key, value] : document.items()) set(camera, key, value);
     for (const char* key : {"eye", "target", "fovy_degrees"}) {
@@ -162,7 +162,7 @@ Camera overviewCamera(const Bounds& bounds) {
   const double radius = std::max(0.5 * glm::length(bounds.max - bounds.min), 1e-3);
   Camera camera;
   camera.fovyDegrees = 40;
-  // The sphere about the bounds fits the narrower half angle of a picture up to 9 wide : 16 high.
+  // The bounding sphere fits a picture as narrow as 9 : 16 (width : height).
   const double halfAngle = std::atan(std::tan(glm::radians(camera.fovyDegrees / 2)) * 9.0 / 16.0);
   const double distance = radius / std::sin(halfAngle);
   camera.target = centre;

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: MIT
-// A camera as JSON that is parsed already: of a file of its own, or of a path's.
+// Reads a camera from parsed JSON: from a camera file, or from an entry of a camera path file.
 #pragma once
 
 #include <nlohmann/json_fwd.hpp>
@@ -9,7 +9,7 @@
 
 namespace grisaille::scene {
 
-// Throws kCameraInvalid, with `name` before the message.
+// Throws kCameraInvalid. `name` prefixes the message.
 Camera cameraFromJson(const nlohmann::json& document, const std::string& name);
 
 }  // namespace grisaille::scene

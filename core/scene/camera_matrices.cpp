@@ -9,7 +9,8 @@
 namespace grisaille::scene {
 namespace {
 
-// As glm has it, for points that are columns: the transpose, whose rows in memory are columns here.
+// OpenEXR multiplies row vectors and stores rows; glm multiplies column vectors and stores columns.
+// The transposed matrix therefore has the same numbers in the same order.
 glm::dmat4 fromRows(const std::array<float, 16>& rows) {
   glm::dmat4 matrix;
   for (int i = 0; i < 16; ++i) matrix[i / 4][i % 4] = double{rows[static_cast<size_t>(i)]};
@@ -30,16 +31,17 @@ template <typename... Args>
               fmt::format(why, std::forward<Args>(args)...));
 }
 
-// One row of a matrix for column points: what of a direction it takes.
+// The direction part of one row of a matrix for column vectors.
 glm::dvec3 rowOf(const glm::dmat4& matrix, int row) {
   return {matrix[0][row], matrix[1][row], matrix[2][row]};
 }
 
-// What an axis of the picture tells. `axis`: its row of the projection, `depth`: that of w.
+// An axis of the picture, from two rows of the projection: `axis`, the row of the axis, and
+// `depth`, the row of w.
 struct Axis {
-  glm::dvec3 direction;  // unit, world: to where its coordinate grows
+  glm::dvec3 direction;  // unit, world: the direction in which the coordinate grows
   double centre = 0;     // coordinate of the optical axis
-  double slope = 0;      // of the coordinate, at a view depth of 1
+  double slope = 0;      // growth of the coordinate per metre, at a view depth of 1
 };
 Axis axisOf(const glm::dvec3& axis, const glm::dvec3& depth) {
   const double centre = glm::dot(axis, depth) / glm::dot(depth, depth);
@@ -59,25 +61,25 @@ image::ViewMatrices matricesOf(const Camera& camera, uint32_t width, uint32_t he
 
 Camera cameraOf(const image::ViewMatrices& matrices, uint32_t width, uint32_t height,
                 const std::string& name) {
-  // What is no number fails every comparison: they all say what must hold.
+  // Every check below states the valid case, because NaN fails every comparison.
   const glm::dmat4 view = fromRows(matrices.worldToCamera), ndc = fromRows(matrices.worldToNdc);
   const glm::dmat3 rotation(view);
   const double size = std::cbrt(std::abs(glm::determinant(rotation)));
   if (!(size > 1e-6) || !std::isfinite(size)) refuse(name, "worldToCamera cannot be inverted");
   const glm::dvec3 up = glm::normalize(rowOf(view, 1));
   const glm::dvec3 depth = rowOf(ndc, 3);  // grows along the view direction
-  if (!(glm::length(depth) > 1e-9)) refuse(name, "worldToNDC is no perspective projection");
+  if (!(glm::length(depth) > 1e-9)) refuse(name, "worldToNDC is not a perspective projection");
   const glm::dvec3 forward = glm::normalize(depth);
   if (!(std::abs(glm::dot(forward, glm::normalize(rowOf(view, 2)))) >= 0.9999)) {
     refuse(name, "worldToCamera and worldToNDC look in different directions");
   }
   const Axis x = axisOf(rowOf(ndc, 0), depth), y = axisOf(rowOf(ndc, 1), depth);
-  // NDC runs from 0 to 1 or from -1 to 1, as its centre tells.
+  // The centre tells whether NDC runs from 0 to 1 or from -1 to 1.
   const bool fromZero = std::abs(x.centre - 0.5) < 0.25 && std::abs(y.centre - 0.5) < 0.25;
   const double centre = fromZero ? 0.5 : 0, half = fromZero ? 0.5 : 1;
-  constexpr double kOff = 1e-3;  // half a pixel in 1000
+  constexpr double kOff = 1e-3;  // half a pixel of a picture of 1000 pixels
   if (!(std::abs(x.centre - centre) <= kOff * half && std::abs(y.centre - centre) <= kOff * half)) {
-    refuse(name, "the view's axis goes through ({:.4f}, {:.4f}) of NDC, not through the centre",
+    refuse(name, "the view axis passes through ({:.4f}, {:.4f}) of NDC, not through the centre",
            x.centre, y.centre);
   }
   if (!(glm::dot(x.direction, glm::cross(forward, up)) >= 0.999)) {
@@ -86,7 +88,7 @@ Camera cameraOf(const image::ViewMatrices& matrices, uint32_t width, uint32_t he
   const double tangent = half / y.slope, across = half / x.slope;
   const double aspect = double{1} * width / height;
   if (!(std::abs(across / tangent / aspect - 1) <= 0.01)) {
-    refuse(name, "its matrices are of a picture of {:.3f} : 1, it is one of {:.3f} : 1",
+    refuse(name, "the matrices have an aspect ratio of {:.3f} : 1, but the picture has {:.3f} : 1",
            across / tangent, aspect);
   }
   Camera camera;

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: MIT
-// Cameras as the matrices that OpenEXR files hold.
+// Converts cameras to and from the view matrices of OpenEXR files.
 #pragma once
 
 #include "core/image/image.h"
@@ -7,13 +7,17 @@
 
 namespace grisaille::scene {
 
-// Camera space looks along -z with y up; NDC runs from -1 to 1 with y up.
+// In the result, camera space looks along -z with y up; NDC runs from -1 to 1 with y up.
+// width, height: size of the picture, pixels
 image::ViewMatrices matricesOf(const Camera& camera, uint32_t width, uint32_t height);
 
-// The camera of a picture of this size, from matrices of any renderer: camera space may look either
-// way along z, NDC run from -1 or from 0, with y up or down. No size and no near plane. Throws
-// kPictureMatrices for what is no pinhole whose axis goes through the picture's centre, or has
-// pixels that are not square, or mirrors; `name` is for messages.
+// Returns the camera of a picture from matrices of any renderer. Camera space may look either way
+// along z; NDC may start at -1 or 0, with y up or down. The size and near plane of the result keep
+// their defaults.
+// width, height: size of the picture, pixels
+// name: for messages
+// Throws kPictureMatrices if the camera is not a pinhole whose axis passes through the centre of
+// the picture, if the pixels are not square, or if the picture is mirrored.
 Camera cameraOf(const image::ViewMatrices& matrices, uint32_t width, uint32_t height,
                 const std::string& name);
 

@@ -20,7 +20,7 @@ using nlohmann::json;
 uint32_t framesOf(const json& value) {
   const double frames = value.is_number() ? value.get<double>() : 0;
   if (!(frames >= 2 && frames <= kMostPathFrames) || frames != std::floor(frames)) {
-    refuse(fmt::format("frames is no whole number from 2 to {}", kMostPathFrames));
+    refuse(fmt::format("frames is not a whole number from 2 to {}", kMostPathFrames));
   }
   return static_cast<uint32_t>(frames);
 }
@@ -34,16 +34,17 @@ void setKey(CameraPath& path, const std::string& key, const json& value) {
       path.keys.push_back(cameraFromJson(value[i], fmt::format("cameras[{}]", i)));
     }
   } else {
-    refuse(fmt::format("\"{}\" is no key of a camera path, which has cameras and frames", key));
+    refuse(
+        fmt::format("\"{}\" is not a key of a camera path; the keys are cameras and frames", key));
   }
 }
 
 }  // namespace
 
 std::vector<Camera> camerasOf(const CameraPath& path) {
-  if (path.keys.size() < 2) refuse("cameras holds fewer than two");
+  if (path.keys.size() < 2) refuse("cameras holds fewer than two cameras");
   if (path.frames < 2 || path.frames > kMostPathFrames) {
-    refuse(fmt::format("frames is out of 2 to {}", kMostPathFrames));
+    refuse(fmt::format("frames is not from 2 to {}", kMostPathFrames));
   }
   std::vector<Camera> cameras;
   const size_t last = path.keys.size() - 1;
@@ -69,10 +70,10 @@ std::vector<Camera> camerasOf(const CameraPath& path) {
 CameraPath parseCameraPath(std::string_view text, const std::string& name) {
   const json document = json::parse(text, nullptr, false);
   if (document.is_discarded()) {
-    throw Error(ErrorId::kCameraUnreadable, "{}: it is not JSON", name);
+    throw Error(ErrorId::kCameraUnreadable, "{}: the file is not JSON", name);
   }
   try {
-    if (!document.is_object()) refuse("the file holds no object");
+    if (!document.is_object()) refuse("the file does not hold a JSON object");
     CameraPath path;
     for (const auto& [key, value] : document.items()) setKey(path, key, value);
     for (const char* key : {"cameras", "frames"}) {

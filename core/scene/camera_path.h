@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: MIT
-// A camera's way, and its files: JSON with `cameras`, two or more cameras as camera files have
-// them, and `frames`, how many pictures are taken from the first to the last.
+// A camera path and its files: JSON with `cameras`, two or more cameras in the format of camera
+// files, and `frames`, the number of pictures from the first camera to the last.
 #pragma once
 
 #include <string>
@@ -14,20 +14,23 @@ namespace grisaille::scene {
 constexpr uint32_t kMostPathFrames = 10000;
 
 struct CameraPath {
-  std::vector<Camera> keys;  // 2 at least
+  std::vector<Camera> keys;  // at least 2
   uint32_t frames = 2;       // 2 ... kMostPathFrames
 };
 
-// One camera a frame. Frame 0 is the first key and the last frame the last one; from key to key, at
-// equal shares of the frames, eye, target and field of view run linearly; the rest is of the key
-// before. Throws kCameraInvalid for keys or frames out of range and, with its number, for a frame
-// whose camera is not valid: its eye may run through its target.
+// Returns one camera per frame. Frame 0 is the first key, the last frame the last key. Every pair
+// of neighbouring keys takes an equal share of the frames; between them eye, target and field of
+// view are interpolated linearly. Other fields come from the earlier key. Throws kCameraInvalid for
+// keys or frames out of range, and for a frame with an invalid camera (its eye may meet its
+// target); the message has the frame's number.
 std::vector<Camera> camerasOf(const CameraPath& path);
 
-// A path file's text. Throws kCameraUnreadable, kCameraInvalid, with `name` before the message.
+// Parses the text of a camera path file. Throws kCameraUnreadable, kCameraInvalid. `name` prefixes
+// the messages.
 CameraPath parseCameraPath(std::string_view text, const std::string& name);
 
-// Throws as parseCameraPath() does, with the path.
+// Reads and parses a camera path file. Throws the errors of readCameraText() and parseCameraPath(),
+// with the path.
 CameraPath loadCameraPath(const std::string& path);
 
 }  // namespace grisaille::scene

@@ -17,7 +17,7 @@ namespace {
 
 using Progress = std::function<void(double)>;
 
-constexpr double kParsedShare = 0.5;  // of the time, roughly
+constexpr double kParsedShare = 0.5;  // rough fraction of the load time that parsing takes
 
 [[noreturn]] void refuseNode(int node, std::string_view why) {
   throw Error(ErrorId::kSceneInvalid, "node {} {}", node, why);
@@ -57,7 +57,8 @@ glm::dmat4 transformOf(const tinygltf::Node& node, int index) {
   return matrix;
 }
 
-// The nodes to start at: of the default scene, else of the first, else all that nobody holds.
+// Returns the root nodes: of the default scene, else of the first scene, else all nodes without a
+// parent.
 std::vector<int> rootsOf(const tinygltf::Model& model) {
   if (!model.scenes.empty()) {
     const int index = model.defaultScene == -1 ? 0 : model.defaultScene;
@@ -86,7 +87,8 @@ struct PlacedMesh {
   glm::dmat4 worldFromObject;
 };
 
-// Depth first in file order, with a stack of its own: a file may nest nodes to any depth.
+// Visits the nodes depth first, in file order. Uses an explicit stack instead of recursion, because
+// a file may nest nodes to any depth.
 std::vector<PlacedMesh> placeMeshes(const tinygltf::Model& model) {
   struct Visit {
     int node;
@@ -106,13 +108,13 @@ std::vector<PlacedMesh> placeMeshes(const tinygltf::Model& model) {
     stack.pop_back();
     const auto index = static_cast<size_t>(visit.node);
     if (visit.node < 0 || index >= model.nodes.size()) refuseNode(visit.node, "does not exist");
-    if (seen[index]) refuseNode(visit.node, "is reached twice, so the nodes form no tree");
+    if (seen[index]) refuseNode(visit.node, "is reached twice: the nodes do not form a tree");
     seen[index] = true;
     const tinygltf::Node& node = model.nodes[index];
     const glm::dmat4 world = visit.worldFromParent * transformOf(node, visit.node);
     for (int i = 0; i < 16; ++i) {
       if (!std::isfinite(world[i / 4][i % 4]))
-        refuseNode(visit.node, "is placed beyond all numbers");
+        refuseNode(visit.node, "has a world transform that is not finite");
     }
     if (node.mesh != -1) placed.push_back({node.mesh, world});
     push(node.children, world);
@@ -123,7 +125,7 @@ std::vector<PlacedMesh> placeMeshes(const tinygltf::Model& model) {
 void addInstances(const tinygltf::Model& model, MeshLoader& meshes, Scene& scene,
                   const Progress& progress) {
   const std::vector<PlacedMesh> placed = placeMeshes(model);
-  // Meshes that are shown, in the order of the file.
+  // Meshes that a node uses, in file order.
   std::set<int> shown;
   for (const PlacedMesh& one : placed) shown.insert(one.mesh);
   double done = 0;
@@ -134,7 +136,7 @@ void addInstances(const tinygltf::Model& model, MeshLoader& meshes, Scene& scene
   for (const PlacedMesh& one : placed) {
     for (const uint32_t primitive : meshes.primitivesOf(one.mesh)) {
       if (scene.instances.size() >= kMaxInstances) {
-        throw Error(ErrorId::kSceneTooLarge, "over {} instances", kMaxInstances);
+        throw Error(ErrorId::kSceneTooLarge, "more than {} instances", kMaxInstances);
       }
       scene.instances.push_back({.primitive = primitive, .worldFromObject = one.worldFromObject});
     }
@@ -149,8 +151,8 @@ Scene load(const std::string& path, const Progress& progress) {
   scene.name = std::filesystem::path(path).stem().string();
   MeshLoader meshes(model, loadMaterials(path, model, scene), scene);
   addInstances(model, meshes, scene, progress);
-  if (scene.instances.empty()) throw Error(ErrorId::kSceneEmpty, "no triangle in the scene");
-  // Vertices that no triangle uses have had no face to take a normal from.
+  if (scene.instances.empty()) throw Error(ErrorId::kSceneEmpty, "the scene has no triangles");
+  // Vertices without a triangle may still have a normal of length 0.
   for (glm::vec3& normal : scene.normals) {
     if (normal == glm::vec3(0)) normal = glm::vec3(0, 1, 0);
   }
@@ -172,7 +174,7 @@ Scene loadGltf(const std::string& path, const Progress& progress) {
   } catch (const Error& error) {
     throw Error(error.id(), "{}: {}", path, error.detail());
   } catch (const std::bad_alloc&) {
-    throw Error(ErrorId::kSceneTooLarge, "{}: it does not fit in memory", path);
+    throw Error(ErrorId::kSceneTooLarge, "{}: the scene does not fit in memory", path);
   }
 }
 

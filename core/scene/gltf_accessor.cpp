@@ -15,7 +15,7 @@
 namespace grisaille::scene {
 namespace {
 
-// `count` elements that lie inside a buffer, `stride` bytes apart, at any alignment.
+// `count` elements inside a buffer, `stride` bytes apart, of any alignment.
 struct Elements {
   const unsigned char* first = nullptr;
   size_t stride = 0;
@@ -29,7 +29,8 @@ const tinygltf::Accessor& accessorAt(const tinygltf::Model& model, int index) {
   return model.accessors[static_cast<size_t>(index)];
 }
 
-// Checks a range of a buffer view. Its stride is the view's, or else packed.
+// Checks a range of a buffer view and returns it. The stride is the view's; without one, elements
+// are packed.
 Elements elementsOf(const tinygltf::Model& model, int accessor, int view, uint64_t offset,
                     uint64_t count, size_t elementSize) {
   const std::span<const unsigned char> bytes = viewBytes(model, view);
@@ -88,7 +89,7 @@ void withType(int accessor, int componentType, F&& f) {
 
 void requireType(int accessor, bool good) {
   if (!good) {
-    throw Error(ErrorId::kSceneInvalid, "accessor {}: its type does not suit its use", accessor);
+    throw Error(ErrorId::kSceneInvalid, "accessor {}: its type is not allowed here", accessor);
   }
 }
 
@@ -104,7 +105,7 @@ std::vector<uint32_t> readIntegers(int accessor, int componentType, const Elemen
   return result;
 }
 
-// Where the elements of a sparse accessor are replaced, and by which.
+// The elements of a sparse accessor that are replaced, and their new values.
 struct Replacement {
   std::vector<uint32_t> indices;
   Elements values;
@@ -129,24 +130,27 @@ Replacement replacementOf(const tinygltf::Model& model, int index, size_t elemen
                            static_cast<uint64_t>(sparse.values.byteOffset), count, elementSize)};
   for (const uint32_t i : result.indices) {
     if (i >= accessor.count) {
-      throw Error(ErrorId::kSceneInvalid, "accessor {}: sparse index {} of {} elements", index, i,
+      throw Error(ErrorId::kSceneInvalid,
+                  "accessor {}: sparse index {} is out of range for {} elements", index, i,
                   accessor.count);
     }
   }
   return result;
 }
 
-// Elements of the dense part; none where the accessor has no buffer view, which means zeros.
+// Returns the elements of the dense part. Returns none if the accessor has no buffer view: its
+// elements are then zeros.
 Elements denseOf(const tinygltf::Model& model, int index, size_t elementSize) {
   const tinygltf::Accessor& accessor = accessorAt(model, index);
   if (accessor.bufferView != -1) {
     return elementsOf(model, index, accessor.bufferView, accessor.byteOffset, accessor.count,
                       elementSize);
   }
-  // No buffer bounds this count.
+  // No buffer limits this count.
   if (accessor.count > kMaxZeroElements) {
-    throw Error(ErrorId::kSceneTooLarge, "accessor {}: {} elements without a buffer, at most {}",
-                index, accessor.count, kMaxZeroElements);
+    throw Error(ErrorId::kSceneTooLarge,
+                "accessor {}: {} elements without a buffer; the limit is {}", index, accessor.count,
+                kMaxZeroElements);
   }
   if (accessor.count == 0) throw Error(ErrorId::kSceneInvalid, "accessor {} is empty", index);
   return {};
@@ -196,8 +200,9 @@ std::span<const unsigned char> viewBytes(const tinygltf::Model& model, int buffe
   }
   const auto& data = model.buffers[static_cast<size_t>(view.buffer)].data;
   if (view.byteOffset > data.size() || view.byteLength > data.size() - view.byteOffset) {
-    throw Error(ErrorId::kSceneInvalid, "buffer view {}: {} bytes from {} leave its buffer of {}",
-                bufferView, view.byteLength, view.byteOffset, data.size());
+    throw Error(ErrorId::kSceneInvalid,
+                "buffer view {}: {} bytes at offset {} exceed its buffer of {}", bufferView,
+                view.byteLength, view.byteOffset, data.size());
   }
   return std::span(data).subspan(view.byteOffset, view.byteLength);
 }

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: MIT
-// Typed arrays out of glTF accessors. Every range is checked before anything is read or allocated.
+// Reads typed arrays from glTF accessors. Every range is checked before a read or an allocation.
 #pragma once
 
 #include <cstdint>
@@ -13,14 +13,16 @@ class Model;
 
 namespace grisaille::scene {
 
-// All of these throw kSceneInvalid, naming what is out of range or not finite.
+// All functions throw kSceneInvalid and name the element that is out of range or not finite.
+// readVec3() and readVec2() also throw kSceneTooLarge.
 
 std::span<const unsigned char> viewBytes(const tinygltf::Model& model, int bufferView);
 
-// Elements that the accessor claims; they need not exist.
+// The element count that the accessor declares. It is not checked against the buffer.
 uint64_t accessorCount(const tinygltf::Model& model, int accessor);
 
-// Components of 8 or 16 bits become floats, divided where the accessor says normalized.
+// Components of 8 or 16 bits become floats; those of normalized accessors are divided by the
+// largest value of their type.
 std::vector<glm::vec3> readVec3(const tinygltf::Model& model, int accessor);
 std::vector<glm::vec2> readVec2(const tinygltf::Model& model, int accessor);
 

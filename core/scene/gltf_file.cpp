@@ -23,12 +23,13 @@ using nlohmann::json;
 using Bytes = std::vector<unsigned char>;
 
 constexpr uint64_t kMaxFileBytes = std::numeric_limits<uint32_t>::max();
-// tinygltf recurses into `extras`; real files nest a dozen levels.
+// Limits the recursion of tinygltf into `extras`. Real files nest a dozen levels.
 constexpr int kDeepestJson = 64;
 constexpr std::string_view kSupportedExtensions[] = {"KHR_mesh_quantization",
                                                      "KHR_texture_transform"};
 
-// `name`: of a file that the scene's own file names, for messages.
+// `name`: for messages; the name of a file that the scene refers to, empty for the scene's own
+// file.
 Bytes readFile(const std::filesystem::path& path, const std::string& name, uint64_t mostBytes,
                ErrorId id) {
   std::error_code code;
@@ -38,7 +39,7 @@ Bytes readFile(const std::filesystem::path& path, const std::string& name, uint6
   const uintmax_t size = std::filesystem::file_size(path, code);
   if (code) throw Error(id, "{}{}", subject, code.message());
   if (size > mostBytes) {
-    throw Error(ErrorId::kSceneTooLarge, "{}{} bytes, at most {} fit", subject, size, mostBytes);
+    throw Error(ErrorId::kSceneTooLarge, "{}{} bytes; the limit is {}", subject, size, mostBytes);
   }
   Bytes bytes(size);
   std::ifstream file(path, std::ios::binary);
@@ -47,7 +48,8 @@ Bytes readFile(const std::filesystem::path& path, const std::string& name, uint6
   return bytes;
 }
 
-// A file that the scene names, which must lie in or below the scene's folder.
+// Returns the path of a file that the scene refers to. The file must be in or below the scene's
+// folder.
 std::filesystem::path besideScene(const std::filesystem::path& folder, const std::string& name) {
   const std::filesystem::path relative(name);
   bool leaves = relative.is_absolute() || name.empty() || name.find('\0') != std::string::npos;
@@ -58,17 +60,17 @@ std::filesystem::path besideScene(const std::filesystem::path& folder, const std
   return folder / relative;
 }
 
-// What tinygltf's file callbacks share.
+// The state of tinygltf's file callbacks.
 struct Files {
   std::filesystem::path folder;
-  size_t buffersLeft = 0;  // external buffers come first, then external images
+  size_t buffersLeft = 0;  // tinygltf loads external buffers first, then external images
   uint64_t bytesLeft = kMaxFileBytes;
 };
 
 bool readForTinygltf(Bytes* out, std::string*, const std::string& name, void* user) {
   Files& files = *static_cast<Files*>(user);
   if (files.buffersLeft == 0) {
-    // An image: hand over its decoded name in place of its bytes, for imageBytes() to read when a
+    // An image: return its decoded name instead of its bytes. imageBytes() reads the file when a
     // material needs it.
     out->assign(name.begin(), name.end());
     return true;
@@ -82,7 +84,7 @@ bool readForTinygltf(Bytes* out, std::string*, const std::string& name, void* us
 
 bool keepImage(tinygltf::Image* image, const int, std::string*, std::string*, int, int,
                const unsigned char* bytes, int size, void*) {
-  // An image in a buffer stays there. Its range is not checked yet, so `bytes` must not be touched.
+  // An image in a buffer stays in the buffer. Do not access `bytes`: its range is not checked yet.
   if (image->bufferView < 0 && size > 0) image->image.assign(bytes, bytes + size);
   return true;
 }
@@ -101,30 +103,30 @@ std::span<const unsigned char> jsonOf(const Bytes& bytes) {
   if (!isBinary(bytes)) return bytes;
   constexpr size_t kHeader = 20;  // file header and first chunk's header
   constexpr uint32_t kJsonChunk = 0x4e4f534a;
-  if (bytes.size() < kHeader) throw Error(ErrorId::kSceneUnreadable, "the header is cut short");
+  if (bytes.size() < kHeader) throw Error(ErrorId::kSceneUnreadable, "the header is truncated");
   if (word(bytes, 4) != 2) {
-    throw Error(ErrorId::kSceneUnreadable, "binary glTF version {}, only 2 is read",
+    throw Error(ErrorId::kSceneUnreadable, "binary glTF version {}; only version 2 is supported",
                 word(bytes, 4));
   }
   if (word(bytes, 8) > bytes.size()) {
-    throw Error(ErrorId::kSceneUnreadable, "the header announces {} bytes, the file has {}",
+    throw Error(ErrorId::kSceneUnreadable, "the header announces {} bytes, but the file has {}",
                 word(bytes, 8), bytes.size());
   }
   const size_t length = word(bytes, 12);
   if (word(bytes, 16) != kJsonChunk || length > bytes.size() - kHeader) {
-    throw Error(ErrorId::kSceneUnreadable, "the first chunk is not JSON or is cut short");
+    throw Error(ErrorId::kSceneUnreadable, "the first chunk is not JSON or is truncated");
   }
-  // tinygltf forgets the second chunk's header here and would read past the end.
+  // tinygltf ignores the size of the second chunk's header here and would read past the end.
   const size_t second = kHeader + length;
   if (word(bytes, 8) > second &&
       (bytes.size() - second < 8 || word(bytes, second) > bytes.size() - second - 8)) {
-    throw Error(ErrorId::kSceneUnreadable, "the second chunk is cut short");
+    throw Error(ErrorId::kSceneUnreadable, "the second chunk is truncated");
   }
   return std::span(bytes).subspan(kHeader, length);
 }
 
-// Accepts any JSON that does not nest deep. (The parser's own callback has the depth too, but takes
-// time in the square of a list's length.)
+// Accepts any JSON of at most kDeepestJson levels. (The parser's own callback reports the depth
+// too, but takes time quadratic in the length of a list.)
 class DepthCheck : public nlohmann::json_sax<json> {
  public:
   bool null() override { return true; }
@@ -163,24 +165,24 @@ void checkAsset(const json& document) {
   const auto asset = document.find("asset");
   if (!document.is_object() || asset == document.end() || !asset->is_object() ||
       !asset->contains("version") || !(*asset)["version"].is_string()) {
-    throw Error(ErrorId::kSceneUnreadable, "no asset.version, so this is not glTF");
+    throw Error(ErrorId::kSceneUnreadable, "the file has no asset.version: it is not glTF");
   }
-  // A minor version may be newer than ours unless the file asks for more.
+  // Accepts newer minor versions, unless `minVersion` requires one.
   const auto version = (*asset)["version"].get<std::string>();
   const auto minimum = asset->value("minVersion", json("2.0"));
   if (!version.starts_with("2.") || minimum != "2.0") {
-    throw Error(ErrorId::kSceneUnreadable, "glTF version {} (at least {}), only 2.0 is read",
+    throw Error(ErrorId::kSceneUnreadable, "glTF version {} (minVersion {}); only 2.0 is supported",
                 version, minimum.dump());
   }
 }
 
-// tinygltf takes a negative or broken number for one that is absent, which then is 0.
+// tinygltf reads a negative or malformed number as 0, like a number that is absent.
 void checkSizes(const json& object, const std::string& place) {
   if (!object.is_object()) return;
   for (const char* key : {"byteOffset", "byteLength", "byteStride", "count"}) {
     const auto size = object.find(key);
     if (size == object.end() || size->is_number_unsigned()) continue;
-    throw Error(ErrorId::kSceneInvalid, "{}.{} is {}, not a whole number from 0", place, key,
+    throw Error(ErrorId::kSceneInvalid, "{}.{} is {}, not a whole number of at least 0", place, key,
                 oneLine(size->dump()));
   }
   for (const char* key : {"sparse", "indices", "values"}) {
@@ -202,7 +204,8 @@ void checkSizes(const json& document) {
 void checkExtensions(const json& document) {
   const auto required = document.find("extensionsRequired");
   if (required == document.end()) return;
-  if (!required->is_array()) throw Error(ErrorId::kSceneInvalid, "extensionsRequired is no array");
+  if (!required->is_array())
+    throw Error(ErrorId::kSceneInvalid, "extensionsRequired is not an array");
   for (const json& name : *required) {
     const bool supported = name.is_string() &&
                            std::any_of(std::begin(kSupportedExtensions),
@@ -210,12 +213,13 @@ void checkExtensions(const json& document) {
                                          return name.get_ref<const std::string&>() == known;
                                        });
     if (!supported) {
-      throw Error(ErrorId::kSceneExtension, "the scene requires {}", name.dump());
+      throw Error(ErrorId::kSceneExtension, "the scene requires the unsupported extension {}",
+                  name.dump());
     }
   }
 }
 
-// How many buffers tinygltf will ask the disk for.
+// Returns the number of buffers that tinygltf will read from external files.
 size_t externalBuffers(const json& document) {
   size_t external = 0, embedded = 0;
   const auto buffers = document.find("buffers");
@@ -228,13 +232,15 @@ size_t externalBuffers(const json& document) {
       ++external;
     }
   }
-  // tinygltf would copy the binary chunk once for each.
-  if (embedded > 1) throw Error(ErrorId::kSceneInvalid, "{} buffers without a uri", embedded);
+  // tinygltf would copy the binary chunk once for each of these buffers.
+  if (embedded > 1)
+    throw Error(ErrorId::kSceneInvalid, "{} buffers without a uri; at most one is allowed",
+                embedded);
   return external;
 }
 
-// tinygltf 2.9 takes all callbacks or none, and has one more than 2.5. readForTinygltf() limits
-// sizes, so none is told.
+// tinygltf 2.9 requires all callbacks or none, and has one more than 2.5. GetFileSizeInBytes()
+// reports 0, because readForTinygltf() limits the sizes.
 template <typename Callbacks>
 Callbacks callbacksFor(Files& files) {
   Callbacks callbacks{};

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: MIT
-// The file side of glTF: bytes from disk, checked far enough that tinygltf can parse them safely.
+// Reads glTF files from disk, and checks them before tinygltf parses them.
 #pragma once
 
 #include <cstddef>
@@ -13,19 +13,19 @@ struct Image;
 
 namespace grisaille::scene {
 
-// Bounds on what one file may make us allocate.
+// Limits on the memory that one file can make the loader allocate.
 constexpr uint64_t kMaxVertices = uint64_t{1} << 26;
 constexpr uint64_t kMaxIndices = uint64_t{1} << 28;
 constexpr uint64_t kMaxInstances = uint64_t{1} << 22;
-// Of one accessor that has no bytes in the file, which are zeros.
+// Elements of one accessor without a buffer view: they are all zeros.
 constexpr uint64_t kMaxZeroElements = uint64_t{1} << 22;
 
-// Parses .gltf or .glb. Images are left where they are: see imageBytes(). Throws kSceneUnreadable,
+// Parses .gltf or .glb. Does not read images: see imageBytes(). Throws kSceneUnreadable,
 // kSceneInvalid, kSceneExtension, kSceneTooLarge.
 void readModel(const std::string& path, tinygltf::Model& model);
 
-// The encoded bytes of an image that readModel() met, wherever it is held. `path` is the glTF
-// file's. Throws kSceneInvalid, kSceneImage.
+// Returns the encoded bytes of an image of `model`, from a buffer view, a data URI or an external
+// file. `path`: the glTF file. Throws kSceneInvalid, kSceneImage, kSceneTooLarge.
 std::vector<std::byte> imageBytes(const std::string& path, const tinygltf::Model& model, int image);
 
 }  // namespace grisaille::scene

@@ -22,7 +22,7 @@ Wrap wrapOf(int value) {
     case TINYGLTF_TEXTURE_WRAP_MIRRORED_REPEAT:
       return Wrap::kMirror;
     default:
-      throw Error(ErrorId::kSceneInvalid, "a sampler has the unknown wrap mode {}", value);
+      throw Error(ErrorId::kSceneInvalid, "a sampler has an unknown wrap mode: {}", value);
   }
 }
 
@@ -86,7 +86,7 @@ class MaterialLoader {
       if (extension.Has("texCoord") && extension.Get("texCoord").IsInt()) {
         use.set = extension.Get("texCoord").GetNumberAsInt();
       }
-      // Counter-clockwise as seen with v down, as the extension's renderers agree.
+      // Counter-clockwise when v points down, like other renderers of the extension.
       const double c = std::cos(angle), s = std::sin(angle);
       use.transform = glm::dmat3x2(scale.x * glm::dvec2(c, -s), scale.y * glm::dvec2(s, c), offset);
     }
@@ -94,7 +94,8 @@ class MaterialLoader {
     return use;
   }
 
-  // Index in the scene of what a glTF texture shows; alike ones are loaded once.
+  // Returns the index into scene.textures of a glTF texture. glTF textures with equal image and
+  // wrap modes share one.
   int texture(int index) {
     if (index < 0 || static_cast<size_t>(index) >= model_.textures.size()) {
       throw Error(ErrorId::kSceneInvalid, "texture {} does not exist", index);

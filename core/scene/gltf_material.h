@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: MIT
-// Materials and their base colour textures out of glTF.
+// Loads materials and their base colour textures from glTF.
 #pragma once
 
 #include <glm/glm.hpp>
@@ -14,8 +14,8 @@ class Model;
 
 namespace grisaille::scene {
 
-// How a material's base colour texture is looked up: KHR_texture_transform is applied to the
-// coordinates once, at load.
+// The texture coordinates of a material's base colour texture. The mesh loader applies
+// KHR_texture_transform to the coordinates once, at load.
 struct TexCoordUse {
   int set = 0;                               // n of TEXCOORD_n
   glm::dmat3x2 transform = glm::dmat3x2(1);  // uv = transform * (u, v, 1)
@@ -23,8 +23,9 @@ struct TexCoordUse {
   bool operator==(const TexCoordUse&) const = default;
 };
 
-// Fills scene.materials, one a glTF material and in its order, and scene.textures with what they
-// name. Returns each material's use. Throws kSceneInvalid, kSceneImage.
+// Appends one material per glTF material to scene.materials, in the file's order, and the textures
+// that they use to scene.textures. `path`: the glTF file. Returns one TexCoordUse per material.
+// Throws kSceneInvalid, kSceneImage, kSceneTooLarge.
 std::vector<TexCoordUse> loadMaterials(const std::string& path, const tinygltf::Model& model,
                                        Scene& scene);
 

@@ -18,17 +18,17 @@ int attribute(const tinygltf::Primitive& primitive, const std::string& name) {
   return found == primitive.attributes.end() ? -1 : found->second;
 }
 
-// Twice the triangle's area long; zero where it has none.
+// The length of the result is twice the triangle's area.
 glm::dvec3 faceNormal(const glm::dvec3& a, const glm::dvec3& b, const glm::dvec3& c) {
   return glm::cross(b - a, c - a);
 }
 
-// Strips and fans to triangles that keep their winding.
+// Converts strips and fans to triangles and keeps their winding.
 std::vector<uint32_t> toTriangles(std::vector<uint32_t> indices, int mode) {
   const size_t count = indices.size();
   if (mode == TINYGLTF_MODE_TRIANGLES) {
     if (count % 3 == 0) return indices;
-    throw Error(ErrorId::kSceneInvalid, "{} indices do not make whole triangles", count);
+    throw Error(ErrorId::kSceneInvalid, "{} indices of triangles are not a multiple of 3", count);
   }
   std::vector<uint32_t> result;
   if (count < 3) return result;
@@ -49,9 +49,9 @@ std::vector<uint32_t> trianglesOf(const tinygltf::Model& model,
                                   const tinygltf::Primitive& primitive, uint64_t vertexCount) {
   std::vector<uint32_t> indices;
   if (primitive.indices >= 0) {
-    // A strip makes up to three of each index.
+    // A strip of n indices becomes up to 3 n indices.
     if (accessorCount(model, primitive.indices) > kMaxIndices / 3) {
-      throw Error(ErrorId::kSceneTooLarge, "{} indices, at most {}",
+      throw Error(ErrorId::kSceneTooLarge, "{} indices; the limit is {}",
                   accessorCount(model, primitive.indices), kMaxIndices / 3);
     }
     indices = readIndices(model, primitive.indices);
@@ -61,8 +61,8 @@ std::vector<uint32_t> trianglesOf(const tinygltf::Model& model,
   }
   for (const uint32_t index : indices) {
     if (index >= vertexCount) {
-      throw Error(ErrorId::kSceneInvalid, "accessor {}: index {} of {} vertices", primitive.indices,
-                  index, vertexCount);
+      throw Error(ErrorId::kSceneInvalid, "accessor {}: index {} is out of range for {} vertices",
+                  primitive.indices, index, vertexCount);
     }
   }
   return toTriangles(std::move(indices), primitive.mode);
@@ -98,7 +98,7 @@ void MeshLoader::loadPrimitive(const tinygltf::Primitive& from, std::vector<uint
     throw Error(ErrorId::kSceneInvalid, "accessor {} is empty", key.positions);
   }
   if (vertexCount > kMaxVertices) {
-    throw Error(ErrorId::kSceneTooLarge, "accessor {}: {} vertices, at most {}", key.positions,
+    throw Error(ErrorId::kSceneTooLarge, "accessor {}: {} vertices; the limit is {}", key.positions,
                 vertexCount, kMaxVertices);
   }
   const uint32_t material = materialOf(from);
@@ -109,7 +109,7 @@ void MeshLoader::loadPrimitive(const tinygltf::Primitive& from, std::vector<uint
   std::vector<uint32_t> triangles = trianglesOf(model_, from, vertexCount);
   if (triangles.empty()) return;
   if (scene_.indices.size() + triangles.size() > kMaxIndices) {
-    throw Error(ErrorId::kSceneTooLarge, "over {} indices", kMaxIndices);
+    throw Error(ErrorId::kSceneTooLarge, "more than {} indices", kMaxIndices);
   }
   const VertexRun run = key.normals < 0 ? flatVertices(key, triangles) : vertices(key);
   const auto first = static_cast<uint32_t>(scene_.indices.size());
@@ -141,7 +141,7 @@ MeshLoader::VertexRun MeshLoader::vertices(const VertexKey& key) {
   if (found != runs_.end()) return found->second;
   const uint64_t count = accessorCount(model_, key.positions);
   if (scene_.positions.size() + count > kMaxVertices) {
-    throw Error(ErrorId::kSceneTooLarge, "over {} vertices", kMaxVertices);
+    throw Error(ErrorId::kSceneTooLarge, "more than {} vertices", kMaxVertices);
   }
   if (accessorCount(model_, key.normals) != count) {
     throw Error(ErrorId::kSceneInvalid, "accessor {}: {} normals for {} positions", key.normals,
@@ -162,11 +162,11 @@ MeshLoader::VertexRun MeshLoader::vertices(const VertexKey& key) {
   return run;
 }
 
-// The format asks for flat shading where normals are missing: no vertex is shared then.
+// glTF requires flat shading for primitives without normals: every triangle gets its own vertices.
 MeshLoader::VertexRun MeshLoader::flatVertices(const VertexKey& key,
                                                std::vector<uint32_t>& triangles) {
   if (scene_.positions.size() + triangles.size() > kMaxVertices) {
-    throw Error(ErrorId::kSceneTooLarge, "over {} vertices", kMaxVertices);
+    throw Error(ErrorId::kSceneTooLarge, "more than {} vertices", kMaxVertices);
   }
   const VertexRun run{.first = static_cast<uint32_t>(scene_.positions.size())};
   const std::vector<glm::vec3> positions = readVec3(model_, key.positions);
@@ -176,7 +176,7 @@ MeshLoader::VertexRun MeshLoader::flatVertices(const VertexKey& key,
     const glm::dvec3 normal = faceNormal(p[0], p[1], p[2]);
     const double length = glm::length(normal);
     scene_.positions.insert(scene_.positions.end(), p, p + 3);
-    // Nobody sees a triangle without area.
+    // A triangle without area is never visible: any normal will do.
     scene_.normals.insert(scene_.normals.end(), 3,
                           length > 0 ? glm::vec3(normal / length) : glm::vec3(0, 1, 0));
   }
@@ -206,13 +206,15 @@ void MeshLoader::appendTexCoords(const VertexKey& key, size_t count) {
       uv = glm::vec2(transform * glm::dvec3(uv, 1));
       if (std::isfinite(uv.x) && std::isfinite(uv.y)) continue;
       throw Error(ErrorId::kSceneInvalid,
-                  "accessor {}: KHR_texture_transform leads beyond all numbers", key.texCoords);
+                  "accessor {}: KHR_texture_transform makes coordinates that are not finite",
+                  key.texCoords);
     }
   }
   scene_.texCoords.insert(scene_.texCoords.end(), texCoords.begin(), texCoords.end());
 }
 
-// Gives vertices whose normal has no length the mean normal of their faces here, by area.
+// Replaces normals of length 0 by the area-weighted mean normal of the faces in `indices` that use
+// the vertex.
 void MeshLoader::repairNormals(std::span<const uint32_t> indices) {
   std::map<uint32_t, glm::dvec3> sums;
   for (size_t i = 0; i < indices.size(); i += 3) {

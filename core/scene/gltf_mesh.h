@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: MIT
-// Meshes out of glTF: any mode and layout to indexed triangles with normals.
+// Loads glTF meshes of any mode and layout as indexed triangles with normals.
 #pragma once
 
 #include <map>
@@ -18,22 +18,23 @@ namespace grisaille::scene {
 
 class MeshLoader {
  public:
-  // `uses`: one a material of the scene.
+  // `uses`: one per material of the scene. `model` and `scene` must outlive the loader.
   MeshLoader(const tinygltf::Model& model, std::vector<TexCoordUse> uses, Scene& scene);
 
-  // Indices into scene.primitives of a mesh's triangles; loaded at the first call. Points, lines
-  // and primitives without positions are left out. Throws kSceneInvalid, kSceneTooLarge.
+  // Returns the indices into scene.primitives of a mesh's triangles. The first call for a mesh
+  // loads it. Skips points, lines and primitives without positions. Throws kSceneInvalid,
+  // kSceneTooLarge.
   const std::vector<uint32_t>& primitivesOf(int mesh);
 
  private:
-  // A run of the scene's vertex arrays. Primitives of one set of accessors share it.
+  // A run of the scene's vertex arrays. Primitives with the same accessors share a run.
   struct VertexRun {
     uint32_t first = 0;
-    bool lacksNormals = false;  // some have no length
+    bool lacksNormals = false;  // at least one normal has length 0
   };
   struct VertexKey {
     int positions = -1, normals = -1, texCoords = -1;
-    uint32_t material = 0;  // its texture transform, where it has one
+    uint32_t material = 0;  // material index + 1 if it has a texture transform, else 0
     auto operator<=>(const VertexKey&) const = default;
   };
 

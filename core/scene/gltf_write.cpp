@@ -12,7 +12,7 @@ namespace {
 
 using nlohmann::json;
 
-// Numbers that the format defines.
+// Constants of the glTF format.
 constexpr int kFloat = 5126, kUnsignedInt = 5125;
 constexpr int kArrayBuffer = 34962, kElementArrayBuffer = 34963;
 constexpr uint32_t kMagic = 0x46546c67, kJsonChunk = 0x4e4f534a, kBinaryChunk = 0x004e4942;
@@ -44,7 +44,7 @@ class GlbWriter {
   }
 
  private:
-  // Appends bytes, aligned as every accessor may ask, and returns the buffer view.
+  // Appends bytes at a multiple of 4, which suits every accessor, and returns the buffer view.
   size_t addView(const void* bytes, size_t size, int target) {
     binary_.resize((binary_.size() + 3) / 4 * 4, '\0');
     json view{{"buffer", 0}, {"byteOffset", binary_.size()}, {"byteLength", size}};
@@ -142,13 +142,13 @@ class GlbWriter {
   }
 
   std::string pack() {
-    // Names may hold any bytes; the format wants UTF-8.
+    // Names may hold any bytes, but the format requires UTF-8.
     std::string text = document_.dump(-1, ' ', false, json::error_handler_t::replace);
     text.resize((text.size() + 3) / 4 * 4, ' ');
     binary_.resize((binary_.size() + 3) / 4 * 4, '\0');
     const uint64_t total = 12 + 8 + uint64_t{text.size()} + 8 + binary_.size();
     if (total > std::numeric_limits<uint32_t>::max()) {
-      throw Error(ErrorId::kSceneTooLarge, "{} bytes, a .glb holds up to 4 GiB", total);
+      throw Error(ErrorId::kSceneTooLarge, "{} bytes; a .glb holds less than 4 GiB", total);
     }
     std::string file;
     file.reserve(total);
@@ -179,7 +179,7 @@ class GlbWriter {
 
 void writeGlb(const Scene& scene, const std::string& path) {
   if (scene.positions.empty() || scene.instances.empty()) {
-    throw Error(ErrorId::kSceneEmpty, "{}: there is nothing to write", path);
+    throw Error(ErrorId::kSceneEmpty, "{}: the scene has nothing to write", path);
   }
   writeFileAtomically(path, GlbWriter(scene).write());
 }

@@ -11,7 +11,8 @@ void addTriangle(Solid& solid, size_t a, size_t b, size_t c) {
   for (const size_t i : {a, b, c}) solid.indices.push_back(static_cast<uint32_t>(i));
 }
 
-// Adds a cap over the ring that starts at `first`, facing as the ring's order says.
+// Adds a cap over the ring of `size` points that starts at `first`. The order of the ring
+// determines the winding.
 void addCap(Solid& solid, size_t first, size_t size) {
   if (size == 4) {
     addTriangle(solid, first, first + 1, first + 2);
@@ -32,7 +33,7 @@ void flip(Solid& solid, size_t firstIndex = 0) {
   }
 }
 
-// Turns a closed solid right side out: its volume must be positive.
+// Flips a closed solid if its faces point inwards, that is, if its signed volume is negative.
 void turnOut(Solid& solid) {
   double volume = 0;
   const glm::dvec3 origin = solid.positions[0];
@@ -93,7 +94,7 @@ Solid loft(std::span<const Ring> rings, bool loop) {
   if (!loop) {
     const size_t firstIndex = solid.indices.size();
     addCap(solid, 0, size);
-    flip(solid, firstIndex);  // only the first cap is there yet
+    flip(solid, firstIndex);  // only the first cap exists yet
     addCap(solid, (rings.size() - 1) * size, size);
   }
   turnOut(solid);
@@ -117,7 +118,7 @@ Solid lathe(std::span<const glm::dvec2> profile, uint32_t segments, uint32_t flu
       const double turn = static_cast<double>(k) / segments;
       double radius = point.x;
       if (flutes > 0) {
-        const double within = turn * flutes - std::floor(turn * flutes);  // 0: on the edge
+        const double within = turn * flutes - std::floor(turn * flutes);  // 0: edge of a flute
         radius *= 1 - depth * sinTurns(within / 2);
       }
       ring.emplace_back(radius * cosTurns(turn), point.y, -radius * sinTurns(turn));
@@ -155,7 +156,7 @@ Solid slab(const glm::dvec2& low, const glm::dvec2& high, uint32_t cells, const 
   for (uint32_t j = 0; j < cells; ++j) {
     for (uint32_t i = 0; i < cells; ++i) {
       const uint32_t a = j * side + i, b = a + 1, c = a + side + 1, d = a + side;
-      // Cut cells along the rectangle's diagonals, where vaults have their groins.
+      // Splits cells along the diagonals of the rectangle, where vaults have their groins.
       const bool main = (2 * i < cells) == (2 * j < cells);
       for (const uint32_t up : {0u, layer}) {
         const size_t firstIndex = solid.indices.size();
@@ -223,7 +224,7 @@ glm::dmat4 turned(double turnsAboutY) {
 
 uint32_t addPrimitive(Scene& scene, const Solid& solid, uint32_t material, double creaseCosine) {
   const size_t corners = solid.indices.size();
-  std::vector<glm::dvec3> faces(corners / 3);  // as long as twice the area
+  std::vector<glm::dvec3> faces(corners / 3);  // normals, with twice the area as length
   std::vector<std::vector<uint32_t>> cornersAt(solid.positions.size());
   for (size_t i = 0; i < corners; ++i) {
     cornersAt[solid.indices[i]].push_back(static_cast<uint32_t>(i));
@@ -234,7 +235,7 @@ uint32_t addPrimitive(Scene& scene, const Solid& solid, uint32_t material, doubl
   const auto first = static_cast<uint32_t>(scene.indices.size());
   scene.indices.resize(first + corners);
   for (size_t vertex = 0; vertex < cornersAt.size(); ++vertex) {
-    // Corners with one normal share one vertex of the scene.
+    // Corners with equal normals share one vertex of the scene.
     std::vector<std::pair<glm::vec3, uint32_t>> made;
     for (const uint32_t corner : cornersAt[vertex]) {
       const glm::dvec3 own = faces[corner / 3];

@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: MIT
-// Solids out of a few generators. Only additions, products, quotients and square roots are used, so
-// that every machine makes the same bits.
+// Generators of solids. They use only additions, products, quotients and square roots, which give
+// the same bits on every machine.
 #pragma once
 
 #include <cstdint>
@@ -13,10 +13,11 @@
 
 namespace grisaille::scene {
 
-// Positions are shared between all triangles that meet there; counter-clockwise is outside.
+// A triangle mesh. All triangles that meet at a point share its position. Triangles are
+// counter-clockwise when seen from outside.
 struct Solid {
   std::vector<glm::dvec3> positions;
-  std::vector<glm::dvec2> texCoords;  // one a position
+  std::vector<glm::dvec2> texCoords;  // one per position
   std::vector<uint32_t> indices;
 };
 
@@ -26,27 +27,29 @@ using Ring = std::vector<glm::dvec3>;
 double sinTurns(double turns);
 double cosTurns(double turns);
 
-// A number in [0, 1) that depends on the seed alone.
+// A pseudo-random number in [0, 1) that depends only on the seed.
 double hashUnit(uint32_t seed);
 
-// Skin over rings of equal size, closed by two caps, or into a loop. Caps must be convex enough to
-// be seen whole from their middle.
+// Skins a sequence of rings with equal numbers of points. `loop`: joins the last ring to the first;
+// else two caps close the solid. The centre of a cap must see all of its edges.
 Solid loft(std::span<const Ring> rings, bool loop);
 
-// `bevel` cuts the upper edges.
+// An axis-aligned box. `bevel`: width of the bevel of the upper edges, 0: none.
 Solid box(const glm::dvec3& low, const glm::dvec3& high, double bevel = 0);
 
-// Revolves (radius, height) pairs about the y axis; all radii over 0. `flutes` hollows of the given
-// depth, as a share of the radius, run up it.
+// Revolves a profile of (radius, height) points about the y axis. Radii are above 0.
+// segments: number of points of each ring
+// flutes: number of vertical grooves
+// depth: depth of the grooves, as a fraction of the radius
 Solid lathe(std::span<const glm::dvec2> profile, uint32_t segments, uint32_t flutes = 0,
             double depth = 0);
 
-// A moulding round a rectangle about the y axis. The profile is (distance towards the middle,
-// height).
+// A moulding round a rectangle that is centred on the y axis. Profile points are (distance inwards
+// from the rectangle, height).
 Solid frame(std::span<const glm::dvec2> profile, const glm::dvec2& halfSize);
 
-// What lies between two height fields over a rectangle of the xz plane. The fields take (u, v) from
-// -1 to 1.
+// The solid between two height fields over a rectangle of the xz plane. The fields take (u, v) from
+// -1 to 1. `cells`: number of cells along each side.
 using Height = std::function<double(double u, double v)>;
 Solid slab(const glm::dvec2& low, const glm::dvec2& high, uint32_t cells, const Height& lower,
            const Height& upper);
@@ -55,14 +58,14 @@ Solid slab(const glm::dvec2& low, const glm::dvec2& high, uint32_t cells, const 
 using Surface = std::function<glm::dvec3(double u, double v)>;
 Solid sheet(uint32_t cellsU, uint32_t cellsV, const Surface& surface);
 
-// Adds a transformed copy. The transform must not mirror.
+// Appends a transformed copy of `from` to `to`. The transform must not mirror.
 void append(Solid& to, const Solid& from, const glm::dmat4& transform = glm::dmat4(1));
 
 glm::dmat4 moved(const glm::dvec3& by);
 glm::dmat4 turned(double turnsAboutY);
 
-// Adds a primitive with normals that are smooth except over edges sharper than the crease, given as
-// the cosine between the faces. Returns its index.
+// Adds a primitive to the scene and returns its index. Normals are smooth, except across edges
+// where the cosine between the face normals is below `creaseCosine`.
 uint32_t addPrimitive(Scene& scene, const Solid& solid, uint32_t material, double creaseCosine);
 
 }  // namespace grisaille::scene

@@ -6,7 +6,7 @@
 namespace grisaille::scene {
 
 void computeBounds(Scene& scene) {
-  // Each primitive's box first: instances may share primitives, and vertices lie in many triangles.
+  // First compute the box of each primitive once, because instances may share primitives.
   std::vector<Bounds> boxes(scene.primitives.size());
   for (size_t i = 0; i < boxes.size(); ++i) {
     const Primitive& primitive = scene.primitives[i];

@@ -20,26 +20,26 @@ namespace grisaille::scene {
 
 enum class Wrap : uint8_t { kRepeat, kClamp, kMirror };
 
-// As a file holds it, to be decoded only by who needs it; or its texels, so that the built-in scene
-// needs no codec.
+// A texture is either an encoded file, which texelsOf() decodes on demand, or texels. The built-in
+// scene holds texels and therefore needs no codec.
 struct Texture {
   std::string name;                // for messages
   std::vector<std::byte> encoded;  // PNG or JPEG
-  image::Image8 texels;            // where it has any, in place of `encoded`
+  image::Image8 texels;            // used in place of `encoded` unless empty
   Wrap wrapU = Wrap::kRepeat;
   Wrap wrapV = Wrap::kRepeat;
 };
 
-// Throws as image::decode().
+// Returns the texels of a texture; decodes them if necessary. Throws the errors of image::decode().
 image::Image8 texelsOf(const Texture& texture);
 
 struct Material {
   std::string name;
   glm::vec4 baseColor = glm::vec4(1);  // linear; multiplies the texture
   int baseColorTexture = -1;           // index into Scene::textures, -1: none
-  bool masked = false;                 // texels with alpha under the cutoff are holes
+  bool masked = false;                 // texels with alpha below the cutoff are holes
   float alphaCutoff = 0.5f;
-  bool doubleSided = false;  // else back faces are not drawn
+  bool doubleSided = false;  // false: back faces are not drawn
 };
 
 // A run of Scene::indices with one material.
@@ -54,8 +54,8 @@ struct Instance {
   glm::dmat4 worldFromObject = glm::dmat4(1);
 };
 
-// Vertex arrays are of equal length. Indices count from the arrays' start. Counter-clockwise
-// triangles face the viewer, unless the instance's transform mirrors.
+// The vertex arrays have equal lengths. Indices count from the start of the arrays.
+// Counter-clockwise triangles face the viewer, unless the instance's transform mirrors.
 struct Scene {
   std::string name;
   std::vector<glm::vec3> positions;
@@ -66,28 +66,28 @@ struct Scene {
   std::vector<Material> materials;
   std::vector<Texture> textures;
   std::vector<Instance> instances;
-  Bounds bounds;                 // of all instances, world
+  Bounds bounds;                 // of all instances, in world space
   std::optional<Camera> camera;  // the one that the scene was made for
 };
 
 // Sets scene.bounds from its instances.
 void computeBounds(Scene& scene);
 
-// Triangles of all instances.
+// The number of triangles of all instances.
 uint64_t triangleCount(const Scene& scene);
 
 // Reads glTF 2.0, .gltf or .glb: the default scene, else the first, else all nodes. Blended
-// materials become masks with a cutoff of 0.5; points and lines are left out; skins, morph targets
-// and animations are not applied. Only base colour images are read. `progress` is told the share
-// that is done, 0 to 1, ascending. Throws kScene* errors; never partial results.
+// materials become masks with a cutoff of 0.5. Skips points and lines. Does not apply skins, morph
+// targets and animations. Reads only base colour images. `progress`: called with the completed
+// fraction, 0 to 1, ascending; may be empty. Throws kScene* errors; never returns partial results.
 Scene loadGltf(const std::string& path, const std::function<void(double)>& progress = {});
 
-// Writes the scene as one .glb, aside and then renamed; textures that are texels become PNGs.
-// Throws kFileUnwritable, kSceneEmpty, kSceneTooLarge, kNoCodecs.
+// Writes the scene as one .glb: first to a temporary file, which it then renames. Textures held as
+// texels become PNGs. Throws kFileUnwritable, kSceneEmpty, kSceneTooLarge, kNoCodecs.
 void writeGlb(const Scene& scene, const std::string& path);
 
-// The built-in scene: an atrium of columns, arches, vases, steps, a hanging cloth and foliage cards
-// with an alpha mask, at least 50,000 triangles. The same on every machine, to the bit.
+// The built-in scene: an atrium with columns, arches, vases, steps, hanging cloths and alpha-masked
+// foliage cards; at least 50,000 triangles. Every machine builds it bit for bit the same.
 Scene makeAtrium();
 
 // The scene that a user names: the file at `path`, read as loadGltf() reads it, or the atrium where

@@ -48,7 +48,7 @@ bool AlphaMask::isHole(const glm::vec2& texCoord) const {
   const float y = texCoord.y * static_cast<float>(height_) - 0.5f;
   const float left = std::floor(x);
   const float top = std::floor(y);
-  // Coordinates past this have no fraction left, and would not fit an integer if larger still.
+  // Larger coordinates have no fractional bits, and even larger ones would overflow an integer.
   if (!(std::abs(left) < 0x1p24f && std::abs(top) < 0x1p24f)) return false;
   const auto i = static_cast<int64_t>(left);
   const auto j = static_cast<int64_t>(top);

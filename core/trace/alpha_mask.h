@@ -9,12 +9,13 @@
 
 namespace grisaille::trace {
 
-// The alpha of a masked material, sampled as the GPU's linear filter does at mip 0.
+// The alpha of a masked material, sampled like mip 0 with a linear filter on the GPU.
 class AlphaMask {
  public:
-  // Throws kSceneImage.
+  // Throws kSceneImage if the texture does not decode.
   AlphaMask(const scene::Scene& scene, const scene::Material& material);
 
+  // Returns true if the alpha is below the material's cutoff.
   bool isHole(const glm::vec2& texCoord) const;
 
  private:

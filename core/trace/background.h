@@ -1,13 +1,13 @@
 // SPDX-License-Identifier: MIT
-// Tracing beside work that must stay quick.
+// Runs ray tracing in the background of interactive work.
 #pragma once
 
 #include <functional>
 
 namespace grisaille::trace {
 
-// Calls work() on this thread. What it does in parallel leaves one core alone; where there are two,
-// it stays on this thread.
+// Calls work() on this thread. Its parallel loops use all cores except one; on a machine with two
+// cores they stay on this thread.
 void leavingACore(const std::function<void()>& work);
 
 }  // namespace grisaille::trace

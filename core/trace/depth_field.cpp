@@ -12,14 +12,16 @@ namespace {
 
 constexpr double kNever = std::numeric_limits<double>::infinity();
 
-// Off the facet, as a share of view depth: more than double rounds by, and far less than a pixel.
+// Offset of ray origins from the facet, as a fraction of view depth: larger than the rounding of
+// double, and far smaller than a pixel.
 constexpr double kLift = 1e-7;
 
-// Walks over the columns, or the rows, of a picture that a ray crosses. With (a, w) the ray's
-// scaled coordinate and view depth, the line at `c` pixels from the centre is met where a = c w.
+// Walks over the columns, or the rows, of the picture that a ray crosses. With a the ray's scaled
+// coordinate and w its view depth, the ray crosses the line at `c` pixels from the centre where
+// a = c w.
 class Walk {
  public:
-  // `pixel` is where the ray starts, `centre` the picture's.
+  // `pixel`: column or row where the ray starts. `centre`: centre of the picture, pixels.
   Walk(double a, double aStep, double w, double wStep, uint32_t pixel, double centre)
       : a_(a), aStep_(aStep), w_(w), wStep_(wStep), pixel_(pixel), centre_(centre) {
     const double motion = aStep * w - a * wStep;
@@ -28,7 +30,7 @@ class Walk {
   }
 
   int64_t pixel() const { return pixel_; }
-  double next() const { return next_; }  // metres along the ray to the next pixel
+  double next() const { return next_; }  // metres to the next pixel; infinite: none
   void advance() {
     pixel_ += step_;
     find();
@@ -40,7 +42,7 @@ class Walk {
     if (step_ == 0) return;
     const double line = static_cast<double>(pixel_ + (step_ > 0 ? 1 : 0)) - centre_;
     const double t = (line * w_ - a_) / (aStep_ - line * wStep_);
-    // Else the line is met behind the eye alone.
+    // Otherwise the ray crosses the line only behind the eye.
     if (w_ + t * wStep_ > 0) next_ = t;
   }
 
@@ -51,16 +53,16 @@ class Walk {
   double next_ = kNever;
 };
 
-// Whether a ray is inside a pixel's matter anywhere from t0 to t1, metres along it. `height` before
-// the plane and view depth `w` are linear there.
+// Returns whether a ray is inside a pixel's solid anywhere from t0 to t1, metres along the ray. The
+// height above the plane, `height`, and view depth, `w`, are linear along the ray.
 bool isInside(const FacetPlane& plane, double height, double heightStep, double w, double wStep,
               double thickness, double t0, double t1) {
   const double h0 = height + t0 * heightStep;
   const double h1 = height + t1 * heightStep;
   if (h0 >= 0 && h1 >= 0) return false;
-  if (h0 >= 0 || h1 >= 0) return true;  // it goes through the plane
-  // The plane's view depth at the same place is w offset / (height + offset): the ray is less than
-  // `thickness` behind where this is over 0.
+  if (h0 >= 0 || h1 >= 0) return true;  // the ray crosses the plane
+  // At the same place of the picture, the plane's view depth is w offset / (height + offset). The
+  // ray is less than `thickness` behind the plane where the expression below is above 0.
   const auto inside = [&](double t) {
     const double h = height + t * heightStep;
     return (w + t * wStep) * h - thickness * (h + plane.offset) > 0;
@@ -74,7 +76,7 @@ bool isInside(const FacetPlane& plane, double height, double heightStep, double 
 
 }  // namespace
 
-// View space, from a pixel's surface.
+// A ray in view space, from a pixel's surface.
 struct DepthField::Path {
   glm::dvec3 from, direction;
   double length;  // metres

@@ -1,15 +1,15 @@
 // SPDX-License-Identifier: MIT
-// The screen-space ceiling: the ambient visibility that a depth buffer allows at best.
+// The screen-space ceiling: the best ambient visibility that a depth buffer allows.
 //
-// The rays are those of the traced truth, but what blocks them is only what the picture shows. Each
-// pixel stands for the plane of the facet that its centre hits, as far as the pixel reaches, and
-// for the matter behind it: a point is inside it when its view depth is beyond the plane's at the
-// same place of the picture by `thickness` at most. A ray is open unless a point of it is inside,
-// so it is open beyond that, where it leaves the picture, before the near plane and over the sky.
+// It casts the rays of the traced truth, but only visible surfaces block them. Each pixel stands
+// for the plane of the facet at its centre, clipped to the pixel, with a solid behind it: a point
+// is inside the solid if its view depth exceeds that of the plane, at the same place of the
+// picture, by at most `thickness`. A ray is blocked if one of its points is inside a solid. Behind
+// the solids, outside the picture, in front of the near plane and over the sky, nothing blocks it.
 //
-// Planes, not the surface that is bilinear between centres: that one spans from a silhouette to
-// what lies behind, a wall that is nowhere in the scene. Nor flat texels, which make steps of a
-// slanting floor. docs/manual/truth.md has its error on Crytek Sponza.
+// A bilinear surface between pixel centres would connect a silhouette to the background by a wall
+// that the scene does not have. Constant depth per texel would turn a slanting floor into steps.
+// docs/manual/truth.md has the error of the ceiling on Crytek Sponza.
 #pragma once
 
 #include "core/trace/projection.h"
@@ -18,12 +18,12 @@ namespace grisaille::trace {
 
 class DepthField {
  public:
-  // `hits`: all pixels of the picture by rows.
+  // `hits`: castPrimary() of all pixels of the picture, by rows.
   DepthField(std::span<const Hit> hits, const scene::Camera& camera, uint32_t width,
              uint32_t height);
 
-  // As RayTracer::addOcclusion(), to the ray, for any pixels of the picture. `thickness`: metres of
-  // view depth, over 0.
+  // Same as RayTracer::addOcclusion(), with the same rays, for any pixels of the picture.
+  // `thickness`: metres of view depth, above 0.
   void addOcclusion(std::span<const Hit> hits, double radius, double thickness, uint32_t seed,
                     uint32_t from, uint32_t to, std::span<OcclusionCounts> counts) const;
 

@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: MIT
-// The calls that differ between Embree 3 and 4. Everything else that this room calls is the same in
-// both. CMake defines GRISAILLE_EMBREE_MAJOR.
+// Wraps the calls that differ between Embree 3 and 4. All other Embree calls of this folder are the
+// same in both. CMake defines GRISAILLE_EMBREE_MAJOR.
 #pragma once
 
 #if GRISAILLE_EMBREE_MAJOR >= 4
@@ -37,8 +37,8 @@ inline void fill(Context& context, RTCFilterFunctionN filter) {
 
 #endif
 
-// Each query initialises `context` and passes it to Embree, which passes it on to `filter`. To give
-// a filter more data, make the context the first member of a struct. `filter` may be null.
+// Each query initialises `context` and passes it to Embree, and Embree passes it to `filter`. To
+// give a filter more data, make the context the first member of a struct. `filter` may be null.
 
 inline void intersect1(RTCScene scene, Context& context, RTCFilterFunctionN filter,
                        RTCRayHit& ray) {
@@ -53,7 +53,7 @@ inline void intersect1(RTCScene scene, Context& context, RTCFilterFunctionN filt
 #endif
 }
 
-// Rays that run close together. `valid`: 16 values, -1 for each ray that counts, else 0; aligned to
+// Traces a packet of coherent rays. `valid`: 16 values, -1 for each active ray, else 0; aligned to
 // 64 bytes.
 inline void intersect16(const int* valid, RTCScene scene, Context& context,
                         RTCFilterFunctionN filter, RTCRayHit16& rays) {
@@ -70,7 +70,7 @@ inline void intersect16(const int* valid, RTCScene scene, Context& context,
 #endif
 }
 
-// Embree makes `ray.tfar` minus infinity where something blocks the ray.
+// Embree sets `ray.tfar` to minus infinity if the ray is blocked.
 inline void occluded1(RTCScene scene, Context& context, RTCRay& ray) {
 #if GRISAILLE_EMBREE_MAJOR >= 4
   RTCOccludedArguments arguments;

@@ -17,15 +17,17 @@ void requireShape(const FlickerFrame& frame, const image::Image& first) {
     const bool fits = image->width == first.width && image->height == first.height &&
                       image->channels == 1 && image->pixels.size() == first.pixels.size();
     if (!fits || frame.hits.size() != first.pixels.size()) {
-      throw Error(ErrorId::kImageMismatch,
-                  "flicker of {} x {} with {} channels and {} hits against {} x {} with 1",
-                  image->width, image->height, image->channels, frame.hits.size(), first.width,
-                  first.height);
+      throw Error(
+          ErrorId::kImageMismatch,
+          "a flicker frame has {} x {} pixels, {} channels and {} hits; the first frame has "
+          "{} x {} pixels, and all need 1 channel and 1 hit per pixel",
+          image->width, image->height, image->channels, frame.hits.size(), first.width,
+          first.height);
     }
   }
 }
 
-// The pixel of `frame` that shows the point.
+// Returns the pixel of `frame` that shows the point, or nothing if the point is not visible.
 std::optional<size_t> pixelOf(const glm::dvec3& world, const FlickerFrame& frame,
                               const Projection& projection, double tolerance) {
   const glm::dvec3 p = projection.place(world);
@@ -37,7 +39,7 @@ std::optional<size_t> pixelOf(const glm::dvec3& world, const FlickerFrame& frame
   const size_t q = static_cast<size_t>(drawn.y) * frame.ao.width + static_cast<size_t>(drawn.x);
   const FacetPlane plane(frame.hits[q], projection);
   if (plane.offset == 0) return {};
-  // The plane's view depth there, by the point's.
+  // View depth of the plane at the same place of the picture, divided by that of the point.
   const double share = plane.offset / glm::dot(plane.normal, p);
   if (!(std::abs(share - 1) <= tolerance)) return {};
   return q;

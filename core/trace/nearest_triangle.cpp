@@ -9,22 +9,23 @@ namespace grisaille::trace {
 namespace {
 
 constexpr size_t kLanes = 16;
-// Cosine of the widest angle to the first ray of a packet.
+// Cosine of the largest angle between a ray of a packet and the first ray.
 constexpr float kWidest = 0.7f;
-// Share of the distance by which Embree looks on behind the nearest triangle so far. Far more than
-// its boxes and all but the most slanting triangles round by.
+// Embree searches on behind the nearest triangle so far, by this fraction of its distance. Far more
+// than the rounding of its boxes and of all triangles except the most grazing.
 constexpr float kBehind = 0x1p-10f;
 
-// What a query's filter needs to know. Embree hands back the base.
+// The data of a query's filter. Embree passes a pointer to `base` to the filter.
 struct Query {
   embree::Context base;
   float margin = 0;
-  const ThinRay* rays = nullptr;  // by the rays' ids
+  const ThinRay* rays = nullptr;  // indexed by ray id
   Met* met = nullptr;
 };
 
-// Embree alone keeps one of equally near triangles by the order in which it comes to them, which
-// hangs on the rays beside. And it might skip the other's box for lack of a last digit.
+// Keeps the first triangle in the order of Met. Without this filter, Embree chooses among equally
+// near triangles by its traversal order, which depends on the other rays of the packet. It might
+// also skip the box of an equally near triangle because of rounding.
 void keepNearest(const RTCFilterFunctionNArguments* args) {
   const auto& query = *reinterpret_cast<const Query*>(args->context);
   for (unsigned int i = 0; i < args->N; ++i) {
@@ -45,7 +46,8 @@ void keepNearest(const RTCFilterFunctionNArguments* args) {
   }
 }
 
-// Also one ray alone: Embree's other kernels, cheaper for it, round otherwise at borders.
+// Traces a packet of 1 ... kLanes rays. Also used for single rays: Embree's single-ray kernels are
+// cheaper, but round differently at borders.
 void traceTogether(RTCScene world, Query& query, uint32_t firstId, size_t count) {
   RTCRayHit16 packet = {};
   alignas(64) std::array<int, kLanes> valid = {};
@@ -67,7 +69,7 @@ void traceTogether(RTCScene world, Query& query, uint32_t firstId, size_t count)
   embree::intersect16(valid.data(), world, query.base, keepNearest, packet);
 }
 
-// Of the first rays, those that are worth tracing with the very first.
+// Returns how many of the leading rays run close enough to the first to share a packet with it.
 size_t together(std::span<const ThinRay> rays, float spread) {
   const size_t most = std::min(rays.size(), kLanes);
   size_t count = 1;

@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: MIT
-// Which triangle each of many rays meets first, in 32 bits. Rays that run beside their neighbours
-// are traced together, which costs a fraction of tracing each alone.
+// Finds the first triangle on each of many rays, in 32 bits. Neighbouring rays that run close
+// together are traced as a packet, which costs a fraction of tracing each alone.
 #pragma once
 
 #include <cmath>
@@ -12,30 +12,33 @@
 
 namespace grisaille::trace {
 
+// A 32-bit ray.
 struct ThinRay {
   glm::vec3 from = glm::vec3(0);
   glm::vec3 direction = glm::vec3(0);  // unit
   float length = 0;                    // metres
 };
 
-// Ordered first by distance, then by triangle. The default is beyond all others.
+// The triangle that a ray meets. Ordered by distance, then by triangle. The default, no triangle,
+// comes after all others.
 struct Met {
   float distance = INFINITY;  // metres; infinite: nothing within the ray's length
   uint32_t geometry = RTC_INVALID_GEOMETRY_ID;
   uint32_t primitive = RTC_INVALID_GEOMETRY_ID;
-  float u = 0, v = 0;  // Embree's: shares of the second and the third corner
+  float u = 0, v = 0;  // Embree's barycentric weights of the second and the third corner
 };
 
-// Finds what depends on the ray alone, to the bit, and not on those beside it.
+// A result depends only on its ray, bit for bit, and not on neighbouring rays.
 class NearestTriangles {
  public:
-  // `margin`: metres that 32-bit distances are off at most. `spread`: metres that starting points
-  // of rays traced together may lie apart.
+  // margin: largest error of 32-bit distances, metres
+  // spread: largest distance between the origins of rays in one packet, metres
+  // The Embree scene must outlive this object.
   NearestTriangles(RTCScene world, float margin, float spread)
       : world_(world), margin_(margin), spread_(spread) {}
 
-  // One outcome an element of `met`, which is as long as `rays`. But what passes by a triangle's
-  // border within some 32-bit digits may be met here and not by find(): there, find() tells.
+  // Writes one result per ray to `met`, which is as long as `rays`. Within a few 32-bit digits of a
+  // triangle's border, findAll() may report a triangle that find() misses; find() is then right.
   void findAll(std::span<const ThinRay> rays, std::span<Met> met) const;
   Met find(const ThinRay& ray) const;
 

@@ -26,7 +26,7 @@ Visibility visibilityOf(const OcclusionCounts& counts) {
     const double apart = counts.open[k] - mean * counts.counted[k];
     squares += apart * apart;
   }
-  // Both sums are kScrambles times their mean.
+  // The formula of Visibility::standardError; `counted` is kScrambles times its mean.
   const double error = std::sqrt(squares * kScrambles / (kScrambles - 1)) / counted;
   return {static_cast<float>(mean), static_cast<float>(error)};
 }

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: MIT
-// The directions of occlusion rays: the same for every way of asking what blocks them.
+// The directions of occlusion rays, shared by all tests of what blocks a ray.
 #pragma once
 
 #include "core/trace/occlusion.h"
@@ -8,9 +8,9 @@
 
 namespace grisaille::trace {
 
-// Counts the rays `from` ... `to` - 1 of a surface's pixel, cosine-weighted about its interpolated
-// normal. isOpen(direction) tells of a ray in a unit direction, world axes; it is not asked about
-// those under the facet.
+// Adds the rays `from` ... `to` - 1 of a surface pixel to `counts`. Rays are cosine-weighted about
+// the interpolated normal. isOpen(direction) returns whether the ray in a unit direction, in world
+// axes, is open; it is not called for rays below the facet.
 template <typename IsOpen>
 void countRays(const Hit& hit, uint32_t seed, uint32_t from, uint32_t to, OcclusionCounts& counts,
                const IsOpen& isOpen) {

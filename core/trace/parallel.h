@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: MIT
-// Work on all cores whose outcome does not depend on how many there are.
+// Parallel loops whose results do not depend on the number of cores.
 #pragma once
 
 #include <tbb/parallel_for.h>
@@ -12,9 +12,9 @@ namespace grisaille::trace {
 // Elements that one thread takes at a time.
 constexpr size_t kBlock = 64;
 
-// Calls work(first, count) for blocks of 0 ... total - 1 on all cores, in no order; a block or less
-// stays on the calling thread. `work` does not throw and writes only what belongs to its indices,
-// so that the outcome is the same for any number of threads.
+// Calls work(first, count) for blocks of 0 ... total - 1 on all cores, in any order. If `total` is
+// at most kBlock, `work` runs on the calling thread. `work` must not throw and must write only data
+// of its own indices, which makes the results the same for any number of threads.
 template <typename Work>
 void forEachBlock(size_t total, const Work& work) {
   if (total == 0) return;
@@ -25,6 +25,7 @@ void forEachBlock(size_t total, const Work& work) {
   });
 }
 
+// Calls work(i) for i = 0 ... total - 1, under the rules of forEachBlock().
 template <typename Work>
 void forEach(size_t total, const Work& work) {
   forEachBlock(total, [&](size_t first, size_t count) {

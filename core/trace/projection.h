@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: MIT
-// From the world to a picture's pixels, in double.
+// Projects world positions to the pixels of a picture, in double precision.
 #pragma once
 
 #include <cmath>
@@ -10,7 +10,7 @@
 
 namespace grisaille::trace {
 
-// View space here: x right, y down, z along the view direction, so that z is view depth, metres.
+// View space here: x right, y down, z along the view direction. z is view depth, metres.
 class Projection {
  public:
   Projection(const scene::Camera& camera, uint32_t width, uint32_t height)
@@ -25,11 +25,11 @@ class Projection {
   }
   glm::dvec3 place(const glm::dvec3& position) const { return turn(position - eye_); }
 
-  // Where a point of view space with z over 0 is drawn: pixels from the top left corner.
+  // Projects a view-space point with z above 0 to pixels from the top left corner.
   glm::dvec2 draw(const glm::dvec3& p) const { return centre_ + scale_ / p.z * glm::dvec2(p); }
 
   const glm::dvec2& centre() const { return centre_; }
-  double scale() const { return scale_; }  // pixels that 1 m at 1 m of view depth takes
+  double scale() const { return scale_; }  // pixels per metre at a view depth of 1 m
 
  private:
   glm::dmat3 viewFromWorld_;
@@ -41,14 +41,14 @@ class Projection {
 // The plane of the facet that a pixel sees, in its view space.
 struct FacetPlane {
   glm::dvec3 normal = glm::dvec3(0);
-  double offset = 0;  // dot(normal, point of the plane): under 0, since it faces the eye; 0: sky
+  double offset = 0;  // dot(normal, point of the plane): below 0, as it faces the eye; 0: sky
 
   FacetPlane() = default;
   FacetPlane(const Hit& hit, const Projection& projection)
       : normal(projection.turn(hit.facetNormal)),
         offset(hit.viewDepth > 0 ? glm::dot(normal, projection.place(hit.position)) : 0) {}
 
-  // Metres before the plane; under 0: behind.
+  // Metres in front of the plane; below 0: behind it.
   double height(const glm::dvec3& p) const { return glm::dot(normal, p) - offset; }
 };
 

@@ -37,7 +37,7 @@ struct Path {
   glm::dvec3 direction;  // unit
 };
 
-// Of 32-bit numbers, with some room, as a share of them.
+// Relative rounding error of 32-bit numbers, with a safety margin.
 constexpr double kRounding = 1e-6;
 
 }  // namespace
@@ -55,7 +55,7 @@ struct RayTracer::Impl {
     most += margin;
   }
 
-  // `direction` is as long as it takes to go 1 m of view depth.
+  // Fills `hit`. The view depth of `direction` is 1 m.
   void see(const Triangle& triangle, const glm::dvec3& eye, const glm::dvec3& direction,
            Hit& hit) const;
   Path pathOf(const grisaille_ray& ray) const;
@@ -67,7 +67,7 @@ struct RayTracer::Impl {
 
   TracedScene traced;
   glm::dvec3 least, most;  // of all triangles, relative to the origin, with a margin
-  double margin = 0;       // metres that a 32-bit coordinate of theirs may be off, and more
+  double margin = 0;       // metres, above the largest error of a 32-bit triangle coordinate
   std::optional<NearestTriangles> nearest;
 };
 
@@ -125,7 +125,7 @@ std::vector<Hit> RayTracer::castPrimary(const scene::Camera& camera, uint32_t wi
     hit.pixel = pixels[i];
     const double x = 2.0 * (pixels[i].x + 0.5) / width - 1.0;
     const double y = 1.0 - 2.0 * (pixels[i].y + 0.5) / height;
-    // View depth 1, so that distances along the ray are view depths.
+    // The direction has a view depth of 1, which makes distances along the ray view depths.
     const glm::dvec3 direction =
         worldFromView * glm::dvec3(x / clipFromView[0][0], y / clipFromView[1][1], -1.0);
     RTCRayHit ray =
@@ -155,8 +155,8 @@ Path RayTracer::Impl::pathOf(const grisaille_ray& ray) const {
   return {origin - traced.origin(), glm::normalize(direction)};
 }
 
-// Enters the bounds first, so that a ray from far outside loses nothing in 32 bits. False
-// where it misses them.
+// Moves the origin of a ray from outside to the scene's bounds, which keeps the precision of rays
+// from far outside in 32 bits. Returns false if the ray misses the bounds.
 bool RayTracer::Impl::thinRay(const Path& path, double reach, ThinRay& thin) const {
   double enter = 0;
   const glm::dvec3& p = path.from;
@@ -176,7 +176,7 @@ bool RayTracer::Impl::thinRay(const Path& path, double reach, ThinRay& thin) con
     }
     if (enter > leave) return false;
   }
-  // Embree's distance is off by its rounding: what lies beyond the reach by that is dropped later.
+  // Allow for the rounding of Embree's distance. hitOf() drops hits beyond the reach.
   const double length = (reach - enter) * (1 + kRounding) + margin;
   thin.from = glm::vec3(enter > 0 ? path.from + enter * path.direction : path.from);
   thin.direction = glm::vec3(path.direction);
@@ -184,7 +184,7 @@ bool RayTracer::Impl::thinRay(const Path& path, double reach, ThinRay& thin) con
   return true;
 }
 
-// Within some 32-bit digits, seen along the ray.
+// Returns whether the ray passes within a few 32-bit digits of an edge of the facet.
 bool RayTracer::Impl::passesBorder(const Path& path, const Facet& facet, const Met& met) const {
   const std::array<double, 3> weights = {1.0 - met.u - met.v, met.u, met.v};
   const double area = glm::dot(facet.cross, path.direction);
@@ -192,13 +192,13 @@ bool RayTracer::Impl::passesBorder(const Path& path, const Facet& facet, const M
   bool passes = false;
   for (size_t k = 0; k < 3; ++k) {
     const glm::dvec3 side = c[(k + 1) % 3] - c[(k + 2) % 3];
-    const double height = weights[k] * area;  // times the side's length
+    const double height = weights[k] * area;  // distance to the edge, times the edge's length
     passes |= height * height <= 4 * margin * margin * glm::dot(side, side);
   }
   return passes;
 }
 
-// `unit`: the facet's normal, either way, or 0 where it has no area.
+// `unit`: the facet's normal, pointing to either side, or 0 if the facet has no area.
 grisaille_hit RayTracer::Impl::hitOf(const Path& path, float reach, const Facet& facet,
                                      const glm::dvec3& unit) {
   const double distance = std::max(facet.crossing(path.from, path.direction), 0.0);
@@ -211,11 +211,11 @@ grisaille_hit RayTracer::Impl::hitOf(const Path& path, float reach, const Facet&
           .normal = {normal.x, normal.y, normal.z}};
 }
 
-// No more than kBlock rays.
+// Casts at most kBlock rays.
 void RayTracer::Impl::castBlock(std::span<const grisaille_ray> rays,
                                 std::span<grisaille_hit> hits) const {
   std::array<Path, kBlock> paths;
-  std::array<uint32_t, kBlock> owners;  // of the rays that meet the bounds
+  std::array<uint32_t, kBlock> owners;  // indices of the rays that meet the bounds
   std::array<ThinRay, kBlock> thin;
   std::array<Met, kBlock> met;
   size_t count = 0;

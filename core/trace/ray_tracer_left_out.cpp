@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: MIT
-// In place of ray_tracer.cpp where a build has no Embree: a tracer cannot be made.
+// Replaces ray_tracer.cpp in builds without Embree: constructing a tracer throws kLeftOut.
 #include "core/base/error.h"
 #include "core/trace/ray_tracer.h"
 
@@ -9,12 +9,12 @@ struct RayTracer::Impl {};
 
 RayTracer::RayTracer(const scene::Scene& /*scene*/, const glm::dvec3& /*origin*/) {
   throw Error(ErrorId::kLeftOut,
-              "this build casts no rays through the scene: GRISAILLE_TRUTH was off");
+              "this build cannot cast rays through the scene: GRISAILLE_TRUTH was off");
 }
 
 RayTracer::~RayTracer() = default;
 
-// Never called, since there is no tracer.
+// The functions below are never called, because no tracer exists.
 
 std::vector<Hit> RayTracer::castPrimary(const scene::Camera& /*camera*/, uint32_t /*width*/,
                                         uint32_t /*height*/,

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: MIT
-// Sample points that are the same on every machine: integers only, until the last step.
+// Sample points that are the same on every machine: all steps except the last use integers.
 #pragma once
 
 #include <cmath>
@@ -9,8 +9,8 @@
 
 namespace grisaille::trace {
 
-// Every bit of the result depends on every bit of `x`. Constants: "lowbias32" of Wellons' search
-// for integer hashes.
+// An integer hash: every bit of the result depends on every bit of `x`. Constants: "lowbias32" of
+// Wellons' search for integer hashes.
 inline uint32_t hashBits(uint32_t x) {
   x = (x ^ (x >> 16)) * 0x7feb352du;
   x = (x ^ (x >> 15)) * 0x846ca68bu;
@@ -47,7 +47,7 @@ inline glm::vec2 sobolPoint(uint32_t index, uint32_t seed) {
           unit(owenScramble(second, hashBits(seed ^ 0x9e3779b9u)))};
 }
 
-// Two axes that make a right-handed frame with the unit vector `n` (Duff et al., 2017).
+// Returns a right-handed frame whose third axis is the unit vector `n` (Duff et al., 2017).
 inline glm::mat3 frameAbout(const glm::vec3& n) {
   const float sign = std::copysign(1.0f, n.z);
   const float a = -1.0f / (sign + n.z);
@@ -56,7 +56,8 @@ inline glm::mat3 frameAbout(const glm::vec3& n) {
           glm::vec3(b, sign + n.y * n.y * a, -n.y), n};
 }
 
-// A unit vector about +z whose density is cosine / pi: a point of the disc, lifted (Malley).
+// Maps a point of [0, 1)^2 to a unit vector about +z with density cosine / pi: a point of the disc,
+// projected up to the hemisphere (Malley).
 inline glm::vec3 cosineDirection(const glm::vec2& point) {
   const float radius = std::sqrt(point.x);
   const float angle = 2.0f * std::numbers::pi_v<float> * point.y;

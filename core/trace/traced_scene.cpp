@@ -14,7 +14,8 @@ Placement placementOf(const scene::Instance& instance, const glm::dvec3& origin)
   p.linear = glm::dmat3(instance.worldFromObject);
   p.offset = glm::dvec3(instance.worldFromObject[3]) - origin;
   p.mirrored = glm::determinant(p.linear) < 0;
-  // Cofactors: the inverse transpose up to a positive factor, and defined for flattened instances.
+  // The cofactor matrix equals the inverse transpose up to a positive factor (with the sign below),
+  // and also exists for singular transforms.
   const glm::dmat3& m = p.linear;
   p.normals = glm::dmat3(glm::cross(m[1], m[2]), glm::cross(m[2], m[0]), glm::cross(m[0], m[1]));
   if (p.mirrored) p.normals = -p.normals;
@@ -28,13 +29,13 @@ double Facet::crossing(const glm::dvec3& from, const glm::dvec3& direction) cons
   const double a = glm::dot(apart, direction);
   const double b = glm::dot(corners[1] - from, direction);
   const double c = glm::dot(corners[2] - from, direction);
-  // All in lengths of the direction times its square, so that mostly one division will do.
+  // All distances are multiplied by the squared length of the direction, to save divisions.
   const double nearest = std::min(std::min(a, b), c);
   const double farthest = std::max(std::max(a, b), c);
   const double squared = glm::dot(direction, direction);
   const double plane = glm::dot(apart, cross) / glm::dot(direction, cross);
   if (plane * squared < nearest) return nearest / squared;
-  // Not a number where the ray runs in the plane.
+  // `plane` is NaN if the ray lies in the plane.
   return plane * squared <= farthest ? plane : farthest / squared;
 }
 
@@ -51,7 +52,7 @@ TracedScene::TracedScene(const scene::Scene& scene, const glm::dvec3& origin)
     rtcSetSceneBuildQuality(world_, RTC_BUILD_QUALITY_HIGH);
     for (uint32_t id = 0; id < buckets_.size(); ++id) attach(id, buckets_[id]);
     rtcCommitScene(world_);
-    throwOnFailure("hold");
+    throwOnFailure("load");
   } catch (...) {
     if (world_ != nullptr) rtcReleaseScene(world_);
     if (device_ != nullptr) rtcReleaseDevice(device_);
@@ -148,7 +149,7 @@ bool TracedScene::isBack(const Triangle& triangle, const glm::dvec3& direction) 
   return placements_[triangle.instance].mirrored ? facing < 0 : facing > 0;
 }
 
-// Serves packets as well as single rays.
+// For packets and single rays.
 void TracedScene::passHoles(const RTCFilterFunctionNArguments* args) {
   const auto& bucket = *static_cast<const Bucket*>(args->geometryUserPtr);
   for (unsigned int i = 0; i < args->N; ++i) {
@@ -160,7 +161,7 @@ void TracedScene::passHoles(const RTCFilterFunctionNArguments* args) {
   }
 }
 
-// Serves single rays only: N is 1.
+// For single rays only: N is 1.
 void TracedScene::passBackFaces(const RTCFilterFunctionNArguments* args) {
   const auto& bucket = *static_cast<const Bucket*>(args->geometryUserPtr);
   const auto& ray = *reinterpret_cast<const RTCRay*>(args->ray);

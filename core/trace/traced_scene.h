@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: MIT
-// A scene inside Embree, and the double precision truth about each of its triangles.
+// A scene inside Embree, and its triangles in double precision.
 #pragma once
 
 #include <array>
@@ -15,7 +15,7 @@ namespace grisaille::trace {
 
 struct Triangle {
   uint32_t instance = 0;
-  uint32_t firstIndex = 0;
+  uint32_t firstIndex = 0;  // into Scene::indices
 
   bool operator==(const Triangle&) const = default;
 };
@@ -31,21 +31,23 @@ struct Placement {
 // A triangle relative to the origin.
 struct Facet {
   std::array<glm::dvec3, 3> corners;
-  glm::dvec3 cross;  // of its edges: as long as twice its area
+  glm::dvec3 cross;  // cross product of its edges: its length is twice the area
 
-  // Where a ray meets its plane, in lengths of `direction`; never beyond its corners.
+  // Distance at which a ray meets the facet's plane, in lengths of `direction`, clamped to the
+  // range of the corners.
   double crossing(const glm::dvec3& from, const glm::dvec3& direction) const;
 };
 
 class TracedScene {
  public:
-  // Throws kSceneImage, kSceneTooLarge. `scene` outlives this.
+  // Throws kSceneImage, kSceneTooLarge. `scene` must outlive this object.
   TracedScene(const scene::Scene& scene, const glm::dvec3& origin);
   ~TracedScene();
   TracedScene(const TracedScene&) = delete;
   TracedScene& operator=(const TracedScene&) = delete;
 
-  // Holes let every ray through. Back faces block, except in a query whose filter is passBackFaces.
+  // Holes let every ray through. Back faces block rays, except in queries with the filter
+  // passBackFaces().
   RTCScene world() const { return world_; }
   static void passBackFaces(const RTCFilterFunctionNArguments* args);
 
@@ -61,7 +63,8 @@ class TracedScene {
   Facet facet(const Triangle& triangle) const;
 
  private:
-  // Triangles with the same rules: an Embree geometry whose filter does no more than these need.
+  // Triangles with the same mask and sidedness: one Embree geometry, with a filter only if they
+  // need one.
   struct Bucket {
     const TracedScene* owner = nullptr;
     bool masked = false;
@@ -79,8 +82,8 @@ class TracedScene {
 
   const scene::Scene& scene_;
   const glm::dvec3 origin_;
-  std::vector<Placement> placements_;            // like scene.instances
-  std::vector<std::optional<AlphaMask>> masks_;  // like scene.materials
+  std::vector<Placement> placements_;            // one per instance
+  std::vector<std::optional<AlphaMask>> masks_;  // one per material; none: not masked
   std::array<Bucket, 4> buckets_;                // index: masked + 2 * doubleSided; Embree's geomID
   RTCDevice device_ = nullptr;
   RTCScene world_ = nullptr;

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: MIT
-// The classic method: sample points in a hemisphere. Two passes, occlusion and blur.
+// The estimator `classic`: sample points in a hemisphere or sphere. Two passes, occlusion and blur.
 #pragma once
 
 #include <optional>
@@ -12,8 +12,9 @@ class Classic {
  public:
   explicit Classic(plugin::Host host);
 
+  // Attachments that record() reads with these values: bits of GRISAILLE_READS.
   static uint32_t reads(plugin::Values values) noexcept;
-  // `ao`: r16f, of the picture's size.
+  // Records both passes. `ao`: output, r16f, of the picture's size. Throws plugin::Failure.
   void record(const plugin::Frame& frame, grisaille_texture ao);
 
  private:
@@ -24,7 +25,7 @@ class Classic {
   plugin::PipelineCache hemisphere_, sphere_, blur_;
   plugin::Sampler clamped_, repeated_;
   plugin::Texture noise_;
-  std::optional<uint32_t> noiseSeed_;  // which seed noise_ holds
+  std::optional<uint32_t> noiseSeed_;  // seed of the rotations in noise_; empty: none uploaded
 };
 
 }  // namespace grisaille::ssao

@@ -8,7 +8,8 @@
 
 namespace grisaille::ssao {
 
-// What one dispatch binds, at most eight: recording a frame allocates nothing.
+// Bindings of one dispatch, at most eight. An array, so that recording a frame allocates no memory.
+// add() throws std::out_of_range beyond eight.
 class Bindings {
  public:
   Bindings(std::initializer_list<grisaille_binding> first) {
@@ -22,7 +23,8 @@ class Bindings {
   size_t count_ = 0;
 };
 
-// So many invocations, in groups of 8x8 as all shaders of this effect have them.
+// Dispatches at least width x height invocations, in groups of 8x8: the local size of all shaders
+// of this effect.
 inline void dispatch(const plugin::Frame& frame, grisaille_pipeline pipeline,
                      std::span<const grisaille_binding> bindings, uint32_t width, uint32_t height) {
   constexpr uint32_t kGroup = 8;

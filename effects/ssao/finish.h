@@ -7,7 +7,7 @@
 
 namespace grisaille::ssao {
 
-// As finished() of shaders/ssao/finish.glsl takes it.
+// Argument `finish` of finished() in shaders/ssao/finish.glsl: intensity, power, albedo or 0, 0.
 inline glm::vec4 finishOf(const plugin::Frame& frame) {
   const bool grey = frame.value<Bounce>(kBounce) == Bounce::kAlbedo;
   return {frame.value<float>(kIntensity), frame.value<float>(kPower),

@@ -23,17 +23,18 @@ struct AccumulateBlock {
 };
 GRISAILLE_CHECK_BLOCK_ssao_accumulate_Settings(AccumulateBlock);
 
-// How far from the plane of a texel's surface another may lie to be the same, in view depths.
+// Plane tolerance of the history rejection, in view depths.
 constexpr float kSameSurface = 0.01f;
 
-// A view's pixels by its points: pixel = view.xy / view depth * .xy + .zw.
+// Projection of a view: pixel = view.xy / view depth * .xy + .zw.
 glm::dvec4 pixelFromView(const grisaille_view& view, glm::dvec2 size) {
   const glm::dmat4 clip = glm::make_mat4(view.clip_from_view);
   return {clip[0][0] * size.x / 2, -clip[1][1] * size.y / 2, size.x / 2 * (1 - clip[2][0]),
           size.y / 2 * (1 + clip[2][1])};
 }
 
-// Points of `from`'s view space in `to`'s. In double: positions may be far from the world's origin.
+// Transform from the view space of `from` to that of `to`. In double precision: the cameras may be
+// far from the world's origin.
 glm::dmat4 between(const grisaille_view& from, const grisaille_view& to) {
   const glm::dmat3 turn = glm::transpose(glm::make_mat3(to.world_from_view));
   glm::dmat4 matrix(turn * glm::make_mat3(from.world_from_view));

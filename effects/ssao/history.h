@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: MIT
-// Visibility averaged over the frames that saw the same surface. The camera may move, and the
-// picture change its size and resolution: what was seen is looked up where it was seen.
+// Temporal accumulation: visibility averaged over the frames that saw the same surface. The camera
+// may move, and the picture may change its size and resolution: the shader reprojects surfaces into
+// the previous frame.
 #pragma once
 
 #include <array>
@@ -14,26 +15,30 @@ class History {
  public:
   explicit History(plugin::Host host);
 
-  // Values that shape the estimate. What others made is forgotten.
+  // Values of the parameters that change the estimate. keepOnly() forgets the history if they
+  // differ from those of the previous call.
   using Values = std::array<double, 6>;
   void keepOnly(const Values& values);
   void forget();
 
-  // Frames averaged since there was nothing.
+  // Number of frames accumulated since the history was empty.
   uint64_t frames() const { return frames_; }
 
-  // Records the pass that averages `raw` (rg32f: visibility and view depth of every `scale`-th
-  // pixel both ways) with at most `most` frames before, 1 ... . The result begins with the same two
-  // components; it is this object's and holds until the next call.
+  // Records the pass that averages `raw` with the history. Throws plugin::Failure.
+  // scale: pixels per texel of `raw`, in both directions.
+  // most: largest number of earlier frames in the mean, at least 1.
+  // raw: rg32f, visibility and view depth.
+  // Returns an rgba32f texture that starts with the same two components. This object owns it; it is
+  // valid until the next call.
   grisaille_texture accumulate(const plugin::Frame& frame, uint32_t scale, uint32_t most,
                                grisaille_texture raw);
 
  private:
-  // A mean, and how it was seen.
+  // Accumulated visibility, and the view that it belongs to.
   struct Seen {
     plugin::Texture mean;
     uint32_t width = 0, height = 0;  // texels
-    uint32_t scale = 1;              // pixels a texel, both ways
+    uint32_t scale = 1;              // pixels per texel, both ways
     glm::dvec2 size = {};            // pixels
     grisaille_view view = {};
   };

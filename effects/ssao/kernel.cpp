@@ -9,7 +9,8 @@
 namespace grisaille::ssao {
 namespace {
 
-// PCG hash (Jarzynski and Olano 2020), so that every machine draws the same points.
+// PCG hash (Jarzynski and Olano 2020, "Hash Functions for GPU Rendering"). Integers give the same
+// points on every machine.
 uint32_t hash(uint32_t value) {
   const uint32_t state = value * 747796405u + 2891336453u;
   const uint32_t word = ((state >> ((state >> 28) + 4)) ^ state) * 277803737u;
@@ -34,12 +35,12 @@ double fraction(double value) {
 }  // namespace
 
 std::array<glm::vec4, kMaxKernelSize> makeKernel(uint32_t size, Sampling sampling, uint32_t seed) {
-  // Points of the R3 sequence (Roberts 2018) from a random start: random for every seed, but
-  // without the clumps and gaps that independent points have.
+  // Points of the R3 sequence (Roberts 2018) from a random start: each seed gives another set, and
+  // no set has the clumps and gaps of independent random points.
   constexpr double kPlastic = 1.2207440846057596;  // root of x^4 = x + 1
   Random random(seed, 0);
-  // Drawn one after another: the order in which a call's arguments are worked out is the
-  // compiler's.
+  // One statement for each number: C++ leaves the order in which a call evaluates its arguments to
+  // the compiler.
   glm::dvec3 start(0);
   for (const int axis : {2, 1, 0}) start[axis] = random.unit();
   std::array<glm::vec4, kMaxKernelSize> kernel{};
@@ -48,7 +49,7 @@ std::array<glm::vec4, kMaxKernelSize> makeKernel(uint32_t size, Sampling samplin
     const double v = fraction(start.y + i / (kPlastic * kPlastic));
     const double w = fraction(start.z + i / (kPlastic * kPlastic * kPlastic));
     const double angle = glm::two_pi<double>() * v;
-    // Hemisphere: directions with the cosine's density, as diffuse light falls. Sphere: all alike.
+    // Hemisphere: cosine-weighted directions, as diffuse light arrives. Sphere: uniform ones.
     const double z = sampling == Sampling::kHemisphere ? std::sqrt(1 - u) : 1 - 2 * u;
     const double r = std::sqrt(std::max(0.0, 1 - z * z));
     const double length = w;

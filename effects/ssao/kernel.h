@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: MIT
-// The sample points and the rotations of the classic SSAO (Mittring 2007; in a hemisphere: Filion
-// and McNaughton 2008), drawn at random once from a seed.
+// Kernel and noise tile of the classic SSAO (Mittring 2007; hemisphere: Filion and McNaughton
+// 2008), pseudo-random from a seed. The same on every machine.
 #pragma once
 
 #include <array>
@@ -13,13 +13,14 @@ namespace grisaille::ssao {
 enum class Sampling : uint32_t { kHemisphere = 0, kSphere = 1 };
 
 constexpr uint32_t kMaxKernelSize = 256;
-constexpr uint32_t kNoiseSize = 4;  // pixels a side
+constexpr uint32_t kNoiseSize = 4;  // width and height, pixels
 
-// `size` points inside the unit sphere, or its half about +z, 1 ... kMaxKernelSize; w is 0.
+// Sample points in the unit sphere, or in its half around +z; w is 0.
+// size: number of points, 1 ... kMaxKernelSize; points beyond it are 0.
 std::array<glm::vec4, kMaxKernelSize> makeKernel(uint32_t size, Sampling sampling, uint32_t seed);
 
-// kNoiseSize squared rotations, (cosine, sine): all angles of an even division of the circle, in
-// random places.
+// Noise tile of kNoiseSize x kNoiseSize rotations, (cosine, sine): the angles divide the circle
+// evenly, in random order.
 std::vector<glm::vec2> makeNoise(uint32_t seed);
 
 }  // namespace grisaille::ssao

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: MIT
-// The one table of the effect's parameters; the enums count along with it.
+// Table of the effect's parameters. The enum Parameter lists them in the same order.
 #pragma once
 
 #include "grisaille/effect.hpp"
@@ -77,7 +77,7 @@ constexpr grisaille_param_desc kParams[] = {
                         .log = true}),
     plugin::intParam({.key = "slices",
                       .label = "Slices",
-                      .tooltip = "Slices a pixel; cost grows in proportion, noise falls",
+                      .tooltip = "Slices per pixel; cost grows in proportion, noise falls",
                       .hardMin = 1,
                       .hardMax = 64,
                       .softMin = 1,
@@ -86,8 +86,8 @@ constexpr grisaille_param_desc kParams[] = {
                       .log = true}),
     plugin::intParam({.key = "edge_slices",
                       .label = "Edge slices",
-                      .tooltip = "Times as many slices at edges and on what is a few pixels wide, "
-                                 "where there is little to denoise with",
+                      .tooltip = "Factor on the slices at edges and on details a few pixels wide, "
+                                 "where the denoiser finds few texels to average",
                       .hardMin = 1,
                       .hardMax = 16,
                       .softMin = 1,
@@ -95,37 +95,39 @@ constexpr grisaille_param_desc kParams[] = {
                       .defaultValue = 2}),
     plugin::intParam({.key = "steps",
                       .label = "Steps",
-                      .tooltip = "Taps on each side of a slice; few miss thin occluders",
+                      .tooltip = "Taps on each side of a slice; too few miss thin occluders",
                       .hardMin = 1,
                       .hardMax = 64,
                       .softMin = 2,
                       .softMax = 32,
                       .defaultValue = 6,
                       .log = true}),
-    plugin::floatParam({.key = "thickness",
-                        .label = "Thickness",
-                        .tooltip = "How much matter is taken to be behind what is seen, in radii",
-                        .hardMin = 0,
-                        .hardMax = 1e6,
-                        .softMin = 0,
-                        .softMax = 2,
-                        .defaultValue = 0.7,
-                        .step = 0.01}),
+    plugin::floatParam(
+        {.key = "thickness",
+         .label = "Thickness",
+         .tooltip = "Assumed thickness of solid matter behind a visible surface, in radii",
+         .hardMin = 0,
+         .hardMax = 1e6,
+         .softMin = 0,
+         .softMax = 2,
+         .defaultValue = 0.7,
+         .step = 0.01}),
     plugin::boolParam({.key = "back_faces",
                        .label = "Back faces",
-                       .tooltip = "Slices: draws where what is seen ends, and takes the matter "
-                                  "behind it to be no thicker",
+                       .tooltip = "Slices: also draws back faces, and ends an occluder at its back "
+                                  "face instead of after the thickness",
                        .defaultValue = false}),
     plugin::enumParam({.key = "resolution",
                        .label = "Resolution",
-                       .tooltip = "Slices for every pixel, for one of 2x2 or for one of 4x4",
+                       .tooltip = "Slices: computed at every pixel, at one of 2x2 or at one of 4x4",
                        .keys = kResolutionKeys,
                        .labels = kResolutionLabels,
                        .defaultValue = 1}),
     plugin::floatParam({.key = "guard_band",
                         .label = "Guard band",
-                        .tooltip = "Slices: how far the scene is drawn beyond the picture, so that "
-                                   "what is just outside occludes, in picture heights",
+                        .tooltip =
+                            "Slices: width of the border drawn beyond the picture, in picture "
+                            "heights; surfaces in it occlude",
                         .hardMin = 0,
                         .hardMax = 1,
                         .softMin = 0,
@@ -134,8 +136,9 @@ constexpr grisaille_param_desc kParams[] = {
                         .step = 0.005}),
     plugin::intParam({.key = "history",
                       .label = "History",
-                      .tooltip = "Slices: frames averaged where they saw the same surface; 1: each "
-                                 "frame by itself",
+                      .tooltip =
+                          "Slices: number of frames averaged where they saw the same surface; "
+                          "1: no averaging",
                       .hardMin = 1,
                       .hardMax = 256,
                       .softMin = 1,
@@ -145,25 +148,26 @@ constexpr grisaille_param_desc kParams[] = {
     plugin::intParam({.key = "denoise_size",
                       .label = "Denoise size",
                       .unit = "px",
-                      .tooltip = "Slices: width of the denoiser at half its height, in pixels of "
-                                 "their resolution; 0 and 1: none; 5, 10 and 15 remove the noise's "
-                                 "pattern exactly",
+                      .tooltip =
+                          "Slices: width of the denoiser's kernel at half height, in pixels of "
+                          "the chosen resolution; 0 and 1: off; 5, 10 and 15 remove the noise "
+                          "pattern exactly",
                       .hardMin = 0,
                       .hardMax = 16,
                       .softMin = 0,
                       .softMax = 10,
                       .defaultValue = 5}),
-    plugin::intParam({.key = "edge_denoise",
-                      .label = "Edge denoise",
-                      .unit = "px",
-                      .tooltip =
-                          "Slices: how far the denoiser goes along edges, where it finds "
-                          "little to average, in pixels of their resolution; 0 and 1: not at all",
-                      .hardMin = 0,
-                      .hardMax = 32,
-                      .softMin = 0,
-                      .softMax = 16,
-                      .defaultValue = 6}),
+    plugin::intParam(
+        {.key = "edge_denoise",
+         .label = "Edge denoise",
+         .unit = "px",
+         .tooltip = "Slices: reach of the denoiser along edges, where rows and columns hold "
+                    "few pixels of one surface, in pixels of the chosen resolution; 0 and 1: off",
+         .hardMin = 0,
+         .hardMax = 32,
+         .softMin = 0,
+         .softMax = 16,
+         .defaultValue = 6}),
     plugin::floatParam({.key = "intensity",
                         .label = "Intensity",
                         .tooltip = "Multiplies the occlusion before it is clamped to 1; 1: as "
@@ -185,14 +189,15 @@ constexpr grisaille_param_desc kParams[] = {
                         .step = 0.05}),
     plugin::enumParam({.key = "bounce",
                        .label = "Bounced light",
-                       .tooltip = "Light that what is near throws back: none, by one albedo, or by "
-                                  "the pixel's base colour, which tints the output tint alone",
+                       .tooltip =
+                           "Light that nearby surfaces reflect: none, with one albedo, or with "
+                           "the pixel's base colour, which changes only the output tint",
                        .keys = kBounceKeys,
                        .labels = kBounceLabels,
                        .defaultValue = 0}),
     plugin::floatParam({.key = "albedo",
                         .label = "Albedo",
-                        .tooltip = "Share of light that surfaces throw back",
+                        .tooltip = "Share of light that surfaces reflect",
                         .hardMin = 0,
                         .hardMax = 1,
                         .softMin = 0,
@@ -201,7 +206,7 @@ constexpr grisaille_param_desc kParams[] = {
                         .step = 0.01}),
     plugin::intParam({.key = "seed",
                       .label = "Seed",
-                      .tooltip = "Which slices, or which sample points and rotations, are drawn",
+                      .tooltip = "Seed of the random slices, or of the sample points and rotations",
                       .hardMin = 0,
                       .hardMax = 65535,
                       .softMin = 0,
@@ -211,7 +216,7 @@ constexpr grisaille_param_desc kParams[] = {
     plugin::intParam(
         {.key = "kernel_size",
          .label = "Kernel size",
-         .tooltip = "Classic: sample points a pixel; cost grows in proportion, noise falls",
+         .tooltip = "Classic: sample points per pixel; cost grows in proportion, noise falls",
          .hardMin = 1,
          .hardMax = kMaxKernelSize,
          .softMin = 4,
@@ -221,9 +226,10 @@ constexpr grisaille_param_desc kParams[] = {
     plugin::floatParam({.key = "bias",
                         .label = "Bias",
                         .unit = "m",
-                        .tooltip = "Classic: how much nearer than a sample point the surface must "
-                                   "be to occlude it, beyond what roundings and slopes need; "
-                                   "loses detail",
+                        .tooltip =
+                            "Classic: how much nearer than a sample point a surface must be to "
+                            "occlude it, in addition to the rounding tolerance; a larger bias "
+                            "loses detail",
                         .hardMin = 0,
                         .hardMax = 1e6,
                         .softMin = 0,
@@ -233,7 +239,7 @@ constexpr grisaille_param_desc kParams[] = {
     plugin::intParam({.key = "blur_size",
                       .label = "Blur size",
                       .unit = "px",
-                      .tooltip = "Classic: width of the blur; 0 and 1: none; 4, 8, 12 and 16 "
+                      .tooltip = "Classic: width of the blur; 0 and 1: off; 4, 8, 12 and 16 "
                                  "average every rotation",
                       .hardMin = 0,
                       .hardMax = 16,
@@ -244,24 +250,26 @@ constexpr grisaille_param_desc kParams[] = {
         {.key = "sampling",
          .label = "Sampling",
          .tooltip = "Classic: where the sample points lie: in the hemisphere over the surface, or "
-                    "all around, which needs no normals and brightens convex edges",
+                    "all around it, which needs no normals and brightens convex edges",
          .keys = kSamplingKeys,
          .labels = kSamplingLabels,
          .defaultValue = 0,
          .advanced = true}),
-    plugin::enumParam(
-        {.key = "rotation",
-         .label = "Rotation",
-         .tooltip = "Classic: turns the kernel from pixel to pixel, which makes noise out of bands",
-         .keys = kRotationKeys,
-         .labels = kRotationLabels,
-         .defaultValue = 0,
-         .advanced = true}),
+    plugin::enumParam({.key = "rotation",
+                       .label = "Rotation",
+                       .tooltip = "Classic: rotates the kernel from pixel to pixel, so that few "
+                                  "points show as noise and "
+                                  "not as bands",
+                       .keys = kRotationKeys,
+                       .labels = kRotationLabels,
+                       .defaultValue = 0,
+                       .advanced = true}),
     plugin::enumParam(
         {.key = "range_check",
          .label = "Range check",
-         .tooltip = "Classic: which depths must be within the radius for a surface to occlude: raw "
-                    "depth is wrong near and far, none leaves halos",
+         .tooltip =
+             "Classic: which depth difference must be below the radius for a surface to occlude; "
+             "raw depth is wrong near and far, none leaves halos",
          .keys = kRangeKeys,
          .labels = kRangeLabels,
          .defaultValue = 0,
@@ -269,8 +277,9 @@ constexpr grisaille_param_desc kParams[] = {
     plugin::enumParam(
         {.key = "blur",
          .label = "Blur",
-         .tooltip = "Classic: box averages across edges; edge-aware leaves out what is more than "
-                    "the radius nearer or farther",
+         .tooltip =
+             "Classic: box averages across edges; edge-aware leaves out depths more than one "
+             "radius nearer or farther",
          .keys = kBlurKeys,
          .labels = kBlurLabels,
          .defaultValue = 0,

@@ -49,7 +49,7 @@ GRISAILLE_CHECK_BLOCK_ssao_edges_last_bent_Settings(FilterBlock);
 GRISAILLE_CHECK_BLOCK_ssao_upsample_Settings(FilterBlock);
 GRISAILLE_CHECK_BLOCK_ssao_upsample_bent_Settings(FilterBlock);
 
-// How far from the plane of a pixel's surface another may lie to be averaged with it, in radii.
+// Plane tolerance of the denoiser and the upsampling, in radii.
 constexpr float kTolerance = 0.05f;
 
 float toleranceOf(const plugin::Frame& frame) {
@@ -149,9 +149,9 @@ void Slices::record(const plugin::Frame& frame, Pair outputs) {
 
 void Slices::occlude(const plugin::Frame& frame, Kernels& kernels, Size size, Pair target) {
   const float radius = frame.value<float>(kRadius);
-  // In 25 frames a texel draws each of the pattern's 25 points, far ones after one another. Seeds
-  // turn the pattern, and so does what follows; the golden ratio spreads them, and three
-  // eighths keep the first off the axes, where roundings would decide.
+  // In 25 frames a texel draws each of the pattern's 25 points; successive points lie far apart.
+  // Each seed, and each further 25 frames, rotates the pattern by the golden ratio. The start of
+  // 3/8 keeps the first slice off the axes, where rounding errors would decide.
   const auto drawn = static_cast<uint32_t>(history_.frames() % 25);
   const double turns = frame.value<double>(kSeed) + static_cast<double>(history_.frames() / 25);
   const float turn = static_cast<float>(std::fmod(0.375 + turns * 0.6180339887498949, 1.0));
@@ -178,7 +178,7 @@ void Slices::occlude(const plugin::Frame& frame, Kernels& kernels, Size size, Pa
   dispatch(frame, kernels.occlusion.get(constants), bindings, size.width, size.height);
 }
 
-// As shaders/ssao/denoise.glsl and edges.glsl have them.
+// Bindings of shaders/ssao/filter.glsl.
 Bindings Slices::filterBindings(const plugin::Frame& frame, Pair from, Pair target) const {
   Bindings bindings = {plugin::uniform(0, frame.viewBlock()),
                        plugin::uniform(1, frame.uniform(filterBlock(frame))),
@@ -198,7 +198,7 @@ void Slices::denoise(const plugin::Frame& frame, plugin::PipelineCache& pipeline
   const grisaille_constant constants[] = {plugin::specialize(0, blur),
                                           plugin::specialize(1, size.scale),
                                           plugin::specialize(2, columns)};
-  // A run of texels an invocation, along the row or the column.
+  // Texels per invocation, along the row or the column.
   constexpr uint32_t kRun = 4;
   dispatch(frame, pipelines.get(constants), filterBindings(frame, raw, target),
            columns ? size.width : plugin::groupsFor(size.width, kRun),

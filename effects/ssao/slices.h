@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: MIT
-// Visibility by slices and a bitmask of sectors: occlusion, accumulate where frames are averaged,
-// denoise and edges, at the resolution that is asked for, then upsample where that is not the
-// picture's.
+// The estimator `slices`: visibility by slices and a bitmask of sectors. Passes: occlusion,
+// accumulate (with `history` above 1), denoise and edges, at the effect's resolution; then
+// upsample, unless that is the picture's.
 #pragma once
 
 #include "dispatch.h"
@@ -14,21 +14,22 @@ class Slices {
  public:
   explicit Slices(plugin::Host host);
 
-  // Visibility, and the mean open direction where `bent` is there; it costs nothing where not.
+  // Visibility and mean open direction. `bent` with id 0: none, at no cost.
   struct Pair {
     grisaille_texture open, bent;
   };
 
+  // Attachments that record() reads with these values: bits of GRISAILLE_READS.
   static uint32_t reads(plugin::Values values) noexcept;
-  // `outputs`: r16f and rgba16f, of the picture's size.
+  // Records all passes. `outputs`: r16f and rgba16f, of the picture's size. Throws plugin::Failure.
   void record(const plugin::Frame& frame, Pair outputs);
-  // What frames before leave for those to come.
+  // Forgets the history of earlier frames.
   void forget() { history_.forget(); }
 
  private:
   struct Size {
-    uint32_t scale;  // pixels a texel, each way
-    uint32_t width, height;
+    uint32_t scale;          // pixels per texel, each way
+    uint32_t width, height;  // texels
   };
   struct Kernels {
     explicit Kernels(plugin::Host host);

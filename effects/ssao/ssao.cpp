@@ -1,5 +1,6 @@
 // SPDX-License-Identifier: MIT
-// Screen-space ambient occlusion, by one of two estimators; README.md says how and why.
+// The effect ssao: screen-space ambient occlusion by one of two estimators. README.md explains
+// them.
 #include "classic.h"
 #include "dispatch.h"
 #include "grisaille/effect.hpp"
@@ -23,8 +24,9 @@ constexpr grisaille_output_desc kOutputs[] = {
     plugin::output({.key = "tint",
                     .format = GRISAILLE_FORMAT_RGBA16F,
                     .role = GRISAILLE_ROLE_TINT,
-                    .tooltip = "Visibility by colour channel, 0 to 1, with light bounced off base "
-                               "colours where that is asked for; 1 = open"})};
+                    .tooltip =
+                        "Visibility per colour channel, 0 to 1, with light reflected by base "
+                        "colours if bounce is base_colour; 1 = open"})};
 
 class Ssao {
  public:
@@ -57,7 +59,7 @@ class Ssao {
                                                         .width = frame.width(),
                                                         .height = frame.height()});
     const bool classic = frame.value<Estimator>(kEstimator) == Estimator::kClassic;
-    // Open directions are the slices' alone; their visibility is then overwritten.
+    // Only `slices` computes open directions. With `classic`, its visibility is then overwritten.
     if (!classic || frame.wanted(kBentNormal)) {
       slices_.record(frame, {.open = ao, .bent = frame.output(kBentNormal)});
     } else {

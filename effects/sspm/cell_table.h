@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: MIT
-// The cells of the world where paint lies, and for each a list of the shots that reach it, newest
-// first: a hash table with linear probing that shaders/sspm/surface.comp reads.
+// Hash grid of the world: for each cell with paint, the list of shots that reach it, newest first.
+// A hash table with linear probing, which shaders/sspm/walk.glsl reads.
 #pragma once
 
 #include <bitset>
@@ -13,15 +13,15 @@
 
 namespace grisaille::sspm {
 
-// A cube of the world, for surfaces that face one of six ways.
+// Key of a cell: a cube of the world, and one of six facings of the surfaces in it.
 struct CellKey {
-  glm::ivec3 cell = glm::ivec3(0);  // times the level's edge: its lower corner, metres
+  glm::ivec3 cell = glm::ivec3(0);  // lower corner, in cells of the level
   int32_t code = 0;                 // levelCode() + facing
 
   bool operator==(const CellKey&) const = default;
 };
 
-// Cells of a level are 2^exponent metres wide, exponent from -40 to 40.
+// A level has cells of 2^exponent metres, exponent from -40 to 40.
 constexpr int32_t levelCode(int32_t exponent) {
   return (exponent + 40) * 8;
 }
@@ -29,44 +29,45 @@ constexpr int32_t exponentOf(int32_t code) {
   return code / 8 - 40;
 }
 
-// 0 ... 5: the axis that a normal is nearest to, x, y, z, and its sign.
+// Facing of a normal, 0 ... 5: twice the index of its largest component, plus 1 if that is
+// negative.
 int32_t facingOf(const glm::vec3& normal);
 
 uint32_t hashOf(const CellKey& key);
 
-// A piece of a surface in a cell: about as much of it as one part of the cell holds.
+// A piece of a surface in a cell, about as large as one of the cell's 4x4x4 parts.
 struct KnownPoint {
-  uint32_t place = 0;   // in the cell, 10 bits an axis
+  uint32_t place = 0;   // position in the cell, 10 bits per axis
   uint32_t normal = 0;  // glm::packSnorm3x10_1x2
 };
 
-constexpr size_t kMostKnown = 128;  // in a cell
+constexpr size_t kMostKnown = 128;  // pieces in a cell
 using KnownSet = std::bitset<kMostKnown>;
 
 // A shot in a cell's list.
 struct Entry {
   uint32_t shot = 0;
-  uint32_t record = 0;    // on the device
-  uint32_t word = 0;      // of its map: a plane where the map is that plane all over the cell
-  uint64_t touched = 0;   // parts of the cell where it may paint
-  uint64_t ragged = 0;    // of these: where it may leave gaps
-  KnownSet painted = {};  // known pieces that it may paint: all of each, but for ragged parts
+  uint32_t record = 0;    // index of its record on the device
+  uint32_t word = 0;      // of its map: the root, or a plane if that plane serves the whole cell
+  uint64_t touched = 0;   // parts of the cell that it may paint
+  uint64_t ragged = 0;    // those of `touched` in which its paint may have gaps
+  KnownSet painted = {};  // known pieces that it paints; in ragged parts, perhaps with gaps
 };
 
 struct Cell {
   CellKey key;
   std::vector<Entry> entries;     // newest first
-  std::vector<KnownPoint> known;  // one a part and surface
-  uint64_t crowded = 0;           // parts with too many surfaces to know them all
-  // Pieces where nothing shows of shots older than `sealedBelow`, since newer ones, the newest of
-  // them `sealer`, hide it.
+  std::vector<KnownPoint> known;  // one per part and surface
+  uint64_t crowded = 0;           // parts with surfaces that did not fit into `known`
+  // Sealed pieces: newer shots hide every shot older than `sealedBelow` on them. `sealer` is the
+  // newest of these shots.
   KnownSet sealed = {};
   uint32_t sealedBelow = 0;
   uint32_t sealer = 0;
-  uint32_t pruneAt = 0;  // at so many entries it is worth while to look for hidden ones
-  uint32_t slot = 0;
-  uint32_t first = 0;     // of its run of entries on the device
-  uint32_t capacity = 0;  // of that run; 0: none
+  uint32_t pruneAt = 0;   // number of entries at which the next prune() pays
+  uint32_t slot = 0;      // in the hash table
+  uint32_t first = 0;     // first entry of its run on the device
+  uint32_t capacity = 0;  // entries of that run; 0: no run
 };
 
 class CellTable {
@@ -75,11 +76,12 @@ class CellTable {
 
   void clear();
 
-  // The cell, made where it is not there. The reference is good until the next call.
+  // The cell of a key, created if missing. The reference is valid until the next call.
   Cell& at(const CellKey& key);
+  // Null if missing.
   Cell* find(const CellKey& key);
 
-  // To be called when a cell's entries have changed: renews what the device reads.
+  // Copies a cell's entries to the mirrors. Call it after each change of the entries.
   void publish(Cell& cell);
 
   std::deque<Cell>& cells() { return cells_; }
@@ -92,8 +94,8 @@ class CellTable {
   void place(uint32_t cell);
   void grow();
 
-  std::deque<Cell> cells_;           // a deque grows without moving
-  std::vector<uint32_t> slotCells_;  // index of the cell; ~0: free
+  std::deque<Cell> cells_;           // a deque: references stay valid
+  std::vector<uint32_t> slotCells_;  // index into cells_; ~0: free
   Mirror slots_, words_;
   Runs runs_;
 };

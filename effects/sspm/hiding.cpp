@@ -1,8 +1,8 @@
 // SPDX-License-Identifier: MIT
-// Which paint in a cell newer paint hides. A cell knows the pieces of surfaces in it; a piece is
-// sealed once the paint on it lets through less than shows and its coverage is full, by the worst
-// case over the part of the cell that it lies in. A shot is hidden where all that it may paint is
-// sealed.
+// Culls shots that newer paint hides. A cell knows the pieces of surfaces in it. A piece is sealed
+// when the transmittance of its paint is below the least visible one and its coverage is full, in
+// the worst case over its part of the cell. A shot is hidden in a cell if all pieces that it may
+// paint are sealed.
 #include <glm/gtc/packing.hpp>
 
 #include <algorithm>
@@ -15,7 +15,7 @@
 namespace grisaille::sspm {
 namespace {
 
-constexpr float kLeastSlant = 0.02f;  // cosine
+constexpr float kLeastSlant = 0.02f;  // least cosine between a facet's normal and the ray
 
 glm::vec3 unpackPlace(uint32_t place) {
   return (glm::vec3(place & 1023u, place >> 10 & 1023u, place >> 20) + 0.5f) / 1024.0f;
@@ -38,7 +38,7 @@ SurfacePoint pointOf(const KnownPoint& known, const glm::vec3& corner, float edg
 
 constexpr size_t kUnknown = ~size_t{0};
 
-// Which of a cell's known pieces a point is of.
+// Index of the cell's known piece that a point belongs to, or kUnknown.
 size_t findKnown(const Cell& cell, const CellGrid& grid, const SurfacePoint& point) {
   const glm::vec3 corner = grid.corner(cell.key);
   const auto found = std::ranges::find_if(cell.known, [&](const KnownPoint& known) {
@@ -58,14 +58,14 @@ bool isHiddenIn(const Cell& cell, const Entry& entry) {
          entry.painted.any() && (entry.painted & ~cell.sealed).none();
 }
 
-// Whether the shot paints a point from its muzzle, by the word of its map.
+// Whether the shot paints a point, whose offset is from the shot's muzzle. word: of its map.
 bool paints(const ShotFrame& frame, uint32_t word, const uint32_t* blocks,
             const SurfacePoint& point) {
   return glm::dot(point.at, point.normal) < -kLeastSlant * glm::length(point.at) &&
          inSight(frame, word, blocks, point.at, point.normal);
 }
 
-// The word of a plane of a map, which is found by its own bits.
+// Word of a plane in a map; the map's root if the plane is not in it.
 uint32_t wordOf(const glm::vec4& plane, const ShotMap& map) {
   const auto words = std::bit_cast<std::array<uint32_t, 4>>(plane);
   for (size_t at = 0; at < map.blocks.size(); at += 4) {
@@ -78,11 +78,11 @@ uint32_t wordOf(const glm::vec4& plane, const ShotMap& map) {
 
 }  // namespace
 
-// By the rough picture alone: nothing that the shot reaches would show.
+// Whether newer paint hides all of a shot, by its rough picture.
 bool PaintWorld::isHidden(uint32_t id, const Survey& survey, const CellGrid& grid) {
   if (survey.unknown() > 0) return false;
   const std::vector<Patch> patches = survey.patches();
-  if (patches.empty()) return false;  // what it reaches is too thin for the rough picture
+  if (patches.empty()) return false;  // its surfaces are too thin for the rough picture
   uint32_t sealer = 0;
   for (const Patch& patch : patches) {
     const bool hidden =
@@ -107,7 +107,7 @@ bool PaintWorld::isHidden(uint32_t id, const Survey& survey, const CellGrid& gri
   return true;
 }
 
-// Enters a shot into a cell's list. False where newer paint hides it.
+// Adds a shot to a cell's list. Returns false if newer paint hides it there.
 bool PaintWorld::join(uint32_t id, const ShotFrame& frame, const CellGrid& grid, const ShotMap& map,
                       const Share& share) {
   Cell& cell = cells_.at(share.key);
@@ -143,7 +143,8 @@ bool PaintWorld::join(uint32_t id, const ShotFrame& frame, const CellGrid& grid,
   return true;
 }
 
-// The known piece that a point is of; one that the cell did not know of is noted.
+// Index of the known piece that a point belongs to. Adds a piece if the cell does not know one.
+// Returns kUnknown if the cell is full.
 size_t PaintWorld::learn(Cell& cell, const glm::dvec3& origin, const CellGrid& grid,
                          const SurfacePoint& point) {
   const size_t index = findKnown(cell, grid, point);
@@ -164,7 +165,7 @@ size_t PaintWorld::learn(Cell& cell, const glm::dvec3& origin, const CellGrid& g
   return cell.known.size() - 1;
 }
 
-// `point` from `origin`.
+// Whether a listed shot paints a point, whose offset is from `origin`.
 bool PaintWorld::paintsPoint(const Entry& entry, const glm::dvec3& origin,
                              const SurfacePoint& point) const {
   const ShotFrame frame = frameOf(entry.shot);
@@ -173,7 +174,7 @@ bool PaintWorld::paintsPoint(const Entry& entry, const glm::dvec3& origin,
   return paints(frame, entry.word, blocks_.data() + size_t{placed_[entry.record].base} * 4, own);
 }
 
-// Finds the sealed pieces and takes out what shows nowhere.
+// Finds the sealed pieces, and removes hidden shots from the list.
 void PaintWorld::prune(Cell& cell) {
   const auto edge = static_cast<float>(edgeOf(cell.key.code));
   const float half = edge / 8 * 1.7321f * (1 + 2 * kPartMargin);
@@ -206,7 +207,7 @@ void PaintWorld::prune(Cell& cell) {
       const float fade = rules_.fade > 0 ? std::min(1.0f, (1 - across / range) / rules_.fade) : 1;
       through[i] *= 1 - alpha;
       alphas[i] += alpha * fade;
-      // A little over, for the device's rounding.
+      // The factors allow for rounding on the device.
       if (through[i] < 0.99f * kThrough && alphas[i] >= 1.001f) {
         cell.sealed.set(i);
         cell.sealer = std::max(cell.sealer, newest[i]);
@@ -219,7 +220,8 @@ void PaintWorld::prune(Cell& cell) {
   cell.pruneAt = static_cast<uint32_t>(cell.entries.size() * 5 / 4 + 1);
 }
 
-// A cell has dropped a shot for shot `to` - 1; its map goes with the last.
+// A cell has removed a shot from its list, because shot `to` - 1 hides it (0: another reason).
+// After the last cell, frees the shot's map and record.
 void PaintWorld::unlist(uint32_t id, uint32_t to) {
   State& state = states_[id];
   state.lostTo = std::max(state.lostTo, to);

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: MIT
-// An array of 32-bit words that the device holds too: what was changed is uploaded, page by page.
+// An array of 32-bit words with a copy on the device. upload() copies the changed pages.
 #pragma once
 
 #include <algorithm>
@@ -18,7 +18,7 @@ class Mirror {
   size_t size() const { return words_.size(); }
   const uint32_t* data() const { return words_.data(); }
 
-  // Words [first, first + count), to be changed now.
+  // Words [first, first + count), for writing. Marks their pages as changed. Valid until resize().
   std::span<uint32_t> change(size_t first, size_t count) {
     for (size_t page = first / kPage; page * kPage < first + count; ++page) dirty_[page] = true;
     return std::span(words_).subspan(first, count);
@@ -36,7 +36,8 @@ class Mirror {
     std::fill(dirty_.begin(), dirty_.end(), true);
   }
 
-  // Inside record(), outside passes. Throws plugin::Failure.
+  // Uploads the changed pages, and grows the buffer if necessary. Call it inside record(), outside
+  // passes. Throws plugin::Failure.
   void upload(const plugin::Host& host, const plugin::Frame& frame) {
     if (words_.empty()) resize(kPage);
     if (deviceWords_ < words_.size()) {
@@ -70,11 +71,11 @@ class Mirror {
   plugin::Buffer buffer_;
 };
 
-// Runs of a Mirror's units, given out and taken back, in sizes of 4, 5, 6 or 7 times powers of two
-// and below 4.
+// Allocates runs of units in a Mirror. Size classes: 1 to 3, and 4, 5, 6 or 7 times a power of two.
+// Freed runs are reused within their class.
 class Runs {
  public:
-  // `unit` words each.
+  // unit: size of a unit, words.
   Runs(Mirror& mirror, size_t unit) : mirror_(mirror), unit_(unit) {}
 
   static uint32_t capacityFor(uint32_t count) {
@@ -83,7 +84,8 @@ class Runs {
     return (((count - 1) >> shift) + 1) << shift;
   }
 
-  // First unit of a run of at least `count`, which is over 0.
+  // Allocates a run of at least `count` units, count > 0. Returns its first unit. May resize the
+  // mirror.
   uint32_t take(uint32_t count) {
     const uint32_t capacity = capacityFor(count);
     auto& free = free_[classOf(capacity)];
@@ -98,6 +100,7 @@ class Runs {
     return first;
   }
 
+  // Frees a run. `count`: same as at take(), or the run's capacity.
   void give(uint32_t first, uint32_t count) { free_[classOf(capacityFor(count))].push_back(first); }
 
   void clear() {

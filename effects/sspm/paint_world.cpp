@@ -12,11 +12,11 @@
 namespace grisaille::sspm {
 namespace {
 
-constexpr size_t kRecordWords = 16;  // of a shot, as shaders/sspm/surface.comp reads it
+constexpr size_t kRecordWords = 16;  // of a shot: Shot in shaders/sspm/walk.glsl
 constexpr size_t kNumberWord = 11;
 constexpr size_t kColorWord = 12;
-constexpr size_t kMostWork = 64;    // shots surveyed side by side
-constexpr size_t kMostRays = 4096;  // of a step, but for a single shot's
+constexpr size_t kMostWork = 64;    // shots under survey at the same time
+constexpr size_t kMostRays = 4096;  // per step, except for a single shot
 
 bool alike(const Shot& a, const Shot& b) {
   return std::ranges::equal(a.origin, b.origin) && std::ranges::equal(a.direction, b.direction) &&
@@ -35,7 +35,7 @@ uint64_t hashOf(const Shot& shot) {
   return hash;
 }
 
-// So many shots of this range in one place let nothing older show, wherever they reach.
+// Number of coincident shots of this range that hide everything older in their whole range.
 size_t layersOf(float full, float range) {
   const float least = std::min(1.0f, full / range);
   if (least >= 1 - kThrough) return 1;
@@ -51,7 +51,7 @@ size_t PaintWorld::update(std::span<const Shot> shots, size_t kept, const PaintR
   const bool sameRange = rules.range == rules_.range;
   const bool same = rules == rules_;
   rules_ = rules;
-  // Maps depend on the range alone, what newer paint hides on the rest too.
+  // Maps depend only on the range. Hiding depends on the other rules too.
   forget(sameRange ? std::min({kept, shots.size(), states_.size()}) : 0, !same);
   for (size_t i = states_.size(); i < shots.size(); ++i) {
     pending_.push_back(static_cast<uint32_t>(i));
@@ -84,8 +84,8 @@ void PaintWorld::clear() {
   levels_.clear();
 }
 
-// Forgets all shots but the first `count`; those that newer ones had hidden, of the forgotten or
-// of all, are to be placed anew.
+// Forgets all shots but the first `count`. Puts shots back to pending that a forgotten one hid, or,
+// with `allLost`, that any shot hid.
 void PaintWorld::forget(size_t count, bool allLost) {
   if (count == 0) {
     clear();
@@ -130,8 +130,8 @@ void PaintWorld::forget(size_t count, bool allLost) {
   states_.resize(count);
 }
 
-// Takes those that are gone out of their groups; what the groups counted is to be counted anew:
-// returns those groups, ascending.
+// Removes shots that are gone from their groups of twins. Returns the hashes of the groups that
+// must count again, ascending.
 std::vector<uint64_t> PaintWorld::forgetTwins(const std::vector<bool>& gone) {
   std::vector<uint64_t> recount;
   for (auto& [hash, twins] : twins_) {
@@ -144,8 +144,9 @@ std::vector<uint64_t> PaintWorld::forgetTwins(const std::vector<bool>& gone) {
   return recount;
 }
 
-// One round of rays for the newest shots that are not placed yet. False when there is nothing left
-// to do, or nothing that can be done now.
+// Casts one round of rays for the newest pending shots. Returns false if no shot is pending, or if
+// the host casts no rays.
+// unknown: gets the shots of which the host cannot tell yet.
 bool PaintWorld::step(const CastRays& cast, std::vector<uint32_t>& unknown) {
   refill();
   if (work_.empty()) return false;
@@ -180,14 +181,15 @@ void PaintWorld::refill() {
   while (work_.size() < kMostWork && !pending_.empty()) {
     const uint32_t id = pending_.back();
     const Shot& shot = list_[id];
-    // Its twin is to be placed first.
+    // Places its twin first.
     if (std::ranges::any_of(work_, [&](const Work& w) { return alike(list_[w.id], shot); })) return;
     pending_.pop_back();
     if (!countTwin(id)) work_.push_back({id, Survey(shot, rangeOf(id)), {}});
   }
 }
 
-// False where the host casts no rays. `told`: each survey's take().
+// Casts the rays of several surveys in one batch. Returns false if the host casts no rays.
+// told: gets the result of each survey's take().
 bool PaintWorld::castFor(std::span<Work*> works, const CastRays& cast, std::vector<bool>& told) {
   std::vector<grisaille_ray> rays;
   for (const Work* work : works) {
@@ -205,7 +207,8 @@ bool PaintWorld::castFor(std::span<Work*> works, const CastRays& cast, std::vect
   return true;
 }
 
-// What the host could not tell of placed shots it may tell now.
+// Casts rays again for placed shots with unknown squares, and places the shots again if the host
+// can tell more.
 void PaintWorld::askAgain(const CastRays& cast) {
   std::deque<Work> asked = std::exchange(partly_, {});
   for (Work& work : asked) {
@@ -228,8 +231,8 @@ void PaintWorld::askAgain(const CastRays& cast) {
   }
 }
 
-// Cells about half a range wide, so that a shot lies in some twenty; wide enough for their numbers
-// to fit where the shot stands.
+// Level for a shot: cells about half a range wide, so that a shot lies in some twenty cells. They
+// are wider if their numbers would not fit at the shot's position.
 CellGrid PaintWorld::gridFor(const ShotFrame& frame) {
   const glm::dvec3 far = glm::abs(frame.origin) + 2.0 * double{frame.range} / double{frame.slope};
   const double least = std::max({far.x, far.y, far.z}) * 0x1p-28;
@@ -242,7 +245,8 @@ CellGrid PaintWorld::gridFor(const ShotFrame& frame) {
     levels_.push_back(code);
     return {frame.origin, code};
   }
-  // Any width is right, the wider the slower: the next wider, or the widest.
+  // All levels are in use. Any width is correct, but wider cells are slower: takes the next wider
+  // one, or the widest.
   int32_t best = *std::ranges::max_element(levels_);
   for (const int32_t level : levels_) {
     if (level >= code) best = std::min(best, level);
@@ -284,7 +288,7 @@ void PaintWorld::place(uint32_t id, Survey& survey) {
   if (partly) partly_.push_back({id, std::move(survey), std::move(cells)});
 }
 
-// Takes a shot out of all lists. `cells` as it was placed in.
+// Removes a shot from all lists. cells: those in which it was placed.
 void PaintWorld::remove(uint32_t id, std::span<const CellKey> cells) {
   for (const CellKey& key : cells) {
     Cell* cell = cells_.find(key);
@@ -298,7 +302,7 @@ void PaintWorld::remove(uint32_t id, std::span<const CellKey> cells) {
   }
 }
 
-// Whether enough newer shots from the same place hide this one: it only counts then.
+// Whether enough newer twins hide this shot. If true, counts it in the record of the newest.
 bool PaintWorld::countTwin(uint32_t id) {
   const auto found = twins_.find(hashOf(list_[id]));
   if (found == twins_.end()) return false;
@@ -333,7 +337,8 @@ void PaintWorld::writeRecord(uint32_t id, const ShotFrame& frame, const ShotMap&
   const Shot& shot = list_[id];
   const uint32_t index = states_[id].record;
   const auto record = records_.change(index * kRecordWords, kRecordWords);
-  // The nearest metre: small scenes about the world's origin keep all digits of their floats.
+  // Rounds to the nearest metre: small scenes around the world's origin keep all digits of their
+  // floats.
   const glm::dvec3 whole = glm::round(frame.origin);
   for (int axis = 0; axis < 3; ++axis) {
     const size_t i = static_cast<size_t>(axis);
@@ -350,7 +355,8 @@ void PaintWorld::writeRecord(uint32_t id, const ShotFrame& frame, const ShotMap&
   record[15] = map.root;
 }
 
-// How often the shot's alpha counts, besides once, for shots that it hides wherever they reach.
+// Sets how often the shot's alpha counts: once, and once for each of the `counted` twins that it
+// hides.
 void PaintWorld::writeCount(uint32_t id, uint32_t counted) {
   const uint32_t index = states_[id].record;
   if (index == kNone) return;

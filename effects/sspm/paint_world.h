@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: MIT
-// Where all shots' paint lies: each shot's map, and the lists of the world's cells. Follows the
-// list of shots from frame to frame.
+// All placed shots: the map of each, and the lists of the world's cells. update() follows the
+// host's list of shots from frame to frame.
 #pragma once
 
 #include <cstdint>
@@ -16,17 +16,17 @@
 
 namespace grisaille::sspm {
 
-// Rays in, hits out; false where rays cannot be cast.
+// Casts rays and writes one hit for each. Returns false if the host casts no rays.
 using CastRays = std::function<bool(std::span<const grisaille_ray>, std::span<grisaille_hit>)>;
 
-constexpr float kThrough = 1.0f / 512;  // shows no more; as in shaders/sspm/surface.comp
-constexpr uint32_t kMostLevels = 16;    // widths of cells in use at once
+constexpr float kThrough = 1.0f / 512;  // least visible transmittance; see walk.glsl
+constexpr uint32_t kMostLevels = 16;    // cell widths in use at the same time
 
-// What the paint depends on besides the shots.
+// Parameters that change where paint lies, or which paint hides which.
 struct PaintRules {
-  float range = 0;  // metres, of shots without one of their own
+  float range = 0;  // of shots without their own, metres
   float full = 0;   // r0, metres
-  float fade = 0;   // share of the range
+  float fade = 0;   // edge_fade: share of the range
 
   bool operator==(const PaintRules&) const = default;
 };
@@ -35,39 +35,43 @@ class PaintWorld {
  public:
   PaintWorld() : records_("shots"), blocks_("maps"), runs_(blocks_, 4) {}
 
-  // Brings all up to `shots`, of which the first `kept` are as in the call before; the newest
-  // first, until `patience` seconds are over (one step at least). Returns how many still wait.
+  // Places the shots of a list, newest first, and forgets shots that have left it.
+  // shots: the list, oldest first. kept: number of leading shots unchanged since the previous call.
+  // patience: seconds after which it stops placing, but not before one step.
+  // cast: casts the rays of the surveys.
+  // Returns the number of shots that are still pending.
   size_t update(std::span<const Shot> shots, size_t kept, const PaintRules& rules, double patience,
                 const CastRays& cast);
 
   CellTable& cells() { return cells_; }
   Mirror& records() { return records_; }
   Mirror& blocks() { return blocks_; }
-  std::span<const int32_t> levels() const { return levels_; }  // codes in use, without facing
+  std::span<const int32_t> levels() const { return levels_; }  // levelCode() of each level in use
 
  private:
   static constexpr uint32_t kNone = ~0u;
   struct State {
-    uint32_t lostTo = 0;  // 1 + the newest shot that hides it in some cell
-    uint32_t record = kNone;
+    uint32_t lostTo = 0;      // 1 + the newest shot that hides it in some cell; 0: none
+    uint32_t record = kNone;  // index into placed_
   };
-  // A shot that some cell lists.
+  // A shot in at least one cell's list.
   struct Placed {
     uint32_t shot = 0;
-    uint32_t base = 0;    // its map's first block
-    uint32_t blocks = 0;  // of its map
-    uint32_t cells = 0;   // that list it
+    uint32_t base = 0;    // first block of its map
+    uint32_t blocks = 0;  // number of blocks of its map
+    uint32_t cells = 0;   // number of cells that list it
   };
+  // A shot under survey.
   struct Work {
     uint32_t id;
     Survey survey;
-    std::vector<CellKey> cells;  // that it was placed in
+    std::vector<CellKey> cells;  // in which it was placed
   };
-  // Shots of one origin, direction and range. As soon as nothing older shows through so many of
-  // them, the older ones only count.
+  // Shots with the same origin, direction and range. Once enough of them hide everything older, the
+  // effect does not place further older ones: it only counts their alphas.
   struct Twins {
     std::vector<uint32_t> ids;  // newest first
-    uint32_t counted = 0;       // by the newest, besides itself
+    uint32_t counted = 0;       // shots that only count, in the record of the newest
   };
 
   float rangeOf(uint32_t id) const { return list_[id].rangeOr(rules_.range); }
@@ -101,13 +105,13 @@ class PaintWorld {
 
   std::span<const Shot> list_;  // during update()
   PaintRules rules_;
-  std::deque<State> states_;       // one a shot
+  std::deque<State> states_;       // one per shot
   std::vector<uint32_t> pending_;  // ascending
-  std::deque<Work> work_;          // under way, newest first
-  std::deque<Work> partly_;        // placed as far as the host can tell
+  std::deque<Work> work_;          // under survey, newest first
+  std::deque<Work> partly_;        // placed, with squares of which the host cannot tell yet
   std::unordered_map<uint64_t, Twins> twins_;
   CellTable cells_;
-  std::vector<Placed> placed_;  // one a record
+  std::vector<Placed> placed_;  // one per record
   std::vector<uint32_t> freeRecords_;
   Mirror records_, blocks_;
   Runs runs_;

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: MIT
-// The effect's tables: parameters and outputs.
+// Tables of the effect: parameters, outputs and objects.
 #pragma once
 
 #include "grisaille/effect.hpp"
@@ -36,9 +36,10 @@ constexpr const char* kRefineLabels[] = {"Nothing", "Edges", "Edges and rims"};
 constexpr grisaille_param_desc kParams[] = {
     plugin::enumParam({.key = "mode",
                        .label = "Mode",
-                       .tooltip = "On surfaces: any number of shots, and paint stops at what the "
-                                  "muzzle sees; per shot: the definition, a pass a shot, through "
-                                  "walls",
+                       .tooltip =
+                           "On surfaces: any number of shots, paint only on the first surface "
+                           "that a muzzle sees; per shot: the definition, one pass per shot, "
+                           "paint also behind walls",
                        .keys = kModeKeys,
                        .labels = kModeLabels,
                        .defaultValue = 0}),
@@ -66,8 +67,9 @@ constexpr grisaille_param_desc kParams[] = {
                         .log = true}),
     plugin::intParam({.key = "shot_limit",
                       .label = "Shot limit",
-                      .tooltip = "Per shot alone: so many of the newest shots are drawn, each in a "
-                                 "pass of its own",
+                      .tooltip =
+                          "Per shot only: number of the newest shots that are drawn, each in "
+                          "its own pass",
                       .hardMin = 1,
                       .hardMax = 65536,
                       .softMin = 1,
@@ -76,8 +78,8 @@ constexpr grisaille_param_desc kParams[] = {
                       .log = true}),
     plugin::floatParam({.key = "edge_fade",
                         .label = "Edge fade",
-                        .tooltip = "Share of the range over which the coverage falls to nothing at "
-                                   "the rim, which breaks it up into splats; 0: a hard rim",
+                        .tooltip = "Share of the range over which the coverage falls to 0 at the "
+                                   "rim, which breaks the rim up into splats; 0: a hard rim",
                         .hardMin = 0,
                         .hardMax = 1,
                         .softMin = 0,
@@ -105,7 +107,7 @@ constexpr grisaille_param_desc kParams[] = {
                         .step = 0.01}),
     plugin::intParam({.key = "noise_seed",
                       .label = "Noise seed",
-                      .tooltip = "Which splats are drawn",
+                      .tooltip = "Seed of the splats' noise",
                       .hardMin = 0,
                       .hardMax = 65535,
                       .softMin = 0,
@@ -114,17 +116,17 @@ constexpr grisaille_param_desc kParams[] = {
                       .advanced = true}),
     plugin::enumParam({.key = "resolution",
                        .label = "Resolution",
-                       .tooltip = "On surfaces alone: shots are asked at each pixel, at every "
-                                  "second or at every fourth of a row and a column, and the rest "
-                                  "follows from those on its plane; splats stay as fine",
+                       .tooltip = "On surfaces only: paint is computed at every pixel, or at every "
+                                  "second or fourth of a row and a column; other pixels blend the "
+                                  "samples on their plane. Splats stay as fine",
                        .keys = kResolutionKeys,
                        .labels = kResolutionLabels,
                        .defaultValue = 0}),
     plugin::enumParam({.key = "refine",
                        .label = "Refine",
-                       .tooltip = "Below full resolution: where shots are asked all the same: "
-                                  "nowhere, where no asked pixel is on the plane, or there and "
-                                  "where those disagree, at the rims of paint",
+                       .tooltip = "Below full resolution, which other pixels are computed too: "
+                                  "none; those without a sample on their plane; or these and the "
+                                  "rims of paint, where the samples differ",
                        .keys = kRefineKeys,
                        .labels = kRefineLabels,
                        .defaultValue = 2}),
@@ -171,7 +173,7 @@ constexpr grisaille_field_desc kShotFields[] = {
         {.key = "range",
          .label = "Range",
          .unit = "m",
-         .tooltip = "How far from its ray the shot paints; 0: as the parameter Paint range",
+         .tooltip = "How far from its ray the shot paints; 0: same as the parameter Paint range",
          .type = GRISAILLE_FIELD_NUMBER,
          .offset = offsetof(Shot, range),
          .max = 1e6}),

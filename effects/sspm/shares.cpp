@@ -15,7 +15,7 @@ void addPoint(const SurfacePoint& point, float edge, Share& share) {
   if (!known) share.points.push_back(point);
 }
 
-// Of the places where the patch is seen, those in one cell.
+// Adds the patch's hits that lie in the share's cell.
 void addSeen(const CellGrid& grid, const Patch& patch, Share& share) {
   for (const glm::vec3& seen : patch.seen) {
     const glm::ivec3 part(glm::floor((grid.place + seen / grid.edge) * 4.0f));
@@ -33,7 +33,8 @@ void addSeen(const CellGrid& grid, const Patch& patch, Share& share) {
 
 }  // namespace
 
-// Within its corners, and within the ellipse that the cylinder cuts out of its plane.
+// Intersection of two boxes: of the corners, and of the ellipse in which the cylinder cuts the
+// plane.
 PartBox partBoxOf(const ShotFrame& frame, const CellGrid& grid, const Patch& patch) {
   const float partEdge = grid.edge / 4;
   const float margin = partEdge * kPartMargin + frame.bias;
@@ -102,10 +103,10 @@ SurfacePoint pointIn(const CellGrid& grid, const Patch& patch, const CellKey& ke
 std::vector<Share> sharesOf(const ShotFrame& frame, const CellGrid& grid,
                             const std::vector<Patch>& patches) {
   std::vector<Share> shares;
-  std::vector<CellKey> keys;  // of `shares`, in a row for the search
+  std::vector<CellKey> keys;  // of `shares`, contiguous for the search
   for (const Patch& patch : patches) {
     visitParts(frame, grid, patch, [&](const CellKey& key, const PartBits& bits) {
-      // The patch before was most likely there too.
+      // Backwards: the previous patch was probably in the same cell.
       const auto found = std::find(keys.rbegin(), keys.rend(), key);
       size_t index = static_cast<size_t>(keys.rend() - found) - 1;
       if (found == keys.rend()) {

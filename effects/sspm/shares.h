@@ -1,5 +1,6 @@
 // SPDX-License-Identifier: MIT
-// Which cells of the world a shot's paint reaches, and which parts of them: a cell has 4x4x4.
+// Voxelizes a shot's patches: which cells of the world its paint reaches, and which of the 4x4x4
+// parts of each cell.
 #pragma once
 
 #include <algorithm>
@@ -13,31 +14,32 @@
 
 namespace grisaille::sspm {
 
-constexpr float kPartMargin = 0.1f;  // parts, for surfaces that bend between rays
-constexpr float kCoreSlack = 0.02f;  // parts: a plane between two parts is in both
+constexpr float kPartMargin = 0.1f;  // in parts, for surfaces that bend between rays
+constexpr float kCoreSlack = 0.02f;  // in parts: a plane between two parts belongs to both
 
-// A place on a surface, from a muzzle, and the way it faces.
+// A point of a surface.
 struct SurfacePoint {
-  int part = 0;
-  glm::vec3 at = glm::vec3(0);
+  int part = 0;                 // of the cell, 0 ... 63
+  glm::vec3 at = glm::vec3(0);  // offset from the muzzle, metres
   glm::vec3 normal = glm::vec3(0);
 };
 
-// What a shot brings to one cell.
+// Part of a shot that lies in one cell.
 struct Share {
   CellKey key = {};
-  uint64_t touched = 0;  // parts where it may paint
-  uint64_t ragged = 0;   // of these: where something else is seen close by
+  uint64_t touched = 0;  // parts that it may paint
+  uint64_t ragged = 0;   // those of `touched` with another surface close by
   glm::vec4 plane = glm::vec4(0);
-  bool plain = true;                 // one plane all over
-  std::vector<SurfacePoint> points;  // one a part and surface
+  bool plain = true;                 // `plane` serves the whole cell
+  std::vector<SurfacePoint> points;  // one per part and surface
 };
 
+// Width of a cell, metres.
 inline double edgeOf(int32_t code) {
   return std::ldexp(1.0, exponentOf(code));
 }
 
-// The cells of a level about a muzzle.
+// The grid of a level, relative to a muzzle.
 struct CellGrid {
   CellGrid(const glm::dvec3& muzzle, int32_t theLevel)
       : level(theLevel),
@@ -45,44 +47,44 @@ struct CellGrid {
         cell(glm::floor(muzzle / edgeOf(theLevel))),
         place(muzzle / edgeOf(theLevel) - glm::dvec3(cell)) {}
 
-  // The lower corner of a cell from the muzzle, metres.
+  // Lower corner of a cell, relative to the muzzle, metres.
   glm::vec3 corner(const CellKey& key) const { return (glm::vec3(key.cell - cell) - place) * edge; }
 
-  int32_t level;    // as levelCode() has it
-  float edge;       // metres
-  glm::ivec3 cell;  // the muzzle's
-  glm::vec3 place;  // the muzzle's in it, in cells
+  int32_t level;    // see levelCode()
+  float edge;       // width of a cell, metres
+  glm::ivec3 cell;  // of the muzzle
+  glm::vec3 place;  // the muzzle's position in its cell, in cells
 };
 
-// The middle of a part of a cell, in cells.
+// Centre of a part, relative to the cell's lower corner, in cells.
 inline glm::vec3 middleOf(int part) {
   return (glm::vec3(part & 3, part >> 2 & 3, part >> 4) + 0.5f) * 0.25f;
 }
 
-// Whether two surfaces that pass through one part of a cell are one. `edge` of the cell, metres.
+// Whether two points in one part of a cell lie on the same surface. edge: of the cell, metres.
 inline bool sameSurface(const glm::vec3& at, const glm::vec3& normal, const glm::vec3& otherAt,
                         const glm::vec3& otherNormal, float edge) {
   return std::abs(glm::dot(normal, at - otherAt)) < edge / 16 &&
          glm::dot(normal, otherNormal) > 0.9f;
 }
 
-// The parts among which all lie that a patch touches, counted from the muzzle's cell.
+// Bounding box of a patch, in parts, counted from the muzzle's cell.
 struct PartBox {
-  glm::ivec3 first, last;  // empty where one of `last` is less
-  float margin;            // metres that the patch may be off
+  glm::ivec3 first, last;  // inclusive; empty if a component of `last` is less
+  float margin;            // error bound of the patch, metres
 };
 PartBox partBoxOf(const ShotFrame& frame, const CellGrid& grid, const Patch& patch);
 
-// Bits of a cell's parts.
+// Masks of a cell's parts.
 struct PartBits {
-  uint64_t touched = 0;
-  uint64_t core = 0;  // the patch's plane passes through
+  uint64_t touched = 0;  // within the margin of the patch
+  uint64_t core = 0;     // the patch's plane passes through
 };
 PartBits partBitsOf(const ShotFrame& frame, const CellGrid& grid, const Patch& patch,
                     const PartBox& box, const glm::ivec3& cell);
 
-// All that a patch touches: visit(key, bits) once a cell and facing, until one says false; returns
-// whether none did.
+// Rasterizes a patch into cells: calls visit(key, bits) for each cell and facing that the patch
+// touches, until a call returns false. Returns false in that case, else true.
 template <typename Visit>
 bool visitParts(const ShotFrame& frame, const CellGrid& grid, const Patch& patch,
                 const Visit& visit) {
@@ -92,8 +94,8 @@ bool visitParts(const ShotFrame& frame, const CellGrid& grid, const Patch& patch
   const glm::vec3 size = glm::abs(normal);
   const int a = size.x >= size.y && size.x >= size.z ? 0 : size.y >= size.z ? 1 : 2;
   const int b = (a + 1) % 3, c = (a + 2) % 3;
-  // How far, along the axis that the plane faces most, it strays from where it passes the middle
-  // of a column of cells.
+  // Half the plane's extent within a column of cells along its dominant axis a, in cells, with the
+  // margin.
   const float stray = 0.5f * (size[b] + size[c]) / size[a] + 2 * box.margin / grid.edge + 0.01f;
   constexpr float kNearTie = 0.98f;  // a normal between two axes belongs to both
   glm::ivec3 cell;
@@ -124,9 +126,11 @@ bool visitParts(const ShotFrame& frame, const CellGrid& grid, const Patch& patch
   return true;
 }
 
-// A point of the patch's surface in a part of a cell, or as near as its plane comes.
+// A point of the patch's surface in a part of a cell: its centre if that is in the part, else the
+// point of its plane nearest to the part's centre, clamped to the part.
 SurfacePoint pointIn(const CellGrid& grid, const Patch& patch, const CellKey& key, int part);
 
+// Shares of all patches of a shot, one per cell and facing.
 std::vector<Share> sharesOf(const ShotFrame& frame, const CellGrid& grid,
                             const std::vector<Patch>& patches);
 

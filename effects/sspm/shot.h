@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: MIT
-// A shot as the table of objects lays it out.
+// A shot, with the layout of the table of objects (kShots in parameters.h).
 #pragma once
 
 #include <algorithm>
@@ -11,9 +11,9 @@ struct Shot {
   double origin[3];    // world, metres
   float direction[3];  // unit
   float color[3];      // linear, each 0 ... 1
-  double range;        // metres; 0: the parameter paint_range
+  double range;        // metres; 0: use the parameter paint_range
 
-  // Metres, where the parameter is `otherwise`.
+  // The shot's range, metres. otherwise: value of the parameter, metres.
   float rangeOr(float otherwise) const {
     return range > 0 ? std::max(static_cast<float>(range), FLT_MIN) : otherwise;
   }

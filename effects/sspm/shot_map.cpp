@@ -8,9 +8,10 @@
 namespace grisaille::sspm {
 namespace {
 
-// As in shaders/sspm/surface.comp. Cosines between facets: below kOther another surface, which has
-// but a share of the bias, above kSame the same.
-constexpr float kSlant = 8;  // biases along the ray
+// Same as in shaders/sspm/walk.glsl. kOther and kSame are cosines between facets' normals: at kSame
+// and above it is the same surface, with the full bias; at kOther and below another, with
+// kLeastBias of it.
+constexpr float kSlant = 8;  // largest depth behind the plane along the ray, in biases
 constexpr float kOther = -0.5f, kSame = 0.3f, kLeastBias = 0.05f;
 constexpr float kBiasUnits = 0.02f;  // of the range
 constexpr float kBiasShare = 2e-5f;  // of the distance
@@ -46,7 +47,7 @@ bool inSight(const ShotFrame& frame, uint32_t root, const uint32_t* blocks, cons
              const glm::vec3& facing) {
   uint32_t word = root;
   if ((word & kNode) != 0) {
-    glm::vec2 at = (frame.placeOf(q) + kMapReach) * (2.0f / kMapReach);  // in the root's squares
+    glm::vec2 at = (frame.placeOf(q) + kMapReach) * (2.0f / kMapReach);  // in squares of the root
     while ((word & kNode) != 0) {
       const glm::vec2 square = glm::clamp(glm::floor(at), 0.0f, 3.0f);
       const uint32_t bit = static_cast<uint32_t>(square.y) * 4 + static_cast<uint32_t>(square.x);
@@ -60,8 +61,9 @@ bool inSight(const ShotFrame& frame, uint32_t root, const uint32_t* blocks, cons
   const glm::vec3 normal(std::bit_cast<float>(plane[0]), std::bit_cast<float>(plane[1]),
                          std::bit_cast<float>(plane[2]));
   const float behind = std::bit_cast<float>(plane[3]) - glm::dot(normal, q);
-  // A point of the same surface may lie a little behind the plane of the facet beside it; one that
-  // faces elsewhere may not. Seen at a slant, a little is much along the ray.
+  // Depth bias. A point of the same surface may lie a little behind the plane of a neighbouring
+  // facet; a point of another surface may not. At grazing angles a small distance from the plane is
+  // a long one along the ray, which kSlant limits.
   const float bias = frame.bias * glm::clamp((glm::dot(normal, facing) - kOther) / (kSame - kOther),
                                              kLeastBias, 1.0f);
   return behind <= bias && behind * glm::length(q) <= kSlant * bias * std::abs(glm::dot(normal, q));

@@ -1,12 +1,14 @@
 // SPDX-License-Identifier: MIT
-// What one shot's muzzle sees: which of the points within the shot's range lie in sight.
+// A shot's map: a shadow map from the muzzle, which tells which points in the shot's range the
+// muzzle sees.
 //
-// Points are told by their offset q from the muzzle. With w the shot's direction and u, v its
-// normals, q lies in the slope (q.u, q.v) / q.w, and the slope is put on a map that is fine where
-// the paint lands and coarse beside the muzzle: with s0 = range / farthest hit, a slope of length
-// s <= s0 stands at s / s0 from the centre, a longer one at 1 + ln(s / s0). A unit of the map is
-// one range wide wherever the shot's cylinder ends in that slope. The map is a tree of squares;
-// a leaf holds the plane of the surface that its rays hit: what lies before it is in sight.
+// - A point has the offset q from the muzzle. With w the shot's direction and u, v two axes normal
+//   to it, its slope is (q.u, q.v) / q.w.
+// - The map is fine where the paint lands and coarse beside the muzzle. With s0 = range / farthest
+//   hit, a slope of length s <= s0 lies at s / s0 from the map's centre, a longer one at 1 + ln(s /
+//   s0). One unit of the map is one range wide wherever the shot's cylinder ends in that slope.
+// - The map is a tree of squares. A leaf holds the plane of the surface that its rays hit, with the
+//   normal towards the muzzle. The muzzle sees points in front of that plane.
 #pragma once
 
 #include <cstdint>
@@ -20,27 +22,27 @@ namespace grisaille::sspm {
 
 constexpr float kMapReach = 8;  // the map spans [-8, 8] on both axes
 
-// A word of a map: what a square of it holds. Offsets count blocks of four 32-bit words from the
-// map's start. The same in shaders/sspm/surface.comp.
-constexpr uint32_t kOpen = 0;             // nothing within the cylinder
-constexpr uint32_t kPlane = 0x40000000u;  // a block: normal towards the muzzle, its product with q
-constexpr uint32_t kNode = 0x80000000u;   // four blocks: the words of 4x4 squares, by rows
-constexpr uint32_t kSplit = 0xC0000000u;  // a block: bits of 4x4 squares, word where 0, where 1
+// Word of a square of the map: a tag, and an offset in blocks of four 32-bit words from the map's
+// start. Same as in shaders/sspm/walk.glsl.
+constexpr uint32_t kOpen = 0;             // no surface in the cylinder
+constexpr uint32_t kPlane = 0x40000000u;  // leaf; one block: xyz: normal, w: dot(normal, q)
+constexpr uint32_t kNode = 0x80000000u;   // four blocks: words of 4x4 squares, by rows
+constexpr uint32_t kSplit = 0xC0000000u;  // one block: a bit per 4x4 square, word for 0, word for 1
 constexpr uint32_t kTag = 0xC0000000u;
 
-// Where a shot stands and how its map is laid.
+// Position and axes of a shot, and scale of its map.
 struct ShotFrame {
-  // `range` in metres, over 0. Axes for a unit direction, as shaders/sspm/surface.comp makes them
-  // too (Duff et al. 2017, "Building an Orthonormal Basis, Revisited").
+  // range: metres, > 0. The shot's direction has unit length. The axes are those of Duff et al.
+  // 2017, "Building an Orthonormal Basis, Revisited"; shaders/sspm/walk.glsl computes the same.
   ShotFrame(const Shot& shot, float range);
 
-  // The farthest surface in the cylinder: sets slope and bias.
+  // Sets slope and bias, from the distance of the farthest surface in the cylinder, metres.
   void setFarthest(float metres);
 
-  // How far an offset lies from the shot's ray, metres.
+  // Distance of an offset from the shot's ray, metres.
   float across(const glm::vec3& q) const { return glm::length(glm::cross(q, direction)); }
 
-  // The map's place of an offset in front of the muzzle.
+  // Position on the map of an offset in front of the muzzle, -8 to 8.
   glm::vec2 placeOf(const glm::vec3& q) const;
 
   glm::dvec3 origin;
@@ -48,7 +50,7 @@ struct ShotFrame {
   glm::vec3 right, up;
   float range;
   float slope = 0;  // s0
-  float bias = 0;   // metres that a point may lie behind a leaf's plane
+  float bias = 0;   // largest distance of a visible point behind a leaf's plane, metres
 };
 
 struct ShotMap {
@@ -56,8 +58,9 @@ struct ShotMap {
   std::vector<uint32_t> blocks;  // four words each
 };
 
-// Whether the muzzle sees the point at offset q on a facet with this normal, which lies in the
-// cylinder and faces the muzzle.
+// Whether the muzzle sees the point at offset q. The point lies in the cylinder, on a facet that
+// faces the muzzle.
+// root, blocks: of the map. facing: the facet's unit normal.
 bool inSight(const ShotFrame& frame, uint32_t root, const uint32_t* blocks, const glm::vec3& q,
              const glm::vec3& facing);
 

@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: MIT
-// Screen-space paint mapping: paint shot into a scene, without touching its geometry or its texture
-// coordinates. The shaders say how, README.md says why.
+// The effect sspm, screen-space paint mapping: paint on a scene, without changes to its geometry or
+// its texture coordinates. README.md explains it.
 #include <algorithm>
 #include <cmath>
 #include <glm/glm.hpp>
@@ -20,12 +20,12 @@
 namespace grisaille::sspm {
 namespace {
 
-constexpr uint32_t kGroup = 8;  // threads a side, in all shaders of this effect
+constexpr uint32_t kGroup = 8;  // width and height of a group, threads; all shaders but rest.comp
 constexpr int kOctaves = 3;
-// shaders/sspm/rest.comp: one thread for so many pixels of the picture, and threads a group.
+// shaders/sspm/rest.comp: pixels of the picture per thread, threads per group.
 constexpr uint32_t kRestShare = 32, kRestGroup = 64;
-// Pixels that the list may be long: 64 MiB of the 128 that any device binds. Larger pictures are
-// drawn at full resolution.
+// Largest picture, in pixels, for the list of rest.comp: 64 MiB of the 128 that every device binds.
+// Larger pictures use full resolution.
 constexpr uint64_t kRestMost = 1u << 24;
 
 using Bindings = std::vector<grisaille_binding>;
@@ -40,7 +40,7 @@ struct SplatBlock {
 };
 GRISAILLE_CHECK_BLOCK_sspm_splat_Splat(SplatBlock);
 
-// shaders/sspm/per_shot.comp, std140.
+// shaders/sspm/per_shot.glsl, std140.
 struct ShotBlock {
   glm::vec3 origin;
   float range;
@@ -53,7 +53,7 @@ struct ShotBlock {
 };
 GRISAILLE_CHECK_BLOCK_sspm_per_shot_Shot(ShotBlock);
 
-// shaders/sspm/surface.comp, std140.
+// shaders/sspm/walk.glsl, std140.
 struct ListsBlock {
   glm::ivec4 level_cell[kMostLevels];
   glm::vec4 level_fraction[kMostLevels];
@@ -64,8 +64,8 @@ struct ListsBlock {
 };
 GRISAILLE_CHECK_BLOCK_sspm_surface_Lists(ListsBlock);
 
-// 1 / edge_fade. What is multiplied is not asked about: a driver may compile a shader anew for each
-// value that a uniform in a condition takes, and lavapipe does.
+// 1 / edge_fade, which shaders multiply instead of testing edge_fade: a driver may compile a shader
+// again for each value of a uniform in a condition, and lavapipe does.
 float perFade(const plugin::Frame& frame) {
   return 1.0f / std::max(frame.value<float>(kEdgeFade), 1e-30f);
 }
@@ -75,7 +75,7 @@ glm::dvec3 eyeOf(const plugin::Frame& frame) {
   return {p[0], p[1], p[2]};
 }
 
-// A cell's number modulo 2^32; shaders count on from there and wrap round alike.
+// Number of a cell modulo 2^32. Shaders add to it with the same wrap-around.
 int32_t wrapped(double cell) {
   return static_cast<int32_t>(
       static_cast<uint32_t>(std::fmod(cell, 4294967296.0) + (cell < 0 ? 4294967296.0 : 0.0)));
@@ -129,7 +129,7 @@ class Sspm {
 
  private:
   void recordPerShot(const plugin::Frame& frame) {
-    // Placed shots are kept for the mode's return, as far as the list stays.
+    // Keeps placed shots for a return to mode `surface`, up to the first change of the list.
     kept_ = std::min(kept_, frame.objectsKept());
     const std::span<const Shot> all = frame.objects<Shot>();
     const size_t count = std::min(all.size(), frame.value<size_t>(kShotLimit));
@@ -143,7 +143,7 @@ class Sspm {
     const grisaille_texture paint = scratch("paint", GRISAILLE_FORMAT_RGBA32F, true);
     const grisaille_texture owners = scratch("owners", GRISAILLE_FORMAT_RG32F, owned);
     const grisaille_texture depth = frame.attachment(GRISAILLE_VIEW_DEPTH);
-    // Without shots one that reaches nothing leaves the targets empty.
+    // Without shots, one with a negative range clears the targets.
     const Shot none = {};
     for (size_t i = 0; i < std::max<size_t>(count, 1); ++i) {
       const size_t number = all.size() - count + i;
@@ -171,7 +171,7 @@ class Sspm {
 
   static ShotBlock shotBlock(const plugin::Frame& frame, const Shot& shot, float range,
                              size_t number) {
-    // A muzzle may be so far away that single precision does not tell where its ray passes.
+    // Double precision: single precision cannot tell where the ray of a distant muzzle passes.
     const glm::dvec3 muzzle =
         glm::dvec3(shot.origin[0], shot.origin[1], shot.origin[2]) - eyeOf(frame);
     const glm::dvec3 direction(shot.direction[0], shot.direction[1], shot.direction[2]);
@@ -223,8 +223,10 @@ class Sspm {
     frame.pass("surface", [&] { cover(frame, pipeline, joined({shared, lists, outputs})); });
   }
 
-  // Pixels that stand `step` apart walk, the others are made out of them, and what cannot be walks
-  // too. Bindings: of all three passes, of the walk, and of what writes the outputs.
+  // Mode `surface` below full resolution: the passes samples, upsample and rest.
+  // step: distance of samples, pixels.
+  // shared, lists, outputs: bindings of all three passes, of those that walk, and of those that
+  // write the outputs.
   void recordReduced(const plugin::Frame& frame, uint32_t step, const Bindings& shared,
                      const Bindings& lists, const Bindings& outputs) {
     const uint32_t width = plugin::groupsFor(frame.width() - 1, step) + 1;
@@ -275,7 +277,7 @@ class Sspm {
     return uint64_t{frame.width()} * frame.height();
   }
 
-  // Room for a count and every pixel.
+  // Buffer of rest.comp: a count, and a word for every pixel.
   grisaille_buffer restFor(const plugin::Frame& frame) {
     const uint64_t words = 1 + pixelsOf(frame);
     if (words > restWords_) {
@@ -285,7 +287,7 @@ class Sspm {
     return restList_;
   }
 
-  // Constants 0 and 1 of the shaders that walk.
+  // Specialization constants 0 and 1 of the shaders that walk.
   std::vector<grisaille_constant> walkConstants(const plugin::Frame& frame) {
     return {plugin::specialize(0, wanted(frame)),
             plugin::specialize(1, world_.levels().size() == 1)};
@@ -322,7 +324,7 @@ class Sspm {
            (frame.wanted(Output::kOwner) ? 4u : 0u);
   }
 
-  // Images 0 ... 2; where nobody wants one, a texel that is left alone.
+  // Adds images 0 ... 2. An output that nothing reads gets an image of one texel.
   static void addOutputs(const plugin::Frame& frame, Bindings& bindings) {
     for (const Output output : {Output::kPaint, Output::kCoverage, Output::kOwner}) {
       const auto format = static_cast<grisaille_format>(kOutputs[output].format);
@@ -346,7 +348,7 @@ class Sspm {
   plugin::Buffer restList_;
   uint64_t restWords_ = 0;
   PaintWorld world_;
-  size_t kept_ = 0;  // shots of the list that world_ knows and that stayed the same since
+  size_t kept_ = 0;  // leading shots of the list unchanged since world_.update()
 };
 
 constexpr auto kSspm =

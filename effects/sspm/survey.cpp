@@ -11,16 +11,16 @@
 namespace grisaille::sspm {
 namespace {
 
-constexpr float kFinestMetres = 0.004f;  // squares are split while they are wider on the surface
+constexpr float kFinestMetres = 0.004f;  // squares that are wider on the surface are split
 constexpr float kFinestUnits = 1.0f / 256;
 constexpr float kInnerUnits = 1.0f / 16;
 constexpr float kOpenUnits = 1.0f / 63;
-constexpr float kPatchUnits = 1.0f / 4;  // the widest patch
+constexpr float kPatchUnits = 1.0f / 4;  // width of the largest patch
 constexpr int kMostProbes = 6;
 constexpr glm::ivec2 kAround[] = {{1, 0}, {-1, 0}, {0, 1}, {0, -1}};
 constexpr int kFinestAcross = static_cast<int>(2 * kMapReach / kFinestUnits);
 constexpr int kFinestShift = std::countr_zero(static_cast<unsigned>(kFinestAcross));
-constexpr float kBeyond = 1.02f;  // of the range: hits past it are out of the cylinder
+constexpr float kBeyond = 1.02f;  // times the range: hits beyond it are outside the cylinder
 
 glm::vec2 slopeOf(const ShotFrame& frame, glm::vec2 place) {
   const float radius = glm::length(place);
@@ -32,7 +32,7 @@ glm::vec3 alongSlope(const ShotFrame& frame, glm::vec2 slope) {
   return slope.x * frame.right + slope.y * frame.up + frame.direction;
 }
 
-// How far along the direction, in metres before the muzzle, a slope leaves the cylinder.
+// Distance along the shot's direction at which a slope leaves the cylinder, metres.
 float exitOf(const ShotFrame& frame, glm::vec2 slope) {
   const float length = glm::length(slope);
   return length > 0 ? kBeyond * frame.range / length : std::numeric_limits<float>::infinity();
@@ -44,7 +44,7 @@ Survey::Survey(const Shot& shot, float range) : frame_(shot, range) {
   probe(64 * range);
 }
 
-// Some rays about the axis tell how far the farthest surface in the cylinder is.
+// Rays in rings around the axis, which find the distance of the farthest surface in the cylinder.
 void Survey::probe(float farthest) {
   farthest_ = farthest;
   frame_.setFarthest(farthest);
@@ -179,7 +179,7 @@ void Survey::addChildren(int32_t parent) {
   }
 }
 
-// Divides squares that are coarser than the grain.
+// Splits squares that are coarser than the grain.
 void Survey::lay(int32_t index, const Grain& grain) {
   const glm::vec2 centre = at(index).centre;
   const float size = at(index).size;
@@ -207,14 +207,15 @@ int32_t Survey::leafAt(glm::ivec2 place) const {
   return index;
 }
 
-// Whether `plane`, met in the slope of a square that saw nothing, lies past the cylinder's end.
+// Whether a square that saw nothing agrees with `plane`: in its slope, the plane lies beyond the
+// cylinder.
 bool Survey::planePastExit(const Square& open, const glm::vec4& plane) const {
   const glm::vec2 slope = slopeOf(frame_, open.centre);
   const float facing = glm::dot(glm::vec3(plane), alongSlope(frame_, slope));
   return facing >= 0 || plane.w / facing >= 0.98f * frame_.range / glm::length(slope);
 }
 
-// Whether one surface may go on from one square into the other.
+// Whether two squares may see the same surface.
 bool Survey::agree(const Square& a, const Square& b) const {
   const auto onPlane = [&](const glm::vec4& plane, const glm::vec3& at) {
     return std::abs(glm::dot(glm::vec3(plane), at) - plane.w) <= 0.8f * frame_.bias;
@@ -226,17 +227,18 @@ bool Survey::agree(const Square& a, const Square& b) const {
   return onPlane(a.sample.plane, b.sample.at) && onPlane(b.sample.plane, a.sample.at);
 }
 
-// Whether two surfaces that are seen side by side seem to meet between: each of their planes lies
-// before the other's hit, or behind it, and by a little only.
+// Whether the surfaces of two neighbouring squares meet at a crease between them, convex or
+// concave: each hit lies in front of the other's plane, or each behind it, and within two biases.
 bool Survey::meet(const Sample& a, const Sample& b) const {
   const float over = glm::dot(glm::vec3(a.plane), b.at) - a.plane.w;
   const float under = glm::dot(glm::vec3(b.plane), a.at) - b.plane.w;
   return over * under >= 0 && std::max(std::abs(over), std::abs(under)) <= 2 * frame_.bias;
 }
 
-// The squares to split, after those `among` were cast: the ones between surfaces that are wider
-// than need be. Both sides of an edge are told of it. Where a surface ends before nothing there is
-// no need: it is in sight up to its end, and nothing else is there.
+// Finds edges between the squares `among`, whose rays were just cast, and their neighbours. Marks
+// both sides of an edge. Returns the squares to split: those at edges that are not yet fine. At an
+// edge between a surface and nothing, a square need not be as fine: the muzzle sees the surface up
+// to its end.
 std::vector<int32_t> Survey::findEdges(const std::vector<int32_t>& among) {
   std::vector<int32_t> edges;
   const auto tell = [&](int32_t index) {
@@ -277,7 +279,8 @@ std::vector<int32_t> Survey::findEdges(const std::vector<int32_t>& among) {
   return edges;
 }
 
-// The square that sees what may reach into this one.
+// The square whose surface may reach into this one: a neighbour of an open square, else the square
+// itself.
 const Survey::Square& Survey::seenBy(const Square& square) const {
   return square.beside >= 0 ? at(square.beside) : square.rim >= 0 ? at(square.rim) : square;
 }
@@ -313,7 +316,7 @@ void Survey::gatherPatches(int32_t index, std::vector<Patch>& patches) const {
     for (int32_t i = 0; i < 16; ++i) gatherPatches(square.children + i, patches);
     return;
   }
-  // Where it is cut up finely, each of its planes all over it.
+  // A finely split square: one patch for each of its planes, over the whole square.
   std::vector<SeenPlane> planes;
   const bool ragged = gatherPlanes(index, planes);
   for (SeenPlane& plane : planes) {
@@ -324,7 +327,8 @@ void Survey::gatherPatches(int32_t index, std::vector<Patch>& patches) const {
   }
 }
 
-// The surfaces that leaves below a square see, and where. Returns whether any is ragged.
+// Collects the planes that the leaves below a square see, with their hits. Returns whether a leaf
+// is ragged.
 bool Survey::gatherPlanes(int32_t index, std::vector<SeenPlane>& planes) const {
   const Square& square = at(index);
   if (square.children >= 0) {
@@ -345,7 +349,7 @@ bool Survey::gatherPlanes(int32_t index, std::vector<SeenPlane>& planes) const {
 Patch Survey::patchOf(const Square& square, const glm::vec4& plane) const {
   Patch patch;
   patch.plane = plane;
-  // Where the cylinder ends in the slopes of the square, at the farthest.
+  // Largest distance at which a slope of the square leaves the cylinder.
   const glm::vec2 nearest = glm::max(glm::abs(square.centre) - square.size / 2, 0.0f);
   const float farthest =
       std::min(exitOf(frame_, slopeOf(frame_, nearest)), 2 * frame_.range / frame_.slope);
@@ -378,8 +382,8 @@ uint32_t Survey::planeWord(const glm::vec4& plane, ShotMap& map) {
   return place->second;
 }
 
-// The one plane that serves all leaves below a square, if there is one. `leaf` is the square whose
-// sample it is. `smooth`: none of them ragged.
+// Whether one plane serves all leaves below a square: that of `leaf`, or if null, of the first leaf
+// with a hit, to which it sets `leaf`. smooth: also requires that no leaf is at an edge.
 bool Survey::serves(int32_t index, const Square*& leaf, bool smooth) const {
   const Square& square = at(index);
   if (square.children < 0) {
@@ -394,7 +398,7 @@ bool Survey::serves(int32_t index, const Square*& leaf, bool smooth) const {
   return true;
 }
 
-// Twice, since open squares that came before the first hit were not held against its plane.
+// Two passes: the first does not compare the open squares before the first hit with its plane.
 bool Survey::uniform(int32_t index, const Square*& leaf, bool smooth) const {
   leaf = nullptr;
   return serves(index, leaf, smooth) && serves(index, leaf, smooth);
@@ -415,7 +419,7 @@ uint32_t Survey::write(int32_t index, ShotMap& map) {
   if (uniform(index, leaf, false)) return wordOf(leaf);
   std::array<uint32_t, 16> words{};
   bool leaves = true;
-  std::vector<const Square*> planes;  // that serve children written so far
+  std::vector<const Square*> planes;  // planes of the children written so far
   for (int32_t i = 0; i < 16; ++i) {
     uint32_t& word = words[static_cast<size_t>(i)];
     const int32_t child = at(index).children + i;

@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: MIT
-// Finds out what a shot's muzzle sees, by rays: says which to cast next, takes the hits, and so on
-// until it knows. First the farthest surface and a rough picture, then, if asked to go on, the map.
-// `./dev bench sspm` prints the rays a shot.
+// Surveys by ray casts what a shot's muzzle sees. The caller casts rays() and passes the hits to
+// take(), until rays() is empty. The survey first finds the farthest surface and a rough picture.
+// After refine() it continues to the map. `./dev bench sspm` prints the number of rays per shot.
 #pragma once
 
 #include <cmath>
@@ -13,18 +13,20 @@
 
 namespace grisaille::sspm {
 
-// A piece of a seen surface, as corners from the muzzle, cut where they leave the cylinder.
+// A quad of a visible surface. Corners and centre are offsets from the muzzle, clipped to the
+// cylinder.
 struct Patch {
   glm::vec3 corners[4];
   glm::vec3 centre;
-  glm::vec4 plane;      // normal towards the muzzle; its product with offsets on the surface
-  bool ragged = false;  // it hides something beside it, or something hides it
-  bool whole = true;    // not cut
-  // Of one of several planes that share a square: it may be anywhere in it, and is at these.
+  glm::vec4 plane;      // normal towards the muzzle; dot(normal, offset)
+  bool ragged = false;  // next to a depth discontinuity
+  bool whole = true;    // not clipped
+  // If several planes share a square: points at which rays hit this one. It may be anywhere in the
+  // square. Else empty.
   std::vector<glm::vec3> seen = {};
 };
 
-// Whether one plane serves a place on another too. `bias` of the shot's frame.
+// Whether `plane` may replace the plane `other` at the offset `at`. bias: of the shot's frame.
 inline bool serves(const glm::vec4& plane, const glm::vec3& at, const glm::vec4& other,
                    float bias) {
   return std::abs(glm::dot(glm::vec3(plane), at) - plane.w) <= 0.25f * bias &&
@@ -33,53 +35,54 @@ inline bool serves(const glm::vec4& plane, const glm::vec3& at, const glm::vec4&
 
 class Survey {
  public:
-  // `range` in metres, over 0.
+  // range: metres, > 0.
   Survey(const Shot& shot, float range);
 
-  // To be cast next, and their hits to be taken. None: the rough picture or the map is done.
+  // Rays to cast next; pass their hits to take(). Empty: the rough picture or the map is complete.
   std::span<const grisaille_ray> rays() const { return rays_; }
-  // False where the host cannot tell now how far the shot goes: it is to be surveyed anew later.
+  // Takes one hit per ray. False: the host cannot tell yet how far the shot reaches; start a new
+  // survey later.
   bool take(std::span<const grisaille_hit> hits);
 
-  // Goes on from the rough picture to the map.
+  // Continues from the rough picture to the map.
   void refine();
   bool isRough() const { return stage_ != Stage::kFine; }
 
-  // Squares of which the host could not tell, of all and of those within a range of the axis. The
-  // map has no paint there.
+  // Number of squares of which the host could not tell: of all, and of those within one range of
+  // the axis. The map has no paint in them.
   size_t unknown() const { return countUnknown(1e30f); }
   size_t unknownInside() const { return countUnknown(1); }
-  // Asks for them again, once the map is done.
+  // Casts their rays again, after the map is complete.
   void askAgain();
 
-  // What is seen within range, when there are no rays to cast.
+  // Visible surfaces in range. Call it when rays() is empty.
   std::vector<Patch> patches() const;
   const ShotFrame& frame() const { return frame_; }
-  // After refine(), when there are no rays to cast.
+  // The map. Call it after refine(), when rays() is empty.
   ShotMap map();
 
  private:
   enum class Stage : uint8_t { kProbing, kRough, kFine };
   struct Sample {
     bool hit = false;
-    bool unknown = false;            // `hit` too, by a plane that nothing lies before
-    glm::vec4 plane = glm::vec4(0);  // normal, product
+    bool unknown = false;  // the host cannot tell: `hit` is set, with a plane behind the muzzle
+    glm::vec4 plane = glm::vec4(0);  // as in Patch
     glm::vec3 at = glm::vec3(0);     // offset of the hit
   };
-  // A square of the map while it is made.
+  // A square of the map under construction.
   struct Square {
     glm::vec2 centre = glm::vec2(0);
     float size = 0;
     int32_t children = -1;  // index of the first of 16
-    // Of an open square: one that sees a surface which ends between them, or which leaves the
-    // cylinder there.
+    // For an open square, the index of a neighbour with a surface, or -1. `beside`: the surface
+    // ends between the two; `rim`: it leaves the cylinder there.
     int32_t beside = -1, rim = -1;
-    glm::ivec2 corner = glm::ivec2(0);  // the lower one, in the finest squares from the map's own
+    glm::ivec2 corner = glm::ivec2(0);  // lower corner, in finest squares from the map's
     Sample sample = {};
-    bool edge = false;    // another surface is seen beside it
-    bool ragged = false;  // and not one that meets it there
+    bool edge = false;    // a neighbour sees another surface
+    bool ragged = false;  // and the two surfaces do not meet: a depth discontinuity
   };
-  // Sizes of undivided squares within a unit of the centre, within three, and beyond.
+  // Sizes of undivided squares: within one unit of the centre, within three, and beyond.
   struct Grain {
     float inner, middle, outer;
   };
@@ -118,10 +121,10 @@ class Survey {
   ShotFrame frame_;
   Stage stage_ = Stage::kProbing;
   float farthest_ = 0;
-  int probes_ = 0;     // rounds of them
-  bool anew_ = false;  // all edges are to be found anew
+  int probes_ = 0;     // rounds of probing
+  bool anew_ = false;  // the next take() finds all edges again
   std::vector<Square> squares_;
-  std::vector<int32_t> asked_;  // squares that rays_ are of
+  std::vector<int32_t> asked_;  // squares of rays_, in order
   std::vector<grisaille_ray> rays_;
   std::unordered_map<uint64_t, uint32_t> planes_;
 };

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: MIT
-// What both example hosts draw: a corner of a room with boxes in it. And how they write numbers.
+// The scene of both example hosts, a corner of a room with boxes, and functions that write files.
 #pragma once
 
 #include <cstdint>
@@ -16,7 +16,7 @@ namespace example {
 
 inline constexpr uint32_t kWidth = 320, kHeight = 180;  // pixels
 inline constexpr float kNear = 0.1f, kFar = 40;         // metres
-inline constexpr float kAngle = 0.9f;                   // radians that the height spans
+inline constexpr float kAngle = 0.9f;                   // vertical angle of view, radians
 
 inline glm::mat4 viewFromWorld() {
   return glm::lookAt(glm::vec3(3.1f, 2.3f, 3.7f), glm::vec3(-0.2f, 0.5f, -0.1f),
@@ -68,7 +68,7 @@ void writeFile(const std::filesystem::path& path, const std::vector<T>& content)
   if (!file.flush()) throw std::runtime_error("cannot write " + path.string());
 }
 
-// Four floats a pixel, linear and from the top, as a picture of 8 bits a channel.
+// Writes a PPM file of 8 bits per channel. pixels: linear light, rows from the top.
 inline void writePicture(const std::filesystem::path& path, const std::vector<glm::vec4>& pixels) {
   std::vector<uint8_t> bytes;
   for (const char c : "P6 " + std::to_string(kWidth) + " " + std::to_string(kHeight) + " 255\n") {

@@ -1,27 +1,27 @@
 #version 460
 // SPDX-License-Identifier: MIT
-// Blends the decals whose boxes hold the pixel's surface, the topmost first. One thread a pixel.
+// Blends the decals whose boxes contain the pixel's surface, front to back. One thread per pixel.
 #extension GL_GOOGLE_include_directive : require
 #include "common/view.glsl"
 
 struct Box {
-  mat3x4 axes;  // (p, 1) * axes: -0.5 ... 0.5 in the box; p: from the camera, metres, world axes
+  mat3x4 axes;  // (p, 1) * axes: -0.5 ... 0.5 in the box; p: from the camera, world axes, metres
   float opacity, layer;
-  float cosine;    // of the largest angle between the box and a surface
-  float per_fade;  // 1 / share of the depth
+  float cosine;    // of the largest angle between the decal's direction and a normal
+  float per_fade;  // 1 / fade
 };
 const uint kSide = 8, kMost = 4064;
-layout(constant_id = 0) const bool kAny = true;  // decals
+layout(constant_id = 0) const bool kAny = true;  // whether there are decals
 layout(local_size_x = kSide, local_size_y = kSide) in;
 layout(STORAGE(0), std430) readonly buffer Boxes { Box boxes[]; };  // the topmost first
 layout(TEXTURE(0)) uniform sampler2D view_depth;     // metres; 0: sky
 layout(TEXTURE(1)) uniform sampler2D facet_normal;   // unit, towards the camera
 layout(TEXTURE(2)) uniform sampler2DArray pictures;  // linear, premultiplied alpha
 layout(IMAGE(0), rgba16f) writeonly uniform image2D overlay;
-shared uint nearest, farthest;  // bits of the group's view depths, which sort as the depths do
+shared uint nearest, farthest;  // bits of the group's view depths, in the depths' order
 shared uint candidates[kMost / 32 + 1];  // a bit for each box
 
-// From p to the point of its plane that another pixel sees.
+// Offset from p to the point at which another pixel's ray meets the plane of p.
 vec3 footprint(vec2 pixel, vec3 p, vec3 normal) {
   const vec3 ray = viewPosition(pixel, 1.0) * mat3(view.view_from_world);
   return ray * (dot(normal, p) / min(dot(normal, ray), -1e-3)) - p;
@@ -42,7 +42,7 @@ void main() {
   if (depth > 0.0) atomicMin(nearest, floatBitsToUint(depth));
   atomicMax(farthest, floatBitsToUint(depth));
   barrier();
-  // A sphere around the group's surfaces.
+  // Bounding sphere of the group's surfaces.
   const vec2 corner = vec2(gl_WorkGroupID.xy * kSide), middle = corner + 0.5 * kSide;
   const float back = uintBitsToFloat(farthest), front = min(uintBitsToFloat(nearest), back);
   const vec3 end = viewPosition(middle, back), centre = viewPosition(middle, 0.5 * (front + back));
@@ -60,10 +60,10 @@ void main() {
   vec4 sum = vec4(0.0);  // premultiplied
   uint word = 0, bits = candidates[0];
   while (kAny && depth > 0.0 && sum.a < 0.999) {
-    // Find the next box that shows here in a loop of its own: threads wait for the longest body.
+    // An inner loop finds the next visible box: threads wait for the longest loop body.
     Box box;
     vec3 local;
-    vec2 du, dv, share = vec2(0.0);  // the part of the pixel's footprint that is in the box
+    vec2 du, dv, share = vec2(0.0);  // share of the pixel's footprint in the box, per axis
     while (word * 32 < count && share.x * share.y <= 0.0) {
       if (bits == 0) {
         bits = candidates[++word];

@@ -17,13 +17,13 @@
 
 namespace decals {
 
-struct Box {  // as in decals.comp
+struct Box {  // same as in decals.comp
   glm::mat3x4 axes;
   float opacity, layer, cosine, per_fade;
 };
 
-// A picture as size x size texels, each the mean of n x n samples: half floats of linear light with
-// premultiplied alpha.
+// Resamples a picture to size x size texels, each the mean of n x n samples. Half floats: linear
+// light, premultiplied alpha.
 std::vector<uint64_t> texelsOf(const grisaille_picture& picture, uint64_t size) {
   float linear[256];
   for (int i = 0; i < 256; ++i) linear[i] = glm::convertSRGBToLinear(glm::vec1(float(i) / 255)).x;
@@ -60,9 +60,9 @@ class Effect {
     std::map<std::pair<double, double>, Box> boxes;  // the topmost first
     for (const Decal& d : decals) {
       const glm::vec2 layer = layers_.at(d.picture);
-      // From the camera, since floats lack digits far from the world's origin.
+      // Relative to the camera: floats lack digits far from the world's origin.
       const glm::dvec3 place = glm::make_vec3(d.position) - glm::make_vec3(frame.view().position);
-      // Up in the picture is up in the world, and on floors and ceilings -z.
+      // The picture's up is up in the world; on floors and ceilings it is -z.
       const glm::dvec3 out = glm::make_vec3(d.direction);
       const glm::dvec3 up = std::abs(out.y) > 0.99 ? glm::dvec3(0, 0, -1) : glm::dvec3(0, 1, 0);
       const glm::dvec3 side = glm::normalize(glm::cross(up, out)), top = glm::cross(out, side);
@@ -81,7 +81,7 @@ class Effect {
     }
     std::vector<Box> sorted;
     for (const auto& [order, box] : boxes) sorted.push_back(box);
-    if (sorted.empty()) sorted.emplace_back();  // a buffer cannot be
+    if (sorted.empty()) sorted.emplace_back();  // a buffer cannot be empty
     const uint64_t bytes = sorted.size() * sizeof(Box);
     if (bytes > room_) buffer_ = host_.buffer("decals", room_ = 2 * bytes);
     frame.uploadBuffer(buffer_, 0, sorted);
@@ -103,7 +103,7 @@ class Effect {
     for (const Decal& decal : decals) layers[decal.picture] = {};
     if (std::ranges::all_of(layers, [&](auto& one) { return layers_.contains(one.first); })) return;
     const auto count = uint32_t(layers.size());
-    // At most some 128 MiB, and a third more for the mips.
+    // About 128 MiB at most, and a third more for the mips.
     const uint32_t side = std::min(1024u, std::bit_floor(4096 / uint32_t(std::sqrt(count))));
     plugin::Texture texture =
         host_.texture({"pictures", GRISAILLE_FORMAT_RGBA16F, side, side, GRISAILLE_TEXTURE_SAMPLED,

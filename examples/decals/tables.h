@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: MIT
-// The tables of the effect: panel, command line and files of decals come from them.
+// Tables of the effect. The panel, the command line and files of decals come from them.
 #pragma once
 #include "grisaille/effect.hpp"
 

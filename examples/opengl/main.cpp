@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: MIT
-// opengl_host OUTPUT_FOLDER: draws some frames and writes the last one: picture.ppm, and as bare
-// numbers, rows from the top: depth.f32 (a depth buffer), normal.f32 (three components, in view
-// space), ao.f32, and vertices.f32 (the scene's: position and normal).
+// opengl_host OUTPUT_FOLDER: draws five frames and writes the last one as picture.ppm. Also writes
+// raw numbers, rows from the top: depth.f32 (depth buffer), normal.f32 (three components, view
+// space), ao.f32, and vertices.f32 (of the scene: position and normal).
 #include <cstdio>
 #include <cstring>
 
@@ -21,7 +21,7 @@ void check(int result) {
   if (result != 0) throw std::runtime_error(grisaille_host_last_error());
 }
 
-// Ambient occlusion of what the renderer draws, in the context that is current.
+// Ambient occlusion of the renderer's scene. Uses the current OpenGL context.
 class Occlusion {
  public:
   explicit Occlusion(const Renderer& renderer) {
@@ -47,7 +47,7 @@ class Occlusion {
     grisaille_host_device_destroy(device_);
   }
 
-  // Returns a texture of the picture's size: 1 where all of the sky is seen.
+  // Records the effect. Returns a texture of the picture's size: ambient visibility, 1 = open.
   GLuint record(uint64_t number) {
     const glm::dmat4 world = glm::inverse(glm::dmat4(viewFromWorld()));
     grisaille_host_camera camera = {};
@@ -110,7 +110,7 @@ void run(const std::filesystem::path& folder) {
   std::vector<glm::vec4> pixels(lit.size() / 4);
   std::memcpy(pixels.data(), lit.data(), lit.size() * sizeof(float));
   writePicture(folder / "picture.ppm", pixels);
-  if (glGetError() != GL_NO_ERROR) throw std::runtime_error("OpenGL has an error");
+  if (glGetError() != GL_NO_ERROR) throw std::runtime_error("OpenGL reports an error");
 }
 
 }  // namespace

@@ -28,7 +28,7 @@ layout(location = 0) out vec4 colour;
 layout(location = 1) out vec4 normal;
 void main() {
   normal = vec4(mat3(view_from_world) * normalize(world_normal), 0.0);
-  // A lamp far away, and the sky's light from all about.
+  // A distant lamp, and ambient light from the sky.
   float lamp = max(dot(normalize(world_normal), normalize(vec3(0.5, 0.9, 0.4))), 0.0);
   colour = vec4(vec3(0.25) * lamp + vec3(0.5), 1.0);
 })";
@@ -61,7 +61,7 @@ GLuint program(const char* vertex, const char* fragment) {
   glLinkProgram(made);
   GLint linked = GL_FALSE;
   glGetProgramiv(made, GL_LINK_STATUS, &linked);
-  if (linked == GL_FALSE) throw std::runtime_error("a shader is refused");
+  if (linked == GL_FALSE) throw std::runtime_error("the driver cannot link a shader program");
   return made;
 }
 

@@ -1,7 +1,6 @@
 // SPDX-License-Identifier: MIT
-// A renderer of one scene, with OpenGL's own conventions: rows from the bottom, a depth buffer with
-// 0 at the near plane, normals in view space. Then a pass over the colour that takes the share of
-// the sky which each pixel sees.
+// Renders one scene with OpenGL's conventions: rows from the bottom, a depth buffer with 0 at the
+// near plane, normals in view space. A second pass multiplies the colour by the ambient visibility.
 #pragma once
 
 #include <epoxy/gl.h>
@@ -18,8 +17,9 @@ class Renderer {
   Renderer(const Renderer&) = delete;
   Renderer& operator=(const Renderer&) = delete;
 
+  // Draws into `depth`, `normal` and `colour`.
   void drawScene();
-  // Into `lit`, with the share of the sky that is seen, of the size of the picture.
+  // Writes colour x visibility into `lit`. visibility: texture of the picture's size, read from r.
   void light(GLuint visibility);
 
   GLuint depth = 0, normal = 0, colour = 0, lit = 0;
@@ -31,7 +31,7 @@ class Renderer {
   GLsizei count_ = 0;
 };
 
-// Components of a texture of the picture's size, rows from the top.
+// Reads a texture of the picture's size back, rows from the top. components: of `format`.
 std::vector<float> read(GLuint texture, GLenum format, int components);
 
 }  // namespace example

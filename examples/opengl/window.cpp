@@ -17,13 +17,13 @@ Window::Window() {
     glfwWindowHint(GLFW_CONTEXT_VERSION_MINOR, 5);
     glfwWindowHint(GLFW_OPENGL_PROFILE, GLFW_OPENGL_CORE_PROFILE);
     window_ = glfwCreateWindow(64, 64, "opengl_host", nullptr, nullptr);
-    if (window_ == nullptr) throw std::runtime_error("GLFW makes no window with OpenGL 4.5");
+    if (window_ == nullptr) throw std::runtime_error("GLFW cannot create a window with OpenGL 4.5");
     glfwMakeContextCurrent(window_);
     return;
   }
   display_ = eglGetPlatformDisplayEXT(EGL_PLATFORM_SURFACELESS_MESA, EGL_DEFAULT_DISPLAY, nullptr);
   if (eglInitialize(display_, nullptr, nullptr) == EGL_FALSE) {
-    throw std::runtime_error("there is neither a display nor EGL without one");
+    throw std::runtime_error("no display, and no EGL without a display");
   }
   eglBindAPI(EGL_OPENGL_API);
   const EGLint attributes[] = {EGL_CONTEXT_MAJOR_VERSION,
@@ -35,7 +35,7 @@ Window::Window() {
                                EGL_NONE};
   context_ = eglCreateContext(display_, EGL_NO_CONFIG_KHR, EGL_NO_CONTEXT, attributes);
   if (eglMakeCurrent(display_, EGL_NO_SURFACE, EGL_NO_SURFACE, context_) == EGL_FALSE) {
-    throw std::runtime_error("EGL makes no context of OpenGL 4.5");
+    throw std::runtime_error("EGL cannot create an OpenGL 4.5 context");
   }
 }
 

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: MIT
-// An OpenGL 4.5 context: of a hidden window, or of none where there is no display.
+// An OpenGL 4.5 context: of a hidden window, or without a window if the machine has no display.
 #pragma once
 
 struct GLFWwindow;
@@ -8,15 +8,15 @@ namespace example {
 
 class Window {
  public:
-  Window();  // the context is current then
+  Window();  // makes the context current; throws std::runtime_error
   ~Window();
   Window(const Window&) = delete;
   Window& operator=(const Window&) = delete;
 
  private:
-  GLFWwindow* window_ = nullptr;  // null: without a display
-  void* display_ = nullptr;       // EGL's then
-  void* context_ = nullptr;
+  GLFWwindow* window_ = nullptr;  // null: no display
+  void* display_ = nullptr;       // of EGL, without a display
+  void* context_ = nullptr;       // of EGL, without a display
 };
 
 }  // namespace example

@@ -40,7 +40,7 @@ Context::Context(bool validate) {
   uint32_t count = 1;
   const VkResult found = vkEnumeratePhysicalDevices(instance, &count, &physical);
   if (found != VK_INCOMPLETE) check(found, "vkEnumeratePhysicalDevices");
-  if (count == 0) throw std::runtime_error("there is no Vulkan device");
+  if (count == 0) throw std::runtime_error("no Vulkan device found");
   makeDevice();
 }
 
@@ -96,7 +96,8 @@ void Context::makeDevice() {
   vkGetPhysicalDeviceQueueFamilyProperties(physical, &count, families.data());
   constexpr VkQueueFlags kBoth = VK_QUEUE_GRAPHICS_BIT | VK_QUEUE_COMPUTE_BIT;
   while (family < count && (families[family].queueFlags & kBoth) != kBoth) ++family;
-  if (family == count) throw std::runtime_error("no queue draws and computes");
+  if (family == count)
+    throw std::runtime_error("no queue family supports both graphics and compute");
 
   const float priority = 1;
   VkDeviceQueueCreateInfo queues{VK_STRUCTURE_TYPE_DEVICE_QUEUE_CREATE_INFO};
@@ -128,7 +129,7 @@ VkDeviceMemory Context::allocate(const VkMemoryRequirements& needs, VkMemoryProp
   while ((needs.memoryTypeBits >> info.memoryTypeIndex & 1u) == 0 ||
          (memory.memoryTypes[info.memoryTypeIndex].propertyFlags & flags) != flags) {
     if (++info.memoryTypeIndex == memory.memoryTypeCount)
-      throw std::runtime_error("no such memory");
+      throw std::runtime_error("no memory type has the required properties");
   }
   VkDeviceMemory made = VK_NULL_HANDLE;
   check(vkAllocateMemory(device, &info, nullptr, &made), "vkAllocateMemory");

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: MIT
-// An instance, a device, a queue; images, buffers and shaders on it.
+// A Vulkan instance, device and queue; creates images, buffers and shaders.
 #pragma once
 
 #include <vulkan/vulkan.h>
@@ -10,7 +10,7 @@
 
 namespace example {
 
-// Throws std::runtime_error unless VK_SUCCESS.
+// Throws std::runtime_error unless `result` is VK_SUCCESS. what: the failed call, for the message.
 void check(VkResult result, const char* what);
 
 struct Buffer {
@@ -29,7 +29,8 @@ struct Image {
 
 class Context {
  public:
-  // With `validate`, what the validation layer says, where it is installed, is printed and counted.
+  // validate: enables the validation layer if it is installed, prints its messages to stderr and
+  // counts them.
   explicit Context(bool validate);
   ~Context();
   Context(const Context&) = delete;
@@ -46,7 +47,7 @@ class Context {
   VkDevice device = VK_NULL_HANDLE;
   VkQueue queue = VK_NULL_HANDLE;
   uint32_t family = 0;
-  int complaints = 0;  // of the validation layer
+  int complaints = 0;  // messages of the validation layer
 
  private:
   void makeInstance(bool validate);
@@ -56,7 +57,8 @@ class Context {
   VkDebugUtilsMessengerEXT messenger_ = VK_NULL_HANDLE;
 };
 
-// All that was recorded before is seen by all that is recorded later, in the new layout.
+// Changes an image's layout. A full barrier: later commands wait for all earlier ones and see their
+// writes.
 void transition(VkCommandBuffer commands, VkImage image, VkImageAspectFlags aspect,
                 VkImageLayout before, VkImageLayout after);
 

@@ -1,7 +1,8 @@
 // SPDX-License-Identifier: MIT
-// vulkan_host OUTPUT_FOLDER [--check]: draws some frames and writes the last one: picture.ppm, and
-// as bare numbers, rows from the top: depth.f32 (a reversed depth buffer), normal.f16 (four
-// components, world), ao.f16, and vertices.f32 (the scene's: position and normal).
+// vulkan_host OUTPUT_FOLDER [--check]: draws five frames and writes the last one as picture.ppm.
+// Also writes raw numbers, rows from the top: depth.f32 (reversed depth buffer), normal.f16 (four
+// components, world space), ao.f16, and vertices.f32 (of the scene: position and normal). --check
+// fails if the validation layer reports an error or a warning.
 #include <cstdio>
 #include <cstring>
 #include <glm/gtc/packing.hpp>
@@ -20,7 +21,7 @@ namespace {
 // grisaille: begin
 namespace gr = grisaille::host;
 
-// Ambient occlusion of what the renderer draws.
+// Ambient occlusion of the renderer's scene.
 class Occlusion {
  public:
   Occlusion(const Context& context, const Renderer& renderer)
@@ -50,7 +51,7 @@ class Occlusion {
   grisaille_host_output output() const { return effect_.output("ao"); }
 
  private:
-  // The host's own loader, should it be another than libvulkan.so.1.
+  // Entry point of the loader that this program uses, which may be another than libvulkan.so.1.
   static void (*loaderEntry())() { return reinterpret_cast<void (*)()>(vkGetInstanceProcAddr); }
 
   gr::Texture wrap(const Image& image) const {
@@ -114,7 +115,8 @@ void run(const std::filesystem::path& folder, bool validate) {
     write(folder, renderer, reinterpret_cast<VkImage>(visibility.image),
           static_cast<VkImageLayout>(visibility.layout));
   }
-  if (context.complaints > 0) throw std::runtime_error("the validation layer complains");
+  if (context.complaints > 0)
+    throw std::runtime_error("the validation layer reports errors or warnings");
 }
 
 }  // namespace

@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: MIT
-// A renderer of one scene: colour, normals and depth, then a pass over the colour that takes the
-// share of the sky which each pixel sees.
+// Renders one scene: colour, normals and depth. A second pass multiplies the colour by the ambient
+// visibility.
 #pragma once
 
 #include <array>
@@ -21,19 +21,20 @@ class Renderer {
   Renderer(const Renderer&) = delete;
   Renderer& operator=(const Renderer&) = delete;
 
-  // Begins a frame, when the one so many before has finished.
+  // Begins frame `number`. Waits until the GPU has finished the frame kFramesInFlight before it.
   VkCommandBuffer begin(uint64_t number);
-  // Depth and normals are in SHADER_READ_ONLY_OPTIMAL afterwards, colour in GENERAL.
+  // Records the scene. Leaves depth and normals in SHADER_READ_ONLY_OPTIMAL, colour in GENERAL.
   void drawScene(VkCommandBuffer commands);
-  // With the share of the sky that is seen, of the size of the picture, in this layout.
+  // Records colour x visibility. visibility: of the picture's size, in this layout, read from r.
   void light(VkCommandBuffer commands, VkImageView visibility, VkImageLayout layout);
+  // Submits the frame that begin() began.
   void submit();
 
-  // Waits, then copies a picture of so many bytes a pixel out of this layout, and back into it.
+  // Waits for the device, then reads an image of the picture's size back. Restores the layout.
   std::vector<std::byte> read(VkImage image, VkImageAspectFlags aspect, VkImageLayout layout,
                               uint32_t pixelBytes);
 
-  Image depth, normal, colour;  // reversed, infinitely far at 0; world; linear
+  Image depth, normal, colour;  // reversed, 0 at the far plane; world space; linear
 
  private:
   struct Frame {

@@ -6,7 +6,7 @@ layout(location = 1) out vec4 normal;
 
 void main() {
   normal = vec4(normalize(world_normal), 0.0);
-  // A lamp far away, and the sky's light from all about.
+  // A distant lamp, and ambient light from the sky.
   const float lamp = max(dot(normal.xyz, normalize(vec3(0.5, 0.9, 0.4))), 0.0);
   colour = vec4(vec3(0.25) * lamp + vec3(0.5), 1.0);
 }

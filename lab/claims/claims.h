@@ -1,33 +1,33 @@
 // SPDX-License-Identifier: MIT
-// Study files: what is said of effects, each with the settings that show it and the numbers that
-// decide it. TOML; README.md has an example, studies/claims.toml is one.
+// Loads claims files (TOML): statements about effects, each with the settings to run and the
+// comparisons of numbers that decide it. docs/manual/lab.md and studies/claims.toml have examples.
 //
 //   title = "..."                      optional
 //   [[claim]]
 //   key = "bands"                      letters, digits, - and _; names the pictures' files
-//   text = "..."                       what is said
-//   source = "..."                     by whom
-//   note = "..."                       optional: what a reader should know of the measurement
-//   scene = "FILE.gltf"                beside the study file; without it, the built-in atrium
-//   camera = {eye = [..], ...}         as camera files have it; of a path, an array of them
-//   frames = 12                        of the path; without it, there is none
+//   text = "..."                       the statement
+//   source = "..."                     its author
+//   note = "..."                       optional: a remark on the measurement
+//   scene = "FILE.gltf"                relative to the claims file; default: the built-in atrium
+//   camera = {eye = [..], ...}         same keys as a camera file; for a path, an array of cameras
+//   frames = 12                        number of frames of the path; only with a path
 //   size = [480, 270]                  pixels
-//   radius = 0.5                       metres: of the truth's rays, and of regions
-//   distance = 10                      metres of view depth: where "near" ends
-//   effects = ["ssao"]                 that run, in order
-//   output = "ssao.ao"                 what is measured; of four channels, the last one
-//   set = ["ssao.bias=0"]              under all runs, as --set has them
-//   shots = [{origin = [..], ...}]     of paint, as files of sspm's objects have them, or the name
-//                                      of such a file
+//   radius = 0.5                       metres: length of the truth's rays, and scale of regions
+//   distance = 10                      metres of view depth: end of the region "near"
+//   effects = ["ssao"]                 effects to run, in order
+//   output = "ssao.ao"                 output to measure; of four channels, the last one
+//   set = ["ssao.bias=0"]              values for all runs, same form as --set
+//   shots = [{origin = [..], ...}]     shots of paint, same keys as a file of sspm's objects; or
+//                                      the name of such a file
 //   runs = [
-//     {name = "few", set = [..]},      further: camera; against = "NAME", the run that is right
-//   ]                                  instead of the truth; shots = 8, so many, those of the claim
-//                                      in turn; noise = "screen", splats tied to the screen
+//     {name = "few", set = [..]},      also: camera; against = "NAME", a run that replaces the
+//   ]                                  truth; shots = 8, the number of shots, which repeat those of
+//                                      the claim; noise = "screen", splats fixed to the screen
 //   expect = ["few.noise > 2 * many.noise"]    see expectation.h
 //   picture = {show = "output", crop = [x, y, width, height], zoom = 2, low = 0, high = 1}
 //
-// The truth is the ray-traced ambient visibility or, where a claim has shots, 1 where rays say that
-// one of them paints and 0 elsewhere.
+// The truth is the ray-traced ambient visibility. For a claim with shots it is the ray-traced mask
+// of their paint: 1 inside, 0 outside.
 #pragma once
 
 #include <optional>
@@ -41,25 +41,27 @@
 
 namespace grisaille::lab::claims {
 
-// What a claim's pictures show: what is measured; the composed picture; or what changes from the
-// first frame to the second one at the same point of the world and should not: for visibility, its
-// error; for paint, itself.
+// What a claim's pictures show:
+// - kOutput: the measured output;
+// - kColor: the composed picture;
+// - kChange: the unwanted change from the first frame to the second at the same point of the world,
+//   which is the change of the error for visibility, and any change for paint.
 enum class PictureKind : uint8_t { kOutput, kColor, kChange };
 
 struct PictureDesc {
   PictureKind show = PictureKind::kOutput;
   glm::uvec4 crop = glm::uvec4(0);  // x, y, width, height, pixels
-  uint32_t zoom = 1;                // pixels a side that one is drawn as, 1 ... 16
-  double low = 0, high = 1;         // that are drawn black and white; of a change, high is full
+  uint32_t zoom = 1;                // magnification, 1 ... 16
+  double low = 0, high = 1;         // drawn black and white; of a change, `high` has full colour
 };
 
 struct ClaimRun {
   std::string name;
-  std::vector<std::string> sets;       // over those of the claim
-  std::vector<scene::Camera> cameras;  // one a frame
-  std::string against;                 // "": the truth
-  uint32_t shots = 0;                  // how many
-  bool screenNoise = false;
+  std::vector<std::string> sets;       // override the claim's values
+  std::vector<scene::Camera> cameras;  // one per frame
+  std::string against;                 // run to compare with; "": the truth
+  uint32_t shots = 0;                  // number of shots
+  bool screenNoise = false;            // splats fixed to the screen
 };
 
 struct Claim {
@@ -82,17 +84,17 @@ struct ClaimsFile {
   std::vector<Claim> claims;
 };
 
-// All that can be told without rendering is checked. Throws kSettingsUnreadable and
-// kSettingsInvalid, or what a camera, a shot, an effect or its parameter is refused with, each with
-// file:line before the message.
+// Loads and checks a claims file, as far as possible without rendering. Throws kSettingsUnreadable,
+// kSettingsInvalid, and the errors of a camera, a shot, an effect or a parameter. Each message
+// starts with file:line.
 ClaimsFile loadClaims(const std::string& path, const effect::Registry& registry);
 
-// The claim's effects with its values and, where `run` is not null, that run's over them. Throws
-// kUsage and as Selection does.
+// The claim's effects with the claim's values and, unless `run` is null, the run's values. Throws
+// kUsage, and what Selection throws.
 effect::Selection selectionOf(const effect::Registry& registry, const Claim& claim,
                               const ClaimRun* run);
 
-// The same claim in pictures of `scale` times the size.
+// The same claim with all picture sizes multiplied by `scale`.
 Claim scaled(const Claim& claim, double scale);
 
 }  // namespace grisaille::lab::claims

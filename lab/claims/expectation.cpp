@@ -30,8 +30,8 @@ void requireKnown(const char* kind, const std::string& word, const Infos& infos)
   for (const auto& info : infos) keys.emplace_back(info.key);
   if (std::ranges::find(keys, word) != keys.end()) return;
   const std::string near = nearest(word, keys);
-  throw Error(ErrorId::kUsage, "'{}' is no {}{}{}", word, kind, near.empty() ? "" : ", nearest is ",
-              near);
+  throw Error(ErrorId::kUsage, "'{}' is not a {}{}{}", word, kind,
+              near.empty() ? "" : ", nearest is ", near);
 }
 
 Term termOf(const std::string& word) {
@@ -71,7 +71,7 @@ Expectation parseExpectation(const std::string& text) {
       .text = text, .left = termOf(words[0]), .op = words[1], .factor = 1, .right = {}};
   const auto number = numberOf(words[2]);
   if (words.size() == 5 && !number) {
-    throw Error(ErrorId::kUsage, "'{}' is no number, in '{}'", words[2], text);
+    throw Error(ErrorId::kUsage, "'{}' is not a number, in '{}'", words[2], text);
   }
   if (number) expectation.factor = *number;
   if (words.size() == 5 || !number) expectation.right = termOf(words.back());

@@ -1,10 +1,10 @@
 // SPDX-License-Identifier: MIT
-// What a claim says of its runs, as comparisons of numbers:
+// Expectations: comparisons of numbers that decide a claim.
 //
 //   RUN.METRIC[@REGION+...] OPERATOR [FACTOR *] RUN.METRIC[@REGION+...]
 //   RUN.METRIC[@REGION+...] OPERATOR NUMBER
 //
-// with <, <=, > or >= for OPERATOR and a space between all words: "a.noise@flat > 1.5 * b.noise".
+// OPERATOR is <, <=, > or >=. Spaces separate all words: "a.noise@flat > 1.5 * b.noise".
 #pragma once
 
 #include <functional>
@@ -19,22 +19,21 @@ struct Term {
   std::string region = "all";
 
   bool operator==(const Term&) const = default;
-  std::string quantity() const;  // "noise@flat", or "noise" for all of the picture
+  std::string quantity() const;  // "noise@flat"; "noise" for the region "all"
 };
 
 struct Expectation {
-  std::string text;  // as it was given
+  std::string text;  // as written in the file
   Term left;
   std::string op;
-  double factor = 1;          // of the right hand term, or, without one, the number itself
-  std::optional<Term> right;  // none: the left hand is compared with a number
+  double factor = 1;          // multiplies the right-hand term; without a term, the number itself
+  std::optional<Term> right;  // none: compares with the number `factor`
 };
 
-// Throws Error(kUsage) for what is not of that form or names a metric or a region that there is
-// not.
+// Throws kUsage if the text does not have this form, or names an unknown metric or region.
 Expectation parseExpectation(const std::string& text);
 
-// With what the terms came to. False where a number is NaN.
+// Whether the expectation holds, with `value` for the terms' values. False if a value is NaN.
 bool holds(const Expectation& expectation, const std::function<double(const Term&)>& value);
 
 }  // namespace grisaille::lab::claims

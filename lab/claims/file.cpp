@@ -22,19 +22,19 @@ namespace fs = std::filesystem;
 constexpr uint32_t kMostShots = 65536;
 constexpr uint32_t kLargestSide = 4096;  // pixels
 
-// Calls `work` and puts the place before what it throws.
+// Calls `work`, and puts `place` before the message of an error that it throws.
 template <typename Work>
 auto at(const std::string& place, const Work& work) {
   try {
     return work();
   } catch (const Error& error) {
-    // What a file says is no command line.
+    // An error in a file is not an error of the command line.
     const ErrorId id = error.id() == ErrorId::kUsage ? ErrorId::kSettingsInvalid : error.id();
     throw Error(id, "{}: {}", place, error.detail());
   }
 }
 
-// Letters, digits, - and _.
+// Throws unless `name` has 1 to 60 letters, digits, - and _.
 void requireName(TomlTable& table, const std::string& key, const std::string& name) {
   const auto good = [](char c) {
     return (c >= 'a' && c <= 'z') || (c >= 'A' && c <= 'Z') || (c >= '0' && c <= '9') || c == '-' ||
@@ -55,13 +55,14 @@ scene::Camera cameraOf(const TomlTable& owner, const toml::table& table) {
   return scene::parseCamera(jsonOf(table), owner.placeOf(table));
 }
 
-// One a frame. `frames`: 1 for none but the first.
+// The cameras of `frames` frames, one per frame. 1: a picture, not a path.
 std::vector<scene::Camera> camerasOf(TomlTable& table, uint32_t frames) {
   std::vector<scene::Camera> keys;
   for (const toml::table* one : table.tables("camera")) keys.push_back(cameraOf(table, *one));
   const toml::node& node = table.require("camera");
   if ((frames > 1) != (keys.size() > 1)) {
-    table.refuse(node, "a path takes two cameras or more and 'frames', a picture one camera");
+    table.refuse(node,
+                 "a path needs at least two cameras and 'frames'; a picture needs one camera");
   }
   if (frames == 1) return keys;
   return at(table.placeOf(node), [&] { return scene::camerasOf({keys, frames}); });
@@ -87,35 +88,37 @@ PictureDesc pictureOf(TomlTable& owner, const Claim& claim, bool alongPath) {
   desc.crop = {0, 0, claim.size};
   const toml::node* node = owner.find("picture");
   if (node == nullptr) return desc;
-  if (node->as_table() == nullptr) owner.refuse(*node, "'picture' is no table");
+  if (node->as_table() == nullptr) owner.refuse(*node, "'picture' is not a table");
   TomlTable table(owner.file(), *node->as_table());
   const std::string show = table.text("show", "output");
   if (show != "output" && show != "color" && show != "change") {
-    table.refuse(*node, "'show' is none of output, color and change");
+    table.refuse(*node, "'show' is not output, color or change");
   }
   desc.show = show == "color"    ? PictureKind::kColor
               : show == "change" ? PictureKind::kChange
                                  : PictureKind::kOutput;
-  if (desc.show == PictureKind::kChange && !alongPath) table.refuse(*node, "a change takes a path");
+  if (desc.show == PictureKind::kChange && !alongPath)
+    table.refuse(*node, "'show' is change, which needs a path of cameras");
   if (const std::vector<double> crop = table.numbers("crop", 4); !crop.empty()) {
     for (int i = 0; i < 4; ++i) {
       const double value = crop[static_cast<size_t>(i)];
       const double room = i < 2 ? 0 : claim.size[i - 2] - crop[static_cast<size_t>(i) - 2];
       const bool good = value == std::floor(value) && value >= (i < 2 ? 0 : 1) &&
                         (i < 2 ? value < claim.size[i] : value <= room);
-      if (!good) table.refuse(*node, "'crop' is no rectangle of whole pixels in the picture");
+      if (!good)
+        table.refuse(*node, "'crop' is not a rectangle of whole pixels inside the picture");
       desc.crop[i] = static_cast<uint32_t>(value);
     }
   }
   desc.zoom = table.whole("zoom", 1, 1, 16);
   desc.low = table.number("low", 0, -1e6, 1e6);
   desc.high = table.number("high", desc.show == PictureKind::kChange ? 0.25 : 1, -1e6, 1e6);
-  if (!(desc.low < desc.high)) table.refuse(*node, "'low' is not under 'high'");
+  if (!(desc.low < desc.high)) table.refuse(*node, "'low' is not less than 'high'");
   table.finish();
   return desc;
 }
 
-// What is left to check of a run once all of the claim is read: what its effects say of it.
+// Checks a run's values and output with its effects, after the whole claim is read.
 void checkRun(const TomlTable& table, const Claim& claim, const ClaimRun& run,
               const effect::Registry& registry) {
   at(table.place(),
@@ -138,11 +141,11 @@ ClaimRun runOf(TomlTable& table, const Claim& claim, const std::vector<scene::Ca
   }
   const std::string noise = table.text("noise", "world");
   if (noise != "world" && noise != "screen") {
-    table.refuse(table.require("noise"), "'noise' is neither world nor screen");
+    table.refuse(table.require("noise"), "'noise' is not world or screen");
   }
   run.screenNoise = noise == "screen";
   if (run.screenNoise && claim.output != "sspm.paint") {
-    table.refuse(table.require("noise"), "only the output sspm.paint has splats");
+    table.refuse(table.require("noise"), "'noise' is screen, which needs the output sspm.paint");
   }
   table.finish();
   return run;
@@ -163,8 +166,9 @@ void addRuns(TomlTable& owner, Claim& claim, const std::vector<scene::Camera>& c
     if (run.against.empty()) continue;
     const auto right = std::ranges::find(claim.runs, run.against, &ClaimRun::name);
     if (right == claim.runs.end()) {
-      owner.refuse(owner.require("runs"),
-                   fmt::format("run '{}' is against '{}', which is no run", run.name, run.against));
+      owner.refuse(
+          owner.require("runs"),
+          fmt::format("run '{}' is against '{}', but no run has that name", run.name, run.against));
     }
   }
 }
@@ -182,14 +186,14 @@ void addExpectations(TomlTable& table, Claim& claim, bool alongPath) {
          {&expectation.left, expectation.right ? &*expectation.right : nullptr}) {
       if (term == nullptr) continue;
       if (std::ranges::find(claim.runs, term->run, &ClaimRun::name) == claim.runs.end()) {
-        table.refuse(line, fmt::format("'{}' is no run of this claim", term->run));
+        table.refuse(line, fmt::format("this claim has no run '{}'", term->run));
       }
       if (findMetric(term->metric)->alongPath && !alongPath) {
-        table.refuse(line, fmt::format("'{}' takes a camera path", term->metric));
+        table.refuse(line, fmt::format("'{}' needs a path of cameras", term->metric));
       }
       if (claim.shots.empty() &&
           (term->metric == "mask_outside" || term->region.find("painted") != std::string::npos)) {
-        table.refuse(line, fmt::format("'{}' takes shots", term->quantity()));
+        table.refuse(line, fmt::format("'{}' needs shots", term->quantity()));
       }
     }
     claim.expectations.push_back(expectation);

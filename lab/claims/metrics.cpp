@@ -13,34 +13,34 @@ namespace grisaille::lab::claims {
 namespace {
 
 constexpr double kNone = std::numeric_limits<double>::quiet_NaN();
-constexpr uint32_t kSquare = 4;      // pixels a side: the noise's pattern holds every rotation once
+constexpr uint32_t kSquare = 4;      // pixels per side: holds each rotation of the pattern once
 constexpr uint32_t kMaskMargin = 2;  // pixels
 
 constexpr std::array kMetrics = {
-    MetricInfo{"mean", "mean of what is shown", false, false},
+    MetricInfo{"mean", "mean of the output", false, false},
     MetricInfo{"bias", "mean error", false, false},
     MetricInfo{"rmse", "root mean square error", false, false},
     MetricInfo{"noise",
-               "the error's standard deviation within 4x4 pixels, rms over all such squares that "
-               "lie in the region: what a 4x4 blur takes away",
+               "standard deviation of the error within 4x4 pixels, rms over all squares in the "
+               "region; a 4x4 blur removes it",
                false, false},
-    MetricInfo{"bands", "rms of the error's mean over 4x4 pixels: what such a blur leaves", false,
+    MetricInfo{"bands", "rms of the error's mean over 4x4 pixels; a 4x4 blur leaves it", false,
                false},
     MetricInfo{"flicker",
-               "rms change of the error at the same point of the world from frame to frame", true,
+               "rms change of the error from frame to frame, at the same point of the world", true,
                false},
     MetricInfo{"swim",
-               "rms change of what is shown at the same point of the world from frame to frame",
-               true, false},
-    MetricInfo{"moving_rmse", "root mean square error along the path, but for its first frame",
+               "rms change of the output from frame to frame, at the same point of the world", true,
+               false},
+    MetricInfo{"moving_rmse", "root mean square error along the path, without its first frame",
                true, false},
     MetricInfo{"mask_outside",
-               "share of the painted pixels (alpha over 1/2) that are more than 2 pixels from what "
-               "rays say is painted",
+               "share of the painted pixels (alpha over 1/2) that lie more than 2 pixels outside "
+               "the ray-traced mask",
                false, false},
-    MetricInfo{"milliseconds", "cost of the effects' passes, median of the rounds", false, true}};
+    MetricInfo{"milliseconds", "time of the effects' passes, median of the rounds", false, true}};
 
-// NaN beside the region.
+// The picture with NaN outside the region.
 image::Image inRegion(const image::Image& picture, const std::vector<uint8_t>& region) {
   image::Image result = picture;
   for (size_t i = 0; i < region.size(); ++i) {
@@ -49,8 +49,8 @@ image::Image inRegion(const image::Image& picture, const std::vector<uint8_t>& r
   return result;
 }
 
-// Of all 4x4 squares that lie in the region: the mean square of the error's mean over a square, and
-// the mean of the error's variance within one.
+// Over all 4x4 squares inside the region: the mean square of the error's mean over a square, and
+// the mean of the error's variance within a square.
 struct Squares {
   double means = 0, variances = 0;
   uint64_t count = 0;
@@ -77,7 +77,7 @@ Squares squaresOf(const image::Image& shown, const image::Image& reference) {
   return result;
 }
 
-// Where what is shown is in the region.
+// Frame-to-frame change inside the region: of the error, or of the output itself.
 trace::Flicker changeAlong(const Evidence& evidence, bool ofError) {
   for (size_t i = 0; i < evidence.frames.size(); ++i) {
     trace::FlickerFrame& frame = evidence.frames[i];

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: MIT
-// Numbers that claims are made of, by name.
+// The metrics that expectations compare, by name.
 #pragma once
 
 #include <cstdint>
@@ -14,25 +14,25 @@ namespace grisaille::lab::claims {
 struct MetricInfo {
   const char* key;
   const char* meaning;  // for reports
-  bool alongPath;       // over all frames of a camera path; else of the first frame alone
-  bool timed;           // of the machine as much as of the setting
+  bool alongPath;       // over all frames of a camera path; else only over the first frame
+  bool timed;           // depends on the machine as well as the settings
 };
 
 // Every metric that a claim can name.
 std::span<const MetricInfo> metrics();
 
-// Null: there is none of this name.
+// Null if no metric has this name.
 const MetricInfo* findMetric(std::string_view key);
 
-// What a run showed, one element a frame of its camera path. Pictures have one channel.
+// The results of a run, one element per frame of its camera path. Pictures have one channel.
 struct Evidence {
-  std::vector<trace::FlickerFrame>& frames;      // the rays' hits; `ao` and `truth` are used up
-  std::span<const image::Image> shown;           // what is measured
-  std::span<const image::Image> reference;       // what is right
+  std::vector<trace::FlickerFrame>& frames;      // the rays' hits; metrics overwrite ao and truth
+  std::span<const image::Image> shown;           // the measured output
+  std::span<const image::Image> reference;       // the truth, or another run's output
   std::span<const std::vector<uint8_t>> region;  // 1: the pixel counts
 };
 
-// NaN where no pixel counts. `metric` is one of metrics() and not timed.
+// NaN if no pixel counts. `metric` is the key of a metric that is not timed.
 double measured(std::string_view metric, const Evidence& evidence);
 
 }  // namespace grisaille::lab::claims

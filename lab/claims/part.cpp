@@ -56,7 +56,7 @@ void saveClaim(const fs::path& folder, const std::string& key, const ClaimResult
   }
   const std::vector<uint8_t> bytes = json::to_cbor(all);
   std::error_code failed;
-  fs::create_directories(folder, failed);  // else the next line says so
+  fs::create_directories(folder, failed);  // on failure, the next line throws
   writeFileAtomically(partOf(folder, key).string(),
                       {reinterpret_cast<const char*>(bytes.data()), bytes.size()});
 }
@@ -81,7 +81,7 @@ std::optional<ClaimResult> loadClaim(const fs::path& folder, const std::string& 
     }
     return result;
   } catch (const json::exception&) {
-    return std::nullopt;  // damaged: it is measured again
+    return std::nullopt;  // damaged: the claim is measured again
   }
 }
 

@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: MIT
-// What a claim was measured to be, kept until the report is written: claims take minutes, and a run
-// that is interrupted or killed goes on from those that it had done.
+// Saves each claim's result until the report is written. Claims take minutes, and an interrupted
+// command goes on after the claims that it has finished.
 #pragma once
 
 #include <filesystem>
@@ -10,12 +10,12 @@
 
 namespace grisaille::lab::claims {
 
-// `key` says all that the result depends on. Throws kFileUnwritable.
+// `key` is a text that contains everything that the result depends on. Throws kFileUnwritable.
 void saveClaim(const std::filesystem::path& folder, const std::string& key,
                const ClaimResult& result);
 
-// None where there is no whole result of this key. Throws kStudyRecord where its file is no regular
-// file.
+// None if there is no complete result with this key. Throws kStudyRecord if the file is not a
+// regular file.
 std::optional<ClaimResult> loadClaim(const std::filesystem::path& folder, const std::string& key);
 
 }  // namespace grisaille::lab::claims

@@ -12,7 +12,7 @@ namespace {
 
 const glm::vec3 kSky(0.8f, 0.9f, 1.0f);  // sRGB
 
-// sRGB from 0 to 1.
+// The colour of a pixel, sRGB, 0 to 1.
 glm::vec3 colorAt(const image::Image& picture, uint32_t x, uint32_t y, const PictureDesc& desc) {
   if (picture.channels >= 3) {
     const glm::vec3 linear(picture.at(x, y, 0), picture.at(x, y, 1), picture.at(x, y, 2));
@@ -47,7 +47,7 @@ image::Image8 changePicture(const trace::FlickerFrame& now, const trace::Flicker
                             const PictureDesc& desc) {
   image::Image map =
       app::truth::errorMap(trace::changeBetween(now, then), static_cast<float>(desc.high));
-  // The map's colours are as they are to be seen; pictureOf() takes linear light.
+  // The map's colours are sRGB encoded; pictureOf() takes linear colours.
   for (float& value : map.pixels) value = glm::convertSRGBToLinear(glm::vec1(value)).x;
   return pictureOf(map, desc);
 }

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: MIT
-// Pictures of claims: a part, magnified, each pixel a square.
+// Pictures of claims: a magnified crop, with each pixel drawn as a square.
 #pragma once
 
 #include "core/image/image.h"
@@ -8,12 +8,12 @@
 
 namespace grisaille::lab::claims {
 
-// One channel: `low` is drawn black and `high` white, NaN light blue. Three or four: colour, linear
-// light, drawn sRGB encoded.
+// One channel: `low` is drawn black, `high` white and NaN light blue. Three or four channels:
+// linear colour, drawn sRGB encoded.
 image::Image8 pictureOf(const image::Image& picture, const PictureDesc& desc);
 
-// What changes from one frame to the next at the same point of the world, against the truth: blue
-// darker, orange brighter, full at `high`; grey where the point is not seen twice.
+// The change of the error from one frame to the next at the same point of the world: blue darker,
+// orange brighter, full colour at `high`; grey if the point is not seen in both frames.
 image::Image8 changePicture(const trace::FlickerFrame& now, const trace::FlickerFrame& then,
                             const PictureDesc& desc);
 

@@ -13,26 +13,26 @@ namespace {
 using Mask = std::vector<uint8_t>;
 
 constexpr uint32_t kFlatMargin = 8, kEdgeMargin = 4, kConvexMargin = 3;
-constexpr double kOpen = 0.99;       // of the truth
-constexpr double kJump = 0.1;        // by the radius
+constexpr double kOpen = 0.99;       // least truth of `open`
+constexpr double kJump = 0.1;        // depth edge, radii
 constexpr double kSameFacet = 10;    // degrees
 constexpr double kConvexAngle = 30;  // degrees
 
 constexpr std::array kRegions = {
     RegionInfo{"all", "every pixel that sees a surface"},
     RegionInfo{"open", "truth of at least 0.99"},
-    RegionInfo{"painted", "rays say that a shot paints there"},
-    RegionInfo{"flat", "no edge of depth, nor one of facets of over 10 degrees, within 8 pixels"},
+    RegionInfo{"painted", "inside the ray-traced mask of the paint"},
+    RegionInfo{"flat", "no depth edge, and no edge of facets over 10 degrees, within 8 pixels"},
     RegionInfo{"edges",
-               "within 4 pixels of an edge of depth: neighbours that are a tenth of the "
-               "radius off each other's planes"},
-    RegionInfo{"convex", "within 3 pixels of an edge where facets fall away by over 30 degrees"},
+               "within 4 pixels of a depth edge: neighbours a tenth of the radius off each other's "
+               "planes"},
+    RegionInfo{"convex", "within 3 pixels of an edge at which facets fall away by over 30 degrees"},
     RegionInfo{
         "behind",
-        "open, and as near on the screen as the radius reaches to the outline of something that "
-        "is nearer by more than that"},
+        "open, and as near on the screen as the radius reaches to the silhouette of an object that "
+        "is nearer by more than the radius"},
     RegionInfo{"near", "view depth up to the claim's distance"},
-    RegionInfo{"far", "view depth over it"}};
+    RegionInfo{"far", "view depth over the claim's distance"}};
 
 bool seen(const trace::Hit& hit) {
   return hit.viewDepth > 0;
@@ -42,7 +42,7 @@ double degreesBetween(const trace::Hit& a, const trace::Hit& b) {
   return glm::degrees(std::acos(std::clamp(glm::dot(a.facetNormal, b.facetNormal), -1.0, 1.0)));
 }
 
-// How far the other hit is before a hit's plane, metres.
+// Height of `other` above the plane of the hit `plane`, in metres.
 double height(const trace::Hit& plane, const trace::Hit& other) {
   return glm::dot(plane.facetNormal, other.position - plane.position);
 }
@@ -61,7 +61,7 @@ bool fallsAway(const trace::Hit& a, const trace::Hit& b, double radius) {
          height(a, b) < 0 && height(b, a) < 0;
 }
 
-// Calls f(p, q) for each two neighbours of a row or a column.
+// Calls f(p, q) for every pair of neighbours in a row or a column.
 template <typename F>
 void eachPair(const trace::FlickerFrame& frame, const F& f) {
   const size_t width = frame.truth.width, height = frame.truth.height;
@@ -74,7 +74,7 @@ void eachPair(const trace::FlickerFrame& frame, const F& f) {
   }
 }
 
-// Both of each two neighbours that `test` holds for, widened.
+// Both pixels of every pair of neighbours for which `test` holds, widened by `margin`.
 template <typename Test>
 Mask about(const trace::FlickerFrame& frame, uint32_t margin, const Test& test) {
   Mask mask(frame.hits.size(), 0);
@@ -84,7 +84,7 @@ Mask about(const trace::FlickerFrame& frame, uint32_t margin, const Test& test) 
   return widened(mask, frame.truth.width, frame.truth.height, margin);
 }
 
-// Where points of the radius, about what a pixel sees, reach across the outline on the screen.
+// Pixels whose radius, projected to the screen, reaches across a silhouette.
 Mask openBehind(const trace::FlickerFrame& frame, double radius) {
   const auto width = static_cast<int>(frame.truth.width),
              height = static_cast<int>(frame.truth.height);
@@ -95,7 +95,7 @@ Mask openBehind(const trace::FlickerFrame& frame, double radius) {
     const trace::Hit &a = frame.hits[p], &b = frame.hits[q];
     if (!seen(a) || !seen(b) || !jumps(a, b, radius)) return;
     const double behind = std::min(a.viewDepth, b.viewDepth) + radius;
-    // What lies behind is farther, and points about it reach less far.
+    // The surface behind is farther: its radius covers fewer pixels.
     const int margin = static_cast<int>(std::min(radius * scale / behind, 16384.0));
     const int x = static_cast<int>(p) % width, y = static_cast<int>(p) / width;
     for (int v = std::max(y - margin, 0); v <= std::min(y + margin, height - 1); ++v) {
@@ -164,7 +164,7 @@ Mask regionOf(std::string_view names, const trace::FlickerFrame& frame, const Re
 }
 
 Mask widened(const Mask& mask, uint32_t width, uint32_t height, uint32_t margin) {
-  // Along the rows, then along the columns.
+  // First along the rows, then along the columns.
   const auto along = [margin](const Mask& from, size_t lines, size_t count, size_t line,
                               size_t step) {
     Mask to(from.size(), 0);

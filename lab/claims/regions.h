@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: MIT
-// Parts of a picture that claims speak of, by name, as rays find them.
+// The regions of a picture that expectations name. Rays through the scene determine them.
 #pragma once
 
 #include <cstdint>
@@ -26,11 +26,11 @@ struct RegionScale {
   double distance = 10;  // where "near" ends and "far" begins, view depth
 };
 
-// 1 for each pixel of the frame that lies in all of `names`, which are joined by "+" and known.
+// 1 for each pixel of the frame that lies in all of `names`, known regions joined by "+".
 std::vector<uint8_t> regionOf(std::string_view names, const trace::FlickerFrame& frame,
                               const RegionScale& scale);
 
-// 1 for all pixels within a square of `margin` pixels about a pixel of the mask.
+// 1 for all pixels at most `margin` rows and columns from a pixel of the mask.
 std::vector<uint8_t> widened(const std::vector<uint8_t>& mask, uint32_t width, uint32_t height,
                              uint32_t margin);
 

@@ -21,13 +21,13 @@ std::string numberText(double value) {
   return fmt::format("{:.3g}", value);
 }
 
-// Of every backend, once where they agree to three digits.
+// The texts of all backends, or a single one if all are equal.
 std::string onBackends(const std::vector<std::string>& texts) {
   const bool same = std::ranges::all_of(texts, [&](const auto& t) { return t == texts[0]; });
   return same ? texts[0] : fmt::format("{}", fmt::join(texts, " / "));
 }
 
-// One text of each backend's result of a claim.
+// The text that `f` returns for each backend's result of a claim.
 template <typename F>
 std::string each(const ClaimsReport& report, size_t claim, const F& f) {
   std::vector<std::string> texts;
@@ -42,9 +42,9 @@ std::string backendNames(const ClaimsReport& report) {
   return names;
 }
 
-using Rows = std::vector<std::vector<std::string>>;  // the first one is the header
+using Rows = std::vector<std::vector<std::string>>;  // the first row is the header
 
-// What a claim's runs are set to and what they came to.
+// The settings and numbers of a claim's runs.
 Rows numbersOf(const ClaimsReport& report, size_t claim) {
   const ClaimResult& first = report.backends[0].results[claim];
   Rows rows = {{"run", "settings"}};
@@ -56,7 +56,7 @@ Rows numbersOf(const ClaimsReport& report, size_t claim) {
     };
     if (run.shots != report.file.claims[claim].shots.size())
       add(fmt::format("{} shots", run.shots));
-    if (run.screenNoise) add("splats tied to the screen");
+    if (run.screenNoise) add("splats fixed to the screen");
     if (!run.against.empty()) add("errors against " + run.against);
     rows.push_back({run.name, settings});
     for (const auto& [quantity, value] : first.values.begin()->second) {
@@ -84,7 +84,7 @@ Rows expectationsOf(const ClaimsReport& report, size_t claim) {
 }
 
 Rows verdictsOf(const ClaimsReport& report) {
-  Rows rows = {{"claim", "what is said", backendNames(report)}};
+  Rows rows = {{"claim", "statement", backendNames(report)}};
   for (size_t i = 0; i < report.file.claims.size(); ++i) {
     const Claim& claim = report.file.claims[i];
     rows.push_back({claim.key, claim.text, each(report, i, [](const ClaimResult& r) -> std::string {
@@ -94,7 +94,7 @@ Rows verdictsOf(const ClaimsReport& report) {
   return rows;
 }
 
-// What the numbers' names mean, of those that are used.
+// The meanings of the metrics and regions that the claims use.
 Rows meaningsOf(const ClaimsReport& report) {
   std::set<std::string> used;
   for (const Claim& claim : report.file.claims) {
@@ -111,7 +111,7 @@ Rows meaningsOf(const ClaimsReport& report) {
       }
     }
   }
-  Rows rows = {{"name", "what it is"}};
+  Rows rows = {{"name", "meaning"}};
   for (const MetricInfo& metric : metrics()) {
     if (used.contains(metric.key)) rows.push_back({metric.key, metric.meaning});
   }
@@ -135,7 +135,7 @@ std::string pictureFile(const Claim& claim, size_t row, const std::string& name)
   return fmt::format("pictures/claims/{}-{}{}.png", claim.key, name, name == "truth" ? number : "");
 }
 
-// How reports lay out, in one markup or the other.
+// The markup of a report: Markdown or HTML.
 class Markup {
  public:
   virtual ~Markup() = default;
@@ -216,17 +216,17 @@ class Html : public Markup {
   }
 };
 
-// How the pictures are to be read; "": as they are.
+// A caption that explains the pictures; "" if none is needed.
 std::string captionOf(const Claim& claim) {
   const PictureDesc& desc = claim.picture;
   if (desc.show == PictureKind::kChange) {
     return fmt::format(
-        "Pictures: what changes from the first frame to the second at the same point of the world: "
-        "orange more, blue less, full at {}.",
+        "Pictures: change from the first frame to the second at the same point of the world. "
+        "Orange is more, blue is less; the colour is full at {}.",
         desc.high);
   }
   if (!claim.shots.empty())
-    return "Pictures: of the truth, white is where rays say there is paint.";
+    return "Pictures: in the truth, white is the ray-traced mask of the paint.";
   if (desc.low == 0 && desc.high == 1) return "";
   return fmt::format("Pictures: {} is black and {} white.", desc.low, desc.high);
 }
@@ -259,7 +259,7 @@ std::string reportText(const ClaimsReport& report, const Markup& markup) {
                      markup.code(report.command) + markup.paragraph(aboutOf(report)) +
                      markup.table(verdictsOf(report));
   for (size_t i = 0; i < report.file.claims.size(); ++i) text += claimText(report, i, markup);
-  return text + markup.heading(2, "What the numbers are") + markup.table(meaningsOf(report));
+  return text + markup.heading(2, "Metrics and regions") + markup.table(meaningsOf(report));
 }
 
 json jsonOf(const ClaimsReport& report) {

@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: MIT
-// What became of claims, as files: claims.html, which needs nothing besides itself; claims.md with
-// its pictures in pictures/claims/; claims.json.
+// Writes the report: claims.html, which embeds its pictures; claims.md with its pictures in
+// pictures/claims/; claims.json.
 #pragma once
 
 #include <filesystem>
@@ -13,13 +13,13 @@ namespace grisaille::lab::claims {
 
 struct ClaimsOfBackend {
   std::string backend, device, driver, clock;
-  std::vector<ClaimResult> results;  // one a claim
+  std::vector<ClaimResult> results;  // one per claim
 };
 
 struct ClaimsReport {
   ClaimsFile file;
   std::string command, machine, commit;
-  std::vector<ClaimsOfBackend> backends;  // pictures are the first one's
+  std::vector<ClaimsOfBackend> backends;  // the report shows the first one's pictures
 };
 
 // "holds" or "does not hold".

@@ -19,11 +19,11 @@
 
 namespace grisaille::lab::claims {
 
-// What rays find along one run's cameras.
+// The ray-traced frames along one path of cameras.
 struct ClaimsRunner::View {
   std::vector<scene::Camera> cameras;
   std::vector<trace::FlickerFrame> frames;
-  std::vector<image::Image> truth;  // one a frame
+  std::vector<image::Image> truth;  // one per frame
   std::map<std::string, std::vector<std::vector<uint8_t>>> regions;
 };
 
@@ -31,12 +31,12 @@ struct ClaimsRunner::Run {
   const ClaimRun* desc = nullptr;
   effect::Chain chain;
   View* view = nullptr;
-  std::vector<image::Image> shown;  // one a frame, one channel
-  image::Image color;               // composed, of the last frame
+  std::vector<image::Image> shown;  // the measured output, one per frame, one channel
+  image::Image color;               // the composed picture of the last frame
   std::vector<double> milliseconds;
 };
 
-// One claim on one device.
+// Measures one claim on one device.
 class ClaimsRunner::Stage {
  public:
   Stage(const ClaimsDesc& desc, const Claim& claim, gpu::Device& device, const scene::Scene& scene)
@@ -78,7 +78,7 @@ bool ClaimResult::holds() const {
   return std::ranges::all_of(expectations, &ExpectationResult::holds);
 }
 
-// With the truth: visibility, or where shots paint.
+// Traces a frame with its truth: ambient visibility, or the mask of paint.
 trace::FlickerFrame ClaimsRunner::Stage::frameOf(const scene::Camera& camera) const {
   if (claim_.shots.empty()) {
     return app::study::traceFrame(scene_, camera, claim_.size, claim_.radius, desc_.samples,
@@ -142,8 +142,8 @@ void ClaimsRunner::Stage::render(Run& run, const scene::Camera& camera,
                     .services = services_.all()});
 }
 
-// The effect's own splats, but for the size of a cell: what it is on the screen at the middle of
-// the first frame.
+// The effect's own splats, with a cell size in pixels: the size of the effect's cells on the
+// screen, at the middle of the first frame.
 ScreenSplats ClaimsRunner::Stage::splatsOf(Run& run) const {
   const effect::Values& values = run.chain.selection.values("sspm");
   const trace::FlickerFrame& first = run.view->frames[0];
@@ -152,7 +152,7 @@ ScreenSplats ClaimsRunner::Stage::splatsOf(Run& run) const {
   const double depth = first.hits[middle].viewDepth;
   if (depth == 0) {
     throw Error(ErrorId::kSettingsInvalid,
-                "{}: splats tied to the screen take a surface in the picture's middle",
+                "{}: noise = \"screen\" needs a surface in the middle of the picture",
                 claim_.place);
   }
   return {.cell = values.get("splat_scale") * projection.scale() / depth,
@@ -189,7 +189,7 @@ void ClaimsRunner::Stage::timeAll() {
   for (uint32_t round = 0; round < desc_.rounds; ++round) {
     for (Run& run : runs_) {
       const std::vector<std::string> outputs = {claim_.output};
-      render(run, run.view->cameras[0], outputs);  // what it needs is made outside the clock
+      render(run, run.view->cameras[0], outputs);  // creates resources before the measurement
       device_.wait();
       device_.takeTimes();
       render(run, run.view->cameras[0], outputs);
@@ -205,7 +205,7 @@ const std::vector<image::Image>& ClaimsRunner::Stage::referenceOf(const Run& run
   for (const Run& other : runs_) {
     if (other.desc->name != run.desc->against) continue;
     if (other.view == run.view) return other.shown;
-    throw Error(ErrorId::kSettingsInvalid, "{}: '{}' is against a run of another camera",
+    throw Error(ErrorId::kSettingsInvalid, "{}: '{}' is against a run with another camera",
                 claim_.place, run.desc->name);
   }
   return run.view->truth;
@@ -216,7 +216,7 @@ const std::vector<std::vector<uint8_t>>& ClaimsRunner::Stage::regionOn(
   auto [found, fresh] = view.regions.try_emplace(names);
   for (size_t i = 0; fresh && i < view.frames.size(); ++i) {
     trace::FlickerFrame& frame = view.frames[i];
-    frame.truth = view.truth[i];  // metrics use it up
+    frame.truth = view.truth[i];  // metrics overwrite it
     found->second.push_back(
         regionOf(names, frame, {.radius = claim_.radius, .distance = claim_.distance}));
   }
@@ -241,7 +241,7 @@ ClaimResult ClaimsRunner::Stage::judge() {
     }
     const double value = result.values[term.run][term.quantity()];
     if (!std::isnan(value)) return;
-    throw Error(ErrorId::kSettingsInvalid, "{}: {}.{} has no pixels to be over", claim_.place,
+    throw Error(ErrorId::kSettingsInvalid, "{}: the region of {}.{} has no pixels", claim_.place,
                 term.run, term.quantity());
   };
   const auto value = [&](const Term& term) { return result.values[term.run][term.quantity()]; };
@@ -265,7 +265,7 @@ std::vector<PictureRow> ClaimsRunner::Stage::pictures() {
   for (const auto& view : views_) {
     PictureRow row;
     if (desc.show != PictureKind::kChange) {
-      // Of the last frame, which knows those before.
+      // The last frame, whose history holds the earlier frames.
       row.push_back({"truth", pictureOf(view->truth.back(), desc)});
     }
     for (Run& run : runs_) {
@@ -275,7 +275,7 @@ std::vector<PictureRow> ClaimsRunner::Stage::pictures() {
         for (size_t i = 0; i < 2; ++i) {
           frames[i].ao = run.shown[i];
           frames[i].truth = referenceOf(run)[i];
-          // Paint belongs to the world: all of its change is wrong.
+          // Paint is fixed in the world: every change is an error.
           if (!claim_.shots.empty()) std::ranges::fill(frames[i].truth.pixels, 0.0f);
         }
         row.push_back({run.desc->name, changePicture(frames[0], frames[1], desc)});

@@ -10,47 +10,48 @@
 #include "app/truth/progress.h"
 #include "core/gpu/device.h"
 #include "core/image/image.h"
+#include "core/scene/scene.h"
 #include "lab/claims/claims.h"
 
 namespace grisaille::lab::claims {
 
 struct ClaimPicture {
-  std::string name;  // of a run, or "truth"
+  std::string name;  // a run's name, or "truth"
   image::Image8 picture;
 };
 
-// What the runs of one camera show, the truth first where the pictures show what is measured.
+// Pictures of all runs with one camera. The truth comes first, unless the pictures show changes.
 using PictureRow = std::vector<ClaimPicture>;
 
 struct ExpectationResult {
   double left = 0,
-         right = 0;  // the right hand without its factor; the number where there is no term
+         right = 0;  // right-hand term without its factor; without a term, the number
   bool holds = false, timed = false;
 };
 
 struct ClaimResult {
-  // By run, then by quantity: every quantity that an expectation names, of every run of the claim.
+  // By run, then by quantity: all quantities that an expectation names, for all runs of the claim.
   std::map<std::string, std::map<std::string, double>> values;
   std::vector<ExpectationResult> expectations;  // as the claim lists them
   std::vector<PictureRow> pictures;
 
-  bool holds() const;  // all expectations do
+  bool holds() const;  // whether all expectations hold
 };
 
 struct ClaimsDesc {
   const effect::Registry* registry = nullptr;
-  uint32_t samples = 256;  // the truth's rays a pixel
-  uint32_t rounds = 5;     // how often a cost is measured, all runs in turn
-  app::truth::ProgressStyle progress = app::truth::ProgressStyle::kNone;  // while rays are cast
+  uint32_t samples = 256;  // the truth's rays per pixel
+  uint32_t rounds = 5;     // times that each run's cost is measured; runs take turns
+  app::truth::ProgressStyle progress = app::truth::ProgressStyle::kNone;  // of ray casting
 };
 
 class ClaimsRunner {
  public:
-  // The device times its passes. It outlives this.
+  // `device` must time its passes and outlive this object.
   ClaimsRunner(const ClaimsDesc& desc, gpu::Device& device);
   ~ClaimsRunner();
 
-  // Throws kSettingsInvalid where a region has no pixels, kScene*, app::truth::Interrupted.
+  // Throws kSettingsInvalid if a region has no pixels, kScene*, app::truth::Interrupted.
   ClaimResult run(const Claim& claim);
 
  private:

@@ -9,7 +9,7 @@ namespace {
 
 constexpr uint32_t kOctaves = 3;
 
-// Uniform in [0, 1) and the same for the same three numbers.
+// A hash of three numbers, uniform in [0, 1).
 double hashUnit(int64_t x, int64_t y, uint64_t seed) {
   uint64_t bits = static_cast<uint64_t>(x) * 0x9e3779b97f4a7c15u ^
                   static_cast<uint64_t>(y) * 0xc2b2ae3d27d4eb4fu ^ seed * 0x165667b19e3779f9u;

@@ -12,7 +12,7 @@
 namespace grisaille::lab::claims {
 namespace {
 
-// NaN: it is none.
+// The node's number; NaN if it is not a number.
 double numberOf(const toml::node& node) {
   if (const auto* value = node.as_integer()) return static_cast<double>(value->get());
   if (const auto* value = node.as_floating_point()) return value->get();
@@ -44,7 +44,7 @@ std::string TomlTable::text(const std::string& key, const std::optional<std::str
   const toml::node* node = fallback ? find(key) : &require(key);
   if (node == nullptr) return *fallback;
   const auto* value = node->as_string();
-  if (value == nullptr) refuse(*node, fmt::format("'{}' is no string", key));
+  if (value == nullptr) refuse(*node, fmt::format("'{}' is not a string", key));
   return value->get();
 }
 
@@ -53,7 +53,7 @@ double TomlTable::number(const std::string& key, double fallback, double low, do
   if (node == nullptr) return fallback;
   const double value = numberOf(*node);
   if (!(value >= low && value <= high)) {
-    refuse(*node, fmt::format("'{}' is no number from {} to {}", key, low, high));
+    refuse(*node, fmt::format("'{}' is not a number from {} to {}", key, low, high));
   }
   return value;
 }
@@ -61,7 +61,7 @@ double TomlTable::number(const std::string& key, double fallback, double low, do
 uint32_t TomlTable::whole(const std::string& key, uint32_t fallback, uint32_t low, uint32_t high) {
   const double value = number(key, fallback, low, high);
   if (value != std::floor(value)) {
-    refuse(*table_.get(key), fmt::format("'{}' is no whole number", key));
+    refuse(*table_.get(key), fmt::format("'{}' is not a whole number", key));
   }
   return static_cast<uint32_t>(value);
 }
@@ -73,10 +73,11 @@ std::vector<std::string> TomlTable::texts(const std::string& key) {
   const toml::array* array = node->as_array();
   for (size_t i = 0; array != nullptr && i < array->size(); ++i) {
     const auto* value = array->get(i)->as_string();
-    if (value == nullptr) refuse(*array->get(i), fmt::format("'{}' holds no string here", key));
+    if (value == nullptr)
+      refuse(*array->get(i), fmt::format("'{}' has an element that is not a string", key));
     result.push_back(value->get());
   }
-  if (array == nullptr) refuse(*node, fmt::format("'{}' is no array of strings", key));
+  if (array == nullptr) refuse(*node, fmt::format("'{}' is not an array of strings", key));
   return result;
 }
 
@@ -90,7 +91,7 @@ std::vector<double> TomlTable::numbers(const std::string& key, size_t count) {
   }
   const bool good = result.size() == count &&
                     std::ranges::all_of(result, [](double value) { return std::isfinite(value); });
-  if (!good) refuse(*node, fmt::format("'{}' is no array of {} numbers", key, count));
+  if (!good) refuse(*node, fmt::format("'{}' is not an array of {} numbers", key, count));
   return result;
 }
 
@@ -102,10 +103,10 @@ std::vector<const toml::table*> TomlTable::tables(const std::string& key) {
   for (size_t i = 0; array != nullptr && i < array->size(); ++i) {
     result.push_back(array->get(i)->as_table());
     if (result.back() == nullptr) {
-      refuse(*array->get(i), fmt::format("'{}' holds no table here", key));
+      refuse(*array->get(i), fmt::format("'{}' has an element that is not a table", key));
     }
   }
-  if (result.empty()) refuse(node, fmt::format("'{}' is no table and no array of tables", key));
+  if (result.empty()) refuse(node, fmt::format("'{}' is not a table or an array of tables", key));
   return result;
 }
 

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: MIT
-// The estimator `classic`.
+// The estimator `classic` of effects/ssao/README.md.
 #include <algorithm>
 #include <array>
 #include <cmath>
@@ -12,9 +12,9 @@
 namespace grisaille::lab::oracle {
 namespace {
 
-constexpr double kDepthRounding = 5e-7;    // of a view depth
+constexpr double kDepthRounding = 5e-7;    // view depths
 constexpr double kNormalRounding = 5e-4;   // radians
-constexpr double kPlaceRounding = 2.5e-7;  // of the picture\'s size
+constexpr double kPlaceRounding = 2.5e-7;  // picture sizes
 
 // PCG hash: Jarzynski and Olano 2020, "Hash Functions for GPU Rendering".
 uint32_t pcg(uint32_t value) {
@@ -27,8 +27,8 @@ double wrappedToUnit(double value) {
   return value - std::floor(value);
 }
 
-// Points of the R3 sequence (Roberts 2018) from a start that the seed draws, as direction and
-// distance.
+// Sample points in the unit sphere or hemisphere: the R3 sequence (Roberts 2018), from a start that
+// the seed draws, gives their directions and distances.
 std::vector<glm::dvec3> samplePoints(const OcclusionSettings& settings) {
   constexpr double kPlastic = 1.2207440846057596;
   uint32_t state = pcg(settings.seed ^ pcg(0));
@@ -103,10 +103,10 @@ class Classic : public Occlusion {
     return 1 - static_cast<double>(occluded) / static_cast<double>(points_.size());
   }
 
-  // What keeps a surface from occluding itself.
+  // The tolerances that keep a surface from occluding itself.
   struct Own {
-    double bias;          // metres that another must be nearer than a point
-    glm::dvec2 slope{0};  // of its inverse view depth over the picture, a pixel
+    double bias;          // metres that an occluder must be nearer than the sample point
+    glm::dvec2 slope{0};  // change of the surface's inverse view depth per pixel
   };
 
   Own ownOf(const glm::ivec2& pixel) const {
@@ -128,14 +128,14 @@ class Classic : public Occlusion {
     const glm::dvec3 point = position + offset;
     const double depth = -position.z;
     const double pointDepth = -point.z;
-    if (pointDepth <= view_.nearPlane()) return false;  // nothing is nearer
+    if (pointDepth <= view_.nearPlane()) return false;  // no surface is nearer
     const glm::dvec2 at =
         glm::dvec2(point) / pointDepth * view_.focal() + glm::dvec2(view_.size()) / 2.0;
-    // Far enough outside all are clamped alike.
+    // Avoids integer overflow. Outside the picture, depth() returns the nearest pixel anyway.
     const glm::dvec2 whole = glm::clamp(glm::floor(at), -1e6, 1e6);
     const double surface = view_.depth(glm::ivec2(whole));
     if (surface <= 0) return false;
-    // As the surface's plane goes, to the middle of the pixel that was seen.
+    // Moves the point along the surface's plane to the centre of the pixel that depth() read.
     const glm::dvec2 tap = glm::clamp(whole + 0.5, glm::dvec2(0.5), glm::dvec2(view_.size()) - 0.5);
     const double turned = pointDepth * glm::dot(own.slope, tap - at);
     if (!(surface * (1 + turned) < pointDepth - own.bias)) return false;
@@ -167,7 +167,7 @@ class Classic : public Occlusion {
   std::vector<glm::dvec3> points_;
   std::array<int, 16> rotations_;
   Lazy<double> raw_;
-  std::unique_ptr<Occlusion> slices_;  // open directions are theirs alone
+  std::unique_ptr<Occlusion> slices_;  // computes the bent normals
 };
 
 }  // namespace

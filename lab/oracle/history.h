@@ -1,5 +1,6 @@
 // SPDX-License-Identifier: MIT
-// Step 9 of effects/ssao/README.md: visibility averaged over the frames that saw the same surface.
+// Step 9 of effects/ssao/README.md (history): averages visibility over the frames that saw the same
+// surface.
 #pragma once
 
 #include <glm/glm.hpp>
@@ -9,12 +10,12 @@
 
 namespace grisaille::lab::oracle {
 
-// Visibility averaged over frames, and over how many.
+// Visibility averaged over `frames` frames.
 struct Mean {
   double open = 1, frames = 1;
 };
 
-// The means of a frame, and how it was seen.
+// The means of a frame, with the view that it was computed from.
 struct PastFrame : Past {
   PastFrame(const View& seen, int pixels, int count, Lazy<Mean>& all)
       : view(seen), scale(pixels), frames(count), texels(all.size()) {
@@ -22,13 +23,13 @@ struct PastFrame : Past {
       for (int x = 0; x < texels.x; ++x) means.push_back(all({x, y}));
     }
   }
-  // What the frame averaged of a surface at a place in the world, with its normal there; 0 frames:
-  // it did not see it.
+  // The frame's mean for a surface, given by a world position and its world normal. Its `frames` is
+  // 0 if the frame did not see the surface.
   Mean seenAt(const glm::dvec3& place, const glm::dvec3& normal) const;
 
-  const View& view;  // outlives this
-  int scale;         // pixels a texel
-  int frames;        // since there was nothing
+  const View& view;  // must outlive this object
+  int scale;         // pixels per texel
+  int frames;        // since the history began
   glm::ivec2 texels;
   std::vector<Mean> means;
 };

@@ -1,5 +1,6 @@
 // SPDX-License-Identifier: MIT
-// The ambient visibility of effects/ssao/README.md once more, in double precision.
+// The oracle of ssao: computes the ambient visibility of effects/ssao/README.md in double
+// precision.
 #pragma once
 
 #include <functional>
@@ -19,53 +20,54 @@ struct OcclusionSettings {
   double radius = 0.5;
   int slices = 1, edgeSlices = 1, steps = 6;
   double thickness = 0.7;             // radii
-  bool backFaces = false;             // the thickness is the view's where it has one
-  int history = 1;                    // frames; needs a Past from the second frame on
-  int scale = 2;                      // pixels a texel: 1, 2 or 4
-  int denoiseSize = 5, blurSize = 4;  // slices and classic
+  bool backFaces = false;             // takes the thickness from the view's back depth, if any
+  int history = 1;                    // frames; over 1 needs a Past from the second frame on
+  int scale = 2;                      // pixels per texel: 1, 2 or 4
+  int denoiseSize = 5, blurSize = 4;  // of slices; of classic
   int edgeDenoise = 6;
   double intensity = 1, power = 1;
-  double albedo = 0;        // of the bounce; 0: none
-  bool baseColour = false;  // the tint bounces light off the view's
+  double albedo = 0;        // albedo of the bounce; 0: no bounce
+  bool baseColour = false;  // the tint's bounce uses the view's base colours
   uint32_t seed = 0;
   int kernelSize = 64;
   double bias = 0.01;
-  bool biasAlone = false;  // classic: without the roundings, points where they project
+  bool biasAlone = false;  // classic: no rounding tolerance, no move along the tangent plane
   bool sphere = false, rotated = true, edgeAware = false;
   enum class Range { kLinear, kRawDepth, kNone } range = Range::kLinear;
 };
 
-// What slices had averaged of the frames up to one, for the frame after.
+// The history of slices after a frame, for the next frame.
 class Past {
  public:
   virtual ~Past() = default;
 };
 
-// Works out only what is asked for, and that once. Not for two threads at a time.
+// Computes each value once, on its first use. Not thread-safe.
 class Occlusion {
  public:
   virtual ~Occlusion() = default;
-  // Of a pixel of the picture, 0 to 1.
+  // Visibility of a pixel of the picture, 0 to 1.
   virtual double visibility(const glm::ivec2& pixel) = 0;
-  // World, length 1; slices alone have one.
+  // World space, length 1. Only slices compute it: classic returns that of slices.
   virtual glm::dvec3 bentNormal(const glm::ivec2& pixel) = 0;
-  // Slices with a history; everything is worked out.
+  // The history for the next frame: computes all pixels. Null for classic.
   virtual std::shared_ptr<const Past> past() = 0;
 };
 
-// By channel, 0 to 1.
+// The output `tint` of a pixel, by channel, 0 to 1.
 glm::dvec3 tintOf(Occlusion& occlusion, const View& view, const OcclusionSettings& settings,
                   const glm::ivec2& pixel);
 
-// `view` outlives the result, and what follows from it. `past`: of the frame before; none: the
-// first.
+// `view` must outlive the result and all histories that follow from it. `past`: history of the
+// previous frame; null in the first frame.
 std::unique_ptr<Occlusion> makeOcclusion(const View& view, const OcclusionSettings& settings,
                                          std::shared_ptr<const Past> past = nullptr);
 
-// What the last pass does: intensity, bounced light, power.
+// The last pass: intensity, bounced light, power.
 double finished(double open, const OcclusionSettings& settings);
 
-// A picture whose pixels are worked out when they are asked for; beyond its edge the nearest one.
+// A picture that computes each pixel on its first use. Beyond its border it returns the nearest
+// pixel.
 template <typename T>
 class Lazy {
  public:

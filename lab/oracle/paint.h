@@ -1,5 +1,6 @@
 // SPDX-License-Identifier: MIT
-// The definition of effects/sspm/README.md once more, in double precision, pixel by pixel.
+// The oracle of sspm: computes the definition of effects/sspm/README.md in double precision, pixel
+// by pixel.
 #pragma once
 
 #include <cstdint>
@@ -15,7 +16,7 @@ namespace grisaille::lab::oracle {
 
 struct PaintSettings {
   double paintRange = 0.25;
-  double full = 1;  // r0
+  double full = 1;  // the parameter r0, metres
   size_t shotLimit = 64;
   double edgeFade = 0.5;
   double splatScale = 0.06;
@@ -32,14 +33,15 @@ struct PaintPixel {
 glm::dvec3 worldOf(const scene::Camera& camera, uint32_t width, uint32_t height, uint32_t x,
                    uint32_t y, double viewDepth);
 
-// What the mode `surface` adds: a shot paints what its muzzle sees.
+// Input of the mode `surface`, in which a shot paints only surfaces that its muzzle sees.
 struct Sight {
-  glm::dvec3 facet;  // the pixel's, world, unit; 0: none is known, and nothing paints there
-  // Whether nothing lies between a shot's muzzle and the pixel; none: nothing ever does.
+  glm::dvec3 facet;  // the pixel's facet normal, world, unit; 0: unknown, and nothing paints there
+  // Whether a shot's muzzle sees the pixel. Empty: every muzzle does.
   std::function<bool(const Shot& shot)> sees = {};
 };
 
-// `pixelSlope`: height of a pixel at 1 m view depth, metres. Without `sight`, the mode `per_shot`.
+// `pixelSlope`: height of a pixel at a view depth of 1 m, in metres. Without `sight`, the mode is
+// `per_shot`.
 PaintPixel paintOf(const glm::dvec3& world, double viewDepth, double pixelSlope,
                    std::span<const Shot> shots, const PaintSettings& settings,
                    const std::optional<Sight>& sight = std::nullopt);

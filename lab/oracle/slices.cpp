@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: MIT
-// The estimator `slices`: steps 1 to 8 of the README.
+// The estimator `slices`: steps 1 to 8 of effects/ssao/README.md.
 #include <algorithm>
 #include <bit>
 #include <cmath>
@@ -14,18 +14,18 @@ namespace grisaille::lab::oracle {
 namespace {
 
 constexpr double kPi = glm::pi<double>();
-constexpr double kGolden = 0.618034;      // spreads slices, a part of the pattern
+constexpr double kGolden = 0.618034;      // offset between a pixel's slices, golden ratio
 constexpr double kPlaneTolerance = 0.05;  // radii
-constexpr double kPlanePixels = 4;        // and no more than so many pixels' width
-constexpr double kMostBent = 0.5;         // of facets from normals, tangent
+constexpr double kPlanePixels = 4;        // upper limit of the tolerance, pixel widths
+constexpr double kMostBent = 0.5;         // largest angle between facet and normal, tangent
 
-// A slice of the hemisphere over a surface. Angles run from the view vector, over 0 on the side of
-// `across`.
+// A slice of the hemisphere over a surface. Angles start at the view vector, and are positive on
+// the side of `across`.
 struct Slice {
-  glm::dvec3 tangent, up;  // of the surface, in the slice
+  glm::dvec3 tangent, up;  // the surface's axes in the slice
   double normal = 0;       // the projected normal's angle
 
-  // Of cosine-weighted solid angle between the view vector and an angle on the side of its sign.
+  // Cosine-weighted solid angle between the view vector and `angle`, on the side of its sign.
   double between(double angle) const {
     const double side = angle < 0 ? -1 : 1, h = std::abs(angle), n = side * normal;
     return (std::cos(n) - std::cos(2 * h - n)) / 4 + h * std::sin(n) / 2;
@@ -36,7 +36,7 @@ struct Slice {
     const double part = between(angle);
     return (behind + (angle < 0 ? -part : part)) / (behind + ahead);
   }
-  // The cosine-weighted mean of 16 of its directions, less those in sectors that are shut.
+  // The cosine-weighted mean of 16 directions, without those in occluded sectors (bits of `shut`).
   glm::dvec3 meanOpen(const glm::dvec3& across, const glm::dvec3& toward, uint32_t shut) const {
     glm::dvec3 sum(0);
     for (int i = 0; i < 16; ++i) {
@@ -62,16 +62,16 @@ struct Slice {
   }
 };
 
-// One side of a slice as its taps go outwards.
+// The state of one side of a slice while its taps proceed outwards.
 struct Walk {
   double side;                    // 1 or -1
-  double share;                   // below the tap before
-  glm::dvec3 point{0}, step{0};   // the tap before, and how it was come to
-  std::optional<double> depth{};  // of the tap before where the next may be joined to it
-  int seen = 0;
+  double share;                   // share of the slice below the previous tap
+  glm::dvec3 point{0}, step{0};   // the previous tap, and the step that led to it
+  std::optional<double> depth{};  // of the previous tap, if the next may be joined to it
+  int seen = 0;                   // number of taps inside the attachments
 };
 
-// What is known of a texel: the mean open direction in view space, of any length, and visibility.
+// Values of a texel: the mean open direction in view space, of any length, and the visibility.
 using Texel = glm::dvec4;
 const Texel kSky(0, 0, 0, 1);
 
@@ -111,7 +111,7 @@ class Slices : public Occlusion {
     if (view_.depth(pixel) <= 0) return kSky;
     return settings_.scale == 1 ? filtered(pixel) : upsampled(pixel);
   }
-  // As it is denoised: histories are of visibility alone.
+  // The denoiser's input. The history holds only visibility.
   Texel averaged(const glm::ivec2& texel) {
     return settings_.history > 1 ? Texel(glm::dvec3(raw_(texel)), means_(texel).open) : raw_(texel);
   }
@@ -131,7 +131,8 @@ class Slices : public Occlusion {
   Texel alongEdge(const glm::ivec2& texel);
   Texel upsampled(const glm::ivec2& pixel);
 
-  // How far what a pixel shows, at another depth, lies from the plane of a surface; tolerances.
+  // Distance of a point from the plane of a surface, in tolerances. The point lies at the centre of
+  // `pixel`, at view depth `depth`.
   double offPlane(const glm::ivec2& surface, const glm::ivec2& pixel, double depth) const {
     const glm::dvec3 apart = view_.position(pixel, depth) - view_.position(surface);
     return std::abs(glm::dot(apart, view_.normal(surface))) / toleranceAt(surface);
@@ -147,7 +148,7 @@ class Slices : public Occlusion {
   double thickness_;  // metres
   glm::ivec2 texels_;
   std::shared_ptr<const PastFrame> past_;
-  int frames_;  // averaged before this one
+  int frames_;  // number of frames before this one
   Lazy<Texel> raw_;
   Lazy<Mean> means_;
   Lazy<Texel> rows_, columns_, edges_;
@@ -172,8 +173,7 @@ uint32_t sectors(double low, double high, double dither) {
   return bits;
 }
 
-// Whether fewer than 7 of 8 texels, each two texels off, are in the plane of the pixel's surface,
-// within half of what counts as it when they are averaged.
+// Whether fewer than 7 of the 8 texels at distance 2 lie within half the plane tolerance.
 bool Slices::isEdge(const glm::ivec2& pixel) const {
   int same = 0;
   for (int y = -1; y <= 1; ++y) {
@@ -193,7 +193,8 @@ Texel Slices::estimate(const glm::ivec2& texel) const {
   glm::dvec3 normal = view_.normal(pixel);
   const double facing = glm::dot(normal, toward);
   normal = glm::normalize(normal + toward * std::max((facing < -1e-3 ? 1e-2 : 1e-3) - facing, 0.0));
-  // The 25 points of a Hammersley set on 5x5 texels; each frame of a history another of them.
+  // A block of 5x5 texels holds the 25 points of a Hammersley set. Each frame of a history takes
+  // another of the points.
   const int drawn = static_cast<int>(frames_ % 25);
   const int first = (2 * texel.x + texel.y + 2 * drawn) % 5;
   const int second = (texel.x + 2 * texel.y + drawn + 2 * (drawn / 5)) % 5;
@@ -225,8 +226,8 @@ Texel Slices::sliceOf(const glm::dvec3& position, const glm::dvec3& normal,
   slice.tangent = across * std::cos(slice.normal) - toward * std::sin(slice.normal);
   slice.up = normal / std::sqrt(std::max(out * out + up * up, 1e-4));
 
-  // The slice's line in the picture, and the taps on it: as far as the view ray that touches the
-  // sphere, no fewer pixels out than their number, far ones on a grid.
+  // The slice's line in the picture, and the taps on it. They reach as far as the view ray that
+  // touches the sphere. Tap i is at least i + 1 pixels away, and distant taps fall on a grid.
   const double depth = -position.z, square = settings_.radius * settings_.radius;
   glm::dvec2 way = (glm::dvec2(across) * depth + glm::dvec2(position) * across.z) * view_.focal();
   const double stretch = glm::dot(way, way);
@@ -253,7 +254,7 @@ Texel Slices::sliceOf(const glm::dvec3& position, const glm::dvec3& normal,
     shut |= sectors(std::min(walk->share, share), std::max(walk->share, share), dither);
   }
   const glm::dvec3 bent = slice.meanOpen(across, toward, shut);
-  // A side that leaves the picture takes the other's share for the taps that it lacks.
+  // A side that leaves the picture takes the other side's share for its missing taps.
   const int low = std::clamp(static_cast<int>(std::lround(slice.below(0) * 32)), 1, 31);
   const double shutBehind = static_cast<double>(std::popcount(shut & ((1u << low) - 1))) / low;
   const double shutAhead = static_cast<double>(std::popcount(shut >> low)) / (32 - low);
@@ -265,7 +266,8 @@ Texel Slices::sliceOf(const glm::dvec3& position, const glm::dvec3& normal,
   return {bent, 1 - shutAll};
 }
 
-// Where a surface that goes on from the tap before by `step` leaves the sphere; at most a step on.
+// The point at which a surface that continues from the previous tap by `step` leaves the sphere; at
+// most one step away.
 glm::dvec3 Slices::leavesAt(const Walk& walk, const glm::dvec3& step) const {
   const double square = std::max(glm::dot(step, step), 1e-20);
   const double b = glm::dot(walk.point, step) / square;
@@ -314,8 +316,9 @@ uint32_t Slices::tap(const Slice& slice, const glm::dvec3& position, const glm::
   return present ? bits : 0;
 }
 
-// Off a surface's plane at a view depth of 1, metres a texel. Of the texel's own facet where its
-// neighbours lie on a line with it, and near enough to the normal's plane; else the normal's.
+// Distance from the surface's plane per texel along `along`, for points at a view depth of 1, in
+// metres. The plane is that of the texel's own facet if both neighbours lie on a line with it and
+// near enough to the normal's plane; else the normal's.
 double Slices::slopeAlong(const glm::ivec2& texel, const glm::ivec2& along) const {
   const auto depthAt = [&](const glm::ivec2& at) {
     return view_.depth(glm::clamp(at, glm::ivec2(0), texels_ - 1) * settings_.scale);
@@ -357,7 +360,7 @@ Texel Slices::denoised(const std::function<Texel(const glm::ivec2&)>& from, cons
   return sum / weights;
 }
 
-// The mean along the line that what is off the plane lies beside, as far as there is one.
+// The mean of texels along an edge, weighted by how clear the edge's direction is.
 Texel Slices::alongEdge(const glm::ivec2& texel) {
   const glm::ivec2 surface = texel * settings_.scale;
   const Texel own = columns_(texel);
@@ -378,7 +381,7 @@ Texel Slices::alongEdge(const glm::ivec2& texel) {
   const double angle = (std::atan2(moments.y, moments.x) + kPi) / 2;
   glm::dvec2 along(std::cos(angle), std::sin(angle));
   along /= std::max(std::abs(along.x), std::abs(along.y));
-  // Which of the two ways is meant decides ties.
+  // The direction's sign matters: it decides ties of rounding.
   if (moments.x < 0 ? along.x < 0 : along.y < 0) along = -along;
   const int reach = settings_.edgeDenoise;
   double weights = reach + 1;
@@ -396,7 +399,7 @@ Texel Slices::alongEdge(const glm::ivec2& texel) {
 
 Texel Slices::upsampled(const glm::ivec2& pixel) {
   const int scale = settings_.scale;
-  // Two by two pixels lie between the same four texels.
+  // The four pixels of a 2x2 block blend the same four texels.
   const glm::ivec2 first = pixel / 2 * 2 / scale;
   const glm::dvec2 part = glm::dvec2(pixel - first * scale) / static_cast<double>(scale);
   Texel sum(0);

@@ -18,7 +18,7 @@ View::View(const scene::Camera& camera, const glm::uvec2& size, uint32_t guard,
            Attachments attachments)
     : size_(size),
       guard_(static_cast<int>(guard)),
-      // As the shaders have it: what lies on the near plane must not be cut by a rounding.
+      // Single precision, same as the shaders: rounding must not cut a surface on the near plane.
       nearPlane_(static_cast<float>(camera.nearPlane)),
       eye_(camera.eye),
       viewFromWorld_(glm::transpose(scene::worldFromView(camera))),

@@ -1,9 +1,9 @@
 // SPDX-License-Identifier: MIT
-// What a frame showed its effects, for working an effect out once more in double precision: the
-// attachments as they were read back, and the camera.
+// The input of an oracle: the camera of a frame, and the G-buffer attachments that its effects
+// read.
 //
-// This room holds each effect's algorithm from its README's definition. It sees no code of an
-// effect, so that an error of one is none of the other.
+// This folder computes each effect's algorithm in double precision, from the definition in the
+// effect's README. It includes no code of an effect, so that both cannot share an error.
 #pragma once
 
 #include <glm/glm.hpp>
@@ -13,18 +13,19 @@
 
 namespace grisaille::lab::oracle {
 
-// As they were read back, all of one size. What is not read may be empty.
+// Attachments read back from the GPU, all of one size. Those that an oracle does not read may be
+// empty.
 struct Attachments {
   image::Image depth;   // view depth, metres; 0: sky
   image::Image normal;  // three channels, world
-  image::Image back;    // view depth where the matter that is seen ends, metres; 0: none
+  image::Image back;    // view depth of the visible surface's back, metres; 0: none
   image::Image colour;  // base colour
 };
 
 class View {
  public:
-  // The attachments go beyond a picture of this size by `guard` pixels on each side. `camera` is
-  // the picture's.
+  // `camera` and `size` are the picture's. The attachments extend it by `guard` pixels on each
+  // side.
   View(const scene::Camera& camera, const glm::uvec2& size, uint32_t guard,
        Attachments attachments);
 
@@ -36,23 +37,23 @@ class View {
   // Whether the attachments hold this pixel of the picture.
   bool holds(const glm::ivec2& pixel) const;
 
-  // Of a pixel; beyond the attachments that of their nearest one.
+  // View depth of a pixel; beyond the attachments, that of their nearest pixel.
   double depth(const glm::ivec2& pixel) const;
-  // In view space; what has no direction faces the camera.
+  // View space. A missing normal (shorter than 1/2) is replaced by one that faces the camera.
   glm::dvec3 normal(const glm::ivec2& pixel) const;
-  // In the world, as it was read.
+  // World space, as in the attachment.
   glm::dvec3 worldNormal(const glm::ivec2& pixel) const;
-  // As depth(); 0: none.
+  // View depth of the surface's back, as with depth(); 0: none.
   double back(const glm::ivec2& pixel) const;
   glm::dvec3 colour(const glm::ivec2& pixel) const;
 
-  // Through a point of the picture, (0, 0) its top left corner; z is -1.
+  // View ray through a point of the picture in pixels, (0, 0) the top left corner; its z is -1.
   glm::dvec3 ray(const glm::dvec2& point) const;
-  // What a pixel's centre would show at this depth.
+  // View-space position at a pixel's centre and this view depth.
   glm::dvec3 position(const glm::ivec2& pixel, double depth) const;
   glm::dvec3 position(const glm::ivec2& pixel) const { return position(pixel, depth(pixel)); }
 
-  // Pixels that one metre takes up at a view depth of one.
+  // Size of one metre at a view depth of 1 m, in pixels.
   glm::dvec2 focal() const { return focal_; }
 
  private:
@@ -61,7 +62,7 @@ class View {
   glm::ivec2 size_;
   int guard_;
   double nearPlane_;
-  glm::dvec2 focal_;  // y is negative: pixels go down
+  glm::dvec2 focal_;  // y is negative: rows run downwards
   glm::dvec3 eye_;    // world
   glm::dmat3 viewFromWorld_;
   Attachments attachments_;

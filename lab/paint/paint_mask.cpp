@@ -9,9 +9,9 @@
 namespace grisaille::lab {
 namespace {
 
-constexpr double kOff = 1e-4;  // metres
+constexpr double kOff = 1e-4;  // metres between the surface and the segment's start
 
-// From the surface to the muzzle, where the shot could paint it.
+// The segment from the surface to the muzzle; none if the shot cannot paint the hit.
 std::optional<grisaille_ray> segment(const trace::Hit& hit, const Shot& shot, double range) {
   const glm::dvec3 muzzle(shot.origin[0], shot.origin[1], shot.origin[2]);
   const glm::dvec3 direction(shot.direction[0], shot.direction[1], shot.direction[2]);
@@ -27,7 +27,7 @@ std::optional<grisaille_ray> segment(const trace::Hit& hit, const Shot& shot, do
                        .reach = static_cast<float>(length)};
 }
 
-// No more than kBlock pixels.
+// Computes the mask of at most trace::kBlock pixels.
 void paintBlock(const trace::RayTracer& tracer, std::span<const trace::Hit> hits,
                 std::span<const Shot> shots, double range, std::span<uint8_t> mask) {
   std::array<grisaille_ray, trace::kBlock> rays;

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: MIT
-// What shots of paint ought to cover, by rays.
+// The ray-traced mask of paint: where shots should paint.
 #pragma once
 
 #include <cstdint>
@@ -11,9 +11,10 @@
 
 namespace grisaille::lab {
 
-// One an element of `hits`: 1 where it lies less than a shot's range from the shot's ray, in front
-// of its muzzle, faces it, and the segment to the muzzle is unblocked; else 0. `range`: metres, for
-// shots without one. Segments begin 0.1 mm off the surface.
+// Returns one value per element of `hits`. It is 1 if for any shot the hit lies less than the
+// shot's range from its ray, in front of its muzzle, faces the muzzle, and nothing blocks the
+// segment to the muzzle; else 0. `range`: for shots without one, in metres. Segments start 0.1 mm
+// off the surface.
 std::vector<uint8_t> paintMask(const trace::RayTracer& tracer, std::span<const trace::Hit> hits,
                                std::span<const Shot> shots, double range);
 

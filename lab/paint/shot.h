@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: MIT
-// Shots of the effect `sspm`, as its table of objects has them.
+// Shots of the effect `sspm`: the fields of its table of objects.
 #pragma once
 
 #include <algorithm>
@@ -17,9 +17,9 @@ struct Shot {
   double origin[3];    // world, metres
   float direction[3];  // unit
   float color[3];      // linear, each 0 ... 1
-  double range;        // metres; 0: as the parameter paint_range
+  double range;        // metres; 0: the value of the parameter paint_range
 
-  // Metres, where the parameter is `otherwise`.
+  // The range in metres; `otherwise` is the value of paint_range.
   float rangeOr(float otherwise) const {
     return range > 0 ? std::max(static_cast<float>(range), FLT_MIN) : otherwise;
   }
@@ -30,10 +30,10 @@ const objects::Table& shotTable(const effect::Registry& registry);
 
 std::vector<Shot> shotsOf(const objects::View& objects);
 
-// What a chain takes. Checked: throws kObjectField.
+// Converts shots to the objects that a chain takes. Throws kObjectField for an invalid field.
 objects::Objects objectsOf(const objects::Table& table, std::span<const Shot> shots);
 
-// Throws as objects::load() does.
+// Throws what objects::load() throws.
 std::vector<Shot> loadShots(const effect::Registry& registry, const std::string& path);
 
 }  // namespace grisaille::lab

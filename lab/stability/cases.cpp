@@ -17,7 +17,7 @@ constexpr double kScales[] = {1e-4, 1e-3, 1e-2, 0.1, 1, 10, 100, 1e3, 1e4, 1e5, 
 
 class Cases {
  public:
-  // Of every variant the case that `change` makes of it.
+  // Adds one case per variant: the default case, modified by `change`.
   template <typename F>
   void add(const std::string& group, const std::string& name,
            std::initializer_list<const char*> variants, const F& change) {
@@ -29,7 +29,7 @@ class Cases {
       finish(one);
     }
   }
-  // The same of a scenery, in which lengths are in proportion to its scale.
+  // Same in a scenery; lengths are in proportion to its scale.
   template <typename F>
   void add(const std::string& group, const std::string& name, const Scenery& scenery,
            std::initializer_list<const char*> variants, const F& change) {
@@ -46,7 +46,7 @@ class Cases {
  private:
   void finish(Case& one) {
     if (one.variant == "history") {
-      // A walk of a few pixels a frame.
+      // The camera moves by a few pixels per frame.
       for (int i = 6; i > 0; --i) {
         one.before.push_back(one.camera);
         one.before.back().eye += i * one.scenery.scale * glm::dvec3(0.03, 0.004, -0.012);
@@ -241,7 +241,7 @@ void addPaint(Cases& cases) {
               [&](Case& one) { one.settings.emplace_back("splat_scale", value); });
   }
   const Scenery corner{.kind = Kind::kCorner};
-  // Through the pixels' centres of an odd size, from the eye: (48, 32) of 97 x 65 is the middle.
+  // The shot goes from the eye through the centre of the middle pixel, (48, 32) of 97 x 65.
   cases.add("shot", "a pixel exactly on the ray", corner, {"paint", "paint on surfaces"},
             [&](Case& one) {
               one.size = {97, 65};

@@ -56,7 +56,7 @@ std::string lengthText(double metres) {
   return fmt::format("{}", std::clamp(metres, 1e-6, 1e6));
 }
 
-// Random numbers that every machine draws alike.
+// Random numbers that are the same on every machine.
 class Draws {
  public:
   explicit Draws(uint32_t seed) : random_(seed) {}
@@ -119,7 +119,7 @@ void drawPaint(Draws& draw, Case& one, uint32_t seed) {
 
 Scenery drawScenery(Draws& draw) {
   const double scale = draw.of({1e-3, 0.1, 1.0, 1.0, 1.0, 30.0, 1e4});
-  // Cameras of small scenes must see them with the digits that a double has.
+  // Small scenes stay closer to the origin, so that doubles resolve them.
   const double away = std::min(scale, 1.0) * draw.of({0.0, 0.0, 1e3, 1e6, 1e7});
   return {.kind = draw.of({Kind::kRoom, Kind::kRoom, Kind::kCorner, Kind::kWires}),
           .scale = scale,
@@ -191,29 +191,28 @@ std::vector<Case> randomCases(uint32_t count, uint32_t seed) {
 const std::vector<Edge>& edges() {
   static const std::vector<Edge> kEdges = {
       {"thin things before a muzzle", 0.02,
-       "The map of what a muzzle sees has squares no finer than 4 mm or a 256th of the range: "
-       "beside "
-       "what is thinner, paint goes on or stops up to a square off."},
+       "A shot's map has squares no finer than 4 mm or a 256th of the range. Beside a thinner "
+       "object, the border of the paint is off by up to one square."},
       {"beside a muzzle's map", 0.04,
-       "The map is fine where most paint lands and coarse beside the muzzle: where a shot's rim "
-       "grazes "
-       "a wall far from the ray, its thin paint ends early."},
+       "A shot's map is fine where most paint lands and coarse beside the muzzle. If the shot's "
+       "rim grazes a wall far from the ray, its thin paint ends early."},
       {"far muzzle", 0.08,
-       "On surfaces a place is told by its offset from the muzzle in single precision: from 10^5 m "
-       "on "
-       "that is centimetres, which move rims. Per shot it is told from the ray and holds."},
+       "In `surface` mode the shader computes positions as offsets from the muzzle, in single "
+       "precision. From 10^5 m on they are centimetres off, which moves rims. `per_shot` mode "
+       "computes them from the ray, and stays within the limit."},
       {"a direction between two sectors", 0.005,
-       "Open directions are looked up in 32 sectors, each shut or not: where a shut one ends at a "
-       "direction, it counts or not, and the texels averaged with it are turned by half a degree."},
+       "The bent normal looks directions up in 32 sectors, each occluded or open. If an occluded "
+       "sector ends at a direction, rounding decides whether that direction counts. Bent normals "
+       "around it then turn by half a degree."},
       {"a row on the near plane", 0.05,
-       "A row of pixels is cut by the near plane to within the rounding of its depth: one driver "
-       "draws it and the other does not, so that they see different scenes."},
+       "The near plane cuts the surface exactly at a row of pixels, up to rounding. One driver "
+       "draws the row and the other does not, so that the effect sees different scenes."},
       {"edges without normals", 0.005,
-       "Where normals are missing every surface is taken to face the camera: all slopes are near "
-       "what makes an edge, and a texel either is one or not."},
+       "Without normals, the effect assumes that every surface faces the camera. All slopes are "
+       "then close to the edge criterion, and rounding decides whether a texel is an edge."},
       {"ten times the occlusion", 0.005,
-       "An intensity of 10 is as far as it goes: where a rounding decides whether one of 32 "
-       "sectors is shut, or whether a texel is an edge, ten times that is seen about it."},
+       "Rounding may decide whether one of 32 sectors is occluded, or whether a texel is an edge. "
+       "An intensity of 10, the largest, multiplies the difference by ten."},
   };
   return kEdges;
 }

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: MIT
-// What the cases of the sweep begin with, and random combinations of all that it varies.
+// Creates the default cases that the sweep varies, and random combinations of everything it varies.
 #pragma once
 
 #include <string>
@@ -9,13 +9,13 @@
 
 namespace grisaille::lab::stability {
 
-// An effect with values as the table calls them ("slices", "classic, raw", "paint", ...) before a
-// scenery: its camera, its shots, and all lengths in proportion to its scale.
+// The default case of a variant ("slices", "classic, raw", "paint", ...) in a scenery: its camera,
+// its shots, and all lengths in proportion to the scenery's scale.
 Case usualCase(const std::string& variant, const Scenery& scenery);
 
 std::vector<Case> randomCases(uint32_t count, uint32_t seed);
 
-// The edge of edges() that a case has, "" for most.
+// The key of the edge in edges() that applies to a case; "" for most cases.
 std::string edgeOf(const Case& one);
 
 }  // namespace grisaille::lab::stability

@@ -14,7 +14,7 @@
 namespace grisaille::lab::stability {
 namespace {
 
-// As the effect's host code hands it to a shader.
+// A value rounded to single precision: the effect's host code passes it to the shader as a float.
 double single(const effect::Values& values, const char* key) {
   return static_cast<float>(values.get(key));
 }
@@ -63,14 +63,14 @@ float difference(double a, double b) {
   return std::isfinite(a) ? static_cast<float>(std::abs(a - b)) : 1;
 }
 
-// A picture of the same shape, of no numbers.
+// A picture of the same size and channels, filled with NaN.
 image::Image likeOf(const image::Image& picture) {
   image::Image like = picture;
   std::ranges::fill(like.pixels, std::numeric_limits<float>::quiet_NaN());
   return like;
 }
 
-// The largest difference of the first `channels` of a pixel from what is expected, which is noted.
+// The largest difference of a pixel's first `channels` from `value`. Stores `value` in `expected`.
 float compareAt(const image::Image& picture, const glm::ivec2& pixel, const glm::dvec4& value,
                 uint32_t channels, image::Image& expected) {
   const glm::uvec2 at(pixel);
@@ -88,7 +88,7 @@ glm::dvec3 placeOf(const Case& one, const oracle::View& view, const glm::ivec2& 
   return one.camera.eye + scene::worldFromView(one.camera) * view.position(pixel);
 }
 
-// Of the middle half of the picture, where no sphere goes beyond it.
+// The rms error over the middle half of the picture, where no sphere extends beyond the picture.
 double cornerErrorOf(const Case& one, const oracle::View& view, const image::Image& ao,
                      double radius) {
   double sum = 0, count = 0;
@@ -96,7 +96,7 @@ double cornerErrorOf(const Case& one, const oracle::View& view, const image::Ima
   for (int y = size.y / 4; y < size.y * 3 / 4; ++y) {
     for (int x = size.x / 4; x < size.x * 3 / 4; ++x) {
       const glm::dvec3 place = placeOf(one, view, {x, y}) - one.scenery.origin;
-      const double away = std::max(place.y, place.z) / radius;  // the other one is 0
+      const double away = std::max(place.y, place.z) / radius;  // the other coordinate is 0
       const double error =
           ao.at(static_cast<uint32_t>(x), static_cast<uint32_t>(y)) - cornerVisibility(away);
       sum += error * error;
@@ -106,7 +106,8 @@ double cornerErrorOf(const Case& one, const oracle::View& view, const image::Ima
   return std::sqrt(sum / count);
 }
 
-// Whether a shot's muzzle sees a place, by rays; those of its own surface do not count.
+// Casts rays to find whether a shot's muzzle sees a place. The rays end before the place's own
+// surface.
 class Sights {
  public:
   explicit Sights(const scene::Scene& scene)
@@ -161,7 +162,7 @@ std::vector<glm::ivec2> pixelsToCompare(const glm::ivec2& size) {
   std::vector<glm::ivec2> pixels;
   const bool all = size.x * size.y <= kAll;
   for (int y = 0; y < size.y; ++y) {
-    // Every so many pixels one tile, and one at the far edge.
+    // Tiles at regular distances, and one at the far edge.
     const int row = y % std::max(size.y / kTiles, 1);
     if (!all && row >= kTile && y < size.y - kTile) continue;
     for (int x = 0; x < size.x; ++x) {
@@ -209,7 +210,7 @@ image::Image comparePaint(const Case& one, const effect::Values& values, const o
   if (surface && hides(one.scenery.kind)) sights.emplace(scene);
   const double slope = 1 / view.focal().x;
   const glm::dmat3 worldFromView = scene::worldFromView(one.camera);
-  // Of shots that are all alike, those older than paint lets through count for nothing.
+  // The only case with more shots has identical ones: older shots are covered completely.
   std::span<const Shot> shots = one.shots;
   constexpr size_t kCounted = 4096;
   if (shots.size() > kCounted) shots = shots.last(kCounted);

@@ -12,7 +12,7 @@ namespace {
 
 namespace fs = std::filesystem;
 
-constexpr uint32_t kSmallest = 32, kLargest = 200;  // pixels a side
+constexpr uint32_t kSmallest = 32, kLargest = 200;  // pixels per side
 constexpr uint32_t kZoom = 4, kGap = 8;
 
 glm::vec3 shown(const Case& one, const image::Image& picture, uint32_t x, uint32_t y) {

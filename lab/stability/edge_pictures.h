@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: MIT
-// What the edges look like: of each the case that differs most.
+// Pictures of the edges in edges(): the case with the largest difference for each.
 #pragma once
 
 #include <optional>
@@ -10,15 +10,16 @@
 
 namespace grisaille::lab::stability {
 
-// The index of the edge's case with the largest share of pixels off the oracle, on the first
-// backend, of those whose picture has 32 to 200 pixels a side; none: no such case is off.
+// The index of the edge's case with the largest share of pixels off the oracle on the first
+// backend, among pictures of 32 to 200 pixels per side. None if no such case differs.
 std::optional<size_t> worstOf(const Sweep& sweep, const std::string& edge);
 
-// pictures/stability/<key>.png, with what may stand in no file name as a hyphen.
+// pictures/stability/<key>.png, without apostrophes. Other characters than letters and digits
+// become hyphens.
 std::string edgePictureName(const std::string& edge);
 
-// Into a folder by that name, for every edge of the sweep: what the effect made, the same in double
-// precision, and black where they are over kTolerance apart. Throws kFileUnwritable.
+// Writes one picture per edge of the sweep into `folder`, by these names: the effect's output, the
+// oracle's, and black where they differ by over kTolerance. Throws kFileUnwritable.
 void writeEdgePictures(const std::string& folder, Runner& runner, const Sweep& sweep);
 
 }  // namespace grisaille::lab::stability

@@ -16,7 +16,7 @@ namespace fs = std::filesystem;
 using nlohmann::json;
 namespace {
 
-// Of every backend, once where they are alike.
+// The texts of all backends, or a single one if all are equal.
 template <typename F>
 std::string each(const Result& result, const F& text) {
   std::vector<std::string> texts;
@@ -27,7 +27,7 @@ std::string each(const Result& result, const F& text) {
   return same ? texts.at(0) : fmt::format("{}", fmt::join(texts, " / "));
 }
 
-// Differences in 255ths, as a viewer sees them.
+// A difference in steps of an 8-bit picture.
 std::string in255ths(double value) {
   return fmt::format("{:.2f}", 255 * value);
 }
@@ -80,17 +80,16 @@ std::string edgesOf(const Sweep& sweep) {
                     edgePictureName(edge.key));
   }
   if (text.empty()) return "";
-  return "\n## Edges\n\nWhere more pixels may differ, and why. What is listed here the arithmetic "
-         "cannot mend: the method has a step there.\n\n| edge | at most, % | why "
+  return "\n## Edges\n\nIn these cases more pixels may differ, because the method itself has a "
+         "discontinuity. No arithmetic can remove it.\n\n| edge | at most, % | why "
          "|\n|---|---|---|\n" +
          text +
-         "\nOf each the case that differs most: what the effect made, the same in double "
-         "precision, "
-         "and black where they are over 2/255 apart.\n" +
+         "\nThe case of each edge that differs most: the effect's output, the oracle's, and black "
+         "where they differ by over 2/255.\n" +
          pictures;
 }
 
-// Of every backend at once: what is told of one of them.
+// The texts of all backends, or a single one if all are equal.
 template <typename F>
 std::string eachNow(const MovementRow& row, const F& text) {
   std::vector<std::string> texts;
@@ -103,17 +102,17 @@ std::string movementsOf(const Sweep& sweep) {
   if (sweep.movements.empty()) return "";
   std::string text = fmt::format(
       "\n## Bias under a moving camera\n\n"
-      "A plane, seen by the classic estimator with a radius of 0.5 m in the middle of a picture "
-      "720 "
-      "pixels high, while the camera moves slowly towards it, jitters by up to half a pixel, and "
-      "turns. Before: a constant bias alone, as the method is known, in double precision on the "
-      "same depths and normals: the smallest bias that keeps the plane over {} in every frame, and "
-      "the flicker (rms from frame to frame at the same place) at 0.01 m. Now: the "
-      "effect at a bias of 0, whose safety comes from the roundings and slopes of what it reads; "
-      "its "
-      "flicker is at most {:.4f}.\n\n"
-      "| angle to the plane | distance, m | before: smallest safe bias, m | before: flicker | now: "
-      "least visibility | dolly | jitter | turn | |\n|---|---|---|---|---|---|---|---|---|\n",
+      "The classic estimator with a radius of 0.5 m sees a plane in the middle of a picture 720 "
+      "pixels high. The camera moves slowly towards it, jitters by up to half a pixel, and "
+      "turns.\n\n"
+      "- Constant bias: the method of the literature, in double precision on the same depths and "
+      "normals. The smallest safe bias keeps the plane over {} in every frame. The flicker is the "
+      "rms change from frame to frame at the same place, at a bias of 0.01 m.\n"
+      "- Effect: at a bias of 0, with a tolerance that follows from the roundings and slopes of "
+      "its input. Its flicker must be at most {:.4f}.\n\n"
+      "| angle to the plane | distance, m | constant bias: smallest safe bias, m | constant bias: "
+      "flicker | effect: least visibility | dolly | jitter | turn | "
+      "|\n|---|---|---|---|---|---|---|---|---|\n",
       kLeastOpen, kMostFlicker);
   for (const MovementRow& row : sweep.movements) {
     text += fmt::format("| {} | {} | {:.2g} | {:.4f} | {} |", row.degrees, row.distance,
@@ -133,16 +132,15 @@ std::string movementsOf(const Sweep& sweep) {
 std::string markdownOf(const Sweep& sweep) {
   std::string text = fmt::format(
       "# Numerical stability\n\nMade by `{}` at {} on {}.\n\n"
-      "Each case is a scene, a camera and values at the edge of what is allowed. A shader's "
-      "picture "
-      "is compared pixel by pixel with its oracle: the same algorithm in double precision, from "
-      "the "
-      "effect's definition, for the attachments that the shader read. So what is shown here is the "
-      "error of arithmetic, not that of the method. Where the backends differ, the numbers are\n"
+      "Each case is a scene, a camera and values at the limits of their ranges. The lab compares a "
+      "shader's picture pixel by pixel with its oracle: the same algorithm in double precision, "
+      "from the effect's definition, on the attachments that the shader read. The difference is "
+      "the error of the arithmetic, not that of the method. Where the backends differ, the numbers "
+      "are\n"
       "{}.\n\n"
-      "A case holds with no value that is not finite, none outside its range, and {} % of pixels "
-      "within 2/255 of the oracle and of the other backend, but for the edges below. Planes must "
-      "have a visibility over {} everywhere, right angles lie within {} of what rays would find. "
+      "A case holds if all values are finite and inside their range, and {} % of pixels are within "
+      "2/255 of the oracle and of the other backend. The edges below allow more. Planes must have "
+      "a visibility over {} everywhere. Right-angled corners must have an rms error of at most {}. "
       "**{} of {} cases hold.**\n",
       sweep.command, sweep.commit, sweep.machine, fmt::join(sweep.devices, " /\n"),
       100 * kShareWithin, kLeastOpen, kCornerError, sweep.count() - sweep.failed(), sweep.count());

@@ -1,5 +1,6 @@
 // SPDX-License-Identifier: MIT
-// The sweep's table: stability.md for people, stability.csv and stability.json for programs.
+// Writes the sweep's tables: stability.md for people, stability.csv and stability.json for
+// programs.
 #pragma once
 
 #include <span>
@@ -13,18 +14,18 @@ namespace grisaille::lab::stability {
 
 struct Sweep {
   std::string command, machine, commit;
-  std::vector<std::string> devices;  // one a backend: name and driver
+  std::vector<std::string> devices;  // one per backend: name and driver
   std::vector<Case> cases;
-  std::vector<Result> results;  // one a case
+  std::vector<Result> results;  // one per case
   std::vector<MovementRow> movements;
 
-  // Cases, and planes under a moving camera.
+  // Number of cases and of planes under a moving camera.
   size_t count() const { return cases.size() + movements.size(); }
-  // Those with a fault.
+  // Number of these with a fault.
   size_t failed() const;
 };
 
-// Writes all three into a folder, which is made where it is not there. Throws kFileUnwritable.
+// Writes all three files into a folder; creates the folder if needed. Throws kFileUnwritable.
 void writeSweep(const std::string& folder, const Sweep& sweep);
 
 }  // namespace grisaille::lab::stability

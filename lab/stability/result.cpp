@@ -119,7 +119,7 @@ std::optional<Result> loadResult(const fs::path& folder, const std::string& key)
     if (j.contains("between")) result.between = apartFrom(j["between"]);
     return result;
   } catch (const json::exception&) {
-    return std::nullopt;  // damaged: it is done again
+    return std::nullopt;  // damaged: the case runs again
   }
 }
 

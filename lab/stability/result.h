@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: MIT
-// What a case came to on each backend, and whether that is within its limits.
+// The results of a case on each backend, and the check of its limits.
 #pragma once
 
 #include <cstdint>
@@ -12,46 +12,47 @@
 
 namespace grisaille::lab::stability {
 
-// Two pictures of one size, by the largest difference of a pixel's channels.
+// Statistics of the difference of two pictures of one size. A pixel's difference is the largest of
+// its channels.
 struct Apart {
   uint64_t pixels = 0;
   double largest = 0;
   double percentile99 = 0;
-  double shareOver = 0;  // of pixels, over kTolerance
+  double shareOver = 0;  // share of pixels over kTolerance
 
   bool operator==(const Apart&) const = default;
 };
 
-// `differences`: one a pixel; a value that is not finite counts as 1.
+// `differences`: one per pixel; a value that is not finite counts as 1.
 Apart apartOf(std::vector<float> differences);
 
 struct BackendResult {
   std::string backend;
-  std::string error;       // why there is no result; "": there is one
-  uint64_t nonFinite = 0;  // values, of all outputs that were asked for
-  uint64_t outside = 0;    // values outside their range
-  double touched = 0;      // share of pixels that the effect does something to: occludes, paints
-  uint64_t bits = 0;       // a hash of the compared picture: the same bits, the same number
+  std::string error;       // error that prevented a result; "": none
+  uint64_t nonFinite = 0;  // number of values that are not finite, in all outputs read
+  uint64_t outside = 0;    // number of values outside their range
+  double touched = 0;      // share of pixels that the effect changes: occludes, paints
+  uint64_t bits = 0;       // hash of the compared picture
   Apart oracle;
-  std::optional<double> leastOpen;    // where Case::open
-  std::optional<double> cornerError;  // where Case::corner, rms
-  double seconds = 0;                 // of the picture and the oracle together
+  std::optional<double> leastOpen;    // only with Case::open
+  std::optional<double> cornerError;  // only with Case::corner; rms
+  double seconds = 0;                 // time of the picture and the oracle together
 
   bool operator==(const BackendResult&) const = default;
 };
 
 struct Result {
-  std::string key;  // what it depends on
+  std::string key;  // everything that the result depends on
   std::vector<BackendResult> backends;
-  std::optional<Apart> between;  // the two backends
+  std::optional<Apart> between;  // difference between the two backends
 };
 
-// The limits that it breaks, one line each; none: it holds.
+// The limits that the case exceeds, one line each; empty if it holds.
 std::vector<std::string> faultsOf(const Case& one, const Result& result);
 
-// FOLDER/<hash of the key>.json, written aside. Throws kFileUnwritable.
+// Writes FOLDER/<hash of the key>.json atomically. Throws kFileUnwritable.
 void saveResult(const std::filesystem::path& folder, const Result& result);
-// None: there is no whole file of this key. Throws kStudyRecord where it is no regular file.
+// None if there is no complete file with this key. Throws kStudyRecord if it is not a regular file.
 std::optional<Result> loadResult(const std::filesystem::path& folder, const std::string& key);
 
 }  // namespace grisaille::lab::stability

@@ -16,7 +16,7 @@
 namespace grisaille::lab::stability {
 namespace {
 
-// That an effect reads, of what its oracle needs.
+// The attachments that the effect reads and its oracle needs.
 std::vector<std::string> attachmentsOf(const Case& one, const effect::Values& values) {
   if (one.effect == "sspm") {
     if (values.text("mode") == "surface") return {"depth", "facet_normal"};
@@ -33,7 +33,7 @@ std::vector<std::string> outputsOf(const Case& one) {
   return {one.output, "paint_coverage"};
 }
 
-// Looked at, and not compared with an oracle.
+// Outputs whose range is checked, without a comparison with the oracle.
 std::vector<std::string> furtherOutputs(const Case& one) {
   if (!one.every) return {};
   if (one.effect == "sspm") return {"paint_owner"};
@@ -42,7 +42,8 @@ std::vector<std::string> furtherOutputs(const Case& one) {
   return all;
 }
 
-// Of visibility and tint, or the alpha of paint; what open directions touch is every surface.
+// Sets result.touched and result.bits. Touched pixels are below 1 in visibility and tint, over 0 in
+// the alpha of paint; bent normals touch every surface.
 void describe(const image::Image& picture, const std::string& output, BackendResult& result) {
   uint64_t touched = 0;
   for (size_t i = 0; i < picture.pixels.size(); i += picture.channels) {
@@ -58,7 +59,8 @@ void describe(const image::Image& picture, const std::string& output, BackendRes
   result.bits = hash.value();
 }
 
-// Owners are numbers of shots; directions have signs, and half floats round their length.
+// The allowed range of an output. Owners are numbers of shots. Bent normals have signs, and
+// rounding to half floats may make them longer than 1.
 std::pair<double, double> rangeOf(const std::string& output, const Case& one) {
   if (output == "paint_owner") return {0, static_cast<double>(one.shots.size())};
   constexpr double kHalf = 1.0 / 1024;
@@ -92,8 +94,8 @@ struct Runner::Stage {
 
 struct Runner::Picture {
   std::map<std::string, image::Image> outputs = {};
-  std::vector<oracle::View> views = {};  // of all frames, the case's own last
-  image::Image expected = {};            // the oracle's
+  std::vector<oracle::View> views = {};  // of all frames; the last is that of the case itself
+  image::Image expected = {};            // the oracle's picture
 };
 
 Runner::Runner(const effect::Registry& registry, std::span<gpu::Device* const> devices)
@@ -138,17 +140,17 @@ Seen Runner::see(size_t backend, const Case& one) {
   return {.ao = std::move(picture.outputs.at("ao")), .view = std::move(picture.views.back())};
 }
 
-// The case's effect alone, with the case's values and shots.
+// Sets up the case's effect with its values and shots.
 void Runner::choose(Stage& stage, const Case& one) {
   effect::Chain& chain = stage.chain;
   chain.selection = effect::Selection(registry_, std::array{one.effect});
   for (const auto& [key, value] : one.settings) chain.selection.values(one.effect).set(key, value);
-  // A history begins with the case.
+  // Start the effect again: its history must begin with the case.
   if (!one.before.empty()) chain.start(stage.device);
   objects::ObjectList* list = chain.objects(one.effect);
   if (list == nullptr) return;
-  // Through an empty list: the effect keeps what it knows of equal shots, which belongs to the
-  // scenery of the case before.
+  // Assign an empty list first. Otherwise the effect keeps the maps of equal shots, which belong to
+  // the scenery of the previous case.
   list->assign({&list->table(), nullptr, 0});
   list->assign(objectsOf(list->table(), one.shots).view());
 }
@@ -180,7 +182,7 @@ void Runner::render(Stage& stage, const Case& one, const scene::Scene& scene, Pi
   for (const scene::Camera& camera : cameras) {
     draw(camera, one.size, &stage.chain, outputsOf(one));
     read(outputsOf(one));
-    // Once more what the effect read: the same draw.
+    // Draw the effect's input again, to read it back for the oracle.
     const std::vector<std::string> names = attachmentsOf(one, values);
     draw(frame::widened(camera, one.size.y, guard), one.size + 2 * guard, nullptr, names);
     oracle::Attachments seen;
@@ -218,7 +220,7 @@ BackendResult Runner::runOn(Stage& stage, const Case& one, const scene::Scene& s
                        picture.outputs.at("paint_coverage"), result);
     }
   } catch (const Error& error) {
-    if (error.id() == ErrorId::kDeviceLost) throw;  // no fault of this case, and the end of all
+    if (error.id() == ErrorId::kDeviceLost) throw;  // ends the sweep
     result.error = error.what();
     stage.chain.stop();
   }

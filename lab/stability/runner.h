@@ -1,5 +1,6 @@
 // SPDX-License-Identifier: MIT
-// Makes a case's picture on every backend, and compares it with the oracle and with the other one.
+// Renders a case on every backend, and compares the picture with the oracle's and with the other
+// backend's.
 #pragma once
 
 #include <map>
@@ -16,34 +17,34 @@
 
 namespace grisaille::lab::stability {
 
-// A picture of visibility, and what the effect read to make it.
+// A picture of visibility, and the input from which the effect computed it.
 struct Seen {
   image::Image ao;
   oracle::View view;
 };
 
-// A case's picture and the oracle's, NaN where that was not asked.
+// A case's picture and the oracle's, which is NaN at pixels that were not compared.
 struct Compared {
   image::Image picture, expected;
 };
 
 class Runner {
  public:
-  // Both outlive this; `devices` are of different backends.
+  // Both must outlive this object. `devices` belong to different backends.
   Runner(const effect::Registry& registry, std::span<gpu::Device* const> devices);
   ~Runner();
   Runner(const Runner&) = delete;
   Runner& operator=(const Runner&) = delete;
 
-  // What fails on a backend is told in its result.
+  // Stores an error on a backend in BackendResult::error. Throws kDeviceLost.
   Result run(const Case& one);
 
-  // On the first backend, of a case that it can run.
+  // Compares on the first backend. The case must run there without an error.
   Compared compare(const Case& one);
 
   size_t backends() const { return stages_.size(); }
   const std::string& backend(size_t index) const;
-  // Of a case of ssao, on one backend. Throws what the device and the effect do.
+  // Renders a case of ssao on one backend. Throws what the device and the effect throw.
   Seen see(size_t backend, const Case& one);
 
  private:

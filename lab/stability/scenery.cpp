@@ -29,7 +29,7 @@ constexpr std::pair<Kind, const char*> kNames[] = {
     {Kind::kNormless, "picture without normals"},
 };
 
-// Counter-clockwise from its front.
+// `corners` run counter-clockwise, seen from the front.
 void addFace(scene::Scene& scene, std::initializer_list<glm::vec3> corners, glm::vec3 normal) {
   const auto first = static_cast<uint32_t>(scene.positions.size());
   const auto firstIndex = static_cast<uint32_t>(scene.indices.size());

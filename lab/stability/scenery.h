@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: MIT
-// What a case of the sweep looks at: small scenes, of any size and at any place in the world, and
-// pictures of depths that no scene has.
+// Sceneries for the cases of the sweep: small scenes, of any scale and at any place in the world,
+// and depth pictures that no scene produces.
 #pragma once
 
 #include <glm/glm.hpp>
@@ -15,22 +15,22 @@
 
 namespace grisaille::lab::stability {
 
-// Coordinates of a scenery are metres before it is scaled and moved.
+// Coordinates of a scenery are in metres, before it is scaled and moved.
 struct Scenery {
   enum class Kind {
-    kPlane,        // y = 0, facing up, 2000 a side
-    kCorner,       // a floor and the wall z = 0 that rises from it
-    kRoom,         // the corner with boxes and a pole, which are coloured and have insides
-    kWires,        // before a wall, 0.2 mm and 2 mm thick
-    kPair,         // a wall, and half before it a sheet 1 micrometre nearer
-    kTriangle,     // one, alone
-    kSky,          // behind the camera
-    kNoNormals,    // the room, its normals of length 0
-    kBackNormals,  // the room, its normals turned away
+    kPlane,        // the plane y = 0, facing up, 2000 m per side
+    kCorner,       // a floor, and the wall z = 0 on it
+    kRoom,         // the corner with boxes and a pole, coloured and closed on all sides
+    kWires,        // wires 0.2 mm and 2 mm thick, in front of a wall
+    kPair,         // a wall, and in front of half of it a sheet 1 micrometre nearer
+    kTriangle,     // a single triangle
+    kSky,          // a surface behind the camera: only sky is visible
+    kNoNormals,    // the room, with normals of length 0
+    kBackNormals,  // the room, with reversed normals
     // Pictures, of the camera's size:
-    kAtNear,   // all at depth 1, the near plane
-    kAtFar,    // nearly sky: 9e8 m
-    kMixed,    // depth 0, depth 1 and what is between, pixel by pixel
+    kAtNear,   // depth 1, the near plane, everywhere
+    kAtFar,    // 9e8 m everywhere: nearly sky
+    kMixed,    // depth 0, depth 1 and depths between, pixel by pixel
     kNormless  // a room's depths with normals of length 0, and depth 0
   };
   Kind kind = Kind::kRoom;
@@ -43,18 +43,18 @@ struct Scenery {
 
 const char* nameOf(Scenery::Kind kind);
 
-// Of a kind that is no picture.
+// `scenery` must not be a picture.
 scene::Scene makeScene(const Scenery& scenery);
 
-// Of a kind that is one. Normals face the camera.
+// `scenery` must be a picture. Normals face the camera.
 frame::Pictures makePictures(const Scenery& scenery, const scene::Camera& camera,
                              const glm::uvec2& size);
 
-// Shots at a corner or a room from where every muzzle sees the whole of a corner: directions,
-// colours, and for some a range of their own.
+// Random shots at a corner or a room. Each muzzle sees the whole corner. The shots differ in
+// direction and colour, and some have their own range.
 std::vector<Shot> makeShots(const Scenery& scenery, size_t count, uint32_t seed);
 
-// One shot. `range` in metres, 0: the effect's own.
+// One shot from `origin` towards `target`. `range` in metres; 0: the value of paint_range.
 Shot shotAt(const glm::dvec3& origin, const glm::dvec3& target, const glm::vec3& color,
             double range = 0);
 

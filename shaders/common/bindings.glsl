@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: MIT
-// Binding numbers: slot n of a class, as grisaille/shader.h counts them.
+// Binding numbers of slot n of each class of resources. grisaille/shader.h has the same numbers.
 #define UNIFORM(n) set = 0, binding = (0 + (n))
 #define STORAGE(n) set = 0, binding = (16 + (n))
 #define TEXTURE(n) set = 0, binding = (32 + (n))

@@ -1,6 +1,7 @@
 #version 460
 // SPDX-License-Identifier: MIT
-// View depth to clip depth, reversed and infinitely far; nothing is nearer than the near plane.
+// Converts view depth to clip depth, reversed with an infinite far plane. Surfaces in front of the
+// near plane move to it.
 #extension GL_GOOGLE_include_directive : require
 #include "source.glsl"
 

@@ -1,6 +1,6 @@
 #version 460
 // SPDX-License-Identifier: MIT
-// A texture of depth of any kind to linear view depth in metres; sky: 0.
+// Converts the host's depth texture, of any kind, to linear view depth in metres; sky: 0.
 #extension GL_GOOGLE_include_directive : require
 #include "source.glsl"
 
@@ -8,13 +8,15 @@ layout(local_size_x = 8, local_size_y = 8) in;
 layout(TEXTURE(0)) uniform sampler2D depths;
 layout(IMAGE(0), r32f) writeonly uniform image2D view_depth;
 
-// Of a depth buffer that is 1 at the near plane. Reversed and infinitely far, it is near / depth.
+// View depth from a reversed depth buffer, 1 at the near plane; sky: 0. With an infinite far plane
+// this is near / depth.
 float ofBuffer(float reversed) {
   if (!(reversed > 0.0)) return 0.0;
   if (orthographic()) return mix(source.planes.y, source.planes.x, reversed);
   return source.planes.x / (source.planes.z + reversed * (1.0 - source.planes.z));
 }
 
+// View depth from metres; sky: 0.
 float ofMetres(float metres) {
   return metres > 0.0 && metres < source.planes.w ? metres : 0.0;
 }

@@ -1,6 +1,6 @@
 #version 460
 // SPDX-License-Identifier: MIT
-// Unit world normals of the facets that depth shows.
+// Reconstructs facet normals from depth, as unit world normals.
 #extension GL_GOOGLE_include_directive : require
 #include "source.glsl"
 

@@ -1,6 +1,6 @@
 #version 460
 // SPDX-License-Identifier: MIT
-// A texture of normals of either space and encoding to unit world normals; sky: 0.
+// Converts the host's normals, of either space and encoding, to unit world normals; sky: 0.
 #extension GL_GOOGLE_include_directive : require
 #include "source.glsl"
 
@@ -17,7 +17,7 @@ void main() {
     vec3 normal = texelFetch(normals, texelOf(pixel, size.y), 0).xyz;
     if ((source.mode.w & kUnsigned) != 0) normal = 2.0 * normal - 1.0;
     if ((source.mode.w & kInView) != 0) normal = mat3(source.world_from_view) * normal;
-    // Those that are of unit length to the precision of half floats are kept as they are.
+    // Keeps normals that have unit length to the precision of half floats.
     const float length = length(normal);
     if (abs(length - 1.0) > 0.002) normal = length > 0.0 ? normal / length : vec3(0.0);
     result = vec4(normal, 1.0);

@@ -1,13 +1,13 @@
 // SPDX-License-Identifier: MIT
-// How the textures of another program are to be read. Pixels have their origin at the top left.
+// Conventions of the host program's textures. Pixels have their origin at the top left.
 #include "common/bindings.glsl"
 
 layout(UNIFORM(0), std140) uniform Source {
   mat4 world_from_view;  // rotation
-  vec4 view_from_pixel;  // view.xy, at view depth 1 or of an orthographic camera = pixel * .xy + .zw
-  vec4 planes;           // metres: near, far; near / far, 0 when infinitely far; sky from so many metres
-  vec4 shift;            // metres: .x is added to view depth, .y: near plane of what effects see
-  ivec4 mode;            // depth kind; 1: orthographic; 1: rows from the bottom; flags of normals
+  vec4 view_from_pixel;  // pixel * .xy + .zw: view.xy at view depth 1, or of an orthographic camera
+  vec4 planes;           // near, far; near / far, 0: infinite; depth from which on is sky; metres
+  vec4 shift;            // metres: x: added to view depth; y: near plane of the effects' camera
+  ivec4 mode;            // x: depth kind; y: 1: orthographic; z: 1: rows from the bottom; w: flags
 } source;
 
 const int kUnsigned = 1, kInView = 2;  // flags of normals
@@ -17,7 +17,7 @@ bool orthographic() {
   return source.mode.y != 0;
 }
 
-// The texel that holds a pixel.
+// Texel of a pixel, in a texture of this height.
 ivec2 texelOf(ivec2 pixel, int height) {
   return source.mode.z != 0 ? ivec2(pixel.x, height - 1 - pixel.y) : pixel;
 }

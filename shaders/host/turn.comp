@@ -1,7 +1,8 @@
 #version 460
 // SPDX-License-Identifier: MIT
-// A picture with its rows from the top as one with its rows from where the other program has them,
-// or the other way round; FORMAT is that of the picture written, SAMPLED what the other is.
+// Copies a picture between the project's row order, from the top, and the host program's. FORMAT
+// and TARGET are the format and the type of the written image, SAMPLED is the sampler type of the
+// source.
 #extension GL_GOOGLE_include_directive : require
 #include "source.glsl"
 

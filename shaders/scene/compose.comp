@@ -1,11 +1,12 @@
 #version 460
 // SPDX-License-Identifier: MIT
-// Surface colour, with an overlay on it, times visibility. Linear light. A slot that nobody fills
-// holds a 1x1 texture of the neutral value: white surface, clear overlay, open visibility.
+// Composes a picture in linear light: surface colour, with an overlay over it, times visibility. An
+// unused slot holds a 1x1 texture of the neutral value: white surface, transparent overlay,
+// visibility 1.
 #extension GL_GOOGLE_include_directive : require
 #include "common/bindings.glsl"
 
-layout(constant_id = 0) const bool kTinted = false;  // visibility has one for each colour channel
+layout(constant_id = 0) const bool kTinted = false;  // visibility per colour channel, in rgb
 
 layout(local_size_x = 8, local_size_y = 8) in;
 layout(TEXTURE(0)) uniform sampler2D surface;     // rgb; a = 0: sky, which is white

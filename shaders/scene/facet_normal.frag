@@ -1,6 +1,6 @@
 #version 460
 // SPDX-License-Identifier: MIT
-// Unit world normals of the facets that depth shows, for pictures without normals.
+// Reconstructs facet normals from depth, as unit world normals, for pictures without normals.
 #extension GL_GOOGLE_include_directive : require
 #include "common/view.glsl"
 

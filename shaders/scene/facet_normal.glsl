@@ -1,7 +1,9 @@
 // SPDX-License-Identifier: MIT
-// Normals of the facets that linear view depth shows. On each axis those three pixels in a row, with
-// this pixel among them, tell that are nearest to a line. Define before: bool orthographic() and
-// vec3 viewPosition(vec2 pixel, float view_depth), in view space.
+// Reconstructs facet normals from linear view depth. The normal is the cross product of two
+// tangents, one along the row and one along the column. For each tangent, the shader chooses among
+// the three triples of successive pixels that contain this pixel the one nearest to a line. Declare
+// before the include: bool orthographic() and vec3 viewPosition(vec2 pixel, float view_depth), in
+// view space.
 
 layout(TEXTURE(0)) uniform sampler2D view_depth;  // metres; sky: 0
 
@@ -14,7 +16,8 @@ float depthAt(ivec2 pixel) {
   return texelFetch(view_depth, pixel, 0).x;
 }
 
-// What is linear along a plane's pixels. Sky: 0.
+// A function of depth that is linear in the pixels of a plane: 1 / depth for a perspective camera.
+// Sky: 0.
 float linear(float depth) {
   if (depth <= 0.0) return 0.0;
   return orthographic() ? depth : 1.0 / depth;
@@ -24,11 +27,11 @@ vec3 positionOf(ivec2 pixel, float depth) {
   return viewPosition(vec2(pixel) + 0.5, depth);
 }
 
-// A tangent along one axis; 0 where there is no surface beside the pixel.
+// Tangent along one axis; 0 if both neighbours are sky or outside the picture.
 vec3 along(ivec2 pixel, ivec2 axis, float depth) {
   const vec3 here = positionOf(pixel, depth);
   const float middle = linear(depth);
-  float near[2], next[2];  // depths before and after, one and two pixels away
+  float near[2], next[2];  // depths at a distance of one and of two pixels; [0] before, [1] after
   for (int i = 0; i < 2; ++i) {
     const int side = 2 * i - 1;
     near[i] = depthAt(pixel + side * axis);
@@ -43,7 +46,7 @@ vec3 along(ivec2 pixel, ivec2 axis, float depth) {
   for (int i = 1; i >= 0; --i) {
     if (near[i] <= 0.0) continue;
     const int side = 2 * i - 1;
-    // Where there is no second pixel, whatever else there is tells more.
+    // A triple without its second pixel is the last choice.
     const float bend = next[i] == kOutside
                            ? 0.5 * kFar
                            : abs(middle + linear(next[i]) - 2.0 * linear(near[i]));
@@ -54,8 +57,8 @@ vec3 along(ivec2 pixel, ivec2 axis, float depth) {
   return best;
 }
 
-// A unit vector in view space that faces the camera, or 0 where a pixel's neighbours show no surface;
-// w: 1, in the sky 0.
+// xyz: unit normal in view space, towards the camera; 0 if the pixel has no neighbour on a surface.
+// w: 1; sky: 0.
 vec4 facetNormal(ivec2 pixel) {
   const float depth = depthAt(pixel);
   if (depth <= 0.0) return vec4(0.0);

@@ -25,16 +25,17 @@ layout(TEXTURE(1)) uniform sampler2D front;  // clip depth
 
 void main() {
 #if BEHIND
-  // Surfaces with two sides are where they were drawn before: with room for rounding.
+  // Discards fragments nearer than the front surface. The factor keeps two-sided surfaces, whose back
+  // has the front's depth up to rounding.
   if (gl_FragCoord.z > texelFetch(front, ivec2(gl_FragCoord.xy), 0).x * 1.000001) discard;
 #endif
 #if FACET
-  // Before anything is cut out: the differences need all four pixels.
+  // Before any discard: screen-space derivatives need all four pixels of the quad.
   const vec3 facet = cross(dFdx(from_camera), dFdy(from_camera));
 #endif
 #if MASK
-  // The mask is read at full resolution: smaller levels would thin or close the leaves. Without base
-  // colour the texture holds the alpha channel alone.
+  // Reads the mask from mip 0: smaller mips would thin or close leaves. Without base colour, the
+  // texture holds only the alpha channel, in r.
 #if BASE
   const float alpha = textureLod(base_texture, uv, 0.0).a * draw.base_color.a;
 #else
@@ -44,7 +45,7 @@ void main() {
 #endif
 #if NORMAL
   const float facing = gl_FrontFacing ? draw.front_sign : -draw.front_sign;
-  // An interpolated normal of length 0 has no direction: it is written as 0, as the sky's is.
+  // An interpolated normal of length 0 has no direction and becomes 0, same as the sky's.
   const float squared = dot(world_normal, world_normal);
   out_normal = vec4(squared > 0.0 ? world_normal * (facing * inversesqrt(squared)) : vec3(0.0), 1.0);
 #endif

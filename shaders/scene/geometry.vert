@@ -16,7 +16,8 @@ layout(location = 1) out vec2 uv;
 layout(location = 2) out vec3 from_camera;
 #endif
 
-// The same in each variant: what is drawn twice is in the same place.
+// Same position in all variants of this shader, so that a second pass over the geometry has equal
+// depth.
 invariant gl_Position;
 
 void main() {

@@ -1,6 +1,7 @@
 #version 460
 // SPDX-License-Identifier: MIT
-// Clip depth to linear view depth in metres. Reversed and infinitely far: depth = near / view depth.
+// Converts clip depth to linear view depth in metres. Clip depth is reversed with an infinite far
+// plane: near plane / view depth.
 #extension GL_GOOGLE_include_directive : require
 #include "common/view.glsl"
 

@@ -1,6 +1,6 @@
 #version 460
 // SPDX-License-Identifier: MIT
-// One triangle over the whole picture.
+// One triangle that covers the whole picture.
 
 void main() {
   gl_Position = vec4(gl_VertexIndex == 1 ? 3.0 : -1.0, gl_VertexIndex == 2 ? 3.0 : -1.0, 1.0, 1.0);

@@ -1,35 +1,36 @@
 #version 460
 // SPDX-License-Identifier: MIT
-// A texel's visibility averaged with what the frame before had of the same surface: the texel's
-// position is looked up there, in the four texels about it, less those that lie off its plane or
-// face elsewhere. The mean runs over as many frames as saw the surface, up to a number; from then on
-// the oldest fade.
+// Temporal accumulation of visibility by reprojection (as in Schied et al. 2017, "Spatiotemporal
+// Variance-Guided Filtering"). The texel's position is reprojected into the previous frame. History
+// rejection leaves out texels of the bilinear footprint that lie off the tangent plane or have
+// another normal. The result is the mean of all frames that saw the surface, up to a limit. Beyond
+// the limit it is an exponential moving average.
 #extension GL_GOOGLE_include_directive : require
 #extension GL_EXT_control_flow_attributes : require
 #include "common/view.glsl"
 #include "plane.glsl"
 
-layout(constant_id = 0) const uint kScale = 1u;  // pixels a texel, each way
+layout(constant_id = 0) const uint kScale = 1u;  // pixels per texel, each way
 
 layout(local_size_x = 8, local_size_y = 8) in;
-// `then` is the frame before, of a size and a scale of its own.
+// `then` is the previous frame, which may have another size and scale.
 layout(UNIFORM(1), std140) uniform Settings {
-  mat4 then_from_view;        // this frame's view space to that one's
-  vec4 then_view_from_pixel;  // as view.glsl has them
+  mat4 then_from_view;        // this frame's view space to the previous frame's
+  vec4 then_view_from_pixel;  // of the previous frame, as in view.glsl
   vec4 then_pixel_from_view;
   vec2 then_size;             // texels
-  float then_scale;           // pixels a texel
-  float most;                 // frames that count of those before; 0: there is none
-  float tolerance;            // 1 / view depths
+  float then_scale;           // pixels per texel
+  float most;                 // largest history length, frames; 0: no history
+  float tolerance;            // inverse of the plane tolerance, 1 / view depth
 } settings;
 layout(TEXTURE(0)) uniform sampler2D raw;  // visibility and view depth; nearest, clamped
 layout(TEXTURE(1)) uniform sampler2D world_normal;
 layout(TEXTURE(2)) uniform sampler2D history;
-// Visibility, view depth, frames in the mean, world normal in two times 12 bits.
+// Visibility; view depth; history length, frames; world normal in two times 12 bits.
 layout(IMAGE(0), rgba32f) writeonly uniform image2D target;
 
-// Octahedral: Meyer et al. 2010, "On Floating-Point Normal Vectors".
-float packed(vec3 n) {
+// Octahedral encoding: Meyer et al. 2010, "On Floating-Point Normal Vectors".
+float encodeOctahedral(vec3 n) {
   n /= max(abs(n.x) + abs(n.y) + abs(n.z), 1e-6);
   const vec2 s = vec2(n.x >= 0.0 ? 1.0 : -1.0, n.y >= 0.0 ? 1.0 : -1.0);
   const vec2 at = n.z >= 0.0 ? n.xy : (1.0 - abs(n.yx)) * s;
@@ -37,7 +38,7 @@ float packed(vec3 n) {
   return steps.x * 4096.0 + steps.y;
 }
 
-vec3 unpacked(float bits) {
+vec3 decodeOctahedral(float bits) {
   const float x = floor(bits / 4096.0);
   const vec2 at = vec2(x, bits - x * 4096.0) / 4095.0 * 2.0 - 1.0;
   vec3 n = vec3(at, 1.0 - abs(at.x) - abs(at.y));
@@ -47,9 +48,9 @@ vec3 unpacked(float bits) {
   return normalize(n);
 }
 
-// Visibility and frames in its mean, as the frame before had them; 0 frames where it did not see the
-// surface.
-vec2 before(vec3 position, vec3 normal, vec3 world) {
+// Reprojects a surface. x: visibility in the previous frame; y: history length, frames. A length of
+// 0 is a disocclusion: the previous frame did not see the surface.
+vec2 reproject(vec3 position, vec3 normal, vec3 world) {
   const vec3 then = (settings.then_from_view * vec4(position, 1.0)).xyz;
   const vec3 facing = mat3(settings.then_from_view) * normal;
   if (then.z >= -1e-6 * length(position)) return vec2(0.0);
@@ -59,7 +60,7 @@ vec2 before(vec3 position, vec3 normal, vec3 world) {
   if (any(lessThan(at, vec2(-0.5))) || any(greaterThan(at, settings.then_size - 0.5))) {
     return vec2(0.0);
   }
-  const vec2 first = floor(at), part = at - first;
+  const vec2 first = floor(at), fraction = at - first;
   vec2 sum = vec2(0.0);
   float weights = 0.0;
   [[unroll]] for (uint i = 0u; i < 4u; ++i) {
@@ -68,10 +69,13 @@ vec2 before(vec3 position, vec3 normal, vec3 world) {
     const vec4 old = textureLod(history, (texel + 0.5) / settings.then_size, 0.0);
     const vec2 from = (texel * settings.then_scale + 0.5) * settings.then_view_from_pixel.xy +
                       settings.then_view_from_pixel.zw;
-    const float off = abs(dot(facing, vec3(from, -1.0) * old.y - then)) * settings.tolerance / -then.z;
-    const vec2 share = mix(1.0 - part, part, corner);
-    const float faces = dot(unpacked(old.w), world) > 0.8 ? 1.0 : 0.0;
-    const float weight = old.y > 0.0 ? share.x * share.y * max(0.0, 1.0 - off) * faces : 0.0;
+    // History rejection, by the distance from the tangent plane and by the normal.
+    const float plane_distance =
+        abs(dot(facing, vec3(from, -1.0) * old.y - then)) * settings.tolerance / -then.z;
+    const vec2 bilinear = mix(1.0 - fraction, fraction, corner);
+    const float same_normal = dot(decodeOctahedral(old.w), world) > 0.8 ? 1.0 : 0.0;
+    const float weight =
+        old.y > 0.0 ? bilinear.x * bilinear.y * max(0.0, 1.0 - plane_distance) * same_normal : 0.0;
     sum += weight * old.xz;
     weights += weight;
   }
@@ -87,13 +91,13 @@ void main() {
   if (now.y > 0.0) {
     const vec2 pixel = vec2(texel) * float(kScale) + 0.5;
     const vec3 world = textureLod(world_normal, attachmentAt(pixel), 0.0).xyz;
-    const vec2 old = before(viewPosition(pixel, now.y), viewNormal(world), world);
+    const vec2 old = reproject(viewPosition(pixel, now.y), viewNormal(world), world);
     const float frames = min(old.y, settings.most);
-    if (frames > 0.0) {  // of an uninitialised history: not
+    if (frames > 0.0) {  // else the history is uninitialised or rejected
       result.x = (old.x * frames + now.x) / (frames + 1.0);
       result.z = frames + 1.0;
     }
-    result.w = packed(world);
+    result.w = encodeOctahedral(world);
   }
   imageStore(target, texel, result);
 }

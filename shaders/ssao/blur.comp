@@ -1,18 +1,20 @@
 #version 460
 // SPDX-License-Identifier: MIT
-// Averages a square of pixels: all alike (box), or weighted down to 0 where the depth differs by the
-// radius (edge-aware). Then finishes.
+// Blurs the classic estimator's noise over a square of pixels, and applies finished(). A square of
+// 4x4 holds each rotation of the noise tile once. Box: equal weights. Edge-aware: a bilateral
+// filter (Tomasi and Manduchi 1998) whose depth weight falls linearly to 0 at a difference of one
+// radius.
 #extension GL_GOOGLE_include_directive : require
 #extension GL_EXT_control_flow_attributes : require
 #include "common/view.glsl"
 #include "finish.glsl"
 
-layout(constant_id = 0) const uint kSize = 4u;  // pixels a side, over 1
+layout(constant_id = 0) const uint kSize = 4u;  // width in pixels, at least 2
 layout(constant_id = 1) const uint kMode = 0u;  // 0 box, 1 edge-aware
 
 layout(local_size_x = 8, local_size_y = 8) in;
 layout(UNIFORM(1), std140) uniform Settings {
-  vec4 finish;
+  vec4 finish;   // see finished() in finish.glsl
   float radius;  // metres
 } settings;
 layout(TEXTURE(0)) uniform sampler2D view_depth;
@@ -26,8 +28,7 @@ void main() {
   const float depth = textureLod(view_depth, centre, 0.0).x;
   float open = 1.0;
   if (depth > 0.0) {
-    // An even size has no middle: it reaches one pixel farther up and left, as the pattern of the
-    // rotations does.
+    // An even size has no centre: the square reaches one pixel farther up and left.
     const vec2 corner = centre - float(kSize / 2u) * view.size.zw;
     float sum = 0.0;
     float weights = 0.0;

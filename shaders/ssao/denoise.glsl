@@ -1,38 +1,44 @@
 // SPDX-License-Identifier: MIT
-// Averages along a row or a column with the weights 1, 2 ... kSize ... 2, 1: after both, every slice
-// of the pattern has the same weight where kSize is a multiple of the pattern's 5 texels. Only
-// what lies in the plane of the texel's surface counts: the weight falls to 0 at the tolerance.
-// LAST is 1 where intensity and power follow and nothing else. With BENT, which is 0 or 1, the mean
-// open directions are averaged alike, and LAST turns them to the world.
+// Denoiser: a joint bilateral filter (after Tomasi and Manduchi 1998, "Bilateral Filtering for Gray
+// and Color Images"), separated into a pass along rows and a pass along columns. The spatial kernel
+// is a tent with the weights 1, 2 ... kSize ... 2, 1. If kSize is a multiple of 5, the two passes
+// give every slice of the 5x5 noise pattern the same weight. The range weight falls linearly with
+// the distance of a tap from the centre's tangent plane, to 0 at the plane tolerance.
 //
-// One invocation does a run of 4 texels, which share most of what they average.
+// LAST is 1 in the pass that applies finished(). BENT is 0 or 1; 1 also averages the mean open
+// directions, and LAST then turns them into world space.
+//
+// One invocation filters a run of 4 texels, which share most of their taps.
 #include "filter.glsl"
 
-layout(constant_id = 0) const uint kSize = 5u;       // half the width, texels, 1 ... 16
-layout(constant_id = 1) const uint kScale = 1u;      // pixels a texel, each way
-layout(constant_id = 2) const bool kColumn = false;  // down a column, not along a row
+layout(constant_id = 0) const uint kSize = 5u;       // width at half height, texels, 1 ... 16
+layout(constant_id = 1) const uint kScale = 1u;      // pixels per texel, each way
+layout(constant_id = 2) const bool kColumn = false;  // along columns, else along rows
 
-// By how much a facet's slope may differ from that of the interpolated normal, as the tangent of an
-// angle, and an eighth of that the slopes to both sides from one another.
+// Largest difference between the facet's slope and the interpolated normal's, as the tangent of an
+// angle. The slopes on both sides of a texel may differ by an eighth of it.
 const float kMostBent = 0.5;
 
 float depthAt(ivec2 texel, vec2 inverse) {
   return textureLod(source, (vec2(texel) + 0.5) * inverse, 0.0).y;
 }
 
-// Surfaces are made of facets, whose planes interpolated normals miss: weights that follow the normal
-// would leave the noise's pattern. Where a texel and its neighbours before and after it lie on a line,
-// and that not far off the normal's plane, theirs is the slope.
+// Slope of the tangent plane along the row or column. Interpolated normals differ from the planes
+// of the facets, and weights that follow them leave the noise pattern. If the texels before and
+// after a texel lie on a line with it, close to the normal's plane, the result is the slope of that
+// line; else it is `slope`, that of the normal. `most` is the largest accepted difference.
 vec4 facetSlope(vec4 depths, float before, float after, vec4 facing, vec4 slope, vec4 most) {
   const vec4 back = vec4(before, depths.xyz), on = vec4(depths.yzw, after);
-  const vec4 one = (back - depths) * facing / max(back, 1e-30);
-  const vec4 two = (depths - on) * facing / max(on, 1e-30);
-  const vec4 both = 0.5 * (one + two);
-  return mix(slope, both, lessThan(max(8.0 * abs(one - two), abs(both - slope)), most));
+  const vec4 slope_before = (back - depths) * facing / max(back, 1e-30);
+  const vec4 slope_after = (depths - on) * facing / max(on, 1e-30);
+  const vec4 facet = 0.5 * (slope_before + slope_after);
+  return mix(slope, facet,
+             lessThan(max(8.0 * abs(slope_before - slope_after), abs(facet - slope)), most));
 }
 
 void main() {
-  // By branches: lavapipe takes a vector chosen by a specialization constant for the default's.
+  // A branch, not a conditional operator: lavapipe evaluates a vector that a specialization
+  // constant selects with the constant's default.
   ivec2 along = ivec2(1, 0);
   if (kColumn) along = along.yx;
   const ivec2 first = ivec2(gl_GlobalInvocationID.xy) * (1 + along * 3);
@@ -40,7 +46,7 @@ void main() {
   if (any(greaterThanEqual(first, size))) return;
   const vec2 inverse = 1.0 / vec2(size);
 
-  // One component for each texel of the run; planes in tolerances, and the slope a texel.
+  // One component for each texel of the run. Planes are in tolerances, slopes per texel.
   vec4 depths, facing, slope, most;
   [[unroll]] for (int t = 0; t < 4; ++t) {
     const vec2 texel = vec2(first + along * t);
@@ -65,9 +71,10 @@ void main() {
     const vec2 from = (vec2(first + along * i) + 0.5) * inverse;
     const vec2 other = textureLod(source, from, 0.0).xy;
     const vec4 k = float(i) - vec4(0.0, 1.0, 2.0, 3.0);
-    const vec4 off = abs((other.y - depths) * facing + other.y * (k * slope));
-    const vec4 share = max(float(kSize) - abs(k), 0.0) * max(1.0 - off, 0.0);
-    const vec4 weight = other.y > 0.0 ? share : vec4(0.0);
+    // Spatial weight times range weight. Sky, depth 0, has none.
+    const vec4 plane_distance = abs((other.y - depths) * facing + other.y * (k * slope));
+    const vec4 bilateral = max(float(kSize) - abs(k), 0.0) * max(1.0 - plane_distance, 0.0);
+    const vec4 weight = other.y > 0.0 ? bilateral : vec4(0.0);
     sum += weight * other.x;
     weights += weight;
 #if BENT

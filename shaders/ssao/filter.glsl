@@ -1,13 +1,14 @@
 // SPDX-License-Identifier: MIT
-// What denoise.glsl and edges.glsl read and write.
+// Bindings of denoise.glsl and edges.glsl. LAST is 1 in the filter's last pass, BENT is 1 with bent
+// normals.
 #include "common/view.glsl"
 #include "finish.glsl"
 #include "plane.glsl"
 
 layout(local_size_x = 8, local_size_y = 8) in;
 layout(UNIFORM(1), std140) uniform Settings {
-  vec4 finish;
-  float tolerance;  // 1 / metres
+  vec4 finish;      // see finished() in finish.glsl
+  float tolerance;  // inverse of the plane tolerance, 1 / metres
 } settings;
 layout(TEXTURE(0)) uniform sampler2D source;  // visibility and view depth; nearest, clamped
 layout(TEXTURE(1)) uniform sampler2D world_normal;
@@ -18,5 +19,5 @@ layout(IMAGE(1), rgba16f) writeonly uniform image2D bent_target;
 #if LAST
 layout(IMAGE(0), r16f) writeonly uniform image2D target;
 #else
-layout(IMAGE(0), rg32f) writeonly uniform image2D target;  // as source
+layout(IMAGE(0), rg32f) writeonly uniform image2D target;  // same as source
 #endif

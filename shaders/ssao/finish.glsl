@@ -1,10 +1,9 @@
 // SPDX-License-Identifier: MIT
-// What the last pass does to a visibility.
+// Post-processing of the visibility, in the last pass: intensity, interreflection, power.
 
-// The light that gets to surfaces of which a share `open` is unoccluded, and which, as all about them,
-// throw back a share `albedo`: rays that surfaces stop then bring light too. Jimenez et al. 2016,
-// "Practical Real-Time Strategies for Accurate Indirect Occlusion", their fit to path-traced scenes,
-// for each component.
+// Visibility with interreflections, for each component: `open` is the visibility without them,
+// `albedo` that of the surface and of its surroundings. Jimenez et al. 2016, "Practical Real-Time
+// Strategies for Accurate Indirect Occlusion" (GTAO): the cubic fit to path-traced scenes.
 vec4 bounced(vec4 open, vec4 albedo) {
   const vec4 a = 2.0404 * albedo - 0.3324;
   const vec4 b = 4.7951 * albedo - 0.6417;
@@ -12,8 +11,9 @@ vec4 bounced(vec4 open, vec4 albedo) {
   return min(max(open, ((open * a - b) * open + c) * open), 1.0);
 }
 
-// Of four visibilities at once, since what is asked for is looked at but once then. finish: intensity,
-// which multiplies what is shut; power, which bends the rest; albedo.
+// Applies intensity (finish.x, a factor on the occlusion), interreflection (finish.z, the albedo)
+// and power (finish.y, an exponent) to four visibilities. Four at once evaluate the conditions
+// once.
 vec4 finished(vec4 open, vec4 finish) {
   open = clamp(1.0 - finish.x * (1.0 - open), 0.0, 1.0);
   if (finish.z > 0.0) open = bounced(open, vec4(finish.z));
@@ -21,10 +21,11 @@ vec4 finished(vec4 open, vec4 finish) {
   return open;
 }
 
-// A mean open direction of view space in world space, of length 1. Where there is none, that of the
-// surface.
+// Bent normal in world space, length 1, from the mean open direction in view space. If that is 0,
+// the surface's normal.
 vec3 bentNormal(vec3 mean, vec3 world_normal) {
-  const float square = dot(mean, mean);
-  return square > 1e-8 ? transpose(mat3(view.view_from_world)) * mean * inversesqrt(square)
-                       : world_normal;
+  const float squared_length = dot(mean, mean);
+  return squared_length > 1e-8
+             ? transpose(mat3(view.view_from_world)) * mean * inversesqrt(squared_length)
+             : world_normal;
 }

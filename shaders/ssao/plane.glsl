@@ -1,7 +1,10 @@
 // SPDX-License-Identifier: MIT
-// Normals in view space, and how far a pixel's surface lies from another's plane.
+// Normals in view space, tangent planes, and the distance of a pixel's surface from such a plane:
+// the range term of the bilateral weights in denoise.glsl, edges.glsl, upsample.glsl and
+// slices.glsl.
 
-// Axes with z along n, a unit vector, in one branchless step (Duff et al. 2017).
+// Orthonormal basis whose z axis is the unit vector n, without a branch (Duff et al. 2017,
+// "Building an Orthonormal Basis, Revisited").
 mat3 basisAbout(vec3 n) {
   const float s = n.z >= 0.0 ? 1.0 : -1.0;
   const float a = -1.0 / (s + n.z);
@@ -9,17 +12,17 @@ mat3 basisAbout(vec3 n) {
   return mat3(vec3(1.0 + s * n.x * n.x * a, s * b, -s * n.x), vec3(b, s + n.y * n.y * a, -n.y), n);
 }
 
-// A surface without a direction is taken to face the camera.
+// World normal to view space. A normal of length 0 becomes (0, 0, 1), towards the camera.
 vec3 viewNormal(vec3 world_normal) {
   return dot(world_normal, world_normal) < 0.25 ? vec3(0.0, 0.0, 1.0)
                                                 : mat3(view.view_from_world) * world_normal;
 }
 
-// A plane through a pixel's surface, for points put back into view space from pixels. What lies
-// `across` pixels on at view depth e is
+// Tangent plane of a pixel's surface. A surface at view depth e, `across` pixels away, has the
+// signed distance
 //   (e - depth) * facing + e * dot(slope, across)
-// from it: differences of nearly equal numbers, so that the pixel itself lies on its plane exactly
-// however small the lengths are that this is compared with.
+// from the plane. The form subtracts depths before it multiplies: the pixel itself is at a distance
+// of exactly 0, at any scale of the tolerance.
 struct Plane {
   vec2 slope;
   float facing;
@@ -30,14 +33,15 @@ Plane planeOf(vec2 pixel, vec3 normal) {
   return Plane(normal.xy * view.view_from_pixel.xy, dot(normal.xy, ray) - normal.z);
 }
 
-// How far off the plane of a surface at view depth `depth` another is at `other`, `across` pixels on.
-float offPlane(Plane plane, float depth, float other, vec2 across) {
+// Distance of a surface at view depth `other`, `across` pixels away, from the tangent plane of a
+// surface at view depth `depth`. Metres, unless the caller has scaled the plane.
+float planeDistance(Plane plane, float depth, float other, vec2 across) {
   return abs((other - depth) * plane.facing + other * dot(plane.slope, across));
 }
 
-// 1 / metres: how far off the plane of a surface at view depth `depth` another may lie to be taken for
-// the same: as far as `inverse` allows, 1 / metres, and four pixels' width there, past which grooves
-// and ledges of a few pixels are lost.
+// Inverse of the plane tolerance at view depth `depth`, 1 / metres. The tolerance is the lesser of
+// 1 / `inverse` and the width of four pixels at that depth: a larger one would smear grooves and
+// ledges of a few pixels.
 float toleranceAt(float depth, float inverse) {
   return max(inverse, 0.25 / max(depth * abs(view.view_from_pixel.x), 1e-30));
 }

@@ -3,33 +3,36 @@
 // Levesque and Gilet 2023, "Screen Space Indirect Lighting with Visibility Bitmask", on the slices
 // of Jimenez et al. 2016, "Practical Real-Time Strategies for Accurate Indirect Occlusion".
 //
-// Lines are those of Algorithm 1 of either paper; of Jimenez 2016 in Technical Memo ATVI-TR-19-01.
+// Line numbers refer to Algorithm 1 of either paper; for Jimenez 2016, of Technical Memo
+// ATVI-TR-19-01.
 //
-// A slice is the plane through the view vector and a direction drawn with the cosine's density about
-// the normal: slices then weigh alike. Angles in it run from the view vector, negative on one side.
-// A sector is a 32nd of the slice's cosine-weighted solid angle, so that the share of clear bits is
-// the slice's visibility. A tap is the surface that the depth buffer has there and so much matter
-// behind it, cut off at the sphere of the radius: no falloff.
+// - A slice is the plane through the view vector and a direction, which the shader draws with
+//   cosine density about the normal. All slices then have the same weight. Angles in a slice start
+//   at the view vector and are negative on one side.
+// - A sector is a 32nd of the slice's cosine-weighted solid angle. The share of clear bits is
+//   therefore the slice's visibility.
+// - A tap finds a surface in the depth buffer, and assumes solid matter of `thickness` behind it.
+//   The sphere of the radius cuts this solid off; it has no falloff.
 //
-// One texel of the target is one of kScale x kScale pixels: the top left one. Where few texels about
-// it are of its surface, what denoises finds too little to average: there it takes kEdgeSlices times as
-// many slices. With BENT, which is 0 or 1, the mean of the unoccluded directions is found as well.
+// A texel of the target samples one of kScale x kScale pixels, the top left one. At edges, where
+// the denoiser finds few texels of one surface, the texel takes kEdgeSlices times as many slices.
+// BENT is 0 or 1; 1 also computes the mean open direction.
 #include "common/view.glsl"
 #include "plane.glsl"
 
 layout(constant_id = 0) const uint kSlices = 1u;
-layout(constant_id = 1) const uint kSteps = 8u;  // taps a side
-layout(constant_id = 2) const uint kScale = 1u;  // pixels a texel, each way
-layout(constant_id = 3) const bool kBack = false;  // the matter's back is known
-layout(constant_id = 4) const uint kEdgeSlices = 1u;  // times as many at edges
+layout(constant_id = 1) const uint kSteps = 8u;  // taps on each side
+layout(constant_id = 2) const uint kScale = 1u;  // pixels per texel, each way
+layout(constant_id = 3) const bool kBack = false;  // read back_depth
+layout(constant_id = 4) const uint kEdgeSlices = 1u;  // factor on the slices at edges
 
 layout(local_size_x = 8, local_size_y = 8) in;
 layout(UNIFORM(1), std140) uniform Settings {
   float radius;     // metres
-  float thickness;  // of the matter behind a surface, metres
-  float turn;       // which pattern of slices is drawn, 0 to 1
-  float tolerance;  // 1 / metres
-  uvec2 exchange;   // which of its points a texel draws, 0 to 4
+  float thickness;  // assumed behind a surface without a known back, metres
+  float turn;       // rotation of the slice pattern, 0 to 1
+  float tolerance;  // inverse of the plane tolerance, 1 / metres
+  uvec2 exchange;   // offset of the texel in the 5x5 pattern, 0 to 4
 } settings;
 layout(TEXTURE(0)) uniform sampler2D view_depth;  // nearest, clamped
 layout(TEXTURE(1)) uniform sampler2D world_normal;
@@ -41,28 +44,30 @@ layout(IMAGE(1), rgba16f) writeonly uniform image2D bent_target;  // in view spa
 
 const float kPi = 3.14159265358979;
 
-// Within 7e-5 radians: Hastings 1955, "Approximations for Digital Computers", sheet 38; x in [0, 1].
+// Error at most 7e-5 radians: Hastings 1955, "Approximations for Digital Computers", sheet 38; x in
+// [0, 1].
 float arcCosine(float x) {
   return sqrt(1.0 - x) * (1.5707288 + x * (-0.2121144 + x * (0.0742610 - 0.0187293 * x)));
 }
 
 struct Slice {
   vec3 position;
-  vec3 along, up;      // the surface's tangent in the slice, and its normal over the projected one's length
-  float cos_n, sin_n;  // of the projected normal's angle from the view vector
-  float offset, scale; // of shares
+  vec3 along, up;      // tangent in the slice; normal / length of the projected normal
+  float cos_n, sin_n;  // of the projected normal's angle n from the view vector
+  float offset, scale; // share = offset + integral * scale
 };
 
-// The share of the slice's cosine-weighted solid angle that lies below the direction of a point on
-// this side of the view vector. With h the direction's angle and n the normal's, the integral of
-// |sin h| cos(h - n) from 0 to h is (cos n - cos(2 h - n)) / 4 + h sin(n) / 2 (Jimenez 2016, line 28).
+// Share of the slice's cosine-weighted solid angle below the horizon of `point`, on one `side` of
+// the view vector (1 or -1). With h the horizon angle and n the projected normal's, the integral of
+// |sin h| cos(h - n) from 0 to h is (cos n - cos(2 h - n)) / 4 + h sin(n) / 2
+// (Jimenez 2016, line 28).
 //
-// A tap is the middle of a pixel and lies beside the slice. It is moved into it at its own height
-// over the surface, which keeps planes open however near the tap is.
+// A tap is the centre of a pixel and lies beside the slice. The function moves it into the slice at
+// its own height over the tangent plane, which keeps planes open at any distance of the tap.
 float shareOf(Slice s, vec3 point, float side) {
   const float sin_n = side * s.sin_n;
   vec2 local = vec2(side * dot(point, s.along), dot(point, s.up));
-  // Taps near by may so come to lie on the other side of the view vector: back with them.
+  // The move may take a near tap across the view vector. This moves it back.
   if (local.x * s.cos_n + local.y * sin_n < 0.0) local.x = abs(local.x);
   vec2 at = vec2(max(local.x * s.cos_n + local.y * sin_n, 0.0),
                  local.y * s.cos_n - local.x * sin_n);
@@ -71,12 +76,12 @@ float shareOf(Slice s, vec3 point, float side) {
   const float angle = at.y < 0.0 ? kPi - low : low;
   const float twice = (2.0 * at.y * at.y - 1.0) * s.cos_n + 2.0 * at.x * at.y * sin_n;
   const float part = 0.25 * (s.cos_n - twice) + 0.5 * angle * sin_n;
-  // What is below the surface is at the hemisphere's edge.
+  // A point below the tangent plane is at the end of the hemisphere.
   return local.y <= 0.0 ? 0.5 + 0.5 * side : s.offset + side * part * s.scale;
 }
 
 #if BENT
-// Which of 32 sectors holds a direction of the slice, by its angle from the view vector.
+// The sector, 0 to 31, of a direction in the slice at `angle` from the view vector.
 uint sectorOf(Slice s, float angle) {
   const float side = angle < 0.0 ? -1.0 : 1.0, h = abs(angle), sin_n = side * s.sin_n;
   const float twice = cos(2.0 * h) * s.cos_n + sin(2.0 * h) * sin_n;
@@ -84,7 +89,7 @@ uint sectorOf(Slice s, float angle) {
   return uint(clamp((s.offset + side * part * s.scale) * 32.0, 0.0, 31.0));
 }
 
-// The cosine-weighted mean of the slice's directions in sectors that are not occluded.
+// Cosine-weighted mean of the slice's directions in open sectors, from 16 directions.
 vec3 meanOpen(Slice s, float n, vec3 ortho_direction, vec3 view_vec, uint occluded) {
   const uint kDirections = 16u;
   vec3 sum = vec3(0.0);
@@ -98,18 +103,18 @@ vec3 meanOpen(Slice s, float n, vec3 ortho_direction, vec3 view_vec, uint occlud
 }
 #endif
 
-// The sectors [from, to) of 32 (Therrien 2023, Algorithm 1, lines 14 to 19).
+// Mask of the sectors [from, to) of 32 (Therrien 2023, Algorithm 1, lines 14 to 19).
 uint sectorRange(uint from, uint to) {
   const uint count = to - min(from, to);
   return count == 0u ? 0u : (0xffffffffu >> (32u - count)) << from;
 }
 
-// One side of a slice as its taps go outwards.
+// State of one side of a slice between its taps, from the pixel outwards.
 struct Side {
-  vec3 point, step;  // the tap before, from the pixel's surface, and that less the one before it
-  float share;       // of the tap before
-  float depth;       // of the tap before, metres; no tap is connected to one without
-  float seen;        // taps that lay in the picture
+  vec3 point, step;  // previous tap, from the pixel's surface; its offset from the tap before it
+  float share;       // see shareOf(); of the previous tap
+  float depth;       // of the previous tap, metres; -1e30: the next tap does not connect to it
+  float seen;        // number of taps inside the picture
 };
 
 uint sectorsBetween(float low, float high, float dither) {
@@ -117,20 +122,22 @@ uint sectorsBetween(float low, float high, float dither) {
                 uint(clamp(high * 32.0 + dither, 0.0, 32.0)));
 }
 
-// Where a surface that goes on from the tap before by `step` leaves the sphere; at most a step on.
+// The point at which a surface that continues from the previous tap by `step` leaves the sphere; at
+// most one step further.
 vec3 leavesAt(Side before, vec3 step) {
   const float a = 1.0 / max(dot(step, step), 1e-20), b = dot(before.point, step) * a;
   const float c = (dot(before.point, before.point) - settings.radius * settings.radius) * a;
   return before.point + clamp(sqrt(max(b * b - c, 0.0)) - b, 0.0, 1.0) * step;
 }
 
+// Occluded sectors of one tap: those between the front and the back of its surface.
 uint sectorsOfTap(Slice s, vec2 at, float side, float dither, inout Side before) {
   const vec2 place = attachmentAt(at);
   const bool seen = all(equal(clamp(place, vec2(0.0), vec2(1.0)), place));
   const float depth = textureLod(view_depth, place, 0.0).x;
   const vec3 ray = vec3(at * view.view_from_pixel.xy + view.view_from_pixel.zw, -1.0);
   const vec3 front = ray * depth - s.position;
-  // The part of front + k ray, k in [0, thickness], inside the sphere.
+  // Clips the solid, front + k ray with k in [0, thickness], to the sphere.
   const float a = 1.0 / dot(ray, ray), b = dot(ray, front) * a;
   const float beyond = dot(front, front) - settings.radius * settings.radius;
   const float d = b * b - beyond * a;
@@ -141,9 +148,9 @@ uint sectorsOfTap(Slice s, vec2 at, float side, float dither, inout Side before)
     if (back > 0.0) thick = max(back - depth, 0.0);
   }
   const float near = max(0.0, -b - root), far = min(thick, root - b);
-  // What lies between two taps is covered as well where their depths differ by less than the
-  // thickness, up to the sphere: with few taps that errs less than to ask for matter between them,
-  // also where its back is known.
+  // Two successive taps whose depths differ by less than the thickness belong to one surface: the
+  // sectors between them are occluded too, up to the sphere. With few taps this has a smaller error
+  // than gaps between the taps, even if the back is known.
   const bool connected = seen && abs(depth - before.depth) < settings.thickness;
   const bool inside = beyond <= 0.0;
   const bool leaves = connected && !inside;
@@ -162,15 +169,17 @@ uint sectorsOfTap(Slice s, vec2 at, float side, float dither, inout Side before)
   return present ? sectorsBetween(low, high, dither) : 0u;
 }
 
-// What the surface of the last tap covers that goes on as it came.
+// Occluded sectors beyond the last tap: its surface continues in its direction until it leaves the
+// sphere.
 uint sectorsBeyond(Slice s, Side last, float side, float dither) {
   const float share = shareOf(s, leavesAt(last, last.step), side);
   return last.depth > 0.0 ? sectorsBetween(min(last.share, share), max(last.share, share), dither) : 0u;
 }
 
-// The pixel of the tap so many pixels on. Far ones fall on a grid, as wide as an eighth to a sixteenth
-// of the way: neighbours then find what they share in the cache, and differ less. Of more than 16 steps
-// two would fall on one pixel: it is finer for them.
+// Pixel of the tap at a distance of `pixels` along `way`. Distant taps snap to a grid, whose cells
+// are an eighth to a sixteenth of the distance wide: neighbouring pixels then read the same texels,
+// which stay in the cache, and their results differ less. With more than 16 steps the grid is
+// finer, so that no two taps fall on one pixel.
 vec2 tapAt(vec2 pixel, vec2 way, float pixels) {
   const float below = uintBitsToFloat(floatBitsToUint(pixels) & 0x7f800000u);  // a power of two
   const uint finer = max(8u, (1u << uint(findMSB(kSteps - 1u) + 1)) / 2u);
@@ -178,7 +187,7 @@ vec2 tapAt(vec2 pixel, vec2 way, float pixels) {
   return floor((pixel + way * pixels - 0.5) / grid + 0.5) * grid + 0.5;
 }
 
-// Visibility of one slice; what it has to say of the mean open direction is added to `bent`.
+// Visibility of one slice. Adds the slice's mean open direction to `bent`.
 float sliceOf(vec3 position, vec3 view_vec, vec3 normal, vec3 direction, vec2 pixel, float jitter,
               inout vec3 bent) {
   vec3 ortho_direction = direction - view_vec * dot(direction, view_vec);
@@ -186,22 +195,22 @@ float sliceOf(vec3 position, vec3 view_vec, vec3 normal, vec3 direction, vec2 pi
   vec2 at = vec2(dot(normal, ortho_direction), dot(normal, view_vec));
   const float inverse_length = inversesqrt(max(dot(at, at), 1e-4));
   at *= inversesqrt(max(dot(at, at), 1e-12));
-  // The slice's frame and the projected normal's angle n (Jimenez 2016, lines 9 to 15).
+  // Frame of the slice, and angle n of the projected normal (Jimenez 2016, lines 9 to 15).
   Slice s;
   s.position = position;
   s.along = ortho_direction * at.y - view_vec * at.x;
   s.up = normal * inverse_length;
   s.cos_n = at.y;
   s.sin_n = at.x;
-  // The integral over the whole slice is cos n + n sin n, and below the view vector half of
+  // The integral over the whole slice is cos n + n sin n; below the view vector it is half of
   // cos n + (n - pi/2) sin n.
   const float angle = arcCosine(min(abs(at.y), 1.0));
   const float n = sign(at.x) * (at.y < 0.0 ? kPi - angle : angle);
   s.scale = 1.0 / (s.cos_n + n * s.sin_n);
   s.offset = 0.5 * (s.cos_n + (n - 0.5 * kPi) * s.sin_n) * s.scale;
 
-  // The slice's line on the screen, and how far the sphere reaches along it: to the view ray that
-  // touches it.
+  // Direction of the slice on the screen, and extent of the sphere along it in pixels: up to the
+  // view ray that is tangent to the sphere.
   const float depth = -position.z;
   vec2 way = (ortho_direction.xy * depth + position.xy * ortho_direction.z) * view.pixel_from_view.xy;
   const float stretch = dot(way, way);
@@ -211,9 +220,9 @@ float sliceOf(vec3 position, vec3 view_vec, vec3 normal, vec3 direction, vec2 pi
   uint occluded = 0u;
   Side ahead = Side(vec3(0.0), vec3(0.0), 1.0, -1e30, 0.0);
   Side behind = Side(vec3(0.0), vec3(0.0), 0.0, -1e30, 0.0);
-  // Not unrolled: that costs a third more on lavapipe, and nothing elsewhere.
+  // Not unrolled: unrolling costs a third more on lavapipe and gains nothing elsewhere.
   for (uint i = 0u; i < kSteps; ++i) {
-    // Taps are denser near the pixel, and at least a pixel apart from it.
+    // Taps are denser near the pixel. Tap i is at least i + 1 pixels away.
     const float one = (float(i) + jitter) / float(kSteps);
     const float two = (float(i) + 1.0 - jitter) / float(kSteps);
     const float least = float(i) + 1.0;
@@ -226,8 +235,8 @@ float sliceOf(vec3 position, vec3 view_vec, vec3 normal, vec3 direction, vec2 pi
 #if BENT
   bent += meanOpen(s, n, ortho_direction, view_vec, occluded);
 #endif
-  // The share of clear bits (Therrien 2023, line 26), of each side by itself.
-  // A side that leaves the picture takes the other's share for the taps that it lacks.
+  // Visibility is the share of clear bits (Therrien 2023, line 26), counted for each side. A side
+  // that leaves the picture takes the other side's share for its missing taps.
   const float low = clamp(round(s.offset * 32.0), 1.0, 31.0);
   const uint low_bits = (1u << uint(low)) - 1u;
   const float occluded_behind = float(bitCount(occluded & low_bits)) / low;
@@ -239,22 +248,23 @@ float sliceOf(vec3 position, vec3 view_vec, vec3 normal, vec3 direction, vec2 pi
                    max(occluded_behind, lacks_behind * (1.0 - lacks_ahead) * occluded_ahead), share);
 }
 
-// Whether fewer than 7 of 8 texels, each two texels off, are in the plane of the pixel's surface,
-// within half of what counts as it when they are averaged.
+// A pixel counts as an edge if fewer than 7 of the 8 texels at distance 2 lie within half the plane
+// tolerance of its tangent plane.
 bool isEdge(vec2 pixel, float depth, vec3 normal) {
   const Plane plane = planeOf(pixel, normal);
   const float tolerance = toleranceAt(depth, settings.tolerance);
   uint same = 0u;
   for (uint k = 0u; k < 8u; ++k) {
-    const uint place = k + k / 4u;  // of 3 x 3, but for the middle
+    const uint place = k + k / 4u;  // in a 3x3 block, without its centre
     const vec2 across = (vec2(place % 3u, place / 3u) - 1.0) * float(2u * kScale);
     const float other = textureLod(view_depth, attachmentAt(pixel + across), 0.0).x;
-    same += offPlane(plane, depth, other, across) * tolerance < 0.5 ? 1u : 0u;
+    same += planeDistance(plane, depth, other, across) * tolerance < 0.5 ? 1u : 0u;
   }
   return same < 7u;
 }
 
-// `bent` is the mean of what slices say of the open direction.
+// Visibility of a pixel: the mean over its slices. Sets `bent` to the mean open direction in view
+// space.
 float openAt(uvec2 texel, vec2 pixel, float depth, out vec3 bent) {
   bent = vec3(0.0);
   const vec3 position = viewPosition(pixel, depth);
@@ -264,14 +274,15 @@ float openAt(uvec2 texel, vec2 pixel, float depth, out vec3 bent) {
   if (kEdgeSlices > 1u) {
     if (isEdge(pixel, depth, normal)) count = kSlices * kEdgeSlices;
   }
-  // Normals of bent surfaces may turn away from the eye: to the silhouette with them, and a little
-  // over it where they do so by more than their rounding, since what is edge-on hangs on roundings.
+  // Interpolated normals may face away from the camera. Turns them to the silhouette, or a little
+  // past it towards the camera if they face away by more than their rounding: at exactly edge-on,
+  // rounding errors would decide.
   const float facing = dot(normal, view_vec);
   normal = normalize(normal + view_vec * max((facing < -1e-3 ? 1e-2 : 1e-3) - facing, 0.0));
   const mat3 axes = basisAbout(normal);
-  // 25 texels, 5x5, hold the 25 points of a Hammersley set. Every row, column and diagonal of five
-  // has each fifth of the circle once, so that little is left of the pattern where what denoises finds
-  // no more than a strip.
+  // A block of 5x5 texels holds the 25 points of a Hammersley set. Every row, column and diagonal
+  // of five has one point of each fifth of the circle: the denoiser then removes most of the
+  // pattern even where it finds only a strip of texels.
   const uint first = (2u * texel.x + texel.y + settings.exchange.x) % 5u;
   const uint second = (texel.x + 2u * texel.y + settings.exchange.y) % 5u;
   const float turn = (float(first * 5u + second) + settings.turn) / 25.0;

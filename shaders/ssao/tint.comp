@@ -1,16 +1,16 @@
 #version 460
 // SPDX-License-Identifier: MIT
-// Visibility by colour channel: that of light which bounced off surfaces of the pixel's own base
-// colour. White and black surfaces differ most: 1 bounces all, 0 nothing.
+// Visibility for each colour channel, with interreflections between surfaces of the pixel's base
+// colour: bounced() of finish.glsl, with the base colour as the albedo.
 #extension GL_GOOGLE_include_directive : require
 #include "common/view.glsl"
 #include "finish.glsl"
 
-layout(constant_id = 0) const bool kColoured = true;  // else visibility as it is, in each channel
+layout(constant_id = 0) const bool kColoured = true;  // false: copies the visibility
 
 layout(local_size_x = 8, local_size_y = 8) in;
 layout(TEXTURE(0)) uniform sampler2D visibility;
-layout(TEXTURE(1)) uniform sampler2D base_colour;  // of no meaning unless kColoured
+layout(TEXTURE(1)) uniform sampler2D base_colour;  // any texture unless kColoured
 layout(IMAGE(0), rgba16f) writeonly uniform image2D tint;
 
 void main() {

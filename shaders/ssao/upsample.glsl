@@ -1,20 +1,22 @@
 // SPDX-License-Identifier: MIT
-// A pixel's visibility from the four texels about it: bilinear, less what lies off the plane of the
-// pixel's surface. Where none lies in it, the nearest to it. Then intensity and power. With BENT,
-// which is 0 or 1, the mean open direction as well, turned to the world.
+// Joint bilateral upsampling (Kopf et al. 2007) of visibility, then finished(). A pixel blends the
+// four texels around it: the spatial weight is bilinear, the range weight falls with a texel's
+// distance from the pixel's tangent plane. If no texel is within the tolerance, the nearest to the
+// plane wins. BENT is 0 or 1; 1 also upsamples the mean open direction, and turns it into world
+// space.
 //
-// One invocation does 2x2 pixels, which lie between the same four texels: software drivers take as
-// long to start an invocation as for ten fetches.
+// One invocation computes 2x2 pixels between the same four texels: software drivers take as long to
+// start an invocation as for ten fetches.
 #include "common/view.glsl"
 #include "finish.glsl"
 #include "plane.glsl"
 
-layout(constant_id = 0) const uint kScale = 2u;  // pixels a texel, each way: 2 or 4
+layout(constant_id = 0) const uint kScale = 2u;  // pixels per texel, each way: 2 or 4
 
 layout(local_size_x = 8, local_size_y = 8) in;
 layout(UNIFORM(1), std140) uniform Settings {
-  vec4 finish;
-  float tolerance;  // 1 / metres
+  vec4 finish;      // see finished() in finish.glsl
+  float tolerance;  // inverse of the plane tolerance, 1 / metres
 } settings;
 layout(TEXTURE(0)) uniform sampler2D coarse;  // visibility and view depth; nearest, clamped
 layout(TEXTURE(1)) uniform sampler2D view_depth;
@@ -25,34 +27,38 @@ layout(TEXTURE(3)) uniform sampler2D coarse_bent;
 layout(IMAGE(1), rgba16f) writeonly uniform image2D bent_normal;
 #endif
 
-// The weights of four texels, at `first` and one on in x, in y, and in both, of which `depths` are
-// the view depths. All 0: there is no surface.
-vec4 weightsAt(ivec2 place, ivec2 first, vec4 depths) {
+// Weights of the four texels around a pixel, with a sum of 1: `first`, then its neighbours in x, in
+// y and in both. `depths` holds their view depths. Without a surface, at the pixel or at all
+// texels, all weights are 0.
+vec4 bilateralWeights(ivec2 place, ivec2 first, vec4 depths) {
   const vec2 pixel = vec2(place) + 0.5;
   const float depth = textureLod(view_depth, attachmentAt(pixel), 0.0).x;
   const vec3 normal = viewNormal(textureLod(world_normal, attachmentAt(pixel), 0.0).xyz);
   const Plane plane = planeOf(pixel, normal);
   // Texel t is the sample of pixel t * kScale.
-  const vec2 part = vec2(place - first * int(kScale)) / float(kScale);
+  const vec2 fraction = vec2(place - first * int(kScale)) / float(kScale);
   vec4 weights = vec4(0.0);
   if (depth <= 0.0) return weights;
   const float tolerance = toleranceAt(depth, settings.tolerance);
-  vec4 off;
+  vec4 plane_distance;  // in tolerances
   [[unroll]] for (uint i = 0u; i < 4u; ++i) {
-    const vec2 across = (vec2(i & 1u, i >> 1u) - part) * float(kScale);
-    off[i] = offPlane(plane, depth, depths[i], across);
-    // No texel: as far off as none can be, whose cube is still a number.
-    off[i] = depths[i] > 0.0 ? min(off[i] * tolerance, 1e11) : 1e12;
+    const vec2 across = (vec2(i & 1u, i >> 1u) - fraction) * float(kScale);
+    plane_distance[i] = planeDistance(plane, depth, depths[i], across);
+    // A texel of the sky is farther than any surface. The cube of 1e12 is still finite.
+    plane_distance[i] = depths[i] > 0.0 ? min(plane_distance[i] * tolerance, 1e11) : 1e12;
   }
-  // Past the tolerance what is left makes the nearest win where none is within it, however far off
-  // that is.
-  const float least = min(min(off.x, off.y), min(off.z, off.w));
-  const float left = 1e-4 * (1.0 + least * least * least);
+  // A small weight beyond the tolerance, relative to the nearest texel's distance: if no texel is
+  // within the tolerance, the nearest dominates, at any distance.
+  const float least = min(min(plane_distance.x, plane_distance.y),
+                          min(plane_distance.z, plane_distance.w));
+  const float tail = 1e-4 * (1.0 + least * least * least);
   [[unroll]] for (uint i = 0u; i < 4u; ++i) {
-    const vec2 share = mix(1.0 - part, part, vec2(i & 1u, i >> 1u));
-    weights[i] = depths[i] > 0.0 ? share.x * share.y * max(0.0, 1.0 - off[i]) +
-                                       left / (1.0 + off[i] * off[i] * off[i])
-                                 : 0.0;
+    const vec2 bilinear = mix(1.0 - fraction, fraction, vec2(i & 1u, i >> 1u));
+    weights[i] =
+        depths[i] > 0.0
+            ? bilinear.x * bilinear.y * max(0.0, 1.0 - plane_distance[i]) +
+                  tail / (1.0 + plane_distance[i] * plane_distance[i] * plane_distance[i])
+            : 0.0;
   }
   return weights / max(dot(weights, vec4(1.0)), 1e-30);
 }
@@ -76,13 +82,14 @@ void main() {
     bent[i] = textureLod(coarse_bent, at, 0.0).xyz;
 #endif
   }
-  // A column for each pixel. At half resolution the first pixel is the first texel's own.
+  // A column for each pixel. At half resolution, the first pixel is the one that the first texel
+  // sampled and takes its value.
   mat4 weights = mat4(0.0);
   weights[0].x = depths.x > 0.0 ? 1.0 : 0.0;
   [[unroll]] for (uint i = kScale == 2u ? 1u : 0u; i < 4u; ++i) {
-    weights[i] = weightsAt(place + ivec2(i & 1u, i >> 1u), first, depths);
+    weights[i] = bilateralWeights(place + ivec2(i & 1u, i >> 1u), first, depths);
   }
-  // Nothing shuts what has no surface, and no weights.
+  // A pixel without a surface has no weights: its visibility is 1.
   const vec4 none = vec4(equal(vec4(1.0) * weights, vec4(0.0)));
   const vec4 value = finished(open * weights + none, settings.finish);
   [[unroll]] for (uint i = 0u; i < 4u; ++i) {

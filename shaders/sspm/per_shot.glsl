@@ -1,25 +1,26 @@
 // SPDX-License-Identifier: MIT
-// One shot over all pixels, by the definition: painted is what lies nearer to the shot's ray than
-// its range and not behind the muzzle. Normal blend for colour, additive blend for alpha. ACCESS is
-// writeonly for the first shot, whose picture replaces whatever is there, and empty for others.
+// The definition (effects/sspm/README.md), one pass per shot: the shot paints pixels whose distance
+// to its ray is less than its range and that are not behind the muzzle. Blends colour normally and
+// alpha additively. The first shot (FIRST = 1) overwrites the targets, and its ACCESS is writeonly;
+// for the other shots ACCESS is empty.
 #include "common/view.glsl"
 
 layout(local_size_x = 8, local_size_y = 8) in;
-layout(constant_id = 0) const bool kOwners = false;  // keep who weighs most
+layout(constant_id = 0) const bool kOwners = false;  // also write `owners`
 
 layout(UNIFORM(1), std140) uniform Shot {
-  vec3 origin;  // the ray's point nearest to the camera, from there; world axes, metres
+  vec3 origin;  // point of the ray nearest to the camera, relative to it; world axes, metres
   float range;  // metres
   vec3 direction;
-  float full;  // r0, metres: alpha is r0 / distance, 1 up to r0
+  float full;  // r0, metres: alpha is min(1, r0 / distance to the ray)
   vec3 color;
   float per_fade;   // 1 / share of the range over which alpha fades out at the rim
-  float number;     // of the shot, from 1
-  float muzzle;     // along the ray from its point above, metres
+  float number;     // 1 + the shot's number
+  float muzzle;     // position of the muzzle along the ray, from `origin`, metres
 } shot;
 layout(TEXTURE(0)) uniform sampler2D view_depth;
-layout(IMAGE(0), rgba32f) uniform ACCESS image2D paint;  // colour; sum of alphas
-layout(IMAGE(1), rg32f) uniform ACCESS image2D owners;   // greatest weight in the colour; whose
+layout(IMAGE(0), rgba32f) uniform ACCESS image2D paint;  // rgb: blended colour; a: sum of alphas
+layout(IMAGE(1), rg32f) uniform ACCESS image2D owners;   // largest weight in the colour; its shot
 
 void main() {
   const ivec2 pixel = ivec2(gl_GlobalInvocationID.xy);

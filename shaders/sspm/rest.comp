@@ -1,7 +1,8 @@
 #version 460
 // SPDX-License-Identifier: MIT
-// The mode surface below full resolution, third pass: the pixels that upsample.comp has left walk. So
-// few threads that each has many of them: one without costs a software driver as much as one with.
+// Mode `surface` below full resolution, third pass: walks the lists of the pixels that
+// upsample.comp has put on its list. Each of few threads processes many pixels: on a software
+// driver, an idle thread costs as much as a busy one.
 #extension GL_GOOGLE_include_directive : require
 #include "splat.glsl"
 #include "outputs.glsl"

@@ -1,6 +1,6 @@
 #version 460
 // SPDX-License-Identifier: MIT
-// The second step of the mode per_shot.
+// Mode `per_shot`, last pass: thresholds the blended shots against the noise.
 #extension GL_GOOGLE_include_directive : require
 #include "splat.glsl"
 #include "outputs.glsl"
@@ -8,7 +8,7 @@
 layout(local_size_x = 8, local_size_y = 8) in;
 layout(constant_id = 1) const bool kOwners = false;
 layout(TEXTURE(0)) uniform sampler2D view_depth;
-layout(TEXTURE(1)) uniform sampler2D paint;   // as per_shot.comp leaves it
+layout(TEXTURE(1)) uniform sampler2D paint;   // see per_shot.glsl
 layout(TEXTURE(2)) uniform sampler2D owners;
 
 void main() {

@@ -1,22 +1,23 @@
 // SPDX-License-Identifier: MIT
-// The second step: where the paint's alpha is above the noise of the pixel's world position, paint
-// is drawn, elsewhere nothing. The noise is a sum of three octaves of value noise on lattices of
-// splat_scale / 2^octave metres that stand in the world; lattice points are hashed as integers.
-// effects/sspm/README.md has the definition.
+// The splat step: paint appears where its coverage is above a noise of the world position. The
+// noise is a sum of three octaves of value noise, on lattices of splat_scale / 2^octave metres that
+// are fixed in the world. The hash takes a lattice point as integers. effects/sspm/README.md has
+// the definition (step 4).
 #include "place.glsl"
 
 const uint kOctaves = 3;
 
 layout(UNIFORM(1), std140) uniform Splat {
-  // One an octave. xyz: the camera's lattice cell, modulo 2^32; w: hash seed.
+  // One per octave. xyz: the camera's lattice cell, modulo 2^32; w: hash seed.
   ivec4 noise_cell[kOctaves];
-  // xyz: the camera's place in its cell, in cells; w: cells a metre.
+  // xyz: the camera's position in its cell, in cells; w: cells per metre.
   vec4 noise_fraction[kOctaves];
-  float half_width;   // of the step from nothing to paint, in alpha; 0: a hard edge
+  float half_width;   // half the width of the smooth step, in coverage; 0: a hard edge
   float pixel_slope;  // height of a pixel at 1 m view depth, metres
-  uint octaves;       // kOctaves, as a number that no compiler knows: a loop that may be left early
+  uint octaves;       // kOctaves, but unknown to the compiler, which then keeps the loop
 } splat;
 
+// Integer hash lowbias32 (Wellons 2018, "Prospecting for Hash Functions").
 uint hashBits(uint x) {
   x ^= x >> 16;
   x *= 0x7feb352du;
@@ -26,8 +27,8 @@ uint hashBits(uint x) {
   return x;
 }
 
-// Uniform in [0, 1) on the corners of a cell, in between by a quintic. `place` in cells from
-// `origin`, which may wrap round.
+// Value noise: uniform in [0, 1) at the lattice points, between them the quintic interpolation of
+// Perlin 2002, "Improving Noise". `place` is in cells from `origin`, which may wrap around.
 float valueNoise(ivec3 origin, vec3 place, uint seed) {
   const vec3 whole = floor(place);
   const vec3 f = place - whole;
@@ -46,9 +47,10 @@ float valueNoise(ivec3 origin, vec3 place, uint seed) {
   return mix(y.x, y.y, w.z) * (1.0 / 16777216.0);
 }
 
-// In [0, 0.9], so that full coverage is always paint; `from_camera` in world axes, metres. An octave
-// whose cells are under four pixels wide fades to its mean, under two it is gone. Of so many octaves;
-// of none it is the mean.
+// Noise in [0, 0.9]: full coverage is always paint. An octave whose cells are less than four pixels
+// wide fades to its mean; at two pixels it is gone.
+// from_camera: position relative to the camera, world axes, metres.
+// octaves: number of octaves; 0 gives the mean.
 float splatNoise(vec3 from_camera, float view_depth, uint octaves) {
   float sum = 0.0, weights = 0.0;
   const float pixel = splat.pixel_slope * view_depth;
@@ -64,11 +66,11 @@ float splatNoise(vec3 from_camera, float view_depth, uint octaves) {
     }
     weights += weight;
   }
-  // The sum of octaves keeps to the middle: twice as wide it fills the range.
+  // The sum of octaves stays near its mean: a factor of 2 makes it fill the range.
   return 0.9 * clamp(0.5 + 2.0 * sum / max(weights, 1.0), 0.0, 1.0);
 }
 
-// The alpha that paint of this coverage is drawn with, 0 or 1 but for the step's width.
+// Alpha of paint with this coverage: 0 or 1, and between them over the width of the smooth step.
 float splatAlpha(float coverage, float noise) {
   if (coverage <= 0.0) return 0.0;
   const float above = coverage - noise;

@@ -1,6 +1,6 @@
 #version 460
 // SPDX-License-Identifier: MIT
-// The mode surface at full resolution: each pixel walks.
+// Mode `surface` at full resolution: each pixel walks the list of its cell.
 #extension GL_GOOGLE_include_directive : require
 #include "splat.glsl"
 #include "outputs.glsl"

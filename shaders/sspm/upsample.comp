@@ -1,8 +1,9 @@
 #version 460
 // SPDX-License-Identifier: MIT
-// The mode surface below full resolution, second pass: paint out of the samples about a pixel that lie
-// on its plane, and the splat step. What no sample serves goes on a list: rest.comp walks it. A thread
-// makes the pixels between four samples, which it reads once.
+// Mode `surface` below full resolution, second pass: joint bilateral upsampling (Kopf et al. 2007).
+// A pixel blends the four samples around it bilinearly, and leaves out samples whose plane it does
+// not lie on. Then follows the splat step. Pixels that the parameter `refine` selects go on a list
+// for rest.comp instead. One thread computes the pixels between four samples, which it reads once.
 #extension GL_GOOGLE_include_directive : require
 #extension GL_EXT_control_flow_attributes : require
 #include "splat.glsl"
@@ -10,10 +11,10 @@
 
 layout(local_size_x = 8, local_size_y = 8) in;
 layout(constant_id = 2) const uint kStep = 2;    // pixels
-layout(constant_id = 3) const uint kRefine = 2;  // as the parameter: nothing, edges, rims
+layout(constant_id = 3) const uint kRefine = 2;  // the parameter `refine`: nothing, edges, rims
 layout(TEXTURE(0)) uniform sampler2D view_depth;
 layout(TEXTURE(1)) uniform sampler2D facet_normal;
-layout(TEXTURE(2)) uniform sampler2D samples;  // as samples.comp leaves them
+layout(TEXTURE(2)) uniform sampler2D samples;  // outputs of samples.comp
 layout(TEXTURE(3)) uniform sampler2D planes;
 layout(TEXTURE(4)) uniform usampler2D owners;
 layout(STORAGE(4), std430) buffer Rest {
@@ -21,46 +22,55 @@ layout(STORAGE(4), std430) buffer Rest {
   uint rest[];  // x | y << 16
 };
 
-const float kSameFacing = 0.9;  // least cosine between the facets of a pixel and a sample
-const float kOffPlane = 0.5;    // a pixel's distance from the sample's plane, in pixels
-// Of coverage or a colour between samples: what changes more may be a rim.
+const float kSameFacing = 0.9;  // least cosine between the facets' normals of pixel and sample
+const float kOffPlane = 0.5;    // plane tolerance, in pixels' widths
+// Difference of coverage or of a colour channel between samples above which a pixel counts as a
+// rim.
 const float kRim = 0.25;
 
-// The samples at a cell's corners: by rows.
+// The four samples around a pixel, by rows.
 struct Corners {
   vec4 paint[4];
   vec4 plane[4];
   uint owner[4];
 };
 
-void makePixel(Corners corners, ivec2 pixel, vec2 share) {
+// Upsamples one pixel, or appends it to the list. share: its position between the samples, 0 to 1.
+void upsamplePixel(Corners corners, ivec2 pixel, vec2 share) {
   const vec2 at = vec2(pixel) + 0.5;
   const vec2 uv = at * view.size.zw;
   const float depth = textureLod(view_depth, uv, 0.0).x;
   const vec3 normal = textureLod(facet_normal, uv, 0.0).xyz;
   const vec3 from_camera = fromCamera(at, depth);
-  const float off = kOffPlane * splat.pixel_slope * depth;
+  const float tolerance = kOffPlane * splat.pixel_slope * depth;
   vec3 color = vec3(0.0);
-  float alphas = 0.0, all = 0.0, painted = 0.0, nearest = 0.0;
-  vec4 least = vec4(1e30), most = vec4(-1e30);  // colour of those with paint; coverage of all
+  // Sums of weights: of all samples on the plane, and of those with paint, which alone blend
+  // colours.
+  float alphas = 0.0, all = 0.0, painted = 0.0, largest = 0.0;
+  vec4 least = vec4(1e30), most = vec4(-1e30);  // rgb: of samples with paint; a: coverage of all
   uint owner = 0u, near = 0u;
   [[unroll]] for (int i = 0; i < 4; ++i) {
-    const vec2 of = vec2((i & 1) != 0 ? share.x : 1.0 - share.x, (i & 2) != 0 ? share.y : 1.0 - share.y);
+    const vec2 bilinear = vec2((i & 1) != 0 ? share.x : 1.0 - share.x,
+                               (i & 2) != 0 ? share.y : 1.0 - share.y);
     const vec4 plane = corners.plane[i], paint = corners.paint[i];
-    const bool fits = dot(plane.xyz, normal) >= kSameFacing && abs(dot(plane.xyz, from_camera) - plane.w) <= off;
-    const float weight = fits ? of.x * of.y : 0.0;
-    const float drawn = paint.a > 0.0 ? weight : 0.0;
+    const bool on_plane = dot(plane.xyz, normal) >= kSameFacing &&
+                          abs(dot(plane.xyz, from_camera) - plane.w) <= tolerance;
+    const float weight = on_plane ? bilinear.x * bilinear.y : 0.0;
+    const float paint_weight = paint.a > 0.0 ? weight : 0.0;
     all += weight;
-    painted += drawn;
+    painted += paint_weight;
     alphas += weight * paint.a;
-    color += drawn * paint.rgb;
-    least = min(least, vec4(drawn > 0.0 ? paint.rgb : vec3(1e30), weight > 0.0 ? paint.a : 1e30));
-    most = max(most, vec4(drawn > 0.0 ? paint.rgb : vec3(-1e30), weight > 0.0 ? paint.a : -1e30));
-    if ((kWanted & 4u) != 0u && drawn > nearest) {
-      nearest = drawn;
+    color += paint_weight * paint.rgb;
+    least = min(least, vec4(paint_weight > 0.0 ? paint.rgb : vec3(1e30),
+                            weight > 0.0 ? paint.a : 1e30));
+    most = max(most, vec4(paint_weight > 0.0 ? paint.rgb : vec3(-1e30),
+                          weight > 0.0 ? paint.a : -1e30));
+    if ((kWanted & 4u) != 0u && paint_weight > largest) {
+      largest = paint_weight;
       owner = corners.owner[i];
     }
   }
+  // No sample on the plane, and no refinement: takes the nearest sample.
   if (kRefine == 0u && all <= 0.0) {
     const int i = (share.x >= 0.5 ? 1 : 0) + (share.y >= 0.5 ? 2 : 0);
     const vec4 paint = i == 0 ? corners.paint[0] : i == 1 ? corners.paint[1] : i == 2 ? corners.paint[2] : corners.paint[3];
@@ -74,6 +84,7 @@ void makePixel(Corners corners, ivec2 pixel, vec2 share) {
     rest[atomicAdd(rest_count, 1u)] = uint(pixel.x) | uint(pixel.y) << 16;
   } else {
     const float coverage = alphas / max(all, 1e-20);
+    // At other coverages the noise decides nothing, and the shader skips its octaves.
     const bool open = coverage > 0.0 && coverage < 0.9 + splat.half_width && (kWanted & 1u) != 0u;
     const float noise = splatNoise(from_camera, depth, open ? splat.octaves : 0u);
     writePaint(pixel, color / max(painted, 1e-20), coverage, owner, noise);
@@ -93,11 +104,11 @@ void main() {
     corners.plane[i] = textureLod(planes, place, 0.0);
     corners.owner[i] = (kWanted & 4u) != 0u ? textureLod(owners, place, 0.0).x : 0u;
   }
-  // The last samples of a row or a column may stand closer.
+  // The last two samples of a row or a column may be closer together.
   const vec2 across = max(min(vec2(kStep), vec2(size - 1 - first)), 1.0);
   for (uint i = 0u; i < kStep * kStep; ++i) {
     const ivec2 inside = ivec2(i % kStep, i / kStep);
     const ivec2 pixel = first + inside;
-    if (all(lessThan(pixel, size))) makePixel(corners, pixel, vec2(inside) / across);
+    if (all(lessThan(pixel, size))) upsamplePixel(corners, pixel, vec2(inside) / across);
   }
 }

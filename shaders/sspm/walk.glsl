@@ -1,45 +1,59 @@
 // SPDX-License-Identifier: MIT
-// Any number of shots: a place on a surface walks the shots listed for its cell of the world and its
-// facing, newest first, T = prod(1 - alpha), C = sum(alpha c T), A = sum(alpha), until no older one
-// changes what is written.
-// A shot paints what its muzzle sees: effects/sspm/shot_map.h says how that is held.
-// Before it: kWanted, whose bit 4 asks for the owner.
+// Composites any number of shots at a point of a surface.
+//
+// A hash grid of the world has a list of shots for each cell and facing, newest first. The walk
+// composites this list front to back with the over operator (Porter and Duff 1984):
+// - transmittance T = prod(1 - alpha),
+// - colour C = sum(alpha c T),
+// - coverage A = sum(alpha f), which is additive.
+// It ends early, when no older shot changes the outputs any more. A shot paints only what its
+// muzzle sees, by its map (effects/sspm/shot_map.h).
+//
+// Declare kWanted before the include, see outputs.glsl.
 
+// Levels are hash grids of different cell width, for shots of different range.
 const uint kLevels = 16;
-// Most scenes have shots of one range alone.
+// All shots are on one level, as in most scenes.
 layout(constant_id = 1) const bool kOneLevel = false;
 layout(UNIFORM(2), std140) uniform Lists {
   ivec4 level_cell[kLevels];      // xyz: the camera's cell; w: code of the level
-  vec4 level_fraction[kLevels];   // xyz: the camera's place in it, in cells; w: cells a metre
-  ivec4 camera_cell;              // the camera's place: nearest whole metres; w: number of levels
-  vec4 camera_fraction;           // and the rest; w: r0, metres
-  uint slot_mask;                 // number of slots, a power of two, less 1
-  float per_fade;
+  vec4 level_fraction[kLevels];   // xyz: the camera's position in it, in cells; w: cells per metre
+  ivec4 camera_cell;              // xyz: the camera's position, whole metres; w: number of levels
+  vec4 camera_fraction;           // xyz: its remainder, -0.5 to 0.5 metres; w: r0, metres
+  uint slot_mask;                 // number of slots, a power of two, minus 1
+  float per_fade;                 // 1 / edge_fade
 } lists;
 
 struct Shot {
-  ivec3 cell;  // muzzle, world: nearest whole metres
-  float range;
-  vec3 fraction;
-  float slope;
-  vec3 direction;
-  uint number;             // from 1
-  uint color_rg;           // halves
-  uint color_b_times;      // halves: blue; how often its alpha counts
-  uint base;               // the map's first block
-  uint root;
+  ivec3 cell;          // the muzzle's world position, whole metres
+  float range;         // metres
+  vec3 fraction;       // the position's remainder, -0.5 to 0.5 metres
+  float slope;         // s0 of shot_map.h
+  vec3 direction;      // unit
+  uint number;         // 1 + the shot's number
+  uint color_rg;       // half floats
+  uint color_b_times;  // half floats: blue; number of times that the alpha counts
+  uint base;           // first block of the map
+  uint root;           // word of the map's root
 };
-layout(STORAGE(0), std430) readonly buffer Slots { int slots[]; };  // six a slot: cell, code (-1: free), first entry, count
-layout(STORAGE(1), std430) readonly buffer Entries { uint entries[]; };  // four an entry: of shots[], word, parts of the cell (2)
+// Hash table with linear probing. Six words per slot: cell (3), code (-1: free), first entry,
+// count.
+layout(STORAGE(0), std430) readonly buffer Slots { int slots[]; };
+// Four words per entry: index into shots[], word of the map, mask of the cell's parts (2).
+layout(STORAGE(1), std430) readonly buffer Entries { uint entries[]; };
 layout(STORAGE(2), std430) readonly buffer Shots { Shot shots[]; };
-layout(STORAGE(3), std430) readonly buffer Blocks { uint blocks[]; };  // four words a block
+layout(STORAGE(3), std430) readonly buffer Blocks { uint blocks[]; };  // four words per block
 
+// Same as in effects/sspm/shot_map.h and shot_map.cpp.
 const float kMapReach = 8.0;
 const float kBiasUnits = 0.02, kBiasShare = 2e-5;
 const float kSlant = 8.0, kOther = -0.5, kSame = 0.3, kLeastBias = 0.05;
 const uint kPlane = 0x40000000u, kNode = 0x80000000u, kTag = 0xC0000000u;
 
-// As inSight() of effects/sspm/shot_map.cpp.
+// Visibility test of a shadow map: whether the muzzle sees the point at offset q on a facet with
+// normal `facing`. Descends the map's tree to a leaf, and compares q with the leaf's plane, with a
+// bias. Same as inSight() of effects/sspm/shot_map.cpp, which explains the bias.
+// word: of the map, where the descent starts. along: dot(q, direction).
 bool inSight(Shot shot, uint word, vec3 q, float along, vec3 facing) {
   if ((word & kNode) != 0u) {
     const vec3 w = shot.direction;
@@ -71,6 +85,8 @@ bool inSight(Shot shot, uint word, vec3 q, float along, vec3 facing) {
   return behind <= bias && behind * length(q) <= kSlant * bias * abs(dot(plane.xyz, q));
 }
 
+// Spatial hash: xor of the coordinates times primes (Teschner et al. 2003), then mixed. Same as
+// hashOf() of effects/sspm/cell_table.cpp.
 uint hashCell(ivec3 cell, int code) {
   const uvec3 c = uvec3(cell);
   uint h = c.x * 0x9e3779b1u ^ c.y * 0x85ebca77u ^ c.z * 0xc2b2ae3du ^ uint(code) * 0x27d4eb2fu;
@@ -79,8 +95,8 @@ uint hashCell(ivec3 cell, int code) {
   return h ^ h >> 12;
 }
 
-// First and count of the entries of a cell.
-uvec2 find(ivec3 cell, int code) {
+// Entries of a cell: x: first, y: end. Both 0 without paint.
+uvec2 findCell(ivec3 cell, int code) {
   for (uint i = hashCell(cell, code);; ++i) {
     const uint slot = (i & lists.slot_mask) * 6u;
     if (slots[slot + 3u] < 0) return uvec2(0u);
@@ -90,14 +106,15 @@ uvec2 find(ivec3 cell, int code) {
   }
 }
 
+// Facing of a normal, 0 to 5: its largest component, x, y or z, and its sign.
 int facingOf(vec3 normal) {
   const vec3 n = abs(normal);
   const int axis = n.x >= n.y && n.x >= n.z ? 0 : n.y >= n.z ? 1 : 2;
   return axis * 2 + (normal[axis] < 0.0 ? 1 : 0);
 }
 
-// xy: from an entry to an end; z: part of a cell. From the first entry on that that reaches a part of the cell.
-uint seek(uint first, uint end, uint part) {
+// The first entry in [first, end) whose shot may paint the part of the cell, 0 to 63; else `end`.
+uint nextEntry(uint first, uint end, uint part) {
   const uint word = 2u + part / 32u, bit = 1u << (part & 31u);
   bool found = false;
   while (first < end && !found) {
@@ -107,15 +124,18 @@ uint seek(uint first, uint end, uint part) {
   return first;
 }
 
+// Result of compositing.
 struct Sum {
-  vec3 color;
-  float through;  // T
-  float alphas;
-  float weight;  // of the owner
-  uint owner;
+  vec3 color;           // C
+  float transmittance;  // T
+  float alphas;         // A
+  float weight;         // of the owner in the colour
+  uint owner;           // 1 + the number of the shot with the largest weight; 0: no paint
 };
 
-void add(inout Sum sum, uint record, uint word, vec3 from_camera, vec3 normal) {
+// Composites one shot behind the sum, by steps 1 to 3 of the definition (effects/sspm/README.md),
+// if its muzzle sees the point.
+void composite(inout Sum sum, uint record, uint word, vec3 from_camera, vec3 normal) {
   const Shot shot = shots[record];
   const vec3 origin = vec3(shot.cell - lists.camera_cell.xyz) + (shot.fraction - lists.camera_fraction.xyz);
   const vec3 q = from_camera - origin;
@@ -125,62 +145,69 @@ void add(inout Sum sum, uint record, uint word, vec3 from_camera, vec3 normal) {
   if (!inSight(shot, word, q, along, normal)) return;
   const float alpha = min(1.0, lists.camera_fraction.w / max(across, 1e-6));
   const float fade = min(1.0, (1.0 - across / shot.range) * lists.per_fade);
-  const float weight = alpha * sum.through;
+  const float weight = alpha * sum.transmittance;
   const vec2 blue_times = unpackHalf2x16(shot.color_b_times);
   sum.color += weight * vec3(unpackHalf2x16(shot.color_rg), blue_times.x);
   sum.alphas += alpha * fade * blue_times.y;
-  sum.through *= 1.0 - alpha;
+  sum.transmittance *= 1.0 - alpha;
   if ((kWanted & 4u) != 0u && weight > sum.weight) {
     sum.weight = weight;
     sum.owner = shot.number;
   }
 }
 
-// The pixel's list on a level, as seek() takes it.
+// List of the point's cell on a level. x: first entry for the point's part of the cell; y: end;
+// z: that part.
 uvec3 listOn(uint level, vec3 from_camera, int facing) {
   const vec3 place = from_camera * lists.level_fraction[level].w + lists.level_fraction[level].xyz;
   const vec3 whole = floor(clamp(place, -1e9, 1e9));
   const uvec3 in_cell = uvec3(clamp((place - whole) * 4.0, 0.0, 3.0));
   const uint part = in_cell.x | in_cell.y << 2 | in_cell.z << 4;
-  const uvec2 run = find(lists.level_cell[level].xyz + ivec3(whole), lists.level_cell[level].w + facing);
-  return uvec3(seek(run.x, run.y, part), run.y, part);
+  const uvec2 run =
+      findCell(lists.level_cell[level].xyz + ivec3(whole), lists.level_cell[level].w + facing);
+  return uvec3(nextEntry(run.x, run.y, part), run.y, part);
 }
 
-bool isOpen(Sum sum, float enough) { return sum.through >= 1.0 / 512.0 || sum.alphas < enough; }
+// Whether older shots can still change the outputs: early ray termination.
+bool isOpen(Sum sum, float enough) {
+  return sum.transmittance >= 1.0 / 512.0 || sum.alphas < enough;
+}
 
+// Walk with one level. It needs no array of list heads.
 void walkOne(inout Sum sum, float enough, vec3 from_camera, vec3 normal) {
-  uvec3 left = listOn(0u, from_camera, facingOf(normal));
-  while (left.x < left.y && isOpen(sum, enough)) {
-    add(sum, entries[left.x * 4u], entries[left.x * 4u + 1u], from_camera, normal);
-    left.x = seek(left.x + 1u, left.y, left.z);
+  uvec3 head = listOn(0u, from_camera, facingOf(normal));
+  while (head.x < head.y && isOpen(sum, enough)) {
+    composite(sum, entries[head.x * 4u], entries[head.x * 4u + 1u], from_camera, normal);
+    head.x = nextEntry(head.x + 1u, head.y, head.z);
   }
 }
 
-// Levels differ in range, not in time: their lists are merged by the shots' numbers.
+// Walk with several levels: merges their lists by the shots' numbers, newest first.
 void walkAll(inout Sum sum, float enough, vec3 from_camera, vec3 normal) {
-  uvec3 left[kLevels];
+  uvec3 heads[kLevels];
   uint live = 0u;
   for (uint i = 0u; i < uint(lists.camera_cell.w); ++i) {
     const uvec3 list = listOn(i, from_camera, facingOf(normal));
-    if (list.x < list.y) left[live++] = list;
+    if (list.x < list.y) heads[live++] = list;
   }
   while (live > 0u && isOpen(sum, enough)) {
-    uint newest = 0u, record = entries[left[0].x * 4u];
+    uint newest = 0u, record = entries[heads[0].x * 4u];
     for (uint i = 1u; i < live; ++i) {
-      const uint other = entries[left[i].x * 4u];
+      const uint other = entries[heads[i].x * 4u];
       if (shots[other].number > shots[record].number) {
         record = other;
         newest = i;
       }
     }
-    add(sum, record, entries[left[newest].x * 4u + 1u], from_camera, normal);
-    left[newest].x = seek(left[newest].x + 1u, left[newest].y, left[newest].z);
-    if (left[newest].x >= left[newest].y) left[newest] = left[--live];
+    composite(sum, record, entries[heads[newest].x * 4u + 1u], from_camera, normal);
+    heads[newest].x = nextEntry(heads[newest].x + 1u, heads[newest].y, heads[newest].z);
+    if (heads[newest].x >= heads[newest].y) heads[newest] = heads[--live];
   }
 }
 
-// Of a place `from_camera` metres from the camera, world axes, on a facet with this normal. Once the
-// alphas add up to `enough` they may stop.
+// Composites the shots at a point.
+// from_camera: its position relative to the camera, world axes, metres. normal: of its facet.
+// enough: sum of alphas from which on more alpha does not change the outputs.
 Sum walk(vec3 from_camera, vec3 normal, float enough) {
   Sum sum = Sum(vec3(0.0), 1.0, 0.0, 0.0, 0u);
   if (kOneLevel) {

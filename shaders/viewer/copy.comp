@@ -1,6 +1,6 @@
 #version 460
 // SPDX-License-Identifier: MIT
-// A picture as it is, into one of the format FORMAT and of the same size.
+// Copies a picture to one of the format FORMAT and of the same size.
 #extension GL_GOOGLE_include_directive : require
 #include "common/bindings.glsl"
 

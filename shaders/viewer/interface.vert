@@ -1,6 +1,6 @@
 #version 460
 // SPDX-License-Identifier: MIT
-// Dear ImGui's triangles. Positions are the window's units from its top left corner.
+// Draws Dear ImGui's triangles. Positions are in the window's units, from its top left corner.
 #extension GL_GOOGLE_include_directive : require
 #include "common/bindings.glsl"
 

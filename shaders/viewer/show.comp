@@ -1,7 +1,7 @@
 #version 460
 // SPDX-License-Identifier: MIT
-// Outputs of a frame as the screen shows them: two sides about a dragged line, magnified, in their
-// place in the window.
+// Shows outputs of a frame in the window: magnified, and split by a line that the user drags, with
+// one output on each side.
 #extension GL_GOOGLE_include_directive : require
 #include "common/bindings.glsl"
 
@@ -10,16 +10,17 @@ layout(TEXTURE(0)) uniform sampler2D left_side;
 layout(TEXTURE(1)) uniform sampler2D right_side;
 layout(IMAGE(0), rgba8) writeonly uniform image2D window;
 layout(UNIFORM(0)) uniform Show {
-  ivec2 place;      // of the picture's top left corner in the window, pixels
-  ivec2 size;       // of the picture in the window; 0: none
-  vec2 centre;      // texel of the outputs that stands in the picture's middle
-  float zoom;       // pixels a texel
-  float line;       // from the picture's left edge, pixels: what is right of it is the right side
-  float far_depth;  // metres, drawn as mid grey
+  ivec2 place;      // top left corner of the picture in the window, pixels
+  ivec2 size;       // of the picture in the window, pixels; 0: no picture
+  vec2 centre;      // texel of the outputs at the picture's centre
+  float zoom;       // pixels per texel
+  float line;       // x of the line, from the picture's left edge, pixels
+  float far_depth;  // depth drawn as mid grey, metres
   float line_width; // pixels
 } show;
 
-// How numbers become colours, of left and right. Where there is no right side, it is the left's.
+// Kinds of the left and the right side: how numbers become colours. Without a right side, both are
+// equal.
 layout(constant_id = 0) const uint left_kind = 0u;
 layout(constant_id = 1) const uint right_kind = 0u;
 
@@ -28,7 +29,7 @@ const uint kNumber = 1u;  // one channel, 0 black to 1 white
 const uint kSigned = 2u;  // three channels from -1 to 1
 const uint kDepth = 3u;   // metres, 0: sky
 const uint kOverlay = 4u;   // straight alpha over a checkerboard
-const uint kEncoded = 5u; // three channels as they are
+const uint kEncoded = 5u; // three channels, unchanged
 
 const vec3 kGround = vec3(0.07, 0.07, 0.08);
 const vec3 kLine = vec3(0.90, 0.62, 0.0);
@@ -67,7 +68,7 @@ void main() {
     const vec2 texel = floor(show.centre + (vec2(inside) + 0.5 - 0.5 * vec2(show.size)) / show.zoom);
     const vec2 uv = (texel + 0.5) / vec2(extent);
     if (all(greaterThanEqual(texel, vec2(0.0))) && all(lessThan(texel, vec2(extent)))) {
-      // One side alone is one lookup.
+      // Equal kinds: one conversion for both sides.
       if (left_kind == right_kind) {
         const vec4 value = right ? textureLod(right_side, uv, 0.0) : textureLod(left_side, uv, 0.0);
         color = shown(value, left_kind, inside);

@@ -57,7 +57,8 @@ TEST_P(Buffers, LargeUploadsArrive) {
   EXPECT_EQ(readBuffer<uint32_t>({.buffer = bufferOf(values, BufferUsage::kStorage)}), values);
 }
 
-// The bytes are copied at the call, and each upload is seen by what is recorded after it alone.
+// The call copies the bytes. Work recorded before an upload sees the old contents, later work the
+// new.
 TEST_P(Buffers, UploadsAndDispatchesOfOneFrameKeepTheirOrder) {
   const gpu::Buffer buffer = makeBuffer(256 * 4, BufferUsage::kStorage);
   const gpu::ComputePipeline fill = makeCompute(grisaille_shader_fill_comp);

@@ -98,7 +98,8 @@ TEST_P(Compute, OneLayerOfAnImageArrayIs2D) {
   EXPECT_EQ(readTexture<uint32_t>(texture, 0, 2), std::vector<uint32_t>(64, 2));
 }
 
-// Reads level n while writing level n + 1, all levels in one pass: each waits for the one before.
+// Each dispatch reads level n and writes level n + 1, all in one pass: each waits for the one
+// before.
 TEST_P(Compute, AMipChainIsBuiltLevelByLevel) {
   constexpr uint32_t kSize = 256, kMips = 9;
   const gpu::Texture texture =
@@ -178,7 +179,7 @@ TEST_P(Compute, AnImageThatIsReadAndWrittenKeepsItsOrder) {
   EXPECT_EQ(readTexture<uint32_t>(texture), std::vector<uint32_t>(64 * 64, stepped(2, 100)));
 }
 
-// Read after write and write after read: two buffers take turns.
+// Read after write and write after read: two buffers alternate.
 TEST_P(Compute, PingPongBetweenBuffers) {
   constexpr uint32_t kCount = 8192;
   const gpu::Buffer buffers[] = {bufferOf(std::vector<uint32_t>(kCount, 0), BufferUsage::kStorage),
@@ -208,7 +209,7 @@ TEST_P(Compute, PingPongBetweenBuffers) {
             std::vector<uint32_t>(kCount, (uint32_t{1} << kRounds) - 1));
 }
 
-// An upload after a dispatch that reads must not reach that dispatch, nor one before miss it.
+// A dispatch reads uploads recorded before it, and none recorded after it.
 TEST_P(Compute, UploadsBetweenDispatchesKeepTheirOrder) {
   constexpr uint32_t kCount = 1024;
   const gpu::Buffer source = makeBuffer(kCount * 4, BufferUsage::kStorage);

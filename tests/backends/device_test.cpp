@@ -22,7 +22,7 @@ class Devices : public BackendTest {
     for (const backends::Backend& one : backends::all()) {
       if (one.name == GetParam().backend) return one;
     }
-    throw std::logic_error("a backend that is not listed");
+    throw std::logic_error("the backend is not listed");
   }
 };
 GRISAILLE_ON_EVERY_DEVICE(Devices);
@@ -66,7 +66,8 @@ TEST_P(Devices, ThatAreNotThereAreRefused) {
   }
 }
 
-// Without the checking layer, which asks the same: drivers need not refuse it, and some crash.
+// Without the checking layer, which makes the same check: drivers need not refuse the size; some
+// crash.
 TEST_P(Devices, TexturesOverTheLimitAreRefused) {
   const std::unique_ptr<gpu::Device> unchecked = backend().create({});
   const uint32_t most = unchecked->info().capabilities.maxTextureSize;
@@ -92,7 +93,7 @@ TEST_P(Devices, TwoLiveSideBySide) {
         {.label = "side by side", .shader = &grisaille_shader_fill_comp});
   }
   for (uint32_t round = 0; round < 5; ++round) {
-    // Both record at the same time, taking turns.
+    // Both record at the same time, alternating.
     gpu::Commands* commands[] = {&both[0]->begin(), &both[1]->begin()};
     for (uint32_t i = 0; i < 2; ++i) commands[i]->beginPass("fill");
     for (uint32_t i = 0; i < 2; ++i) {
@@ -140,7 +141,7 @@ TEST_P(Devices, TimeEveryPassWhenAsked) {
   const gpu::Binding bindings[] = {gpu::storageBinding(0, {.buffer = buffer})};
   device().wait();
   std::vector<gpu::FrameTimes> times = device().takeTimes();
-  const uint64_t first = times.size();  // the upload's frame
+  const uint64_t first = times.size();  // counts the upload's frame
   EXPECT_EQ(first, 1u);
   times.clear();
   constexpr uint64_t kFrames = 30;

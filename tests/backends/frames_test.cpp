@@ -17,7 +17,7 @@ using gpu::TextureUsage;
 
 class Frames : public BackendTest {
  protected:
-  // Dispatches `data[index] = value` with the block in memory of the frame.
+  // Dispatches `data[index] = value`, with the uniform block in the frame's memory.
   void setValue(gpu::Commands& commands, gpu::Buffer out, gpu::ComputePipeline pipeline,
                 uint32_t index, uint32_t value) {
     const std::array<uint32_t, 4> block = {index, value, 0, 0};
@@ -49,7 +49,7 @@ TEST_P(Frames, UniformsOfFramesInFlightStayApart) {
 }
 
 TEST_P(Frames, ManyLargeUniformsOfOneFrameStayApart) {
-  constexpr uint32_t kCount = 200;  // of 64 KiB each, more than any first guess at the memory
+  constexpr uint32_t kCount = 200;  // of 64 KiB each, more than any initial size of that memory
   const gpu::Buffer out = bufferOf(std::vector<uint32_t>(kCount, 0), BufferUsage::kStorage);
   const gpu::ComputePipeline pipeline = makeCompute(grisaille_shader_uniform_value_comp);
   for (int round = 0; round < 3; ++round) {
@@ -94,7 +94,8 @@ TEST_P(Frames, TransientTexturesServeFrameAfterFrame) {
   }
 }
 
-// Transient contents reach a lasting buffer intact while later frames reuse the memory.
+// Copies of transient contents in a persistent buffer stay intact while later frames reuse the
+// memory.
 TEST_P(Frames, TransientMemoryIsNotReusedTooEarly) {
   constexpr uint32_t kFrames = 24, kTexels = 64 * 64;
   const gpu::ComputePipeline fetch = makeCompute(grisaille_shader_fetch_comp);
@@ -182,12 +183,12 @@ TEST_P(Frames, AnAbandonedFrameLeavesNoTrace) {
       next.endPass();
     });
   }
-  device().abandon();  // nothing is being recorded: nothing happens
+  device().abandon();  // no frame is being recorded: does nothing
   EXPECT_EQ(readBuffer<uint32_t>({.buffer = buffer}), std::vector<uint32_t>(64, 40));
   EXPECT_EQ(readTexture<uint32_t>(texture), std::vector<uint32_t>(64, 40));
 }
 
-// Dropping a frame takes back its uses, not what was made or destroyed meanwhile.
+// Abandoning a frame reverts its uses, not the resources created or destroyed meanwhile.
 TEST_P(Frames, WhatIsMadeAroundAnAbandonedFrameStays) {
   const gpu::ComputePipeline write = makeCompute(grisaille_shader_image_write_comp);
   const gpu::ComputePipeline step = makeCompute(grisaille_shader_image_step_comp);

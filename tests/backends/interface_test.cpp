@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: MIT
-// What an interface is drawn with: blending, scissors, colours of bytes.
+// Features for drawing a user interface: blending, scissors, colours in bytes.
 #include <cmath>
 #include <cstring>
 
@@ -25,7 +25,7 @@ class Interface : public RasterTest {
                          .blend = blend});
   }
 
-  // Paints rectangles over a target, in order, with one pipeline each.
+  // One draw in one colour, with its own pipeline and scissor. paint() records a list in order.
   struct Paint {
     Color color;
     gpu::GraphicsPipeline pipeline;
@@ -77,7 +77,7 @@ TEST_P(Interface, OverIsByStraightAlpha) {
       if (format == Format::kRgba8Unorm) {
         there = static_cast<float>(bytes[i]) / 255;
       } else {
-        uint16_t half = 0;  // positive and normal here
+        uint16_t half = 0;  // positive and normal in this range
         std::memcpy(&half, &bytes[i * 2], 2);
         there = std::ldexp(1.0f + static_cast<float>(half & 1023u) / 1024, (half >> 10) - 15);
       }
@@ -86,7 +86,7 @@ TEST_P(Interface, OverIsByStraightAlpha) {
   }
 }
 
-// Of one render call, whichever blended before.
+// Within one render call, independent of the previous draw's blending.
 TEST_P(Interface, EveryDrawBlendsAsItsPipelineSays) {
   const Format formats[] = {Format::kRgba8Unorm};
   const gpu::Texture texture = target(formats[0]);
@@ -111,7 +111,7 @@ TEST_P(Interface, ScissorsCountFromTheTopLeft) {
   const gpu::Texture texture = target(formats[0]);
   for (const gpu::Scissor& scissor : std::vector<gpu::Scissor>{
            {3, 5, 7, 2}, {0, 0, 1, 1}, {kSize - 1, kSize - 1, 1, 1}, {0, 0, kSize, kSize}, {}}) {
-    // The clear is never cut, not by the scissor of the call before either.
+    // The clear ignores scissors, including the scissor of the call before.
     paint({.view = {.texture = texture}, .clear = {0, 0, 1, 0}},
           {{.color = {1, 0, 0, 0}, .pipeline = none, .scissor = scissor}});
     const std::vector<uint32_t> texels = readTexture<uint32_t>(texture);

@@ -13,7 +13,7 @@ using gpu::Format;
 
 class Raster : public RasterTest {
  protected:
-  // Which texels of an r8 target three vertices cover.
+  // Draws three vertices; returns the covered texels of an r8 target.
   std::vector<uint8_t> coverage(const std::vector<float>& positions, Cull cull = Cull::kNone) {
     const Format formats[] = {Format::kR8Unorm};
     const gpu::Texture texture = target(Format::kR8Unorm);
@@ -73,7 +73,7 @@ TEST_P(Raster, ShadersSeeTheSameFacingAndDerivatives) {
 }
 
 TEST_P(Raster, TheNearPlaneClips) {
-  // Depth beyond 1 is in front of the near plane, below 0 past infinity: neither is drawn.
+  // Depth above 1 is in front of the near plane, below 0 beyond infinity: neither is drawn.
   const std::vector<uint8_t> all(kSize * kSize, 255), none(kSize * kSize, 0);
   const auto at = [&](float depth) { return coverage({-1, -3, depth, 3, 1, depth, -1, 1, depth}); };
   EXPECT_EQ(at(0.999f), all);
@@ -82,7 +82,7 @@ TEST_P(Raster, TheNearPlaneClips) {
   EXPECT_EQ(at(-0.001f), none);
 }
 
-// Vulkan requires 4 bits of sub-pixel position. Depth comes from no farther than a vertex snaps.
+// Vulkan requires 4 bits of sub-pixel precision. Depth may be off by at most the snapping distance.
 TEST_P(Raster, VerticesSnapToNoMoreThanASixteenthOfAPixel) {
   const Snapping& found = snapping();
   std::printf("%s: %d bits, depth from up to %.4f pixels away\n", GetParam().label.c_str(),
@@ -95,7 +95,7 @@ TEST_P(Raster, VerticesSnapToNoMoreThanASixteenthOfAPixel) {
 TEST_P(Raster, IndicesBeginWhereTheDrawSays) {
   const Format formats[] = {Format::kR8Unorm};
   const gpu::GraphicsPipeline pipeline = positionPipeline(&grisaille_shader_white_frag, formats);
-  // Four quadrants as two triangles each, by index.
+  // Four quadrants of two triangles each, by index.
   std::vector<float> corners;
   for (int i = 0; i < 9; ++i) {
     corners.insert(corners.end(),
@@ -132,7 +132,7 @@ TEST_P(Raster, IndicesBeginWhereTheDrawSays) {
 TEST_P(Raster, VerticesBeginWhereTheDrawSays) {
   const Format formats[] = {Format::kR8Unorm};
   const gpu::GraphicsPipeline pipeline = positionPipeline(&grisaille_shader_white_frag, formats);
-  // A degenerate triangle, then one over everything.
+  // A degenerate triangle, then one that covers the target.
   const gpu::Buffer buffer =
       vertices({0, 0, 0.5f, 0, 0, 0.5f, 0, 0, 0.5f, -1, -3, 0.5f, 3, 1, 0.5f, -1, 1, 0.5f});
   const gpu::Texture texture = target(Format::kR8Unorm);

@@ -21,7 +21,7 @@ float texel(int x, int y) {
   return static_cast<float>(y * 100 + x);
 }
 
-// The address mode's texel of a coordinate outside.
+// Texel index that the address mode gives for a coordinate outside the texture.
 int wrapped(int i, int size, Address address) {
   switch (address) {
     case Address::kClamp:
@@ -69,7 +69,7 @@ GRISAILLE_ON_EVERY_DEVICE(Sampling);
 
 TEST_P(Sampling, NearestAndLinearWithEveryAddressMode) {
   const gpu::Texture source = texture();
-  // Texel coordinates from two sizes left to two sizes right, off the exact borders.
+  // Texel coordinates from two sizes to the left to two sizes to the right, off the exact borders.
   std::vector<Vec4> places;
   for (int i = -40; i <= 60; ++i) {
     const float x = static_cast<float>(i) * 0.37f + 0.055f,
@@ -94,7 +94,7 @@ TEST_P(Sampling, NearestAndLinearWithEveryAddressMode) {
         const float fx = x - 0.5f - static_cast<float>(x0), fy = y - 0.5f - static_cast<float>(y0);
         const float expected = std::lerp(std::lerp(at(x0, y0), at(x0 + 1, y0), fx),
                                          std::lerp(at(x0, y0 + 1), at(x0 + 1, y0 + 1), fx), fy);
-        // Filter weights have at least 8 bits; the steepest neighbours differ by 300.
+        // Filter weights have at least 8 bits; neighbouring texels differ by at most 300.
         EXPECT_NEAR(linear[i][0], expected, 300.0 / 256 * 2) << x << ", " << y;
       }
     }
@@ -121,7 +121,7 @@ TEST_P(Sampling, ChoosesMipLevels) {
   for (size_t i = 0; i < places.size(); ++i) {
     const float level = std::min(places[i][2], 3.0f);
     EXPECT_NEAR(linear[i][0], level * 10, 10.0 / 128);
-    if (level == 2.5f) continue;  // halfway: either level is near
+    if (level == 2.5f) continue;  // halfway: either level is valid
     EXPECT_EQ(nearest[i][0], std::round(level) * 10) << level;
   }
 }
@@ -196,8 +196,8 @@ TEST_P(Sampling, SrgbBecomesLinear) {
     const float code = static_cast<float>(i) / 255;
     const float linear =
         code <= 0.04045f ? code / 12.92f : std::pow((code + 0.055f) / 1.055f, 2.4f);
-    EXPECT_NEAR(samples[i][0], linear, 2e-3);  // half a code where codes are farthest apart: 4e-3
-    EXPECT_NEAR(samples[i][3], code, 1e-5);    // alpha is linear already
+    EXPECT_NEAR(samples[i][0], linear, 2e-3);  // half the widest step between codes: 4e-3
+    EXPECT_NEAR(samples[i][3], code, 1e-5);    // alpha is linear
   }
 }
 
@@ -207,8 +207,8 @@ TEST_P(Sampling, MissingChannelsAreZeroAndOne) {
   EXPECT_EQ(samples[0], (Vec4{7, 0, 0, 1}));
 }
 
-// How an anisotropic filter spreads its taps is the driver's choice; of one value it makes that
-// value.
+// Drivers place the taps of an anisotropic filter differently; on a constant texture, every choice
+// gives the constant.
 TEST_P(Sampling, AnisotropyIsClampedToTheDevice) {
   const gpu::Texture source = makeTexture(
       {.format = Format::kR32Float, .width = 8, .height = 8, .usage = TextureUsage::kSampled});

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: MIT
-// What the raster tests draw: triangles in clip space.
+// The geometry of the raster tests: triangles in clip space.
 #pragma once
 
 #include "shaders/colored_frag.h"
@@ -23,7 +23,7 @@ class RasterTest : public BackendTest {
                         .usage = gpu::TextureUsage::kTarget | gpu::TextureUsage::kSampled});
   }
 
-  // A pipeline with positions (three floats) as its only stream.
+  // A pipeline with positions (three floats) as its only vertex stream.
   gpu::GraphicsPipeline positionPipeline(const gpu::Shader* fragment,
                                          std::span<const gpu::Format> colors,
                                          gpu::Format depth = gpu::Format::kNone) {
@@ -41,7 +41,7 @@ class RasterTest : public BackendTest {
     return bufferOf(positions, gpu::BufferUsage::kVertex);
   }
 
-  // The one triangle that covers the whole target, at a depth.
+  // One triangle at this depth that covers the whole target.
   gpu::Buffer everything(float depth = 0.5f) {
     return vertices({-1, -3, depth, 3, 1, depth, -1, 1, depth});
   }

@@ -16,8 +16,8 @@ using gpu::TextureUsage;
 
 class Targets : public RasterTest {
  protected:
-  // The first texel of a float target after drawing full triangles at these depths, in order, each
-  // in a colour of its own: 1, 2, 3 ...
+  // Draws full triangles at these depths in order, in the colours 1, 2, 3 ... Returns the first
+  // texel of the float target.
   float winner(const std::vector<float>& depths) {
     const Format formats[] = {Format::kRgba32Float};
     const gpu::GraphicsPipeline pipeline =
@@ -53,7 +53,7 @@ TEST_P(Targets, TheNearerWinsAndTheEqualLoses) {
   EXPECT_EQ(winner({0.75f, 0.25f}), 1.0f);
   EXPECT_EQ(winner({0.5f, 0.5f, 0.5f}), 1.0f);
   EXPECT_EQ(winner({0.1f, 0.3f, 0.2f, 0.9f, 0.8f}), 4.0f);
-  EXPECT_EQ(winner({0.0f}), 0.0f);  // infinitely far equals the clear value
+  EXPECT_EQ(winner({0.0f}), 0.0f);  // infinite distance equals the clear value
 }
 
 TEST_P(Targets, DepthAloneNeedsNoFragmentShader) {
@@ -70,7 +70,7 @@ TEST_P(Targets, DepthAloneNeedsNoFragmentShader) {
   for (uint32_t i = 0; i < kSize * kSize; ++i) {
     ASSERT_EQ(values[i], i % kSize < kSize / 2 ? 0.5f : 0.125f);
   }
-  // And it can be sampled afterwards.
+  // The depth can be sampled afterwards.
   const gpu::Buffer out = makeBuffer(kSize * kSize * 4, gpu::BufferUsage::kStorage);
   const gpu::Binding bindings[] = {
       gpu::textureBinding(0, {.texture = depth}, makeSampler({.label = "depth"})),
@@ -112,7 +112,7 @@ TEST_P(Targets, AreClearedLoadedOrDiscarded) {
   for (size_t i = 0; i < cleared.size(); ++i) {
     ASSERT_EQ(cleared[i], clear[0].clear[i % 4]);
   }
-  // Loaded depth hides what is farther; loaded colour stays where nothing is drawn.
+  // Loaded depth hides farther draws; loaded colour stays where no draw covers it.
   const gpu::GraphicsPipeline pipeline =
       positionPipeline(&grisaille_shader_white_frag, formats, Format::kD32Float);
   const gpu::BufferRange far[] = {{.buffer = everything(0.4f)}};
@@ -122,7 +122,7 @@ TEST_P(Targets, AreClearedLoadedOrDiscarded) {
           .depth = {.view = {.texture = depth}, .load = Load::kLoad},
           .draws = hidden});
   EXPECT_EQ(readTexture<float>(color), cleared);
-  // Discarded colour is drawn over completely.
+  // After a discard, a draw covers the whole target.
   const gpu::BufferRange near[] = {{.buffer = everything(0.6f)}};
   const gpu::Draw seen[] = {{.pipeline = pipeline, .vertexStreams = near, .count = 3}};
   const gpu::ColorTarget discard[] = {{.view = {.texture = color}, .load = Load::kDiscard}};
@@ -152,7 +152,7 @@ TEST_P(Targets, OfEveryColourFormatAreCleared) {
   EXPECT_EQ(first(Format::kR8Unorm, {0.2f, 0, 0, 0}), bytes(std::vector<uint8_t>{51}));
   EXPECT_EQ(first(Format::kRgba8Unorm, {0.2f, 0.4f, 0.6f, 1}),
             bytes(std::vector<uint8_t>{51, 102, 153, 255}));
-  EXPECT_EQ(first(Format::kRgba8Srgb, {0, 1, 0.21586050f, 0.2f}),  // 128 of 255 as sRGB
+  EXPECT_EQ(first(Format::kRgba8Srgb, {0, 1, 0.21586050f, 0.2f}),  // 128 of 255 in sRGB
             bytes(std::vector<uint8_t>{0, 255, 128, 51}));
   EXPECT_EQ(first(Format::kR16Float, {1, 0, 0, 0}), bytes(std::vector<uint16_t>{0x3c00}));
   EXPECT_EQ(first(Format::kRgba16Float, {1, 0, -2, 0.5f}),
@@ -182,7 +182,7 @@ TEST_P(Targets, AreOneLevelOfOneLayer) {
   }
 }
 
-// What one render call draws, the next one of the same frame samples.
+// A later render call of the same frame samples the result of an earlier one.
 TEST_P(Targets, AreSampledByLaterWork) {
   const Format formats[] = {Format::kRgba32Float};
   const gpu::Texture a = target(formats[0]), b = target(formats[0]);

@@ -20,8 +20,8 @@ class Textures : public BackendTest {
  protected:
   std::mt19937 random_{20240611};
 
-  // Bytes that are valid for the format: any for normalized ones and integers, finite floats (in
-  // 0 ... 1, as depth asks), which a copy has no excuse to change.
+  // Bytes that every copy must preserve: any for normalised formats and integers, finite floats (0
+  // to 1, as depth requires).
   std::vector<std::byte> contents(Format format, size_t texels) {
     const gpu::FormatInfo& info = gpu::formatInfo(format);
     std::vector<std::byte> bytes(texels * info.texelBytes);
@@ -94,7 +94,7 @@ TEST_P(Textures, LaterUploadsReplaceEarlierOnes) {
   EXPECT_EQ(device().read(texture), last);
 }
 
-// Upload, image stores, drawing, fetches and readback agree that row 0 is the top one.
+// Row 0 is the top row in uploads, image stores, drawing, fetches and readback.
 class RowOrder : public BackendTest {
  protected:
   static constexpr uint32_t kWidth = 13, kHeight = 7;

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: MIT
-// The devices of windows: their choice, their neighbours, their errors.
+// Devices with windows: selection, coexistence with other devices, errors.
 #include "tests/backends/windows.h"
 #include "tests/support/expect_error.h"
 
@@ -54,7 +54,7 @@ TEST_P(WindowDevices, FollowEachOtherOnOneWindow) {
   glfwDestroyWindow(window);
 }
 
-// A device without a window, of any driver, takes turns with the window's.
+// A device without a window, on any driver, alternates with the window's device.
 TEST_P(WindowDevices, LiveBesideOthers) {
   open(50, 40);
   const gpu::Texture picture = makePicture(device(), 50, 40);
@@ -99,7 +99,7 @@ TEST_P(WindowDevices, RefuseTheOtherBackendsWindow) {
   for (const TestDevice& other : presentSystemDevices()) {
     if (other.backend == GetParam().backend) continue;
     GLFWwindow* window = makeWindow(32, 32, other.backend);
-    glfwSetErrorCallback(nullptr);  // GLFW says it, too
+    glfwSetErrorCallback(nullptr);  // GLFW reports it too
     EXPECT_ERROR(ErrorId::kDeviceFailed, (void)create(window, ""));
     glfwDestroyWindow(window);
   }

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: MIT
-// Pictures in a window: what the X server shows is what was presented.
+// Pictures in a window: the X server shows the presented picture.
 #include "shaders/image_color_comp.h"
 #include "tests/backends/windows.h"
 
@@ -10,7 +10,7 @@ using Clock = std::chrono::steady_clock;
 
 class Windows : public WindowTest {
  protected:
-  // Presents and destroys a picture of this size, and sees it in a window of this size.
+  // Presents a picture of this size, destroys it, and expects it in a window of this size.
   void showAndSee(uint32_t width, uint32_t height, uint32_t pictureWidth, uint32_t pictureHeight) {
     const gpu::Texture picture = makePicture(device(), pictureWidth, pictureHeight);
     show(picture);
@@ -51,7 +51,7 @@ TEST_P(Windows, ShowPicturesAtEverySize) {
   }
 }
 
-// As when a corner is dragged: every picture is of another size than the window has by then.
+// As when a user drags a corner: each picture is already of another size than the window.
 TEST_P(Windows, ChangeTheirSizeBetweenPictures) {
   open(200, 150);
   for (uint32_t step = 0; step < 60; ++step) {
@@ -62,7 +62,7 @@ TEST_P(Windows, ChangeTheirSizeBetweenPictures) {
     (void)device().present(picture);
     device().destroy(picture);
   }
-  // After work on the device, too.
+  // Also after waiting for the device.
   const gpu::Texture picture = makePicture(device(), 90, 70);
   device().wait();
   glfwSetWindowSize(window(), 90, 70);
@@ -90,7 +90,7 @@ TEST_P(Windows, ThatAreIconifiedShowNothing) {
   device().destroy(picture);
 }
 
-// No picture of a hidden window is seen; to show some takes a while at most.
+// Pictures of a hidden window are not visible; presenting some must at most take a while.
 TEST_P(Windows, ThatAreHiddenDoNotHang) {
   open(120, 90);
   const gpu::Texture picture = makePicture(device(), 120, 90);
@@ -108,8 +108,8 @@ TEST_P(Windows, ThatAreHiddenDoNotHang) {
   device().destroy(picture);
 }
 
-// A frame's last writes are shown, by a shader or as a target, and the next frame may overwrite
-// them at once.
+// Shows the last writes of a frame, by a shader or as a target. The next frame may overwrite them
+// at once.
 TEST_P(Windows, ShowWhatTheFrameWrote) {
   open(33, 17);
   const gpu::Texture picture =
@@ -137,7 +137,7 @@ TEST_P(Windows, ShowWhatTheFrameWrote) {
     commands.endPass();
     device().submit();
     show(picture);
-    if (frame % 8 < 6) continue;  // most are overwritten before anybody looks
+    if (frame % 8 < 6) continue;  // most frames are overwritten before the test reads the screen
     expectShown(33, 17, [&](uint32_t, uint32_t) { return level << 16 | 0x33ffu; });
   }
   device().destroy(picture);

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: MIT
-// A window with a device, on a display of the test's own.
+// A window with a device, on a private display.
 #pragma once
 
 #define GLFW_INCLUDE_NONE
@@ -19,7 +19,7 @@ namespace grisaille::tests {
 
 class WindowTest : public ::testing::TestWithParam<TestDevice> {
  protected:
-  static constexpr uint32_t kScreen = 4096;  // pixels a side
+  static constexpr uint32_t kScreen = 4096;  // pixels per side
 
   void SetUp() override {
     const std::string why = whyAbsent(GetParam());
@@ -43,7 +43,7 @@ class WindowTest : public ::testing::TestWithParam<TestDevice> {
     glfwWindowHint(GLFW_DECORATED, GLFW_FALSE);
     GLFWwindow* window = glfwCreateWindow(static_cast<int>(width), static_cast<int>(height), "test",
                                           nullptr, nullptr);
-    if (window == nullptr) throw std::runtime_error("GLFW makes no window");
+    if (window == nullptr) throw std::runtime_error("GLFW cannot create a window");
     glfwSetWindowPos(window, 0, 0);
     return window;
   }
@@ -57,7 +57,7 @@ class WindowTest : public ::testing::TestWithParam<TestDevice> {
     return options;
   }
 
-  // The test's window and its device.
+  // Opens the test's window and its device.
   void open(uint32_t width, uint32_t height) {
     window_ = makeWindow(width, height);
     device_ = backends::create(GetParam().backend, optionsFor(window_));
@@ -71,7 +71,7 @@ class WindowTest : public ::testing::TestWithParam<TestDevice> {
   gpu::Device& device() { return *device_; }
   const Display& display() { return *display_; }
 
-  // A picture without symmetry: quadrants of different colours, and in them a pattern.
+  // A picture without symmetry: quadrants of different colours with a pattern inside.
   static uint32_t texel(uint32_t x, uint32_t y, uint32_t width, uint32_t height) {
     constexpr uint32_t kQuadrants[] = {0xc01020, 0x10c030, 0x2040c0, 0xc0c040};  // 0xRRGGBB
     const uint32_t quadrant = (x >= width / 2 ? 1u : 0u) + (y >= height / 2 ? 2u : 0u);
@@ -95,17 +95,17 @@ class WindowTest : public ::testing::TestWithParam<TestDevice> {
     return picture;
   }
 
-  // Presents until the window takes it, as its owner does after a change of size.
+  // Presents until the window accepts the picture, as applications do after a resize.
   void show(gpu::Texture picture) {
     for (int attempt = 0; attempt < 50; ++attempt) {
       glfwPollEvents();
       if (device().present(picture)) return;
       std::this_thread::sleep_for(std::chrono::milliseconds(10));
     }
-    FAIL() << "the window took no picture";
+    FAIL() << "the window accepted no picture";
   }
 
-  // The window's first pixels are what this says, at last: the X server draws when it comes to it.
+  // Waits until the window's top left pixels match: the X server draws asynchronously.
   template <typename Expected>
   void expectShown(uint32_t width, uint32_t height, Expected&& expected) {
     std::vector<uint32_t> wanted;
@@ -124,7 +124,7 @@ class WindowTest : public ::testing::TestWithParam<TestDevice> {
                   << ", not " << *first;
   }
 
-  // A picture at the window's top left, on black.
+  // Expects a picture at the window's top left, black elsewhere.
   void expectPicture(uint32_t width, uint32_t height, uint32_t pictureWidth,
                      uint32_t pictureHeight) {
     expectShown(width, height, [&](uint32_t x, uint32_t y) {

@@ -10,7 +10,7 @@
 namespace grisaille::bench {
 
 struct CommonOptions {
-  uint32_t rounds = 7;  // how often each row is timed
+  uint32_t rounds = 7;  // number of timings per row
   std::string backend;  // empty: both
   uint32_t width = 1280, height = 720;
 };

@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: MIT
-// How far drivers differ, as Markdown: in how they draw a scene, in whole frames of the effects,
-// and in what the effects make of the same depth and normals.
+// Prints how far drivers differ, as Markdown: in drawing a scene, in whole frames of the effects,
+// and in the effects' results from the same depth and normals.
 #include <fmt/format.h>
 
 #include <CLI/CLI.hpp>
@@ -51,7 +51,7 @@ void printDrivers(const std::vector<Driver>& drivers) {
   fmt::print("\n");
 }
 
-// Relative differences of two depths, where both see a surface, ascending.
+// Relative differences of two depths at pixels where both show a surface, in ascending order.
 std::vector<double> depthDifferences(const image::Image& a, const image::Image& b) {
   std::vector<double> all;
   for (size_t i = 0; i < a.pixels.size(); ++i) {
@@ -84,7 +84,7 @@ std::string errorCells(const DriverSubject::Errors& errors) {
                      100 * errors.otherSurface);
 }
 
-// One effect's presets on one subject.
+// Prints the presets of one effect on one subject.
 void printPresets(const std::vector<Driver>& drivers, DriverSubject& subject,
                   const effect::Registry& registry, const std::string& effect) {
   const bool occludes = effect == "ssao";
@@ -123,7 +123,7 @@ void run(const Options& options) {
   effect::Registry registry;
   registry.scan(EFFECTS_FOLDER);
   const std::vector<Driver> drivers = openAll();
-  if (drivers.size() < 2) throw std::runtime_error("one device alone is present");
+  if (drivers.size() < 2) throw std::runtime_error("only one device is present");
   printDrivers(drivers);
   for (auto* make : {&DriverSubject::atrium, &DriverSubject::sponza}) {
     const auto subject = make(options.width, options.height);

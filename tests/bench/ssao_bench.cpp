@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: MIT
-// What SSAO costs and how wrong it is, as Markdown: every setting right after the tutorial's way,
-// in turn in one process (A B A C A D ...), so that a machine that slows down slows both. Costs are
-// medians of the layer's own pass times; ratios are taken pair by pair.
+// Prints cost and error of SSAO as Markdown. Each setting runs right after the tutorial's,
+// alternating in one process (A B A C A D ...), so that a slow phase of the machine affects both.
+// Costs are medians of the layer's pass times; ratios are taken pair by pair.
 #include <fmt/format.h>
 
 #include <CLI/CLI.hpp>
@@ -46,7 +46,7 @@ struct Setting {
   std::vector<std::pair<std::string, std::string>> values;
 };
 
-// "KEY=VALUE KEY=VALUE ...", of the effect's parameters.
+// Parses "KEY=VALUE KEY=VALUE ..." of the effect's parameters.
 Setting parseSetting(const std::string& text) {
   Setting setting = {.name = text, .values = {}};
   std::istringstream words(text);
@@ -58,8 +58,8 @@ Setting parseSetting(const std::string& text) {
   return setting;
 }
 
-// Those that were asked for or, without any, the presets and the classic estimator's whose name
-// holds `only`.
+// The requested settings. Without any: the presets and the classic estimator's settings with `only`
+// in their names.
 std::vector<Setting> settings(const Options& options, const effect::Effect& effect) {
   std::vector<Setting> all;
   for (const std::string& text : options.settings) all.push_back(parseSetting(text));
@@ -85,7 +85,7 @@ std::vector<Setting> settings(const Options& options, const effect::Effect& effe
   return all;
 }
 
-// Ray-traced truth at every tenth pixel both ways of one camera.
+// Ray-traced truth at every tenth pixel in both directions, for one camera.
 struct Truth {
   std::vector<trace::Hit> hits;
   std::vector<trace::Visibility> visibility;
@@ -116,7 +116,7 @@ double rmse(const image::Image& ao, const Truth& truth) {
   return std::sqrt(squares / static_cast<double>(count));
 }
 
-// One backend's device with everything that is run on it.
+// One backend's device with all settings to run on it.
 class Bench {
  public:
   Bench(const std::string& backend, const Subject& subject, const effect::Registry& registry,
@@ -144,7 +144,7 @@ class Bench {
   gpu::Device& device() { return *device_; }
   double firstFrameSeconds() const { return firstFrameSeconds_; }
 
-  // Milliseconds of the effect's passes, and what it adds to drawing the scene.
+  // Milliseconds of the effect's passes, plus what the effect adds to drawing the scene.
   double timeSetting(size_t setting) {
     render(settings_[setting], subject_.cameras[0]);
     const double guard = frame::guardShare(settings_[setting], options_.width, options_.height);
@@ -178,7 +178,7 @@ class Bench {
                        .outputs = outputs_});
   }
 
-  // From the attachments of the last render().
+  // Draws from the attachments of the last render().
   void drawTutorial(const scene::Camera& camera) {
     const double aspect = double{1} * options_.width / options_.height;
     const glm::mat4 projection(scene::clipFromView(camera, aspect));
@@ -192,7 +192,7 @@ class Bench {
     device_->submit();
   }
 
-  // Milliseconds of the last frame's passes, of each the share that `shareOf` its label says.
+  // Milliseconds of the last frame's passes, each weighted by `shareOf` its label.
   template <typename ShareOf>
   double taken(ShareOf&& shareOf) {
     device_->wait();
@@ -210,7 +210,7 @@ class Bench {
   std::optional<TutorialSsao> tutorial_;
   effect::Chain chain_;
   std::optional<frame::Renderer> renderer_;
-  gpu::Texture target_;  // the tutorial's result; its own
+  gpu::Texture target_;  // the tutorial's result; this object owns it
   std::vector<effect::Selection> settings_;
   std::vector<std::string> outputs_ = {"ao", "depth", "normal"};
   double firstFrameSeconds_ = 0;
@@ -234,8 +234,8 @@ void printRows(const std::vector<Row>& rows) {
   }
 }
 
-// How far a straight line through 8 and 256 taps of the classic estimator misses the cost of those
-// between, at most; in units of the tutorial's, which a slow moment of the machine leaves alone.
+// Largest deviation of the classic estimator's costs from the straight line through 8 and 256 taps.
+// In units of the tutorial's cost, which cancels slow phases of the machine.
 void printLinearity(const std::vector<Row>& rows) {
   const auto cost = [&](int taps) {
     const std::string end = fmt::format(" kernel_size={}", taps);
@@ -289,8 +289,8 @@ void runBackend(const std::string& backend, const Subject& subject,
   if (options.only.empty() && options.settings.empty()) printLinearity(rows);
 }
 
-// What a setting costs at 1.5 times the width and height, in turn with its own size: a line of its
-// own, since only what was measured in one run is to be compared.
+// Cost of a setting at 1.5 times the width and height, alternating with its own size. Printed on
+// its own line: only values of one run are comparable.
 void runLarger(const std::string& backend, const Subject& subject, const effect::Registry& registry,
                const Options& options) {
   Options larger = options;
@@ -309,7 +309,7 @@ void runLarger(const std::string& backend, const Subject& subject, const effect:
     std::vector<double> small, big, ratios;
     for (uint32_t round = 0; round <= options.rounds; ++round) {
       const double a = bench.timeSetting(i), b = large.timeSetting(i);
-      if (round == 0) continue;  // its pipelines are made then
+      if (round == 0) continue;  // creates the pipelines
       small.push_back(a);
       big.push_back(b);
       ratios.push_back(b / a);
@@ -321,7 +321,7 @@ void runLarger(const std::string& backend, const Subject& subject, const effect:
   fmt::print("\n");
 }
 
-// On every backend that is here, or the one that was asked for.
+// Runs on every available backend, or on the requested one.
 template <typename F>
 void onBackends(const Options& options, const F& work) {
   for (const backends::Backend& backend : backends::all()) {

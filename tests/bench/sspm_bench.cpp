@@ -1,8 +1,8 @@
 // SPDX-License-Identifier: MIT
-// What paint costs against the number of shots, as Markdown, CSV and a plot: a frame's cost for
-// every count in turn in one process (A B C A B C ...), ratios taken round by round; memory; and
-// what one more shot costs. On Sponza, where shots see all sorts of things, and up to a million on
-// a wall.
+// Prints the cost of paint against the number of shots, as Markdown, CSV and a plot. Times a frame
+// for each count in turn in one process (A B C A B C ...) and takes ratios round by round. Also
+// measures memory and the cost of one more shot. Scenes: Sponza, where shots hit many kinds of
+// surfaces, and a wall with up to a million shots.
 #include <fmt/format.h>
 #include <malloc.h>
 
@@ -43,7 +43,7 @@ double millisecondsSince(Clock::time_point start) {
   return std::chrono::duration<double, std::milli>(Clock::now() - start).count();
 }
 
-// Of this process, MiB: on a software driver the device's memory too.
+// Resident memory of this process, MiB. On a software driver it includes the device's memory.
 double residentMemory() {
   std::ifstream status("/proc/self/status");
   for (std::string line; std::getline(status, line);) {
@@ -52,7 +52,7 @@ double residentMemory() {
   return 0;
 }
 
-// Counts what it casts.
+// Casts rays and counts them.
 class Rays : public tests::TracedRays {
  public:
   using TracedRays::TracedRays;
@@ -66,7 +66,7 @@ class Rays : public tests::TracedRays {
   size_t count_ = 0;
 };
 
-// From anywhere about the cameras at anything that they see: a game's, on all that one looks at.
+// Shots from anywhere around the cameras at any surface that they see, as in a game.
 Shots randomShots(const Subject& subject, const trace::RayTracer& tracer, size_t count) {
   std::mt19937 random(1);
   std::uniform_real_distribution<double> unit(0, 1);
@@ -109,12 +109,12 @@ struct Place {
   }
 
   Subject subject;
-  std::vector<size_t> counts, perShotCounts;  // of either mode
+  std::vector<size_t> counts, perShotCounts;  // for `surface` and `per_shot` mode
   std::unique_ptr<Rays> rays;
   Shots shots;
 };
 
-// A renderer with so many shots' paint.
+// A renderer with the paint of some shots.
 class Painted {
  public:
   Painted(gpu::Device& device, const Subject& subject, const effect::Registry& registry, Rays& rays)
@@ -127,13 +127,13 @@ class Painted {
 
   effect::Values& values() { return chain_.selection.values("sspm"); }
 
-  // Adds to the shots that the next frame draws.
+  // Adds shots to draw from the next frame on.
   void add(std::span<const lab::Shot> shots) {
     objects::ObjectList& list = *chain_.objects("sspm");
     list.add(objectsOf(list.table(), shots).view());
   }
 
-  // Milliseconds from the call to the end of the device's work.
+  // Milliseconds from the call until the device has finished.
   double render(uint32_t width, uint32_t height) {
     const auto start = Clock::now();
     renderer_.render({.camera = subject_.cameras[0],
@@ -146,7 +146,7 @@ class Painted {
     return millisecondsSince(start);
   }
 
-  // Milliseconds of the effect's passes in the last frame, and of all.
+  // Milliseconds of the last frame: of the effect's passes, and of all passes.
   std::pair<double, double> passes() {
     double effect = 0, all = 0;
     const std::vector<gpu::FrameTimes> frames = device_.takeTimes();
@@ -205,8 +205,8 @@ class Bench {
     return rows_;
   }
 
-  // Milliseconds that a frame of few pixels takes longer when it has one shot more than the one
-  // before, with the most shots; one at a time, each right after a frame without.
+  // Milliseconds that one more shot adds to a frame of few pixels, with the highest number of
+  // shots. Each frame with a new shot follows a frame without one.
   std::vector<double> oneMore(size_t times) {
     const size_t which = place_.counts.size() - 1;
     std::mt19937 random(2);
@@ -214,7 +214,7 @@ class Bench {
     for (size_t i = 0; i < times; ++i) {
       const double without = painted_[which]->render(64, 36);
       lab::Shot shot = place_.shots[random() % place_.shots.size()];
-      shot.origin[1] += 1e-3;  // not one that is there already
+      shot.origin[1] += 1e-3;  // a shot that is not in the list yet
       painted_[which]->add({&shot, 1});
       more.push_back(painted_[which]->render(64, 36) - without);
     }
@@ -233,8 +233,8 @@ class Bench {
     painted_.back()->render(options_.width, options_.height);
     const double idle = painted_.back()->render(64, 36);
     painted_.back()->add(std::span(place_.shots).first(count));
-    malloc_trim(0);  // or what earlier runs have freed would be used again unseen
-    const double memory = residentMemory();  // with the list of shots, which is not the effect's
+    malloc_trim(0);  // otherwise memory freed by earlier runs would be reused unseen
+    const double memory = residentMemory();  // includes the host's list of shots
     const size_t rays = place_.rays->count();
     const double took = painted_.back()->render(64, 36) - idle;
     painted_.back()->render(options_.width, options_.height);
@@ -270,13 +270,13 @@ void print(const std::vector<Row>& rows) {
   }
 }
 
-// A curve of the plot.
+// One curve of the plot.
 struct Curve {
   std::string title;
   std::vector<Row> rows;
 };
 
-// DIR/paint_cost.csv, and from it the plot.
+// Writes DIR/paint_cost.csv and the plot of it.
 void writePlot(const std::filesystem::path& folder, const std::vector<Curve>& curves) {
   std::filesystem::create_directories(folder);
   const std::filesystem::path csv = folder / "paint_cost.csv";
@@ -304,7 +304,7 @@ void writePlot(const std::filesystem::path& folder, const std::vector<Curve>& cu
   if (std::system(command.c_str()) != 0) fmt::print(stderr, "no plot: gnuplot failed\n");
 }
 
-// Measures one place on one backend, prints it, and adds its curves.
+// Measures one place on one backend, prints the result and adds its curves.
 void measure(const std::string& backend, const Place& place, const effect::Registry& registry,
              const Options& options, std::vector<Curve>& curves) {
   if (place.counts.empty()) return;
@@ -334,7 +334,7 @@ void measure(const std::string& backend, const Place& place, const effect::Regis
 }
 
 void run(const Options& options) {
-  std::deque<Place> places;  // rays refer to their scene where it stands
+  std::deque<Place> places;  // a deque, since rays refer to their scene by address
   places.emplace_back(loadSubject(), options.counts, options.perShotCounts);
   places.emplace_back(wallSubject(), options.wallCounts, std::vector<size_t>{});
   effect::Registry registry;

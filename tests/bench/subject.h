@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: MIT
-// What the benchmarks measure on.
+// Scenes for the benchmarks.
 #pragma once
 
 #include <string>
@@ -10,7 +10,7 @@
 
 namespace grisaille::bench {
 
-// Sponza and its four cameras where they are there, else the built-in atrium and its one.
+// Sponza with its four cameras if the file exists, otherwise the built-in atrium with one camera.
 struct Subject {
   std::string name;
   scene::Scene scene;
@@ -18,13 +18,13 @@ struct Subject {
   double loadSeconds = 0;
 };
 
-// The file that GRISAILLE_SPONZA names, or where the project keeps it.
+// Loads the file from GRISAILLE_SPONZA or from the project's folder.
 Subject loadSubject();
 
-// A bare wall of 16 x 9 m that fills its camera's picture.
+// A bare wall of 16 x 9 m that fills the camera's picture.
 Subject wallSubject();
 
-// Not of an empty list.
+// `values` must not be empty.
 double median(std::vector<double> values);
 
 }  // namespace grisaille::bench

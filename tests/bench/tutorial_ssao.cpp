@@ -14,7 +14,7 @@ namespace {
 
 constexpr gpu::Format kInputFormat = gpu::Format::kRgba16Float;
 constexpr gpu::Format kOutputFormat = gpu::Format::kR8Unorm;
-constexpr uint32_t kNoiseSize = 4;  // texels a side
+constexpr uint32_t kNoiseSize = 4;  // texels per side
 
 struct InputsBlock {
   glm::mat4 rotation;
@@ -29,8 +29,8 @@ struct TutorialBlock {
 };
 GRISAILLE_CHECK_BLOCK_tutorial_occlusion_Tutorial(TutorialBlock);
 
-// In [0, 1): from the engine's bits, which are the same everywhere, as the standard's distributions
-// are not.
+// Uniform in [0, 1), taken from the engine's bits. These are the same on every platform; the
+// standard's distributions are not.
 class Random {
  public:
   float next() { return static_cast<float>(engine_() >> 8) * 0x1p-24f; }

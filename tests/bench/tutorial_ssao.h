@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: MIT
-// The benchmark's baseline: ambient occlusion as tutorials teach it, on the project's own layer. A
-// fragment pass of 64 taps over view-space positions and normals in 16-bit floats, radius 0.5 m,
-// bias 0.025 m, then a 4 x 4 box blur.
+// The benchmarks' baseline: ambient occlusion as tutorials teach it, on the project's GPU layer. A
+// fragment pass takes 64 taps over view-space positions and normals in 16-bit floats, with radius
+// 0.5 m and bias 0.025 m. A 4 x 4 box blur follows.
 #pragma once
 
 #include <array>
@@ -16,7 +16,7 @@ namespace grisaille::bench {
 
 class TutorialSsao {
  public:
-  // `device` outlives it and is not recording.
+  // `device` must outlive the object and must not be recording.
   explicit TutorialSsao(gpu::Device& device);
   ~TutorialSsao();
   TutorialSsao(const TutorialSsao&) = delete;
@@ -27,15 +27,15 @@ class TutorialSsao {
     gpu::Texture normal;    // rgba16f, view space
   };
 
-  // Pass "tutorial_inputs", not part of the baseline's cost: its buffers from the frame's
-  // attachments (grisaille_attachment: view depth, world normal). Transient. `projection` is clip
-  // from view.
+  // Pass "tutorial_inputs", which does not count as cost of the baseline. Makes transient buffers
+  // from the frame's attachments (grisaille_attachment: view depth, world normal). `projection` is
+  // clip from view.
   Inputs makeInputs(gpu::Commands& commands, gpu::Texture viewDepth, gpu::Texture worldNormal,
                     const glm::mat4& projection, const glm::mat3& viewFromWorld, uint32_t width,
                     uint32_t height);
 
-  // Passes "tutorial_occlusion" and "tutorial_blur". Returns an r8 texture, 1: open, that stays
-  // until a later frame asks for another size; one size a frame.
+  // Passes "tutorial_occlusion" and "tutorial_blur". Returns an r8 texture (1: open), which stays
+  // valid until a later frame records another size. Record one size per frame.
   gpu::Texture record(gpu::Commands& commands, gpu::Texture position, gpu::Texture normal,
                       const glm::mat4& projection, uint32_t width, uint32_t height);
 

@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: MIT
-// What the viewer costs besides the scene: its panel, in CPU time, and a window in which nothing
-// happens, on a display (Xvfb) that it starts itself.
+// Measures what the viewer costs besides the scene: CPU time of its panel, and of an idle window on
+// a display (Xvfb) that the benchmark starts.
 #include <fcntl.h>
 #include <fmt/format.h>
 #include <imgui/imgui.h>
@@ -37,7 +37,7 @@ double cpuMilliseconds() {
   return static_cast<double>(now.tv_sec) * 1e3 + static_cast<double>(now.tv_nsec) * 1e-6;
 }
 
-// The panel with both effects and the help, and as many passes as a frame has.
+// The panel with both effects and the help, and as many passes as a real frame.
 struct Subject {
   viewer::Session session;
   viewer::ViewerState state;

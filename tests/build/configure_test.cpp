@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: MIT
-// `cmake -S . -B build` on machines that lack libraries.
+// `cmake -S . -B build` on machines without some libraries.
 #include <gtest/gtest.h>
 
 #include <string>
@@ -12,7 +12,7 @@ namespace {
 
 class Configure : public ::testing::Test {
  protected:
-  // With these libraries hidden from CMake.
+  // Configures with these libraries hidden from CMake.
   Outcome configure(const std::vector<std::string>& hidden, const std::string& options,
                     const std::string& environment = "") const {
     std::string command =
@@ -59,7 +59,7 @@ TEST_F(Configure, TestsNeedAllParts) {
       << outcome.out;
 }
 
-// Whoever builds it with plain CMake has a compiler that nobody here has tried.
+// Users who build with plain CMake may have compilers that the project is not tested with.
 TEST_F(Configure, AWarningStopsDevelopersAlone) {
   ASSERT_EQ(configure({}, "-DCMAKE_EXPORT_COMPILE_COMMANDS=ON").status, 0);
   EXPECT_EQ(runShell("grep -c Werror build/compile_commands.json", folder()).out, "0\n");

@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: MIT
-// What is installed is all that an author needs, wherever it is moved: effects are built and run
-// against it with the sources and the build folder out of sight.
+// The installation has everything that an author needs and may be moved: effects are built and run
+// with the sources and the build folder hidden.
 #include <gtest/gtest.h>
 
 #include <memory>
@@ -16,7 +16,7 @@ namespace {
 
 namespace fs = std::filesystem;
 
-// One installation, moved after it was made, for all tests.
+// All tests share one installation, which is moved after installing.
 class Installed : public ::testing::Test {
  protected:
   static void SetUpTestSuite() {
@@ -34,13 +34,13 @@ class Installed : public ::testing::Test {
     folder_.reset();
   }
   void SetUp() override {
-    if (SANITIZED) GTEST_SKIP() << "what the sanitizers watch is not installed";
+    if (SANITIZED) GTEST_SKIP() << "builds with sanitizers are not installed";
   }
 
   static fs::path prefix() { return folder_->path() / "moved here"; }
 
-  // Runs a script in a fresh folder. Of the project it has the prefix alone: on the PATH, and with
-  // empty folders over the sources and the build, where the kernel lets users do that.
+  // Runs a script in a fresh folder. Of the project it sees only the prefix, on the PATH. Empty
+  // folders hide the sources and the build where the kernel allows users to mount them.
   static Outcome session(const std::string& name, const std::string& script) {
     const fs::path work = folder_->path() / name;
     const fs::path empty = folder_->path() / "empty";
@@ -90,7 +90,7 @@ TEST_F(Installed, NamesNeitherTheSourcesNorTheBuild) {
   EXPECT_GT(files, 20u);
 }
 
-// The tutorial, from the first command to the last picture, which the manual shows.
+// Runs the tutorial from the first command to the last and compares its pictures with the manual's.
 TEST_F(Installed, TutorialRunsAndItsPicturesAreThose) {
   const Outcome outcome =
       session("tutorial", sessionOf(fs::path(SOURCE_FOLDER) / "docs/manual/write_an_effect.md"));
@@ -102,31 +102,31 @@ TEST_F(Installed, TutorialRunsAndItsPicturesAreThose) {
     ++pictures;
     const fs::path shown = fs::path(SOURCE_FOLDER) / "docs/pictures" / name;
     ASSERT_TRUE(fs::exists(shown)) << shown;
-    // Drivers may round a sample differently; nothing else may differ.
+    // Only rounding differences between drivers are allowed.
     EXPECT_LT(image::shareOver(image::read(entry.path()), image::read(shown), 8.0 / 255), 0.002)
         << name;
   }
   EXPECT_EQ(pictures, 4u);
 }
 
-// A project in C, built by another compiler than the program, and all that its README says.
+// A project in C, with another compiler than the program's, and all commands of its README.
 TEST_F(Installed, ProjectInCBuiltByClangRuns) {
   if (runShell("command -v clang", ".").status != 0) GTEST_SKIP() << "clang is not installed";
   ASSERT_EQ(session("c", "grisaille new-effect edge_lines mine --language c").status, 0);
   const std::string readme = sessionOf(workOf("c") / "mine/README.md");
-  // The window stays until its reader closes it.
+  // Limits windows to two frames; a reader would close them.
   const Outcome outcome =
       session("c",
               "cd mine; export CC=clang CXX=clang++\n"
               "grisaille() { command grisaille \"$@\" $([[ $1 == view ]] && echo --frames 2); }\n" +
                   readme);
   ASSERT_EQ(outcome.status, 0) << outcome.out << outcome.err;
-  EXPECT_NE(outcome.out.find("edge_lines 0.1.0: Darkens what is far away"), std::string::npos);
+  EXPECT_NE(outcome.out.find("edge_lines 0.1.0: Darkens distant surfaces"), std::string::npos);
   EXPECT_NE(outcome.out.find("reach          8          0.001 ... 1000000 m"), std::string::npos)
       << outcome.out;
   const fs::path mine = workOf("c") / "mine";
   EXPECT_NE(readFile(mine / "build/CMakeCache.txt").find("/clang"), std::string::npos);
-  // Both backends have drawn the same.
+  // Both backends have drawn the same picture.
   const image::Image opengl = image::read(mine / "opengl.png");
   EXPECT_LT(image::compare(opengl, image::read(mine / "vulkan.png")).largest, 2.5 / 255);
   EXPECT_GT(image::compare(opengl, image::read(mine / "both.png")).rmse, 0.01);
@@ -143,7 +143,7 @@ TEST_F(Installed, PackageHoldsAllAndNamesWhatItNeeds) {
                                     " && dpkg-deb -x *.deb root && dpkg-deb -f *.deb Depends",
                                 work);
   ASSERT_EQ(made.status, 0) << made.out << made.err;
-  // Releases name libraries by other versions.
+  // Distribution releases differ in the versions in library names.
   for (const char* library :
        {"libc6 ", "libembree[34]", "libfmt[0-9]+", "libglfw3 ", "libopenimageio2\\.[0-9]",
         "libspirv-cross-c-shared0", "libtinygltf[0-9.]*d?", "libegl1 \\| libvulkan1"}) {
@@ -161,7 +161,7 @@ TEST_F(Installed, PackageHoldsAllAndNamesWhatItNeeds) {
   EXPECT_EQ(image::read(work / "from_package.png").width, 64u);
 }
 
-// A host has a window library of its own, or none.
+// Hosts bring their own window library, or none.
 TEST_F(Installed, LibraryLinksNoWindowLibrary) {
   if (runShell("command -v readelf", ".").status != 0) GTEST_SKIP() << "binutils is not installed";
   const Outcome linked =

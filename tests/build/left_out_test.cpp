@@ -12,7 +12,7 @@ TEST(LeftOut, RaysSayWhichOptionBringsThem) {
   const scene::Scene scene;
   try {
     const trace::RayTracer tracer(scene, glm::dvec3(0));
-    FAIL() << "a tracer was made";
+    FAIL() << "a tracer was created";
   } catch (const Error& error) {
     EXPECT_EQ(error.id(), ErrorId::kLeftOut);
     EXPECT_NE(error.detail().find("GRISAILLE_TRUTH"), std::string::npos) << error.what();

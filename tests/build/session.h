@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: MIT
-// A manual as one session at a shell: its blocks in order, in one folder.
+// Runs a manual page as one shell session: its blocks in order, in one folder.
 #pragma once
 
 #include <filesystem>
@@ -7,8 +7,9 @@
 
 namespace grisaille::tests {
 
-// A bash script of a Markdown file: ```sh blocks as they stand, "```LANGUAGE FILE" blocks written
-// to that file, "```diff FILE" blocks applied to it. It ends with the first command that fails.
+// Converts a Markdown file to a bash script. ```sh blocks are copied, "```LANGUAGE FILE" blocks are
+// written to that file, "```diff FILE" blocks are applied to it. The script stops at the first
+// command that fails.
 std::string sessionOf(const std::filesystem::path& manual);
 
 }  // namespace grisaille::tests

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: MIT
-// The example of an effect with objects on the command line, on both backends.
+// The example of an effect with objects on the command line, with both backends.
 #include <fmt/format.h>
 
 #include <algorithm>
@@ -54,7 +54,7 @@ TEST(DecalsFolder, ReadmeRunsAndShowsItsPicture) {
       << table.out;
 }
 
-// A tile of the atrium's floor, from above. Its picture's up is -z, as the camera's is.
+// A tile of the atrium's floor, seen from above. Up is -z in the decal's picture and in the camera.
 constexpr const char* kAbove =
     R"({"eye": [-1.5, 2, -1.5], "target": [-1.5, 0, -1.5], "up": [0, 0, -1], "fovy_degrees": 30})";
 constexpr uint32_t kWidth = 96, kHeight = 64;
@@ -114,7 +114,7 @@ TEST_P(Decals, APixelHasTheColourOfThePicturesPoint) {
   expectColour(upright, 52, 28, kGreen);
   expectColour(upright, 44, 36, kBlue);
   expectColour(upright, 52, 36, kGrey);
-  // 2 m away, 64 pixels span 2 * 2 * tan(15 degrees) m.
+  // At a distance of 2 m, 64 pixels span 2 * 2 * tan(15 degrees) m.
   const double side = 0.5 / (4 * std::tan(M_PI / 12)) * 64;
   float covered = 0;
   for (size_t i = 3; i < upright.pixels.size(); i += 4) covered += upright.pixels[i];
@@ -167,7 +167,7 @@ TEST_P(Decals, NoneDrawNothing) {
   for (const float value : drawn({}).pixels) EXPECT_EQ(value, 0);
 }
 
-// A distant picture of fine stripes is their mean.
+// A distant picture of fine stripes shows their mean.
 TEST_P(Decals, DistantPicturesDoNotAlias) {
   image::Image8 stripes{.width = 1024, .height = 1024, .pixels = {}};
   for (size_t i = 0; i < size_t{1024} * 1024; ++i) {
@@ -179,9 +179,9 @@ TEST_P(Decals, DistantPicturesDoNotAlias) {
   for (uint32_t x = 40; x < 56; ++x) EXPECT_NEAR(image.at(x, 32), 0.5, 0.01) << x;
 }
 
-// Many decals at all angles, over the whole atrium.
+// Many decals at all angles, all over the atrium.
 TEST_P(Decals, BackendsAgree) {
-  if (GetParam() != "vulkan") GTEST_SKIP() << "the other one compares both";
+  if (GetParam() != "vulkan") GTEST_SKIP() << "the run on vulkan compares both backends";
   std::string json = R"({"version": 1, "decals": [)";
   for (int i = 0; i < 300; ++i) {
     const bool wall = i % 3 == 0;

@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: MIT
-// The example of an effect with objects in hosts of the library, which hand over the objects and
-// decode the pictures.
+// The example of an effect with objects in hosts of the library. The hosts hand over the objects
+// and decode the pictures.
 #include <algorithm>
 #include <glm/gtc/matrix_transform.hpp>
 
@@ -13,7 +13,7 @@ namespace {
 
 constexpr uint32_t kSide = 48;
 
-// A picture in four squares, by whatever path.
+// Returns four squares for every path; counts its calls in `asked`.
 grisaille_result readSquares(void* asked, const char*, grisaille_picture* out) {
   static const image::Image8 kPicture = squares({kRed, kGreen, kBlue, kGrey});
   ++*static_cast<int*>(asked);
@@ -27,7 +27,7 @@ class DecalsHost : public ::testing::TestWithParam<TestDevice> {
  protected:
   void SetUp() override { GRISAILLE_NEEDS_INSTALLATION(); }
 
-  // 2 m above a floor that is all there is, seen from above `eye`; -z is up.
+  // Renders from 2 m above an endless floor, straight down at `eye`; up is -z.
   std::vector<float> record(Host& host, host::Device& device, host::Effect& effect,
                             const glm::dvec3& eye) {
     const glm::dmat4 view = glm::lookAt(eye, eye - glm::dvec3(0, 1, 0), glm::dvec3(0, 0, -1));
@@ -90,7 +90,7 @@ TEST_P(DecalsHost, DrawsTheObjectsThatItIsHanded) {
                          .c_str());
   EXPECT_EQ(record(*host, device, loaded, eye), drawn);
 
-  // Without anyone who decodes pictures, a square that says so.
+  // Without a picture reader, the effect draws a placeholder square.
   device.setPictures(nullptr, nullptr);
   host::Effect plain(device, {.effect = "decals", .width = kSide, .height = kSide});
   plain.setObjects<decals::Decal>(std::vector{decalAt(floor)});

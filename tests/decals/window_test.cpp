@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: MIT
-// The example of an effect with objects in the viewer: placed by a click, edited, undone, deleted,
-// saved and loaded.
+// The example of an effect with objects in the viewer: a decal is placed by a click, edited,
+// undone, deleted, saved and loaded.
 #include "tests/window/window_test.h"
 
 #include "tests/decals/built.h"
@@ -16,7 +16,7 @@ class DecalsWindow : public WindowTest {
     writePng(squares({kRed, kRed, kRed, kRed}), folder_, "red.png");
     writePng(squares({kBlue, kBlue, kBlue, kBlue}), folder_, "blue.png");
   }
-  // The middle pixel of what the viewer shows of the decals.
+  // Compares the middle pixel of the viewer's picture with this colour.
   static void expectMiddle(DrivenViewer& viewer, const Colour& colour) {
     const image::Image image = image::read(viewer.savePicture());
     for (uint32_t c = 0; c < 3; ++c) {
@@ -51,10 +51,10 @@ TEST_P(DecalsWindow, ADecalIsPlacedEditedUndoneDeletedSavedAndLoaded) {
   expectMiddle(viewer, {0, 0, 0, 0});
   viewer.key("ctrl+shift+z");
   viewer.untilValue("decals.objects", "1");
-  // What was placed last is selected.
+  // The object that was placed last is selected.
   viewer.click(viewer.at("decals.list", 0.05, 0.5));
   viewer.untilValue("decals.object.0", "true");
-  // A path is taken once it is whole: its beginnings, which name no file, are not warned of.
+  // A path applies when Enter is pressed; the incomplete paths before cause no warning.
   type(viewer, "decals.field.picture", "blue.png");
   expectMiddle(viewer, kRed);
   viewer.key("Return");
@@ -73,7 +73,7 @@ TEST_P(DecalsWindow, ADecalIsPlacedEditedUndoneDeletedSavedAndLoaded) {
   viewer.click("decals.load");
   viewer.untilValue("decals.objects", "1");
   expectMiddle(viewer, kBlue);
-  // Each was one step.
+  // Each edit was one step.
   for (const char* objects : {"0", "1", "1", "1", "0"}) {
     viewer.key("ctrl+z");
     viewer.untilValue("decals.objects", objects);

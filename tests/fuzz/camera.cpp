@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: MIT
-// Camera files: of one camera, and of a camera's way.
+// Camera files: single cameras and camera paths.
 #include <cmath>
 
 #include "core/scene/camera.h"

@@ -8,8 +8,7 @@
 
 namespace grisaille::fuzz {
 
-// Whatever they were set to: each is one that its parameter may have, and its text leads back to
-// it.
+// Requires that each value is valid for its parameter, and that its text parses back to it.
 inline void requireSound(const effect::Values& values) {
   const auto params = values.effect().params();
   effect::Values again(values.effect());

@@ -15,13 +15,13 @@ namespace fs = std::filesystem;
 class Folder {
  public:
   Folder() {
-    // In memory, where the machine has that: a fuzzer writes thousands of files a second.
+    // In memory if possible: a fuzzer writes thousands of files per second.
     std::error_code none;
     const fs::path shared("/dev/shm");
     std::string name = (fs::is_directory(shared, none) ? shared : fs::temp_directory_path()) /
                        "grisaille_fuzz_XXXXXX";
     if (mkdtemp(name.data()) == nullptr)
-      throw std::runtime_error("no folder for files can be made");
+      throw std::runtime_error("cannot create a folder for files");
     path_ = name;
   }
   ~Folder() {

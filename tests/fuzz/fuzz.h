@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: MIT
-// What the fuzz targets share. A target is one LLVMFuzzerTestOneInput(), linked with libFuzzer to
-// look for inputs that break something, and with replay.cpp to run those that once did.
+// Helpers shared by the fuzz targets. A target is one LLVMFuzzerTestOneInput(). It is linked with
+// libFuzzer to search for failing inputs, or with replay.cpp to run the corpus.
 #pragma once
 
 #include <cstddef>
@@ -16,7 +16,7 @@ extern "C" int LLVMFuzzerTestOneInput(const uint8_t* data, size_t size);
 
 namespace grisaille::fuzz {
 
-// Where a function was called: a default argument. (Clang 14 lacks std::source_location.)
+// The place of a call, as a default argument. (Clang 14 lacks std::source_location.)
 struct Place {
   const char* file;
   int line;
@@ -25,14 +25,14 @@ struct Place {
   }
 };
 
-// What must hold of every input. Throws, which no target catches.
+// Requires a condition that must hold for every input. Throws an exception that no target catches.
 void require(bool holds, Place where = Place::here());
 
-// An error that a file or a text may cause: one line, and a number of those.
+// Requires an error that input files or texts may cause: one line, with an allowed number.
 void requireOwn(const Error& error, std::initializer_list<ErrorId> allowed,
                 Place where = Place::here());
 
-// Whether `read` takes the input. Anything that it throws but an error of `allowed` is a fault.
+// Whether `read` accepts the input. Errors in `allowed` mean no; any other exception is a fault.
 template <typename F>
 bool accepted(std::initializer_list<ErrorId> allowed, F&& read, Place where = Place::here()) {
   try {
@@ -47,10 +47,10 @@ bool accepted(std::initializer_list<ErrorId> allowed, F&& read, Place where = Pl
 // The input as text.
 std::string_view textOf(const uint8_t* data, size_t size);
 
-// Cuts `rest` at the first `end` and returns what was before it; all, where there is none.
+// Cuts `rest` after the first `end` and returns the text before it; without an `end`, returns all.
 std::string_view cut(std::string_view& rest, char end);
 
-// A file of this process's own folder, written anew; the folder goes at the end of the process.
+// Writes a file in this process's own folder and returns its path. The folder is deleted at exit.
 std::string scratchFile(const std::string& name, std::string_view content);
 
 }  // namespace grisaille::fuzz

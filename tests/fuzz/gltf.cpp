@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: MIT
-// Scenes: a .gltf or .glb file as it is; or JSON, a zero byte and a binary chunk, of which a .glb
-// is made whose lengths are right, so that a fuzzer need not find those.
+// Scenes: a .gltf or .glb file; or JSON, a zero byte and a binary chunk. From the latter the target
+// builds a .glb with correct lengths, which a fuzzer would rarely find.
 #include <cmath>
 #include <cstring>
 
@@ -71,7 +71,7 @@ void requireSound(const scene::Scene& scene) {
 
 extern "C" int LLVMFuzzerTestOneInput(const uint8_t* data, size_t size) {
   using namespace grisaille;
-  // What a scene may name as a buffer or an image beside itself.
+  // A file that scenes may name as a buffer or an image.
   static const std::string beside = fuzz::scratchFile("b.bin", std::string(64, '\0'));
   const std::string path = fuzz::scratchFile("a.glb", fuzz::fileOf(fuzz::textOf(data, size)));
   fuzz::accepted({ErrorId::kSceneUnreadable, ErrorId::kSceneInvalid, ErrorId::kSceneExtension,

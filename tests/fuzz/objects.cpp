@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: MIT
-// Files of objects, and one object as the command line has it.
+// Object files, and single objects in the form of the command line.
 #include "core/objects/object_file.h"
 #include "tests/fuzz/fuzz.h"
 #include "tests/fuzz/table.h"
@@ -12,7 +12,7 @@ void requireSame(const objects::View& a, const objects::View& b) {
   for (size_t i = 0; i < a.count; ++i) require(a.object(i) == b.object(i));
 }
 
-// What is read is sound, and is written and read again without a change.
+// Requires that loaded objects are valid, and that writing and loading them again changes nothing.
 void requireSound(const objects::View& view) {
   objects::Objects again(kObjects);
   again.append(view);
@@ -39,7 +39,7 @@ void checkOne(std::string_view text) {
   requireSound(all.view());
 }
 
-// "range=0.5": a field of the command line's --add.
+// A field of the command line's --add, for example "range=0.5".
 void checkField(std::string_view text) {
   const std::string_view key = cut(text, '=');
   objects::Value value;

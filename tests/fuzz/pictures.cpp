@@ -1,7 +1,6 @@
 // SPDX-License-Identifier: MIT
-// What `grisaille apply` takes of pictures made elsewhere, but for their pixels: a line each for
-// the file's name, the frames, the names of channels to take and those that there are; then the
-// floats of the matrices.
+// Inputs of `grisaille apply` other than pixels. One line each for the file's name, the frames, the
+// requested channels and the existing channels; then the floats of the matrices.
 #include <algorithm>
 #include <cmath>
 #include <cstring>

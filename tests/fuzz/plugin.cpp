@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: MIT
-// A plugin's description: a sound one, and bytes that say which of its fields become what. Pointers
-// lead to memory that is there, as no host can check otherwise, and lists are as long as they say.
+// Plugin descriptions: a valid one, and bytes that select fields and their new values. Pointers
+// always point to valid memory, since a host cannot check them, and lists have the stated length.
 #include <algorithm>
 #include <cstring>
 #include <deque>
@@ -15,7 +15,7 @@
 namespace grisaille::fuzz {
 namespace {
 
-// The bytes as numbers and texts; zeros and "" when they are used up.
+// Reads numbers and texts from the bytes; returns zeros and "" at the end.
 class Source {
  public:
   explicit Source(std::string_view bytes) : rest_(bytes) {}
@@ -35,10 +35,10 @@ class Source {
   std::string_view rest_;
 };
 
-// More than any count may be, so that what is over the limit is there as well.
+// Above every limit on a count, to test lists that are too long as well.
 constexpr size_t kMost = 260;
 
-// KEY0, KEY1, ...: made once.
+// KEY0, KEY1, ...: created once.
 std::vector<std::string> keysOf(char letter) {
   std::vector<std::string> keys;
   for (size_t i = 0; i < kMost; ++i) keys.push_back(fmt::format("{}{}", letter, i));
@@ -53,7 +53,7 @@ struct Effect {
   grisaille_effect_desc desc = kEffect;
 };
 
-// What is shown and written of a table: as JSON, which refuses what is no UTF-8.
+// Requires that the table's texts can be written as JSON, which refuses invalid UTF-8.
 void requireTexts(const effect::Effect& effect) {
   nlohmann::json texts = {effect.desc->label, effect.desc->version, effect.desc->tooltip};
   for (const grisaille_param_desc& param : effect.params()) {
@@ -64,7 +64,8 @@ void requireTexts(const effect::Effect& effect) {
   require(texts.dump().find('\n') == std::string::npos);
 }
 
-// An object of a table that is accepted: its defaults fit, and are written and read back.
+// Requires that an object of an accepted table works: its defaults are valid and survive writing
+// and reading.
 void requireUsable(const grisaille_object_desc& table) {
   nlohmann::json texts = {table.label, table.tooltip};
   for (const grisaille_field_desc& field : objects::fieldsOf(table)) {
@@ -258,7 +259,7 @@ class Plugin {
     }
   }
 
-  // Any number, or one that is likelier to fit.
+  // Any number, or one that is more likely to be valid.
   double number() {
     switch (source_.below(3)) {
       case 0:
@@ -300,7 +301,7 @@ class Plugin {
     }
   }
 
-  // Small numbers, which are likelier to fit, and any.
+  // A small number, which is more likely to be valid, or any number.
   void take(uint32_t& word) {
     word = source_.below(2) == 0 ? source_.number<uint8_t>() : source_.number<uint32_t>();
   }

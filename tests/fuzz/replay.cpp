@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: MIT
-// Runs a target over the files of a folder, in the order of their names: the main() of a target
-// without a fuzzer.
+// The main() of a target without a fuzzer: runs the target on the files of a folder, in order of
+// their names.
 #include <algorithm>
 #include <exception>
 #include <filesystem>
@@ -16,10 +16,10 @@ namespace {
 namespace fs = std::filesystem;
 
 bool runs(const fs::path& file) {
-  // Told before it is run: it may end the process.
+  // Print the name first: the input may end the process.
   std::cerr << file.filename().string() << std::endl;
   std::ifstream stream(file, std::ios::binary);
-  // A copy of exactly this size, so that a sanitizer sees what is read beyond it.
+  // An exact-size copy, so that a sanitizer detects reads beyond its end.
   const std::vector<uint8_t> bytes{std::istreambuf_iterator<char>(stream), {}};
   try {
     LLVMFuzzerTestOneInput(bytes.data(), bytes.size());
@@ -34,7 +34,7 @@ bool runs(const fs::path& file) {
 
 int main(int count, char** arguments) {
   if (count != 2) {
-    std::cerr << "give a folder of inputs\n";
+    std::cerr << "pass a folder of inputs\n";
     return 2;
   }
   std::vector<fs::path> files;

@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: MIT
-// A file of settings and, after a zero byte, assignments as of --set, a line each; against the
-// table of an effect of the program.
+// A settings file and, after a zero byte, assignments as for --set, one per line. Checked against
+// the table of one of the program's effects.
 #include "app/settings/settings.h"
 
 #include <algorithm>
@@ -16,7 +16,7 @@ const std::initializer_list<ErrorId> kOfValues = {
     ErrorId::kParameterUnknown, ErrorId::kParameterType, ErrorId::kParameterRange,
     ErrorId::kEffectUnknown,    ErrorId::kEffectTwice,   ErrorId::kUsage};
 
-// What is written reads back the same.
+// Requires that written settings read back unchanged.
 void requireRoundTrip(app::Settings settings) {
   const std::string path = scratchFile("written.toml", app::settingsToml(settings));
   app::Settings again = app::readSettings(path);

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: MIT
-// A sound table with a parameter and a field of every kind, for targets that need no plugin's.
+// A valid table with a parameter and a field of every kind, for targets that need no plugin.
 #pragma once
 
 #include <array>

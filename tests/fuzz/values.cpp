@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: MIT
-// Values of parameters: a line each, KEY=TEXT as on the command line, or KEY and after a zero byte
-// the eight bytes of a number.
+// Parameter values, one per line: KEY=TEXT as on the command line, or KEY, a zero byte and the
+// eight bytes of a number.
 #include <algorithm>
 #include <cstring>
 

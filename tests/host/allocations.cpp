@@ -27,7 +27,7 @@ size_t AllocationCount::soFar() const {
 
 }  // namespace grisaille::tests
 
-// The sanitizers have their own.
+// The sanitizers replace operator new themselves.
 #if !SANITIZED
 void* operator new(size_t bytes) {
   if (grisaille::tests::counting) ++grisaille::tests::counted;

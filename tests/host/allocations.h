@@ -1,12 +1,12 @@
 // SPDX-License-Identifier: MIT
-// Counts what is allocated by C++, in whatever library: this program's operator new is theirs.
+// Counts C++ allocations of all libraries in the process, which share this program's operator new.
 #pragma once
 
 #include <cstddef>
 
 namespace grisaille::tests {
 
-// Of the calling thread, while it lives. One at a time.
+// Counts allocations of the calling thread while it lives. At most one object may exist at a time.
 class AllocationCount {
  public:
   AllocationCount();

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: MIT
-// A host's OpenGL context: its state is as it was, and without it nothing happens.
+// A host's OpenGL context: recording preserves its state, and calls without it are refused.
 #include <epoxy/gl.h>
 #include <gtest/gtest.h>
 
@@ -16,7 +16,7 @@ namespace {
 
 constexpr uint32_t kSide = 16;
 
-// All that recording might touch, by a name.
+// The state that recording might touch, by name.
 std::map<std::string, int64_t> stateOf() {
   std::map<std::string, int64_t> state;
   const auto get = [&](const char* name, GLenum what) {
@@ -78,7 +78,7 @@ std::map<std::string, int64_t> stateOf() {
   return state;
 }
 
-// Everything bound that can be.
+// Binds something to every binding point.
 void disturb() {
   GLuint buffer = 0, sampler = 0;
   std::array<GLuint, 3> textures = {};
@@ -148,7 +148,7 @@ TEST_F(OpenGlContext, StateIsAsItWas) {
   const auto before = stateOf();
   host::Effect one = effect();
   EXPECT_EQ(stateOf(), before) << "making an effect";
-  for (const char* estimator : {"slices", "classic"}) {  // the second one uploads a texture
+  for (const char* estimator : {"slices", "classic"}) {  // "classic" uploads a texture
     one.set("estimator", estimator);
     record(one);
     EXPECT_EQ(stateOf(), before) << estimator;
@@ -168,7 +168,7 @@ int numberOf(const std::function<void()>& call) {
   }
 }
 
-// On a thread that has no context, and in another one.
+// On a thread without a context, and in another context.
 TEST_F(OpenGlContext, OtherContextsAreRefused) {
   host::Effect one = effect();
   const auto expectRefused = [&] {

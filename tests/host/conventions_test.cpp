@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: MIT
-// Whatever a host's depth and normals are, the same picture comes of them.
+// All conventions for a host's depth and normals give the same picture.
 #include <gtest/gtest.h>
 
 #include <algorithm>
@@ -16,7 +16,7 @@ namespace {
 constexpr uint32_t kWidth = 96, kHeight = 64;
 constexpr double kNear = 0.25, kFar = 12, kAngle = 0.8;
 
-// How a host has what is seen.
+// A host's conventions for its inputs.
 struct Way {
   const char* name;
   grisaille_host_depth depth = GRISAILLE_HOST_DEPTH_VIEW;
@@ -81,7 +81,7 @@ class Conventions : public ::testing::TestWithParam<TestDevice> {
   Conventions() : host_(makeHost(GetParam())), device_(host_->device()) {}
   ~Conventions() override { EXPECT_EQ(host_->complaints(), 0); }
 
-  // Rows from the top.
+  // Renders ambient occlusion; returns rows from the top.
   image::Image visibility(const Eye& eye, const Way& way) {
     const Seen seen = see(eye, kWidth, kHeight);
     const bool orthographic = eye.angle == 0;
@@ -125,7 +125,7 @@ TEST_P(Conventions, AllComeToTheSame) {
   const image::Image expected = visibility(pinhole(), {.name = "metres"});
   image::Image open = expected;
   std::ranges::fill(open.pixels, 1.0f);
-  EXPECT_GT(image::shareOver(expected, open, 0.2), 0.05) << "nothing is dark";
+  EXPECT_GT(image::shareOver(expected, open, 0.2), 0.05) << "no pixel is occluded";
   constexpr auto kReversed = GRISAILLE_HOST_DEPTH_CLIP_REVERSED;
   const Way ways[] = {{.name = "reversed, infinite", .depth = kReversed},
                       {.name = "reversed, finite", .depth = kReversed, .far = kFar},
@@ -151,7 +151,7 @@ TEST_P(Conventions, AllComeToTheSame) {
   }
 }
 
-// As `grisaille apply` makes of the depth alone.
+// Same result as `grisaille apply` on the depth alone.
 TEST_P(Conventions, WithoutNormalsThoseOfTheFacetsAreTaken) {
   const Eye eye = pinhole();
   const Seen seen = see(eye, kWidth, kHeight);
@@ -172,7 +172,7 @@ TEST_P(Conventions, WithoutNormalsThoseOfTheFacetsAreTaken) {
                  folder.path(), driverEnvironment(GetParam()));
   ASSERT_EQ(outcome.status, 0) << outcome.err;
   const image::Image expected = image::read(folder / "ao.exr");
-  // Where two triples of pixels are as near to a line, rounding chooses.
+  // Where two triples of pixels fit a line equally well, rounding decides.
   const image::Image found = visibility(eye, {.name = "facets", .normals = false});
   EXPECT_LT(share(found, expected), 0.002);
   const image::Image turned = visibility(
@@ -180,7 +180,7 @@ TEST_P(Conventions, WithoutNormalsThoseOfTheFacetsAreTaken) {
   EXPECT_EQ(share(turned, found), 0);
 }
 
-// An orthographic camera sees as a pinhole does from very far.
+// An orthographic camera gives the picture of a pinhole very far away.
 TEST_P(Conventions, OrthographicIsAPinholeFromFarAway) {
   const glm::dvec3 target(0.1, 0.5, -0.3), backward = glm::normalize(glm::dvec3(1.1, 1.1, 3.4));
   const auto from = [&](double metres) {

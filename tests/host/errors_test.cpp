@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: MIT
-// What hosts give wrongly is refused with a number and a line, and nothing has happened.
+// Invalid input from hosts gives an error number and a message, and changes nothing.
 #include <gtest/gtest.h>
 
 #include <unistd.h>
@@ -53,7 +53,7 @@ class Errors : public ::testing::TestWithParam<TestDevice> {
     return desc;
   }
 
-  // A frame that would be recorded as it is.
+  // A valid frame.
   grisaille_host_frame frameOf(void* commands, uint64_t number) const {
     auto frame = sized<grisaille_host_frame>();
     frame.number = number;
@@ -81,7 +81,7 @@ TEST_P(Errors, OfTheLibrary) {
 TEST_P(Errors, OfDevices) {
   grisaille_host_device* made = device_.handle();
   expectError(grisaille_host_device_opengl(nullptr, &made), 5601, "opengl is null");
-  EXPECT_EQ(made, nullptr) << "left as it was";
+  EXPECT_EQ(made, nullptr) << "a failed call must leave its result unchanged";
   expectError(grisaille_host_device_opengl(nullptr, nullptr), 5601, "out is null");
   auto opengl = sized<grisaille_host_opengl>();
   opengl.reserved = 7;
@@ -118,7 +118,7 @@ TEST_P(Errors, OfVulkanDevices) {
     }
   };
   spec.queueFamily = 99;
-  expectRefused(5603, "a queue family 99");
+  expectRefused(5603, "queue family 99");
   spec.queueFamily = 0;
   spec.effectFolder = "/nowhere";
   expectRefused(3106, "/nowhere");
@@ -247,7 +247,7 @@ TEST_P(Errors, OfParametersSizesAndOutputs) {
   expectError(grisaille_host_effect_output(one, nullptr, &output), 5601, "key is null");
   expectError(grisaille_host_effect_output(one, "ao", nullptr), 5601, "out is null");
   expectError(grisaille_host_effect_output(one, "shade", &output), 5102, "shade");
-  expectError(grisaille_host_effect_output(one, "tint", &output), 5102, "not asked for");
+  expectError(grisaille_host_effect_output(one, "tint", &output), 5102, "not named");
   output.struct_size = 0;
   expectError(grisaille_host_effect_output(one, "ao", &output), 5602, "struct_size is 0");
 }
@@ -330,7 +330,7 @@ TEST_P(Errors, OfFrames) {
     grisaille_host_frame frame = frameOf(commands, number);
     EXPECT_EQ(grisaille_host_effect_record(effect.handle(), &frame), 0);
     frame.number = number - 1;
-    expectError(grisaille_host_effect_record(effect.handle(), &frame), 5606, "comes after");
+    expectError(grisaille_host_effect_record(effect.handle(), &frame), 5606, "follows frame");
   });
 }
 
@@ -347,7 +347,7 @@ TEST_P(Errors, OfTexturesInFrames) {
     grisaille_host_frame frame = frameOf(commands, number);
     expectError(grisaille_host_effect_record(effect.handle(), &frame), 5610, "base_colour is null");
     frame.depth = foreign.handle();
-    expectError(grisaille_host_effect_record(effect.handle(), &frame), 5609, "two devices");
+    expectError(grisaille_host_effect_record(effect.handle(), &frame), 5609, "different devices");
     frame.depth = small.handle();
     expectError(grisaille_host_effect_record(effect.handle(), &frame), 5605, "8 x 8 pixels");
   });
@@ -369,7 +369,7 @@ TEST_P(Errors, OfCameras) {
     expectRefused(&grisaille_host_camera::far_plane, 0.05, "far_plane is 0.05");
     expectRefused(&grisaille_host_camera::far_plane, kNan, "far_plane is nan");
     expectRefused(&grisaille_host_camera::vertical_angle, 4, "vertical_angle is 4");
-    expectRefused(&grisaille_host_camera::vertical_angle, 0, "orthographic_height 0");
+    expectRefused(&grisaille_host_camera::vertical_angle, 0, "orthographic_height is 0");
     expectRefused(&grisaille_host_camera::orthographic_height, 2, "both given");
     camera_.position[1] = kNan;
     expectError(grisaille_host_effect_record(effect.handle(), &frame), 5607, "position");
@@ -377,11 +377,11 @@ TEST_P(Errors, OfCameras) {
     camera_.world_from_view[4] = 2;
     expectError(grisaille_host_effect_record(effect.handle(), &frame), 5607, "axes");
     camera_.world_from_view[4] = -1;
-    expectError(grisaille_host_effect_record(effect.handle(), &frame), 5607, "mirrors");
+    expectError(grisaille_host_effect_record(effect.handle(), &frame), 5607, "reflection");
     camera_ = sound;
     camera_.vertical_angle = 0;
     camera_.orthographic_height = 3;
-    expectError(grisaille_host_effect_record(effect.handle(), &frame), 5607, "no far plane");
+    expectError(grisaille_host_effect_record(effect.handle(), &frame), 5607, "needs a far_plane");
     camera_ = sound;
     camera_.struct_size = 0;
     expectError(grisaille_host_effect_record(effect.handle(), &frame), 5602, "frame.camera");

@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: MIT
-// The example hosts, built with what is installed alone: their ambient occlusion is what the
-// program makes of their depth and normals, and of their scene.
+// The example hosts, built against an installation alone. Their ambient occlusion matches the
+// program's, from their depth and normals and from their scene.
 #include <gtest/gtest.h>
 
 #include <fmt/format.h>
@@ -22,7 +22,7 @@ namespace {
 namespace fs = std::filesystem;
 
 constexpr uint32_t kWidth = 320, kHeight = 180;
-// As examples/common/scene.h has it.
+// Same as in examples/common/scene.h.
 constexpr const char* kCamera =
     R"({"eye": [3.1, 2.3, 3.7], "target": [-0.2, 0.5, -0.1], "fovy_degrees": 51.56620156177409, "near": 0.1})";
 
@@ -34,7 +34,7 @@ std::vector<T> numbersOf(const fs::path& path) {
   return numbers;
 }
 
-// So many of the channels that a file of bare numbers has.
+// The first `channels` channels of a file of bare numbers.
 image::Image imageOf(const std::vector<float>& numbers, uint32_t channels) {
   const size_t pixels = size_t{kWidth} * kHeight, given = numbers.size() / pixels;
   image::Image image{.width = kWidth, .height = kHeight, .channels = channels, .pixels = {}};
@@ -50,7 +50,7 @@ std::vector<float> floatsOf(const std::vector<uint16_t>& halves) {
   return floats;
 }
 
-// The scene's triangles, whose interleaved vertices are the buffer as it stands.
+// A glTF for the scene's triangles: the file's interleaved vertices are its buffer.
 std::string gltfOf(size_t bytes) {
   const size_t count = bytes / (6 * sizeof(float));
   return fmt::format(
@@ -69,7 +69,7 @@ std::string gltfOf(size_t bytes) {
 struct Example {
   const char* name;     // of its folder; its program is NAME_host
   const char* more;     // arguments
-  const char* backend;  // of the program's picture that it is compared with
+  const char* backend;  // that draws the program's picture to compare with
   const char* depth;    // options of `apply`
   const char* space;    // of the normals
 };
@@ -91,7 +91,7 @@ class Examples : public ::testing::TestWithParam<Example> {
     folder_.reset();
   }
   void SetUp() override {
-    if (SANITIZED) GTEST_SKIP() << "what the sanitizers watch is not installed";
+    if (SANITIZED) GTEST_SKIP() << "builds with sanitizers are not installed";
   }
 
   static void shell(const std::string& line) {
@@ -100,7 +100,7 @@ class Examples : public ::testing::TestWithParam<Example> {
   }
   static image::Image read(const std::string& name) { return image::read(*folder_ / name); }
 
-  // The host's files as the program's: depth.exr, normal.exr, ao.exr, scene.gltf.
+  // Converts the host's files to the program's: depth.exr, normal.exr, ao.exr, scene.gltf.
   static void convert(const fs::path& from) {
     const auto halvesOr = [&](const std::string& name) {
       return fs::exists(from / (name + ".f16"))
@@ -146,15 +146,15 @@ TEST_P(Examples, AmbientOcclusionIsWhatTheProgramMakes) {
               example.name, applied.largest, rendered.largest, rendered.rmse);
   EXPECT_EQ(applied.nonFinite + rendered.nonFinite, 0u);
   EXPECT_LE(rendered.largest, 1.0 / 255);
-  // What is applied has rounded the normals once more: a sector at its edge may come out shut.
+  // Files round the normals once more: a sector at its edge may become occluded.
   EXPECT_LE(applied.largest, 2.0 / 255);
   EXPECT_LT(image::shareOver(ao, fromFiles, 1.0 / 255), 0.001);
   image::Image open = ao;
   std::ranges::fill(open.pixels, 1.0f);
-  EXPECT_GT(image::shareOver(ao, open, 0.2), 0.05) << "nothing is dark";
+  EXPECT_GT(image::shareOver(ao, open, 0.2), 0.05) << "no pixel is occluded";
 }
 
-// What an existing renderer has to add.
+// The lines that an existing renderer has to add.
 TEST_P(Examples, IntegrationTakesUnder120Lines) {
   size_t lines = 0;
   for (const auto& entry :

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: MIT
-// Effects over many frames: several at a time, of changing sizes, without an allocation.
+// Effects over many frames: several effects per frame, changing sizes, no allocations.
 #include <gtest/gtest.h>
 
 #include <unistd.h>
@@ -109,7 +109,7 @@ TEST_P(Frames, OtherSizesAreOtherTextures) {
   EXPECT_EQ(effect.output("ao").format, GRISAILLE_FORMAT_R16F);
 }
 
-// In one frame, each with a size and values of its own.
+// In one frame, each with its own size and values.
 TEST_P(Frames, EffectsOfOneDeviceLeaveEachOtherAlone) {
   host::Effect one = ssao(64, 48), other = ssao(40, 30);
   other.set("radius", 0.3);
@@ -137,7 +137,7 @@ TEST_P(Frames, EffectsOfOneDeviceLeaveEachOtherAlone) {
   EXPECT_EQ(host_->read(other.output("ao")), second);
 }
 
-// Light that base colours throw back tints what is dark.
+// Light bounced by base colours tints dark areas.
 TEST_P(Frames, EveryOutputIsThere) {
   host::Effect effect(device_, {.effect = "ssao",
                                 .width = 64,
@@ -164,16 +164,16 @@ TEST_P(Frames, EveryOutputIsThere) {
   }
   EXPECT_GT(tinted, 50u);
   EXPECT_GT(lit, 1000u);
-  // Matter that ends right behind what is seen hides less.
+  // Matter that ends right behind the visible surface occludes less.
   std::vector<float> behind = viewOf(see(eye(), 64, 48));
-  std::reverse(behind.begin(), behind.end());  // rows from the bottom; columns do not matter here
+  std::reverse(behind.begin(), behind.end());  // rows from the bottom; columns may be mirrored
   for (float& metres : behind) metres = metres > 0 ? metres + 0.01f : 0;
   const host::Texture back = host_->texture(device_, Texels::kFloat1, 64, 48, behind);
   record(effect, seen, &colour, &back);
   EXPECT_NE(host_->read(effect.output("ao")), open);
 }
 
-// The world's own rays, and how many were asked for.
+// Casts rays in the world and adds their number to `context`.
 void castWorld(void* context, const grisaille_ray* rays, uint64_t count, grisaille_hit* hits) {
   *static_cast<uint64_t*>(context) += count;
   for (uint64_t i = 0; i < count; ++i) {
@@ -203,7 +203,7 @@ sspm::Shot shotAt(const glm::dvec3& origin, const glm::dvec3& target) {
 
 using Shots = std::vector<sspm::Shot>;
 
-// Paint lies where a shot's muzzle sees the world: on the ball, and not on the wall behind it.
+// Paint covers surfaces that the shot's muzzle sees: the ball, but not the wall behind it.
 TEST_P(Frames, ShotsPaintWhatTheHostsRaysFind) {
   host::Effect effect(device_, {.effect = "sspm", .width = 96, .height = 72});
   effect.set("edge_fade", 0.0);
@@ -213,7 +213,7 @@ TEST_P(Frames, ShotsPaintWhatTheHostsRaysFind) {
   const auto painted = [&](const glm::dvec3& axisOrigin, const glm::dvec3& way) {
     record(effect, seen);
     const std::vector<float> paint = host_->read(effect.output("paint"));
-    std::pair<size_t, size_t> count = {0, 0};  // on what the muzzle sees; elsewhere
+    std::pair<size_t, size_t> count = {0, 0};  // pixels that the muzzle sees; other pixels
     for (size_t i = 0; i < world.view.size(); ++i) {
       if (paint[4 * i + 3] < 0.5f) continue;
       const double half = std::tan(0.4);
@@ -231,14 +231,14 @@ TEST_P(Frames, ShotsPaintWhatTheHostsRaysFind) {
   const glm::dvec3 origin(shot.origin[0], shot.origin[1], shot.origin[2]);
   const glm::dvec3 way(shot.direction[0], shot.direction[1], shot.direction[2]);
   effect.setObjects<sspm::Shot>(Shots{shot});
-  EXPECT_EQ(painted(origin, way).first, 0u) << "nobody casts rays yet";
+  EXPECT_EQ(painted(origin, way).first, 0u) << "no ray caster is set yet";
   uint64_t asked = 0;
   device_.setRays(castWorld, &asked);
   auto [on, off] = painted(origin, way);
   EXPECT_GT(on, 20u);
   EXPECT_EQ(off, 0u);
   EXPECT_GT(asked, 0u);
-  // What is added at the end leaves what was there, and no shots leave nothing.
+  // Adding a shot keeps the paint of earlier shots; an empty list removes all paint.
   const uint64_t first = asked;
   effect.setObjects<sspm::Shot>(Shots{shot, shotAt({-1, 1, 2}, {-0.8, 0, 0.2})});
   EXPECT_EQ(painted(origin, way).first, on);
@@ -248,7 +248,7 @@ TEST_P(Frames, ShotsPaintWhatTheHostsRaysFind) {
   EXPECT_EQ(asked, second);
   effect.setObjects<sspm::Shot>(Shots{});
   EXPECT_EQ(painted(origin, way), std::pair(size_t{0}, size_t{0}));
-  // Whatever lies in the range, per shot, asks no rays.
+  // `per_shot` mode paints every surface in range and needs no rays.
   effect.set("mode", "per_shot");
   effect.setObjects<sspm::Shot>(Shots{shot});
   EXPECT_GE(painted(origin, way).first, on);
@@ -260,7 +260,7 @@ TEST_P(Frames, RaysThatTellNonsenseAreRefused) {
   effect.setObjects<sspm::Shot>(Shots{shotAt({0.3, 0.6, 2.5}, {0.2, 0.5, -0.2})});
   device_.setRays(castNonsense, nullptr);
   const host::Texture seen = depth(32, 24);
-  // The command buffer is submitted all the same.
+  // The command buffer is still submitted.
   host_->frame([&](void* commands, uint64_t number) {
     EXPECT_THROW(effect.record({.number = number,
                                 .commandBuffer = commands,
@@ -299,7 +299,7 @@ TEST_P(Frames, ObjectsOfAFileAreThoseThatAreSet) {
   EXPECT_TRUE(std::ranges::any_of(paint, [](float x) { return x > 0; }));
 }
 
-// An effect that tells what it was given.
+// An effect that writes its inputs to its output.
 class Told : public Frames {
  protected:
   Told() : own_(host_->device(TELLER_FOLDER)) {}
@@ -328,7 +328,7 @@ TEST_P(Told, LeadingObjectsThatAreEqualAreKept) {
   EXPECT_EQ(kept(), 5);
   marks.push_back(marks[0]);
   EXPECT_EQ(kept(), 5);
-  // Texts are compared, not their addresses.
+  // Texts are compared by content, not by address.
   const std::string same = "note";
   for (Mark& mark : marks) mark.note = same.c_str();
   EXPECT_EQ(kept(), 6);
@@ -361,7 +361,7 @@ TEST_P(Told, PicturesAreReadByTheHost) {
         std::vector<Mark>{{{1, 2, 3}, {0, 1, 0}, {1, 1, 1}, 0.5, "note", path}});
     return told(effect)[9];
   };
-  EXPECT_EQ(width("moss.png"), -1) << "nobody decodes pictures yet";
+  EXPECT_EQ(width("moss.png"), -1) << "no picture reader is set yet";
   Decoder decoder;
   own_.setPictures(readPicture, &decoder);
   EXPECT_EQ(width("moss.png"), 3);
@@ -373,8 +373,8 @@ TEST_P(Told, PicturesAreReadByTheHost) {
   EXPECT_EQ(decoder.asked.size(), 3u);
 }
 
-// From the second frame on: neither memory of the host's nor any object of the API's, which would
-// come with memory of the host's.
+// From the second frame on, recording allocates no memory of the host's and creates no API objects,
+// which would allocate such memory.
 class UnwatchedFrames : public Frames {
  protected:
   UnwatchedFrames() : Frames(false) {}
@@ -382,7 +382,7 @@ class UnwatchedFrames : public Frames {
 GRISAILLE_IN_EVERY_HOST(UnwatchedFrames);
 
 TEST_P(UnwatchedFrames, RecordingAgainAllocatesNothing) {
-  if (SANITIZED) GTEST_SKIP() << "the sanitizers allocate themselves";
+  if (SANITIZED) GTEST_SKIP() << "sanitizers allocate memory themselves";
   host::Effect one = ssao(64, 48), other = ssao(40, 30);
   const host::Texture large = depth(64, 48), small = depth(40, 30);
   size_t first = 0, last = 0;

@@ -1,5 +1,5 @@
 /* SPDX-License-Identifier: MIT
- * The header in plain C. */
+ * Compiles the header as plain C. */
 #include "grisaille/host.h"
 
 uint32_t hostVersionInC(void) {

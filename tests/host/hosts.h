@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: MIT
-// Hosts of the library for tests: a Vulkan device or an OpenGL context of their own, textures of
-// numbers, frames that are waited for.
+// Hosts of the library for tests. Each has its own Vulkan device or OpenGL context, textures made
+// from numbers, and frames that it waits for.
 #pragma once
 
 #include <functional>
@@ -19,34 +19,34 @@ class Host {
  public:
   virtual ~Host() = default;
 
-  // `effectFolder`: of further effects; null: none.
+  // `effectFolder`: folder of further effects; null: none.
   virtual host::Device device(const char* effectFolder = nullptr) = 0;
 
-  // A texture of the host's, wrapped: numbers of so many channels as the texels have, rows in
-  // memory as they come. It lives as long as the host.
+  // Creates a texture of the host and wraps it. `numbers` holds the channels of each texel, with
+  // rows in memory order. The texture lives as long as the host.
   virtual host::Texture texture(const host::Device& device, Texels texels, uint32_t width,
                                 uint32_t height, const std::vector<float>& numbers) = 0;
-  // How it describes the last one.
+  // The description that wraps the last texture.
   virtual host::TextureSpec described() const = 0;
 
-  // Runs a frame: `record` gets the command buffer and the frame's number. `after` runs when it is
-  // recorded, before it is submitted.
+  // Runs a frame: calls `record` with the command buffer and the frame's number, then submits.
   virtual void frame(const std::function<void(void*, uint64_t)>& record) = 0;
 
-  // The numbers of an output, rows as they are in memory. Waits.
+  // Waits, then reads the numbers of an output, with rows in memory order.
   virtual std::vector<float> read(const grisaille_host_output& output) = 0;
 
-  // What the API's own validation has complained of.
+  // Number of messages from the API's own validation.
   virtual int complaints() const = 0;
 };
 
-// A host on this device. Validation layers allocate themselves.
+// Makes a host on this device. `validate`: off for tests that count allocations, since validation
+// layers allocate themselves.
 std::unique_ptr<Host> makeHost(const TestDevice& device, bool validate = true);
 
 }  // namespace grisaille::tests
 
-// Runs a suite in a host of every device that is installed: hosts are made before a suite can be
-// skipped. HostDevices.AreInstalled is skipped where one is missing.
+// Runs a suite in a host on every installed device. Hosts are created before a suite could be
+// skipped, so HostDevices.AreInstalled reports missing devices as skipped.
 #define GRISAILLE_IN_EVERY_HOST(Suite)                                                           \
   INSTANTIATE_TEST_SUITE_P(, Suite, ::testing::ValuesIn(::grisaille::tests::installedDevices()), \
                            GRISAILLE_DEVICE_NAME)

@@ -1,5 +1,6 @@
 // SPDX-License-Identifier: MIT
-// A small world, seen by cameras of every kind: a floor, a wall and a ball, traced in double.
+// A small world seen by cameras of every kind: a floor, a wall and a ball, traced in double
+// precision.
 #pragma once
 
 #include <cmath>
@@ -11,22 +12,21 @@ namespace grisaille::tests {
 
 struct Eye {
   glm::dmat4 viewFromWorld = glm::dmat4(1);
-  double angle = 0;   // radians that the height spans; 0: orthographic
-  double height = 0;  // metres then
+  double angle = 0;   // angle that the height spans, radians; 0: orthographic
+  double height = 0;  // metres, if orthographic
 };
 
-// Rows from the top.
+// Pictures with rows from the top.
 struct Seen {
   uint32_t width = 0, height = 0;
   std::vector<double> view, distance;  // metres; 0: sky
   std::vector<glm::dvec3> normal;      // world
 };
 
-// What a ray hits first, and how far along in its own lengths; 1e30: nothing. The floor ends
-// nowhere.
+// First hit of a ray, and its distance in lengths of the ray; 1e30: no hit. The floor is infinite.
 struct Met {
   double along = 1e30;
-  glm::dvec3 normal = glm::dvec3(0);  // world, out of the world's solids
+  glm::dvec3 normal = glm::dvec3(0);  // world space, out of the solids
 };
 
 inline Met meet(const glm::dvec3& origin, const glm::dvec3& ray) {

@@ -140,7 +140,7 @@ std::vector<float> VulkanHost::read(const grisaille_host_output& output) {
   const bool half = output.native_format == VK_FORMAT_R16_SFLOAT ||
                     output.native_format == VK_FORMAT_R16G16B16A16_SFLOAT;
   if (!half && output.native_format != VK_FORMAT_R32_SFLOAT) {
-    throw std::runtime_error("only half floats and single floats are read back here");
+    throw std::runtime_error("this host reads back only half and single floats");
   }
   const size_t channels = output.native_format == VK_FORMAT_R16G16B16A16_SFLOAT ? 4 : 1;
   std::vector<float> numbers(size_t{output.width} * output.height * channels);

@@ -7,7 +7,7 @@ namespace grisaille::tests {
 
 std::unique_ptr<Host> makeVulkanHost(bool validate = true);
 
-// What a Vulkan host's device is made of.
+// The specification that wraps a Vulkan host's device.
 host::VulkanSpec vulkanSpec(const Host& host);
 
 }  // namespace grisaille::tests

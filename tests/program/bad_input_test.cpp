@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: MIT
-// Bad input of every kind: one line that says what, why and what to do, a non-zero exit, no crash,
-// no hang, and no file left half written.
+// Bad input of every kind gives one line with the fault, the reason and a remedy, and a non-zero
+// exit status. It never causes a crash, a hang or a half-written file.
 #include <gtest/gtest.h>
 
 #include <sys/stat.h>
@@ -123,7 +123,7 @@ TEST(BadInput, EachKindIsOneLineAndANumber) {
   }
 }
 
-// An image that is none: only who needs it is told.
+// A broken image in a scene: only commands that need the texture report it.
 TEST(BadInput, BrokenTextureFailsOnlyWhereItIsNeeded) {
   const TemporaryFolder folder;
   const std::string scene = folder.write("scene.gltf",

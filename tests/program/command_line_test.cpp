@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: MIT
-// The command line: what it lists, what it takes, and how it says no.
+// The command line: lists, options and errors.
 #include <gtest/gtest.h>
 
 #include <algorithm>
@@ -10,12 +10,12 @@
 namespace grisaille::tests {
 namespace {
 
-// One line on standard error, with this number.
+// Expects one error line with this number on standard error.
 void expectError(const Outcome& outcome, int number, const std::string& mention = "") {
   EXPECT_TRUE(outcome.status == 1 || outcome.status == 2) << outcome.status << outcome.err;
   EXPECT_EQ(outcome.err.rfind("error E" + std::to_string(number) + ": ", 0), 0u) << outcome.err;
   EXPECT_EQ(std::count(outcome.err.begin(), outcome.err.end(), '\n'), 1) << outcome.err;
-  EXPECT_NE(outcome.err.find("; "), std::string::npos) << "no advice in " << outcome.err;
+  EXPECT_NE(outcome.err.find("; "), std::string::npos) << "no remedy in " << outcome.err;
   EXPECT_NE(outcome.err.find(mention), std::string::npos) << mention << " not in " << outcome.err;
 }
 
@@ -24,7 +24,7 @@ class CommandLine : public ::testing::Test {
   Outcome grisaille(const std::vector<std::string>& arguments) {
     return runProgram(arguments, folder_.path());
   }
-  // render of a tiny picture.
+  // Renders a tiny picture.
   Outcome render(std::vector<std::string> arguments) {
     arguments.insert(arguments.begin(), {"render", "--size", "16x9"});
     return grisaille(arguments);
@@ -184,7 +184,7 @@ TEST_F(CommandLine, SceneIsWrittenAndReadBack) {
   EXPECT_EQ(readFile(folder_ / "file.exr"), readFile(folder_ / "built_in.exr"));
 }
 
-// A machine without one backend's driver library still runs the other.
+// On a machine without one backend's driver library, the other backend still runs.
 TEST_F(CommandLine, MissingLibraryOfOneBackendLeavesTheOther) {
   const auto without = [&](const std::string& library, const std::vector<std::string>& arguments) {
     return runProgram(arguments, folder_.path(),
@@ -193,7 +193,7 @@ TEST_F(CommandLine, MissingLibraryOfOneBackendLeavesTheOther) {
   const auto runs = [&](const std::string& backend) {
     return render({"--backend", backend, "--write", "ao=a.png"}).status == 0;
   };
-  if (!runs("opengl") || !runs("vulkan")) GTEST_SKIP() << "one backend alone is present";
+  if (!runs("opengl") || !runs("vulkan")) GTEST_SKIP() << "only one backend is present";
   for (const auto& [library, backend, other] :
        {std::array{"libEGL.so", "opengl", "vulkan"}, {"libvulkan.so", "vulkan", "opengl"}}) {
     expectError(without(library, {"render", "--size", "8x8", "--backend", backend}), 1001);
@@ -207,8 +207,8 @@ TEST_F(CommandLine, MissingLibraryOfOneBackendLeavesTheOther) {
   }
 }
 
-// What needs no picture in a file runs without the library that makes them, which is slow to load:
-// the built-in scene is traced and drawn too.
+// The program loads the slow picture codecs only for commands that read or write picture files.
+// Tracing and drawing the built-in scene work without them.
 TEST_F(CommandLine, OnlyPicturesNeedTheirLibrary) {
   const std::vector<std::string> without = {"LD_PRELOAD=" HIDE_LIBRARY, "HIDE_LIBRARY=codecs"};
   const auto run = [&](const std::vector<std::string>& arguments) {

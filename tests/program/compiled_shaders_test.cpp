@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: MIT
-// Shaders are compiled for what is set, not for each frame and each shot: some drivers compile one
-// anew for each value that a uniform in a condition takes. Counted in Mesa's cache; other drivers
-// leave that empty.
+// The program compiles shaders per setting, not per frame or shot. Some drivers recompile a shader
+// for each value of a uniform in a condition. Counts the entries of Mesa's cache; other drivers
+// leave it empty.
 #include <fmt/format.h>
 #include <gtest/gtest.h>
 
@@ -18,7 +18,7 @@ constexpr const char* kNoCache = "the driver keeps no shaders in Mesa's cache, s
 
 class CompiledShaders : public ::testing::TestWithParam<const char*> {
  protected:
-  // By a run that succeeds.
+  // Number of shaders that this run compiles; the run must succeed.
   ptrdiff_t compiledBy(const std::string& name, std::vector<std::string> arguments) {
     const fs::path cache = folder_.path() / name;
     arguments.insert(arguments.end(), {"--backend", GetParam()});

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: MIT
-// A device whose memory is used up or that is lost, and one that is missing.
+// A device that runs out of memory, is lost, or is missing.
 #include <filesystem>
 
 #include "tests/program/faulty_run.h"
@@ -33,7 +33,7 @@ class DeviceFaults : public testing::TestWithParam<std::string> {
 INSTANTIATE_TEST_SUITE_P(, DeviceFaults, testing::Values("opengl", "vulkan"),
                          [](const auto& of) { return of.param; });
 
-// Wherever it comes: as the device starts, in a frame, in an effect, which is not to blame.
+// At any time: as the device starts, in a frame, or in an effect, which must not be blamed.
 TEST_P(DeviceFaults, MemoryThatIsUsedUpIsNamed) {
   for (const int after : {0, 3, 6}) expectEnds(render({}, "out_of_memory", after), 1007);
   expectKept();
@@ -42,12 +42,12 @@ TEST_P(DeviceFaults, MemoryThatIsUsedUpIsNamed) {
 TEST_P(DeviceFaults, ALostDeviceIsNamed) {
   expectEnds(render({}, "device_lost"), 1006);
   expectEnds(render({"--frames", "3"}, "device_lost", 1), 1006);
-  // Also where the layer keeps account of what is recorded.
+  // Also under --check.
   expectEnds(render({"--check"}, "device_lost"), 1006);
   expectKept();
 }
 
-// It is not a verdict on the cases that were still to come.
+// A lost device must not decide the cases that are still to come.
 TEST_P(DeviceFaults, ALostDeviceLeavesTheTableOfASweep) {
   folder_.write("stability.md", "precious");
   expectEnds(run({"stability", "--only", "near plane", "--quick", "--out", "."}, "device_lost", 3),
@@ -61,11 +61,11 @@ TEST(LostDevice, EndsTheCheckOfAnEffectByAFault) {
   const Outcome outcome = runProgram({"effects", "--verify", effects + "/effects/ssao.so"},
                                      folder.path(), faulty("device_lost", 2, folder.path()));
   EXPECT_EQ(outcome.status, 1);
-  EXPECT_NE(outcome.out.find("ssao: the rest is not checked: "), std::string::npos) << outcome.out;
+  EXPECT_NE(outcome.out.find("ssao: the check did not finish: "), std::string::npos) << outcome.out;
   EXPECT_EQ(outcome.out.find("the process ended"), std::string::npos) << outcome.out;
 }
 
-// Both are asked for by default: nothing is measured before it shows that one is not there.
+// Both backends run by default. If one is missing, the program says so before it measures anything.
 TEST(MissingBackend, IsNamedBeforeAnyWork) {
   const TemporaryFolder folder;
   const Outcome outcome = runProgram(

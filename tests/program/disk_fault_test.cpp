@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: MIT
-// A disk that is full, a folder that is read-only, and a run that is killed in the middle of a
-// write: what was saved stays as it was, and the same command goes on.
+// A full disk, a read-only folder, and a run killed in the middle of a write: saved files stay as
+// they were, and the same command continues.
 #include <algorithm>
 #include <filesystem>
 #include <nlohmann/json.hpp>
@@ -38,7 +38,7 @@ class DiskFaults : public testing::TestWithParam<std::string> {
   DiskFaults() { fs::create_directory(out()); }
 
   std::string out() const { return folder_ / "out"; }
-  // The truth's cache is a folder of its own, which fails where it is asked to.
+  // The truth's cache has its own folder, which fails only in tests that request it.
   std::string cache() const { return folder_ / "cache"; }
   Outcome run(const Words& words, const std::string& fault = "none", int after = 0) const {
     return runIn(out(), words, fault, after);
@@ -59,7 +59,7 @@ class DiskFaults : public testing::TestWithParam<std::string> {
             "--backend", presentOne(),
             "--out",     "out/claims"};
   }
-  // The other one is the same to a disk.
+  // Both backends treat a disk the same way.
   static std::string presentOne() {
     static const std::string one =
         runProgram({"render", "--backend", "opengl", "--size", "1x1", "--write", "depth=d.exr"},
@@ -69,7 +69,7 @@ class DiskFaults : public testing::TestWithParam<std::string> {
             : "vulkan";
     return one;
   }
-  // All that is kept there, but for the parts that a killed process leaves.
+  // All saved files, without the partial files that a killed process leaves.
   std::vector<std::string> whole() const {
     std::vector<std::string> files;
     for (const auto& entry : fs::recursive_directory_iterator(out())) {
@@ -135,7 +135,7 @@ TEST_P(DiskFaults, LeaveWhatIsThereAndSayWhy) {
 
 using DiskFault = DiskFaults;
 
-// What takes long is not begun where its result could not be kept.
+// Long work does not begin if its result could not be saved.
 TEST_F(DiskFault, ReadOnlyFoldersAreRefusedBeforeAnyWork) {
   for (const Words& words :
        {measure(), claims(),
@@ -150,7 +150,7 @@ TEST_F(DiskFault, AStudyKilledInTheMiddleOfAWriteGoesOn) {
   ASSERT_EQ(run(measure()).status, 0);
   const std::vector<std::string> all = whole();
   fs::remove_all(out() + "/study");
-  // After a setting's pictures and the truth's, in its record.
+  // The kill comes in the record of a setting, after its pictures and the truth's.
   EXPECT_EQ(run(measure(), "killed", 3).status, -1);
   const Outcome outcome = run(measure());
   EXPECT_EQ(outcome.status, 0) << outcome.err;
@@ -179,10 +179,10 @@ TEST_F(DiskFault, TruthKilledInTheMiddleOfAWriteKeepsWhatItHad) {
   EXPECT_EQ(runIn(cache(), truth("128"), "killed", 0).status, -1);
   const Outcome outcome = run(truth("128"));
   EXPECT_EQ(outcome.status, 0) << outcome.err;
-  EXPECT_NE(outcome.out.find("(64 of them kept from before)"), std::string::npos) << outcome.out;
+  EXPECT_NE(outcome.out.find("(64 of them from the cache)"), std::string::npos) << outcome.out;
 }
 
-// The old file is there until the new one is whole.
+// The old file stays until the new one is complete.
 TEST_F(DiskFault, APictureKilledInTheMiddleOfAWriteIsTheOldOne) {
   folder_.write("out/a.exr", "precious");
   EXPECT_EQ(run({"render", "--size", "16x9", "--write", "ao=out/a.exr"}, "killed").status, -1);
@@ -190,7 +190,7 @@ TEST_F(DiskFault, APictureKilledInTheMiddleOfAWriteIsTheOldOne) {
 }
 
 TEST(FullOutput, IsAnError) {
-  if (!fs::exists("/dev/full")) GTEST_SKIP() << "no /dev/full here";
+  if (!fs::exists("/dev/full")) GTEST_SKIP() << "this machine has no /dev/full";
   const TemporaryFolder folder;
   for (const std::string words : {"effects", "render --size 1x1 --timings -", "completion"}) {
     expectEnds(runShell("grisaille " + words + " > /dev/full", folder.path()), 4103,

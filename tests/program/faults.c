@@ -1,11 +1,12 @@
 /* SPDX-License-Identifier: MIT
- * Preloaded into the program, makes what it stands on fail as $FAULT says:
+ * Preloaded into the program, makes system and driver calls fail. $FAULT selects how:
  *   disk_full      writes to files under $FAULT_FOLDER
- *   read_only      whatever makes or changes a file there
+ *   read_only      calls that create or change files there
  *   killed         the process ends by SIGKILL in the middle of such a write
- *   out_of_memory  the device's memory is used up
+ *   out_of_memory  the device has no memory left
  *   device_lost    the device is lost
- * after $FAULT_AFTER calls that work (default 0), and not before the file $FAULT_WHEN is there. */
+ * The first $FAULT_AFTER such calls succeed (default 0). If $FAULT_WHEN names a file, calls fail
+ * only once that file exists. */
 #define _GNU_SOURCE
 #include <dlfcn.h>
 #include <epoxy/gl.h>
@@ -32,7 +33,7 @@ static int is(const char* fault) {
   return wanted != NULL && strcmp(wanted, fault) == 0;
 }
 
-/* Counts a call that may fail. */
+/* Counts a call that may fail. Returns whether it fails. */
 static int fails(void) {
   const char* after = getenv("FAULT_AFTER");
   const char* when = getenv("FAULT_WHEN");
@@ -47,7 +48,7 @@ static int isUnder(const char* path) {
   return folder != NULL && strncmp(path, folder, strlen(folder)) == 0;
 }
 
-/* As the program names it: relative paths begin at the folder that it runs in. */
+/* Relative paths start at the working directory of the program. */
 static int isPathUnder(const char* path) {
   char here[4096] = "", whole[8192];
   if (path[0] == '/') return isUnder(path);
@@ -105,7 +106,7 @@ EXPORT int rename(const char* from, const char* to) {
   return refuses(to) ? -1 : NEXT(rename)(from, to);
 }
 
-/* Whether the write fails; half of it was done where the process was to be killed. */
+/* Whether the write fails. For `killed`, writes half of the bytes and kills the process. */
 static int failsToWrite(int file, const void* bytes, size_t count) {
   const int full = is("disk_full"), killed = is("killed");
   if ((!full && !killed) || !isFileUnder(file) || !fails()) return 0;
@@ -125,7 +126,7 @@ EXPORT ssize_t writev(int file, const struct iovec* parts, int count) {
   return failsToWrite(file, last->iov_base, last->iov_len) ? -1 : NEXT(writev)(file, parts, count);
 }
 
-/* --- Vulkan: what is loaded for it is this library, which asks the real one for the rest --- */
+/* --- Vulkan: dlopen returns this library, which forwards all other calls to the real one --- */
 
 static void* vulkan;
 
@@ -184,8 +185,8 @@ EXPORT void* dlopen(const char* name, int flags) {
   return NEXT(dlopen)(self.dli_fname, RTLD_NOW | RTLD_LOCAL);
 }
 
-/* --- OpenGL: by way of epoxy's pointers. Each first call finds the function that it then points
- * to, so that the pointer is epoxy's own while it is called. --- */
+/* --- OpenGL: replaces epoxy's function pointers. The first call through a pointer resolves and
+ * overwrites it, so each pointer is restored to epoxy's own during a call. --- */
 
 static PFNGLTEXTURESTORAGE2DPROC nextStorage;
 static PFNGLGETERRORPROC nextError;

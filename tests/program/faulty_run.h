@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: MIT
-// Runs the program on something that fails: see faults.c.
+// Runs the program with injected faults, see faults.c.
 #pragma once
 
 #include <gtest/gtest.h>
@@ -12,15 +12,15 @@
 
 namespace grisaille::tests {
 
-// The environment in which `fault` comes after so many calls that work, files being those under
-// `folder`.
+// Environment in which `fault` strikes after this many successful calls. File faults apply to files
+// under `folder`.
 inline std::vector<std::string> faulty(const std::string& fault, int after,
                                        const std::string& folder) {
   return {"LD_PRELOAD=" FAULTS, "FAULT=" + fault, "FAULT_AFTER=" + std::to_string(after),
           "FAULT_FOLDER=" + folder};
 }
 
-// It ends by an error of this number, told in the last of its lines, and of no other.
+// Expects that the run ends with this error, on its last line, and reports no other error.
 inline void expectEnds(const Outcome& outcome, int number, const std::string& mention = "") {
   EXPECT_EQ(outcome.status, 1) << outcome.out << outcome.err;
   const size_t at = outcome.err.find("error E");

@@ -1,5 +1,5 @@
 /* SPDX-License-Identifier: MIT
- * Preloaded into the program, hides every library whose name holds $HIDE_LIBRARY from dlopen. */
+ * Preloaded into the program, makes dlopen fail for libraries with $HIDE_LIBRARY in their name. */
 #define _GNU_SOURCE
 #include <dlfcn.h>
 #include <stdlib.h>

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: MIT
-// Paths that name no regular file: a numbered error at once that says what is there.
+// Paths that name no regular file give a numbered error at once, which names the kind of file.
 #include <gtest/gtest.h>
 #include <sys/stat.h>
 
@@ -22,7 +22,7 @@ class InputPaths : public testing::Test {
       fs::create_symlink("/dev/zero", folder_ / (std::string("device.") + ending));
     }
   }
-  // What hangs ends after 20 seconds by SIGKILL, as commands that trace wait for SIGTERM.
+  // A hanging command gets SIGKILL after 20 seconds: commands that trace handle SIGTERM themselves.
   Outcome run(const std::string& words) const {
     return runShell(
         "XDG_CACHE_HOME=$PWD/cache timeout -s KILL 20 " + programOf(words) + " " + words,
@@ -136,7 +136,7 @@ TEST_F(InputPaths, AnEmptyPathIsAMistakeOfUsage) {
   }
   expectRefused("render --camera ''", 5101, "--camera: the value is empty", 2);
   EXPECT_FALSE(fs::exists(folder_ / "grisaille.png"));
-  // No effects is a choice.
+  // An empty list of effects is valid.
   EXPECT_EQ(run("render --size 8x8 --effects '' --write color=c.png").status, 0);
 }
 

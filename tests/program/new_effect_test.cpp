@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: MIT
-// What `grisaille new-effect` refuses, and what it leaves alone. That its projects build and run is
-// shown by the tests of what is installed.
+// `grisaille new-effect`: refused names, and files that it leaves alone. tests/build builds and
+// runs its projects.
 #include <gtest/gtest.h>
 
 #include "tests/program/run.h"
@@ -29,7 +29,7 @@ struct NewEffect : ::testing::Test {
 TEST_F(NewEffect, BadNamesAreRefusedAndNothingIsWritten) {
   for (const std::string name : {"Outline", "2d", "_x", "out-line", "a b", "../x", "ä", "x.y",
                                  "a23456789012345678901234567890123456789012"}) {
-    expectRefused({name}, "E5401", "cannot be the key");
+    expectRefused({name}, "E5401", "is not a valid effect key");
   }
   expectRefused({""}, "E5101", "the value is empty");
   expectRefused({"ssao"}, "E5401", "ssao.so");
@@ -41,8 +41,8 @@ TEST_F(NewEffect, BadNamesAreRefusedAndNothingIsWritten) {
 TEST_F(NewEffect, FoldersThatHoldSomethingAreLeftAlone) {
   fs::create_directory(folder.path() / "full");
   folder.write("full/mine.txt", "mine");
-  expectRefused({"full"}, "E5402", "holds files");
-  expectRefused({"other", "full/mine.txt"}, "E5402", "no folder");
+  expectRefused({"full"}, "E5402", "is not empty");
+  expectRefused({"other", "full/mine.txt"}, "E5402", "not a folder");
   EXPECT_EQ(readFile(folder / "full/mine.txt"), "mine");
   expectRefused({"other", "/proc/nothing/here"}, "E4103", "/proc");
   EXPECT_EQ(folder.files(), std::vector<std::string>{"full"});
@@ -60,7 +60,8 @@ TEST_F(NewEffect, AnEmptyFolderIsTaken) {
   }
 }
 
-// CMake finds a package beside a folder of the PATH; else the command says where it is.
+// CMake finds a package next to a folder of the PATH. Otherwise the printed command names its
+// location.
 TEST_F(NewEffect, TheCommandThatItPrintsFindsThePackage) {
   const std::string bin = fs::path(PROGRAM).parent_path();
   EXPECT_EQ(newEffect({"one"}, {"PATH=/usr/bin:" + bin}).out.find("CMAKE_PREFIX_PATH"),

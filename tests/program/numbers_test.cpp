@@ -1,6 +1,5 @@
 // SPDX-License-Identifier: MIT
-// Numbers on the command line: what is allowed is told in few digits, and a mistake is one of
-// usage.
+// Numbers on the command line: errors state allowed ranges in few digits and count as usage errors.
 #include <gtest/gtest.h>
 
 #include <algorithm>
@@ -70,7 +69,7 @@ TEST_F(Numbers, HelpNamesRangesInFewDigits) {
   EXPECT_NE(help.find("--radius FLOAT:1e-06 to 1e+06"), std::string::npos) << help;
 }
 
-// Whoever finds the mistake, the command line's parser or a command: the status is the same.
+// The status is the same whether the command line's parser or a command finds the mistake.
 TEST_F(Numbers, EveryMistakeOfUsageHasTheStatus2) {
   for (const std::string words :
        {"render --size 16", "render --write color", "render --set radius",

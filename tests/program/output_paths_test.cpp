@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: MIT
-// Where outputs go: no two into one file, over a file with its owner and mode, through symbolic
-// links, into devices and pipes.
+// Output files: no two outputs share a file; an overwritten file keeps its owner and mode; symbolic
+// links, devices and pipes work.
 #include <fcntl.h>
 #include <gtest/gtest.h>
 #include <sys/stat.h>
@@ -94,7 +94,7 @@ TEST_F(OutputPaths, AReplacedFileKeepsItsMode) {
 }
 
 TEST_F(OutputPaths, AReplacedFileKeepsItsOwner) {
-  if (geteuid() != 0) GTEST_SKIP() << "only root may give a file away";
+  if (geteuid() != 0) GTEST_SKIP() << "only root may change a file's owner";
   const std::string file = folder_.write("ao.exr", "old");
   ASSERT_EQ(chown(file.c_str(), 1234, 4321), 0);
   expectWritten("render --size 8x8 --write ao=ao.exr");
@@ -123,7 +123,7 @@ TEST_F(OutputPaths, ASymbolicLinkStaysAndItsTargetIsWritten) {
 TEST_F(OutputPaths, ADeviceIsWrittenAndNeverReplaced) {
   const std::string null = folder_ / "null.csv";
   if (mknod(null.c_str(), S_IFCHR | 0666, makedev(1, 3)) != 0) {
-    GTEST_SKIP() << "a device node cannot be made here";
+    GTEST_SKIP() << "cannot create a device node here";
   }
   if (const int opened = open(null.c_str(), O_WRONLY); opened < 0) {
     GTEST_SKIP() << "device nodes do not work here";
@@ -150,8 +150,8 @@ TEST_F(OutputPaths, ANamedPipeIsWrittenAndNeverReplaced) {
   EXPECT_EQ(readFile(folder_ / "read.csv").rfind("frame,effect,pass,", 0), 0u);
 }
 
-// What /dev/stdout is, in a folder where a fault of the program may replace it. Also where the
-// shell has sent standard output to a file.
+// Uses a copy of the link /dev/stdout, in a folder where a faulty program could replace it. Also
+// with standard output redirected to a file.
 TEST_F(OutputPaths, StandardOutputByNameIsWrittenInTurn) {
   const std::string link = folder_ / "stdout.csv";
   fs::create_symlink("/proc/self/fd/1", link);

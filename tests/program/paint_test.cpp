@@ -43,7 +43,7 @@ TEST_F(Paint, AddedShotsAreSavedAndLoadedToTheSamePicture) {
   EXPECT_EQ(image::read(folder_ / "p.exr").pixels, picture);
   EXPECT_EQ(loaded.out, added.out);
   EXPECT_EQ(readFile(folder_ / "t.json"), readFile(folder_ / "s.json"));
-  // What is added comes after what is loaded: it wins.
+  // Added objects come after loaded ones and cover them.
   const Outcome over =
       render({"--load", "sspm=s.json", "--add", "sspm=40,45,color=#0000ff", "--coverage", "c.csv"});
   ASSERT_EQ(over.status, 0) << over.err;
@@ -52,7 +52,8 @@ TEST_F(Paint, AddedShotsAreSavedAndLoadedToTheSamePicture) {
   EXPECT_EQ(shares.find("#ff0000,0."), std::string::npos) << shares;
 }
 
-// Placed at a pixel, with fields over what placing sets, or as it stands in a file.
+// Either placed at a pixel, with fields that override those set by placing, or as an object of a
+// file.
 TEST_F(Paint, AnObjectIsAddedInEitherForm) {
   const Outcome fields =
       render({"--add", "sspm=40,45,origin=0.5:2:3,direction=0:-1:-4,color=#ffffff,range=0.5",
@@ -65,7 +66,7 @@ TEST_F(Paint, AnObjectIsAddedInEitherForm) {
               "--save", "sspm=json.json"});
   ASSERT_EQ(json.status, 0) << json.err;
   EXPECT_EQ(readFile(folder_ / "fields.json"), readFile(folder_ / "json.json"));
-  // Without a colour it has the table's.
+  // Without `color`, the table's default applies.
   ASSERT_EQ(render({"--add", "sspm=40,45"}).status, 0);
 }
 
@@ -87,7 +88,7 @@ TEST_F(Paint, SharesAddUpToTheWhole) {
   EXPECT_NEAR(sum, 1, 1e-5);
 }
 
-// What is asked for is drawn, and nothing beside it: full resolution has one pass, as ever.
+// Only the requested passes run: full resolution has a single pass.
 TEST_F(Paint, PassesAreThoseOfTheResolution) {
   const std::vector<std::string> one = {"surface"}, two = {"samples", "upsample"},
                                  three = {"samples", "upsample", "rest"};
@@ -117,7 +118,7 @@ TEST_F(Paint, ShotsPaintThePixelThatTheyAreAddedAt) {
       render({"--add", "sspm=40,45,color=#ff0000", "--write", "paint_coverage=k.exr", "--check"});
   ASSERT_EQ(outcome.status, 0) << outcome.err;
   EXPECT_GT(image::read(folder_ / "k.exr").at(40, 45), 0) << outcome.err;
-  EXPECT_EQ(outcome.err.find("wait"), std::string::npos) << outcome.err;
+  EXPECT_EQ(outcome.err.find("not drawn"), std::string::npos) << outcome.err;
 }
 
 TEST_F(Paint, WhatIsWrongIsRefusedByName) {
@@ -125,8 +126,8 @@ TEST_F(Paint, WhatIsWrongIsRefusedByName) {
                                  "sspm=a,2", "sspm=-1,2", "sspm=1.5,2", "sspm=1,2,"}) {
     expectError({"--add", form}, 5101, "EFFECT=X,Y");
   }
-  expectError({"--add", "sspm=160,2"}, 5101, "pixels 0 to 159");
-  expectError({"--add", "sspm=2,90"}, 5101, "pixels 0 to 89");
+  expectError({"--add", "sspm=160,2"}, 5101, "a pixel from 0 to 159");
+  expectError({"--add", "sspm=2,90"}, 5101, "a pixel from 0 to 89");
   expectError({"--add", "sspm=1,2,color=red"}, 3401, "red");
   expectError({"--add", "sspm=1,2,colour=#ffffff"}, 3401, "nearest is color");
   expectError({"--add", "sspm=1,2,range=-1"}, 3401, "range is -1");

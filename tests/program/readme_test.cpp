@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: MIT
-// The documentation tells the truth: its commands run, its tables are the effects' own, its links
-// lead to files, and each picture is shown.
+// Checks the documentation: its commands run, its tables match the effects, its links lead to
+// files, and a page shows each picture.
 #include <gtest/gtest.h>
 
 #include <algorithm>
@@ -20,7 +20,7 @@ namespace fs = std::filesystem;
 
 const fs::path kSource = SOURCE_FOLDER;
 
-// Runs as one session of a shell, with files between the commands: tests/author does that.
+// Needs one shell session with files between the commands: tests/build runs it.
 constexpr const char* kTutorial = "write_an_effect.md";
 
 // The lines of all ```sh blocks of a page, without comments.
@@ -47,8 +47,8 @@ std::vector<fs::path> pagesOf(const fs::path& folder) {
   return pages;
 }
 
-// README, the manual and the effects' READMEs, as far as they have commands; from the source
-// folder.
+// README, the manual and the effects' READMEs, if they contain commands; paths relative to the
+// source folder.
 std::vector<std::string> pagesWithCommands() {
   std::vector<fs::path> pages = {kSource / "README.md"};
   for (const char* folder : {"docs/manual", "effects"}) {
@@ -62,7 +62,7 @@ std::vector<std::string> pagesWithCommands() {
   return names;
 }
 
-// "docs_manual_render" of "docs/manual/render.md".
+// For example "docs_manual_render" for "docs/manual/render.md".
 std::string testName(const ::testing::TestParamInfo<std::string>& info) {
   std::string name = fs::path(info.param).replace_extension("").string();
   std::ranges::replace_if(
@@ -72,8 +72,8 @@ std::string testName(const ::testing::TestParamInfo<std::string>& info) {
 
 class Page : public ::testing::TestWithParam<std::string> {};
 
-// In order, in one empty folder, as a reader would run them. `./dev` builds and tests, which is
-// what is being done here: only its subcommand is looked up.
+// Runs the commands in order, in one empty folder, as a reader would. `./dev` itself builds and
+// runs these tests: only its subcommand is checked.
 TEST_P(Page, CommandsRun) {
   const TemporaryFolder folder;
   const Display display(1600, 1200);
@@ -86,7 +86,7 @@ TEST_P(Page, CommandsRun) {
       EXPECT_TRUE(name == "help" || help.find("\n  " + name + " ") != std::string::npos);
       continue;
     }
-    // A window stays until its reader closes it.
+    // Limits a window to two frames; a reader would close it.
     const bool window =
         command.find("grisaille view") == 0 && command.find("--frames") == std::string::npos;
     const Outcome outcome = runShell(command + (window ? " --frames 2" : ""), folder.path());
@@ -120,7 +120,7 @@ TEST(Documentation, TablesAreTheEffectsOwn) {
   EXPECT_GE(effects, 2u);
 }
 
-// The files that pages link to or show, without anchors.
+// Files that pages link to or show, without anchors.
 std::set<fs::path> linkedFiles() {
   std::vector<fs::path> pages;
   for (const auto& entry : fs::directory_iterator(kSource)) {

@@ -32,7 +32,7 @@ std::vector<char*> pointers(std::vector<std::string>& strings) {
   return list;
 }
 
-// -1 at a signal or the limit.
+// Returns the exit status, or -1 after a signal or at the time limit.
 int waitFor(pid_t child) {
   const auto end = std::chrono::steady_clock::now() + kLimit;
   int status = 0;
@@ -47,8 +47,8 @@ int waitFor(pid_t child) {
   return WIFEXITED(status) ? WEXITSTATUS(status) : -1;
 }
 
-// Mesa's compiled shaders are kept where they always are, also for a test with a cache folder of
-// its own: compiling them is most of what a short run of the program costs.
+// Keeps Mesa's shader cache in its usual folder, even if a test sets its own cache folder:
+// compiling shaders takes most of a short run.
 std::string shaderCache() {
   const char* cache = std::getenv("XDG_CACHE_HOME");
   const char* home = std::getenv("HOME");
@@ -93,7 +93,8 @@ Outcome run(std::vector<std::string> arguments, const fs::path& folder,
 
 TemporaryFolder::TemporaryFolder() {
   std::string name = (fs::temp_directory_path() / "grisaille-test-XXXXXX").string();
-  if (mkdtemp(name.data()) == nullptr) throw std::runtime_error("cannot make a folder in " + name);
+  if (mkdtemp(name.data()) == nullptr)
+    throw std::runtime_error("cannot create a folder in " + name);
   path_ = name;
 }
 

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: MIT
-// Runs the programs as their users do.
+// Runs the programs as users run them.
 #pragma once
 
 #include <filesystem>
@@ -13,7 +13,7 @@ struct Outcome {
   std::string out, err;
 };
 
-// A fresh folder, removed with the object.
+// A fresh folder, deleted with the object.
 class TemporaryFolder {
  public:
   TemporaryFolder();
@@ -31,20 +31,20 @@ class TemporaryFolder {
   std::filesystem::path path_;
 };
 
-// The program whose subcommand begins the words: "grisaille" or "grisaille-lab".
+// The program with the subcommand that begins the line: "grisaille" or "grisaille-lab".
 std::string programOf(const std::string& words);
 
-// `grisaille ARGUMENTS` in `folder`, or `grisaille-lab ARGUMENTS` for a subcommand of that program;
-// with variables ("NAME=value") added to the environment; killed after 600 seconds.
+// Runs `grisaille ARGUMENTS`, or `grisaille-lab ARGUMENTS` for its subcommands, in `folder`.
+// `environment`: variables ("NAME=value") to add. Kills the program after 600 seconds.
 Outcome runProgram(const std::vector<std::string>& arguments, const std::filesystem::path& folder,
                    const std::vector<std::string>& environment = {});
 
-// The same for a shell's command line, with both programs on the PATH.
+// Runs a shell command line in `folder`, with both programs on the PATH and the same time limit.
 Outcome runShell(const std::string& line, const std::filesystem::path& folder);
 
 std::string readFile(const std::filesystem::path& path);
 
-// "" where Sponza is not there: then tests skip with kNoSponza.
+// Path of the Sponza scene; "" if it is missing, and tests skip with kNoSponza.
 std::string sponza();
 std::string sponzaCamera(const std::string& name);
 inline constexpr const char* kNoSponza =

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: MIT
-// What the viewer hands to `grisaille render`: settings files, a camera as text, whole command
+// Data that the viewer hands to `grisaille render`: settings files, cameras as text, whole command
 // lines.
 #include <gtest/gtest.h>
 
@@ -27,7 +27,7 @@ class Settings : public ::testing::Test {
   }
 
   TemporaryFolder folder_;
-  // The program's own effects, which lie beside it.
+  // The program's own effects, from the folder beside the program.
   std::unique_ptr<effect::Registry> registry_ = app::loadEffects({});
   effect::Selection list_{*registry_};
   const scene::Camera camera_{
@@ -52,7 +52,7 @@ TEST_F(Settings, AWrittenFileMakesThePictureOfItsOptions) {
   const auto given = render({"--set", "ssao.radius=0.3333333333333333", "--set",
                              "ssao.blur=edge_aware", "--surface", "base"});
   EXPECT_EQ(render({"--config", "a.toml"}), given);
-  // What the command line says goes over it.
+  // Options on the command line override the file.
   EXPECT_EQ(render({"--config", "a.toml", "--surface", "white", "--set", "ssao.radius=0.5", "--set",
                     "ssao.blur=box"}),
             render({}));

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: MIT
-// Standard streams that are closed or take no more: the program ends with its usual status.
+// With standard streams that are closed or full, the program still ends with its usual status.
 #include <filesystem>
 
 #include "core/image/image.h"
@@ -22,7 +22,7 @@ TEST_F(Streams, AClosedStandardErrorKeepsTheStatus) {
   }
 }
 
-// The picture would else take the number of the closed stream, and messages would go into it.
+// Otherwise the picture's file would get the closed stream's number and receive the messages.
 TEST_F(Streams, ClosedStreamsLeaveOutputsWhole) {
   for (const std::string backend : {"opengl", "vulkan"}) {
     for (const std::string closed : {"2>&-", "<&-", "<&- 2>&-"}) {
@@ -35,7 +35,7 @@ TEST_F(Streams, ClosedStreamsLeaveOutputsWhole) {
   }
 }
 
-// What was to be printed is lost, as on a full disk.
+// The output is lost, as on a full disk.
 TEST_F(Streams, AClosedStandardOutputIsAnError) {
   for (const std::string words :
        {"effects", "effects --json", "completion", "--help", "render --help", "--version",

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: MIT
-// grisaille truth: kept, resumed, interrupted, refused; and what its pictures hold.
+// `grisaille truth`: caching, resuming, interruption, errors, and the contents of its pictures.
 #include <gtest/gtest.h>
 
 #include <algorithm>
@@ -18,7 +18,7 @@ class TruthCommand : public ::testing::Test {
     arguments.insert(arguments.begin(), {"truth", "--size", size});
     return runProgram(arguments, folder_.path(), {"XDG_CACHE_HOME=" + cache_.path().string()});
   }
-  // Runs it and returns the bytes of ao.exr.
+  // Runs the command and returns the bytes of ao.exr.
   std::string traced(std::vector<std::string> arguments) {
     arguments.insert(arguments.end(), {"--write", "ao=ao.exr"});
     last_ = truth(arguments);
@@ -56,9 +56,9 @@ TEST_F(TruthCommand, WritesWhatRaysSee) {
              "depth=d.exr", "--write", "normal=n.exr", "--write", "normal=n.png"});
   ASSERT_EQ(outcome.status, 0) << outcome.err;
   EXPECT_EQ(outcome.err, "");
-  EXPECT_NE(outcome.out.find("ao: 64 samples a pixel, rms standard error 0.0"), std::string::npos)
+  EXPECT_NE(outcome.out.find("ao: 64 samples per pixel, rms standard error 0.0"), std::string::npos)
       << outcome.out;
-  EXPECT_NE(outcome.out.find("rays a second"), std::string::npos);
+  EXPECT_NE(outcome.out.find("rays per second"), std::string::npos);
   const image::Image ao = image::read(folder_ / "ao.exr"), error = image::read(folder_ / "e.exr");
   const image::Image depth = image::read(folder_ / "d.exr"),
                      normal = image::read(folder_ / "n.exr");
@@ -95,8 +95,8 @@ TEST_F(TruthCommand, ResumedItIsTheSameToTheBit) {
   ASSERT_EQ(kept().size(), 1u);
   EXPECT_NE(few, whole);
   EXPECT_EQ(traced({"--samples", "200"}), whole);
-  EXPECT_TRUE(says("200 samples a pixel (70 of them kept from before)")) << last_.out;
-  // Again: nothing to cast. Fewer: what is there is not thrown away.
+  EXPECT_TRUE(says("200 samples per pixel (70 of them from the cache)")) << last_.out;
+  // Same number of samples: no rays are cast. Fewer: the cached ones are kept and used.
   EXPECT_EQ(traced({"--samples", "200"}), whole);
   EXPECT_TRUE(says("no rays cast")) << last_.out;
   EXPECT_EQ(traced({"--samples", "70"}), whole);
@@ -112,10 +112,10 @@ TEST_F(TruthCommand, WhatChangesThePictureIsKeptApart) {
     std::vector<std::string> arguments = {"--samples", "16"};
     arguments.insert(arguments.end(), other.begin(), other.end());
     EXPECT_NE(traced(arguments), first) << other[0];
-    EXPECT_FALSE(says("kept from before")) << other[0];
+    EXPECT_FALSE(says("from the cache")) << other[0];
   }
   EXPECT_EQ(kept().size(), 4u);
-  // The same scene from a file is the same scene, whatever its name is.
+  // The same scene from a file counts as the same scene, whatever the file's name.
   const Outcome scene = runProgram({"scene", "--write", "a.glb"}, folder_.path());
   ASSERT_EQ(scene.status, 0) << scene.err;
   std::filesystem::copy(folder_ / "a.glb", folder_ / "b.glb");
@@ -169,10 +169,10 @@ TEST_F(TruthCommand, AnInterruptionKeepsWhatIsDone) {
     const std::string seed = signal == "INT" ? "5" : "6";
     const std::string options = "--size 64x36 --seed " + seed + " --write ao=ao.exr";
     const Outcome outcome = runShell(
-        // Without the words of the signal before, which the wait would take for this one's.
+        // Deletes the previous run's messages, which the wait would mistake for this run's.
         "rm -f err; export XDG_CACHE_HOME=" + cache_.path().string() + "; grisaille truth " +
             options +
-            " --samples 262144 --progress 2> err & child=$!; until grep -q 'samples a pixel, "
+            " --samples 262144 --progress 2> err & child=$!; until grep -q 'samples per pixel, "
             "error' "
             "err; do kill -0 $child || break; sleep 0.05; done; kill -" +
             signal + " $child; wait $child; echo status $?",
@@ -184,19 +184,19 @@ TEST_F(TruthCommand, AnInterruptionKeepsWhatIsDone) {
     EXPECT_NE(err.find(" left"), std::string::npos);
     EXPECT_FALSE(std::filesystem::exists(folder_ / "ao.exr"));
     traced({"--samples", "16", "--seed", seed});
-    EXPECT_TRUE(says("kept from before")) << last_.out;
+    EXPECT_TRUE(says("from the cache")) << last_.out;
     EXPECT_TRUE(says("no rays cast")) << last_.out;
     std::filesystem::remove(folder_ / "ao.exr");
   }
 }
 
-// What the depth buffer allows at best is nearer to the truth than what an effect makes of it.
+// The best result that the depth buffer allows is closer to the truth than the effect's result.
 TEST_F(TruthCommand, TheCeilingIsAboveSsao) {
   const Outcome outcome = truth({"--samples", "256", "--write", "ao=ao.exr", "--write",
                                  "ceiling=c.exr", "--write", "ceiling_error=ce.exr"},
                                 "256x144");
   ASSERT_EQ(outcome.status, 0) << outcome.err;
-  EXPECT_NE(outcome.out.find("ceiling: 256 samples a pixel"), std::string::npos) << outcome.out;
+  EXPECT_NE(outcome.out.find("ceiling: 256 samples per pixel"), std::string::npos) << outcome.out;
   const Outcome render =
       runProgram({"render", "--size", "256x144", "--write", "ao=s.exr"}, folder_.path());
   ASSERT_EQ(render.status, 0) << render.err;
@@ -210,11 +210,11 @@ TEST_F(TruthCommand, TheCeilingIsAboveSsao) {
   EXPECT_LT(ceiling.rmse, 0.8 * ssao.rmse);
   EXPECT_GT(ceilingSsim.mean, ssaoSsim.mean);
   EXPECT_LT(ceiling.rmse, 0.1);
-  // A thickness of its own is an estimate of its own.
+  // Each thickness has its own estimate.
   const Outcome thick =
       truth({"--samples", "256", "--thickness", "5", "--write", "ceiling=t.exr"}, "256x144");
   ASSERT_EQ(thick.status, 0) << thick.err;
-  EXPECT_EQ(thick.out.find("kept from before"), std::string::npos) << thick.out;
+  EXPECT_EQ(thick.out.find("from the cache"), std::string::npos) << thick.out;
   EXPECT_LT(image::compare(image::read(folder_ / "t.exr"), ao).bias, ceiling.bias);
 }
 

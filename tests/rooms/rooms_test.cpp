@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: MIT
-// Arrows between the rooms run one way: lab -> app -> core <- backends, effects -> the installed
-// header. Reads every #include of the tree and fails on one that no room's list names.
+// Dependencies between the rooms (folders) run one way: lab -> app -> core <- backends, effects ->
+// the installed header. Reads every #include of the tree and fails on any that the room's list does
+// not allow.
 #include <gtest/gtest.h>
 
 #include <algorithm>
@@ -18,10 +19,10 @@ namespace fs = std::filesystem;
 
 struct Room {
   const char* folder;
-  const char* sees;  // folders and single headers of the project, without their subfolders
+  const char* sees;  // visible folders (without subfolders) and single headers
 };
 
-// A file also sees its own folder, and every room but effects and installed headers sees core/base.
+// A file also sees its own folder. Every room but effects and installed headers sees core/base.
 constexpr Room kRooms[] = {
     {"core/base", ""},
     {"core/gpu", "grisaille/shader.h"},
@@ -42,7 +43,7 @@ constexpr Room kRooms[] = {
      "backends/opengl/opengl.h backends/vulkan/vulkan.h core/effect core/gpu "
      "core/frame/view_block.h core/objects core/scene/camera.h grisaille shaders"},
     {"host/include/grisaille", "grisaille"},
-    // The program's commands, then the folders they share, each after those it sees.
+    // The program's commands, then the shared folders, each after the folders that it sees.
     {"app",
      "app/apply app/options app/process app/report app/services app/settings app/study app/truth "
      "app/verify app/viewer/viewer.h backends/backends.h core/effect core/frame core/gpu "
@@ -79,7 +80,7 @@ constexpr Room kRooms[] = {
      "core/objects core/scene core/trace lab/paint"},
 };
 
-// Headers of a graphics API, which backends alone see.
+// Headers of graphics APIs, which only backends may include.
 const std::regex& apiHeader() {
   static const std::regex kHeader("^(epoxy|GL|GLES[0-9]*|EGL|KHR|vulkan)/.*|^volk\\.h");
   return kHeader;
@@ -98,7 +99,7 @@ const Room* roomOf(const std::string& folder) {
   return room == std::end(kRooms) ? nullptr : room;
 }
 
-// GLFW's own header shows no API; its header of native handles does.
+// GLFW's main header exposes no graphics API; its header of native handles does.
 bool mayOpenWindows(const std::string& folder, const std::string& header) {
   return startsWith(folder, "backends") || (folder == "app/viewer" && header == "GLFW/glfw3.h");
 }
@@ -106,7 +107,7 @@ bool mayOpenWindows(const std::string& folder, const std::string& header) {
 bool allowed(const std::string& folder, const std::string& header, bool quoted) {
   if (startsWith(header, "GLFW/")) return mayOpenWindows(folder, header);
   if (std::regex_match(header, apiHeader())) return startsWith(folder, "backends/");
-  // A library's header, or one that lies beside the file.
+  // A library's header, or a header beside the file.
   if (!quoted || header.find('/') == std::string::npos) return true;
   if (folderOf(header) == "core/base") {
     return !startsWith(folder, "effects") && folder.find("include/grisaille") == std::string::npos;
@@ -143,7 +144,7 @@ TEST(Rooms, ArrowsRunOneWay) {
   EXPECT_GT(read, 300u);
 }
 
-// Examples are built against the installed package: its headers, and files beside them.
+// Examples are built against the installed package: they see its headers and files beside them.
 TEST(Rooms, ExamplesSeeInstalledHeadersAlone) {
   const std::regex include("^\\s*#\\s*include\\s*([<\"])([^>\"]+)[>\"].*");
   std::set<std::string> seen;
@@ -159,7 +160,7 @@ TEST(Rooms, ExamplesSeeInstalledHeadersAlone) {
       if (startsWith(header, "grisaille/")) {
         seen.insert(header);
       } else if (match[1] == "\"") {
-        // Headers of shaders are made by the example's own build.
+        // The example's own build generates the headers of its shaders.
         EXPECT_TRUE(header.ends_with(".inc") || startsWith(header, "shaders/") ||
                     fs::exists(beside / header) || fs::exists(beside / "../common" / header))
             << entry.path() << " sees " << header;
@@ -174,27 +175,27 @@ TEST(Rooms, ExamplesSeeInstalledHeadersAlone) {
                                          "grisaille/host.hpp"}));
 }
 
-// --- Words
+// --- Names of effects
 
-// A line of text that names an effect or what it makes as an example, and nothing else may.
+// Allows a line of text to name an effect, or a concept of an effect, as an example.
 struct Example {
   const char* file;
-  const char* text;  // is in the line
+  const char* text;  // part of the line
 };
 
 constexpr Example kExamples[] = {
-    {"core/frame/renderer.cpp", "\"ssao.ao\" that of one effect"},
-    {"core/effect/parameter_name.h", "// A parameter by name, \"ssao.radius\""},
+    {"core/frame/renderer.cpp", "\"ssao.ao\" the output"},
+    {"core/effect/parameter_name.h", "in reports: \"ssao.radius\"."},
     {"core/effect/parameter_name.h", "// \"ssao.radius=0.5\""},
     {"core/effect/include/grisaille/effect.h", "a key: \"ssao\""},
     {"core/effect/include/grisaille/effect.hpp", "a key: \"ssao\""},
-    {"app/report/timings.h", "A pass labelled \"ssao/blur\" is effect \"ssao\""},
-    {"app/settings/presets.h", "// \"ssao=balanced\""},
+    {"app/report/timings.h", "A pass labelled \"ssao/blur\" has the"},
+    {"app/report/timings.h", "effect \"ssao\" and the pass"},
+    {"app/study/sweep.h", "Parses \"ssao.kernel_size=4,8,16\""},
+    {"app/viewer/history.h", "`what` names the step: \"ssao.radius\""},
     {"app/settings/settings.h", "//   effects = [\"ssao\"]"},
     {"app/settings/settings.h", "//   [ssao]"},
     {"app/new_effect/README.md.in", "grisaille render --effects ssao,@KEY@"},
-    {"app/study/sweep.h", "// \"ssao.kernel_size=4,8,16\""},
-    {"app/viewer/history.h", "`what` names it: \"ssao.radius\""},
     {"host/include/grisaille/host.h", "the effect's key: \"ssao\""},
     {"host/include/grisaille/host.hpp", "the effect's key: \"ssao\""},
 };
@@ -211,7 +212,7 @@ const Example* exampleOf(const std::string& file, const std::string& line) {
   return found == std::end(kExamples) ? nullptr : found;
 }
 
-// Core, app, host and backends know no effect by name: tables say what an effect has.
+// Core, app, host and backends know no effect by name; the effects' tables describe them.
 TEST(Rooms, NoRoomButTheEffectsOwnKnowsWhatAnEffectMakes) {
   std::set<const Example*> used;
   size_t read = 0;

@@ -1,5 +1,6 @@
 // SPDX-License-Identifier: MIT
-// Devices for tests: every one is checked, and any message of it or of its driver fails the test.
+// Devices for tests. The checking layer is on, and any message of the device or its driver fails
+// the test.
 #pragma once
 
 #include <gtest/gtest.h>
@@ -17,30 +18,30 @@
 
 namespace grisaille::tests {
 
-// Of all test devices, those that this machine has.
+// The test devices that this machine has.
 std::vector<TestDevice> presentDevices();
 
-// The system's OpenGL and Vulkan devices, of which this machine may lack one.
+// The system's OpenGL and Vulkan devices; this machine may lack either.
 std::vector<TestDevice> presentSystemDevices();
 
-// Why a test of this device is skipped here, or "".
+// Why a test of this device is skipped on this machine; "" if it runs.
 std::string whyAbsent(const TestDevice& device);
 
-// A checked device whose messages fail the current test.
+// Opens a device with checks. Its messages fail the current test.
 std::unique_ptr<gpu::Device> openDevice(const TestDevice& device, bool timed = false);
 
-// A test that runs on every device that is present, and is skipped on the others. The functions
-// below make what the test destroys at its end. During a test, every new Vulkan instance of the
-// process has the test's driver alone.
+// A test that runs on every device of this machine and is skipped on the others. Resources from the
+// make functions below are destroyed at the end of the test. During a test, new Vulkan instances of
+// the process find the test's driver only.
 class BackendTest : public ::testing::TestWithParam<TestDevice> {
  protected:
   void SetUp() override;
   void TearDown() override;
 
   gpu::Device& device() { return *device_; }
-  // Of the test's device, measured once a test.
+  // Measured on the test's device, once per test.
   const Snapping& snapping();
-  // Replaces the device by one that times its passes.
+  // Closes the device and opens it again with timed passes.
   void reopenTimed();
 
   gpu::Buffer makeBuffer(uint64_t size, gpu::BufferUsage usage);
@@ -50,7 +51,7 @@ class BackendTest : public ::testing::TestWithParam<TestDevice> {
                                    std::span<const gpu::Specialization> constants = {});
   gpu::GraphicsPipeline makeGraphics(gpu::GraphicsPipelineDesc desc);
 
-  // A buffer with these values.
+  // Creates a buffer and uploads these values.
   template <typename T>
   gpu::Buffer bufferOf(const std::vector<T>& values, gpu::BufferUsage usage) {
     const gpu::Buffer buffer = makeBuffer(values.size() * sizeof(T), usage);
@@ -60,7 +61,7 @@ class BackendTest : public ::testing::TestWithParam<TestDevice> {
     return buffer;
   }
 
-  // One layer of one level, filled with these values.
+  // Uploads these values to one layer of one mip.
   template <typename T>
   void fill(gpu::Texture texture, const std::vector<T>& values, uint32_t mip = 0,
             uint32_t layer = 0) {
@@ -78,11 +79,11 @@ class BackendTest : public ::testing::TestWithParam<TestDevice> {
     return valuesOf<T>(device().read(range));
   }
 
-  // Records and submits a frame.
+  // Records one frame and submits it.
   void inFrame(const std::function<void(gpu::Commands&)>& record);
-  // A frame of one pass of one dispatch.
+  // Submits a frame with one pass that holds this dispatch.
   void compute(const gpu::Dispatch& dispatch);
-  // A frame of one pass of one render call.
+  // Submits a frame with one pass that holds this render call.
   void render(const gpu::Render& render);
 
  private:

@@ -17,7 +17,7 @@ namespace {
 
 template <typename Reply>
 std::unique_ptr<Reply, void (*)(void*)> owned(Reply* reply) {
-  if (reply == nullptr) throw std::runtime_error("Xvfb refuses a request");
+  if (reply == nullptr) throw std::runtime_error("Xvfb refused a request");
   return {reply, std::free};
 }
 
@@ -56,16 +56,16 @@ Display::~Display() {
   stop();
 }
 
-// Xvfb writes the number of the display to a pipe once it serves it.
+// Xvfb writes its display number to a pipe as soon as it accepts connections.
 void Display::start(uint32_t width, uint32_t height) {
   int ends[2];
-  if (pipe(ends) != 0) throw std::runtime_error("cannot make a pipe");
+  if (pipe(ends) != 0) throw std::runtime_error("cannot create a pipe");
   const std::string to = std::to_string(ends[1]);
   const std::string screen = std::to_string(width) + "x" + std::to_string(height) + "x24";
   const pid_t parent = getpid();
   server_ = fork();
   if (server_ == 0) {
-    prctl(PR_SET_PDEATHSIG, SIGTERM);  // also when the test ends by a signal
+    prctl(PR_SET_PDEATHSIG, SIGTERM);  // ends Xvfb even if a signal kills the test
     if (getppid() != parent) _exit(127);
     close(ends[0]);
     execlp("Xvfb", "Xvfb", "-displayfd", to.c_str(), "-screen", "0", screen.c_str(), "-nolisten",
@@ -87,7 +87,7 @@ void Display::connect() {
   connection_ = xcb_connect(name_.c_str(), nullptr);
   if (xcb_connection_has_error(connection_) == 0) return;
   xcb_disconnect(connection_);
-  throw std::runtime_error("Xvfb takes no connection at " + name_);
+  throw std::runtime_error("Xvfb accepts no connection at " + name_);
 }
 
 void Display::stop() {
@@ -106,7 +106,7 @@ std::vector<uint32_t> Display::pixels(uint32_t x, uint32_t y, uint32_t width,
   std::vector<uint32_t> pixels(size_t{width} * height);
   const auto bytes = static_cast<size_t>(xcb_get_image_data_length(image.get()));
   if (bytes != pixels.size() * sizeof(uint32_t)) {
-    throw std::runtime_error("Xvfb's pixels are not of 32 bits");
+    throw std::runtime_error("Xvfb's pixels do not have 32 bits");
   }
   std::memcpy(pixels.data(), xcb_get_image_data(image.get()), bytes);
   for (uint32_t& pixel : pixels) pixel &= 0xffffff;
@@ -122,7 +122,7 @@ void Display::markIconified(bool iconified) const {
   for (int i = 0; i < xcb_query_tree_children_length(tree.get()); ++i) {
     xcb_change_property(connection_, XCB_PROP_MODE_REPLACE, windows[i], state, state, 32, 2, value);
   }
-  owned(xcb_get_input_focus_reply(connection_, xcb_get_input_focus(connection_), nullptr));  // done
+  owned(xcb_get_input_focus_reply(connection_, xcb_get_input_focus(connection_), nullptr));  // sync
 }
 
 }  // namespace grisaille::tests

@@ -1,5 +1,6 @@
 // SPDX-License-Identifier: MIT
-// An X server of the test's own (Xvfb): windows open there, and what it shows can be read.
+// A private X server (Xvfb) for tests that open windows. The test can read the pixels of its
+// screen.
 #pragma once
 
 #include <sys/types.h>
@@ -12,22 +13,23 @@ struct xcb_connection_t;
 
 namespace grisaille::tests {
 
-// There is one at a time. It shows windows without a window manager.
+// Starts Xvfb, without a window manager. At most one object may exist at a time.
 class Display {
  public:
-  // A screen of width x height pixels, 8 bits a channel. Until the object goes, it is this
-  // process's DISPLAY, and its children's. Throws std::runtime_error, as when Xvfb is not there.
+  // A screen of width x height pixels, 8 bits per channel. While the object lives, DISPLAY of this
+  // process and its children names it. Throws std::runtime_error, for example if Xvfb is not
+  // installed.
   Display(uint32_t width, uint32_t height);
   ~Display();
   Display(const Display&) = delete;
   Display& operator=(const Display&) = delete;
 
-  const std::string& name() const { return name_; }  // ":5"
+  const std::string& name() const { return name_; }  // for example ":5"
 
-  // What the screen shows in a rectangle: 0xRRGGBB, the top row first.
+  // Reads a rectangle of the screen: 0xRRGGBB per pixel, top row first.
   std::vector<uint32_t> pixels(uint32_t x, uint32_t y, uint32_t width, uint32_t height) const;
 
-  // What a window manager does: says that every window is iconified, or that none is.
+  // Stands in for a window manager: marks every window as iconified, or none.
   void markIconified(bool iconified) const;
 
  private:
@@ -37,7 +39,7 @@ class Display {
 
   pid_t server_ = 0;
   std::string name_;
-  std::string before_;  // DISPLAY
+  std::string before_;  // value of DISPLAY to restore
   xcb_connection_t* connection_ = nullptr;
 };
 

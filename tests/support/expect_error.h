@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: MIT
-// EXPECT_ERROR(id, statement): the statement throws grisaille::Error with this id.
+// EXPECT_ERROR(id, statement): expects that the statement throws grisaille::Error with this id.
 #pragma once
 
 #include <gtest/gtest.h>
@@ -10,7 +10,7 @@
   do {                                                                                     \
     try {                                                                                  \
       __VA_ARGS__;                                                                         \
-      ADD_FAILURE() << "nothing was thrown; E" << static_cast<int>(expected)               \
+      ADD_FAILURE() << "no error was thrown; E" << static_cast<int>(expected)              \
                     << " was expected of " #__VA_ARGS__;                                   \
     } catch (const ::grisaille::Error& error) {                                            \
       EXPECT_EQ(static_cast<int>(error.id()), static_cast<int>(expected)) << error.what(); \

@@ -11,7 +11,7 @@
 
 namespace grisaille::tests {
 
-// A test with a folder of its own, which goes with it.
+// A test with a temporary folder, which is deleted after the test.
 class FolderTest : public ::testing::Test {
  protected:
   void SetUp() override {
@@ -25,10 +25,10 @@ class FolderTest : public ::testing::Test {
 
   std::string file(const std::string& name) const { return (folder_ / name).string(); }
 
-  // Writes `content` and returns its path.
+  // Writes `content` to a file of the folder and returns its path.
   std::string fileOf(const std::string& name, const std::string& content) const {
     std::filesystem::create_directories((folder_ / name).parent_path());
-    // A file system may wait for the disk where an old file is cut to nothing.
+    // Truncating an old file may wait for the disk; removing it first does not.
     std::filesystem::remove(file(name));
     std::ofstream(file(name), std::ios::binary) << content;
     return file(name);

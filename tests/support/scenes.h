@@ -9,17 +9,17 @@
 
 namespace grisaille::tests {
 
-// Adds a quad with one normal, counter-clockwise as listed, as an instance of its own.
+// Adds an instance of a quad with one normal. The corners are in counter-clockwise order.
 void addQuad(scene::Scene& scene, const std::array<glm::vec3, 4>& corners, glm::vec3 normal,
              uint32_t material = 0);
 
-// The floor y = 0, `size` metres a side, about the origin, one white material.
+// The floor y = 0, centred at the origin, `size` metres on each side, with one white material.
 scene::Scene floorScene(float size = 100);
 
-// The same with a wall at z = 0 that rises from it, facing +z.
+// floorScene() with a wall at z = 0 that rises from the floor and faces +z.
 scene::Scene cornerScene(float size = 100);
 
-// A wall at z = 0 about the origin, metres, facing +z, one white material.
+// A wall at z = 0, centred at the origin, sizes in metres. It faces +z and has one white material.
 scene::Scene wallScene(float width = 40, float height = 40);
 
 }  // namespace grisaille::tests

@@ -12,7 +12,7 @@
 
 namespace grisaille::tests {
 
-// Its plugin as it is ("now") or as a later version ("later").
+// Registry of the test plugin in its current version ("now") or its later version ("later").
 struct Tables {
   effect::Registry registry;
 
@@ -22,7 +22,7 @@ struct Tables {
   }
 };
 
-// Every size and sign, whole ones and -0 among them; within the parameter's range.
+// A random value in the parameter's range, of any magnitude and sign; whole numbers and -0 occur.
 inline double randomValue(std::mt19937_64& random, const grisaille_param_desc& param) {
   if (param.type != GRISAILLE_PARAM_FLOAT) {
     const double share = static_cast<double>(random() >> 11) / 9007199254740992.0;
@@ -52,7 +52,8 @@ inline void randomise(std::mt19937_64& random, effect::Selection& list) {
   }
 }
 
-// The same effects in the same order, on and off alike, with the same values bit by bit.
+// Whether both hold the same effects in the same order, with the same on/off state and bitwise
+// equal values.
 inline bool same(const effect::Selection::Entry& a, const effect::Selection::Entry& b) {
   return std::string_view(a.key()) == b.key() && a.on == b.on &&
          std::ranges::equal(a.values.all(), b.values.all(), [](double x, double y) {

@@ -9,16 +9,16 @@
 namespace grisaille::tests {
 namespace {
 
-constexpr uint32_t kWidth = 32, kRows = 256;  // pixels of the target
-constexpr double kLeft = 8.5, kLong = 12;  // pixels: a row's quad begins at the centre of pixel 8
-constexpr double kDepthPixels = 64;        // depth is x / kDepthPixels
+constexpr uint32_t kWidth = 32, kRows = 256;  // pixels of the render target
+constexpr double kLeft = 8.5, kLong = 12;     // pixels: each quad begins near the centre of pixel 8
+constexpr double kDepthPixels = 64;           // depth is x / kDepthPixels
 
-// How far right of the pixel centre the quad of a row begins, pixels.
+// Distance from the pixel centre to the left edge of a row's quad, pixels.
 double offsetOf(uint32_t row) {
   return (row + 0.5) / 4096;
 }
 
-// One quad a row. The left edge moves from row to row; depth rises along x.
+// One quad per row. The left edge moves right from row to row; depth rises along x.
 std::vector<float> quads() {
   std::vector<float> positions;
   for (uint32_t row = 0; row < kRows; ++row) {
@@ -76,7 +76,7 @@ std::vector<float> draw(gpu::Device& device) {
 
 Snapping measureSnapping(gpu::Device& device) {
   const std::vector<float> depths = draw(device);
-  // The first row whose edge has snapped to the right of the centre of pixel 8.
+  // Find the first row with an edge that snaps to the right of the centre of pixel 8.
   uint32_t row = 0;
   while (row < kRows && depths[row * kWidth + 8] > 0) ++row;
   Snapping snapping;

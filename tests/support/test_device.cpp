@@ -14,12 +14,12 @@ namespace fs = std::filesystem;
 
 constexpr const char* kDrivers = "GRISAILLE_TEST_VULKAN_DRIVERS";
 
-// Where the packages of distributions put SwiftShader; the first that exists is taken.
+// Where Linux distributions install SwiftShader. The first existing file is used.
 constexpr const char* kSwiftShader[] = {"/usr/lib/chromium/vk_swiftshader_icd.json",
                                         "/usr/lib64/chromium-browser/vk_swiftshader_icd.json",
                                         "/opt/google/chrome/vk_swiftshader_icd.json"};
 
-// "vk_swiftshader_icd.json" and "swiftshader_icd.x86_64.json" are both "swiftshader".
+// Both "vk_swiftshader_icd.json" and "swiftshader_icd.x86_64.json" give "swiftshader".
 std::string driverName(const fs::path& file) {
   std::string name = file.filename();
   name = name.substr(0, name.find("_icd"));
@@ -61,7 +61,7 @@ std::vector<TestDevice> furtherVulkan() {
   for (std::string file; std::getline(files, file, ':');) {
     if (file.empty()) continue;
     TestDevice device = driverDevice(file);
-    // Two files of one name in different folders.
+    // Files of the same name may come from different folders.
     const auto same = [&](const TestDevice& other) { return other.label == device.label; };
     while (std::any_of(list.begin(), list.end(), same)) device.label += "_again";
     list.push_back(std::move(device));
@@ -96,7 +96,7 @@ std::vector<TestDevice> installedDevices() {
 
 std::vector<std::string> driverEnvironment(const TestDevice& device) {
   if (device.driver.empty()) return {};
-  // Loaders before 1.3.207 know the second name alone.
+  // Loaders before 1.3.207 know only VK_ICD_FILENAMES.
   return {"VK_DRIVER_FILES=" + device.driver, "VK_ICD_FILENAMES=" + device.driver};
 }
 

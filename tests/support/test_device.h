@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: MIT
-// The devices that suites run on: each backend with the system's drivers, and each further Vulkan
+// The devices that suites run on: each backend with the system's drivers, and every further Vulkan
 // driver.
 #pragma once
 
@@ -10,39 +10,40 @@
 namespace grisaille::tests {
 
 struct TestDevice {
-  std::string label;    // names tests: "opengl", "vulkan", "vulkan_swiftshader"
-  std::string backend;  // as `--backend`
+  std::string label;    // part of test names: "opengl", "vulkan", "vulkan_swiftshader"
+  std::string backend;  // value of `--backend`
   std::string driver;   // absolute path of the Vulkan driver's ICD file; "": the system's drivers
 };
 
 std::ostream& operator<<(std::ostream& stream, const TestDevice& device);
 
-// The system's devices, in the order of the program's backends.
+// The system's devices, in the program's order of backends.
 TestDevice systemOpenGl();
 TestDevice systemVulkan();
 
-// One device for each ICD file that the environment variable GRISAILLE_TEST_VULKAN_DRIVERS lists,
-// parted by colons. Without that variable: SwiftShader. A device is in the list whether its driver
-// is installed or not, so that a test of a missing one is skipped visibly.
+// One device per ICD file in the colon-separated environment variable
+// GRISAILLE_TEST_VULKAN_DRIVERS; without the variable, SwiftShader. The list includes drivers that
+// are not installed, so that their tests are visibly skipped.
 std::vector<TestDevice> furtherVulkan();
 
-// All of these, and those of Vulkan alone.
+// All of the devices above; only those on Vulkan.
 std::vector<TestDevice> testDevices();
 std::vector<TestDevice> vulkanTestDevices();
 
-// Why tests of this device are skipped: its ICD file is missing. "" for the system's drivers.
+// Says that the device's ICD file is missing, which skips its tests. "" if the file exists, and for
+// the system's drivers.
 std::string whyMissing(const TestDevice& device);
 
-// Those of testDevices() that are not missing.
+// testDevices() without the missing ones.
 std::vector<TestDevice> installedDevices();
 
-// For a child process: variables ("NAME=value") that make the device the only Vulkan device, and so
-// its default. None for the system's drivers.
+// Environment variables ("NAME=value") for a child process. With them, the device is the only
+// Vulkan device and therefore the default. Empty for the system's drivers.
 std::vector<std::string> driverEnvironment(const TestDevice& device);
 
-// Makes the device's driver the only one that new Vulkan instances of this process find. The loader
-// reads the environment whenever an instance is made; instances that exist keep their drivers.
-// Scopes nest. Not while another thread makes an instance or reads the environment.
+// While it lives, new Vulkan instances of this process find only the device's driver. The loader
+// reads the environment at each instance creation; existing instances keep their drivers. Scopes
+// nest. No other thread may create an instance or read the environment meanwhile.
 class DriverScope {
  public:
   explicit DriverScope(const TestDevice& device);
@@ -60,5 +61,5 @@ class DriverScope {
 
 }  // namespace grisaille::tests
 
-// For INSTANTIATE_TEST_SUITE_P: names a test by its device.
+// For INSTANTIATE_TEST_SUITE_P: names each test after its device.
 #define GRISAILLE_DEVICE_NAME [](const auto& test) { return test.param.label; }

@@ -8,7 +8,7 @@
 
 namespace grisaille::tests {
 
-// Rays as the program casts them.
+// Casts an effect's rays through the ray tracer, as the program does.
 class TracedRays : public effect::RayService {
  public:
   explicit TracedRays(const scene::Scene& scene)

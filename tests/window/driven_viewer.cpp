@@ -14,7 +14,7 @@ using Clock = std::chrono::steady_clock;
 
 constexpr std::chrono::seconds kPatience(200);
 constexpr std::chrono::milliseconds kLook(10);
-constexpr std::chrono::milliseconds kArrives(300);  // from xdotool to the viewer, at most
+constexpr std::chrono::milliseconds kArrives(300);  // longest delay of input by xdotool
 
 }  // namespace
 
@@ -33,7 +33,7 @@ DrivenViewer::DrivenViewer(const TemporaryFolder& folder, std::vector<std::strin
   focus();
 }
 
-// Keys go to the window that has the focus, which no window manager gives here.
+// Keys go to the focused window. Without a window manager, the test must set the focus itself.
 void DrivenViewer::focus() {
   const Point at = middle("picture");
   send("search --sync --name Grisaille windowfocus --sync mousemove " + std::to_string(at.x) + " " +
@@ -46,7 +46,7 @@ DrivenViewer::~DrivenViewer() {
   try {
     quit();
   } catch (const std::exception&) {
-    // It ends by runProgram()'s own limit.
+    // The time limit of runProgram() ends it.
   }
 }
 
@@ -72,7 +72,7 @@ void DrivenViewer::until(const std::string& what,
                                std::to_string(outcome.status) + ": " + outcome.err);
     }
   }
-  throw std::runtime_error(what + " does not come: " + layout().dump());
+  throw std::runtime_error(what + " did not appear: " + layout().dump());
 }
 
 void DrivenViewer::untilValue(const std::string& control, const std::string& value) {
@@ -98,7 +98,7 @@ void DrivenViewer::untilDrawn() {
   until("a picture", [&](const nlohmann::json& now) { return isDrawn(now); });
 }
 
-// What was sent has arrived once a frame was drawn for it; what changes nothing draws none.
+// Input has arrived once the viewer has drawn a frame for it. Input without effect draws no frame.
 bool DrivenViewer::isDrawn(const nlohmann::json& now) const {
   if (!now.contains("picture") || now["picture"]["value"] != "done") return false;
   return now["drawn"]["value"] != drawnBefore_ || Clock::now() - sent_ > kArrives;
@@ -106,7 +106,7 @@ bool DrivenViewer::isDrawn(const nlohmann::json& now) const {
 
 Point DrivenViewer::at(const std::string& control, double x, double y) const {
   const nlohmann::json all = layout();
-  if (!all.contains(control)) throw std::runtime_error(control + " is not to be seen");
+  if (!all.contains(control)) throw std::runtime_error(control + " is not visible");
   const auto rect = all[control]["rect"].get<std::vector<double>>();
   return {static_cast<int>(rect[0] + x * (rect[2] - rect[0])),
           static_cast<int>(rect[1] + y * (rect[3] - rect[1]))};
@@ -117,7 +117,8 @@ Point DrivenViewer::middle(const std::string& control) const {
 }
 
 void DrivenViewer::send(const std::string& words) {
-  // One after the other; but a viewer that sprays is never done.
+  // Waits until the previous input is drawn. A viewer that sprays never stops drawing, hence the
+  // limit.
   for (const auto end = Clock::now() + kArrives; !isDrawn(layout()) && Clock::now() < end;) {
     std::this_thread::sleep_for(kLook);
   }

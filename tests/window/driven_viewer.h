@@ -1,5 +1,6 @@
 // SPDX-License-Identifier: MIT
-// The viewer as people drive it: a window on an X server, mouse and keys sent by xdotool.
+// Drives the viewer as a user does: a window on an X server, with mouse and key events from
+// xdotool.
 #pragma once
 
 #include <chrono>
@@ -19,25 +20,25 @@ struct Point {
 
 class DrivenViewer {
  public:
-  // `grisaille view ARGUMENTS --layout FILE` in the folder, which also keeps what the viewer
-  // remembers. Waits for its first picture. Throws std::runtime_error where it does not come.
+  // Runs `grisaille view ARGUMENTS --layout FILE` in the folder, which also holds the viewer's
+  // saved state. Waits for the first picture; throws std::runtime_error if none appears.
   DrivenViewer(const TemporaryFolder& folder, std::vector<std::string> arguments,
                std::vector<std::string> environment = {});
-  ~DrivenViewer();  // ends it
+  ~DrivenViewer();  // ends the viewer
 
-  // What the viewer says of its controls, by name.
+  // The viewer's report on its controls, by name.
   nlohmann::json layout() const;
-  std::string value(const std::string& control) const;  // "": it cannot be seen
+  std::string value(const std::string& control) const;  // "": not visible
 
-  // Waits; throws std::runtime_error with `what` after 200 seconds.
+  // Waits until `holds` returns true. Throws std::runtime_error with `what` after 200 seconds.
   void until(const std::string& what, const std::function<bool(const nlohmann::json&)>& holds);
   void untilValue(const std::string& control, const std::string& value);
   void untilChanged(const std::string& control, const std::string& from);
   void untilThere(const std::string& control);
-  void untilDrawn();  // nothing is left to draw
+  void untilDrawn();  // waits until the viewer has drawn everything
 
   Point middle(const std::string& control) const;
-  // Of the control's width and height.
+  // A point of a control; x and y are shares of its width and height.
   Point at(const std::string& control, double x, double y) const;
 
   void click(Point point, int button = 1);
@@ -45,14 +46,14 @@ class DrivenViewer {
   void drag(Point from, Point to, int button = 1);
   void key(const std::string& keys) { send("key " + keys); }
   void type(const std::string& text) { send("type " + text); }
-  void send(const std::string& words);  // to xdotool
+  void send(const std::string& words);  // arguments of xdotool
 
-  // F12; the path of the EXR that it wrote.
+  // Presses F12. Returns the path of the EXR that the viewer writes.
   std::string savePicture();
 
-  // Ctrl+Q. Once.
+  // Presses Ctrl+Q. Call it once.
   Outcome quit();
-  // Once it has ended by itself. Once.
+  // Waits for a viewer that ends by itself. Call it once.
   Outcome ended() { return outcome_.get(); }
 
  private:
@@ -62,7 +63,7 @@ class DrivenViewer {
   const TemporaryFolder& folder_;
   std::string layoutFile_;
   std::future<Outcome> outcome_;
-  std::string drawnBefore_;  // frames, when words went to xdotool
+  std::string drawnBefore_;  // frames drawn at the last xdotool command
   std::chrono::steady_clock::time_point sent_;
 };
 

@@ -1,6 +1,5 @@
 // SPDX-License-Identifier: MIT
-// What windows go through: any size, any input, nothing to do, a backend or a display that is
-// missing.
+// Windows of any size, with any input, or idle; a missing backend or display.
 #include <glm/glm.hpp>
 #include <random>
 #include <thread>
@@ -33,7 +32,7 @@ TEST_P(HardshipTest, EverySize) {
   expectQuits(viewer);
 }
 
-// On a small screen, which a window may fill.
+// A small screen, which a window may fill.
 class InputTest : public WindowTest {
  protected:
   InputTest() : WindowTest(600) {}
@@ -88,14 +87,14 @@ TEST_P(HardshipTest, ABookmarkBringsTheCameraBack) {
   viewer.untilChanged("camera", camera);
   viewer.key("3");
   viewer.untilValue("camera", camera);
-  // A file as every camera file.
+  // The bookmark is an ordinary camera file.
   const Outcome outcome = runProgram(
       {"render", "--size", "16x16", "--camera", folder_ / "marks/3.json"}, folder_.path());
   EXPECT_EQ(outcome.status, 0) << outcome.err;
   expectQuits(viewer);
 }
 
-// All of it is there when the next frame begins, as where frames are slow.
+// All events arrive before the next frame begins, as they do when frames are slow.
 TEST_P(HardshipTest, WhatIsHeldCountsForWhatWasTurned) {
   DrivenViewer viewer(folder_, arguments());
   const std::string camera = viewer.value("camera");
@@ -137,14 +136,14 @@ TEST_P(HardshipTest, ABackendThatIsMissingIsNamedOrReplaced) {
   EXPECT_EQ(outcome.status, 0) << outcome.err;
 }
 
-// What the user has not saved is in a folder, and the words that the viewer ends with show it
+// The viewer saves unsaved work to a folder, and its final messages give a command that shows it
 // again.
 class RescueTest : public WindowTest {
  protected:
   std::vector<std::string> with(const std::string& bookmarks) const {
     return arguments({"--effects", "ssao,sspm", "--bookmarks", bookmarks});
   }
-  // A bookmark, a setting, a shot, each seen to be there.
+  // Makes a bookmark, a setting and a shot, and waits until the viewer shows each.
   void change(DrivenViewer& viewer) {
     viewer.key("ctrl+4");
     viewer.until("a bookmark", [](const nlohmann::json& now) {
@@ -160,11 +159,11 @@ class RescueTest : public WindowTest {
   void expectRescued(const std::string& err) {
     EXPECT_TRUE(std::filesystem::exists(folder_ / "marks/4.json"));
     EXPECT_TRUE(std::filesystem::exists(folder_ / "state/grisaille/viewer.json"));
-    const std::string words = "go on with: grisaille view ";
+    const std::string words = "continue with: grisaille view ";
     const size_t at = err.find(words);
     ASSERT_NE(at, std::string::npos) << err;
     const size_t from = at + words.size();
-    // The same options are render's.
+    // `grisaille render` takes the same options.
     const Outcome outcome =
         runShell("grisaille render --size 16x16 " + err.substr(from, err.find('\n', from) - from),
                  folder_.path());
@@ -177,7 +176,7 @@ class RescueTest : public WindowTest {
       EXPECT_TRUE(std::filesystem::exists(entry.path().parent_path() / "sspm.json"));
       return;
     }
-    ADD_FAILURE() << "no settings";
+    ADD_FAILURE() << "the viewer saved no settings";
   }
 
   std::string radius_;
@@ -197,7 +196,7 @@ TEST_P(RescueTest, ALostDeviceLosesNothingElse) {
   expectRescued(outcome.err);
 }
 
-// No matter of the backend.
+// Independent of the backend.
 using SignalTest = RescueTest;
 INSTANTIATE_TEST_SUITE_P(Backends, SignalTest, testing::Values("opengl"));
 

@@ -1,5 +1,6 @@
 // SPDX-License-Identifier: MIT
-// Paint from the window: it lands on the pixel clicked, sprays while held, and can be undone.
+// Painting in the viewer: paint lands on the clicked pixel, sprays while the button is held, and
+// can be undone.
 #include <fmt/format.h>
 
 #include "tests/window/window_test.h"
@@ -22,13 +23,13 @@ TEST_P(WindowPaintTest, LandsOnThePixelClicked) {
   const image::Image coverage = image::read(viewer.savePicture());
   const Point corner = viewer.at("picture", 0, 0);
   const auto x = static_cast<uint32_t>(at.x - corner.x), y = static_cast<uint32_t>(at.y - corner.y);
-  // Full where the ray goes through, less all around.
+  // Full coverage where the ray hits, less around it.
   EXPECT_EQ(coverage.at(x, y), 1);
   for (const auto& [dx, dy] : {std::pair{8, 0}, {-8, 0}, {0, 8}, {0, -8}}) {
     EXPECT_LT(coverage.at(x + static_cast<uint32_t>(dx), y + static_cast<uint32_t>(dy)), 1)
         << dx << ", " << dy;
   }
-  // Also where pixels are magnified.
+  // Also with magnified pixels.
   viewer.key("b");
   viewer.send("mousemove " + std::to_string(at.x) + " " + std::to_string(at.y) +
               " keydown ctrl click --repeat 8 4 keyup ctrl");

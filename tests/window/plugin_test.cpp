@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: MIT
-// Plugins that come and change while the viewer runs.
+// Plugins that appear or change while the viewer runs.
 #include <filesystem>
 
 #include "tests/window/window_test.h"
@@ -21,12 +21,12 @@ TEST_P(PluginTest, ARescanFindsWhatIsNew) {
   viewer.key("F5");
   viewer.untilValue("alpha.on", "false");
   EXPECT_NE(viewer.value("refused").find("broken.so"), std::string::npos);
-  // The settings of before are still there.
+  // The earlier settings are still there.
   EXPECT_EQ(viewer.value("ssao.steps"), "3");
   expectQuits(viewer);
 }
 
-// A build folder of the least kind: its target copies a plugin, or fails as a compiler does.
+// A minimal build folder: its target copies a plugin, or fails like a compiler.
 TEST_P(PluginTest, AnEditedSourceIsBuiltAndLoaded) {
   fs::create_directory(folder_ / "more");
   fs::create_directory(folder_ / "source");
@@ -46,12 +46,12 @@ TEST_P(PluginTest, AnEditedSourceIsBuiltAndLoaded) {
   DrivenViewer viewer(folder_, arguments({"--plugin-path", folder_ / "more"}));
   viewer.click(viewer.at("alpha.tree", 0.3, 0.5));
   viewer.untilThere("alpha.hard");
-  // Broken: the old one stays, and the compiler's words are shown.
+  // The build fails: the old plugin stays, and the viewer shows the compiler's message.
   folder_.write("source/make.sh", "echo \"a.comp:3: error: 'depht' : undeclared\"; exit 1\n");
   viewer.untilThere("build message");
   EXPECT_EQ(viewer.value("build message"), "a.comp:3: error: 'depht' : undeclared");
   EXPECT_EQ(viewer.value("alpha.hard"), "false");
-  // Mended: the new one is there, without a restart.
+  // The build succeeds: the viewer loads the new plugin without a restart.
   folder_.write("source/make.sh", good);
   viewer.untilThere("alpha.soft");
   EXPECT_EQ(viewer.value("build message"), "");

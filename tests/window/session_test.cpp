@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: MIT
-// Files that are opened or dropped, and files that are not what they say: nothing is lost.
+// Files that are opened or dropped, valid or not: no work is lost.
 #include <gtest/gtest.h>
 
 #include <cmath>
@@ -44,7 +44,7 @@ TEST_F(SessionTest, OpensWhatAFileHolds) {
   objects::save(three.view(), folder_ / "d.json");
   session_.openFile(folder_ / "d.json");
   EXPECT_EQ(shots(), 3u);
-  // One line of undo over it all.
+  // One undo step covers the whole file.
   session_.undo();
   EXPECT_EQ(shots(), 1u);
   session_.undo();
@@ -109,7 +109,7 @@ TEST_F(SessionTest, ComparesTheFirstVisibilityWithItsOwnRadius) {
     EXPECT_ERROR(ErrorId::kUsage, session_.setTruthRadius(radius));
   }
   EXPECT_EQ(session_.truthRadius(), 2);
-  // The command makes what is compared: no frame has an error.
+  // The command writes the compared output: frames have no error output.
   EXPECT_NE(session_.commandLine({64, 36}, "", "").find("ssao.ao=grisaille.png"),
             std::string::npos);
   session_.compareWithTruth(false);

@@ -30,7 +30,7 @@ TEST_P(SettingTest, ADraggedSliderIsTheRenderedSetting) {
   const Outcome outcome = runProgram(render, folder_.path());
   ASSERT_EQ(outcome.status, 0) << outcome.err;
   expectSame(shown, folder_ / "rendered.exr");
-  // It is not the picture of the setting before.
+  // It differs from the picture with the previous setting.
   viewer.key("ctrl+z");
   viewer.untilValue("ssao.radius", "0.5");
   EXPECT_GT(image::compare(image::read(viewer.savePicture()), image::read(shown)).rmse, 0.001);
@@ -39,7 +39,7 @@ TEST_P(SettingTest, ADraggedSliderIsTheRenderedSetting) {
   expectQuits(viewer);
 }
 
-// Within a second too, which names them.
+// Even within one second: file names contain the second.
 TEST_P(SettingTest, APictureSavedReplacesNone) {
   DrivenViewer viewer(folder_, arguments({"--effects", "ssao", "--view", "ssao.ao"}));
   for (int i = 0; i < 4; ++i) viewer.savePicture();
@@ -62,7 +62,7 @@ TEST_P(SettingTest, ValuesAreTypedAndCheckedAndReset) {
   };
   type("ssao.radius", "0.8125");
   viewer.untilValue("ssao.radius", "0.8125");
-  // Beyond the slider, inside the hard range.
+  // Beyond the slider, within the hard range.
   type("ssao.radius", "123.5");
   viewer.untilValue("ssao.radius", "123.5");
   type("ssao.radius", "1e30");

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: MIT
-// The picture beside its truth, as it is looked at: the numbers and colours are those of the files.
+// The picture beside its truth: displayed numbers and colours match those computed from files.
 #include <cmath>
 #include <thread>
 
@@ -17,7 +17,7 @@ class TruthTest : public WindowTest {
   }
   std::vector<std::string> environment() const { return {"XDG_CACHE_HOME=" + (folder_ / "cache")}; }
 
-  // The root mean square error of the view that the viewer shows, worked out from files.
+  // RMS error of the displayed view, computed from files.
   double expectedRmse(const DrivenViewer& viewer, const image::Image& shown) {
     std::vector<std::string> command = {"truth",         "--radius", viewer.value("truth radius"),
                                         "--samples",     "24",       "--no-cache",
@@ -111,14 +111,14 @@ TEST_P(TruthTest, AMovedCameraIsTracedAnewAndASettingIsNot) {
   viewer.untilValue("truth", "done");
   const image::Image shown = image::read(viewer.savePicture());
   viewer.untilValue("truth", "done");
-  // The rays begin at points that may differ by rounding.
+  // Rounding may move the origins of the rays.
   EXPECT_NEAR(rmse(viewer), expectedRmse(viewer, shown), 2e-5);
   viewer.key("Home");
   viewer.untilValue("truths", "3");
   viewer.untilValue("truth", "done");
   EXPECT_NEAR(rmse(viewer), strong, 1e-6);
 
-  // Nothing is drawn any more; and it ends while it traces.
+  // The viewer is idle now. Afterwards, it quits while it traces.
   const std::string drawn = viewer.value("drawn");
   std::this_thread::sleep_for(std::chrono::seconds(2));
   EXPECT_EQ(viewer.value("drawn"), drawn);

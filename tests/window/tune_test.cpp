@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: MIT
-// Presets, and settings that are searched for beside the window.
+// Presets, and searches for settings in the background of the viewer.
 #include <toml++/toml.h>
 #include <filesystem>
 #include <regex>
@@ -13,7 +13,7 @@ namespace fs = std::filesystem;
 
 class TuneTest : public WindowTest {
  protected:
-  // A narrow picture, which is soon traced.
+  // A narrow picture, which is quick to trace.
   std::vector<std::string> narrow(std::vector<std::string> more = {}) const {
     std::vector<std::string> all = {"--backend", GetParam(), "--size", "440x1680"};
     all.insert(all.end(), more.begin(), more.end());
@@ -62,7 +62,7 @@ TEST_P(TuneTest, APresetIsOneStep) {
         EXPECT_EQ(std::stod(shown), value.value_or(-1.0));
       }
     }
-    EXPECT_EQ(viewer.value("ssao.radius"), "0.75");  // that no preset names
+    EXPECT_EQ(viewer.value("ssao.radius"), "0.75");  // no preset names it
     viewer.key("ctrl+z");
     viewer.untilValue("ssao.presets", was);
     EXPECT_EQ(values(viewer), before);
@@ -89,7 +89,7 @@ TEST_P(TuneTest, SettingsGoOverAPreset) {
   EXPECT_EQ(viewer.value("ssao.presets"), "custom");
   EXPECT_EQ(viewer.value("ssao.steps"), "9");
   EXPECT_EQ(viewer.value("ssao.intensity"), "1.25");
-  EXPECT_EQ(viewer.value("ssao.resolution"), "full");  // of the preset
+  EXPECT_EQ(viewer.value("ssao.resolution"), "full");  // from the preset
   expectQuits(viewer);
 }
 
@@ -131,14 +131,14 @@ TEST_P(TuneTest, WhatIsFoundIsOneStep) {
       << result;
   const auto after = values(viewer);
   EXPECT_NE(after, before);
-  EXPECT_EQ(after.at("radius"), before.at("radius"));  // the truth has it too
+  EXPECT_EQ(after.at("radius"), before.at("radius"));  // the truth depends on it
   viewer.key("ctrl+z");
   viewer.untilValue("ssao.presets", "reference");
   EXPECT_EQ(values(viewer), before);
   viewer.key("ctrl+shift+z");
   viewer.untilValue("ssao.steps", after.at("steps"));
   EXPECT_EQ(values(viewer), after);
-  // What cannot be had gives the child's line and changes nothing.
+  // A search without a result shows the child's last line and changes nothing.
   type(viewer, "ssao.tune.error", "0.0001");
   type(viewer, "ssao.tune.evaluations", "1");
   viewer.click("ssao.tune.start");
@@ -170,8 +170,9 @@ TEST_P(TuneTest, ASearchEndsWithTheWindow) {
   viewer.untilThere("ssao.tune.cancel");
   expectQuits(viewer);
   for (const std::string& name : folder_.files()) EXPECT_FALSE(name.starts_with("grisaille-tune"));
-  // Its arguments name the test's folder; the brackets keep the search from finding itself. What
-  // ends while it is read is passed over: grep would say so with a status of its own.
+  // The arguments of the child name the test's folder; the brackets keep the search from finding
+  // itself. `cat | grep -q` ignores processes that end while they are read; grep alone would return
+  // an error status.
   const std::string search =
       "cat /proc/[0-9]*/cmdline 2>&- | grep -qa '" + folder_.path().string() + "/grisaille-[t]une'";
   EXPECT_EQ(runShell(search, folder_.path()).status, 1);

@@ -12,27 +12,27 @@
 
 namespace grisaille::tests {
 
-// High enough for the whole panel, with a narrow picture beside it: software draws it.
+// High enough for the whole panel; the picture is narrow because software renders it.
 inline constexpr const char* kWindow = "500x1680";
 
 class WindowTest : public testing::TestWithParam<std::string> {
  protected:
   explicit WindowTest(uint32_t side = 4096) : display_(side, side) {}
 
-  // Cheap settings: the panel's words are what is tested, and software draws.
+  // Cheap settings: the tests check the panel, and software renders.
   std::vector<std::string> arguments(std::vector<std::string> more = {}) const {
     std::vector<std::string> all = {"--backend", GetParam(), "--size", kWindow};
     all.insert(all.end(), more.begin(), more.end());
     all.insert(all.end(), {"--set", "ssao.steps=3"});
     return all;
   }
-  // Ends it well: no message of the driver, its validation or the layer.
+  // Quits the viewer and expects no message of the driver, its validation or the layer.
   static void expectQuits(DrivenViewer& viewer) {
     const Outcome outcome = viewer.quit();
     EXPECT_EQ(outcome.status, 0) << outcome.err;
     EXPECT_EQ(outcome.err, "");
   }
-  // Of the picture that the viewer shows, as render takes them.
+  // Camera and size of the displayed picture, as arguments of `grisaille render`.
   static std::vector<std::string> view(const DrivenViewer& viewer) {
     const auto rect = viewer.layout()["picture"]["rect"].get<std::vector<int>>();
     return {"--camera", viewer.value("camera"), "--size",

@@ -1,52 +1,52 @@
 /* SPDX-License-Identifier: MIT */
 /**
  * @file
- * The C interface of libgrisaille: the effects in a renderer of your own.
+ * The C interface of libgrisaille, which runs the effects in your own renderer.
  *
- * Create a device once. Wrap the textures that you draw: depth, and if you have them normals and
- * base colours. Create effects by name. Record them once a frame, and sample their outputs.
- * `find_package(Grisaille)` gives the CMake target Grisaille::grisaille. The same in C++20 is
- * grisaille/host.hpp.
+ * Create a device once. Wrap the textures that you render: depth, and optionally normals and base
+ * colours. Create effects by name. Record them once per frame, and sample their outputs.
+ * `find_package(Grisaille)` defines the CMake target Grisaille::grisaille. grisaille/host.hpp is
+ * the same interface in C++20.
  *
  * @par Errors
- * A function that returns int returns 0, or the number of an error and has done nothing.
- * grisaille_host_last_error() then returns a line: what is wrong, why, and what to do. Each
- * function lists its numbers. Every function may also return
+ * A function that returns int returns 0 on success. If it fails, it does nothing and returns the
+ * number of the error; grisaille_host_last_error() then returns one line: what is wrong, why, and
+ * what to do. The comment of each function lists its errors. Every function may also return
  * - 5601: an argument or a pointer in a struct is null,
- * - 5602: a struct_size is not the struct's,
+ * - 5602: a struct_size is not the size of its struct,
  * - 5611: a reserved field is not 0,
- * - 9001: a fault of the library,
- * - 9002: no memory,
- * - 1005, 1006, if it calls the graphics API: the driver fails, or has lost the device.
+ * - 9001: an internal error of the library,
+ * - 9002: out of memory,
+ * - 1005 or 1006, if it calls the graphics API: the driver failed, or lost the device.
  *
- * No exception leaves the library, and it prints nothing.
+ * The library throws no exception and prints nothing.
  *
  * @par Structs
- * A struct begins with its size, which the caller sets. A field that you do not use is 0.
+ * A struct begins with struct_size: set it to the size of the struct. Set unused fields to 0.
  *
  * @par Ownership
- * You destroy what you create, effects and textures before their device. The library reads structs
- * and strings during the call and keeps none of them. Objects of the graphics API that you hand
- * over stay yours: the library does not release them, and changes them only as this header says.
- * They outlive everything that is made from them.
+ * Destroy every object that you create; destroy effects and textures before their device. The
+ * library reads structs and strings during the call and keeps no pointer to them. You keep
+ * ownership of the graphics API's objects: the library does not release them, and changes them only
+ * as this header says. Keep them alive until you have destroyed every object created from them.
  *
  * @par Threads
- * A device, and everything made from it, belongs to one thread at a time. For OpenGL, that thread
- * has the device's context. Devices are independent of one another.
+ * Use a device, and every object created from it, in one thread at a time. For OpenGL, the device's
+ * context must be current in that thread. Devices are independent of one another.
  *
  * @par Units
  * Metres, radians, pixels. Matrices are column-major, vectors are columns. World axes are
  * right-handed; view space looks along -z with y up.
  *
  * @par Vulkan
- * The device has version 1.3 with shaderStorageImageExtendedFormats, synchronization2 and
- * maintenance4 enabled. The library cannot see which features you enabled. It uses function tables
- * of its own, from the loader that the first device of the process names, and submits nothing.
+ * The device must have version 1.3, with shaderStorageImageExtendedFormats, synchronization2 and
+ * maintenance4 enabled. The library cannot check which features you enabled. It loads its own
+ * function tables through the loader of the process's first device, and it submits nothing.
  *
  * @par OpenGL
- * The context has version 4.5, of the core or the compatibility profile, made by GLX or EGL.
- * Recording leaves all state as it was; do not record inside conditional rendering. Creating,
- * resizing and destroying change no state, but call glGetError(), which loses a pending error.
+ * The context must have version 4.5, core or compatibility profile, created by GLX or EGL.
+ * Recording restores all state; do not record inside conditional rendering. Creating, resizing and
+ * destroying change no state, but they call glGetError(), which clears a pending error.
  */
 #ifndef GRISAILLE_HOST_H
 #define GRISAILLE_HOST_H
@@ -67,16 +67,16 @@ extern "C" {
 
 /**
  * Returns the version of the library. It cannot fail. Any thread may call it.
- * @return the library's GRISAILLE_HOST_VERSION, at least the header's if both are of one
- * installation
+ * @return the library's GRISAILLE_HOST_VERSION; not less than the header's if both come from the
+ * same installation
  */
 GRISAILLE_EXPORT uint32_t grisaille_host_version(void);
 
 /**
- * Returns the error of the calling thread's last call that failed. It cannot fail. Any thread may
- * call it.
- * @return the line, such as "error E5601: device is null; give what the message names"; "" if no
- * call failed. It is valid until the thread's next failure.
+ * Returns the error message of the last failed call of the calling thread. It cannot fail. Any
+ * thread may call it.
+ * @return one line, such as "error E5601: device is null; pass a pointer that is not null"; "" if
+ * no call failed. It is valid until the thread's next failed call.
  */
 GRISAILLE_EXPORT const char* grisaille_host_last_error(void);
 
@@ -93,34 +93,34 @@ typedef struct grisaille_host_device grisaille_host_device;
 /** Your Vulkan device. */
 typedef struct grisaille_host_vulkan {
   uint32_t struct_size;  /**< sizeof(grisaille_host_vulkan) */
-  uint32_t queue_family; /**< of the queue that gets the command buffers; it can compute */
-  /** 1 to 16: after this many frames, the recordings of a frame have finished. */
+  uint32_t queue_family; /**< family of the queue that you submit to; it supports compute */
+  /** 1 to 16. When you record frame n, the GPU has finished frame n - frames_in_flight. */
   uint32_t frames_in_flight;
   uint32_t reserved;     /**< 0 */
   void* instance;        /**< VkInstance */
   void* physical_device; /**< VkPhysicalDevice */
   void* device;          /**< VkDevice */
-  /** PFN_vkGetInstanceProcAddr of your loader; null: that of libvulkan.so.1 */
+  /** PFN_vkGetInstanceProcAddr of your loader; null: the library loads libvulkan.so.1 */
   void (*get_instance_proc_addr)(void);
-  const char* effect_folder; /**< a further folder of effects, which the library trusts; or null */
+  const char* effect_folder; /**< additional folder of effects, which the library trusts; or null */
 } grisaille_host_vulkan;
 
-/** Your OpenGL context: the current one. */
+/** Your OpenGL context, which is the current context. */
 typedef struct grisaille_host_opengl {
   uint32_t struct_size;      /**< sizeof(grisaille_host_opengl) */
   uint32_t reserved;         /**< 0 */
-  const char* effect_folder; /**< a further folder of effects, which the library trusts; or null */
+  const char* effect_folder; /**< additional folder of effects, which the library trusts; or null */
 } grisaille_host_opengl;
 
 /**
- * Creates a device on your Vulkan device. It loads the effects that are installed beside the
- * library, in lib/grisaille/effects, and those of `effect_folder`. It leaves out plugins that do
- * not fit.
+ * Creates a device on your Vulkan device. It loads the effects that are installed with the library,
+ * in lib/grisaille/effects, and the effects in `effect_folder`. It skips every plugin that it
+ * cannot load or that has a wrong table.
  * @param vulkan your Vulkan device
  * @param[out] out the device; null after an error
- * @retval 5603 The device lacks version 1.3, a feature, or a queue family that computes.
+ * @retval 5603 The device lacks version 1.3, a feature, or compute support in the queue family.
  * @retval 5611 frames_in_flight is out of range.
- * @retval 1001 There is no Vulkan loader.
+ * @retval 1001 The library finds no Vulkan loader.
  * @retval 1004 The loader is older than 1.3.
  * @retval 3106 The library cannot read effect_folder.
  */
@@ -128,8 +128,8 @@ GRISAILLE_EXPORT int grisaille_host_device_vulkan(const grisaille_host_vulkan* v
                                                   grisaille_host_device** out);
 
 /**
- * Creates a device on the OpenGL context that is current on this thread. It loads effects as
- * grisaille_host_device_vulkan() does.
+ * Creates a device on the OpenGL context that is current in this thread. It loads the same effects
+ * as grisaille_host_device_vulkan().
  * @param opengl your OpenGL context
  * @param[out] out the device; null after an error
  * @retval 5604 No context is current.
@@ -140,20 +140,20 @@ GRISAILLE_EXPORT int grisaille_host_device_opengl(const grisaille_host_opengl* o
                                                   grisaille_host_device** out);
 
 /**
- * Destroys a device. Before the call, the GPU has finished all that was recorded with it.
- * @param device the device; null: nothing happens
- * @retval 5608 An effect or a texture is left.
+ * Destroys a device. Call it after the GPU has finished every recording of the device's effects.
+ * @param device the device; null: the call does nothing
+ * @retval 5608 An effect or a texture of the device still exists.
  * @retval 5604 The device's context is not current.
  */
 GRISAILLE_EXPORT int grisaille_host_device_destroy(grisaille_host_device* device);
 
 /**
  * Returns the tables of all effects, sorted by key: parameters with their ranges, outputs with
- * their formats. Both results are valid while the device lives.
+ * their formats. The array and the tables are valid while the device lives.
  * @param device the device
  * @param[out] effects the tables
  * @param[out] count number of tables
- * @return 0, or an error that every function may return
+ * @return 0, or an error that any function may return
  */
 GRISAILLE_EXPORT int grisaille_host_effects(const grisaille_host_device* device,
                                             const grisaille_effect_desc* const** effects,
@@ -162,34 +162,34 @@ GRISAILLE_EXPORT int grisaille_host_effects(const grisaille_host_device* device,
 /**
  * @}
  * @defgroup host_scene libgrisaille: textures, rays, pictures
- * What you give the effects of your scene.
+ * The effects' inputs from your scene.
  * @{
  */
 
-/** One of your textures, as the library reads it. */
+/** One of your textures, wrapped so that the library can read it. */
 typedef struct grisaille_host_texture grisaille_host_texture;
 
 /**
- * Describes a 2D texture of one sample. The library reads its first level and layer. It samples the
- * texture as floats, so that a depth buffer with or without stencil fits too.
+ * Describes a single-sampled 2D texture. The library reads its first level and layer. It samples
+ * the texture as floats; a depth buffer, with or without stencil, works too.
  */
 typedef struct grisaille_host_texture_desc {
   uint32_t struct_size; /**< sizeof(grisaille_host_texture_desc) */
   uint32_t format;      /**< Vulkan: VkFormat; OpenGL: 0 */
   /** Vulkan: VkImageLayout of the image before and after each recording; OpenGL: 0 */
   uint32_t layout;
-  uint32_t width;    /**< pixels; OpenGL: 0 stands for the texture's own */
-  uint32_t height;   /**< pixels; OpenGL: 0 stands for the texture's own */
+  uint32_t width;    /**< pixels; OpenGL: 0 means the texture's width */
+  uint32_t height;   /**< pixels; OpenGL: 0 means the texture's height */
   uint32_t reserved; /**< 0 */
   /**
-   * Vulkan: VkImage with VK_IMAGE_USAGE_SAMPLED_BIT, exclusive to the queue's family or shared by
-   * all families. OpenGL: name of the texture.
+   * Vulkan: VkImage with VK_IMAGE_USAGE_SAMPLED_BIT, owned by the queue's family (exclusive
+   * sharing) or shared by all families (concurrent sharing). OpenGL: name of the texture.
    */
   uint64_t image;
 } grisaille_host_texture_desc;
 
 /**
- * Wraps a texture. If you create the texture again, in another size for example, wrap it again.
+ * Wraps a texture. If you recreate the texture, for example in another size, wrap it again.
  * @param device the device
  * @param desc describes the texture
  * @param[out] out the wrapped texture; null after an error
@@ -202,9 +202,9 @@ GRISAILLE_EXPORT int grisaille_host_texture_wrap(grisaille_host_device* device,
                                                  grisaille_host_texture** out);
 
 /**
- * Destroys the wrapping; the texture itself stays. Recordings with it may be in flight. Destroy the
- * VkImage only after they have finished.
- * @param texture the wrapped texture; null: nothing happens
+ * Destroys the wrapper, not the texture itself. Recordings that read the texture may be in flight;
+ * destroy the VkImage only after they have finished.
+ * @param texture the wrapped texture; null: the call does nothing
  * @retval 5604 The device's context is not current.
  */
 GRISAILLE_EXPORT int grisaille_host_texture_destroy(grisaille_host_texture* texture);
@@ -213,24 +213,24 @@ GRISAILLE_EXPORT int grisaille_host_texture_destroy(grisaille_host_texture* text
 typedef struct grisaille_host_rays {
   uint32_t struct_size; /**< sizeof(grisaille_host_rays) */
   uint32_t reserved;    /**< 0 */
-  void* context;        /**< yours; the library hands it on */
+  void* context;        /**< your pointer, which the library passes to `cast` */
   /**
-   * Casts rays. The library calls it inside grisaille_host_effect_record(), on the same thread. It
-   * must not call the library.
+   * Casts rays. grisaille_host_effect_record() calls it, in the same thread. The function must not
+   * call the library.
    * @param context grisaille_host_rays::context
    * @param rays `count` rays
    * @param count number of rays
-   * @param[out] hits one for each ray; an untouched one is #GRISAILLE_HIT_NONE
+   * @param[out] hits one per ray, preset to #GRISAILLE_HIT_NONE
    */
   void (*cast)(void* context, const grisaille_ray* rays, uint64_t count, grisaille_hit* hits);
 } grisaille_host_rays;
 
 /**
- * Sets who casts rays for the device's effects, from the next recording on. Without rays, work that
- * needs them waits.
+ * Sets the function that casts rays for the device's effects, from the next recording on. Without
+ * a function, work that needs rays waits.
  * @param device the device
- * @param rays your function; null, as at first: nobody
- * @return 0, or an error that every function may return
+ * @param rays your function; null, the initial value: no function
+ * @return 0, or an error that any function may return
  */
 GRISAILLE_EXPORT int grisaille_host_device_set_rays(grisaille_host_device* device,
                                                     const grisaille_host_rays* rays);
@@ -239,10 +239,10 @@ GRISAILLE_EXPORT int grisaille_host_device_set_rays(grisaille_host_device* devic
 typedef struct grisaille_host_pictures {
   uint32_t struct_size; /**< sizeof(grisaille_host_pictures) */
   uint32_t reserved;    /**< 0 */
-  void* context;        /**< yours; the library hands it on */
+  void* context;        /**< your pointer, which the library passes to `read` */
   /**
-   * Decodes a picture. The library calls it inside grisaille_host_effect_record(), on the same
-   * thread. It must not call the library.
+   * Decodes a picture. grisaille_host_effect_record() calls it, in the same thread. The function
+   * must not call the library.
    * @param context grisaille_host_pictures::context
    * @param path path of the file
    * @param[out] out the picture; its pixels stay valid until the next call or the end of the
@@ -253,11 +253,11 @@ typedef struct grisaille_host_pictures {
 } grisaille_host_pictures;
 
 /**
- * Sets who decodes pictures for the device's effects, from the next recording on. Without it,
- * objects are drawn without their pictures.
+ * Sets the function that decodes pictures for the device's effects, from the next recording on.
+ * Without a function, effects draw objects without their pictures.
  * @param device the device
- * @param pictures your function; null, as at first: nobody
- * @return 0, or an error that every function may return
+ * @param pictures your function; null, the initial value: no function
+ * @return 0, or an error that any function may return
  */
 GRISAILLE_EXPORT int grisaille_host_device_set_pictures(grisaille_host_device* device,
                                                         const grisaille_host_pictures* pictures);
@@ -274,32 +274,32 @@ typedef struct grisaille_host_effect grisaille_host_effect;
 
 /** The order of rows in the textures that an effect reads and writes. */
 typedef enum grisaille_host_rows {
-  GRISAILLE_HOST_ROWS_FROM_TOP = 0,   /**< as in Vulkan: texel (0, 0) is the picture's top left */
-  GRISAILLE_HOST_ROWS_FROM_BOTTOM = 1 /**< as in OpenGL, unless glClipControl says otherwise */
+  GRISAILLE_HOST_ROWS_FROM_TOP = 0,   /**< Vulkan's order: texel (0, 0) is the picture's top left */
+  GRISAILLE_HOST_ROWS_FROM_BOTTOM = 1 /**< OpenGL's order, unless glClipControl changed it */
 } grisaille_host_rows;
 
 /** Describes an effect. */
 typedef struct grisaille_host_effect_desc {
-  uint32_t struct_size;       /**< sizeof(grisaille_host_effect_desc) */
-  uint32_t width;             /**< pixels of the textures read and of the outputs, 1 to 16384 */
-  uint32_t height;            /**< pixels, as `width` */
-  uint32_t rows;              /**< a grisaille_host_rows, of the textures read and of the outputs */
-  uint32_t output_count;      /**< number of `outputs`; 0: the effect's first output alone */
-  uint32_t reserved;          /**< 0 */
-  const char* effect;         /**< the effect's key: "ssao" */
+  uint32_t struct_size;  /**< sizeof(grisaille_host_effect_desc) */
+  uint32_t width;        /**< pixels of the input textures and of the outputs, 1 to 16384 */
+  uint32_t height;       /**< pixels; see `width` */
+  uint32_t rows;         /**< a grisaille_host_rows, of the input textures and of the outputs */
+  uint32_t output_count; /**< number of `outputs`; 0: only the effect's first output */
+  uint32_t reserved;     /**< 0 */
+  const char* effect;    /**< the effect's key: "ssao" */
   const char* const* outputs; /**< keys of the wanted outputs: "ao" */
 } grisaille_host_effect_desc;
 
 /**
- * Creates an effect with the defaults of its parameters and without objects.
+ * Creates an effect with default parameter values and without objects.
  * @param device the device
  * @param desc describes the effect
  * @param[out] out the effect; null after an error
- * @retval 3201 There is no such effect.
- * @retval 5102 The effect has no such output.
- * @retval 3202 The effect fails; the line holds its own words.
+ * @retval 3201 No effect has this key.
+ * @retval 5102 The effect has no output with one of the keys.
+ * @retval 3202 The effect fails; the error line quotes its message.
  * @retval 1105 The width or the height is out of range.
- * @retval 5611 `rows` is none.
+ * @retval 5611 `rows` is not a grisaille_host_rows.
  * @retval 1007 No device memory is left.
  * @retval 1008 The driver refuses a shader.
  * @retval 5604 The device's context is not current.
@@ -309,19 +309,19 @@ GRISAILLE_EXPORT int grisaille_host_effect_create(grisaille_host_device* device,
                                                   grisaille_host_effect** out);
 
 /**
- * Destroys an effect with its outputs. Its recordings may be in flight, but no command buffer that
- * holds one may still wait for its submission.
- * @param effect the effect; null: nothing happens
+ * Destroys an effect with its outputs. Its recordings may be in flight, but you must have submitted
+ * every command buffer that holds one of them.
+ * @param effect the effect; null: the call does nothing
  * @retval 5604 The device's context is not current.
  */
 GRISAILLE_EXPORT int grisaille_host_effect_destroy(grisaille_host_effect* effect);
 
 /**
- * Sets a parameter from the next recording on, which may compile shaders.
+ * Sets a parameter, from the next recording on. That recording may compile shaders.
  * @param effect the effect
  * @param key key of the parameter
- * @param value a number in the unit of the effect's table, an enum's index, or 0 or 1
- * @retval 3301 The effect has no such parameter.
+ * @param value a number in the unit of the effect's table, the index of an enum entry, or 0 or 1
+ * @retval 3301 The effect has no parameter with this key.
  * @retval 3302 The value is out of the parameter's range.
  * @retval 3303 The value is not of the parameter's type.
  */
@@ -329,11 +329,11 @@ GRISAILLE_EXPORT int grisaille_host_effect_set(grisaille_host_effect* effect, co
                                                double value);
 
 /**
- * Sets a parameter by text, as grisaille_host_effect_set() does by number.
+ * Sets a parameter from text; otherwise the same as grisaille_host_effect_set().
  * @param effect the effect
  * @param key key of the parameter
- * @param text the value as on the command line: "0.5", "true", an enum's key
- * @retval 3301 The effect has no such parameter.
+ * @param text the value as on the command line: "0.5", "true", the key of an enum entry
+ * @retval 3301 The effect has no parameter with this key.
  * @retval 3302 The value is out of the parameter's range.
  * @retval 3303 The value is not of the parameter's type.
  */
@@ -344,15 +344,15 @@ GRISAILLE_EXPORT int grisaille_host_effect_set_text(grisaille_host_effect* effec
  * Returns the value of a parameter.
  * @param effect the effect
  * @param key key of the parameter
- * @param[out] value the value, as grisaille_host_effect_set() takes it
- * @retval 3301 The effect has no such parameter.
+ * @param[out] value the value, in the form that grisaille_host_effect_set() takes
+ * @retval 3301 The effect has no parameter with this key.
  */
 GRISAILLE_EXPORT int grisaille_host_effect_get(const grisaille_host_effect* effect, const char* key,
                                                double* value);
 
 /**
- * Gives an effect another size. Its outputs are other textures then. The library destroys the old
- * ones once no recording in flight uses them.
+ * Resizes an effect. Its outputs become new textures. The library destroys the old textures once no
+ * recording in flight uses them.
  * @param effect the effect
  * @param width pixels, 1 to 16384
  * @param height pixels, 1 to 16384
@@ -364,15 +364,16 @@ GRISAILLE_EXPORT int grisaille_host_effect_resize(grisaille_host_effect* effect,
                                                   uint32_t height);
 
 /**
- * Sets the objects of an effect from the next recording on. The library copies them and their
- * texts. Add new objects at the end: the effect processes only those from the first changed one on.
+ * Sets the objects of an effect, from the next recording on. The library copies the objects and
+ * their texts. Add new objects at the end: the effect processes only the objects from the first
+ * changed one on.
  * @param effect the effect
  * @param objects the objects, laid out as grisaille_effect_desc::objects says, oldest first; may be
  *   null if `count` is 0
  * @param object_size bytes of one object
  * @param count number of objects
- * @retval 3205 The effect has no objects.
- * @retval 5611 object_size is not the table's.
+ * @retval 3205 The effect takes no objects.
+ * @retval 5611 `object_size` differs from the effect's table.
  * @retval 3401 The value of a field is wrong.
  */
 GRISAILLE_EXPORT int grisaille_host_effect_set_objects(grisaille_host_effect* effect,
@@ -380,13 +381,13 @@ GRISAILLE_EXPORT int grisaille_host_effect_set_objects(grisaille_host_effect* ef
                                                        uint64_t count);
 
 /**
- * Sets the objects of an effect from a JSON file, as the program `grisaille` saves it.
+ * Sets the objects of an effect from a JSON file that the program `grisaille` saved.
  * @param effect the effect
  * @param path path of the file
- * @retval 3205 The effect has no objects.
+ * @retval 3205 The effect takes no objects.
  * @retval 3411 The library cannot read the file.
  * @retval 3412 An object of the file is wrong.
- * @retval 3413 The file has another version.
+ * @retval 3413 The library does not read this version of the file.
  */
 GRISAILLE_EXPORT int grisaille_host_effect_load_objects(grisaille_host_effect* effect,
                                                         const char* path);
@@ -394,11 +395,11 @@ GRISAILLE_EXPORT int grisaille_host_effect_load_objects(grisaille_host_effect* e
 /**
  * @}
  * @defgroup host_frame libgrisaille: a frame
- * Recording an effect and reading its outputs.
+ * Functions that record an effect and return its outputs.
  * @{
  */
 
-/** What the texels of a depth texture are. */
+/** The meaning of the texels of a depth texture. */
 typedef enum grisaille_host_depth {
   /** A depth buffer: 0 at the near plane, 1 at the far plane and in the sky. */
   GRISAILLE_HOST_DEPTH_CLIP = 0,
@@ -430,7 +431,7 @@ typedef struct grisaille_host_camera {
   uint32_t struct_size; /**< sizeof(grisaille_host_camera) */
   uint32_t reserved;    /**< 0 */
   double position[3];   /**< world, metres */
-  /** Rotation: its columns are the picture's right and up, and backwards, in world space. */
+  /** Rotation; its columns are the camera's right, up and backward axes in world space. */
   double world_from_view[9];
   double vertical_angle;      /**< radians that the height spans, 0.01 to 3.1; 0: orthographic */
   double orthographic_height; /**< metres that the height spans, over 0, at most 1e9; pinhole: 0 */
@@ -445,42 +446,43 @@ typedef struct grisaille_host_frame {
   uint32_t depth_kind;      /**< a grisaille_host_depth */
   uint32_t normal_space;    /**< a grisaille_host_normals */
   uint32_t normal_encoding; /**< a grisaille_host_encoding */
-  uint64_t number;          /**< never falls; all recordings of one frame have the same */
+  uint64_t number; /**< frame number; never decreases; the same for all recordings of a frame */
   void* command_buffer; /**< Vulkan: VkCommandBuffer, recording, outside a render pass; else null */
   const grisaille_host_camera* camera;  /**< the camera that drew the frame */
   const grisaille_host_texture* depth;  /**< one channel, or a depth buffer */
-  const grisaille_host_texture* normal; /**< three channels; null: facet normals from depth */
+  const grisaille_host_texture* normal; /**< three channels; null: facet normals, from depth */
   /**
    * Depth of the nearest surface at or behind the visible one that faces away, in the units of
-   * `depth`; null: not known.
+   * `depth`; null: unknown.
    */
   const grisaille_host_texture* back_depth;
-  const grisaille_host_texture* base_colour; /**< three channels, linear when sampled; null: none */
+  const grisaille_host_texture* base_colour; /**< three channels, linear when sampled; or null */
 } grisaille_host_frame;
 
 /**
- * Records an effect: all its wanted outputs, at every pixel.
+ * Records the commands of an effect, which write every wanted output at every pixel.
  *
  * The recording waits for all commands recorded before it, and all later commands wait for it. You
- * need no barrier of your own. The library reads each texture in the layout that you wrapped it
- * with, and leaves it in that layout. It leaves an output in the layout that
- * grisaille_host_effect_output() returns. The output must have that layout at the next recording.
+ * need no barriers. The library expects each texture in the layout that you wrapped it with, and
+ * leaves it in that layout. It leaves an output in the layout that grisaille_host_effect_output()
+ * returns. The output must have that layout at the next recording.
  *
- * From the second frame on, the call allocates nothing while the size and the parameters stay.
+ * From the second frame on, the call allocates nothing while size and parameters stay the same.
  *
- * Vulkan: submit command buffers in the order of recording, each once and whole. After the call,
- * another compute pipeline and another descriptor set 0 are bound to compute. After error 3203,
- * submit the command buffer all the same.
+ * Vulkan: submit the command buffers in the order of recording, each once and as a whole. The call
+ * changes the compute pipeline and descriptor set 0 of the compute bind point. After error 3203,
+ * submit the command buffer nevertheless.
  *
  * @param effect the effect
  * @param frame the frame
- * @retval 5606 The frame's number falls, or the command buffer is missing or not expected.
+ * @retval 5606 The frame's number decreases, or command_buffer is null for Vulkan or not null for
+ *   OpenGL.
  * @retval 5607 The camera is wrong.
- * @retval 5605 A texture has another size, or too few channels.
- * @retval 5609 A texture is of another device.
- * @retval 5610 The effect reads base colours, and there are none.
- * @retval 5611 The value of an enum is none, or a hit of your rays is wrong.
- * @retval 3203 The effect fails; the line holds its own words.
+ * @retval 5605 A texture does not have the effect's size, or has too few channels.
+ * @retval 5609 A texture belongs to another device.
+ * @retval 5610 The effect reads base colours, but base_colour is null.
+ * @retval 5611 A field is not a value of its enum, or your function returned a wrong hit.
+ * @retval 3203 The effect fails; the error line quotes its message.
  * @retval 1007 No device memory is left.
  * @retval 1008 The driver refuses a shader.
  * @retval 5604 The device's context is not current.
@@ -488,7 +490,7 @@ typedef struct grisaille_host_frame {
 GRISAILLE_EXPORT int grisaille_host_effect_record(grisaille_host_effect* effect,
                                                   const grisaille_host_frame* frame);
 
-/** An output: a texture of the library. */
+/** An output: a texture that the library owns. */
 typedef struct grisaille_host_output {
   uint32_t struct_size;   /**< sizeof(grisaille_host_output), set by the caller */
   uint32_t format;        /**< a grisaille_format */
@@ -496,17 +498,17 @@ typedef struct grisaille_host_output {
   uint32_t layout;        /**< Vulkan: VkImageLayout after a recording; OpenGL: 0 */
   uint32_t width;         /**< pixels */
   uint32_t height;        /**< pixels */
-  uint64_t image; /**< Vulkan: VkImage, to sample and to copy from; OpenGL: name of the texture */
+  uint64_t image; /**< Vulkan: VkImage, which you may sample and copy; OpenGL: texture name */
   uint64_t view;  /**< Vulkan: VkImageView; OpenGL: 0 */
 } grisaille_host_output;
 
 /**
- * Returns an output of an effect. It holds a result once the effect is recorded. It stays the same
- * texture until the effect is resized or destroyed.
+ * Returns an output of an effect. The texture holds a result once you have recorded the effect. It
+ * stays the same texture until you resize or destroy the effect.
  * @param effect the effect
- * @param key key of an output that the effect was created with
+ * @param key key of an output that you named when you created the effect
  * @param[out] out the output; set its `struct_size` before the call
- * @retval 5102 The effect has no such output, or was created without it.
+ * @retval 5102 The effect has no output with this key, or was created without it.
  */
 GRISAILLE_EXPORT int grisaille_host_effect_output(const grisaille_host_effect* effect,
                                                   const char* key, grisaille_host_output* out);

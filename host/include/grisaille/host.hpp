@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: MIT
 /// @file
-/// The C++20 interface of libgrisaille over host.h: owners for what it creates, exceptions for its
-/// errors. See host.h for the errors of each function, for ownership and threads.
+/// The C++20 interface of libgrisaille, a layer over host.h: classes own the objects, and errors
+/// are exceptions. See host.h for the errors of each function, ownership and threads.
 #ifndef GRISAILLE_HOST_HPP
 #define GRISAILLE_HOST_HPP
 
@@ -23,14 +23,14 @@ namespace grisaille::host {
 /// @addtogroup host_library
 /// @{
 
-/// A call that failed. All functions of this header that call the library throw it. what() is the
-/// line of grisaille_host_last_error().
+/// A failed call. All functions of this header that call the library may throw it. what() returns
+/// the line of grisaille_host_last_error().
 class Failure : public std::runtime_error {
  public:
   /// @param number number of the error
-  /// @param line the whole line
+  /// @param line the whole error line
   Failure(int number, const std::string& line) : std::runtime_error(line), number_(number) {}
-  /// @return number of the error: 5601 for example
+  /// @return number of the error, for example 5601
   int number() const { return number_; }
 
  private:
@@ -38,14 +38,14 @@ class Failure : public std::runtime_error {
 };
 
 /// Throws unless a call succeeded.
-/// @param result what a function of host.h returned
+/// @param result the result of a function of host.h
 /// @throws Failure the result is not 0
 inline void require(int result) {
   if (result != 0) throw Failure(result, grisaille_host_last_error());
 }
 
-/// A handle of the graphics API as a number.
-/// @param handle a handle of Vulkan, which is a pointer or a number, or a name of OpenGL
+/// Converts a handle of the graphics API to a number.
+/// @param handle a Vulkan handle (a pointer or a number) or an OpenGL name
 /// @return the number, for TextureSpec::image
 template <typename Handle>
 uint64_t number(Handle handle) {
@@ -75,11 +75,11 @@ struct VulkanSpec {
   void* instance = nullptr;        ///< VkInstance
   void* physicalDevice = nullptr;  ///< VkPhysicalDevice
   void* device = nullptr;          ///< VkDevice
-  uint32_t queueFamily = 0;        ///< of the queue that gets the command buffers; it can compute
-  uint32_t framesInFlight = 2;  ///< 1 to 16: after so many, the recordings of a frame have finished
-  /// PFN_vkGetInstanceProcAddr of your loader; null: that of libvulkan.so.1
+  uint32_t queueFamily = 0;        ///< family of the queue that you submit to; it supports compute
+  uint32_t framesInFlight = 2;     ///< 1 to 16: see grisaille_host_vulkan::frames_in_flight
+  /// PFN_vkGetInstanceProcAddr of your loader; null: the library loads libvulkan.so.1
   void (*getInstanceProcAddr)() = nullptr;
-  const char* effectFolder = nullptr;  ///< a further folder of effects, which is trusted; or null
+  const char* effectFolder = nullptr;  ///< additional folder of trusted effects; or null
 };
 
 /// Owns a device. Destroy it after its textures and effects.
@@ -105,8 +105,8 @@ class Device {
     return made;
   }
 
-  /// Creates a device on the OpenGL context that is current on this thread.
-  /// @param effectFolder a further folder of effects, which the library trusts; or null
+  /// Creates a device on the OpenGL context that is current in this thread.
+  /// @param effectFolder additional folder of effects, which the library trusts; or null
   /// @return the device
   static Device opengl(const char* effectFolder = nullptr) {
     const grisaille_host_opengl given = {
@@ -126,18 +126,18 @@ class Device {
     return {list, count};
   }
 
-  /// Sets who casts rays for the device's effects, from the next recording on.
-  /// @param cast as grisaille_host_rays::cast; null: nobody
-  /// @param context handed on to `cast`; it outlives the recordings
+  /// Sets the function that casts rays for the device's effects, from the next recording on.
+  /// @param cast see grisaille_host_rays::cast; null: no function
+  /// @param context passed to `cast`; it must outlive the recordings
   void setRays(decltype(grisaille_host_rays::cast) cast, void* context) const {
     const grisaille_host_rays rays = {
         .struct_size = sizeof(rays), .reserved = 0, .context = context, .cast = cast};
     require(grisaille_host_device_set_rays(device_.get(), cast != nullptr ? &rays : nullptr));
   }
 
-  /// Sets who decodes pictures for the device's effects, from the next recording on.
-  /// @param read as grisaille_host_pictures::read; null: nobody
-  /// @param context handed on to `read`; it outlives the recordings
+  /// Sets the function that decodes pictures for the device's effects, from the next recording on.
+  /// @param read see grisaille_host_pictures::read; null: no function
+  /// @param context passed to `read`; it must outlive the recordings
   void setPictures(decltype(grisaille_host_pictures::read) read, void* context) const {
     const grisaille_host_pictures pictures = {
         .struct_size = sizeof(pictures), .reserved = 0, .context = context, .read = read};
@@ -157,16 +157,16 @@ class Device {
 /// @addtogroup host_scene
 /// @{
 
-/// Describes one of your textures, as grisaille_host_texture_desc.
+/// Describes one of your textures: see grisaille_host_texture_desc.
 struct TextureSpec {
   uint64_t image = 0;   ///< Vulkan: number() of a VkImage; OpenGL: name of the texture
   uint32_t format = 0;  ///< Vulkan: VkFormat; OpenGL: 0
   uint32_t layout = 0;  ///< Vulkan: VkImageLayout before and after each recording; OpenGL: 0
-  uint32_t width = 0;   ///< pixels; OpenGL: 0 stands for the texture's own
-  uint32_t height = 0;  ///< pixels; OpenGL: 0 stands for the texture's own
+  uint32_t width = 0;   ///< pixels; OpenGL: 0 means the texture's width
+  uint32_t height = 0;  ///< pixels; OpenGL: 0 means the texture's height
 };
 
-/// Owns the wrapping of one of your textures; the texture itself stays yours.
+/// Owns the wrapper of one of your textures; you keep ownership of the texture itself.
 class Texture {
  public:
   Texture() = default;  ///< Wraps no texture.
@@ -186,7 +186,7 @@ class Texture {
     texture_.reset(texture);
   }
 
-  /// @return the C handle, which this object keeps owning; null: no texture
+  /// @return the C handle, which this object keeps owning; null: wraps no texture
   grisaille_host_texture* handle() const { return texture_.get(); }
 
  private:
@@ -197,10 +197,10 @@ class Texture {
 /// @addtogroup host_frame
 /// @{
 
-/// A camera, made from a view matrix.
+/// A camera, built from a view matrix.
 struct Camera : grisaille_host_camera {
-  /// A pinhole camera.
-  /// @param viewFromWorld 16 numbers, column after column: a rotation and a translation
+  /// Returns a pinhole camera.
+  /// @param viewFromWorld 16 numbers, column-major: a rotation and a translation
   /// @param verticalAngle radians that the picture's height spans, 0.01 to 3.1
   /// @param near the near plane, metres, over 0
   /// @param far the far plane, metres, over `near`; 0 or infinity: none
@@ -215,8 +215,8 @@ struct Camera : grisaille_host_camera {
     return camera;
   }
 
-  /// An orthographic camera.
-  /// @param viewFromWorld 16 numbers, column after column: a rotation and a translation
+  /// Returns an orthographic camera.
+  /// @param viewFromWorld 16 numbers, column-major: a rotation and a translation
   /// @param height metres that the picture's height spans, over 0
   /// @param near the near plane, metres, over 0
   /// @param far the far plane, metres, over `near`, at most 1e9
@@ -248,17 +248,17 @@ struct Camera : grisaille_host_camera {
 
 /// One frame, as an effect reads it. All textures have the effect's size.
 struct Frame {
-  uint64_t number = 0;            ///< never falls; all recordings of one frame have the same
-  void* commandBuffer = nullptr;  ///< Vulkan: recording VkCommandBuffer, outside a render pass
+  uint64_t number = 0;            ///< see grisaille_host_frame::number
+  void* commandBuffer = nullptr;  ///< see grisaille_host_frame::command_buffer
   const Camera& camera;           ///< the camera that drew the frame
   const Texture& depth;           ///< one channel, or a depth buffer
-  grisaille_host_depth depthKind = GRISAILLE_HOST_DEPTH_CLIP;  ///< what its texels are
-  const Texture* normal = nullptr;  ///< three channels; null: facet normals from depth
+  grisaille_host_depth depthKind = GRISAILLE_HOST_DEPTH_CLIP;  ///< meaning of `depth`
+  const Texture* normal = nullptr;  ///< three channels; null: facet normals, from depth
   grisaille_host_normals normalSpace = GRISAILLE_HOST_NORMALS_WORLD;  ///< space of `normal`
   grisaille_host_encoding normalEncoding = GRISAILLE_HOST_SIGNED;     ///< encoding of `normal`
-  /// as grisaille_host_frame::back_depth; null: not known
+  /// see grisaille_host_frame::back_depth; null: unknown
   const Texture* backDepth = nullptr;
-  const Texture* baseColour = nullptr;  ///< three channels, linear when sampled; null: none
+  const Texture* baseColour = nullptr;  ///< three channels, linear when sampled; or null
 };
 
 /// @}
@@ -268,17 +268,18 @@ struct Frame {
 /// Describes an effect.
 struct EffectSpec {
   const char* effect = nullptr;  ///< the effect's key: "ssao"
-  uint32_t width = 0;            ///< pixels of the textures read and of the outputs, 1 to 16384
-  uint32_t height = 0;           ///< pixels, as `width`
-  /// order of rows in the textures read and in the outputs
+  uint32_t width = 0;            ///< pixels of the input textures and of the outputs, 1 to 16384
+  uint32_t height = 0;           ///< pixels; see `width`
+  /// order of rows in the input textures and in the outputs
   grisaille_host_rows rows = GRISAILLE_HOST_ROWS_FROM_TOP;
-  std::initializer_list<const char*> outputs = {};  ///< keys of the wanted outputs; none: the first
+  /// keys of the wanted outputs; empty: only the effect's first output
+  std::initializer_list<const char*> outputs = {};
 };
 
 /// Owns an effect with its parameters, its objects and its outputs.
 class Effect {
  public:
-  /// Creates an effect with the defaults of its parameters and without objects.
+  /// Creates an effect with default parameter values and without objects.
   /// @param device the device
   /// @param spec describes the effect
   Effect(const Device& device, const EffectSpec& spec) {
@@ -296,29 +297,30 @@ class Effect {
     effect_.reset(effect);
   }
 
-  /// Sets a parameter from the next recording on, which may compile shaders.
+  /// Sets a parameter, from the next recording on. That recording may compile shaders.
   /// @param key key of the parameter
-  /// @param value a number in the unit of the effect's table, an enum's index, or 0 or 1
+  /// @param value a number in the unit of the effect's table, the index of an enum entry, or 0 or 1
   void set(const char* key, double value) {
     require(grisaille_host_effect_set(effect_.get(), key, value));
   }
-  /// Sets a parameter by text.
+  /// Sets a parameter from text.
   /// @param key key of the parameter
-  /// @param text the value as on the command line: "0.5", "true", an enum's key
+  /// @param text the value as on the command line: "0.5", "true", the key of an enum entry
   void set(const char* key, const char* text) {
     require(grisaille_host_effect_set_text(effect_.get(), key, text));
   }
   /// Returns the value of a parameter.
   /// @param key key of the parameter
-  /// @return the value, as set() takes it
+  /// @return the value, in the form that set() takes
   double get(const char* key) const {
     double value = 0;
     require(grisaille_host_effect_get(effect_.get(), key, &value));
     return value;
   }
 
-  /// Sets the objects from the next recording on. The library copies them and their texts. Add new
-  /// objects at the end: the effect processes only those from the first changed one on.
+  /// Sets the objects, from the next recording on. The library copies the objects and their texts.
+  /// Add new objects at the end: the effect processes only the objects from the first changed one
+  /// on.
   /// @tparam Object a struct, laid out as the effect's table of objects says
   /// @param objects the objects, oldest first
   template <typename Object>
@@ -326,20 +328,20 @@ class Effect {
     require(grisaille_host_effect_set_objects(effect_.get(), objects.data(), sizeof(Object),
                                               objects.size()));
   }
-  /// Sets the objects from a JSON file, as the program `grisaille` saves it.
+  /// Sets the objects from a JSON file that the program `grisaille` saved.
   /// @param path path of the file
   void loadObjects(const char* path) {
     require(grisaille_host_effect_load_objects(effect_.get(), path));
   }
 
-  /// Gives the effect another size. Its outputs are other textures then.
+  /// Resizes the effect. Its outputs become new textures.
   /// @param width pixels, 1 to 16384
   /// @param height pixels, 1 to 16384
   void resize(uint32_t width, uint32_t height) {
     require(grisaille_host_effect_resize(effect_.get(), width, height));
   }
 
-  /// Records all wanted outputs, at every pixel: see grisaille_host_effect_record().
+  /// Records the commands that write all wanted outputs: see grisaille_host_effect_record().
   /// @param frame the frame
   void record(const Frame& frame) {
     const auto handleOf = [](const Texture* texture) {
@@ -360,9 +362,9 @@ class Effect {
     require(grisaille_host_effect_record(effect_.get(), &given));
   }
 
-  /// Returns an output. It holds a result once the effect is recorded, and stays the same texture
-  /// until the effect is resized or destroyed.
-  /// @param key key of an output that the effect was created with
+  /// Returns an output. The texture holds a result once you have recorded the effect. It stays the
+  /// same texture until you resize or destroy the effect.
+  /// @param key key of an output that you named when you created the effect
   /// @return the texture, which the effect owns
   grisaille_host_output output(const char* key) const {
     grisaille_host_output output{};

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: MIT
-// `grisaille apply` on pictures that `grisaille render` wrote: the same as that drew, to 1/255.
+// `grisaille apply` on pictures by `grisaille render` gives the rendered result, to within 1/255.
 #include <gtest/gtest.h>
 
 #include <algorithm>
@@ -22,7 +22,7 @@ constexpr const char* kCamera =
 
 class ApplyOnce : public ::testing::Test {
  protected:
-  // Words as a shell would part them; @ stands for the camera.
+  // Runs a command line; @ stands for the camera.
   Outcome grisaille(const std::string& line) {
     std::istringstream words(line);
     std::vector<std::string> arguments;
@@ -44,7 +44,7 @@ class ApplyOnce : public ::testing::Test {
     EXPECT_LE(image::shareOver(read(name), read(expected), 1.0 / 255), allowed)
         << name << " " << image::compare(read(name), read(expected)).largest;
   }
-  // The frame and its pictures, as depth.exr, normal.exr, ao.exr.
+  // Renders a frame and its pictures to ao.exr, depth.exr and normal.exr.
   void render(const std::string& more = "", const std::string& size = "161x91") {
     run("render --camera @ --size " + size +
         " --write ao=ao.exr --write depth=depth.exr --write normal=normal.exr " + more);
@@ -75,12 +75,12 @@ TEST_P(Apply, EqualsTheFrameThatThePicturesAreOf) {
     expectSame("color_again.exr", "color.exr");
     image::Image open = read("ao.exr");
     std::ranges::fill(open.pixels, 1.0f);
-    EXPECT_GT(image::shareOver(read("ao.exr"), open, 0.2), 0.05) << "nothing is dark";
+    EXPECT_GT(image::shareOver(read("ao.exr"), open, 0.2), 0.05) << "no pixel is occluded";
   }
 }
 
-// No --camera: the matrices that the files hold are floats, so that single samples may fall on the
-// other side of an edge.
+// Without --camera: the files store the matrices as floats, so single samples may fall on the other
+// side of an edge.
 TEST_F(ApplyOnce, TakesTheCameraFromTheDepthItself) {
   render();
   run("apply --depth depth.exr --normal normal.exr --write ao=again.exr");
@@ -110,7 +110,8 @@ TEST_F(ApplyOnce, EveryKindOfDepthComesToTheSame) {
   image::write(clip, folder_ / "clip.exr");
   image::write(distance, folder_ / "distance.exr");
   image::write(viewNormal, folder_ / "view.exr");
-  // What a few bits of depth move over an edge, or an angle of normals that are rounded otherwise.
+  // Allows for pixels that change because depth is off by a few bits or normals are rounded
+  // differently.
   const auto same = [&](const std::string& more) {
     run("apply --camera @ --write ao=again.exr " + more);
     expectSame("again.exr", "ao.exr", 0.01);
@@ -139,7 +140,7 @@ TEST_F(ApplyOnce, SequencesAreAppliedFrameByFrame) {
     expectSame("again." + frame + ".exr", "ao." + frame + ".exr");
   }
   EXPECT_GT(image::shareOver(read("ao.0009.exr"), read("ao.0010.exr"), 1.0 / 255), 0.0);
-  // On a terminal, a bar.
+  // A terminal shows a progress bar.
   const Outcome shown = runShell(
       "script -qec 'grisaille " + common + "--frames 9-11x2 --write ao=few.%02d.exr' /dev/null",
       folder_.path());
@@ -149,14 +150,16 @@ TEST_F(ApplyOnce, SequencesAreAppliedFrameByFrame) {
   expectSame("few.11.exr", "ao.0011.exr");
   EXPECT_FALSE(std::filesystem::exists(folder_ / "few.10.exr"));
 
-  expectError(common + "--write ao=one.exr", "E5507", "no place for the frame's number");
-  expectError("apply --depth d.0009.exr --write ao=a.####.exr", "E5507", "the depth has none");
-  expectError("apply --depth d.0009.exr --normal n.####.exr --write ao=a.exr", "E5507", "numbered");
+  expectError(common + "--write ao=one.exr", "E5507", "has no frame number, but --depth");
+  expectError("apply --depth d.0009.exr --write ao=a.####.exr", "E5507",
+              "but --depth is a single file");
+  expectError("apply --depth d.0009.exr --normal n.####.exr --write ao=a.exr", "E5507",
+              "but --depth is a single file");
   expectError("apply --depth d.0009.exr --frames 1-2 --write ao=a.exr", "E5507", "--frames");
   expectError("apply --depth x.####.exr --write ao=a.####.exr", "E5507", "x.####.exr");
   expectError(common + "--frames 9-12 --write ao=a.####.exr", "E5507", "frame 12");
   std::filesystem::remove(folder_ / "n.0010.exr");
-  expectError(common + "--write ao=a.####.exr", "E5507", "frame 10 has no 'n.0010.exr'");
+  expectError(common + "--write ao=a.####.exr", "E5507", "frame 10 lacks the file 'n.0010.exr'");
   EXPECT_FALSE(std::filesystem::exists(folder_ / "a.0009.exr"));
 }
 
@@ -166,7 +169,7 @@ TEST_F(ApplyOnce, WhatDoesNotFitIsRefused) {
   // A file without matrices.
   image::write(read("depth.exr"), folder_ / "bare.exr");
   expectError("apply --depth bare.exr --write ao=x.exr", "E5501", "bare.exr");
-  // Matrices of another picture's shape.
+  // Matrices of a picture with another aspect ratio.
   image::write(read("depth.exr"), folder_ / "stretched.exr",
                {.matrices = scene::matricesOf(scene::Camera{}, 100, 100)});
   expectError("apply --depth stretched.exr --write ao=x.exr", "E5502", "1.769 : 1");

@@ -8,7 +8,7 @@
 namespace grisaille::app {
 namespace {
 
-// Two pixels; channel n holds n and 10 + n.
+// Two pixels; channel n holds n in the first and 10 + n in the second.
 image::Picture of(std::vector<std::string> channels) {
   const auto count = static_cast<uint32_t>(channels.size());
   image::Picture picture{.image = {.width = 2, .height = 1, .channels = count, .pixels = {}},

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: MIT
-// Programs beside the window.
+// Child processes of the viewer.
 #include "app/process/child.h"
 
 #include <sys/wait.h>
@@ -30,10 +30,10 @@ TEST_F(ChildTest, ItReadsNothingAndInheritsNothing) {
   Child child({"sh", "-c", "cat; ls /proc/self/fd"});
   child.wait();
   close(open);
-  EXPECT_EQ(child.out(), "0\n1\n2\n3\n");  // the last one is the folder that ls reads
+  EXPECT_EQ(child.out(), "0\n1\n2\n3\n");  // ls opens its folder as 3
 }
 
-// Even where the window has no time to end it.
+// Also when the parent exits without destroying the object.
 TEST_F(ChildTest, ItEndsWithWhoStartedIt) {
   const std::string who = file("who"), part = file("part");
   const pid_t parent = fork();
@@ -45,7 +45,7 @@ TEST_F(ChildTest, ItEndsWithWhoStartedIt) {
   }
   ASSERT_EQ(waitpid(parent, nullptr, 0), parent);
   const std::string stat = "/proc/" + std::to_string(std::stoi(contentOf(who))) + "/stat";
-  const auto ended = [&] {  // whoever reaps it
+  const auto ended = [&] {  // whichever process reaps it
     const std::string content = contentOf(stat);
     return content.empty() || content.find(") Z") != std::string::npos;
   };

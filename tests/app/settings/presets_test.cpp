@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: MIT
-// Which preset values are, and what a search may change.
+// Recognises presets by their values, and decides which parameters a search may change.
 #include "app/settings/presets.h"
 
 #include <algorithm>
@@ -16,7 +16,7 @@ using tests::randomise;
 using tests::randomValue;
 using tests::Tables;
 
-// Presets by chance, each of some of the effect's parameters.
+// Random presets, each of some of the effect's parameters.
 Presets randomPresets(std::mt19937_64& random, const effect::Effect& effect) {
   Presets presets;
   for (const char* name : kPresetNames) {
@@ -46,13 +46,13 @@ TEST(PresetTest, IsKnownByItsValues) {
         effect::Selection::Entry entry{.on = true, .values = effect::Values(effect)};
         randomise(random, entry);
         applyPreset(entry.values, presets, preset.name);
-        // Another may have the same values, but then it is those too.
+        // Another preset may be found, but only if its values are the same.
         const app::Preset* const found = presetOf(entry.values, presets);
         ASSERT_NE(found, nullptr);
         effect::Values other = entry.values;
         applyPreset(other, presets, found->name);
         EXPECT_TRUE(std::ranges::equal(other.all(), entry.values.all()));
-        // What no preset names is free; what one names is not.
+        // Parameters that no preset names are free; the others are not.
         for (const grisaille_param_desc& param : effect.params()) {
           effect::Values changed = entry.values;
           changed.set(param.key, randomValue(random, param));

@@ -22,7 +22,7 @@ class SettingsFile : public tests::FolderTest {
   }
 };
 
-// TOML's tables have no order.
+// TOML tables are unordered.
 std::vector<std::tuple<std::string, std::string, std::string>> sorted(const Settings& settings) {
   std::vector<std::tuple<std::string, std::string, std::string>> all;
   for (const Settings::Value& v : settings.values)

@@ -35,7 +35,8 @@ TEST(Presets, AreOnTheFrontAndInOrder) {
     const std::vector<size_t> chosen = presetsOn(front);
     ASSERT_EQ(chosen.size(), 4u);
     EXPECT_TRUE(std::ranges::is_sorted(chosen, std::ranges::less_equal()));
-    EXPECT_EQ(std::ranges::adjacent_find(chosen), chosen.end()) << "two presets are one setting";
+    EXPECT_EQ(std::ranges::adjacent_find(chosen), chosen.end())
+        << "two presets are the same setting";
     EXPECT_EQ(chosen[3], front.size() - 1);
   }
   EXPECT_ERROR(ErrorId::kFrontSmall, presetsOn(std::vector<Price>(3, {1, 1})));
@@ -44,9 +45,9 @@ TEST(Presets, AreOnTheFrontAndInOrder) {
 TEST(Presets, EachCostsAtMostItsShareOfTheNext) {
   std::vector<Price> front;
   for (int i = 0; i <= 10; ++i) front.push_back({std::exp2(i), 1 - 0.05 * i});
-  // Of 1024: at most 50.5, 131.3 and 341.3.
+  // With 1024 as the highest cost, the others may cost at most 50.5, 131.3 and 341.3.
   EXPECT_EQ(presetsOn(front), (std::vector<size_t>{5, 7, 8, 10}));
-  // Where nothing is so cheap, spread evenly.
+  // Without cheap settings, the presets are spread evenly.
   front = {{40, 0.9}, {45, 0.8}, {50, 0.7}, {60, 0.6}, {100, 0.5}};
   EXPECT_EQ(presetsOn(front), (std::vector<size_t>{0, 1, 3, 4}));
 }
@@ -62,7 +63,8 @@ TEST(Presets, SettingsThatClocksDoNotTellApartAreOne) {
   EXPECT_EQ(thinned(prices, frontOf(prices)), (std::vector<size_t>{1, 4, 5}));
 }
 
-// Each of these is near the next one: what is left is apart, and no gap is left that was not there.
+// Each price is near the next. Those that remain are apart, and no gap becomes wider than
+// necessary.
 TEST(Presets, AChainOfNearPricesIsThinnedOut) {
   std::vector<Price> costs, errors;
   for (int i = 0; i < 40; ++i) {
@@ -87,7 +89,8 @@ TEST(Presets, AChainOfNearPricesIsThinnedOut) {
 }
 
 TEST(Presets, CostsOfTwoBackendsAreShares) {
-  // One backend is ten times as slow; a setting that it did not measure is no choice.
+  // One backend is ten times slower. It did not measure one setting, which is therefore no
+  // candidate.
   const std::vector<Record> records = {
       record("opengl", 1, 0.4, "1"), record("opengl", 2, 0.2, "2"), record("opengl", 4, 0.1, "4"),
       record("vulkan", 40, 0.1, "4"), record("vulkan", 20, 0.2, "2")};
@@ -103,7 +106,7 @@ TEST(Presets, FileHoldsWhatWasChosen) {
   for (int i = 1; i <= 32; i *= 2) {
     records.push_back(record("opengl", i, 0.5 / i, std::to_string(i)));
   }
-  records.push_back(record("opengl", 100, 0.4, "3"));  // beaten
+  records.push_back(record("opengl", 100, 0.4, "3"));  // beaten by another
   writePresets(records, folder / "p.toml");
   const std::string text = tests::readFile(folder / "p.toml");
   for (const char* name : kPresetNames) {

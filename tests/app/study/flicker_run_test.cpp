@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: MIT
-// Flicker along a camera path, by what is known and as `grisaille measure --path` has it.
+// Flicker along a camera path: of a known error, and as `grisaille measure --path` reports it.
 #include "app/study/flicker_run.h"
 
 #include <gtest/gtest.h>
@@ -78,7 +78,7 @@ TEST_P(MeasurePathTest, EverySettingHasItsFlicker) {
   EXPECT_GT(flicker.at("kernel_size=2"), 1.25 * flicker.at("kernel_size=32"));
   EXPECT_NE(tests::readFile(folder_ / "study/results.csv").find(",flicker,"), std::string::npos);
   EXPECT_NE(tests::readFile(folder_ / "study/results.json").find("\"flicker\""), std::string::npos);
-  // What is there is not measured again.
+  // The second run measures nothing again.
   const std::string results = tests::readFile(folder_ / "study/results.csv");
   ASSERT_EQ(measure(options).status, 0);
   EXPECT_EQ(tests::readFile(folder_ / "study/results.csv"), results);

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: MIT
-// `grisaille measure` as its users run it.
+// `grisaille measure`, run as users run it.
 #include <fmt/format.h>
 #include <gtest/gtest.h>
 
@@ -52,10 +52,10 @@ TEST_F(MeasureTest, GoesOnFromWhatThereIsAndIsTheSameTwice) {
   EXPECT_EQ(errors.size(), 4u);
   EXPECT_LT(errors.at("steps=8 radius=0.5"), errors.at("steps=1 radius=0.5"));
   const std::string results = readFile(folder_ / "a/results.json");
-  // All is there: nothing is measured anew.
+  // The results are complete: nothing is measured again.
   ASSERT_EQ(measure({"--out", "a"}).status, 0);
   EXPECT_EQ(readFile(folder_ / "a/results.json"), results);
-  // A record that is gone is measured again, and errs as before.
+  // A deleted record is measured again, with the same errors.
   fs::remove(fs::directory_iterator(folder_.path() / "a/records")->path());
   ASSERT_EQ(measure({"--out", "a"}).status, 0);
   EXPECT_EQ(errorsOf(folder_.path() / "a"), errors);
@@ -70,11 +70,11 @@ TEST_F(MeasureTest, GoesOnFromWhatThereIsAndIsTheSameTwice) {
     }));
   }
   EXPECT_EQ(commas, std::vector<std::ptrdiff_t>(5, commas.at(0)));
-  // The page holds pictures and needs nothing else.
+  // The page embeds its pictures and loads no other file.
   const std::string page = readFile(folder_ / "a/index.html");
   EXPECT_NE(page.find("data:image/jpeg;base64,/9j/"), std::string::npos);
   EXPECT_EQ(page.find("src=\"http"), std::string::npos);
-  // Its commands make the pictures that were measured.
+  // Its commands render the measured pictures.
   const auto record = app::study::loadAll(folder_.path() / "a").front();
   const Outcome render = runShell(record.command, folder_.path());
   EXPECT_EQ(render.status, 0) << record.command << "\n" << render.err;
@@ -87,14 +87,14 @@ TEST_F(MeasureTest, PartsMakeTheWhole) {
     ASSERT_EQ(outcome.status, 0) << outcome.err;
   }
   EXPECT_EQ(errorsOf(folder_.path() / "parts"), errorsOf(folder_.path() / "whole"));
-  // Put together by hand.
+  // The records are merged by copying.
   fs::create_directories(folder_.path() / "copied");
   fs::copy(folder_.path() / "parts/records", folder_.path() / "copied/records");
   ASSERT_EQ(runProgram({"measure", "--report", "--out", "copied"}, folder_.path()).status, 0);
   EXPECT_EQ(readFile(folder_ / "copied/results.csv"), readFile(folder_ / "parts/results.csv"));
 }
 
-// Whenever it ends, what was measured is there and whole, and the same command goes on.
+// A run may be ended at any time: its records are complete, and the same command continues.
 TEST_F(MeasureTest, EndsAtAnyTimeAndGoesOn) {
   constexpr size_t kSettings = 4;
   ASSERT_EQ(measure({"--out", "whole"}).status, 0);
@@ -103,7 +103,7 @@ TEST_F(MeasureTest, EndsAtAnyTimeAndGoesOn) {
       "ssao.radius=0.25,0.5 --backend opengl --out ended";
   size_t before = 0;
   for (const char* signal : {"KILL", "INT", "KILL", "TERM"}) {
-    // Ended as soon as there is one record more, in the middle of the next setting.
+    // End the run one record later, in the middle of the next setting.
     const std::string line = fmt::format(
         "count() {{ find ended/records -name '*.json' 2>/dev/null | wc -l; }}\n"
         "before=$(count)\n"
@@ -113,9 +113,9 @@ TEST_F(MeasureTest, EndsAtAnyTimeAndGoesOn) {
         command, signal);
     const Outcome outcome = runShell(line, folder_.path());
     const auto records = app::study::loadAll(folder_.path() / "ended");
-    EXPECT_GT(records.size(), before) << outcome.err;  // what was there is whole, and one is more
+    EXPECT_GT(records.size(), before) << outcome.err;  // all earlier records are complete, plus one
     before = records.size();
-    if (before == kSettings) break;  // a fast machine
+    if (before == kSettings) break;  // finished early on a fast machine
   }
   ASSERT_EQ(measure({"--out", "ended"}).status, 0);
   EXPECT_EQ(errorsOf(folder_.path() / "ended"), errorsOf(folder_.path() / "whole"));

@@ -45,7 +45,7 @@ TEST(RandomCameras, AreTheSameForASeedAndOthersForAnother) {
 }
 
 TEST(RandomCameras, AreFewerWhereNothingIsToBeSeen) {
-  // One triangle: hardly any direction meets it.
+  // One triangle: hardly any direction hits it.
   scene::Scene scene;
   scene.positions = {{0, 0, 0}, {1, 0, 0}, {0, 0, 1}};
   scene.normals = {{0, 1, 0}, {0, 1, 0}, {0, 1, 0}};

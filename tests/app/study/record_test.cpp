@@ -66,7 +66,7 @@ TEST(ParetoFront, HoldsAllThatNothingBeats) {
     for (const size_t i : front) {
       for (const Record& other : records) EXPECT_FALSE(beats(other, records[i]));
     }
-    // Each that is left out is beaten, or equals one that is on it.
+    // Each record off the front is beaten by, or equals, a record on it.
     for (size_t i = 0; i < records.size(); ++i) {
       const bool on = std::ranges::find(front, i) != front.end();
       const bool covered = std::ranges::any_of(front, [&](size_t f) {
@@ -78,7 +78,7 @@ TEST(ParetoFront, HoldsAllThatNothingBeats) {
   EXPECT_TRUE(paretoFront({}, "null").empty());
 }
 
-// Another estimator's settings have a front of their own, unless it is the whole one.
+// Each estimator's settings have their own front, unless they are all settings.
 TEST(ParetoFront, EachKindOfSettingHasItsOwn) {
   std::vector<Record> records;
   const auto add = [&](SettingText setting, double cost, double error) {

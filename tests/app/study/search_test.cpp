@@ -24,8 +24,9 @@ grisaille_param_desc param(uint32_t type, double low, double high, bool log = fa
   return desc;
 }
 
-// An effect as they are: more samples cost in proportion and err less, two values have a best one,
-// one of three ways errs less than the others, one parameter does nothing.
+// A synthetic effect that behaves like a real one. More samples cost proportionally more and err
+// less; two values have an optimum; one of three modes errs less than the others; one parameter
+// does nothing.
 class Made : public testing::Test {
  protected:
   Made() {
@@ -41,7 +42,7 @@ class Made : public testing::Test {
                .costBeside =
                    [this](const Point& p, const Evaluated& known) {
                      ++costs_;
-                     // A clock that is 1 % wrong, either way.
+                     // A clock with an error of 1 % in either direction.
                      return known.cost * costOf(p) / costOf(known.point) *
                             (1 + (costs_ % 2 == 0 ? 0.01 : -0.01));
                    },
@@ -72,7 +73,7 @@ TEST_F(Made, FindsTheCheapestUnderAnError) {
       const Found found = search(axes_, {start}, {.maxError = wish}, oracle_, 200);
       ASSERT_TRUE(found.meetsWish);
       EXPECT_LE(errorOf(found.best.point), wish);
-      // The least that any setting can cost, all else being right.
+      // The lowest cost of any setting with all other parameters at their best.
       const double samples = std::ceil(std::pow(0.2 / (wish - 0.05), 2));
       EXPECT_LT(costOf(found.best.point), 1.25 * costOf({samples, 0, 0, 1, 0}))
           << wish << " from " << start[0] << " " << start[1];
@@ -84,7 +85,7 @@ TEST_F(Made, FindsTheMostAccurateInABudget) {
   for (const double budget : {2.0, 4.0, 9.0}) {
     const Found found = search(axes_, {{64, 2, 3, 0, 0.5}}, {.budget = budget}, oracle_, 200);
     ASSERT_TRUE(found.meetsWish);
-    // The clock's own percents add up over the steps.
+    // The clock's errors add up over the steps.
     EXPECT_LE(costOf(found.best.point), 1.1 * budget);
     const double samples = std::floor((budget - 1.4) * 8);
     EXPECT_LT(errorOf(found.best.point), 0.015 + errorOf({samples, 0.7, 1.3, 1, 0}));
@@ -94,7 +95,7 @@ TEST_F(Made, FindsTheMostAccurateInABudget) {
 TEST_F(Made, SaysWhenThereIsNoSuchSetting) {
   const Found found = search(axes_, {{16, 1, 1, 0, 0}}, {.maxError = 0.05}, oracle_, 300);
   EXPECT_FALSE(found.meetsWish);
-  EXPECT_LT(found.best.error, 0.07);  // the nearest there is
+  EXPECT_LT(found.best.error, 0.07);  // the smallest error that any setting reaches
   EXPECT_FALSE(search(axes_, {{16, 1, 1, 0, 0}}, {.budget = 0.5}, oracle_, 300).meetsWish);
 }
 
@@ -108,7 +109,7 @@ TEST_F(Made, CountsWhatItAsksFor) {
     EXPECT_EQ(found.starts - 1 + found.steps - found.costsSaved, static_cast<size_t>(costs_));
     EXPECT_LE(found.starts, 2u);  // the same start is not tried twice
   }
-  EXPECT_LT(errors_, 120);  // far from a grid's 33^4
+  EXPECT_LT(errors_, 120);  // far below the 33^4 of a grid
   EXPECT_GT(search(axes_, starts, {.maxError = 0.1}, oracle_, 200).costsSaved, 10u);
 }
 
@@ -142,7 +143,7 @@ TEST_F(Made, StepsStayInTheRangeAndMove) {
       }
     }
   }
-  // From outside of the usual range a step leads on.
+  // From outside the usual range, a step still moves.
   EXPECT_LT(stepped(params_[2], 9, 0.25, -1), 9);
 }
 

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: MIT
-// `grisaille tune` and presets as their users run them.
+// `grisaille tune` and presets, run as users run them.
 #include <gtest/gtest.h>
 
 #include <nlohmann/json.hpp>
@@ -19,7 +19,7 @@ class TuneTest : public testing::TestWithParam<const char*> {
     all.insert(all.end(), more.begin(), more.end());
     return runProgram(all, folder_.path(), {"XDG_CACHE_HOME=" + (folder_ / "cache")});
   }
-  // The number after a word of the output.
+  // The number that follows a word of the output.
   static double numberAfter(const std::string& text, const std::string& word) {
     const size_t at = text.find(word);
     EXPECT_NE(at, std::string::npos) << word << " is not in " << text;
@@ -33,8 +33,8 @@ TEST_P(TuneTest, FindsASettingThatErrsNoMoreThanAsked) {
   ASSERT_EQ(outcome.status, 0) << outcome.err;
   EXPECT_LE(numberAfter(outcome.out, "\nRMSE "), 0.17);
   EXPECT_NE(outcome.out.find("random 2: RMSE"), std::string::npos) << outcome.out;
-  EXPECT_GT(numberAfter(outcome.out, "not tuned on: RMSE "), 0);
-  // The file says where it comes from and does what was promised.
+  EXPECT_GT(numberAfter(outcome.out, "unseen cameras: RMSE "), 0);
+  // The file names its origin and meets the requested error.
   const std::string file = readFile(folder_ / "tuned.toml");
   EXPECT_EQ(file.rfind("# grisaille tune: RMSE 0.17 or less", 0), 0u) << file;
   ASSERT_EQ(runShell("grisaille render --size 96x54 --backend " + std::string(GetParam()) +
@@ -49,9 +49,9 @@ TEST_P(TuneTest, KeepsToABudget) {
                                 "--evaluations", "12", "--random", "0"});
   ASSERT_EQ(outcome.status, 0) << outcome.err;
   EXPECT_LE(numberAfter(outcome.out, " at "), 1000);
-  // With all the time that it could want it takes more slices than the cheap presets do.
+  // With an ample budget, it takes more slices than the cheap presets.
   EXPECT_GT(numberAfter(outcome.out, " slices="), 1);
-  EXPECT_EQ(outcome.out.find("validated"), std::string::npos);
+  EXPECT_EQ(outcome.out.find("unseen cameras"), std::string::npos);
 }
 
 TEST_P(TuneTest, SaysWhatCannotBeHad) {
@@ -65,7 +65,7 @@ TEST_P(TuneTest, SaysWhatCannotBeHad) {
 INSTANTIATE_TEST_SUITE_P(Backends, TuneTest, testing::Values("opengl", "vulkan"),
                          [](const auto& test) { return std::string(test.param); });
 
-// What is found errs less than the defaults on the cameras it was found for.
+// The found setting errs less than the defaults, on the cameras of the search.
 TEST(Tune, SponzaErrsLess) {
   if (sponza().empty()) GTEST_SKIP() << kNoSponza;
   const TemporaryFolder folder;
@@ -99,7 +99,8 @@ TEST(Tune, MistakesAreNamed) {
     EXPECT_NE(outcome.status, 0);
     EXPECT_NE(outcome.err.find(number), std::string::npos) << more << "\n" << outcome.err;
     EXPECT_FALSE(std::filesystem::exists(folder / "x.toml"));
-    EXPECT_FALSE(std::filesystem::exists(folder / "grisaille/truth")) << "traced, then refused";
+    EXPECT_FALSE(std::filesystem::exists(folder / "grisaille/truth"))
+        << "the truth was traced before the refusal";
   };
   refused("", "E5101");
   refused("--max-error 0.1 --budget-ms 4", "E5101");
@@ -133,11 +134,11 @@ TEST_F(PresetTest, GivesItsValuesUnderConfigAndSet) {
       }
       if (key != "ssao") continue;
       const std::string name = preset.at("name");
-      if (name != "fast" && name != "fine") continue;  // the others take the same way
+      if (name != "fast" && name != "fine") continue;  // the others take the same code path
       ASSERT_EQ(render("a.exr --preset ssao=" + name).status, 0);
       ASSERT_EQ(render("b.exr" + sets).status, 0);
       EXPECT_EQ(readFile(folder_ / "a.exr"), readFile(folder_ / "b.exr")) << name;
-      // What --set says goes over it, wherever it stands.
+      // --set overrides the preset, wherever it stands.
       ASSERT_EQ(render("c.exr --set ssao.steps=3 --preset ssao=" + name).status, 0);
       ASSERT_EQ(render("d.exr" + sets + " --set ssao.steps=3").status, 0);
       EXPECT_EQ(readFile(folder_ / "c.exr"), readFile(folder_ / "d.exr")) << name;
@@ -155,7 +156,7 @@ TEST_F(PresetTest, MistakesAreNamed) {
   refused("--preset ssao", "E5101");
   refused("--preset ssao=best", "E3311");
   refused("--preset none=fast", "E3201");
-  refused("--preset sspm=fast", "E3201");  // there, but not active
+  refused("--preset sspm=fast", "E3201");  // installed, but not active
 }
 
 }  // namespace

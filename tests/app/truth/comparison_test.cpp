@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: MIT
-// Numbers that are told of a truth before it is whole.
+// Error figures against a truth that is still being traced.
 #include "app/truth/comparison.h"
 
 #include <gtest/gtest.h>
@@ -85,7 +85,7 @@ TEST(ErrorMap, TellsDarkFromBright) {
   EXPECT_EQ(errorColor(kNan), glm::vec3(0.5f));
 }
 
-// A picture with errors, its truth without noise, and the noise of each pixel.
+// A picture with errors, its noise-free truth, and the noise of each pixel.
 struct Subject {
   image::Image shown{.width = 120, .height = 90, .channels = 1, .pixels = {}};
   std::vector<float> truth, noise;
@@ -112,7 +112,7 @@ TEST(Comparison, OfAWholeTruthIsThatOfPictures) {
   const Subject subject(0.2);
   std::vector<trace::Visibility> truth;
   for (const float value : subject.truth) truth.push_back({value, 0});
-  truth[5].mean = kNan;  // as where every ray went under the facet
+  truth[5].mean = kNan;  // as where all rays go below the facet
   image::Image other = subject.shown;
   for (size_t i = 0; i < truth.size(); ++i) other.pixels[i] = truth[i].mean;
   const image::Difference expected = image::compare(subject.shown, other);
@@ -126,8 +126,8 @@ TEST(Comparison, OfAWholeTruthIsThatOfPictures) {
   EXPECT_EQ(compare(subject.shown, truth).pixels, 0u);
 }
 
-// Of a share of the pixels and with noise in the truth, again and again: right on average, and off
-// by as much as is stated.
+// Repeated comparisons with part of the pixels and a noisy truth: correct on average, with errors
+// as large as stated.
 TEST(Comparison, OfANoisyPartIsUnbiasedAndHonest) {
   for (const double size : {0.02, 0.2}) {
     const Subject subject(size);
@@ -152,7 +152,7 @@ TEST(Comparison, OfANoisyPartIsUnbiasedAndHonest) {
         squares += off * off;
       }
       const double exact = subject.rmse * subject.rmse;
-      // What is left of the bias is a small share of what the noise would add.
+      // The remaining bias is a small share of the bias that the noise would add.
       EXPECT_NEAR(sum / kTrials, exact, 0.03 * (plain - sum) / kTrials);
       EXPECT_LT(std::sqrt(squares / kTrials), 1.3);
       EXPECT_GT(std::sqrt(squares / kTrials), 0.4);

@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: MIT
-// `grisaille effects --verify`: sound plugins pass, each fault is named with the step at which it
-// shows, and one that ends the process is a fault like another.
+// `grisaille effects --verify`: valid plugins pass. Each fault is named with the step that shows
+// it, including plugins that end the process.
 #include <fmt/format.h>
 #include <gtest/gtest.h>
 
@@ -33,9 +33,9 @@ TEST(Verify, ASoundPluginPassesOnBothBackends) {
   EXPECT_EQ(outcome.status, 0) << outcome.err;
   for (const char* backend : {"opengl", "vulkan"}) {
     for (const char* line :
-         {"draws whole pictures with its defaults", "writes every pixel", "is resized",
-          "writes what is wanted alone", "draws with every parameter at its extremes",
-          "draws with values drawn at random", "is destroyed and made anew"}) {
+         {"draws complete pictures with its defaults", "writes every pixel", "draws at other sizes",
+          "writes each output alone", "draws with every parameter at its extremes",
+          "draws with random values", "is destroyed and created again"}) {
       EXPECT_TRUE(holds(outcome.out, std::string("ok    ") + backend + ": sound: " + line))
           << line << outcome.out;
     }
@@ -43,21 +43,20 @@ TEST(Verify, ASoundPluginPassesOnBothBackends) {
   EXPECT_TRUE(holds(outcome.out, ": 0 faults in ")) << outcome.out;
 }
 
-// The program's own effects: with values at the ends of what is allowed and at random.
+// The program's own effects, with extreme and random values.
 TEST(Verify, TheProgramsOwnEffectsPassOnBothBackends) {
   for (const std::string name : {"ssao", "sspm"}) {
     const Outcome outcome = verify(fs::path(EFFECTS_FOLDER) / (name + ".so"));
     EXPECT_EQ(outcome.status, 0) << outcome.out << outcome.err;
     for (const std::string backend : {"opengl", "vulkan"}) {
-      const std::string line =
-          "ok    " + backend + ": " + name + ": draws with values drawn at random";
+      const std::string line = "ok    " + backend + ": " + name + ": draws with random values";
       EXPECT_TRUE(holds(outcome.out, line)) << outcome.out;
     }
   }
 }
 
 TEST(Verify, FaultsAreNamedWithTheStep) {
-  expectFault("nan", "opengl: nan: level = 1: nan.first holds 1 values that are no finite numbers");
+  expectFault("nan", "opengl: nan: level = 1: nan.first holds 1 values that are not finite");
   expectFault("leaves", "vulkan: leaves: 5184 of 5184 pixels of leaves.first are not written");
   expectFault("between", "opengl: between: with level=0.");
   expectFault("range", "vulkan: range: level = 1: range.first holds 1 values outside 0 to 1");
@@ -71,7 +70,7 @@ TEST(Verify, WhatEndsTheProcessIsAFaultToo) {
 // Its thread needs the plugin's code after the refusal.
 TEST(Verify, ARefusedPluginWhoseThreadRunsOnIsAFault) {
   const fs::path folder = THREADED_PLUGINS;
-  for (const auto& [name, reason] : {std::pair{"major", "it is made for version "},
+  for (const auto& [name, reason] : {std::pair{"major", "it was built for interface version "},
                                      std::pair{"range", "effects[0].params[0]."}}) {
     const Outcome outcome = verify(folder / fmt::format("threaded_{}.so", name));
     EXPECT_EQ(outcome.status, 1);
@@ -94,8 +93,8 @@ TEST(FaultyEffects, ThatAreRefusedLeaveTheProgramRunning) {
   }
 }
 
-// As an effect without the wrapper does it. The words are the plugin's own, read while it is
-// loaded.
+// An effect without the wrapper throws. Its message lies in the plugin and is read before
+// unloading.
 TEST(Verify, AnExceptionThatCrossesTheInterfaceIsAFault) {
   for (const std::string function : {"create", "reads", "record", "destroy"}) {
     const std::string name = "throws_" + function;
@@ -108,7 +107,7 @@ TEST(Verify, AnExceptionThatCrossesTheInterfaceIsAFault) {
   }
 }
 
-// Both wait for the limit at a time.
+// Both run at the same time and wait for the time limit.
 TEST(Verify, WhatNeverReturnsIsAFault) {
   const auto wait = [](const std::string& name) {
     return std::async(std::launch::async, [name] {
@@ -146,12 +145,12 @@ TEST(FaultyEffects, ThatThrowEndTheRenderByAnError) {
     EXPECT_TRUE(holds(outcome.err, "thrown on purpose")) << outcome.err;
   }
   EXPECT_TRUE(folder.files().empty());
-  // The list of all effects says it of the one.
+  // The list of all effects reports the fault for this effect.
   const Outcome list = runProgram({"effects", "--plugin-path", PLUGINS}, folder.path());
   EXPECT_EQ(list.status, 0) << list.err;
   EXPECT_TRUE(holds(list.out, "throws_reads lets an exception out of its reads()")) << list.out;
   EXPECT_TRUE(holds(list.out, "throws_record")) << list.out;
-  // Too late for the picture, which is whole.
+  // Too late to affect the picture, which is complete.
   const Outcome outcome = render(folder, "throws_destroy", {"--write", "depth=a.exr"});
   EXPECT_EQ(outcome.status, 0);
   EXPECT_TRUE(holds(outcome.err, "error E3203: throws_destroy lets")) << outcome.err;
@@ -161,13 +160,13 @@ TEST(FaultyEffects, ThatCrashAreNamed) {
   const TemporaryFolder folder;
   const Outcome outcome =
       render(folder, "crashes", {"--set", "crashes.level=1", "--write", "first=a.exr"});
-  EXPECT_EQ(outcome.status, -1);  // by its signal, as ever
-  EXPECT_EQ(outcome.err.rfind("error E3107: crashes crashes in its record(); ", 0), 0u)
+  EXPECT_EQ(outcome.status, -1);  // ended by a signal
+  EXPECT_EQ(outcome.err.rfind("error E3107: crashes crashed in its record(); ", 0), 0u)
       << outcome.err;
   EXPECT_TRUE(folder.files().empty());
 }
 
-// Written as it is, for whoever looks for the fault.
+// The picture is written unchanged, for debugging.
 TEST(FaultyEffects, WhatIsNotFiniteIsAWarningOfRender) {
   const TemporaryFolder folder;
   const Outcome sound = render(folder, "nan", {"--write", "first=a.exr"});
@@ -175,11 +174,10 @@ TEST(FaultyEffects, WhatIsNotFiniteIsAWarningOfRender) {
   EXPECT_EQ(sound.err, "");
   const Outcome nan = render(folder, "nan", {"--set", "nan.level=1", "--write", "first=a.exr"});
   EXPECT_EQ(nan.status, 0);
-  EXPECT_EQ(nan.err.rfind("warning: first holds 1 values that are no finite numbers", 0), 0u)
-      << nan.err;
+  EXPECT_EQ(nan.err.rfind("warning: first holds 1 values that are not finite", 0), 0u) << nan.err;
 }
 
-// Else it would count as no error at all.
+// Otherwise these pixels would count as exact.
 TEST(FaultyEffects, WhatIsNotFiniteIsNotMeasured) {
   const TemporaryFolder folder;
   const Outcome outcome =

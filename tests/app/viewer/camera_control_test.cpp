@@ -18,7 +18,7 @@ using scene::Camera;
 constexpr double kHeight = 720;
 constexpr double kWidth = 1280;
 
-// Where a point of the world is in the picture, pixels.
+// Position of a world point in the picture, pixels.
 glm::dvec2 pixelOf(const Camera& camera, const glm::dvec3& point) {
   const glm::dvec3 view = glm::transpose(scene::worldFromView(camera)) * (point - camera.eye);
   const glm::dvec4 clip = scene::clipFromView(camera, kWidth / kHeight) * glm::dvec4(view, 1);
@@ -29,7 +29,7 @@ double distanceOf(const Camera& camera) {
   return glm::length(camera.target - camera.eye);
 }
 
-// Radians of the view direction over the plane across `up`.
+// Angle of the view direction above the plane perpendicular to `up`, radians.
 double elevationOf(const Camera& camera) {
   return std::asin(glm::dot(glm::normalize(camera.target - camera.eye), glm::normalize(camera.up)));
 }
@@ -57,14 +57,14 @@ Camera randomCamera(std::mt19937_64& random, double farthest, double leastLog, d
       scene::validate(camera);
       return camera;
     } catch (const Error&) {
-      // Too near for its coordinates, or straight up: another one.
+      // Target too near for the eye's coordinates, or view parallel to `up`: try another camera.
     }
   }
 }
 
 TEST(CameraControl, DraggingTurnsTheSceneWithTheCursor) {
   const Camera camera{.eye = {0, 0, 5}, .target = {0, 0, 0}, .fovyDegrees = 50};
-  // A point on the near side of what is looked at.
+  // A point on the near side of the orbit's target.
   const glm::dvec3 front(0, 0, 1);
   const glm::dvec2 before = pixelOf(camera, front);
   for (const glm::dvec2 drag : {glm::dvec2(30, 0), {-30, 0}, {0, 30}, {0, -30}, {20, -10}}) {
@@ -118,7 +118,7 @@ TEST(CameraControl, PanKeepsThePointUnderTheCursor) {
     const glm::dvec2 drag(randomIn(random, -800, 800), randomIn(random, -800, 800));
     Camera moved = camera;
     pan(moved, drag, kHeight);
-    // Any point as deep as the target.
+    // Any point at the target's depth.
     const glm::dmat3 axes = scene::worldFromView(camera);
     const glm::dvec3 point =
         camera.target + distanceOf(camera) *
@@ -175,7 +175,7 @@ TEST(CameraControl, FlyingMovesAlongTheAxes) {
   }
 }
 
-// Coordinates that grow swallow a near target: it goes farther away instead.
+// At large coordinates, rounding would merge a near target with the eye: the target moves away.
 TEST(CameraControl, FlyingFarAwayIsNotStoppedByANearTarget) {
   Camera camera{.eye = {0, 0, 0}, .target = {0, 0, -1e-3}};
   fly(camera, {0, 0, 1}, 1e6, 1e6);
@@ -195,7 +195,7 @@ TEST(CameraControl, SpeedFitsTheSceneAndSteps) {
   EXPECT_EQ(steppedSpeed(4, -1e6), 1e-4);
 }
 
-// Now and then a number that no one should send.
+// Mostly a usual number, now and then one that no caller should pass.
 double wild(std::mt19937_64& random, double usual) {
   const double odd[] = {0,
                         1e9,
@@ -225,7 +225,7 @@ void actByChance(std::mt19937_64& random, Camera& camera) {
   }
 }
 
-// From near and far, at the target and a world away: sound after every action, and never stuck.
+// From near and far, at the target and far away from it: valid after every action, never stuck.
 TEST(CameraControl, StaysSoundWhateverIsDone) {
   std::mt19937_64 random(4);
   const struct {

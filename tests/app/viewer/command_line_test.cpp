@@ -17,7 +17,7 @@ using tests::Tables;
 
 class CommandLine : public tests::FolderTest {
  protected:
-  // The words that a shell makes of a line.
+  // Splits a line into words with a shell.
   std::vector<std::string> split(const std::string& line, const std::string& shell = "bash") const {
     const std::string script = fileOf("script", "printf '%s\\0' " + line);
     FILE* pipe = popen((shell + " '" + script + "'").c_str(), "r");

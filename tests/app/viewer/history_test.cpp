@@ -15,7 +15,7 @@ using tests::Tables;
 
 constexpr const char* kOwners[] = {"alpha", "beta"};
 
-// What undo acts on: settings and two lists of objects.
+// The state that undo restores: settings and two lists of objects.
 struct Studio {
   Tables tables;
   effect::Selection list{tables.registry};
@@ -34,7 +34,7 @@ struct Studio {
     for (const char* key : kOwners) lists.try_emplace(key, objects::kPlainDecals);
   }
 
-  // Every bit of the settings and the objects, made one number.
+  // Hash over every bit of the settings and the objects.
   uint64_t fingerprint() const {
     uint64_t hash = 14695981039346656037u;
     const auto mix = [&](uint64_t value) { hash = (hash ^ value) * 1099511628211u; };
@@ -53,12 +53,12 @@ struct Studio {
     return hash;
   }
 
-  // One change by chance, noted. Returns what it is called.
+  // Makes a random change and records it. Returns its name.
   std::string change(std::mt19937_64& random);
   size_t step(std::mt19937_64& random, objects::ObjectList& objects) const;
 };
 
-// One step of the list, or none.
+// One random step of the list, or none.
 size_t Studio::step(std::mt19937_64& random, objects::ObjectList& objects) const {
   const uint64_t before = objects.revision();
   const auto some = [&](size_t most) {
@@ -121,7 +121,7 @@ TEST(History, BeginsWithNothingToUndo) {
   EXPECT_FALSE(studio.history.canUndo());
 }
 
-// A walk of a hundred thousand steps, back to its beginning and on to its end again.
+// A hundred thousand steps, undone to the beginning and redone to the end.
 TEST(History, BringsBackEveryStateOfALongWalk) {
   constexpr size_t kSteps = 100000;
   Studio studio;
@@ -131,7 +131,7 @@ TEST(History, BringsBackEveryStateOfALongWalk) {
   while (names.size() < kSteps) {
     const std::string what = studio.change(random);
     if (studio.history.undoName() != what) {
-      ASSERT_EQ(studio.fingerprint(), states.back());  // it changed nothing
+      ASSERT_EQ(studio.fingerprint(), states.back());  // the step changed nothing
       continue;
     }
     names.push_back(what);
@@ -151,7 +151,7 @@ TEST(History, BringsBackEveryStateOfALongWalk) {
   EXPECT_FALSE(studio.history.canRedo());
 }
 
-// Changes, undo and redo in any order, against a plain list of all states.
+// Changes, undo and redo in any order, compared with a plain list of all states.
 TEST(History, ForgetsWhatWasUndoneBeforeAChange) {
   Studio studio;
   std::mt19937_64 random(7);
@@ -195,7 +195,7 @@ TEST(History, AHeldSprayIsOneStep) {
   EXPECT_EQ(list.size(), 102u);
   studio.history.undo();
   EXPECT_EQ(list.size(), 100u);
-  // Between them something was undone: what goes on now is a stroke of its own.
+  // An undo lies in between: the next shots begin a new stroke.
   spray(true);
   EXPECT_FALSE(studio.history.canRedo());
   studio.history.undo();
@@ -226,7 +226,7 @@ TEST(History, OnlyStrokesOfTheSameListJoin) {
   EXPECT_FALSE(studio.history.canUndo());
 }
 
-// After a scan found another set of effects, the steps before it can still be undone.
+// After a scan finds another set of effects, undo still reaches the steps before it.
 TEST(History, ARescanIsAStepLikeAnyOther) {
   const Tables now, later("later");
   effect::Selection list(now.registry);

@@ -23,7 +23,7 @@ TEST(PassTimes, AreInTheOrderOfTheLastFrame) {
   const std::vector<PassStats> all = times.all();
   ASSERT_EQ(all.size(), 3u);
   EXPECT_EQ(all[0].label, "c");
-  EXPECT_EQ(all[0].recent, (std::vector<float>{3, 7}));  // two passes of a label are one
+  EXPECT_EQ(all[0].recent, (std::vector<float>{3, 7}));  // passes of one label are added
   EXPECT_EQ(all[0].mean, 5);
   EXPECT_EQ(all[1].label, "a");
   EXPECT_EQ(all[1].recent, (std::vector<float>{1, 3}));
@@ -31,13 +31,13 @@ TEST(PassTimes, AreInTheOrderOfTheLastFrame) {
   EXPECT_EQ(times.whole().recent, (std::vector<float>{6, 19}));
   times.add(frameOf({{"b", 4}}));
   ASSERT_EQ(times.all().size(), 1u);
-  EXPECT_EQ(times.all()[0].recent, (std::vector<float>{4}));  // forgotten, and begun anew
+  EXPECT_EQ(times.all()[0].recent, (std::vector<float>{4}));  // forgotten, then started again
   times.clear();
   EXPECT_TRUE(times.all().empty());
   EXPECT_TRUE(times.whole().recent.empty());
 }
 
-// Against the plain definitions over all frames that count.
+// Compared with the plain definitions over all frames that count.
 TEST(PassTimes, KeepTheLastFrames) {
   std::mt19937_64 random(1);
   PassTimes times;
@@ -51,7 +51,7 @@ TEST(PassTimes, KeepTheLastFrames) {
     ASSERT_EQ(stats.recent, last);
     const double sum = std::accumulate(last.begin(), last.end(), 0.0);
     EXPECT_NEAR(stats.mean, sum / static_cast<double>(last.size()), 1e-9);
-    // The least value that at least 95 % do not exceed.
+    // The smallest value that at least 95 % do not exceed.
     std::vector<float> sorted = last;
     std::ranges::sort(sorted);
     const auto rank = std::ranges::find_if(sorted, [&](const float& value) {

@@ -112,7 +112,7 @@ TEST_F(StateFile, APathThatIsNoTextIsLeftOut) {
   EXPECT_EQ(load(folder_ / "viewer.json"), some());
 }
 
-// Sets a variable and puts it back.
+// Sets an environment variable and restores it.
 class Variable {
  public:
   Variable(const char* name, const char* value) : name_(name) {

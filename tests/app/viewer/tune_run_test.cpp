@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: MIT
-// A search beside the window, with shell scripts in the place of `grisaille tune`.
+// A search in the background of the viewer; shell scripts replace `grisaille tune`.
 #include "app/viewer/tune_run.h"
 
 #include <signal.h>
@@ -39,19 +39,19 @@ class TuneRunTest : public tests::FolderTest {
     return outcomeOf(run);
   }
 
-  // Of a file that a script writes aside and renames.
+  // Waits for a file that a script writes under another name and then renames.
   std::string waitFor(const std::string& name) const {
     while (!fs::exists(file(name))) std::this_thread::sleep_for(std::chrono::milliseconds(2));
     return contentOf(file(name));
   }
 
-  // Says who it is.
+  // Script lines that write the process ID to the file `who`.
   std::string introduction() const {
     return "printf '%s' $$ > '" + file("part") + "'; mv '" + file("part") + "' '" + file("who") +
            "'\n";
   }
 
-  // Neither the process is there, nor a zombie of it.
+  // Expects neither the process nor a zombie of it.
   void expectGone() const {
     EXPECT_EQ(kill(std::stoi(contentOf(file("who"))), 0), -1);
     EXPECT_EQ(errno, ESRCH);
@@ -91,7 +91,7 @@ TEST_F(TuneRunTest, ItsLinesTellHowFarItIs) {
              untilThere("traced") +
              R"(echo '{"progress": "tune", "share": 0.07, "text": "early"}'
          echo '{"progress": "tune", "share": 0.42, "text": "34 evaluations"}'
-         printf '{"progress": "tune", "sha')" +  // a line that is not whole says nothing yet
+         printf '{"progress": "tune", "sha')" +  // an incomplete line is not parsed yet
              untilThere("go")));
   const auto until = [&](double done) {
     while (run.state().done != done) {
@@ -110,22 +110,22 @@ TEST_F(TuneRunTest, ItsLinesTellHowFarItIs) {
 }
 
 TEST_F(TuneRunTest, ACancelledOneEnds) {
-  // One that ends when it is asked to, and one that is deaf.
+  // One script ends on SIGTERM; the other ignores it.
   for (const std::string listens : {"", "trap '' TERM\n"}) {
     {
       TuneRun run(script(listens + introduction() + "while :; do sleep 0.05; done"));
       run.start(command_);
       waitFor("who");
       run.cancel();
-      EXPECT_EQ(run.state().text, "is being cancelled");
+      EXPECT_EQ(run.state().text, "cancelling");
       const TuneRun::Outcome outcome = outcomeOf(run);
       EXPECT_FALSE(outcome.values);
       EXPECT_EQ(outcome.text, "cancelled");
       expectGone();
-      // The next one starts afresh.
+      // The next run starts from the beginning.
       fs::remove(file("who"));
       run.start(command_);
-      EXPECT_NE(run.state().text, "is being cancelled");
+      EXPECT_NE(run.state().text, "cancelling");
       waitFor("who");
     }
     expectGone();
@@ -136,12 +136,12 @@ TEST_F(TuneRunTest, ACancelledOneEnds) {
 TEST_F(TuneRunTest, AFailureGivesItsLastLine) {
   EXPECT_EQ(outcomeOf("echo 'note: nothing'; echo 'error E5303: no; allow more' >&2; exit 1").text,
             "error E5303: no; allow more");
-  EXPECT_EQ(outcomeOf("exit 3").text, "it failed without a word");
+  EXPECT_EQ(outcomeOf("exit 3").text, "it failed without a message");
   EXPECT_EQ(outcomeOf("kill -9 $$").text, "a signal ended it");
   TuneRun missing({file("missing")});
   missing.start(command_);
   EXPECT_EQ(outcomeOf(missing).text, file("missing") + ": No such file or directory");
-  // A success that tells no setting is none.
+  // A successful run without a setting in its output is a failure.
   for (const char* told : {"exit 0", "echo '{\"share\": 1}'", "echo '{\"setting\": {\"a\": 1}}'"}) {
     const TuneRun::Outcome empty = outcomeOf(told);
     EXPECT_FALSE(empty.values) << told;
@@ -158,7 +158,7 @@ TEST_F(TuneRunTest, NothingIsLeftOfOneThatIsDestroyed) {
   expectGone();
 }
 
-// Every value of an effect that is on is told, but for those that may change.
+// The command sets every value of an effect that is on, except those that may change.
 TEST_F(TuneRunTest, WhatMayNotChangeIsSet) {
   std::mt19937_64 random(1);
   for (int i = 0; i < 200; ++i) {
@@ -204,7 +204,7 @@ TEST(TuneSizeTest, IsTheViewsShape) {
       if (uint64_t{x} * y <= 640 * 360) {
         EXPECT_EQ(size, glm::uvec2(x, y));
       }
-      // Half a pixel a side is rounded.
+      // Each side is rounded by up to half a pixel.
       EXPECT_LE(pixels, (640 * 360) + size.x + size.y);
       const double across = static_cast<double>(size.x) / x, down = static_cast<double>(size.y) / y;
       EXPECT_LE(std::abs(across - down), 0.5 / x + 0.5 / y + 1e-12);

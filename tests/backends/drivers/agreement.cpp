@@ -9,16 +9,17 @@
 
 #include "app/settings/presets.h"
 #include "core/scene/camera.h"
+#include "core/scene/scene.h"
 
 namespace grisaille::tests {
 namespace {
 
 constexpr size_t kShots = 100;
 constexpr uint32_t kTruthStride = 2;  // pixels
-constexpr uint32_t kTruthRays = 64;   // a pixel
+constexpr uint32_t kTruthRays = 64;   // per pixel
 constexpr double kTruthRadius = 0.5;  // metres, the effect's default
 
-// Pictures, with back faces behind them.
+// Pictures with a depth of back faces.
 class SharedSource : public frame::AttachmentSource {
  public:
   SharedSource(gpu::Device& device, const SharedAttachments& shared)
@@ -77,7 +78,7 @@ std::vector<image::Image> drawOn(frame::Renderer& renderer, const DriverSubject&
   return images;
 }
 
-// Of an effect that is alone.
+// Key of the only effect in a selection.
 std::string keyOf(const effect::Selection& selection) {
   return selection.entries().front().key();
 }
@@ -139,7 +140,7 @@ DriverSubject::Errors DriverSubject::errors(const image::Image& ao, const image:
     if (std::isnan(truth_[i].mean)) continue;
     const glm::uvec2 pixel = truthHits_[i].pixel;
     const double off = ao.at(pixel.x, pixel.y) - truth_[i].mean;
-    // Less what the truth's own noise adds.
+    // Subtract the truth's own noise.
     const double square = off * off - std::pow(truth_[i].standardError, 2);
     squares += square;
     count += 1;
@@ -205,7 +206,7 @@ double shareApart(const image::Image& a, const image::Image& b) {
     float worst = 0;
     for (size_t c = i * a.channels; c < (i + 1) * a.channels; ++c) {
       const float off = std::abs(a.pixels[c] - b.pixels[c]);
-      worst = off <= worst ? worst : off;  // a NaN stays
+      worst = off <= worst ? worst : off;  // keeps a NaN
     }
     apart += worst <= 2.0f / 255 ? 0 : 1;
   }

@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: MIT
-// How far drivers agree: the same depth and normals given to the effects on each, and whole frames
-// that each draws itself.
+// Measures how closely drivers agree: on effects with the same depth and normals as input, and on
+// whole frames that each driver draws itself.
 #pragma once
 
 #include <map>
@@ -20,19 +20,19 @@
 
 namespace grisaille::tests {
 
-// A view of a scene, with paint to place in it and truth to compare with.
+// A view of a scene, with shots to place in it and truth to compare with.
 class DriverSubject {
  public:
-  // The built-in atrium, and Crytek Sponza where GRISAILLE_SPONZA names it or the project keeps it;
-  // null where Sponza is missing.
+  // The built-in atrium, or Crytek Sponza from GRISAILLE_SPONZA or the project's folder. sponza()
+  // returns null if the file is missing.
   static std::unique_ptr<DriverSubject> atrium(uint32_t width, uint32_t height);
   static std::unique_ptr<DriverSubject> sponza(uint32_t width, uint32_t height);
 
-  // RMSE of a visibility picture against rays, at every second pixel both ways.
+  // RMSE of a visibility picture against ray casts, at every second pixel in both directions.
   struct Errors {
     double whole = 0;
-    // Of the pixels alone whose drawn depth is within 1 % of the ray's: the others, at edges, show
-    // another surface than the ray through their centre meets.
+    // Only pixels with a drawn depth within 1 % of the ray's. Other pixels, at edges, show another
+    // surface than the ray through their centre hits.
     double sameSurface = 0;
     double otherSurface = 0;  // share of pixels
   };
@@ -43,7 +43,7 @@ class DriverSubject {
   scene::Camera camera;
   uint32_t width = 0, height = 0;  // pixels
   std::unique_ptr<TracedRays> rays;
-  std::vector<lab::Shot> shots;  // from about the camera at surfaces that it sees
+  std::vector<lab::Shot> shots;  // from around the camera, at surfaces that it sees
 
  private:
   DriverSubject(std::string name, scene::Scene scene, const scene::Camera& camera, uint32_t width,
@@ -65,24 +65,24 @@ struct PresetOf {
   std::string effect;  // key
   std::string preset;  // name
 };
-// The effect alone, with the preset's values.
+// A selection of this effect alone, with the preset's values.
 effect::Selection selectionOf(const effect::Registry& registry, const PresetOf& preset);
-// Of both effects.
+// All presets of both effects.
 std::vector<PresetOf> allPresets(const effect::Registry& registry);
 
-// What is compared of an effect: "ao" or "paint".
+// The output that is compared for an effect: "ao" or "paint".
 std::string outputOf(const std::string& effect);
 
-// That output by a device from the shared attachments. `grisaille apply` gives an effect the same,
-// but no depth of back faces, and no shots.
+// Renders that output on a device from the shared attachments. `grisaille apply` hands the same
+// inputs to an effect, except shots and the depth of back faces.
 image::Image applyShared(gpu::Device& device, const DriverSubject& subject,
                          const effect::Selection& selection, const SharedAttachments& shared);
 
-// That output, and "depth", of a frame that the device draws itself.
+// That output and "depth", from a frame that the device draws itself.
 std::pair<image::Image, image::Image> drawWhole(gpu::Device& device, const DriverSubject& subject,
                                                 const effect::Selection& selection);
 
-// Share of pixels with a channel that differs by more than 2/255. Pictures of one size.
+// Share of pixels with a channel that differs by more than 2/255. Both pictures have the same size.
 double shareApart(const image::Image& a, const image::Image& b);
 
 }  // namespace grisaille::tests

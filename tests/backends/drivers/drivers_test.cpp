@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: MIT
-// Where drivers differ, it is in how they draw the scene: from the same depth and normals the
-// effects make the same picture on each, and errors against rays are the same.
+// Drivers may differ only in how they draw the scene. From the same depth and normals, the effects
+// make the same picture on each driver, with the same errors against ray casts.
 #include <gtest/gtest.h>
 
 #include <algorithm>
@@ -33,10 +33,10 @@ std::ostream& operator<<(std::ostream& stream, const Run& run) {
   return stream << run.scene << "_" << run.effect << "_" << run.preset;
 }
 
-// What tests of a scene share: it is loaded and drawn once.
+// Data that the tests of a scene share: the scene is loaded and drawn once.
 struct Stage {
   std::unique_ptr<DriverSubject> subject;  // null: the scene is missing
-  SharedAttachments shared;                // of the first device
+  SharedAttachments shared;                // drawn by the first device
 };
 
 Stage& stageOf(const std::string& scene) {
@@ -56,7 +56,7 @@ class DriversTest : public ::testing::TestWithParam<Run> {
  protected:
   void SetUp() override {
     devices_ = presentDevices();
-    if (devices_.size() < 2) GTEST_SKIP() << "one device alone is present";
+    if (devices_.size() < 2) GTEST_SKIP() << "only one device is present";
     stage_ = &stageOf(GetParam().scene);
     if (!stage_->subject) GTEST_SKIP() << "Sponza is missing";
     registry_.scan(EFFECTS_FOLDER);
@@ -64,7 +64,7 @@ class DriversTest : public ::testing::TestWithParam<Run> {
   effect::Selection selection() {
     return selectionOf(registry_, {GetParam().effect, GetParam().preset});
   }
-  // The share of pixels that two drivers have in common is at least 99.9 %.
+  // Expects that two drivers agree on at least 99.9 % of the pixels.
   void expectAgree(const image::Image& a, const image::Image& b, const std::string& label) {
     const double apart = shareApart(a, b);
     std::printf("%s: %.4f %% of pixels differ by more than 2/255\n", label.c_str(), 100 * apart);
@@ -87,7 +87,7 @@ TEST_P(SameInputs, MakeTheSamePicture) {
     image::Image picture = applyShared(*openDevice(device), subject, selection(), stage_->shared);
     if (first.pixels.empty()) {
       first = std::move(picture);
-      // The picture has something to compare: it is neither open nor bare nearly everywhere.
+      // The picture is not trivial: a share of its pixels is occluded or painted.
       image::Image nothing = first;
       std::ranges::fill(nothing.pixels, GetParam().effect == "ssao" ? 1.0f : 0.0f);
       EXPECT_GT(shareApart(first, nothing), 0.1);
@@ -118,7 +118,7 @@ TEST_P(WholeFrames, AreAsFarFromRays) {
     whole.push_back(errors.whole);
     sameSurface.push_back(errors.sameSurface);
   }
-  // At edges a driver that snaps coarsely draws another surface than the ray meets.
+  // At edges, a driver that snaps coarsely draws another surface than the ray hits.
   expectWithin(whole, 0.02);
   expectWithin(sameSurface, 0.01);
 }

@@ -2,7 +2,7 @@
 #version 460
 #include "common/bindings.glsl"
 
-// The mean of the 2x2 texels above, from one level of a texture to the next.
+// The mean of 2x2 texels, from one level of a texture to the next.
 layout(local_size_x = 8, local_size_y = 8) in;
 layout(TEXTURE(0)) uniform sampler2D above;
 layout(IMAGE(0), r32f) writeonly uniform image2D below;

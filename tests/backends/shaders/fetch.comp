@@ -2,7 +2,7 @@
 #version 460
 #include "common/bindings.glsl"
 
-// Every texel of level 0, in rows from the top.
+// Reads every texel of level 0, row by row from the top.
 layout(local_size_x = 8, local_size_y = 8) in;
 layout(TEXTURE(0)) uniform sampler2D source;
 layout(STORAGE(0), std430) writeonly buffer Out { float texels[]; };

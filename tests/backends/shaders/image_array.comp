@@ -2,7 +2,7 @@
 #version 460
 #include "common/bindings.glsl"
 
-// Every layer gets its own values.
+// Writes different values to each layer.
 layout(local_size_x = 8, local_size_y = 8) in;
 layout(IMAGE(0), r32ui) writeonly uniform uimage2DArray image;
 

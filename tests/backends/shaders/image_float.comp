@@ -2,7 +2,7 @@
 #version 460
 #include "common/bindings.glsl"
 
-// Writes each of four values to a texel of a float image.
+// Writes four values to one texel each of a float image.
 layout(local_size_x = 8, local_size_y = 8) in;
 layout(IMAGE(0), r32f) writeonly uniform image2D image;
 

@@ -2,7 +2,7 @@
 #version 460
 #include "common/bindings.glsl"
 
-// Samples a texture at given places: xy in texture coordinates, z the level.
+// Samples a texture at given places: xy are texture coordinates, z is the level.
 layout(local_size_x = 64) in;
 layout(TEXTURE(0)) uniform sampler2D source;
 layout(STORAGE(0), std430) readonly buffer Places { vec4 places[]; };

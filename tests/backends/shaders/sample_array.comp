@@ -2,7 +2,7 @@
 #version 460
 #include "common/bindings.glsl"
 
-// As sample.comp, with the layer in w.
+// Like sample.comp, with the layer in w.
 layout(local_size_x = 64) in;
 layout(TEXTURE(0)) uniform sampler2DArray source;
 layout(STORAGE(0), std430) readonly buffer Places { vec4 places[]; };

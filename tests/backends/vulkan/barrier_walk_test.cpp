@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: MIT
-// Random uses go through the state tracker and its barriers through a model of Vulkan's memory: at
-// every use the layout must fit, what was written must be available and visible, and what is
-// overwritten must have been read.
+// Runs random uses through the state tracker and its barriers through a model of Vulkan's memory.
+// At every use the layout must be valid, earlier writes must be available and visible, and reads
+// must finish before their memory is overwritten.
 #include <gtest/gtest.h>
 
 #include <random>
@@ -13,7 +13,7 @@ namespace {
 
 using gpu::Access;
 
-// An operation, and which stages are known to come after it.
+// An operation, and the stages known to run after it.
 struct Ordered {
   VkPipelineStageFlags2 origin = 0;  // the operation is in one of these
   VkPipelineStageFlags2 after = 0;
@@ -23,7 +23,7 @@ struct Ordered {
   }
 };
 
-// One subresource or buffer.
+// State of one subresource or buffer.
 class Memory {
  public:
   explicit Memory(bool image) : image_(image) {}
@@ -50,7 +50,8 @@ class Memory {
       }
     }
     if (!transition) return;
-    // A transition reads and writes the memory, and is visible to the barrier's target alone.
+    // A transition reads and writes the memory; its result is visible only to the barrier's
+    // destination.
     EXPECT_EQ(unavailable_, 0u) << "a transition loses a write";
     layout_ = to;
     written_ = true;

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: MIT
-// The mapping from accesses to Vulkan, for every set of accesses before and after.
+// The mapping from accesses to Vulkan, for every combination of accesses before and after.
 #include "backends/vulkan/barriers.h"
 
 #include <gtest/gtest.h>
@@ -14,7 +14,7 @@ using gpu::Access;
 constexpr int kAccessBits = 10;
 constexpr int kAccessSets = 1 << kAccessBits;
 
-// Which stages may do what, as the specification's table of supported access types says.
+// The stages that support an access, by the specification's table of supported access types.
 VkPipelineStageFlags2 stagesThatMay(VkAccessFlags2 access) {
   constexpr VkPipelineStageFlags2 kShaders = VK_PIPELINE_STAGE_2_VERTEX_SHADER_BIT |
                                              VK_PIPELINE_STAGE_2_FRAGMENT_SHADER_BIT |
@@ -39,7 +39,7 @@ VkPipelineStageFlags2 stagesThatMay(VkAccessFlags2 access) {
   }
 }
 
-// Whether an image in this layout may be used so.
+// Whether the specification allows this access to an image in this layout.
 bool layoutAllows(VkImageLayout layout, Access access) {
   if (layout == VK_IMAGE_LAYOUT_GENERAL) return true;
   switch (access) {
@@ -83,7 +83,7 @@ TEST(Barriers, EveryScopeIsOfItsUsesAndLegal) {
   }
 }
 
-// Readbacks copy, and windows are blitted to; uploads copy alone.
+// Readbacks copy, presentation blits to windows; uploads only copy.
 TEST(Barriers, CopiesAreReadByBothCommands) {
   EXPECT_EQ(scopeOf(Access::kCopyRead).stages,
             VK_PIPELINE_STAGE_2_COPY_BIT | VK_PIPELINE_STAGE_2_BLIT_BIT);

@@ -34,7 +34,7 @@ class Cache : public WithDevice {
     WithDevice::TearDown();
   }
 
-  // Opens a device, compiles a pipeline and closes it, which writes the file.
+  // Opens a device, compiles a pipeline and closes the device, which writes the cache file.
   static void run() {
     const std::unique_ptr<gpu::Device> device = open(false);
     device->createComputePipeline({.label = "cached", .shader = &grisaille_shader_both_ways_comp});
@@ -74,7 +74,7 @@ TEST_P(Cache, IsOneFileThatIsWrittenOnceAndLeftAlone) {
   EXPECT_EQ(fs::last_write_time(file), longAgo) << "unchanged contents were written again";
 }
 
-// Whatever a driver makes of its own data, no file grows from run to run.
+// No file grows from run to run, whatever the driver stores.
 TEST_P(Cache, DoesNotGrow) {
   uintmax_t first = 0;
   for (int i = 0; i < 3; ++i) {

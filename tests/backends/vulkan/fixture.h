@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: MIT
-// A Vulkan device whose messages fail the test, once with each driver; tests are skipped where
-// there is none.
+// A Vulkan device with messages that fail the test; tests run once with each driver and are skipped
+// where it is missing.
 #pragma once
 
 #include <gtest/gtest.h>

@@ -11,7 +11,7 @@ namespace {
 class Layouts : public WithDevice {};
 GRISAILLE_ON_EVERY_VULKAN_DEVICE(Layouts);
 
-// The sampled views and the image share subresources, so that one layout must serve both.
+// The sampled views and the image share subresources: one layout must serve both.
 TEST_P(Layouts, OneCallReadsATextureBothWays) {
   const std::unique_ptr<gpu::Device> device = open();
   const gpu::Texture texture =

@@ -1,6 +1,6 @@
 #version 460
 // SPDX-License-Identifier: MIT
-// The mean of 4 x 4 texels: one tile of the rotations.
+// The mean of 4 x 4 texels: one tile of the noise.
 #extension GL_GOOGLE_include_directive : require
 #include "common/bindings.glsl"
 

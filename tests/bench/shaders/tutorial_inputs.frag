@@ -1,7 +1,7 @@
 #version 460
 // SPDX-License-Identifier: MIT
-// The buffers that the tutorial's way expects: view-space positions and normals. Sky is a plane far
-// off that faces the camera, so that it neither occludes nor is occluded.
+// Writes the buffers that tutorials expect: view-space positions and normals. The sky is a distant
+// plane that faces the camera: it neither occludes nor is occluded.
 #extension GL_GOOGLE_include_directive : require
 #include "common/bindings.glsl"
 

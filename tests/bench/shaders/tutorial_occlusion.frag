@@ -1,7 +1,7 @@
 #version 460
 // SPDX-License-Identifier: MIT
-// Ambient occlusion as tutorials teach it: the baseline that the effect's cost is compared with.
-// Nothing here is made faster than they have it.
+// Ambient occlusion as tutorials teach it: the baseline for the effect's cost. It has no
+// optimisation beyond the tutorials'.
 #extension GL_GOOGLE_include_directive : require
 #include "common/bindings.glsl"
 
@@ -9,14 +9,14 @@ layout(location = 0) in vec2 tex_coord;
 layout(location = 0) out float visibility;
 
 layout(UNIFORM(0), std140) uniform Tutorial {
-  mat4 projection;  // clip from view, y turned so that clip y runs as texture rows do
+  mat4 projection;  // clip from view, with y flipped to the direction of texture rows
   vec4 kernel[64];  // xyz in tangent space, within the unit hemisphere about +z
-  vec4 repeats;     // xy: how often the noise repeats over the screen
+  vec4 repeats;     // xy: number of noise tiles across the screen
 } tutorial;
 
 layout(TEXTURE(0)) uniform sampler2D positions;  // view space, metres
 layout(TEXTURE(1)) uniform sampler2D normals;    // view space, unit
-layout(TEXTURE(2)) uniform sampler2D noise;      // rotations about z, repeated
+layout(TEXTURE(2)) uniform sampler2D noise;      // rotations about z, tiled
 
 const int kKernelSize = 64;
 const float kRadius = 0.5;  // metres

@@ -1,6 +1,6 @@
 #version 460
 // SPDX-License-Identifier: MIT
-// One triangle over the whole screen.
+// One triangle that covers the screen.
 
 layout(location = 0) out vec2 tex_coord;
 

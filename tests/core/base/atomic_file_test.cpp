@@ -48,7 +48,7 @@ TEST_F(AtomicFile, AFailureLeavesNothingBehind) {
 }
 
 TEST_F(AtomicFile, AFullDiskKeepsTheOlderFile) {
-  if (!fs::exists("/dev/full")) GTEST_SKIP() << "no /dev/full here";
+  if (!fs::exists("/dev/full")) GTEST_SKIP() << "this machine has no /dev/full";
   writeFileAtomically(file("a"), "old");
   fs::create_symlink("/dev/full", partOf("a"));
   EXPECT_ERROR(ErrorId::kFileUnwritable, writeFileAtomically(file("a"), "new"));
@@ -60,7 +60,7 @@ TEST_F(AtomicFile, LinksStayAndLeadToTheFile) {
   fs::create_directory(file("folder"));
   fs::create_symlink("folder/a", file("near"));
   fs::create_symlink(file("near"), file("far"));
-  writeFileAtomically(file("far"), "new");  // whose target is missing
+  writeFileAtomically(file("far"), "new");  // link to a missing file
   EXPECT_EQ(contentOf(file("folder/a")), "new");
   EXPECT_TRUE(fs::is_symlink(file("far")));
   EXPECT_TRUE(fs::is_symlink(file("near")));

@@ -13,7 +13,7 @@ TEST(Nearest, FindsWhatWasMeantAndNothingElse) {
   const std::vector<std::string> keys = {"radius", "bias", "blur", "kernel_size", "blur_size"};
   for (const std::string& key : keys) {
     EXPECT_EQ(nearest(key, keys), key);
-    for (size_t i = 0; i < key.size(); ++i) {  // a letter left out, doubled, swapped
+    for (size_t i = 0; i < key.size(); ++i) {  // one letter missing, doubled or swapped
       std::string out = key, twice = key, swapped = key;
       out.erase(i, 1);
       twice.insert(i, 1, key[i]);
@@ -28,7 +28,7 @@ TEST(Nearest, FindsWhatWasMeantAndNothingElse) {
   EXPECT_EQ(nearest("radius", {}), "");
 }
 
-// A file's key may be as long as the file: lengths alone tell that nothing is near.
+// A key from a file may be as long as the file. Comparing lengths alone must reject it.
 TEST(Nearest, LongWordsTakeNoTime) {
   const std::vector<std::string> keys = {"radius", std::string(1000, 'r')};
   EXPECT_EQ(nearest(std::string(100'000'000, 'r'), keys), "");

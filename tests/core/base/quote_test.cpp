@@ -20,7 +20,7 @@ TEST(ShellQuoted, PlainWordsStayAsTheyAre) {
   EXPECT_EQ(shellQuoted("#ff8000"), "'#ff8000'");
 }
 
-// What a shell makes of the word.
+// The word as a shell reads it.
 std::string printed(const std::string& word) {
   FILE* shell = popen(("printf %s " + shellQuoted(word)).c_str(), "r");
   if (shell == nullptr) return "no shell";

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: MIT
-// The chain of effects at work: its selection, its objects, its instances.
+// Chains of effects: selection, objects and instances.
 #include "core/effect/chain.h"
 
 #include <unistd.h>
@@ -28,7 +28,7 @@ struct ChainTest : InstanceTest {
     made.at(table, "note").text = fmt::format("number {}", x);
     return made;
   }
-  // The index of the instance's frame, from 0.
+  // Index of the instance's frame, counted from 0.
   float frameOf(Chain& chain) {
     record(chain, "teller", outputs);
     return texelsOf(outputs[0])[11];
@@ -45,7 +45,7 @@ TEST_F(ChainTest, ObjectsAreThereWhetherTheEffectIsOnOrOff) {
   chain.selection.move(0, 2);
   EXPECT_EQ(chain.objects("teller"), list);
   EXPECT_EQ(list->size(), 1u);
-  EXPECT_EQ(chain.objects("plain"), nullptr);  // its table declares none
+  EXPECT_EQ(chain.objects("plain"), nullptr);  // its table declares no objects
   EXPECT_EQ(chain.objects("nothing"), nullptr);
   EXPECT_EQ(chain.objectLists().size(), 1u);
 }
@@ -81,7 +81,7 @@ TEST_F(ChainTest, EveryChangeOfAListChangesTheRevision) {
   EXPECT_FALSE(grown());
 }
 
-// --- On a device
+// --- With a device
 
 TEST_F(ChainTest, TheEffectsThatAreOnAreCreatedOnce) {
   Chain chain{Selection(registry)};
@@ -110,7 +110,7 @@ TEST_F(ChainTest, EffectsTurnedOnLaterAreCreatedThen) {
   EXPECT_EQ(frameOf(chain), 1);
 }
 
-// The device complains of what is left at its end.
+// The checking device reports leaked resources when it is destroyed.
 TEST_F(ChainTest, StoppingEndsAllInstances) {
   Chain chain{Selection(registry, Keys{"plain", "copy", "teller"})};
   {
@@ -131,9 +131,9 @@ TEST_F(ChainTest, ValuesAndWhatWaitsCrossTheChain) {
   EXPECT_EQ(record(chain, "teller", outputs), 12u);
 }
 
-// --- Plugins that are loaded anew
+// --- Reloaded plugins
 
-// A copy of a plugin, which the loader takes for another library.
+// A copy of a plugin; the loader treats it as a different library.
 struct Copied {
   Copied(const char* from, const char* name) {
     fs::create_directory(folder);
@@ -159,7 +159,7 @@ TEST_F(ChainTest, TheSameTableKeepsObjectsAndSteps) {
     const StartedChain started(chain, *device);
     EXPECT_EQ(frameOf(chain), 0);
     EXPECT_EQ(chain.rebind(fresh.registry), Lines());
-    EXPECT_EQ(frameOf(chain), 0);  // a new instance, of the new plugin
+    EXPECT_EQ(frameOf(chain), 0);  // a new instance, from the reloaded plugin
     EXPECT_EQ(texelsOf(outputs[0])[0], 1);
     EXPECT_EQ(texelsOf(outputs[0])[1], 0);
   }
@@ -182,7 +182,7 @@ TEST_F(ChainTest, AnotherTableKeepsTheFieldsAndObjectsThatFit) {
   Chain chain{Selection(registry, Keys{"teller"})};
   objects::ObjectList& list = *chain.objects("teller");
   objects::Object large = mark(2);
-  large.at(list.table(), "size").numbers[0] = 50;  // more than the later table allows
+  large.at(list.table(), "size").numbers[0] = 50;  // above the later version's limit
   for (const objects::Object& one : {mark(1), large, mark(3)}) list.add(one);
   const uint64_t revision = chain.objectsRevision();
   Copied fresh("objects_later/teller_later.so", "later.so");
@@ -197,7 +197,7 @@ TEST_F(ChainTest, AnotherTableKeepsTheFieldsAndObjectsThatFit) {
   const objects::Table& table = kept.table();
   ASSERT_EQ(kept.size(), 2u);
   for (size_t i = 0; i < 2; ++i) {
-    objects::Object expected(table);  // `colour` and `weight` at their defaults
+    objects::Object expected(table);  // `colour` and `weight` have their defaults
     expected.at(table, "position").numbers = {static_cast<double>(2 * i + 1), 0, 0};
     EXPECT_EQ(kept.object(i), expected) << i;
   }
@@ -230,7 +230,7 @@ TEST_F(ChainTest, AnEmptyListGoesWithoutAWord) {
   }
 }
 
-// Parameters and values, over random selections.
+// Parameters and values of random selections.
 TEST(Rebinding, ALaterVersionOfAPluginKeepsWhatStillFits) {
   const tests::Tables now, later("later");
   std::mt19937_64 random(2);
@@ -240,7 +240,7 @@ TEST(Rebinding, ALaterVersionOfAPluginKeepsWhatStillFits) {
     const Selection old = chain.selection;
     const Lines dropped = chain.rebind(later.registry);
     ASSERT_EQ(chain.selection.entries().size(), 2u);
-    size_t expected = 1;  // gamma
+    size_t expected = 1;  // 1 for the missing gamma
     size_t place = 0;
     for (const Selection::Entry& entry : old.entries()) {
       if (std::string_view(entry.key()) == "gamma") continue;
@@ -253,10 +253,10 @@ TEST(Rebinding, ALaterVersionOfAPluginKeepsWhatStillFits) {
       const std::string kind = entry.values.text("kind");
       const bool there = kind == "first" || kind == "1e5";
       EXPECT_EQ(kept.values.text("kind"), there ? kind : "1e5");
-      expected += 1u + (inside ? 0u : 1u) + (there ? 0u : 1u);  // `hard` is gone
+      expected += 1u + (inside ? 0u : 1u) + (there ? 0u : 1u);  // 1 for the missing `hard`
     }
     EXPECT_EQ(dropped.size(), expected);
-    EXPECT_EQ(chain.rebind(now.registry).size(), 2u);  // `soft`, of two effects
+    EXPECT_EQ(chain.rebind(now.registry).size(), 2u);  // `soft` in two effects
   }
 }
 

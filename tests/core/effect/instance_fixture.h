@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: MIT
-// Instances of the test plugins over the null device, checked.
+// Runs instances of the test plugins on a checked null device.
 #pragma once
 
 #include <gtest/gtest.h>
@@ -21,7 +21,7 @@ struct InstanceTest : testing::Test {
     auto made = gpu::makeNullDevice();
     null = made.get();
     device = gpu::makeCheckingDevice(std::move(made), [](gpu::Severity, std::string_view text) {
-      ADD_FAILURE() << text;  // a leak, at the device's end
+      ADD_FAILURE() << text;  // a leak, reported when the device is destroyed
     });
     registry.scan(PLUGIN_DIR "/sound");
     registry.scan(PLUGIN_DIR "/bad");
@@ -50,8 +50,8 @@ struct InstanceTest : testing::Test {
     return textures.back();
   }
 
-  // One frame, with what `inputs` says of patience, services and objects. A frame whose work throws
-  // is abandoned.
+  // Runs `work` in one frame, with patience, services and objects from `inputs`. Abandons the frame
+  // if `work` throws.
   template <typename Work>
   void frame(std::span<const gpu::Texture> outputs, FrameInputs inputs, Work&& work) {
     gpu::Commands& commands = device->begin();

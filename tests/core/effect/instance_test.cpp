@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: MIT
-// Instances at work over the null device, checked.
+// Instances of effects on a checked null device.
 #include <algorithm>
 #include <cstring>
 
@@ -53,8 +53,8 @@ TEST_F(InstanceTest, UnwantedOutputsAreNotWritten) {
   EXPECT_TRUE(null->recorded().empty());
 }
 
-// The effect keeps one pipeline and drops in each frame what the frame uses. The device refuses to
-// destroy that before the frame's end, and complains of leaks.
+// The effect keeps one pipeline and drops others that the frame still uses. The device refuses to
+// destroy a pipeline in use before the frame ends, and reports leaks.
 TEST_F(InstanceTest, WhatIsDestroyedLivesUntilTheFrameEnds) {
   const Effect& effect = registry.find("copy");
   const std::vector<gpu::Texture> outputs = {makeTexture("copy", gpu::Format::kR32Float), {}};
@@ -66,8 +66,8 @@ TEST_F(InstanceTest, WhatIsDestroyedLivesUntilTheFrameEnds) {
     record(first, values, outputs);
     record(second, values, outputs);
   }
-  // Slots are used again, so that a new pipeline's tells how many there are: one kept and two
-  // dropped lately by each instance.
+  // The pool reuses slots, so the index of a new pipeline bounds the number alive: each instance
+  // keeps one and has recently dropped two.
   const gpu::ComputePipeline probe =
       device->createComputePipeline({.label = "probe", .shader = &grisaille_shader_copy});
   EXPECT_LE(probe.index(), 8u);
@@ -94,7 +94,7 @@ TEST_F(InstanceTest, PlainCEffectWritesItsOutput) {
 
 struct Failing {
   const char* key;
-  const char* words;  // the detail holds them
+  const char* words;  // part of the error's detail
 };
 
 TEST_F(InstanceTest, FailuresInCreateGiveTheReason) {
@@ -104,7 +104,7 @@ TEST_F(InstanceTest, FailuresInCreateGiveTheReason) {
     SCOPED_TRACE(failing.key);
     try {
       Instance instance(*device, registry.find(failing.key));
-      ADD_FAILURE() << "it was created";
+      ADD_FAILURE() << "the instance was created";
     } catch (const Error& error) {
       EXPECT_EQ(error.id(), ErrorId::kEffectCreate);
       EXPECT_NE(error.detail().find(failing.key), std::string::npos) << error.what();
@@ -116,13 +116,13 @@ TEST_F(InstanceTest, FailuresInCreateGiveTheReason) {
 TEST_F(InstanceTest, FailuresInRecordGiveTheReasonAndTheInstanceGoesOn) {
   const std::vector<gpu::Texture> outputs(1);
   for (const Failing& failing :
-       {Failing{"throws_in_record", "no std::exception"},
+       {Failing{"throws_in_record", "not a std::exception"},
         Failing{"fails_at_times", "an even frame"}, Failing{"forgets_bindings", "E1205"},
         Failing{"dispatches_outside", "E1204"}, Failing{"nests_passes", "E1203"},
-        Failing{"writes_attachment", "only read"}, Failing{"leaves_pass_open", "left a pass open"},
+        Failing{"writes_attachment", "read-only"}, Failing{"leaves_pass_open", "left a pass open"},
         Failing{"ends_no_pass", "E1203"}, Failing{"wrong_size", "struct_size"},
         Failing{"zero_size", "struct_size"}, Failing{"null_data", "null"},
-        Failing{"destroys_foreign", "not its own"},
+        Failing{"destroys_foreign", "does not own"},
         Failing{"uses_destroyed", "not this effect's"}}) {
     SCOPED_TRACE(failing.key);
     const Effect& effect = registry.find(failing.key);
@@ -132,17 +132,17 @@ TEST_F(InstanceTest, FailuresInRecordGiveTheReasonAndTheInstanceGoesOn) {
       const bool fails = effect.desc->key != std::string_view("fails_at_times") || frame % 2 == 0;
       try {
         record(instance, values, outputs);
-        EXPECT_FALSE(fails) << "it recorded";
+        EXPECT_FALSE(fails) << "the effect recorded";
       } catch (const Error& error) {
         EXPECT_TRUE(fails);
         EXPECT_EQ(error.id(), ErrorId::kEffectRecord);
         EXPECT_NE(error.detail().find(failing.key), std::string::npos) << error.what();
         EXPECT_NE(error.detail().find(failing.words), std::string::npos) << error.what();
-        // The wrapper ends its passes itself when it is thrown out of them.
+        // When an exception leaves a pass open, the C++ wrapper ends the pass.
         EXPECT_EQ(error.detail().find("left a pass open") != std::string::npos,
                   failing.key == std::string_view("leaves_pass_open"));
       }
-      // Every pass that was begun has ended.
+      // Every pass that has begun has ended.
       const auto passes = recorded<gpu::RecordedPass>();
       EXPECT_EQ(std::ranges::count(passes, true, &gpu::RecordedPass::begins) * 2,
                 static_cast<ptrdiff_t>(passes.size()));

@@ -20,7 +20,7 @@ struct ObjectsTest : InstanceTest {
   ObjectsTest() { chain.start(*device); }
   ~ObjectsTest() override { chain.stop(); }
 
-  // So many objects that no two calls make alike.
+  // `count` objects, each different from all objects of earlier calls.
   objects::Objects marks(size_t count) {
     objects::Objects made(table);
     objects::Object mark(table);
@@ -35,7 +35,8 @@ struct ObjectsTest : InstanceTest {
     record(chain, "teller", outputs);
     return texelsOf(outputs[0]);
   }
-  // How many leading objects the effect hears to have stayed, in a frame that shows all of them.
+  // Runs a frame that shows all objects. Returns how many leading objects the effect is told are
+  // unchanged.
   size_t kept() {
     const std::vector<float> texels = told();
     EXPECT_EQ(texels[0], static_cast<float>(list.size()));
@@ -69,7 +70,7 @@ TEST_F(ObjectsTest, AddingKeepsAllAndUndoingAllBefore) {
   EXPECT_EQ(kept(), 5u);
   list.redo();
   EXPECT_EQ(kept(), 5u);
-  // Two steps between frames: the shortest of the lists counts.
+  // Two steps between frames: the shortest of the lists in between counts.
   list.undo();
   list.redo();
   EXPECT_EQ(kept(), 5u);
@@ -99,7 +100,7 @@ TEST_F(ObjectsTest, ReplacingKeepsNone) {
   EXPECT_EQ(kept(), 8u);
 }
 
-// As hosts do, which hand over the whole list time and again.
+// Hosts hand over their whole list each time.
 TEST_F(ObjectsTest, AssigningKeepsTheCommonBeginning) {
   objects::Objects all = marks(6);
   list.assign(all.view());
@@ -132,7 +133,8 @@ TEST_F(ObjectsTest, AFailedFrameDoesNotCount) {
   EXPECT_EQ(kept(), 7u);
 }
 
-// Nor does one in which the effect is off or its output is not wanted: it does not record then.
+// A frame with the effect off or its output not wanted does not count either: the effect does not
+// record.
 TEST_F(ObjectsTest, WhatChangesWhileItDoesNotRecordIsNotKept) {
   list.add(marks(5).view());
   kept();
@@ -152,10 +154,10 @@ TEST_F(ObjectsTest, ANewInstanceHasSeenNone) {
   EXPECT_EQ(kept(), 0u);
   EXPECT_EQ(kept(), 5u);
   chain.stop();
-  EXPECT_EQ(kept(), 0u);  // created again by its first frame
+  EXPECT_EQ(kept(), 0u);  // the first frame creates it again
 }
 
-// Whatever is done to the list, the objects that are said to be kept are those of the frame before.
+// Whatever changes the list, the objects reported as kept are those of the frame before.
 TEST_F(ObjectsTest, WhatIsSaidToBeKeptIsThere) {
   std::mt19937_64 random(1);
   std::vector<objects::Object> before;

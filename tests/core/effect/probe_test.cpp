@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: MIT
-// Plugins of others that take a process along are refused, and this process goes on.
+// Foreign plugins that end the process that loads them are refused, and this process continues.
 #include "core/effect/probe.h"
 
 #include <dlfcn.h>
@@ -18,7 +18,7 @@ namespace fs = std::filesystem;
 
 const fs::path kFolder = fs::path(PLUGIN_DIR) / "crash";
 
-// A folder with links to some plugins.
+// A temporary folder with links to these plugins.
 struct TemporaryLinks {
   explicit TemporaryLinks(std::initializer_list<const char*> plugins) {
     fs::create_directory(folder);
@@ -31,7 +31,7 @@ struct TemporaryLinks {
   fs::path folder = fs::temp_directory_path() / fmt::format("grisaille_probe_{}", getpid());
 };
 
-// However busy the machine is, what ends does so within a minute.
+// The error's message. The default limit of one minute is enough on a busy machine.
 std::string words(const char* name, std::chrono::milliseconds limit = std::chrono::minutes(1)) {
   try {
     probe(kFolder / (std::string("crash_") + name + ".so"), limit);
@@ -45,7 +45,7 @@ std::string words(const char* name, std::chrono::milliseconds limit = std::chron
 TEST(Probe, NamesWhatEndedTheProcess) {
   EXPECT_EQ(words("load"), "loading it ends the process: Aborted");
   EXPECT_EQ(words("unload"), "loading it ends the process: Aborted");
-  // A wrong address: the signal or, where sanitizers watch, their exit status.
+  // Invalid address: reported as a signal or, under sanitizers, as their exit status.
   EXPECT_EQ(words("table").rfind("loading it ends the process", 0), 0u);
   EXPECT_EQ(words("exit"), "loading it ends the process with exit status 0");
   EXPECT_EQ(words("hang", std::chrono::milliseconds(300)), "loading it does not end within 300 ms");
@@ -79,7 +79,8 @@ TEST(Probe, TheRegistryAsksItForForeignPluginsAlone) {
   EXPECT_EXIT(Registry().load(kFolder / "crash_load.so"), testing::KilledBySignal(SIGABRT), "");
 }
 
-// Loads a plugin that starts a thread and is refused, and lives on for a while.
+// For a death test: loads a plugin that starts a thread and is refused, then stays alive for a
+// while.
 [[noreturn]] void outliveRefusal(const fs::path& plugin, Origin origin, ErrorId expected) {
   constexpr int kOther = 1;
   try {
@@ -101,12 +102,12 @@ TEST(Probe, ARefusedPluginKeepsTheCodeOfItsThreads) {
   }
 }
 
-// Nothing of a foreign plugin runs in this process unless it is accepted.
+// This process runs code of a foreign plugin only after accepting it.
 TEST(Probe, WhatItRefusesIsNotLoadedHere) {
   const std::string plugin = fs::path(PLUGIN_DIR) / "threaded" / "threaded_range.so";
   try {
     Registry().load(plugin, Origin::kForeign);
-    ADD_FAILURE() << "nothing was thrown";
+    ADD_FAILURE() << "no error was thrown";
   } catch (const Error& error) {
     EXPECT_EQ(error.id(), ErrorId::kPluginTable);
     EXPECT_EQ(error.detail().rfind(plugin + ": effects[0].", 0), 0u) << error.detail();

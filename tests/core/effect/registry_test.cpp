@@ -97,7 +97,7 @@ TEST_F(RegistryTest, FaultyOnesAreRefusedByReasonAndTheRestGoesOn) {
     EXPECT_NE(refused.reason.detail().find(refused.path), std::string::npos);
     EXPECT_ERROR(expected.at(name), Registry().load(refused.path));
   }
-  registry.scan(folder);  // again: nothing twice
+  registry.scan(folder);  // scanning again adds nothing
   EXPECT_EQ(registry.refused().size(), expected.size());
 }
 
@@ -112,7 +112,7 @@ TEST_F(RegistryTest, VersionsAndFieldsAreNamed) {
   };
   const uint32_t major = GRISAILLE_ABI_MAJOR, minor = GRISAILLE_ABI_MINOR;
   const auto names = [&](const char* plugin, uint32_t itsMajor, uint32_t itsMinor) {
-    return words(plugin).find(fmt::format("version {}.{}, this program has {}.{}", itsMajor,
+    return words(plugin).find(fmt::format("version {}.{}, but this program has {}.{}", itsMajor,
                                           itsMinor, major, minor)) != std::string::npos;
   };
   EXPECT_TRUE(names("major.so", major + 1, minor));
@@ -166,7 +166,7 @@ TEST_F(RegistryTest, WhatIsNoLibraryIsUnloadable) {
   EXPECT_ERROR(ErrorId::kPluginUnloadable, Registry().load(folder / "dangling.so"));
 }
 
-// A library cut anywhere is refused or, where only what the loader does not map is missing, taken.
+// A truncated library is refused, unless only bytes are missing that the loader does not map.
 TEST_F(RegistryTest, CutLibrariesNeverCrash) {
   const std::string whole = contentOf(kPlugins / "sound" / "plain.so");
   ASSERT_GT(whole.size(), 4096u);
@@ -236,7 +236,7 @@ TEST_F(RegistryTest, FoldersThatCannotBeReadAreErrors) {
   EXPECT_TRUE(registry.effects().empty());
 }
 
-// What a process holds: bytes of its heap, mapped ranges, open files.
+// Resources of the process: bytes of its heap, mapped ranges, open files.
 struct Holdings {
   size_t heap = mallinfo2().uordblks;
   size_t maps = static_cast<size_t>(std::ranges::count(contentOf("/proc/self/maps"), '\n'));
@@ -252,23 +252,23 @@ TEST_F(RegistryTest, LoadingAndUnloadingAThousandTimesLeaksNothing) {
     ASSERT_EQ(registry.effects().size(), 2u);
     ASSERT_TRUE(isLoaded(kPlugins / "sound" / "copy.so"));
   };
-  // What the loader keeps for good, for one by the names that the files are loaded by, is so by
-  // then.
+  // By now the loader has allocated everything that it never frees, such as the names of loaded
+  // files.
   for (int i = 0; i < 256; ++i) load();
   const Holdings before;
   for (int i = 0; i < 1000; ++i) load();
   const Holdings after;
-  // Some of the loader's last messages are longer than others. Of thirteen plugins each time, two
-  // bytes a plugin would be too much.
+  // The loader's last messages differ in length. A leak of two bytes per plugin would exceed the
+  // limit: each iteration loads thirteen plugins.
   EXPECT_LT(after.heap, before.heap + 20000);
-#ifndef __SANITIZE_ADDRESS__  // which maps memory of its own as it goes
+#ifndef __SANITIZE_ADDRESS__  // ASan maps memory of its own
   EXPECT_EQ(after.maps, before.maps);
 #endif
   EXPECT_EQ(after.files, before.files);
   for (const char* name : {"sound/copy.so", "sound/plain.so"}) {
     EXPECT_FALSE(isLoaded(kPlugins / name)) << name;
   }
-  // A refused plugin stays, once: its threads may run on.
+  // A refused plugin stays loaded, once: its threads may still run.
   EXPECT_TRUE(isLoaded(kPlugins / "faulty/range.so"));
 }
 

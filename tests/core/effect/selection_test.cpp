@@ -77,7 +77,7 @@ TEST(Selection, RestoringAPartLeavesTheRestBehindAndOff) {
   EXPECT_EQ(keysOf(list), (std::vector<std::string>{"gamma", "alpha", "beta"}));
   EXPECT_TRUE(list.entries()[0].on);
   EXPECT_EQ(list.entries()[0].values.get("amount"), 2);
-  EXPECT_EQ(list.entries()[0].values.get("count"), 3);  // a default: the state names the effect
+  EXPECT_EQ(list.entries()[0].values.get("count"), 3);  // default: not in the state
   EXPECT_FALSE(list.entries()[1].on);
   EXPECT_EQ(list.entries()[1].values.get("count"), 7);
 }

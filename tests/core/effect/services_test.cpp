@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: MIT
-// What the host does for an effect while it records: rays, pictures, patience, work that waits.
+// Services of the host while an effect records: rays, pictures, patience, pending work.
 #include <cmath>
 
 #include "tests/core/effect/instance_fixture.h"
@@ -8,7 +8,7 @@
 namespace grisaille::effect {
 namespace {
 
-// Answers with a distance by the ray's place in the batch.
+// Answers each ray with a distance derived from its index in the batch.
 struct Answers : RayService {
   std::vector<grisaille_ray> asked;
   bool fails = false;
@@ -23,7 +23,7 @@ struct Answers : RayService {
   }
 };
 
-// Knows one picture.
+// Has exactly one picture.
 struct OnePicture : PictureService {
   std::vector<std::string> asked;
 
@@ -75,7 +75,7 @@ TEST_F(ServicesTest, WhatWaitsIsToldUntilTheNextFrame) {
 
 TEST_F(ServicesTest, RaysAreCastWhereThereIsAService) {
   values.set("casts", "two");
-  EXPECT_EQ(told({})[4], 0);  // none: the effect is told so, and goes on
+  EXPECT_EQ(told({})[4], 0);  // no ray service: the effect is told, and continues
   Answers rays;
   FrameInputs inputs;
   inputs.services.rays = &rays;

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: MIT
-// Structs that grew, as a plugin of an older or a newer version fills them.
+// Structs that have grown, filled by plugins of an older or a newer version.
 #include "core/effect/struct_version.h"
 
 #include <gtest/gtest.h>
@@ -14,7 +14,7 @@
 namespace grisaille::effect {
 namespace {
 
-// The version of this program; the first ended after `kind`, the second after `count`.
+// The current version. The first version ended after `kind`, the second after `count`.
 struct Desc {
   uint32_t struct_size = 0;
   uint32_t kind = 0;
@@ -59,8 +59,8 @@ TEST(StructVersion, TheMessageTellsNewerFromUnknown) {
   EXPECT_EQ(words(sizeof(Desc) + 8),
             fmt::format("effects[0].struct_size is {}, more than the {} that this program knows",
                         sizeof(Desc) + 8, sizeof(Desc)));
-  EXPECT_EQ(words(4), fmt::format("effects[0].struct_size is 4, which no version has; there are "
-                                  "{}, {}, {}",
+  EXPECT_EQ(words(4), fmt::format("effects[0].struct_size is 4, which no version has; versions "
+                                  "have {}, {}, {}",
                                   sizeof(Desc), kFirst, kSecond));
 }
 
@@ -79,7 +79,7 @@ TEST(StructVersion, FieldsBeyondTheSizeReadAsZero) {
   EXPECT_EQ(whole(&first).key, nullptr);
 }
 
-// Where the sanitizers watch, a read behind the struct ends the test.
+// Under sanitizers, a read beyond the struct fails the test.
 TEST(StructVersion, NothingBehindAnOlderStructIsRead) {
   const Desc first = filled(kFirst);
   const auto* bytes = reinterpret_cast<const std::byte*>(&first);

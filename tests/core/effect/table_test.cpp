@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: MIT
-// checkTable() over in-memory tables: a valid one passes, and each fault is refused by its field.
+// checkTable() on tables in memory: it accepts a valid one and refuses each fault by its field.
 #include <gtest/gtest.h>
 
 #include <cstddef>
@@ -32,7 +32,7 @@ struct Decal {
   const char* picture;
 };
 
-// A plugin of two effects whose every field may be changed.
+// A plugin of two effects; tests may change every field.
 struct Table {
   const char* keys[3] = {"one", "two-b", "3"};
   const char* labels[3] = {"One", "Two", "Three"};
@@ -151,7 +151,7 @@ constexpr double kInf = std::numeric_limits<double>::infinity();
 const std::string kTooLong(4097, 'x');
 
 struct Fault {
-  const char* field;  // that the message begins with
+  const char* field;  // beginning of the message
   std::function<void(Table&)> make;
 };
 

@@ -53,7 +53,7 @@ struct ValuesTest : testing::Test {
   }();
   Values values{Effect{&desc, "memory"}};
 
-  // The error's detail.
+  // Expects that setting `key` fails without changing the value. Returns the error's detail.
   std::string refused(ErrorId id, std::string_view key, std::string_view text) {
     const double before = values.all()[1];
     try {

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: MIT
-// What the attachments hold, on every backend.
+// Contents of the attachments, on every backend.
 #include <gtest/gtest.h>
 
 #include <algorithm>
@@ -31,9 +31,9 @@ class AttachmentsTest : public tests::BackendTest {
 };
 GRISAILLE_ON_EVERY_DEVICE(AttachmentsTest);
 
-// How far off the depth of a floor is, relative to what the pinhole's own geometry finds at each
-// pixel's centre, less what it changes within `shift` pixels. The floor y = 0 is a square of `size`
-// metres about `middle`; more than `leastSeen` pixels show it.
+// Largest relative error of a floor's depth against the pinhole's geometry at pixel centres, less
+// the change of depth within `shift` pixels. The floor y = 0 is a square with sides of `size`
+// metres around `middle`; more than `leastSeen` pixels must show it.
 double floorError(const image::Image& depth, const scene::Camera& camera, const glm::dvec3& middle,
                   double size, double shift, uint32_t leastSeen) {
   const glm::dmat3 axes = scene::worldFromView(camera);
@@ -64,7 +64,7 @@ double floorError(const image::Image& depth, const scene::Camera& camera, const 
   return worst;
 }
 
-// A tile that is seen whole: exact, within what snapping moves.
+// A tile that is wholly in view: exact but for the shift by vertex snapping.
 TEST_P(AttachmentsTest, ATilesDepthIsExact) {
   for (const glm::dvec3 eye : {glm::dvec3(0, 1.5, 0), glm::dvec3(12345.678, 1.5, -9876.5)}) {
     const scene::Camera camera = {.eye = eye, .target = eye + glm::dvec3(1, -1.5, -2)};
@@ -76,9 +76,9 @@ TEST_P(AttachmentsTest, ATilesDepthIsExact) {
   }
 }
 
-// A floor that the near plane and the picture's sides cut: clipping makes corners that lie hundreds
-// of pixels outside of the picture. SwiftShader, which snaps vertices to a 16th of a pixel, is off
-// by some hundredths there.
+// A floor cut by the near plane and the picture's sides: clipping creates vertices hundreds of
+// pixels outside the picture. SwiftShader, which snaps vertices to 1/16 pixel, is off by some
+// hundredths there.
 TEST_P(AttachmentsTest, FloorDepthIsExact) {
   for (const glm::dvec3 eye : {glm::dvec3(0, 1.5, 0), glm::dvec3(12345.678, 1.5, -9876.5)}) {
     const scene::Camera camera = {.eye = eye, .target = eye + glm::dvec3(1, -0.5, -2)};
@@ -112,7 +112,7 @@ TEST_P(AttachmentsTest, MirroredAndStretchedInstancesKeepRightNormals) {
     scene::Scene scene;
     scene.materials.push_back({.name = "one side"});
     const glm::vec3 normal = glm::normalize(glm::vec3(0.3f, 1, 0));
-    // A slope that falls along +x: single-sided, so that a wrong winding shows as a hole.
+    // A slope that falls along +x; single-sided, to show wrong winding as a hole.
     tests::addQuad(scene, {glm::vec3(-9, 2.7f, 9), {9, -2.7f, 9}, {9, -2.7f, -9}, {-9, 2.7f, -9}},
                    normal);
     scene.instances[0].worldFromObject =

@@ -1,5 +1,6 @@
 // SPDX-License-Identifier: MIT
-// Where the matter that is seen ends, against rays through every triangle, on every backend.
+// The depth at which the visible matter ends, compared with ray casts through every triangle, on
+// every backend.
 #include <gtest/gtest.h>
 
 #include <algorithm>
@@ -33,7 +34,7 @@ void addBox(scene::Scene& scene, const glm::dmat4& placed, uint32_t material) {
   }
 }
 
-// Boxes, some mirrored, and cards of one side and of two, before nothing.
+// Boxes, some of them mirrored, and one-sided and two-sided cards, on an empty background.
 scene::Scene mixedScene() {
   scene::Scene scene;
   scene.materials.push_back({.name = "one side"});
@@ -61,10 +62,10 @@ scene::Scene mixedScene() {
 
 struct Crossing {
   double depth;
-  bool front, back;  // seen from the camera; ends matter
+  bool front, back;  // seen from the camera; matter ends here
 };
 
-// All crossings of a pixel's ray with the scene, which has view depth 1 at its end.
+// All crossings of a pixel's ray with the scene. The ray's end has view depth 1.
 std::vector<Crossing> crossings(const scene::Scene& scene, glm::dvec3 eye, glm::dvec3 ray) {
   std::vector<Crossing> found;
   for (const scene::Instance& instance : scene.instances) {
@@ -77,7 +78,7 @@ std::vector<Crossing> crossings(const scene::Scene& scene, glm::dvec3 eye, glm::
         const glm::vec3 at = scene.positions[scene.indices[primitive.firstIndex + i + k]];
         p[k] = glm::dvec3(instance.worldFromObject * glm::dvec4(at, 1)) - eye;
       }
-      // The shares of the corners and the depth solve one linear system.
+      // Solve one linear system for the barycentric coordinates and the depth.
       const glm::dvec3 x = glm::inverse(glm::dmat3(p[1] - p[0], p[2] - p[0], -ray)) * -p[0];
       if (x.x < 0 || x.y < 0 || x.x + x.y > 1 || x.z <= 0) continue;
       const bool faces = (glm::dot(glm::cross(p[1] - p[0], p[2] - p[0]), ray) < 0) != mirrors;
@@ -87,8 +88,8 @@ std::vector<Crossing> crossings(const scene::Scene& scene, glm::dvec3 eye, glm::
   return found;
 }
 
-// What a ray of view depth 1 at its end finds: the first surface, and the next that faces away, or
-// 0.
+// Expected result for a ray with view depth 1 at its end: whether it hits a surface, and the depth
+// of the next surface that faces away, or 0.
 struct Expected {
   bool front = false;
   double back = 0;
@@ -103,8 +104,8 @@ Expected expectedOn(const scene::Scene& scene, const glm::dvec3& eye, const glm:
   return {.front = front < kNone, .back = front < kNone && back < kNone ? back : 0};
 }
 
-// A pixel's depth is that at its centre or, where the rasteriser snaps vertices coarsely, one of
-// those about it.
+// A pixel's depth is the depth at its centre. Where the rasteriser snaps vertices coarsely, it may
+// be that of a ray close to the centre.
 TEST_P(BackDepthTest, IsTheNextSurfaceThatFacesAway) {
   const scene::Scene scene = mixedScene();
   const scene::Camera camera = {.eye = glm::dvec3(0.7, 0.4, 4), .target = glm::dvec3(0)};
@@ -140,7 +141,7 @@ TEST_P(BackDepthTest, IsTheNextSurfaceThatFacesAway) {
   }
   EXPECT_GT(with, 1000u);
   EXPECT_GT(without, 100u);
-  EXPECT_LE(wrong, kWidth * kHeight / 200u);  // edges
+  EXPECT_LE(wrong, kWidth * kHeight / 200u);  // pixels on edges
 }
 
 }  // namespace

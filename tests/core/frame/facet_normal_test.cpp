@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: MIT
-// The normals of the triangles themselves, against rays, on every backend.
+// Facet normals of the triangles, compared with ray casts, on every backend.
 #include <gtest/gtest.h>
 
 #include <algorithm>
@@ -25,14 +25,15 @@ class FacetNormalTest : public tests::BackendTest {
     return renderer.read("facet_normal");
   }
 
-  // The rays whose normals a pixel may have: the one through its centre and, where the rasteriser
-  // snaps vertices coarsely, those that a vertex moved by half a step brings there.
+  // Hits of the rays that may give a pixel its normal: the ray through its centre and, where the
+  // rasteriser snaps vertices coarsely, the rays that move there when a vertex moves by half a
+  // step.
   std::vector<std::vector<trace::Hit>> possibleHits(const trace::RayTracer& tracer,
                                                     const scene::Camera& camera, uint32_t width,
                                                     uint32_t height) {
     std::vector<std::vector<trace::Hit>> all = {tracer.castPrimary(camera, width, height)};
     if (!snapping().isCoarse()) return all;
-    // The middle four pixels of a picture so many times larger lie half a step from the centre.
+    // In a picture `finer` times as large, the middle four pixels lie half a step from the centre.
     const uint32_t finer = 1u << snapping().bits;
     for (const glm::uvec2 corner : {glm::uvec2(0, 0), {1, 0}, {0, 1}, {1, 1}}) {
       std::vector<glm::uvec2> pixels;
@@ -51,7 +52,7 @@ class FacetNormalTest : public tests::BackendTest {
     return angle < 0.01;
   }
 
-  // The share of pixels whose normal is within 0.01 rad of the one that a ray finds.
+  // Share of pixels with a normal within 0.01 rad of the normal that a ray finds.
   double agreement(const scene::Scene& scene, const scene::Camera& camera) {
     constexpr uint32_t kWidth = 640, kHeight = 360;
     const image::Image drawn = render(scene, camera, kWidth, kHeight);
@@ -78,7 +79,7 @@ TEST_P(FacetNormalTest, AgreesWithRaysInTheBuiltInScene) {
 TEST_P(FacetNormalTest, AgreesWithRaysInSponza) {
   const char* named = std::getenv("GRISAILLE_SPONZA");
   const std::string path = named != nullptr ? named : SHARED_SPONZA;
-  if (!std::filesystem::exists(path)) GTEST_SKIP() << "no Sponza at " << path;
+  if (!std::filesystem::exists(path)) GTEST_SKIP() << "Sponza is missing: " << path;
   const scene::Scene scene = scene::loadGltf(path);
   for (const auto& [eye, target] :
        {std::pair{glm::dvec3(-9.0, 1.7, -0.3), glm::dvec3(0, 3, -0.4)},
@@ -90,7 +91,7 @@ TEST_P(FacetNormalTest, AgreesWithRaysInSponza) {
   }
 }
 
-// Whatever the vertex normals say, from either side, mirrored, and far from the world's origin.
+// Independent of vertex normals, side, mirroring and distance from the world's origin.
 TEST_P(FacetNormalTest, IsTheTrianglesOwnAndFacesTheCamera) {
   for (const double away : {0.0, 1e6}) {
     for (const double mirror : {1.0, -1.0}) {

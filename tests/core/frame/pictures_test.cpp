@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: MIT
-// Attachments from pictures: what depths mean, normals where there are none, and on every backend
-// that a frame from its own pictures is the frame.
+// Attachments read from pictures: kinds of depth and missing normals. On every backend, a frame
+// from its own pictures equals the original frame.
 #include <gtest/gtest.h>
 
 #include <cmath>
@@ -36,7 +36,7 @@ TEST(PictureDepth, MetresAlongTheViewStayAndTheSkyIsZero) {
             (std::vector<float>{0.5, 9, 0}));
 }
 
-// Against the projection itself, for near and far planes of any size.
+// Compared with the projection itself, for near and far planes of any size.
 TEST(PictureDepth, DepthBuffersComeBackToTheDepthsThatTheyWereMadeOf) {
   for (const double near : {0.01, 0.1, 2.0}) {
     for (const double far : {5.0, 1000.0, std::numeric_limits<double>::infinity()}) {
@@ -48,7 +48,7 @@ TEST(PictureDepth, DepthBuffersComeBackToTheDepthsThatTheyWereMadeOf) {
           return double{metres({static_cast<float>(value)}, {kind, near, far})[0]};
         };
         EXPECT_NEAR(back(DepthKind::kClipReversed, reversed) / depth, 1, 1e-4);
-        // Without reversal a float has few digits left at a distance: that is its own error.
+        // Unreversed, a float has few digits left at a distance. That is the input's own error.
         const double kept = 1 - double{static_cast<float>(1 - reversed)};
         const double expected =
             std::isinf(far) ? near / kept : near * far / (near + kept * (far - near));
@@ -86,7 +86,8 @@ TEST(PictureDepth, WhatIsNoDepthIsRefusedWithItsPixel) {
   }
 }
 
-// View depth of the nearest of some planes dot(normal, p) = distance, in view space.
+// A plane dot(normal, p) = distance in view space. depthOf() gives the view depth of the nearest
+// plane.
 struct Plane {
   glm::dvec3 normal;
   double distance;
@@ -129,7 +130,7 @@ GRISAILLE_ON_EVERY_DEVICE(FacetNormals);
 TEST_P(FacetNormals, PlanesHaveTheirOwnNormalUpToTheEdges) {
   const scene::Camera camera{
       .eye = {3, 2, 1}, .target = {1, 0.5, -4}, .up = {0.1, 1, 0}, .fovyDegrees = 70};
-  // Two walls that meet in a corner, and one before them.
+  // Two walls that meet in a corner, and a plane in front of them.
   const std::vector<Plane> planes = {{glm::normalize(glm::dvec3(0.8, 0.1, 1)), -6},
                                      {glm::normalize(glm::dvec3(-0.9, 0.2, 1)), -5},
                                      {glm::normalize(glm::dvec3(0.1, 2.5, 1)), -3}};
@@ -145,7 +146,7 @@ TEST_P(FacetNormals, PlanesHaveTheirOwnNormalUpToTheEdges) {
       const glm::dvec3 normal(normals.at(x, y, 0), normals.at(x, y, 1), normals.at(x, y, 2));
       const glm::dvec3 expected = axes * planes[which].normal;
       EXPECT_NEAR(glm::length(normal), 1, 1e-3);
-      // A pixel between two edges has no second neighbour of its own.
+      // A pixel between two edges has no second neighbour on its own plane.
       const bool corner = counts[which]++ > 0 && std::abs(glm::dot(normal, expected)) < 0.999;
       const auto at = [&](int dx, int dy) {
         const int px = int(x) + dx, py = int(y) + dy;
@@ -189,7 +190,7 @@ class PictureFrames : public tests::BackendTest {
   const scene::Camera camera_ = scene::atriumCamera();
   const std::vector<std::string> outputs_ = {"depth", "normal", "base_colour", "ao"};
 
-  // Outputs of one frame of ambient occlusion by an estimator.
+  // Renders one frame of ambient occlusion with this estimator; returns its outputs.
   std::vector<image::Image> render(Renderer& renderer, const std::string& estimator, uint32_t width,
                                    uint32_t height, double guardBand = 0) {
     const std::string effects[] = {"ssao"};
@@ -240,8 +241,8 @@ TEST_P(PictureFrames, AFrameFromItsOwnPicturesIsTheFrame) {
   }
 }
 
-// Smooth shading and what is smaller than some pixels aside, facets of the depth are those of the
-// triangles: in so small a picture for more than half of all channels.
+// Facets from depth equal the triangles' facets except on smooth-shaded surfaces and on details of
+// a few pixels. In a picture this small, more than half of all channels agree.
 TEST_P(PictureFrames, NormalsOfTheDepthStandInForThoseThatAreNotThere) {
   const scene::Scene atrium = scene::makeAtrium();
   Renderer scene(device(), atrium);
@@ -255,7 +256,7 @@ TEST_P(PictureFrames, NormalsOfTheDepthStandInForThoseThatAreNotThere) {
   EXPECT_LT(image::compare(drawn[3], again[3]).rmse, 0.14);
 }
 
-// Whatever band an effect asks for, it gets none.
+// Pictures have no guard band, even if an effect requests one.
 TEST_P(PictureFrames, NothingIsSeenBeyondAPicturesBorder) {
   const scene::Scene atrium = scene::makeAtrium();
   Renderer scene(device(), atrium);
@@ -281,7 +282,7 @@ TEST_P(PictureFrames, WhatNoPictureHasIsMissing) {
   other = desc;
   other.width = 4;
   EXPECT_ERROR(ErrorId::kPictureSize, renderer.render(other));
-  // The next frame goes on.
+  // The next frame still works.
   const std::vector<std::string> depth = {"depth"};
   other = desc;
   other.outputs = depth;

@@ -1,5 +1,6 @@
 // SPDX-License-Identifier: MIT
-// Nothing is drawn, allocated or recorded that the wanted outputs do not need: on the null device.
+// The renderer draws, allocates and records only what the wanted outputs need. Runs on the null
+// device.
 #include <gtest/gtest.h>
 
 #include "core/frame/renderer.h"
@@ -158,17 +159,17 @@ TEST_F(PlanTest, HistoryOpenDirectionsAndTintCostNothingUnlessAskedFor) {
   values_->set("history", "1");
   EXPECT_EQ(passes({"ao"}), visibility);
 
-  // Base colours are drawn for a tint of theirs.
+  // A tint by base colour draws the base colours.
   values_->set("bounce", "base_colour");
   EXPECT_EQ(record({"ao"}, true).renders.at(0).targets, (Labels{"normal", "clip depth"}));
   EXPECT_EQ(record({"tint"}, true).renders.at(0).targets,
             (Labels{"normal", "base_colour", "clip depth"}));
-  // Tints are composed where the picture shows base colours.
+  // A picture that shows base colours composes tints.
   EXPECT_EQ(passes({"color"}), (Labels{"ssao/occlusion", "ssao/denoise columns", "compose/color"}));
   EXPECT_EQ(passes({"color"}, frame::Surface::kBaseColour),
             (Labels{"ssao/occlusion", "ssao/denoise columns", "ssao/tint", "compose/color"}));
 
-  // Open directions are the slices' alone, and need normals.
+  // Only the slices estimator has open directions; they need normals.
   values_->set("estimator", "classic");
   values_->set("sampling", "sphere");
   EXPECT_EQ(passes({"bent_normal"}), visibility);
@@ -176,22 +177,22 @@ TEST_F(PlanTest, HistoryOpenDirectionsAndTintCostNothingUnlessAskedFor) {
   EXPECT_EQ(record({"ao"}, true).renders.at(0).targets, Labels{"clip depth"});
 }
 
-// What a guard band adds to drawing the scene, and drawing back faces, is the effects' cost.
+// Drawing back faces, and the extra area of a guard band, count as cost of the effects.
 TEST_F(PlanTest, WhatIsDrawnForEffectsAloneIsTheirCost) {
   values_->set("guard_band", "0.25");
   values_->set("back_faces", "true");
   const Recording recording = record({"ao"}, true);
   double sum = 0;
   for (const std::string& pass : recording.passes) sum += frame::shareForEffects(pass, 0.25);
-  EXPECT_EQ(sum, 2.5);  // geometry, view depth; back geometry, back view depth
+  EXPECT_EQ(sum, 2.5);  // geometry, view depth, back geometry, back view depth
   for (const char* pass : {"scene/geometry", "scene/view_depth", "ssao/back geometry", "back "}) {
     EXPECT_EQ(frame::shareForEffects(pass, 0.25), 0) << pass;
   }
   EXPECT_EQ(recording.renders.at(1).targets, (Labels{"back"}));
 }
 
-// What an effect with a guard band reads is drawn larger; others get theirs as large as the
-// picture.
+// Attachments of an effect with a guard band are larger. Other effects read attachments of the
+// picture's size.
 TEST_F(PlanTest, AGuardBandDrawsLargerAttachmentsForItsEffectAlone) {
   values_->set("guard_band", "0.25");
   const Recording alone = record({"ao"}, true);
@@ -201,7 +202,7 @@ TEST_F(PlanTest, AGuardBandDrawsLargerAttachmentsForItsEffectAlone) {
   ASSERT_EQ(both.renders.size(), 2u);
   EXPECT_EQ(both.renders[0].targets, (Labels{"normal", "clip depth"}));
   EXPECT_EQ(both.renders[1].targets, (Labels{"guarded normal", "guarded clip depth"}));
-  // The classic estimator has none.
+  // The classic estimator has no guard band.
   values_->set("estimator", "classic");
   EXPECT_EQ(record({"ao"}, true).renders.at(0).targets, (Labels{"normal", "clip depth"}));
 }
@@ -255,12 +256,12 @@ TEST_F(PlanTest, ObjectsReachTheEffectsAndWhatWaitsComesBack) {
   add(20);
   std::vector<float> texels = told({"told", "ao"});
   EXPECT_EQ(texels[0], 20);
-  EXPECT_EQ(texels[1], 0);  // its first frame
+  EXPECT_EQ(texels[1], 0);  // the effect's first frame
   EXPECT_EQ(texels[2], 0.5f);
   EXPECT_EQ(renderer_->waiting(), 4u);
   list.undo();
   EXPECT_EQ(told({"told"})[1], 19);
-  // Frames that it has no part in, or that fail, are not its frame before.
+  // A frame that failed, or that did not run the effect, does not count as its previous frame.
   list.remove(11);
   told({"depth"});
   EXPECT_EQ(renderer_->waiting(), 0u);
@@ -268,7 +269,7 @@ TEST_F(PlanTest, ObjectsReachTheEffectsAndWhatWaitsComesBack) {
   EXPECT_ERROR(ErrorId::kOutputUnknown, told({"nothing"}));
   EXPECT_EQ(told({"told"})[1], 11);
   EXPECT_EQ(told({"told"})[1], 19);
-  // Nor those in which it is off, while others go on.
+  // Neither does a frame with the effect off while others run.
   chain.selection.find("teller")->on = false;
   list.remove(3);
   told({"ao"});
@@ -277,8 +278,8 @@ TEST_F(PlanTest, ObjectsReachTheEffectsAndWhatWaitsComesBack) {
   EXPECT_EQ(told({"told"})[1], 3);
 }
 
-// Scene and effects upload once. What they uploaded in a frame in which a later effect failed is
-// there in the next one.
+// Scene and effects upload once. If a later effect fails, the next frame still has what the others
+// uploaded in the failed frame.
 TEST_F(PlanTest, AnEffectThatFailsTakesNoUploadsAlong) {
   effect::Chain chain{effect::Selection(registry_, Labels{"ssao", "teller"})};
   const effect::StartedChain started(chain, *device_);

@@ -40,8 +40,8 @@ TEST(DrawData, MipsEndAtOneTexelAndKeepTheLightOfAConstant) {
 TEST(DrawData, MipsAverageLightNotCodes) {
   const image::Image8 image = {.width = 2, .height = 1, .pixels = {0, 0, 0, 0, 255, 255, 255, 255}};
   const auto levels = frame::mipChain(image);
-  EXPECT_EQ(levels[1][0], 188);  // half the light, sRGB encoded
-  EXPECT_EQ(levels[1][3], 128);  // alpha is a number
+  EXPECT_EQ(levels[1][0], 188);  // half the light, in sRGB
+  EXPECT_EQ(levels[1][3], 128);  // alpha is linear
 }
 
 TEST(DrawData, NormalsStayPerpendicularUnderAnyLinearMap) {
@@ -53,7 +53,7 @@ TEST(DrawData, NormalsStayPerpendicularUnderAnyLinearMap) {
     const glm::dvec3 n = glm::dmat3(frame::normalTransform(m)) * glm::cross(a, b);
     EXPECT_NEAR(glm::dot(n, m * a) / (glm::length(n) * glm::length(m * a)), 0, 1e-9);
     EXPECT_NEAR(glm::dot(n, m * b) / (glm::length(n) * glm::length(m * b)), 0, 1e-9);
-    // The side that was outside stays outside.
+    // The outer side stays outside.
     EXPECT_GT(glm::dot(n, m * glm::cross(a, b)), 0);
   }
 }

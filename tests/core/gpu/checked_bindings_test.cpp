@@ -15,7 +15,7 @@ class CheckedBindings : public CheckedNull {
   const gpu::Texture texels_ = texture(TextureUsage::kSampled);
   const gpu::Texture result_ = texture(TextureUsage::kStorage | TextureUsage::kSampled, {}, false);
 
-  // What is wrong with these bindings; the frame goes on.
+  // Expects that these bindings are refused; the frame continues.
   void refused(ErrorId id, gpu::ComputePipeline pipeline, std::vector<gpu::Binding> bindings) {
     gpu::Commands& commands = inPass();
     EXPECT_ERROR(id, commands.dispatch({.pipeline = pipeline, .bindings = bindings}));
@@ -137,7 +137,7 @@ TEST_F(CheckedBindings, FormatsAndLayers) {
   accepted(array_, {gpu::textureBinding(0, {layers}, sampler_)});
   accepted(filter_, filtering({.texture = layers, .layer = 1, .layerCount = 1},
                               gpu::imageBinding(0, result_)));
-  accepted(array_, {gpu::textureBinding(0, {texels_}, sampler_)});  // an array of one
+  accepted(array_, {gpu::textureBinding(0, {texels_}, sampler_)});  // an array of one layer
   refused(ErrorId::kBindingFormat, filter_, filtering({layers}, gpu::imageBinding(0, result_)));
   refused(ErrorId::kBindingFormat, imageStep_, {gpu::imageBinding(0, layers)});
   const gpu::Texture integers = texture(TextureUsage::kSampled, {.format = Format::kR32Uint});
@@ -175,7 +175,7 @@ TEST_F(CheckedBindings, ContentsThatWereNeverWritten) {
   accepted(step_, {gpu::storageBinding(0, {fresh})});
   refused(ErrorId::kUninitialised, copy_,
           copying({buffer(64, BufferUsage::kUniform, false)}, {from_}, {to_}));
-  // By subresource.
+  // Contents are tracked per subresource.
   const gpu::Texture levels =
       texture(TextureUsage::kSampled | TextureUsage::kStorage, {.mips = 3}, false);
   accepted(filter_, filtering({texels_}, gpu::imageBinding(0, levels, 1)));

@@ -23,7 +23,7 @@ class CheckedDescriptors : public CheckedNull {
             .colorFormats = kColors,
             .depthFormat = Format::kD32Float};
   }
-  // The error of a descriptor that differs from a valid one.
+  // Expects this error from a valid descriptor with one change.
   template <typename Change>
   void refused(ErrorId id, Change&& change) {
     gpu::GraphicsPipelineDesc desc = valid();
@@ -196,7 +196,7 @@ TEST_F(CheckedDescriptors, BlendsOfFormatsThatBlend) {
   using gpu::Blend;
   for (int i = 1; i < static_cast<int>(Format::kD32Float); ++i) {
     const Format formats[] = {static_cast<Format>(i)};
-    if (formats[0] == Format::kR32Uint) continue;  // the shader's output is no integer
+    if (formats[0] == Format::kR32Uint) continue;  // the shader's output is not an integer
     gpu::GraphicsPipelineDesc desc = valid();
     desc.colorFormats = formats;
     desc.blend = Blend::kOver;
@@ -213,7 +213,7 @@ TEST_F(CheckedDescriptors, BlendsOfFormatsThatBlend) {
   refused(ErrorId::kPipelineTargets, [](auto& desc) { desc.blend = static_cast<Blend>(2); });
 }
 
-// One that is fed by bytes is a vec4 of 4 bytes.
+// A vec4 attribute may be fed from 4 bytes.
 TEST_F(CheckedDescriptors, AttributesOfBytes) {
   using gpu::AttributeFormat;
   EXPECT_EQ(gpu::attributeBytes(AttributeFormat::kFloat1), 4u);

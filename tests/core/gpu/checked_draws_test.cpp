@@ -8,7 +8,7 @@ namespace {
 
 using gpu::Load;
 
-// One valid render call, which each test spoils.
+// Each test starts from a valid render call and introduces one fault.
 class CheckedDraws : public CheckedNull {
  protected:
   struct Call {
@@ -98,7 +98,7 @@ TEST_F(CheckedDraws, TargetsOfOneSize) {
     call.colors.assign(5, {});
     for (gpu::ColorTarget& color : call.colors) color.view.texture = target(Format::kRgba8Unorm);
   });
-  // A level of the right size will do.
+  // A mip of the right size is accepted.
   accepted([&](Call& call) {
     call.depth.view = {.texture = target(Format::kD32Float, 32, 2, 2), .mip = 1, .layer = 1};
   });
@@ -144,9 +144,9 @@ TEST_F(CheckedDraws, VerticesAndIndicesThatAreThere) {
   refused(id, [&](Call& call) { call.draw.indices = {indices_, 0, 36}; });
   refused(id, [&](Call& call) {
     call.draw.indices = {indices_};
-    call.streams[0].offset = 112;  // not even one vertex
+    call.streams[0].offset = 112;  // room for less than one vertex
   });
-  // One fewer fits behind the offset.
+  // From the offset on, one vertex fewer fits.
   accepted([](Call& call) {
     call.streams[1].offset = 8;
     call.draw.count = 9;

@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: MIT
-// The checking device over the null device, and reflections of shaders that were never compiled:
-// all that the checks look at.
+// The checking device over the null device, with hand-written shader reflections: the checks read
+// nothing else of a shader.
 #pragma once
 
 #include <gtest/gtest.h>
@@ -32,7 +32,8 @@ constexpr gpu::Shader computeShader(const char* name,
   return shader;
 }
 
-// A uniform block of 32 bytes; buffers with a fixed part of 16 bytes; read, written and both.
+// A uniform block of 32 bytes; buffers with a fixed part of 16 bytes, for reading, writing and
+// both.
 inline constexpr grisaille_shader_slot kCopySlots[] = {
     {GRISAILLE_SLOT_UNIFORM, 0, 1, 0, 32, 0, "", "Values"},
     {GRISAILLE_SLOT_STORAGE, 0, 1, 0, 16, 0, "", "From"},
@@ -94,7 +95,7 @@ class CheckedNull : public ::testing::Test {
   using TextureUsage = gpu::TextureUsage;
   using Format = gpu::Format;
 
-  // What the device said; leaks at its end.
+  // The device's messages, including leaks when it is destroyed.
   std::vector<std::string> messages_;
   std::unique_ptr<gpu::Device> device_ = gpu::makeCheckingDevice(
       gpu::makeNullDevice(), [this](gpu::Severity severity, std::string_view text) {
@@ -136,7 +137,7 @@ class CheckedNull : public ::testing::Test {
   gpu::ComputePipeline compute(const gpu::Shader& shader) {
     return device_->createComputePipeline({.label = shader.name, .shader = &shader});
   }
-  // Begins a frame and a pass.
+  // Begins a frame and a pass in it.
   gpu::Commands& inPass() {
     gpu::Commands& commands = device_->begin();
     commands.beginPass("test");

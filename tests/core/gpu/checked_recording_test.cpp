@@ -44,7 +44,7 @@ TEST_F(CheckedRecording, NothingElseMeanwhile) {
   EXPECT_EQ(device_->read(gpu::BufferRange{.buffer = data}).size(), 64u);
 }
 
-// What is valid reaches the null device, which has no window.
+// Valid calls reach the null device, which has no window.
 TEST_F(CheckedRecording, PresentsAPictureBetweenFrames) {
   const gpu::TextureDesc picture{.format = Format::kRgba8Unorm, .width = 4, .height = 4};
   const gpu::Texture valid = texture(TextureUsage::kSampled, picture);
@@ -152,7 +152,7 @@ TEST_F(CheckedRecording, ReadingBackNeedsContents) {
   device_->submit();
   EXPECT_EQ(device_->read(texels, 1), level);
   EXPECT_ERROR(ErrorId::kUninitialised, (void)device_->read(texels, 0));
-  // What an abandoned frame wrote was not written.
+  // Writes of an abandoned frame do not count as contents.
   const std::vector<std::byte> top(16 * 16 * 4);
   gpu::Commands& commands = device_->begin();
   commands.upload(texels, 0, 0, top);
@@ -179,7 +179,7 @@ TEST_F(CheckedRecording, TransientTexturesEndWithTheirFrame) {
   EXPECT_ERROR(ErrorId::kTransientStale,
                commands.dispatch({.pipeline = step, .bindings = bindings}));
   EXPECT_ERROR(ErrorId::kTransientStale, commands.upload(transient, 0, 0, bytes));
-  // Handed out again, its contents are undefined.
+  // The pool reuses the texture; its contents are undefined again.
   EXPECT_EQ(commands.transient(transientDesc()), transient);
   EXPECT_ERROR(ErrorId::kUninitialised,
                commands.dispatch({.pipeline = step, .bindings = bindings}));

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: MIT
-// Random command streams that keep every rule: the checking device must pass each of them on.
+// Random valid command streams: the checking device must pass every command on.
 #include <random>
 
 #include "tests/core/gpu/checked_null.h"
@@ -137,8 +137,8 @@ class CheckedStreams : public CheckedNull {
           default:
             dispatchTextures(commands);
         }
-        // Neither destroying nor making anything disturbs the frame; a frame that is dropped makes
-        // its books of before valid again, so they may not change here.
+        // Creating and destroying resources does not disturb the frame. Dropping a frame restores
+        // the bookkeeping from before it, which must not have changed meanwhile.
         if (!drop && below(8) == 0) remove();
         if (!drop && below(8) == 0) add();
       }

@@ -14,7 +14,8 @@ namespace {
 
 using Pool = HandlePool<Buffer, std::string>;
 
-// Against a map: handles are new, find their value while it lives, and are stale afterwards.
+// Compared with a map: handles are unique, find their value while it lives, and are stale
+// afterwards.
 TEST(HandlePool, BehavesAsAMap) {
   std::mt19937 random(7);
   Pool pool("buffer");
@@ -34,7 +35,7 @@ TEST(HandlePool, BehavesAsAMap) {
     }
     if (!dead.empty()) {
       const Buffer stale = dead[random() % dead.size()];
-      // A slot's generation returns after 65535 uses, more than this test makes.
+      // A slot's generation repeats after 65535 uses, more than this test reaches.
       EXPECT_ERROR(ErrorId::kStaleHandle, pool.get(stale));
     }
   }

@@ -30,7 +30,7 @@ TEST(NullDevice, KeepsUploads) {
   EXPECT_EQ(device->read(texture, 0, 0), std::vector<std::byte>(5 * 3 * 4));
 }
 
-// A mip chain in one pass: each dispatch is preceded by the barriers that its two levels need.
+// A mip chain in one pass: each dispatch is preceded by the barriers for its two mips.
 TEST(NullDevice, RecordsCallsAndBarriersInOrder) {
   const std::unique_ptr<NullDevice> device = makeNullDevice();
   const Texture texture = device->createTexture({.label = "chain",

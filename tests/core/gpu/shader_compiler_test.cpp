@@ -1,5 +1,6 @@
 // SPDX-License-Identifier: MIT
-// The build's shader compiler, as the build runs it: what it refuses, and what it says of the rest.
+// The build's shader compiler: the sources that it refuses, and the reflection of those that it
+// accepts.
 #include <gtest/gtest.h>
 #include <sys/wait.h>
 #include <unistd.h>
@@ -27,7 +28,7 @@ class ShaderCompiler : public ::testing::Test {
     const int status = std::system((command + " 2>/dev/null").c_str());
     return WIFEXITED(status) ? WEXITSTATUS(status) : -1;
   }
-  // Compiles GLSL of a stage with everything up to the body given; the tool's exit status.
+  // Compiles GLSL of a stage: a common prefix and the given body. Returns the tool's exit status.
   int compile(const std::string& body, const std::string& stage = "comp") {
     const fs::path source = folder_ / ("shader." + stage);
     std::ofstream(source) << "#version 460\n#include \"common/bindings.glsl\"\n"
@@ -54,7 +55,7 @@ class ShaderCompiler : public ::testing::Test {
 
 TEST_F(ShaderCompiler, RefusesWhatTheLayerLacks) {
   const char* refused[] = {
-      // a class's binding in another's range, or another set
+      // binding in another class's range, or in another set
       "layout(STORAGE(0)) uniform B { uint a; } b;\nvoid main() { uint x = b.a; }\n",
       "layout(UNIFORM(0)) buffer B { uint a; } b;\nvoid main() { b.a = 1; }\n",
       "layout(IMAGE(0)) uniform sampler2D s;\nlayout(STORAGE(0)) buffer B { vec4 a; } b;\n"
@@ -63,10 +64,10 @@ TEST_F(ShaderCompiler, RefusesWhatTheLayerLacks) {
       "vec4(0)); }\n",
       "layout(set = 1, binding = 16) buffer B { uint a; } b;\nvoid main() { b.a = 1; }\n",
       "layout(STORAGE(16)) buffer B { uint a; } b;\nvoid main() { b.a = 1; }\n",
-      // two at one place
+      // two resources at one binding
       "layout(STORAGE(3)) buffer A { uint a; } x;\nlayout(STORAGE(3)) buffer B { float b; } y;\n"
       "void main() { x.a = 1; y.b = 2.0; }\n",
-      // kinds that the layer does not have
+      // resource kinds that the layer lacks
       "layout(push_constant) uniform P { uint a; } p;\nlayout(STORAGE(0)) buffer B { uint a; } b;\n"
       "void main() { b.a = p.a; }\n",
       "layout(TEXTURE(0)) uniform sampler2D s[2];\nlayout(STORAGE(0)) buffer B { vec4 a; } b;\n"
@@ -115,7 +116,8 @@ TEST_F(ShaderCompiler, ReflectsWhatItTakes) {
                           "{7u, 1u, 0xcu, \"kSteps\"}", "{4u, 2u, 1u}"}) {
     EXPECT_NE(source.find(row), std::string::npos) << row << " is not in\n" << source;
   }
-  EXPECT_EQ(source.find(folder_.string()), std::string::npos) << "the source's path is in the code";
+  EXPECT_EQ(source.find(folder_.string()), std::string::npos)
+      << "the generated code contains the source's path";
   EXPECT_NE(made("probe.h").find("GRISAILLE_CHECK_BLOCK_probe_Values"), std::string::npos);
 }
 

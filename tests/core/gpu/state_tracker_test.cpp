@@ -11,7 +11,7 @@
 namespace grisaille::gpu {
 namespace {
 
-// One subresource, or a buffer (mip and layer 0).
+// One subresource, or a buffer (with mip and layer 0).
 struct Place {
   bool texture = false;
   uint32_t handle = 0, mip = 0, layer = 0;
@@ -20,7 +20,7 @@ struct Place {
 using Change = std::pair<Access, Access>;
 using Changes = std::map<Place, Change>;
 
-// Every subresource by itself, in the plainest way.
+// Reference model: tracks each subresource separately.
 struct Model {
   std::map<Place, Access> states, pending;
 
@@ -77,7 +77,7 @@ class StateTrackerProperty : public ::testing::Test {
       tracker_.add(textureOf(i), kShapes[i].mips, kShapes[i].layers);
     }
   }
-  // Handles of both kinds overlap in value.
+  // Handles of buffers and textures share the same values.
   static Buffer bufferOf(uint32_t i) { return {0x10000u + i}; }
   static Texture textureOf(uint32_t i) { return {0x10000u + i}; }
   uint32_t below(uint32_t end) { return static_cast<uint32_t>(random_() % end); }
@@ -94,7 +94,7 @@ class StateTrackerProperty : public ::testing::Test {
     const auto [mips, layers] = kShapes[i];
     const Access access = kTextureAccess[below(std::size(kTextureAccess))];
     TextureView view{.texture = textureOf(i), .mip = below(mips), .layer = below(layers)};
-    view.mipCount = below(mips - view.mip + 1);  // 0: all that follow
+    view.mipCount = below(mips - view.mip + 1);  // 0: all remaining mips
     view.layerCount = below(layers - view.layer + 1);
     tracker_.use(view, access);
     const uint32_t mipEnd = view.mipCount == 0 ? mips : view.mip + view.mipCount;
@@ -127,7 +127,7 @@ TEST_F(StateTrackerProperty, RollingBackForgetsTheFrame) {
       ASSERT_EQ(expanded(tracker_.flush()), model_.flush());
     }
     if (below(2) == 0) {
-      useRandomly();  // a call that was never finished
+      useRandomly();  // a call that is never finished
       tracker_.rollBack(trackerBefore);
       model_ = modelBefore;
     } else {
@@ -171,7 +171,7 @@ TEST_F(StateTrackerProperty, ReadsAfterReadsOfTheSameKindNeedNothing) {
   tracker_.use(bufferOf(0), Access::kStorageWrite);
   EXPECT_EQ(tracker_.flush().size(), 1u);
   tracker_.use(bufferOf(0), Access::kStorageWrite);
-  EXPECT_EQ(tracker_.flush().size(), 1u) << "a write after a write waits";
+  EXPECT_EQ(tracker_.flush().size(), 1u) << "a write after a write needs a barrier";
 }
 
 TEST_F(StateTrackerProperty, BindingsAreUsedAsTheShaderSays) {
@@ -189,7 +189,7 @@ TEST_F(StateTrackerProperty, BindingsAreUsedAsTheShaderSays) {
                       {Access::kNone, Access::kStorageRead | Access::kStorageWrite}}}));
 }
 
-// A slot that is only asked for its size still needs its resource in a state to be bound.
+// A shader that only reads a resource's size still needs it in a readable state.
 TEST_F(StateTrackerProperty, ASlotThatIsNeitherReadNorWrittenIsARead) {
   static constexpr grisaille_shader_slot kSlots[] = {
       {GRISAILLE_SLOT_IMAGE, 0, 0, 0, 0, 0, "r32f", "sized"}};
@@ -204,7 +204,7 @@ TEST_F(StateTrackerProperty, ASlotThatIsNeitherReadNorWrittenIsARead) {
 }
 
 TEST_F(StateTrackerProperty, ViewsOutsideAreRefused) {
-  const Texture texture = textureOf(3);  // 4 levels, 3 layers
+  const Texture texture = textureOf(3);  // 4 mips, 3 layers
   const TextureView outside[] = {{.texture = texture, .mip = 4},
                                  {.texture = texture, .mip = 2, .mipCount = 3},
                                  {.texture = texture, .mip = 1, .mipCount = ~0u},

@@ -61,7 +61,9 @@ TEST_F(TransientPoolTest, EveryFieldButTheLabelCounts) {
   EXPECT_EQ(made.size(), 7u);
   TextureDesc renamed = descs[6];
   renamed.label = "another";
-  pool_.take(renamed, [](const TextureDesc&) -> Texture { throw std::logic_error("made anew"); });
+  pool_.take(renamed, [](const TextureDesc&) -> Texture {
+    throw std::logic_error("created instead of reused");
+  });
 }
 
 TEST_F(TransientPoolTest, DropsWhatStaysIdle) {

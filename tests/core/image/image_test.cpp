@@ -54,7 +54,7 @@ Image noiseIn(uint32_t channels, float low, float high) {
   return image;
 }
 
-// IEC 61966-2-1, the other way round than the code under test.
+// IEC 61966-2-1, in the opposite direction to the code under test.
 double toLinear(double encoded) {
   return encoded <= 0.04045 ? encoded / 12.92 : std::pow((encoded + 0.055) / 1.055, 2.4);
 }
@@ -136,7 +136,7 @@ TEST_F(ImageFiles, OtherEndingsAndShapesAreRefused) {
   }
   EXPECT_ERROR(ErrorId::kFileUnwritable, checkWritable("/no/such/folder/a.exr"));
   checkWritable(file("a.exr"));
-  EXPECT_FALSE(fs::exists(file("a.exr")));  // asking leaves nothing
+  EXPECT_FALSE(fs::exists(file("a.exr")));  // the check creates no file
   EXPECT_ERROR(ErrorId::kImageFormat, write(image, file("a.png"), {.pngBits = 12}));
   Image broken = image;
   broken.pixels.pop_back();
@@ -155,7 +155,7 @@ TEST_F(ImageFiles, AFailureLeavesNothingBehind) {
 }
 
 TEST_F(ImageFiles, AFullDiskIsAnError) {
-  if (!fs::exists("/dev/full")) GTEST_SKIP() << "no /dev/full here";
+  if (!fs::exists("/dev/full")) GTEST_SKIP() << "this machine has no /dev/full";
   const std::string part = fmt::format("{}.{}.part", file("a.png"), getpid());
   fs::create_symlink("/dev/full", part);
   EXPECT_ERROR(ErrorId::kFileUnwritable, write(noiseIn(3, 0, 1), file("a.png")));
@@ -185,7 +185,7 @@ TEST(Decode, ReturnsWhatWasEncoded) {
   const Image8 back = decode(encodePng(image), "checker");
   EXPECT_EQ(back.width, image.width);
   EXPECT_EQ(back.height, image.height);
-  EXPECT_EQ(back.pixels, image.pixels);  // also the colour of texels without alpha
+  EXPECT_EQ(back.pixels, image.pixels);  // even the colour of texels with alpha 0
 }
 
 TEST_F(ImageFiles, DecodeWidensEveryChannelCount) {
@@ -221,10 +221,10 @@ TEST(Decode, HostileBytesAreRefusedInSilence) {
   for (size_t size = 1; size + 12 < good.size(); size += 17) {
     refused(std::span(good).first(size));
   }
-  std::vector<std::byte> huge = good;  // a width of 2^30
+  std::vector<std::byte> huge = good;  // claims a width of 2^30
   huge[16] = std::byte{0x40};
   refused(huge);
-  // A flipped bit may go unseen, but must not do harm.
+  // The decoder may miss a flipped bit, but must not do harm.
   std::mt19937 random(11);
   for (int i = 0; i < 300; ++i) {
     std::vector<std::byte> bytes = good;

@@ -45,9 +45,9 @@ TEST(Ssim, ConstantPicturesCompareByTheirMeansAlone) {
   }
 }
 
-// One window, one pixel set, at the window's centre: it weighs w = 0.2660124...^2, the square of
-// 1 / (1 + 2 (e^(-2/9) + e^(-8/9) + e^-2 + e^(-32/9) + e^(-50/9))). Against black, the means are w
-// and 0, the variances w - w^2 and 0, the covariance 0.
+// One window with one pixel set, at its centre. That pixel has weight w = 0.2660124...^2, the
+// square of 1 / (1 + 2 (e^(-2/9) + e^(-8/9) + e^-2 + e^(-32/9) + e^(-50/9))). Compared with black,
+// the means are w and 0, the variances w - w^2 and 0, the covariance 0.
 TEST(Ssim, ASinglePixelByHand) {
   Image dot = flat(11, 11, 0);
   dot.pixels[5 * 11 + 5] = 1;
@@ -58,7 +58,7 @@ TEST(Ssim, ASinglePixelByHand) {
   EXPECT_NEAR(s.mean, expected, 1e-6 * expected);
 }
 
-// The same by the definition, window by window.
+// SSIM computed from its definition, window by window.
 TEST(Ssim, TwoNoisesByTheDefinition) {
   const Image a = greyNoise(13, 12, 2), b = greyNoise(13, 12, 3);
   double weights[11], sum = 0, mean = 0;
@@ -93,11 +93,11 @@ TEST(Ssim, WindowsWithAPixelThatIsNotFiniteAreLeftOut) {
        {std::numeric_limits<float>::quiet_NaN(), std::numeric_limits<float>::infinity()}) {
     const Image a = greyNoise(30, 11, 4);
     Image b = a;
-    b.pixels[5 * 30] = bad;  // the leftmost column: in one window
+    b.pixels[5 * 30] = bad;  // the leftmost column is in one window
     EXPECT_EQ(ssim(a, b).leftOut, 1u);
     EXPECT_EQ(ssim(b, a).windows, 19u);
     EXPECT_DOUBLE_EQ(ssim(a, b).mean, 1);
-    b.pixels[5 * 30 + 15] = bad;  // in eleven more
+    b.pixels[5 * 30 + 15] = bad;  // this column is in eleven more
     EXPECT_EQ(ssim(a, b).leftOut, 12u);
   }
 }

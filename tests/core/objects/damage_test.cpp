@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: MIT
-// Files of objects that are not whole or not sound.
+// Object files that are truncated, corrupt or invalid.
 #include <gtest/gtest.h>
 
 #include "core/base/error.h"
@@ -12,7 +12,7 @@ namespace {
 
 class DamagedObjects : public tests::FolderTest {
  protected:
-  // The detail of the refusal behind the path, "" where the file is read.
+  // Loads `content`. Returns the error's detail after the path, or "" if loading succeeds.
   std::string refusal(const std::string& content,
                       ErrorId expected = ErrorId::kObjectFileInvalid) const {
     const std::string path = fileOf("damaged.json", content);
@@ -38,11 +38,11 @@ TEST_F(DamagedObjects, CutShortAnywhere) {
   for (size_t length = 0; length + 1 < whole.size(); ++length) {
     EXPECT_NE(refusal(whole.substr(0, length)), "") << length;
   }
-  // Without its last line break it is whole.
+  // Without its last line break, the file is still complete.
   EXPECT_EQ(refusal(whole.substr(0, whole.size() - 1)), "");
 }
 
-// Never a crash, and what is read is sound.
+// Loading never crashes, and any objects that it returns are valid.
 TEST_F(DamagedObjects, WithAnyByteChanged) {
   const std::string whole = saved(2);
   std::mt19937 random(1);
@@ -64,7 +64,7 @@ TEST_F(DamagedObjects, WithAnyByteChanged) {
 
 struct Bad {
   std::string text;
-  const char* said;  // is in the message
+  const char* said;  // part of the message
 };
 
 TEST_F(DamagedObjects, FaultsAroundTheObjectsAreNamed) {
@@ -96,7 +96,7 @@ TEST_F(DamagedObjects, FaultsAroundTheObjectsAreNamed) {
   }
 }
 
-// What stands for the last members of the second object.
+// Each text replaces the last members of the second object.
 TEST_F(DamagedObjects, FaultsOfAnObjectAreNamedByObjectAndField) {
   const Bad bad[] = {
       {R"("size": -2)", "decals[1].size is -2, out of -1 to 1000000"},
@@ -144,7 +144,7 @@ TEST_F(DamagedObjects, FaultsOfAnObjectAreNamedByObjectAndField) {
   EXPECT_EQ(refusal(R"({"version": 1, "decals": [{}]})"), "decals[0] has no \"position\"");
 }
 
-// Before anything else is read that another version may say otherwise.
+// The version is checked before all other fields, which another version may define differently.
 TEST_F(DamagedObjects, OtherVersionsAreRefusedByNumber) {
   for (const char* version : {"0", "2", "-1", "1.5", "18446744073709551616"}) {
     const std::string text = fmt::format(R"({{"version": {}, "new": [], "decals": 1}})", version);

@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: MIT
-// Prints what a million objects cost in time and memory. Their table has a point, a direction, a
-// colour and a number, as the longest lists of the program's own effects do.
+// Prints the time and memory that a million objects cost. Their table has a point, a direction, a
+// colour and a number, like the longest lists of the program's own effects.
 //
 //   test_objects_million FILE.json
 #include <sys/resource.h>

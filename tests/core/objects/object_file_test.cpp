@@ -34,7 +34,8 @@ TEST_F(ObjectFiles, EveryBitComesBack) {
   EXPECT_EQ(filesInFolder(), 2u);
 }
 
-// Floats whose fewest digits do not lead back to them by way of a double, and their neighbours.
+// Floats whose shortest decimal digits do not parse back to them through a double, and their
+// neighbours.
 TEST_F(ObjectFiles, HardFloatsComeBack) {
   std::vector<Decal> decals;
   for (uint32_t bits = 0x15ae43fd - 100; bits < 0x15ae43fd + 100; ++bits) {
@@ -136,7 +137,7 @@ TEST_F(ObjectFiles, WithoutAFolderNothingIsWritten) {
   EXPECT_EQ(filesInFolder(), 1u);
 }
 
-// As another user than the superuser, whom no permission stops.
+// Drops superuser rights while it lives: permissions do not stop the superuser.
 class Unprivileged {
  public:
   Unprivileged() {

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: MIT
-// A list's steps by random sequences, against a list that keeps every state.
+// Random steps on a list, compared with a model that stores every state.
 #include "core/objects/object_list.h"
 
 #include <gtest/gtest.h>
@@ -16,7 +16,7 @@ namespace {
 
 using State = std::vector<Object>;
 
-// As a list holds them.
+// Copies a list's objects.
 State stateOf(const View& view) {
   State state;
   for (size_t i = 0; i < view.count; ++i) state.push_back(view.object(i));
@@ -29,9 +29,9 @@ Objects objectsOf(const State& state, const Table& table) {
   return objects;
 }
 
-// Keeps every list that ever was.
+// Stores every state of the list.
 struct Model {
-  std::vector<State> states = {{}};  // what undo and redo walk along
+  std::vector<State> states = {{}};  // the states that undo and redo step through
   size_t now = 0;
   std::vector<State> revisions = {{}};
 
@@ -52,7 +52,7 @@ struct Model {
     now = 0;
     if (changes) revisions.push_back(states[0]);
   }
-  // The most that keptSince may say: what all lists since then begin with.
+  // Largest valid result of keptSince(): the common beginning of all lists since `revision`.
   size_t keptSince(size_t revision) const {
     size_t kept = revisions[revision].size();
     for (size_t r = revision + 1; r < revisions.size(); ++r) {
@@ -106,7 +106,7 @@ struct Both {
     }
     list.move(from, to);
   }
-  // What begins as the list does, often.
+  // Assigns objects that often begin like the current list.
   void assign(const Objects& added) {
     State state = model.state();
     state.resize(std::min<size_t>(state.size(), random() % 8), Object(table));
@@ -204,7 +204,7 @@ TEST(ObjectList, AddingAndUndoingKeepsAllThatItCan) {
   std::mt19937_64 random(1);
   ObjectList list(kDecals);
   EXPECT_EQ(list.keptSince(0), 0u);
-  std::vector<size_t> counts = {0};  // at each revision
+  std::vector<size_t> counts = {0};  // number of objects at each revision
   for (int i = 0; i < 500; ++i) {
     if (random() % 3 == 0) {
       list.undo();
@@ -238,7 +238,7 @@ TEST(ObjectList, AssigningKeepsExactlyTheCommonBeginning) {
   }
 }
 
-// A host's objects may hold anything between their fields, and -0.
+// Structs of a host may hold any bytes between their fields, and -0.
 TEST(ObjectList, AssigningComparesFieldsAlone) {
   struct Padded {
     double position[3];

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: MIT
-// Fields of every type: what they may be, and what a list makes of them.
+// Object fields of every type: accepted values, and their form in a list.
 #include "core/objects/object.h"
 
 #include <gtest/gtest.h>
@@ -23,7 +23,7 @@ Value words(std::string text) {
   return {.numbers = {}, .text = std::move(text)};
 }
 
-// The error's detail.
+// The detail of the error that checked() throws.
 std::string refusal(const Field& field, const Value& value) {
   try {
     checked(field, value);
@@ -88,13 +88,13 @@ TEST(ObjectFields, DirectionsOfAnyLengthComeOutUnit) {
   std::normal_distribution<double> normal;
   for (const double length :
        {5e-324, 1e-320, 1e-300, 1e-160, 1e-20, 1.0, 1e20, 1e160, 1e300, 1.79e308}) {
-    // Along an axis even the shortest double has a direction.
+    // Along an axis, even the smallest double has a direction.
     for (size_t axis = 0; axis < 3; ++axis) {
       Value value;
       value.numbers[axis] = -length;
       EXPECT_EQ(checked(field, value).numbers[axis], -1) << length;
     }
-    if (length < 1e-300) continue;  // a denormal is too coarse for more than that
+    if (length < 1e-300) continue;  // denormals are too coarse for the checks below
     for (int i = 0; i < 1000; ++i) {
       std::array<double, 3> unit{normal(random), normal(random), normal(random)};
       const double size = std::hypot(unit[0], unit[1], unit[2]);
@@ -106,7 +106,7 @@ TEST(ObjectFields, DirectionsOfAnyLengthComeOutUnit) {
   }
 }
 
-// What a list holds goes through it again and again without a change of any bit.
+// Checking a value that comes from a list changes no bit of it.
 TEST(ObjectFields, CheckingWhatIsCheckedChangesNothing) {
   std::mt19937_64 random(2);
   for (int i = 0; i < 20000; ++i) {
@@ -126,7 +126,7 @@ TEST(ObjectFields, TextsOfValuesReadBack) {
       const std::string text = textOf(field, value);
       const Value back = parseValue(field, text);
       if (field.type == GRISAILLE_FIELD_COLOUR) {
-        // Rounded once: the text of a text is that text.
+        // Rounding happens once: converting the text again gives the same text.
         EXPECT_EQ(textOf(field, back), text);
         for (size_t k = 0; k < 3; ++k) EXPECT_NEAR(back.numbers[k], value.numbers[k], 0.005);
       } else {
@@ -196,7 +196,7 @@ TEST(ObjectFields, UnknownKeysNameTheNearestAndAllThatThereAre) {
   EXPECT_ERROR(ErrorId::kObjectField, object.at(kDecals, ""));
 }
 
-// --- Many
+// --- Lists
 
 TEST(Objects, LieInMemoryAsTheTableSays) {
   std::mt19937_64 random(4);
@@ -232,7 +232,7 @@ TEST(Objects, ARefusalNamesObjectAndFieldAndAppendsNothing) {
   };
   EXPECT_EQ(words([&] { objects.append(bad); }), "decals[3].colour[1] is 2, out of 0 to 1");
   EXPECT_EQ(words([&] { objects.append(bad, "it"); }), "it.colour[1] is 2, out of 0 to 1");
-  // As a host hands them over, the second being wrong.
+  // Structs as a host hands them over; the second is invalid.
   std::vector<Decal> raw(3, {{0, 0, 0}, {0, 0, 1}, {0, 0, 0}, 1, "", ""});
   raw[1].direction[2] = 0;
   const View given{&kDecals, reinterpret_cast<const std::byte*>(raw.data()), raw.size()};

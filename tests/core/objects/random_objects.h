@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: MIT
-// A table with fields of every type, and objects of it by chance.
+// A table with fields of every type, and random objects of it.
 #pragma once
 
 #include <gtest/gtest.h>
@@ -78,7 +78,7 @@ constexpr Table kDecals = plugin::objects<Decal>({.key = "decals",
                                                   .pointField = kPosition,
                                                   .directionField = kDirection});
 
-// The same without texts: what objects without pointers are laid out as.
+// The same fields without texts, for objects whose structs hold no pointers.
 constexpr Table kPlainDecals = plugin::objects<Decal>({.key = "decals",
                                                        .label = "Decals",
                                                        .tooltip = "Colours on surfaces",
@@ -86,7 +86,7 @@ constexpr Table kPlainDecals = plugin::objects<Decal>({.key = "decals",
                                                        .pointField = kPosition,
                                                        .directionField = kDirection});
 
-// Numbers of every size up to `largest`, of either sign, and now and then 0 or -0.
+// Random numbers up to `largest`, of any magnitude and sign; 0 and -0 occur.
 inline double anySize(std::mt19937_64& random, double largest) {
   std::uniform_real_distribution<double> share(-1, 1);
   const double value = largest * share(random);
@@ -102,7 +102,7 @@ inline double anySize(std::mt19937_64& random, double largest) {
   }
 }
 
-// Characters of one to four bytes, and those that JSON escapes.
+// Text of characters of one to four bytes, including those that JSON escapes.
 inline std::string anyText(std::mt19937_64& random) {
   constexpr const char* kCharacters[] = {
       "a",        "Z",  " ", "\"", "\\",           "/",
@@ -133,7 +133,7 @@ inline Objects randomObjects(std::mt19937_64& random, size_t count, const Table&
   return objects;
 }
 
-// Every number bit by bit. A list has no -0.
+// Whether all numbers are bitwise equal. Lists hold no -0.
 inline bool sameValue(const Value& a, const Value& b) {
   return a == b &&
          !std::ranges::any_of(a.numbers, [](double x) { return x == 0 && std::signbit(x); });

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: MIT
-// Every way in which glTF can store numbers gives the same numbers.
+// glTF can store the same numbers in many ways; each must load to the same values.
 #include <limits>
 
 #include "tests/core/scene/gltf_builder.h"
@@ -8,7 +8,7 @@
 namespace grisaille::scene {
 namespace {
 
-// What the format's text says a stored number means.
+// Value of a stored number by the glTF specification.
 template <typename T>
 float meaning(T stored, bool normalized) {
   if constexpr (std::is_same_v<T, float>) {
@@ -36,7 +36,7 @@ enum class Storage { kPacked, kStrided, kSparse, kSparseOnZeros };
 template <typename T>
 class Accessors : public SceneFiles {
  protected:
-  // Four elements of three numbers, stored in one way or another.
+  // Stores four elements of three numbers with this storage; returns the accessor.
   int store(Gltf& gltf, const std::vector<T>& values, Storage storage, bool normalized) {
     const size_t element = 3 * sizeof(T);
     json entry{{"componentType", Gltf::componentType<T>()},
@@ -152,7 +152,7 @@ TEST_F(AccessorFiles, RangesAreChecked) {
     SCOPED_TRACE(std::string(list) + "." + key + " = " + value.dump());
     EXPECT_ERROR(id, loadGltf(put("a.glb", gltf.bytes())));
   };
-  // The buffer holds 72 bytes, of which the first view is 36.
+  // The buffer holds 72 bytes; the first view covers 36 of them.
   for (const uint64_t bad : {uint64_t{40}, uint64_t{1} << 31, uint64_t{1} << 32, uint64_t{1} << 62,
                              ~uint64_t{0} - 35, ~uint64_t{0}}) {
     refused("bufferViews", 0, "byteOffset", bad);
@@ -212,7 +212,7 @@ TEST_F(AccessorFiles, SparseRangesAreChecked) {
   refused(sparse(1, 0, -4, 5121), 3, ErrorId::kSceneInvalid);
   refused(sparse(1, 0, 36, 5121), 3, ErrorId::kSceneInvalid);
   refused(sparse(1, 0, 0, 5126), 3, ErrorId::kSceneInvalid);
-  refused(sparse(1, 0, 12, 5125), 3, ErrorId::kSceneInvalid);  // 1.0f as an index
+  refused(sparse(1, 0, 12, 5125), 3, ErrorId::kSceneInvalid);  // the bits of 1.0f as an index
 }
 
 TEST_F(AccessorFiles, NumbersThatAreNotFiniteAreRefused) {

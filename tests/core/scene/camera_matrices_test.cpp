@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: MIT
-// Cameras from the matrices of picture files, whichever renderer's convention they follow.
+// Cameras from the matrices in picture files, in the conventions of several renderers.
 #include "core/scene/camera_matrices.h"
 
 #include <gtest/gtest.h>
@@ -47,11 +47,11 @@ TEST(CameraMatrices, ComeBackToTheCamera) {
   expectSame(back(matricesOf(kCamera, kWidth, kHeight)), kCamera);
   const Camera other{.eye = {-1e3, 20, 5e2}, .target = {-999, 19.5, 500}, .fovyDegrees = 100};
   const Camera read = back(matricesOf(other, kWidth, kHeight));
-  EXPECT_LT(glm::length(read.eye - other.eye), 1e-3);  // what floats hold of it
+  EXPECT_LT(glm::length(read.eye - other.eye), 1e-3);  // within the precision of floats
   EXPECT_NEAR(read.fovyDegrees, 100, 1e-3);
 }
 
-// A camera that looks along +z, as in RenderMan, and NDC from 0 at the top left corner to 1.
+// A camera that looks along +z, as in RenderMan, with NDC from 0 at the top left corner to 1.
 TEST(CameraMatrices, OtherConventionsAreUnderstood) {
   const image::ViewMatrices own = matricesOf(kCamera, kWidth, kHeight);
   const glm::dmat4 flipZ = glm::scale(glm::dmat4(1), glm::dvec3(1, 1, -1));
@@ -62,7 +62,7 @@ TEST(CameraMatrices, OtherConventionsAreUnderstood) {
   expectSame(back({own.worldToCamera, ndc}), kCamera);
   expectSame(back({view, own.worldToNdc}), kCamera);
   expectSame(back({view, ndc}), kCamera);
-  // A projection matrix of any scale is the same projection.
+  // Scaling a projection matrix does not change the projection.
   expectSame(back({view, rows(glm::dmat4(matrix(ndc)) * 7.0)}), kCamera);
 }
 
@@ -78,10 +78,10 @@ TEST(CameraMatrices, WhatIsNoPinholeOfThePictureIsRefused) {
   const auto ndcThen = [&](const glm::dmat4& then) {
     return image::ViewMatrices{own.worldToCamera, rows(then * ndc)};
   };
-  refused(ndcThen(glm::translate(glm::dmat4(1), glm::dvec3(0.1, 0, 0))));  // off the centre
+  refused(ndcThen(glm::translate(glm::dmat4(1), glm::dvec3(0.1, 0, 0))));  // off centre
   refused(ndcThen(glm::scale(glm::dmat4(1), glm::dvec3(-1, 1, 1))));       // mirrored
   refused(ndcThen(glm::scale(glm::dmat4(1), glm::dvec3(1.1, 1, 1))));      // stretched
-  // Another camera's.
+  // The matrix of another camera.
   refused({matricesOf({.eye = {0, 0, 9}}, kWidth, kHeight).worldToCamera, own.worldToNdc});
   image::ViewMatrices odd = own;
   odd.worldToCamera[5] = std::nanf("");

@@ -29,7 +29,7 @@ TEST_F(CameraPathFiles, RunsFromKeyToKey) {
     EXPECT_NEAR(cameras[i].fovyDegrees, 40 + x[i], 1e-12);
     EXPECT_EQ(cameras[i].eye.z, 3);
   }
-  // The ends are the keys, to the bit.
+  // The first and last cameras equal the keys, to the bit.
   EXPECT_EQ(cameraJson(cameras.front()), cameraJson(path.keys.front()));
   EXPECT_EQ(cameraJson(cameras.back()), cameraJson(path.keys.back()));
 }
@@ -73,7 +73,7 @@ TEST_F(CameraPathFiles, MistakesAreNamed) {
                loadCameraPath(put("path.json", "{\"frames\": 2, \"cameras\": [" + deep + "]}")));
 }
 
-// The eye runs through the target.
+// The eye passes through the target.
 TEST(CameraPath, AFrameWithoutAViewIsNamed) {
   const Camera a{.eye = {0, 0, 2}, .target = {0, 0, 0}}, b{.eye = {0, 0, -2}, .target = {0, 0, 0}};
   EXPECT_NO_THROW(camerasOf({.keys = {a, b}, .frames = 4}));

@@ -226,7 +226,7 @@ TEST(Camera, DepthIsReversed) {
   };
   EXPECT_NEAR(project({0, 0, -0.5}).z, 1, 1e-15);
   EXPECT_NEAR(project({0, 0, -1e12}).z, 0, 1e-11);
-  // The top right corner of a picture twice as wide as high.
+  // The top right corner of a picture twice as wide as it is high.
   EXPECT_NEAR(project({6, 3, -3}).x, 1, 1e-12);
   EXPECT_NEAR(project({6, 3, -3}).y, 1, 1e-12);
 }

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: MIT
-// Small glTF files for tests, in a folder that goes away with the test.
+// Small glTF files for tests, in a folder that is deleted after the test.
 #pragma once
 
 #include <gtest/gtest.h>
@@ -52,7 +52,7 @@ inline std::string glb(const json& document, const std::string& binary) {
   return "glTF" + word(2) + word(12 + chunks.size()) + chunks;
 }
 
-// A document with one mesh, whose accessors the test adds.
+// A document with one mesh; the test adds the accessors.
 struct Gltf {
   json document = json::parse(R"({
     "asset": {"version": "2.0"}, "scene": 0, "scenes": [{"nodes": [0]}], "nodes": [{"mesh": 0}],
@@ -62,7 +62,7 @@ struct Gltf {
 
   json& primitive() { return document["meshes"][0]["primitives"][0]; }
 
-  // Returns the buffer view.
+  // Appends bytes to the buffer. Returns the index of the buffer view.
   int view(const void* bytes, size_t size, size_t stride = 0) {
     binary.resize((binary.size() + 3) / 4 * 4, '\0');
     json entry{{"buffer", 0}, {"byteOffset", binary.size()}, {"byteLength", size}};
@@ -72,7 +72,7 @@ struct Gltf {
     return static_cast<int>(document["bufferViews"].size()) - 1;
   }
 
-  // Returns the accessor. `components`: numbers an element.
+  // Stores values. `components`: numbers per element. Returns the index of the accessor.
   template <typename T>
   int accessor(const std::vector<T>& values, size_t components) {
     constexpr const char* kTypes[] = {"SCALAR", "VEC2", "VEC3", "VEC4"};

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: MIT
-// What a well-formed glTF means, and that writing a scene loses nothing.
+// Meaning of valid glTF files. Writing a scene and loading it again loses nothing.
 #include <cmath>
 
 #include "core/image/image.h"
@@ -72,7 +72,7 @@ TEST_F(GltfFiles, NodesNestWithBothKindsOfTransform) {
       {{"mesh", 0}, {"matrix", {1, 0, 0, 0, 0, 0, -1, 0, 0, 1, 0, 0, 5, 6, 7, 1}}}};
   const Scene scene = loadGltf(put("a.glb", gltf.bytes()));
   ASSERT_EQ(scene.instances.size(), 2u);
-  EXPECT_EQ(scene.primitives.size(), 1u);  // shared
+  EXPECT_EQ(scene.primitives.size(), 1u);  // shared by both nodes
   const auto at = [&](size_t instance, glm::dvec3 p) {
     return glm::dvec3(scene.instances[instance].worldFromObject * glm::dvec4(p, 1));
   };
@@ -159,7 +159,7 @@ TEST_F(GltfFiles, MaterialsAndTextures) {
   gltf.document["images"] = {
       {{"bufferView", gltf.view(picture.data(), picture.size())}, {"mimeType", "image/png"}},
       {{"uri", "data:image/png;base64," + base64(picture)}},
-      {{"uri", "not%20there.png"}},  // of no base colour: nobody reads it
+      {{"uri", "not%20there.png"}},  // not a base colour: never read
       {{"uri", "a%20b.png"}}};
   put("a b.png", picture);
   gltf.document["samplers"] = {{{"wrapS", 33071}, {"wrapT", 33648}}};
@@ -241,7 +241,7 @@ TEST_F(GltfFiles, TheTexturesSetAndTransformAreApplied) {
           {"texCoord": 1, "offset": [0.5, 0.25], "scale": [2, 4],
            "rotation": 1.5707963267948966}}}}}])");
   const Scene scene = loadGltf(put("a.glb", gltf.bytes()));
-  // Scaled, then a quarter turn counter-clockwise with v down: (u, v) -> (v, -u), then moved.
+  // Scale, then turn by 90 degrees counter-clockwise with v down: (u, v) -> (v, -u), then move.
   const glm::vec2 expected[] = {{0.5f, 0.25f}, {0.5f, -1.75f}, {4.5f, 0.25f}};
   for (size_t i = 0; i < 3; ++i) {
     EXPECT_LT(glm::distance(scene.texCoords[i], expected[i]), 1e-6f) << i;
@@ -265,7 +265,7 @@ TEST_F(GltfFiles, WritingLosesNothing) {
     EXPECT_EQ(back.positions, scene.positions);
     EXPECT_EQ(back.normals.size(), scene.normals.size());
     for (size_t i = 0; i < scene.normals.size(); ++i) {
-      // Loading makes unit vectors unit once more.
+      // Loading normalises the vectors again.
       ASSERT_LT(glm::distance(back.normals[i], scene.normals[i]), 2e-7f);
     }
     EXPECT_EQ(back.texCoords, scene.texCoords);

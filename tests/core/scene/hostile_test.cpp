@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: MIT
-// Files that are broken by accident or on purpose: one error each, no crash, no hang.
+// Files that are broken by accident or on purpose: each ends in one error, never a crash or a hang.
 #include <sys/stat.h>
 
 #include <chrono>
@@ -99,7 +99,7 @@ TEST_F(HostileFiles, TheBinaryChunkIsNotMultiplied) {
 }
 
 TEST_F(HostileFiles, SharedVerticesAreNotMultiplied) {
-  // A million vertices without a byte behind them, claimed by many primitives.
+  // Many primitives share 3 million vertices that take no bytes in the file.
   Gltf gltf = Gltf::triangle();
   for (json& accessor : gltf.document["accessors"]) {
     accessor.erase("bufferView");
@@ -139,7 +139,7 @@ TEST_F(HostileFiles, TextureTransformsStayWithinNumbers) {
   EXPECT_ERROR(ErrorId::kSceneInvalid, loadGltf(scaled(1e300)));
 }
 
-// Loads bytes that are probably broken; anything but an Error fails the test.
+// Loads bytes that are probably broken; any exception but an Error fails the test.
 void loadBroken(const std::string& path) {
   const auto start = std::chrono::steady_clock::now();
   try {
@@ -152,7 +152,8 @@ void loadBroken(const std::string& path) {
   EXPECT_LT(std::chrono::steady_clock::now() - start, std::chrono::seconds(20));
 }
 
-// A file that uses most of what is read: textures, masks, sparse numbers, a node tree, strips.
+// A file with most of the supported features: textures, masks, sparse accessors, a node tree,
+// strips.
 std::string richFile() {
   Gltf gltf = Gltf::triangle();
   gltf.primitive()["indices"] = gltf.accessor<uint16_t>({0, 1, 2}, 1);
@@ -189,7 +190,7 @@ TEST_F(HostileFiles, CutShortAnywhere) {
   ASSERT_NO_THROW(loadGltf(put("good.glb", good)));
   for (size_t size = 0; size < good.size(); size += 13) {
     EXPECT_ERROR(ErrorId::kSceneUnreadable, loadGltf(put("a.glb", good.substr(0, size))));
-    // The same with a header that agrees.
+    // The same, with a header that states the reduced length.
     std::string cut = good.substr(0, size);
     if (size < 12) continue;
     const auto length = static_cast<uint32_t>(size);
@@ -205,7 +206,7 @@ TEST_F(HostileFiles, BytesFlippedAnywhere) {
     std::string bad = good;
     const uint32_t flips = 1 + random() % 4;
     for (uint32_t k = 0; k < flips; ++k) {
-      // Digits for digits keep the JSON whole, so that the damage goes deeper.
+      // Replacing digits by digits keeps the JSON valid; the damage reaches later stages.
       char& at = bad[12 + random() % (bad.size() - 12)];
       const bool digit = at >= '0' && at <= '9';
       at = static_cast<char>(digit               ? '0' + random() % 10

@@ -62,7 +62,7 @@ TEST(MeshBuilder, SolidsAreClosedAndTurnedOut) {
 
 TEST(MeshBuilder, CreasesAreSharpAndTheRestIsSmooth) {
   const Scene cube = sceneOf(box({0, 0, 0}, {1, 1, 1}));
-  EXPECT_EQ(cube.positions.size(), 24u);  // three normals a corner
+  EXPECT_EQ(cube.positions.size(), 24u);  // three normals per corner
   const Scene can = sceneOf(lathe(std::array{glm::dvec2(1, 0), glm::dvec2(1, 2)}, 32));
   for (size_t i = 0; i < can.positions.size(); ++i) {
     const glm::vec3 p = can.positions[i], n = can.normals[i];

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: MIT
-// What a sound triangle mesh has to fulfil.
+// Conditions that a valid triangle mesh fulfils.
 #pragma once
 
 #include <gtest/gtest.h>
@@ -11,8 +11,8 @@
 
 namespace grisaille::scene {
 
-// Edges of a primitive that do not meet their reverse, seen by position: 0 for closed solids with
-// one winding.
+// Number of edges without a matching reverse edge, compared by position. 0 for closed solids with
+// consistent winding.
 inline size_t openEdges(const Scene& scene, const Primitive& primitive) {
   const auto less = [](const glm::vec3& a, const glm::vec3& b) {
     return std::tie(a.x, a.y, a.z) < std::tie(b.x, b.y, b.z);

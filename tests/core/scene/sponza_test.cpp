@@ -15,7 +15,7 @@ TEST(Sponza, LoadsWholeAndFast) {
   const char* given = std::getenv("GRISAILLE_SPONZA");
   const std::string path = given ? given : SPONZA_DEFAULT;
   if (!std::filesystem::exists(path)) {
-    GTEST_SKIP() << path << " is not there; set GRISAILLE_SPONZA to test with Sponza";
+    GTEST_SKIP() << path << " is missing; set GRISAILLE_SPONZA to test with Sponza";
   }
   const auto start = std::chrono::steady_clock::now();
   const Scene scene = loadGltf(path);

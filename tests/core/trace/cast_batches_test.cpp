@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: MIT
-// What a ray meets is its own affair: the rays around it in a call change no bit of it.
+// The result of a ray does not depend on the other rays of its batch, to the bit.
 #include <gtest/gtest.h>
 
 #include <algorithm>
@@ -23,7 +23,7 @@ class Dice {
     std::normal_distribution<double> normal;
     return glm::normalize(glm::dvec3(normal(random_), normal(random_), normal(random_)));
   }
-  glm::dvec3 point() { return {unit(), unit(), unit()}; }  // in a cube
+  glm::dvec3 point() { return {unit(), unit(), unit()}; }  // in the unit cube
   std::mt19937& engine() { return random_; }
 
  private:
@@ -37,8 +37,9 @@ glm::dvec3 cornerOf(const scene::Scene& scene, Dice& dice) {
   return glm::dvec3(instance.worldFromObject * glm::dvec4(glm::dvec3(scene.positions[vertex]), 1));
 }
 
-// From one muzzle, in a cone between a needle and all round. Many are aimed at the corners of
-// triangles, where several are met at once, some of these along an axis, which no rounding spoils.
+// Rays from one muzzle, in a cone of any width from a needle to all directions. Many aim at corners
+// of triangles, where they hit several at once; some of these run along an axis and are free of
+// rounding.
 void addVolley(const scene::Scene& scene, Dice& dice, std::vector<grisaille_ray>& rays) {
   const glm::dvec3 target = dice.below(2) == 0
                                 ? cornerOf(scene, dice)
@@ -75,7 +76,7 @@ bool sameBits(const grisaille_hit& a, const grisaille_hit& b) {
   return std::bit_cast<Bits>(a) == std::bit_cast<Bits>(b);
 }
 
-// All at once, in batches of random sizes, shuffled, and each alone.
+// Casts the rays all at once, in batches of random sizes, shuffled, and one at a time.
 void expectSameInAnyBatch(const scene::Scene& scene, uint32_t seed, size_t volleys) {
   const RayTracer tracer(scene, (scene.bounds.min + scene.bounds.max) / 2.0);
   Dice dice(seed);
@@ -111,8 +112,8 @@ TEST(CastBatches, ChangeNothingInTheAtrium) {
   expectSameInAnyBatch(scene::makeAtrium(), 1, 300);
 }
 
-// Cards with holes, roofs whose sides meet at a ridge that rays hit exactly, and stacks of cards
-// that are one in 32 bits but not in the distances told.
+// Cards with holes; roofs with sides that meet at a ridge, which rays hit exactly; stacks of cards
+// that coincide in 32 bits but differ in the reported distances.
 TEST(CastBatches, ChangeNothingAmongHolesRidgesAndTwins) {
   const scene::Scene atrium = scene::makeAtrium();
   const auto leaves = std::ranges::find_if(atrium.materials, [](const scene::Material& m) {

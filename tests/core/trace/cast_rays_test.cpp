@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: MIT
-// Rays of any origin against every triangle, one by one, in double precision.
+// Rays of any origin, compared with a loop over all triangles in double precision.
 #include <gtest/gtest.h>
 
 #include <algorithm>
@@ -28,7 +28,7 @@ grisaille_hit cast(const RayTracer& tracer, const grisaille_ray& ray) {
 struct Expected {
   double distance = INFINITY;
   glm::dvec3 normal = glm::dvec3(0);
-  bool doubtful = false;  // the ray passes so near to an edge that rounding may tell otherwise
+  bool doubtful = false;  // the ray passes close to an edge: rounding may decide
 };
 
 Expected nearestOf(const std::vector<Corners>& triangles, const grisaille_ray& ray) {
@@ -57,7 +57,7 @@ Expected nearestOf(const std::vector<Corners>& triangles, const grisaille_ray& r
   return found;
 }
 
-// Triangles of all sizes in a cube of 20 m, one side or both, half of them mirrored.
+// Triangles of all sizes in a cube of 20 m, one-sided or two-sided, half of them mirrored.
 struct Soup {
   SceneBuilder builder;
   std::vector<Corners> triangles;
@@ -97,7 +97,7 @@ TEST(CastRays, FindTheNearestTriangleFromEitherSide) {
     std::uniform_real_distribution<double> unit(-1, 1);
     const auto point = [&] { return glm::dvec3(unit(random), unit(random), unit(random)); };
     for (int i = 0; i < 1500; ++i) {
-      // From within, from beside, from far away.
+      // From inside the cube, near it, and far away.
       const double away = std::array{5.0, 40.0, 1e5}[static_cast<size_t>(i % 3)];
       const glm::dvec3 origin = centre + away * point();
       const float reach = i % 2 == 0 ? INFINITY : static_cast<float>(2 * away);
@@ -171,7 +171,7 @@ TEST(CastRays, CutOutMaterialsLetThroughAndFlatScenesAreMet) {
   const RayTracer tracer(builder.scene, glm::dvec3(0));
   EXPECT_EQ(cast(tracer, rayFrom({0, 3, 0}, {0, -1, 0}, INFINITY)).distance, 3);
   EXPECT_EQ(cast(tracer, rayFrom({0, -3, 0}, {0, 1, 0}, INFINITY)).distance, 3);
-  // Along the plane, where no crossing is sharp: a hit, if any, is one of the floor.
+  // Along the plane, where no crossing is well defined: a hit, if any, is on the floor.
   const grisaille_hit along = cast(tracer, rayFrom({-50, 0, 0.5}, {1, 0, 0}, INFINITY));
   if (along.kind == GRISAILLE_HIT_SURFACE) {
     EXPECT_GE(along.distance, 40);
@@ -179,9 +179,9 @@ TEST(CastRays, CutOutMaterialsLetThroughAndFlatScenesAreMet) {
   }
 }
 
-// The same scene a million metres off is the same scene.
+// Moving the scene by a million metres changes nothing.
 TEST(CastRays, NothingChangesFarFromTheWorldsOrigin) {
-  const glm::dvec3 away(1e6, 2e6, -4e6);  // whole: the sums below round nothing
+  const glm::dvec3 away(1e6, 2e6, -4e6);  // whole numbers: the sums below are exact
   const Soup near(5, glm::dvec3(0)), far(5, away);
   const RayTracer nearTracer(near.builder.scene, glm::dvec3(0)), farTracer(far.builder.scene, away);
   std::mt19937 random(11);

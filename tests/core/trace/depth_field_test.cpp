@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: MIT
-// The screen-space ceiling: what a picture shows blocks, what it does not show does not.
+// The screen-space ceiling: only surfaces that the picture shows can block rays.
 #include "core/trace/depth_field.h"
 
 #include <gtest/gtest.h>
@@ -52,8 +52,8 @@ TEST(DepthField, APlaneIsOpenAtAnySlant) {
   }
 }
 
-// All that could block is in the picture, whose facets are its planes: but for pixels that hold the
-// edge, the ceiling is the truth, ray by ray.
+// The picture shows every blocker, and the picture's facets are the surfaces' planes. Except at
+// pixels with the edge, the ceiling equals the truth for each ray.
 TEST(DepthField, ACornerInFullViewIsTheTruth) {
   SceneBuilder builder;
   const uint32_t material = builder.material({.name = "both sides", .doubleSided = true});
@@ -76,8 +76,8 @@ TEST(DepthField, ACornerInFullViewIsTheTruth) {
   EXPECT_LT(meanOf(truth), 0.98);
 }
 
-// A card before a wall, further than the radius: nothing blocks. A picture cannot tell that from a
-// block as deep as the gap.
+// A card in front of a wall, farther away than the radius, blocks nothing. A picture cannot
+// distinguish it from a block as deep as the gap.
 TEST(DepthField, ThicknessIsWhatAPictureCannotTell) {
   SceneBuilder builder;
   const uint32_t material = builder.material({});
@@ -96,7 +96,7 @@ TEST(DepthField, ThicknessIsWhatAPictureCannotTell) {
   EXPECT_LT(meanOf(view.ceiling(0.9, 1.5, 64)), thick);
 }
 
-// A step behind the camera's edge is unknown: the truth is darker.
+// The picture does not show the wall just beyond its edge: the truth is darker.
 TEST(DepthField, OffThePictureIsOpen) {
   SceneBuilder builder;
   const uint32_t material = builder.material({});
@@ -111,7 +111,8 @@ TEST(DepthField, OffThePictureIsOpen) {
   EXPECT_EQ(meanOf(view.ceiling(0.5, 10, 64)), 1);
 }
 
-// Whether a ray is inside the matter at points close to one another, with the camera's own numbers.
+// Samples closely spaced points of a ray and tests each against the matter, with the camera's own
+// numbers.
 bool isOpenByPoints(const View& view, const Hit& from, const glm::dvec3& direction, double radius,
                     double thickness) {
   constexpr int kPoints = 4000;
@@ -165,7 +166,7 @@ TEST(DepthField, TheWalkIsExact) {
       ++rays;
     }
   }
-  // Points step over what is thinner than their spacing.
+  // The points miss matter that is thinner than their spacing.
   EXPECT_GT(blocked, rays / 20);
   EXPECT_LE(differ, rays / 200) << rays << " rays, " << blocked << " blocked";
 }

@@ -16,7 +16,8 @@ namespace {
 constexpr uint32_t kFlickerWidth = 48;
 constexpr uint32_t kFlickerHeight = 32;
 
-// A camera that walks past a sphere on a floor. `value(frame, hit)` fills a picture.
+// A camera that walks past a sphere on a floor. `ao(frame, hit)` and `truth(frame, hit)` fill the
+// pictures.
 template <typename Ao, typename TruthOf>
 std::vector<FlickerFrame> walk(size_t frames, double step, const Ao& ao, const TruthOf& truth) {
   SceneBuilder builder;
@@ -73,7 +74,7 @@ TEST(Flicker, AlternatingByAIsTwiceA) {
   }
 }
 
-// With one frame that jumps and one that does not, the mean is over both.
+// One pair of frames with a jump and one without: the mean is over both.
 TEST(Flicker, PairsOfFramesWeighBySharedPoints) {
   const auto once = [](size_t frame, const Hit&) { return frame == 0 ? 0.5 : 0.9; };
   const Flicker f = flicker(walk(3, 0, once, plain));
@@ -85,13 +86,13 @@ TEST(Flicker, OnlyPointsThatTheNextFrameShowsCount) {
   size_t surfaces = 0;
   for (const Hit& hit : all[0].hits) surfaces += hit.viewDepth > 0 ? 1 : 0;
   EXPECT_EQ(flicker(all).points, surfaces);
-  // Far away nothing is in both, and turned round nothing is before the eye.
+  // A far camera shares no point; for a camera turned round, all points lie behind the eye.
   EXPECT_EQ(flicker(walk(2, 60, plain, plain)).points, 0u);
   auto turned = all;
   turned[1].camera.target = 2.0 * turned[1].camera.eye - turned[1].camera.target;
   EXPECT_EQ(flicker(turned).points, 0u);
 
-  // What the sphere hides from a frame beside does not count: the floor just behind it.
+  // Points that the sphere hides in a neighbouring frame do not count: the floor just behind it.
   auto aside = walk(2, 0.4, plain, plain);
   for (Hit& hit : aside[0].hits) {
     const glm::dvec3 eye = aside[1].camera.eye;
@@ -107,14 +108,14 @@ TEST(Flicker, OnlyPointsThatTheNextFrameShowsCount) {
 TEST(Flicker, ValuesThatAreNotFiniteAreLeftOut) {
   auto frames = walk(2, 0, plain, plain);
   const uint64_t all = flicker(frames).points;
-  const size_t pixel = kFlickerWidth * kFlickerHeight - kFlickerWidth / 2;  // the floor
+  const size_t pixel = kFlickerWidth * kFlickerHeight - kFlickerWidth / 2;  // a pixel on the floor
   frames[1].truth.pixels[pixel] = std::numeric_limits<float>::quiet_NaN();
   frames[0].ao.pixels[pixel - 1] = std::numeric_limits<float>::infinity();
   EXPECT_EQ(flicker(frames).points, all - 2);
   EXPECT_EQ(flicker(frames).rms, 0);
 }
 
-// The map holds what the rms is over, point by point.
+// The map holds the values that enter the RMS, point by point.
 TEST(Flicker, TheMapOfChangesIsWhatTheRmsIsOver) {
   const auto alternating = [](size_t frame, const Hit& hit) {
     return shade(frame, hit) + (frame % 2 == 0 ? 0.1 * hit.position.x : 0);

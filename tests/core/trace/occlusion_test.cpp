@@ -1,5 +1,6 @@
 // SPDX-License-Identifier: MIT
-// Ambient visibility over many pixels against closed forms, within the error that it states.
+// Ambient visibility over many pixels, compared with closed forms; the difference must match the
+// stated error.
 #include <gtest/gtest.h>
 
 #include <algorithm>
@@ -15,10 +16,10 @@ namespace grisaille::trace {
 namespace {
 
 constexpr uint32_t kSide = 48;  // pixels
-constexpr double kFar = 5000;   // metres: as good as infinite
+constexpr double kFar = 5000;   // metres: practically infinite
 
-// A square metre of the floor about (x, 0), seen straight from 0.5 m over it: its points are a
-// regular grid.
+// Hits on a square metre of the floor around (x, 0), seen from straight above at 0.5 m. The points
+// form a regular grid.
 std::vector<Hit> squareMetre(const RayTracer& tracer, double x) {
   scene::Camera camera = cameraAt({x, 0.5, 0}, {x, 0, 0}, {0, 0, -1});
   camera.fovyDegrees = 90;
@@ -26,7 +27,7 @@ std::vector<Hit> squareMetre(const RayTracer& tracer, double x) {
   return tracer.castPrimary(camera, kSide, kSide);
 }
 
-// The traced picture differs from the closed form as much as it says.
+// Expects the traced picture to differ from the closed form by about as much as its stated error.
 void expectHonest(const RayTracer& tracer, std::span<const Hit> hits, double radius,
                   const std::function<double(const glm::dvec3&)>& visibility) {
   for (const uint32_t samples : {64u, 200u, 1024u}) {
@@ -63,10 +64,10 @@ TEST(Occlusion, AnOpenPlaneIsOneWithoutAnError) {
   EXPECT_EQ(rmsError(hits, values), 0);
 }
 
-// Cosine-weighted directions are even over the unit disc under the hemisphere (Malley): one that
-// stands over (x, y) of the disc goes x R along the x axis in R metres. A wall at the distance d is
-// met by those with x >= d / R, a segment of the disc: of its area pi, it has acos c - c sqrt(1 -
-// c^2) with c = d / R. The wall is higher than R.
+// Cosine-weighted directions are uniform over the unit disc under the hemisphere (Malley). A ray of
+// length R above (x, y) of the disc travels x R along the x axis. A wall at distance d blocks the
+// rays with x >= d / R. On the disc, of area pi, that segment has area acos c - c sqrt(1 - c^2)
+// with c = d / R. The wall is higher than R.
 TEST(Occlusion, ARightAngledCornerIsHonest) {
   SceneBuilder builder;
   const uint32_t material = builder.material({});
@@ -82,10 +83,10 @@ TEST(Occlusion, ARightAngledCornerIsHonest) {
   }
 }
 
-// The form factor of a sphere of radius a, seen from a plane element that has all of it over its
-// horizon: sin^2(half its angle) times the cosine of its centre's direction, (a / D)^2 (h / D) at
-// the distance D and the height h (Howell, "A Catalog of Radiation Heat Transfer Configuration
-// Factors", B-43).
+// The form factor of a sphere of radius a, seen from a plane element with the whole sphere above
+// its horizon: sin^2(half the sphere's angle) times the cosine of its centre's direction. At
+// distance D and height h this is (a / D)^2 (h / D) (Howell, "A Catalog of Radiation Heat Transfer
+// Configuration Factors", B-43).
 TEST(Occlusion, ASphereOnAPlaneIsHonest) {
   constexpr float kRadius = 0.4f;
   SceneBuilder builder;
@@ -99,9 +100,9 @@ TEST(Occlusion, ASphereOnAPlaneIsHonest) {
   });
 }
 
-// Between parallel walls of the height h that are w apart, the sky is seen under the angles a and b
-// from the normal to either wall's edge: (sin a + sin b) / 2 of what a cosine weighs, the lengths
-// of crossed less uncrossed strings of a narrow strip. Over the whole floor, by Hottel's strings,
+// Between parallel walls of height h at distance w, a point sees the sky up to the angles a and b
+// from its normal, towards the edges of the walls. The cosine-weighted share is (sin a + sin b) /
+// 2: crossed less uncrossed strings of a narrow strip. Over the whole floor, Hottel's strings give
 // (2 sqrt(h^2 + w^2) - 2 h) / (2 w).
 TEST(Occlusion, ASlotMatchesCrossedStrings) {
   constexpr float kHeight = 0.7f;
@@ -127,7 +128,7 @@ TEST(Occlusion, ASlotMatchesCrossedStrings) {
   EXPECT_NEAR(mean, strings, 4 * rmsError(hits, values) / kSide + 2e-4);
 }
 
-// Twice as well as independent rays at 64, better yet with more.
+// At 64 samples the error is half that of independent rays; the advantage grows with more samples.
 TEST(Occlusion, PointsConvergeFasterThanIndependentRays) {
   SceneBuilder builder;
   const uint32_t material = builder.material({});
@@ -171,8 +172,8 @@ TEST(Occlusion, InPassesItIsTheSameToTheBit) {
 TEST(Occlusion, TheErrorByHand) {
   const std::vector<Hit> hits = {{.viewDepth = 1}, {.viewDepth = 1}, {.viewDepth = 1}, {}};
   std::vector<OcclusionCounts> counts(4);
-  // Half of the sequences all open, half all blocked: means 0 and 1, of standard deviation
-  // sqrt(8 / 7) / 2, by sqrt(8).
+  // Half of the sequences are fully open, half fully blocked: values 0 and 1 with a standard
+  // deviation of sqrt(8 / 7) / 2, divided by sqrt(8).
   for (size_t k = 0; k < kScrambles; ++k) {
     counts[0].counted[k] = 10;
     counts[0].open[k] = k % 2 == 0 ? 10 : 0;

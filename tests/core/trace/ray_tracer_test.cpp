@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: MIT
-// What primary rays hit: depth, normals, facing, holes.
+// Results of primary rays: depth, normals, facing, holes.
 #include <gtest/gtest.h>
 
 #include <cmath>
@@ -14,8 +14,8 @@ namespace {
 constexpr uint32_t kTracedWidth = 64;
 constexpr uint32_t kTracedHeight = 36;
 
-// The view depth at which a pixel's ray meets a horizontal plane, from the camera's own definition:
-// eye, target, whole vertical angle; y down.
+// View depth at which a pixel's ray meets a horizontal plane, computed from the camera's
+// definition: eye, target, full vertical angle; y points down.
 double planeDepth(const scene::Camera& camera, glm::uvec2 pixel, double planeY) {
   const glm::dvec3 forward = glm::normalize(camera.target - camera.eye);
   const glm::dvec3 right = glm::normalize(glm::cross(forward, camera.up));
@@ -56,7 +56,7 @@ TEST(RayTracer, DepthOfAPlaneIsExactNearAndFarFromTheWorldsOrigin) {
 TEST(RayTracer, NormalsOfASphereAreRadialUnderAnyTransform) {
   SceneBuilder builder;
   const uint32_t sphere = builder.sphere(glm::vec3(0), 1, builder.material({}));
-  // An ellipsoid: x^2 / 4 + y^2 + z^2 / 0.25 = 1, once mirrored in x.
+  // An ellipsoid: x^2 / 4 + y^2 + z^2 / 0.25 = 1, unmirrored and mirrored in x.
   for (const double mirror : {1.0, -1.0}) {
     builder.scene.instances.clear();
     builder.place(sphere, glm::scale(glm::dmat4(1), glm::dvec3(2 * mirror, 1, 0.5)));
@@ -84,7 +84,7 @@ TEST(RayTracer, BackFacesAreSeenOnlyWhenDoubleSidedAndMirroringTurnsThem) {
         const uint32_t material = builder.material({.name = "card", .doubleSided = doubleSided});
         const uint32_t card =
             builder.quad({glm::vec3(-1, -1, 0), {1, -1, 0}, {1, 1, 0}, {-1, 1, 0}}, material);
-        // Mirrored in x: the winding as seen turns, the normal (0, 0, 1) stays.
+        // Mirroring in x reverses the winding as seen; the normal (0, 0, 1) stays.
         builder.place(card, glm::scale(glm::dmat4(1), glm::dvec3(mirrored ? -1 : 1, 1, 1)));
         const double side = fromFront ? 1 : -1;
         const scene::Camera camera = cameraAt({0.1, 0.2, 2 * side}, {0, 0, 0});
@@ -100,14 +100,14 @@ TEST(RayTracer, BackFacesAreSeenOnlyWhenDoubleSidedAndMirroringTurnsThem) {
   }
 }
 
-// A 2 x 1 image: left texel of alpha 1, right texel of alpha 0.
+// A 2 x 1 image: the left texel has alpha 1, the right one alpha 0.
 scene::Texture halfMask(scene::Wrap wrap) {
   const image::Image8 texels{
       .width = 2, .height = 1, .pixels = {255, 255, 255, 255, 255, 255, 255, 0}};
   return {.name = "half mask", .encoded = {}, .texels = texels, .wrapU = wrap, .wrapV = wrap};
 }
 
-// Alpha at texture coordinate u of that image, with linear filtering.
+// Alpha of that image at texture coordinate u, with linear filtering.
 double halfMaskAlpha(double u, scene::Wrap wrap) {
   const double x = 2 * u - 0.5;
   if (x >= 0 && x <= 1) return 1 - x;
@@ -119,7 +119,7 @@ TEST(RayTracer, HolesOfAMaskedCardLetPrimaryAndOcclusionRaysThrough) {
   for (const scene::Wrap wrap : {scene::Wrap::kRepeat, scene::Wrap::kClamp, scene::Wrap::kMirror}) {
     SceneBuilder builder;
     builder.scene.textures.push_back(halfMask(wrap));
-    // Factor 0.8 and cutoff 0.6: a hole under a texture alpha of 0.75.
+    // Factor 0.8 and cutoff 0.6: texture alphas below 0.75 are holes.
     const uint32_t card = builder.material({.name = "card",
                                             .baseColor = {1, 1, 1, 0.8f},
                                             .baseColorTexture = 0,
@@ -128,7 +128,7 @@ TEST(RayTracer, HolesOfAMaskedCardLetPrimaryAndOcclusionRaysThrough) {
     const uint32_t ground = builder.material({});
     builder.place(builder.quad({glm::vec3(0, 1, 0), {1, 1, 0}, {1, 1, -1}, {0, 1, -1}}, card));
     builder.place(builder.floor(glm::vec3(0), 10, ground));
-    // Straight down, far up: all rays of the card are as good as vertical.
+    // Straight down from far above: all rays to the card are practically vertical.
     scene::Camera camera = cameraAt({0.5, 60, -0.5}, {0.5, 0, -0.5}, {0, 0, -1});
     camera.fovyDegrees = 1;
     const RayTracer tracer(builder.scene, camera.eye);
@@ -149,7 +149,7 @@ TEST(RayTracer, HolesOfAMaskedCardLetPrimaryAndOcclusionRaysThrough) {
 }
 
 TEST(RayTracer, OcclusionRaysPassHolesAndAreBlockedByEitherSide) {
-  // A lid 0.2 m over the floor, its back face down: whole, and entirely cut out.
+  // A lid 0.2 m above the floor, its back face down: opaque, then entirely cut out.
   for (const float alpha : {1.0f, 0.4f}) {
     SceneBuilder builder;
     const uint32_t lid = builder.material(
@@ -161,7 +161,8 @@ TEST(RayTracer, OcclusionRaysPassHolesAndAreBlockedByEitherSide) {
     const auto hits = tracer.castPrimary(camera, 1, 1);
     ASSERT_GT(hits[0].viewDepth, 0);
     const auto visibility = tracer.ambientOcclusion(hits, 0.5, 4096, 1);
-    // Blocked within 0.5 m when cosine >= 0.4: visible 0.4^2 of the cosine-weighted hemisphere.
+    // Rays with cosine >= 0.4 are blocked within 0.5 m: the visible part is 0.4^2 of the
+    // cosine-weighted hemisphere.
     EXPECT_NEAR(visibility[0].mean, alpha == 1.0f ? 0.16 : 1.0, 2e-3);
   }
 }

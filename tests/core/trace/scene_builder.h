@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: MIT
-// Scenes whose truth is known in closed form.
+// Scenes with a truth in closed form.
 #pragma once
 
 #include <array>
@@ -22,8 +22,8 @@ class SceneBuilder {
     return static_cast<uint32_t>(scene.materials.size() - 1);
   }
 
-  // Corners counter-clockwise as seen from the front. Texture coordinates (0, 1), (1, 1), (1, 0),
-  // (0, 0) in their order.
+  // Adds a quad with its corners counter-clockwise as seen from the front. They get texture
+  // coordinates (0, 1), (1, 1), (1, 0), (0, 0) in this order.
   uint32_t quad(const std::array<glm::vec3, 4>& corners, uint32_t material) {
     const auto base = static_cast<uint32_t>(scene.positions.size());
     const glm::vec3 normal =
@@ -33,7 +33,7 @@ class SceneBuilder {
     return primitive({base, base + 1, base + 2, base, base + 2, base + 3}, material);
   }
 
-  // A level square, front up, `half` metres to each side of `centre`.
+  // A horizontal square that faces up and extends `half` metres to each side of `centre`.
   uint32_t floor(const glm::vec3& centre, float half, uint32_t material) {
     return quad({centre + glm::vec3(-half, 0, half), centre + glm::vec3(half, 0, half),
                  centre + glm::vec3(half, 0, -half), centre + glm::vec3(-half, 0, -half)},

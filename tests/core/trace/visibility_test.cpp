@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: MIT
-// Ambient visibility against closed forms, and its statistics.
+// Ambient visibility, compared with closed forms, and its statistics.
 #include <gtest/gtest.h>
 
 #include <algorithm>
@@ -15,7 +15,7 @@
 namespace grisaille::trace {
 namespace {
 
-// The hit straight under a camera that looks down at (x, 0, z).
+// The hit straight below a camera at (x, height, z) that looks down.
 std::vector<Hit> lookDown(const RayTracer& tracer, double x, double z, double height = 0.01) {
   scene::Camera camera = cameraAt({x, height, z}, {x, 0, z}, {0, 0, -1});
   camera.nearPlane = 1e-4;
@@ -37,8 +37,8 @@ TEST(Visibility, APlaneAloneIsFullyOpen) {
   EXPECT_EQ(seen, hits.size());
 }
 
-// Cosine-weighted directions are points of the unit disc; the wall at distance d blocks those with
-// x >= d / radius: a segment of the disc.
+// Cosine-weighted directions are points of the unit disc. A wall at distance d blocks the points
+// with x >= d / radius: a segment of the disc.
 TEST(Visibility, ARightAngledCornerMatchesTheSegmentOfADisc) {
   SceneBuilder builder;
   const uint32_t material = builder.material({});
@@ -58,8 +58,9 @@ TEST(Visibility, ARightAngledCornerMatchesTheSegmentOfADisc) {
   }
 }
 
-// The share of the disc of directions whose ray meets the sphere within `radius`, on a grid of
-// points. The sphere has radius `a`, rests on the plane and touches it `s` metres away.
+// Visible share of the disc of directions, integrated on a grid of points: a direction is blocked
+// if its ray meets the sphere within `radius`. The sphere of radius `a` rests on the plane and
+// touches it `s` metres away.
 double sphereVisibility(double a, double s, double radius) {
   constexpr int kSteps = 2000;
   int blocked = 0, counted = 0;
@@ -93,7 +94,7 @@ TEST(Visibility, ASphereOnAPlaneMatchesIntegration) {
       EXPECT_NEAR(value.mean, sphereVisibility(kRadius, s, radius), 2e-3)
           << "at " << s << " radius " << radius;
     }
-    // Unbounded: the form factor of a sphere that is wholly over the horizon.
+    // Unbounded radius: the form factor of a sphere wholly above the horizon.
     const double form = std::pow(kRadius / std::sqrt(s * s + kRadius * kRadius), 3);
     EXPECT_NEAR(tracer.ambientOcclusion(hits, 1000, 16384, 5)[0].mean, 1 - form, 2e-3) << s;
   }
@@ -102,13 +103,13 @@ TEST(Visibility, ASphereOnAPlaneMatchesIntegration) {
 TEST(Visibility, RaysUnderTheFacetAreLeftOut) {
   SceneBuilder builder;
   builder.place(builder.floor(glm::vec3(0), 50, builder.material({})));
-  // A normal 60 degrees off the facet's: a quarter of the rays would go under the open plane.
+  // The normal is 60 degrees from the facet's: a quarter of the rays would go below the open plane.
   for (glm::vec3& normal : builder.scene.normals) {
     normal = glm::vec3(std::sqrt(0.75f), 0.5f, 0);
   }
   const RayTracer tracer(builder.scene, glm::dvec3(0, 1, 0));
   EXPECT_EQ(tracer.ambientOcclusion(lookDown(tracer, 0, 0), 0.5, 256, 1)[0].mean, 1);
-  // A normal that points into the ground leaves nothing to count.
+  // A normal into the ground leaves no ray to count.
   for (glm::vec3& normal : builder.scene.normals) normal = glm::vec3(0, -1, 0);
   EXPECT_TRUE(std::isnan(tracer.ambientOcclusion(lookDown(tracer, 0, 0), 0.5, 256, 1)[0].mean));
 }
@@ -133,7 +134,7 @@ TEST(Visibility, TheSameForAnySplitOfThePixels) {
 TEST(Sampling, EveryPrefixOfPowersOfTwoIsStratified) {
   for (uint32_t seed = 0; seed < 50; ++seed) {
     for (uint32_t bits = 1; bits <= 8; ++bits) {
-      // Every elementary interval of that area holds exactly one point.
+      // Every elementary interval of this area holds exactly one point.
       for (uint32_t across = 0; across <= bits; ++across) {
         std::vector<int> cells(1u << bits, 0);
         for (uint32_t i = 0; i < (1u << bits); ++i) {
@@ -165,7 +166,7 @@ TEST(Sampling, FramesAreOrthonormal) {
 TEST(Sponza, IsAnAtriumWithPlantsCutOut) {
   const char* named = std::getenv("GRISAILLE_SPONZA");
   const std::string path = named != nullptr ? named : GRISAILLE_SHARED_SPONZA;
-  if (!std::filesystem::exists(path)) GTEST_SKIP() << "no Sponza at " << path;
+  if (!std::filesystem::exists(path)) GTEST_SKIP() << "Sponza is missing: " << path;
   const scene::Scene scene = scene::loadGltf(path);
   const scene::Camera camera = cameraAt({-9.0, 1.7, -0.3}, {0, 3.0, -0.4});
   const RayTracer tracer(scene, camera.eye);

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: MIT
-// Visibility averaged over frames, on every backend.
+// Visibility accumulated over frames, on every backend.
 #include <gtest/gtest.h>
 
 #include "tests/effects/ssao/render_ao.h"
@@ -13,19 +13,19 @@ using tests::AoFrames;
 using tests::Settings;
 
 constexpr uint32_t kWidth = 96, kHeight = 72;
-// Without a blur the noise of a frame is plain to see.
+// Without a blur, the noise of a frame stays visible.
 const Settings kNoisy = {{"denoise_size", "0"}, {"resolution", "full"}, {"history", "32"}};
 
 class HistoryTest : public tests::BackendTest {
  protected:
-  // What 32 slices for each pixel of one frame come to.
+  // Reference: one frame with 32 slices per pixel.
   image::Image still(const scene::Camera& camera, uint32_t width = kWidth,
                      uint32_t height = kHeight) {
     return tests::renderAo(device(), scene_, camera,
                            {{"denoise_size", "0"}, {"resolution", "full"}, {"slices", "32"}}, width,
                            height);
   }
-  // Root mean square.
+  // Root mean square error against still().
   double errorOf(const image::Image& ao, const scene::Camera& camera) {
     return image::compare(ao, still(camera, ao.width, ao.height)).rmse;
   }
@@ -50,7 +50,7 @@ TEST_P(HistoryTest, NoiseFallsWhileNothingMoves) {
   EXPECT_LT(image::compare(last, before).rmse, 0.05 * first);
 }
 
-// An estimator between that leaves no history ends it.
+// Running an estimator without a history discards the history.
 TEST_P(HistoryTest, AnotherEstimatorEndsIt) {
   AoFrames frames(device(), scene_, kNoisy);
   const image::Image first = frames.show(cameraAt(0), kWidth, kHeight);
@@ -61,7 +61,7 @@ TEST_P(HistoryTest, AnotherEstimatorEndsIt) {
   EXPECT_EQ(frames.show(cameraAt(0), kWidth, kHeight).pixels, first.pixels);
 }
 
-// With 1 a frame knows nothing of those before, and a texel's pattern is that of the first.
+// With `history` 1, each frame is independent and has the noise pattern of the first.
 TEST_P(HistoryTest, WithoutItFramesStandAlone) {
   Settings settings = kNoisy;
   settings.back().second = "1";
@@ -75,7 +75,7 @@ TEST_P(HistoryTest, AMovingCameraKeepsWhatItSaw) {
   for (const char* resolution : {"full", "half"}) {
     AoFrames frames(device(), scene_, kNoisy);
     frames.set({{"resolution", resolution}});
-    const auto at = [](int i) { return cameraAt(0.011 * i, 1.5 - 0.007 * i); };  // part pixels
+    const auto at = [](int i) { return cameraAt(0.011 * i, 1.5 - 0.007 * i); };  // parts of pixels
     const double first = errorOf(frames.show(at(0), kWidth, kHeight), at(0));
     for (int i = 1; i < 15; ++i) frames.show(at(i), kWidth, kHeight);
     const double last = errorOf(frames.show(at(15), kWidth, kHeight), at(15));
@@ -83,8 +83,8 @@ TEST_P(HistoryTest, AMovingCameraKeepsWhatItSaw) {
   }
 }
 
-// A post before a wall: what it uncovers is seen for the first time, and what it covers is not
-// taken for the wall.
+// A post in front of a wall. The wall that it uncovers has no history; the post must not inherit
+// the wall's.
 TEST_P(HistoryTest, WhatWasCoveredLeavesNoGhost) {
   scene::Scene scene = tests::wallScene();
   tests::addQuad(scene,
@@ -110,7 +110,7 @@ TEST_P(HistoryTest, ANewSizeOrResolutionDoesNotFlash) {
     EXPECT_LT(errorOf(ao, cameraAt(0)), 0.5 * errorOf(fresh, cameraAt(0)))
         << width << "x" << height;
   }
-  // Half the texels hold the same surfaces.
+  // Texels of half the resolution show the same surfaces.
   for (int i = 0; i < 32; ++i) frames.show(cameraAt(0), kWidth, kHeight);
   const image::Image full = frames.show(cameraAt(0), kWidth, kHeight);
   frames.set({{"resolution", "half"}});
@@ -133,7 +133,7 @@ TEST_P(HistoryTest, CutsAndExtremesStayVisibilities) {
   AoFrames frames(device(), scene_, {{"history", "256"}});
   const std::vector<scene::Camera> cameras = {
       cameraAt(0),
-      {.eye = glm::dvec3(0, 1.2, 1.5), .target = glm::dvec3(0, 1.2, 9)},  // away from all
+      {.eye = glm::dvec3(0, 1.2, 1.5), .target = glm::dvec3(0, 1.2, 9)},  // away from everything
       cameraAt(0),
       {.eye = glm::dvec3(0, 1.2, 1.5), .target = glm::dvec3(0, 0, 0), .fovyDegrees = 1},
       {.eye = glm::dvec3(0, 1.2, 1.5), .target = glm::dvec3(0, 0, 0), .fovyDegrees = 170},
@@ -147,7 +147,8 @@ TEST_P(HistoryTest, CutsAndExtremesStayVisibilities) {
   }
 }
 
-// Far from the world's origin the camera's moves are as small against its place as they get.
+// Far from the world's origin, the camera's moves are as small relative to its position as
+// possible.
 TEST_P(HistoryTest, FarFromTheOriginItIsTheSame) {
   const auto walk = [&](const glm::dvec3& origin) {
     scene::Scene scene = scene_;

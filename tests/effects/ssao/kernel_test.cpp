@@ -39,7 +39,7 @@ TEST(Kernel, DirectionsAreBalancedAboutTheNormal) {
     mean /= 64.0 * kMaxKernelSize;
     EXPECT_NEAR(mean.x, 0, 0.01);
     EXPECT_NEAR(mean.y, 0, 0.01);
-    // The mean cosine is 2/3 with the cosine's density, 0 all around.
+    // The mean cosine is 2/3 with cosine-weighted density, 0 over the sphere.
     EXPECT_NEAR(mean.z, sampling == Sampling::kHemisphere ? 2.0 / 3 : 0, 0.01);
   }
 }

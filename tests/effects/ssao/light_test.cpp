@@ -24,8 +24,8 @@ glm::dvec3 vectorAt(const image::Image& image, uint32_t x, uint32_t y) {
   return {image.at(x, y, 0), image.at(x, y, 1), image.at(x, y, 2)};
 }
 
-// The mean open direction over the floor at a distance from the wall in radii: directions with the
-// cosine's density fall evenly on a disc, and those beyond that distance are shut.
+// Mean open direction above the floor at a distance from the wall, in radii. Cosine-weighted
+// directions are uniform on a disc; the wall blocks those beyond that distance.
 glm::dvec3 openOverFloor(double distance) {
   constexpr int kSteps = 400;
   glm::dvec3 sum(0);
@@ -60,7 +60,7 @@ TEST_P(LightTest, BentNormalsOfACornerAreTheAnalyticOnes) {
         EXPECT_GT(bent.y, 0.99) << resolution << ' ' << x << ' ' << y;
       }
     }
-    // At half resolution what is nearest the wall has its direction from a pixel further off.
+    // At half resolution, pixels next to the wall take their direction from a pixel farther away.
     const double most = resolution == std::string("half") ? 3.5 : 3;
     for (size_t bin = 0; bin < 5; ++bin) {
       const double cosine =
@@ -82,7 +82,7 @@ TEST_P(LightTest, BentNormalsOfSkyAreZeroAndChangeNothingElse) {
   }
 }
 
-// The fit of Jimenez et al. 2016 at a visibility.
+// The fit of Jimenez et al. 2016 for a visibility.
 double bounced(double open, double albedo) {
   const double a = 2.0404 * albedo - 0.3324, b = -4.7951 * albedo + 0.6417;
   const double c = 2.7552 * albedo + 0.6903;
@@ -123,10 +123,10 @@ TEST_P(LightTest, BaseColoursTintTheComposedPictureAlone) {
       }
     }
   }
-  // A white picture has the visibility.
+  // A white picture equals the visibility.
   const auto white = frames.showAll(kCreaseView, 64, 48, {"ao", "color"});
   for (uint32_t x = 0; x < 64; ++x) ASSERT_NEAR(white[1].at(x, 30, 2), white[0].at(x, 30), 1e-3);
-  // Without the bounce all channels are alike.
+  // Without the bounce, all channels are equal.
   frames.set({{"bounce", "none"}});
   const auto plain = frames.showAll(kCreaseView, 64, 48, {"ao", "tint"});
   for (uint32_t x = 0; x < 64; ++x) ASSERT_EQ(plain[1].at(x, 30, 2), plain[0].at(x, 30));

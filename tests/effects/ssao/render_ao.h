@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: MIT
-// Pictures of the effect's output, for its tests.
+// Renders the effect's output for its tests.
 #pragma once
 
 #include <gtest/gtest.h>
@@ -20,7 +20,7 @@ using Settings = std::vector<std::pair<std::string, std::string>>;
 constexpr uint32_t kAoWidth = 96;
 constexpr uint32_t kAoHeight = 72;
 
-// The effect with its instance, for several frames.
+// The effect with one instance, for several frames.
 class AoFrames {
  public:
   AoFrames(gpu::Device& device, const scene::Scene& scene, const Settings& settings)
@@ -40,7 +40,7 @@ class AoFrames {
     return showAll(camera, width, height, {"ao"}).front();
   }
 
-  // Outputs of one frame.
+  // Renders one frame; returns its outputs.
   std::vector<image::Image> showAll(const scene::Camera& camera, uint32_t width, uint32_t height,
                                     const std::vector<std::string>& outputs,
                                     frame::Surface surface = frame::Surface::kWhite) {

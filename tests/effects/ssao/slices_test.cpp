@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: MIT
-// Slices: what must hold at every resolution, on every backend.
+// The slices estimator: requirements at every resolution, on every backend.
 #include <gtest/gtest.h>
 
 #include <algorithm>
@@ -30,7 +30,7 @@ TEST_P(SlicesTest, APlaneIsOpenAtEveryTiltAndDistance) {
   for (const double degrees : {1.0, 10.0, 35.0, 60.0, 90.0}) {
     for (const double distance : {0.2, 2.0, 50.0, 1000.0}) {
       const double tilt = glm::radians(degrees);
-      // Slightly turned, so that no axis of the picture is the plane's.
+      // Slightly turned, to avoid axes shared by the picture and the plane.
       const scene::Camera camera = {
           .eye = distance * glm::dvec3(0.1 * std::cos(tilt), std::sin(tilt), std::cos(tilt)),
           .target = glm::dvec3(0),
@@ -45,16 +45,16 @@ TEST_P(SlicesTest, APlaneIsOpenAtEveryTiltAndDistance) {
   }
 }
 
-// Of a point on one wall of a right-angled corner, at a distance from the other in radii:
-// directions with the cosine's density fall evenly on a disc, and those that are shut fill its
-// segment beyond that distance.
+// Visibility of a point on one wall of a right-angled corner, at a distance from the other wall in
+// radii. Cosine-weighted directions are uniform on a disc; the other wall blocks the segment beyond
+// that distance.
 double cornerVisibility(double distance) {
   const double c = std::min(distance, 1.0);
   return 1 - (std::acos(c) - c * std::sqrt(1 - c * c)) / glm::pi<double>();
 }
 
-// How far the picture is off on average, by the distance from the crease in fifths of a radius; on
-// the floor and on the wall.
+// Mean error of the picture, by distance from the crease in fifths of a radius; on the floor and on
+// the wall.
 std::array<std::array<double, 5>, 2> cornerErrors(const image::Image& ao,
                                                   const image::Image& depth) {
   std::array<std::array<double, 5>, 2> sums = {}, counts = {};
@@ -85,7 +85,7 @@ TEST_P(SlicesTest, ACornerIsWithinTwoHundredthsOfItsAnalyticValue) {
   const std::vector<std::string> outputs = {"depth"};
   renderer.render({.camera = kCorner, .width = 640, .height = 480, .outputs = outputs});
   const image::Image depth = renderer.read("depth");
-  // The near plane cuts floor and wall: where vertices snap coarsely, their depth is off.
+  // The near plane cuts floor and wall: where vertices snap coarsely, their depth is inexact.
   const double allowed = snapping().isCoarse() ? 0.03 : 0.02;
   for (const tests::Settings& settings :
        std::vector<tests::Settings>{{{"resolution", "full"}},
@@ -138,7 +138,7 @@ TEST_P(SlicesTest, ExtremesStayVisibilitiesAtEverySize) {
 }
 
 TEST_P(SlicesTest, SkyIsOpenAndDarkensNothing) {
-  // A post before the sky: nothing but itself is there to darken it.
+  // A post in front of the sky: only the post itself could darken it.
   scene::Scene scene;
   scene.materials.push_back({.name = "white"});
   tests::addQuad(scene, {glm::vec3(-0.4f, -3, 0), {0.4f, -3, 0}, {0.4f, 3, 0}, {-0.4f, 3, 0}},
@@ -151,7 +151,8 @@ TEST_P(SlicesTest, SkyIsOpenAndDarkensNothing) {
 }
 
 TEST_P(SlicesTest, SomethingFarBeforeAWallLeavesNoHalo) {
-  // Beyond the radius and thinner than its thickness: classic samplers darken the wall about it.
+  // Farther away than the radius and thinner than its thickness: classic samplers darken the wall
+  // around it.
   scene::Scene scene = tests::wallScene();
   tests::addQuad(scene, {glm::vec3(-0.3f, -3, 2), {0.3f, -3, 2}, {0.3f, 3, 2}, {-0.3f, 3, 2}},
                  {0, 0, 1});
@@ -163,7 +164,8 @@ TEST_P(SlicesTest, SomethingFarBeforeAWallLeavesNoHalo) {
 }
 
 TEST_P(SlicesTest, MoreThicknessIsDarker) {
-  // A thin shelf before a wall, seen from below: what is behind its front edge is unknown.
+  // A thin shelf in front of a wall, seen from below: the depth does not show what lies behind its
+  // front edge.
   scene::Scene scene = tests::wallScene();
   tests::addQuad(scene, {glm::vec3(-3, 0, 0.3f), {3, 0, 0.3f}, {3, 0.05f, 0.3f}, {-3, 0.05f, 0.3f}},
                  {0, 0, 1});
@@ -176,8 +178,8 @@ TEST_P(SlicesTest, MoreThicknessIsDarker) {
   EXPECT_GT(mean("0.3"), mean("2"));
 }
 
-// A board that stands off a wall, seen from the front alone: what is behind its face is a guess,
-// unless its back is known.
+// A board at some distance from a wall, seen from the front only. Its thickness is a guess unless
+// the depth of its back is known.
 TEST_P(SlicesTest, BackFacesSayHowThickABoardIs) {
   const scene::Camera camera = {.eye = glm::dvec3(0.4, 0.5, 3), .target = glm::dvec3(0, 0, 0)};
   const auto mean = [&](float deep, const char* thickness, const char* back) {
@@ -195,8 +197,8 @@ TEST_P(SlicesTest, BackFacesSayHowThickABoardIs) {
   EXPECT_LT(mean(0.4f, "0.05", "true"), mean(0.4f, "0.05", "false") - 0.005);
 }
 
-// With a guard band a picture knows what a larger one would: it is the larger one's middle. The
-// band is a multiple of the noise's period and of the grid that far taps fall on.
+// With a guard band, a picture equals the middle of a larger one. The band is a multiple of the
+// noise's period and of the grid of far taps.
 TEST_P(SlicesTest, AGuardBandMakesItTheMiddleOfALargerPicture) {
   const scene::Scene scene = tests::cornerScene();
   constexpr uint32_t kSize = 160, kBand = 80;
@@ -214,10 +216,10 @@ TEST_P(SlicesTest, AGuardBandMakesItTheMiddleOfALargerPicture) {
     tests::Settings guarded = settings;
     guarded.emplace_back("guard_band", "0.5");
     const image::Image own = tests::renderAo(device(), scene, kCorner, guarded, kSize, kSize);
-    // But for rounding, which moves taps that fall between two pixels.
+    // Except for rounding, which moves taps that fall between two pixels.
     const double off = image::shareOver(own, middle, 2.0 / 255);
     EXPECT_LT(off, 0.02) << resolution;
-    // Which it is not without.
+    // Without the guard band, the pictures differ more.
     const image::Image bare = tests::renderAo(device(), scene, kCorner, settings, kSize, kSize);
     EXPECT_GT(image::shareOver(bare, middle, 2.0 / 255), 2 * off) << resolution;
   }
@@ -244,7 +246,7 @@ TEST_P(SlicesTest, TheDenoiserRemovesThePattern) {
   }
 }
 
-// A floor that meets a wall with a ledge a few texels wide between them.
+// A floor that meets a wall, with a ledge a few texels wide between them.
 scene::Scene ledgeScene() {
   scene::Scene scene = tests::cornerScene();
   tests::addQuad(scene,
@@ -263,7 +265,8 @@ TEST_P(SlicesTest, EdgesThatRunAslantAreFreeOfThePattern) {
     const double roll = glm::radians(degrees);
     camera.up = {std::sin(roll), std::cos(roll), 0};
     for (const char* resolution : {"full", "half"}) {
-      // What is left of the noise is what sets a frame off from the mean of the pattern's 25.
+      // The remaining noise: the difference between a frame and the mean over the pattern's 25
+      // frames.
       const auto noise = [&](const char* reach) {
         tests::AoFrames frames(device(), scene,
                                {{"resolution", resolution},
@@ -286,8 +289,8 @@ TEST_P(SlicesTest, EdgesAreDenoisedAndNothingElse) {
       return tests::renderAo(device(), tests::cornerScene(), kCorner, settings, 320, 240);
     };
     const image::Image with = rendered("6"), without = rendered("0");
-    // The crease is about the middle; next to it, and to the picture's border, all within what a
-    // denoiser reaches.
+    // The crease is in the middle. Pixels near it, or near the picture's border, are all within the
+    // denoiser's reach.
     size_t changed = 0;
     for (uint32_t y = 0; y < with.height; ++y) {
       for (uint32_t x = 0; x < with.width; ++x) {
@@ -299,7 +302,7 @@ TEST_P(SlicesTest, EdgesAreDenoisedAndNothingElse) {
       }
     }
     EXPECT_GT(changed, 0u) << resolution;
-    // Nor anywhere where nothing is denoised.
+    // Without the denoiser, the setting changes no pixel.
     const auto raw = [&](const char* reach) {
       const tests::Settings settings = {
           {"resolution", resolution}, {"denoise_size", "0"}, {"edge_denoise", reach}};
@@ -311,7 +314,7 @@ TEST_P(SlicesTest, EdgesAreDenoisedAndNothingElse) {
 
 TEST(SlicesBackends, Agree) {
   const std::vector<tests::TestDevice> backends = tests::presentSystemDevices();
-  if (backends.size() < 2) GTEST_SKIP() << "one backend alone is present";
+  if (backends.size() < 2) GTEST_SKIP() << "only one backend is present";
   for (const tests::Settings& settings :
        std::vector<tests::Settings>{{{"resolution", "full"}},
                                     {{"resolution", "half"}},

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: MIT
-// The classic SSAO as its users see it, on every backend.
+// The classic SSAO with its public settings, on every backend.
 #include <gtest/gtest.h>
 
 #include "tests/effects/ssao/render_ao.h"
@@ -14,7 +14,7 @@ using tests::kAoHeight;
 using tests::kAoWidth;
 using tests::meanRows;
 
-// The classic estimator as it is mostly used: twice the plain average.
+// The classic estimator with its usual intensity: twice the plain average.
 image::Image renderClassic(gpu::Device& device, const scene::Scene& scene,
                            const scene::Camera& camera, const tests::Settings& settings) {
   tests::Settings all = {{"estimator", "classic"}, {"intensity", "2"}};
@@ -23,7 +23,7 @@ image::Image renderClassic(gpu::Device& device, const scene::Scene& scene,
 }
 
 const scene::Camera kDown = {.eye = glm::dvec3(0, 2, 0), .target = glm::dvec3(0, 0, -2)};
-// Looks at the crease of cornerScene(); its row runs through the middle of the picture.
+// Looks at the crease of cornerScene(), which runs through the picture's middle row.
 const scene::Camera kCrease = {.eye = glm::dvec3(0, 2, 2), .target = glm::dvec3(0, 0, 0)};
 
 class SsaoTest : public tests::BackendTest {};
@@ -133,7 +133,8 @@ TEST_P(SsaoTest, BlurOfTheNoisesSizeRemovesItsPattern) {
 }
 
 TEST_P(SsaoTest, EdgeAwareBlurKeepsTheSkylineAndBoxDoesNotDarkenIt) {
-  // A post before the sky, its foot on the floor: no floor pixel far behind may darken it.
+  // A post in front of the sky, its foot on the floor: the floor far behind it must not be
+  // darkened.
   scene::Scene scene = tests::floorScene();
   tests::addQuad(scene, {glm::vec3(-0.2f, 0, 1), {0.2f, 0, 1}, {0.2f, 3, 1}, {-0.2f, 3, 1}},
                  {0, 0, 1});
@@ -145,7 +146,7 @@ TEST_P(SsaoTest, EdgeAwareBlurKeepsTheSkylineAndBoxDoesNotDarkenIt) {
 
 TEST(SsaoBackends, Agree) {
   const std::vector<tests::TestDevice> backends = tests::presentSystemDevices();
-  if (backends.size() < 2) GTEST_SKIP() << "one backend alone is present";
+  if (backends.size() < 2) GTEST_SKIP() << "only one backend is present";
   for (const tests::Settings& settings :
        std::vector<tests::Settings>{{}, {{"sampling", "sphere"}}, {{"blur_size", "0"}}}) {
     std::vector<image::Image> images;

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: MIT
-// Crowds of shots, and shots and settings at their extremes, on every backend.
+// Many shots, and shots and settings at their extremes, on every backend.
 #include <gtest/gtest.h>
 
 #include <algorithm>
@@ -21,10 +21,10 @@ const scene::Camera kWall = {.eye = glm::dvec3(0, 0, 3), .target = glm::dvec3(0,
 class CrowdTest : public BackendTest {};
 GRISAILLE_ON_EVERY_DEVICE(CrowdTest);
 
-// What newer paint hides is dropped, which nobody may see: in a crease that every muzzle sees
-// whole, dozens of layers deep, the picture is the definition's with all shots. Places are those of
-// rays: in so small a picture, a rasteriser that snaps vertices to a 16th of a pixel puts places
-// farther off their surface than paint on surfaces allows.
+// The effect drops paint that newer paint hides, without a visible change. In a crease that every
+// muzzle sees whole, dozens of layers deep, the picture equals the definition's with all shots.
+// Places come from ray casts: in so small a picture, a rasteriser that snaps vertices to 1/16 pixel
+// moves places farther off their surface than `surface` mode allows.
 TEST_P(CrowdTest, HidingChangesNothing) {
   const scene::Scene scene = cornerScene();
   TracedRays rays(scene);
@@ -68,7 +68,7 @@ TEST_P(CrowdTest, HidingChangesNothing) {
   }
 }
 
-// A million shots at 200 places, then one more: each pixel is the newest shot's that reaches it.
+// A million shots at 200 places, then one more: each pixel shows the newest shot that reaches it.
 TEST_P(CrowdTest, TheNewestWinsOfAMillion) {
   const scene::Scene scene = wallScene();
   TracedRays rays(scene);
@@ -113,7 +113,7 @@ TEST_P(CrowdTest, TheNewestWinsOfAMillion) {
       }
     }
     EXPECT_GT(painted, kWidth * kHeight / 2u);
-    EXPECT_LE(wrong, kWidth * kHeight / 200u);  // edges
+    EXPECT_LE(wrong, kWidth * kHeight / 200u);  // pixels on edges
   };
   const std::vector<std::string> outputs = {"paint", "paint_owner", "depth"};
   frame.render(kWall, kWidth, kHeight, shots, outputs);
@@ -131,7 +131,7 @@ TEST_P(CrowdTest, TheNewestWinsOfAMillion) {
   expectNewest();
 }
 
-// All of them on one spot: the newest's colour, where alpha is thin too.
+// All shots on one spot: the newest colour shows, even where its alpha is low.
 TEST_P(CrowdTest, AMillionOnOneSpot) {
   const scene::Scene scene = wallScene();
   TracedRays rays(scene);
@@ -153,7 +153,8 @@ TEST_P(CrowdTest, AMillionOnOneSpot) {
   }
 }
 
-// Every setting at the ends of its range, shots from far and near: finite, and never a hang.
+// Every setting at the ends of its range, shots from far and near: finite results, and never a
+// hang.
 TEST_P(CrowdTest, ExtremesStayFinite) {
   const scene::Scene scene = cornerScene();
   TracedRays rays(scene);
@@ -191,11 +192,11 @@ TEST_P(CrowdTest, ExtremesStayFinite) {
   }
 }
 
-// Far splats, smaller than pixels, hold still while the camera moves by less than a pixel.
+// Distant splats smaller than pixels stay steady while the camera moves by less than a pixel.
 TEST_P(CrowdTest, FarSplatsDoNotShimmer) {
   const scene::Scene scene = wallScene();
   TracedRays rays(scene);
-  // One shot whose alpha falls from 1 to 0.03 over the picture, so that the noise decides.
+  // One shot with alpha from 1 to 0.03 across the picture: the noise decides coverage.
   const std::vector<lab::Shot> shots = {
       shotAt(glm::dvec3(0, 0, 5), glm::dvec3(0, 0, 0), glm::vec3(1, 1, 1), 15)};
   const auto change = [&](const char* scale) {
@@ -219,7 +220,7 @@ TEST_P(CrowdTest, FarSplatsDoNotShimmer) {
     }
     return worst;
   };
-  // Cells of an eighth of a pixel; and, so that the test can tell, of three.
+  // Cells of 1/8 pixel; then of 3 pixels, to show that the test can fail.
   EXPECT_LT(change("0.03"), 0.005);
   EXPECT_GT(change("0.75"), 0.02);
 }

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: MIT
-// Paint against its definition in double precision, on every backend.
+// Paint compared with its definition in double precision, on every backend.
 #include <gtest/gtest.h>
 
 #include <algorithm>
@@ -32,7 +32,7 @@ Settings settingsOf(const PaintSettings& s, const std::string& mode) {
           {"noise_seed", text(s.noiseSeed)}};
 }
 
-// The share of pixels that differ by more than 2/255 from `expected(x, y)`.
+// Share of pixels that differ by more than 2/255 from `expected(x, y)`.
 template <typename Expected>
 double different(const image::Image& paint, const image::Image& coverage, Expected&& expected) {
   size_t count = 0;
@@ -92,7 +92,7 @@ TEST_P(DefinitionTest, PerShotIsTheDefinition) {
   }
 }
 
-// On a wall that every muzzle sees whole, both modes are one.
+// On a wall that every muzzle sees whole, both modes give the same paint.
 TEST_P(DefinitionTest, SurfaceIsPerShotOnAnOpenWall) {
   const scene::Scene scene = wallScene();
   const scene::Camera camera = {.eye = glm::dvec3(0.4, 0.2, 3), .target = glm::dvec3(0, 0, 0)};

@@ -1,5 +1,6 @@
 // SPDX-License-Identifier: MIT
-// Paint on surfaces against the ray-traced mask: in range, and the segment to the muzzle unblocked.
+// Paint in `surface` mode, compared with the ray-traced mask: in range, with a free segment to the
+// muzzle.
 #include <gtest/gtest.h>
 
 #include <algorithm>
@@ -54,7 +55,7 @@ GRISAILLE_ON_EVERY_DEVICE(MaskTest);
 
 TEST_P(MaskTest, PaintLandsWhereTheMuzzleSees) {
   const std::filesystem::path shared = SHARED_FOLDER;
-  if (!std::filesystem::exists(shared / "scenes/Sponza.glb")) GTEST_SKIP() << "Sponza is not here";
+  if (!std::filesystem::exists(shared / "scenes/Sponza.glb")) GTEST_SKIP() << "Sponza is missing";
   const scene::Scene scene = scene::loadGltf(shared / "scenes/Sponza.glb");
   TracedRays rays(scene);
   std::mt19937 random(11);
@@ -67,7 +68,7 @@ TEST_P(MaskTest, PaintLandsWhereTheMuzzleSees) {
     PaintFrame frame(device(), scene);
     frame.setRays(&rays);
     for (int i = 0; i < 8; ++i) {
-      // Anywhere in the picture, from anywhere about the camera.
+      // At any pixel of the picture, from anywhere around the camera.
       const auto x = static_cast<uint32_t>(kMaskWidth * (0.05 + 0.9 * unit(random)));
       const auto y = static_cast<uint32_t>(kMaskHeight * (0.05 + 0.9 * unit(random)));
       const trace::Hit& target = hits[y * kMaskWidth + x];
@@ -84,7 +85,7 @@ TEST_P(MaskTest, PaintLandsWhereTheMuzzleSees) {
           compare(lab::paintMask(rays.tracer(), hits, shots, range), frame.read("paint_coverage"));
       SCOPED_TRACE(fmt::format("{}, shot {} at pixel {},{} with range {}: {} px", name, i, x, y,
                                range, one.traced));
-      // Fewer pixels than that are mostly edge.
+      // Smaller masks are mostly edge.
       if (one.traced >= 500) {
         EXPECT_GE(one.iou(), 0.97);
       }
@@ -97,7 +98,7 @@ TEST_P(MaskTest, PaintLandsWhereTheMuzzleSees) {
   std::printf("%s: %zu px, intersection over union %.4f, %zu px astray\n", GetParam().label.c_str(),
               sum.traced, sum.iou(), sum.stray);
   EXPECT_GE(sum.iou(), 0.99);
-  // Edges that are thinner than a map's finest squares hide from it.
+  // Paint may stray at edges thinner than the finest squares of a map.
   EXPECT_LE(sum.stray, sum.both / 50000);
 }
 

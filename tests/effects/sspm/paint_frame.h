@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: MIT
-// Pictures of paint for tests: one scene, one device, any shots and settings.
+// Renders pictures of paint for tests: one scene, one device, any shots and settings.
 #pragma once
 
 #include <memory>
@@ -18,7 +18,7 @@ namespace grisaille::tests {
 
 using Settings = std::vector<std::pair<std::string, std::string>>;
 
-// The size of a small picture, and a camera before the corner that floor and wall make.
+// The size of a small picture, and a camera in front of the corner between floor and wall.
 constexpr uint32_t kWidth = 96;
 constexpr uint32_t kHeight = 72;
 inline const scene::Camera kCrease = {.eye = glm::dvec3(0.3, 1.5, 2.5),
@@ -27,14 +27,14 @@ inline const scene::Camera kCrease = {.eye = glm::dvec3(0.3, 1.5, 2.5),
 class PaintFrame {
  public:
   PaintFrame(gpu::Device& device, const scene::Scene& scene);
-  // Of attachments from elsewhere. `source` outlives this.
+  // Renders from another source's attachments. `source` must outlive this object.
   PaintFrame(gpu::Device& device, frame::AttachmentSource& source);
 
-  // nullptr: this host casts none.
+  // nullptr: this host casts no rays.
   void setRays(effect::RayService* rays) { rays_ = rays; }
   void set(const Settings& settings);
 
-  // What the shots have in common with those of the call before, the effect is told to keep.
+  // The effect is told how many leading shots equal those of the previous call.
   void render(const scene::Camera& camera, uint32_t width, uint32_t height,
               std::span<const lab::Shot> shots,
               std::vector<std::string> outputs = {"paint", "paint_coverage", "depth"});
@@ -49,11 +49,11 @@ class PaintFrame {
   effect::RayService* rays_ = nullptr;
 };
 
-// The depth that rays find, which no rasteriser's snapping moves off the surfaces.
+// Depth from ray casts, which is exact on every rasteriser.
 frame::Pictures tracedPictures(const trace::RayTracer& tracer, const scene::Camera& camera,
                                uint32_t width, uint32_t height);
 
-// A shot from `origin` at `target`.
+// A shot from `origin` towards `target`.
 lab::Shot shotAt(const glm::dvec3& origin, const glm::dvec3& target, const glm::vec3& color,
                  float range = 0);
 

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: MIT
-// What painters rely on, on every backend.
+// Behaviour that users of paint rely on, on every backend.
 #include <gtest/gtest.h>
 
 #include <algorithm>
@@ -15,7 +15,7 @@ namespace {
 
 using namespace lab::oracle;
 
-// The corner, somewhere else in the world.
+// The corner, moved to another place in the world.
 scene::Scene cornerAt(const glm::dvec3& place) {
   scene::Scene scene = cornerScene();
   for (scene::Instance& instance : scene.instances) {
@@ -69,7 +69,7 @@ TEST_P(PaintTest, TheNewestWins) {
   }
 }
 
-// However the list came about, the picture is that of the list alone.
+// The picture depends only on the list, not on the steps that led to it.
 TEST_P(PaintTest, ThePictureIsTheListsAlone) {
   const scene::Scene scene = cornerScene();
   TracedRays rays(scene);
@@ -112,7 +112,7 @@ TEST_P(PaintTest, FarFromTheWorldsOriginPaintIsTheSame) {
     different += std::abs(first.pixels[i] - second.pixels[i]) > 2.0f / 255 ? 1 : 0;
   }
   EXPECT_LE(different, first.pixels.size() / 1000);
-  // The splats are those of the places that the pixels show there.
+  // The splats belong to the places that the pixels show.
   const image::Image paint = b.read("paint"), depth = b.read("depth");
   const double slope = 2 * std::tan(glm::radians(camera.fovyDegrees) / 2) / kHeight;
   size_t wrong = 0;
@@ -121,7 +121,7 @@ TEST_P(PaintTest, FarFromTheWorldsOriginPaintIsTheSame) {
       const double z = depth.at(x, y);
       const glm::dvec3 world = worldOf(camera, kWidth, kHeight, x, y, z);
       const double above = second.at(x, y) - splatNoise(world, z, slope, {});
-      // Within the step's width the noise says nothing of paint or none.
+      // Within the step's width, the noise does not decide coverage.
       if (std::abs(above) > 0.06 && (above > 0) != (paint.at(x, y, 3) > 0.5f)) ++wrong;
     }
   }
@@ -143,7 +143,7 @@ TEST_P(PaintTest, WithoutRaysShotsWait) {
   EXPECT_GT(*std::max_element(coverage.pixels.begin(), coverage.pixels.end()), 0.5f);
 }
 
-// A pole that stands free and is narrower than the rough picture's squares.
+// A free-standing pole, narrower than the squares of the coarse picture.
 TEST_P(PaintTest, ThinThingsThatStandFreeArePainted) {
   scene::Scene scene;
   scene.materials.emplace_back();
@@ -161,7 +161,7 @@ TEST_P(PaintTest, ThinThingsThatStandFreeArePainted) {
   EXPECT_EQ(frame.read("paint_coverage").at(kWidth / 2, kHeight / 2), 1.0f);
 }
 
-// A wall between: nothing behind it, nothing on its far side.
+// A wall in between: no paint behind it or on its far side.
 TEST_P(PaintTest, PaintStopsAtTheFirstSurface) {
   scene::Scene scene = cornerScene();
   scene.materials[0].doubleSided = true;
@@ -180,7 +180,7 @@ TEST_P(PaintTest, PaintStopsAtTheFirstSurface) {
                        [](float a) { return a > 0; });
   };
   EXPECT_TRUE(painted({.eye = glm::dvec3(0, 1, 3), .target = glm::dvec3(0, 1, 1)}));
-  // Between the wall and what is behind it, looking either way.
+  // Between the wall and the surface behind it, looking in both directions.
   EXPECT_FALSE(painted({.eye = glm::dvec3(0, 1, 0.5), .target = glm::dvec3(0, 1, 0)}));
   EXPECT_FALSE(painted({.eye = glm::dvec3(0, 1, 0.5), .target = glm::dvec3(0, 1, 1)}));
 }

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: MIT
-// Paint on surfaces below full resolution against full resolution, on every backend.
+// Paint in `surface` mode below full resolution, compared with full resolution, on every backend.
 #include <gtest/gtest.h>
 
 #include <algorithm>
@@ -36,7 +36,7 @@ struct Shown {
 
 class ResolutionTest : public BackendTest {
  protected:
-  // In a fresh instance, over `scene`, which is traced too.
+  // Renders in a fresh instance; rays are traced in `scene` as well.
   Shown look(const scene::Scene& scene, const scene::Camera& camera, const Settings& settings,
              std::span<const lab::Shot> shots, uint32_t width = kWidth, uint32_t height = kHeight) {
     TracedRays rays(scene);
@@ -51,7 +51,7 @@ class ResolutionTest : public BackendTest {
 };
 GRISAILLE_ON_EVERY_DEVICE(ResolutionTest);
 
-// Whether all pixels within `reach` of one have its facet's normal, its coverage and its owner.
+// Whether all pixels within `reach` share one facet normal, coverage and owner.
 bool isEven(const Shown& full, uint32_t x, uint32_t y, uint32_t reach) {
   const uint32_t right = std::min(x + reach, kWidth - 1), low = std::min(y + reach, kHeight - 1);
   for (uint32_t v = y - std::min(y, reach); v <= low; ++v) {
@@ -68,7 +68,7 @@ bool isEven(const Shown& full, uint32_t x, uint32_t y, uint32_t reach) {
   return true;
 }
 
-// The share of pixels whose coverage is another.
+// Share of pixels with different coverage.
 double differing(const Shown& a, const Shown& b) {
   size_t count = 0;
   for (size_t i = 0; i < a.coverage.pixels.size(); ++i) {
@@ -106,7 +106,7 @@ TEST_P(ResolutionTest, AwayFromEdgesAndRimsItIsFullResolution) {
   }
 }
 
-// Each step of refinement is nearer to full resolution, and half is nearer than a quarter.
+// Each step of refinement is closer to full resolution, and half is closer than a quarter.
 TEST_P(ResolutionTest, WhatIsAskedMoreIsNearer) {
   const scene::Scene scene = cornerScene();
   const std::vector<lab::Shot> shots = someShots(40);
@@ -129,11 +129,11 @@ TEST_P(ResolutionTest, WhatIsAskedMoreIsNearer) {
   EXPECT_LT(rims[1], 0.04);
 }
 
-// Splats are as fine: under even coverage each pixel has its own noise.
+// Splats keep their size: under even coverage each pixel has its own noise.
 TEST_P(ResolutionTest, SplatsOnAFlatWallStaySharp) {
   const scene::Scene scene = wallScene();
   const scene::Camera camera = {.eye = glm::dvec3(0.4, 0.2, 3), .target = glm::dvec3(0, 0, 0)};
-  // Coverage falls smoothly, 3 m / distance, from one side to the other.
+  // Coverage falls smoothly from one side to the other, as 3 m / distance.
   const std::vector<lab::Shot> shots = {
       shotAt(glm::dvec3(-6, 0, 4), glm::dvec3(-6, 0, 0), glm::vec3(1, 0.5f, 0), 30)};
   const Settings wide = {{"r0", "3"}, {"splat_scale", "0.1"}, {"edge_fade", "0"}};
@@ -168,14 +168,14 @@ TEST_P(ResolutionTest, AnySizeIsWholeAndFinite) {
       for (const float value : less.coverage.pixels) {
         ASSERT_TRUE(value >= 0 && value <= 1) << value;
       }
-      // The last row and column are asked themselves.
+      // The last row and column are sampled directly.
       for (const uint32_t x : {0u, size.x - 1}) {
         for (const uint32_t y : {0u, size.y - 1}) {
           EXPECT_NEAR(less.coverage.at(x, y), full.coverage.at(x, y), kSame);
           EXPECT_EQ(less.owner.at(x, y), full.owner.at(x, y));
         }
       }
-      // At the rims coverage fades, and is a blend there.
+      // Coverage fades at the rims, where the low resolution blends it.
       EXPECT_LT(differing(full, less), size.x > 100 ? 0.1 : 1.0);
     }
   }

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: MIT
-// `grisaille-lab claims` as its users run it, on the project's own study at a smaller size.
+// `grisaille-lab claims`, run as users run it, on the project's own study at a smaller size.
 #include <gtest/gtest.h>
 
 #include <algorithm>
@@ -26,7 +26,7 @@ class ClaimsTest : public testing::Test {
   TemporaryFolder folder_;
 };
 
-// The keys of the study's claims, but for those of time.
+// Keys of the study's claims, except claims about time.
 std::string untimedClaims() {
   const std::string study = readFile(kStudy), key = "[[claim]]\nkey = \"";
   std::string keys;
@@ -40,7 +40,7 @@ std::string untimedClaims() {
   return keys;
 }
 
-// What the manual's report says holds does so at another size too, on both backends.
+// Claims that hold in the manual's report also hold at another size, with both backends.
 TEST_F(ClaimsTest, TheStudyHoldsWhatItReports) {
   const Outcome outcome = claims(
       {kStudy, "--only", untimedClaims(), "--scale", "0.75", "--samples", "32", "--out", "out"});
@@ -57,7 +57,7 @@ TEST_F(ClaimsTest, TheStudyHoldsWhatItReports) {
       }
     }
   }
-  // The page needs nothing besides itself; the Markdown's pictures are there.
+  // The page embeds its pictures; the Markdown's pictures are files.
   const std::string page = readFile(folder_ / "out/claims.html");
   EXPECT_NE(page.find("src=\"data:image/png;base64,iVBORw0KGgo"), std::string::npos);
   EXPECT_EQ(page.find("src=\"pictures"), std::string::npos);
@@ -70,7 +70,7 @@ TEST_F(ClaimsTest, TheStudyHoldsWhatItReports) {
   EXPECT_GT(pictures, 25u);
 }
 
-// The checked-in report is of this study: each claim has its text and its pictures.
+// The checked-in report matches this study: each claim has its text and its pictures.
 TEST(ClaimsReport, TheManualsIsOfThisStudy) {
   const fs::path docs = fs::path(SOURCE_FOLDER) / "docs";
   const std::string report = readFile(docs / "claims.md"), study = readFile(kStudy);
@@ -108,7 +108,7 @@ runs = [{name = "few", set = ["ssao.kernel_size=4"]}, {name = "many", set = ["ss
 expect = ["few.rmse < 0.5 * many.rmse"]
 )";
 
-// A claim that the numbers refute is a result, not a failure.
+// A refuted claim is a result, not a failure.
 TEST_F(ClaimsTest, AReadersOwnClaims) {
   const std::string file = folder_.write("mine.toml", kSmall);
   const auto verdicts = [&](const std::vector<std::string>& more) {
@@ -125,7 +125,7 @@ TEST_F(ClaimsTest, AReadersOwnClaims) {
   EXPECT_EQ(verdicts({"--only", "wrong"}), std::vector<std::string>{"does not hold"});
 }
 
-// What frames before leave is only to be seen in those after them.
+// Pictures of a path show its last frame, which has a history of the frames before.
 TEST_F(ClaimsTest, PicturesOfAPathAreOfItsEnd) {
   const std::string file = folder_.write("walk.toml", R"([[claim]]
 key = "walk"
@@ -166,13 +166,15 @@ TEST_F(ClaimsTest, MistakesAreOneLine) {
   refused({file, "--out", "out", "--only", "none"}, "5101");
   refused({file, "--out", "out", "--backend", "metal"}, "1002");
   refused({file, "--out", "out", "--scale", "0"}, "5101");
-  // A region that no pixel lies in.
+  // A region without pixels.
   text = kSmall;
   const std::string nowhere = folder_.write(
       "nowhere.toml", text.replace(text.find("few.noise >"), 11, "few.noise@far+near >"));
   const std::string line =
       refused({nowhere, "--out", "out", "--backend", "opengl", "--samples", "16"}, "5104");
-  EXPECT_NE(line.find("nowhere.toml:1: few.noise@far+near"), std::string::npos) << line;
+  EXPECT_NE(line.find("nowhere.toml:1: the region of few.noise@far+near has no pixels"),
+            std::string::npos)
+      << line;
 }
 
 }  // namespace

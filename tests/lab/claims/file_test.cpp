@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: MIT
-// Study files, good and bad: what is wrong is said in one line, with its place.
+// Study files, valid and invalid: an error names the mistake and its place in one line.
 #include <gtest/gtest.h>
 
 #include <algorithm>
@@ -28,7 +28,7 @@ expect = [
 picture = {crop = [10, 20, 30, 40], zoom = 3, low = 0.5, high = 0.75}
 )";
 
-// The good file with the first `what` replaced, or with a line more where `what` is "".
+// The valid file with the first `what` replaced; with `instead` appended if `what` is "".
 std::string with(const std::string& what, const std::string& instead) {
   std::string text = kGood;
   if (what.empty()) return text + instead;
@@ -49,7 +49,7 @@ class ClaimsFileTest : public testing::Test {
     SCOPED_TRACE(text);
     try {
       load(text);
-      ADD_FAILURE() << "nothing was thrown";
+      ADD_FAILURE() << "no error was thrown";
     } catch (const Error& error) {
       EXPECT_EQ(error.id(), id) << error.what();
       EXPECT_NE(error.detail().find("study.toml:" + place + ": "), std::string::npos)

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: MIT
-// Metrics of pictures whose numbers are known.
+// Metrics of pictures with known values.
 #include "lab/claims/metrics.h"
 
 #include <gtest/gtest.h>
@@ -30,7 +30,7 @@ bool everywhere(uint32_t, uint32_t) {
   return true;
 }
 
-// Of one frame.
+// The metric of one frame.
 double of(const char* metric, const Value& shown, const Value& reference,
           const std::function<bool(uint32_t, uint32_t)>& inside = everywhere) {
   std::vector<trace::FlickerFrame> frames(1);
@@ -56,7 +56,7 @@ TEST(Metrics, MeansAndErrorsAreOverTheRegion) {
   EXPECT_TRUE(std::isnan(of("rmse", steps, plain, [](uint32_t, uint32_t) { return false; })));
 }
 
-// A pattern of 4 pixels' period is noise alone, and a broad one is bands alone.
+// A pattern with a period of 4 pixels is pure noise, a broad one pure banding.
 TEST(Metrics, NoiseAndBandsPartTheError) {
   const auto pattern = [](uint32_t x, uint32_t y) {
     return 0.5 + 0.1 * ((x + 2 * y) % 4 < 2 ? 1 : -1);
@@ -69,7 +69,7 @@ TEST(Metrics, NoiseAndBandsPartTheError) {
   const auto both = [&](uint32_t x, uint32_t y) { return pattern(x, y) + 0.2; };
   EXPECT_NEAR(of("noise", both, plain), 0.1, 1e-6);
   EXPECT_NEAR(of("bands", both, plain), 0.2, 1e-6);
-  // Squares that reach out of the region do not count.
+  // Squares that reach out of the region are left out.
   const auto bad = [&](uint32_t x, uint32_t y) { return left(x, y) ? pattern(x, y) : 9.0; };
   EXPECT_NEAR(of("noise", bad, plain, left), 0.1, 1e-6);
   EXPECT_TRUE(
@@ -82,7 +82,7 @@ TEST(Metrics, PaintBesideTheMaskIsCountedBeyondItsMargin) {
     return [end](uint32_t x, uint32_t) { return x < end ? 1.0 : 0.0; };
   };
   EXPECT_EQ(of("mask_outside", upTo(8), mask), 0);
-  EXPECT_EQ(of("mask_outside", upTo(10), mask), 0);  // two pixels are borne
+  EXPECT_EQ(of("mask_outside", upTo(10), mask), 0);  // two pixels are tolerated
   EXPECT_NEAR(of("mask_outside", upTo(20), mask), 0.5, 1e-9);
   EXPECT_TRUE(std::isnan(of("mask_outside", upTo(0), mask)));
 }

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: MIT
-// Regions of a box before a wall, seen from the front: where each begins is known.
+// Regions of a box in front of a wall, seen from the front, with known borders.
 #include "lab/claims/regions.h"
 
 #include <gtest/gtest.h>
@@ -14,8 +14,8 @@ namespace {
 
 constexpr uint32_t kSide = 96;
 
-// A wall at z = 0, and before it at z = 1 the face of a box of 1 m, turned by `turn` about y so
-// that it shows an edge. 96 pixels are 4 m of the wall.
+// A wall at z = 0. In front of it, at z = 1, the face of a box of 1 m, turned by `turn` about y to
+// show an edge. 96 pixels span 4 m of the wall.
 trace::FlickerFrame boxFrame(double turn) {
   trace::SceneBuilder builder;
   const uint32_t white = builder.material({});
@@ -37,7 +37,7 @@ trace::FlickerFrame boxFrame(double turn) {
   return frame;
 }
 
-// The columns of the middle row that are in the region: first, last and how many.
+// The columns of the region in the middle row: first, last and count.
 struct Columns {
   uint32_t first = kSide, last = 0, count = 0;
 };
@@ -63,7 +63,7 @@ TEST(Regions, EdgesAreAboutTheOutline) {
   EXPECT_NEAR(edges.first, kSide / 2 - kOutline - 5, 1);
   EXPECT_NEAR(edges.last, kSide / 2 + kOutline + 4, 1);
   EXPECT_NEAR(edges.count, 2 * (2 + 8), 2);
-  // What is flat is what is left, farther off.
+  // `flat` is the remaining area, away from edges.
   const Columns flat = columnsOf("flat", frame);
   EXPECT_NEAR(flat.count, kSide - 2 * (2 + 16), 2);
   EXPECT_EQ(columnsOf("flat+edges", frame).count, 0u);
@@ -73,7 +73,7 @@ TEST(Regions, EdgesAreAboutTheOutline) {
 TEST(Regions, BehindIsTheOpenWallBesideTheOutline) {
   trace::FlickerFrame frame = boxFrame(0);
   const Columns behind = columnsOf("behind", frame);
-  // 0.25 m are 6 pixels of the wall.
+  // 0.25 m span 6 pixels of the wall.
   EXPECT_NEAR(behind.first, kSide / 2 - kOutline - 7, 1);
   EXPECT_NEAR(behind.last, kSide / 2 + kOutline + 6, 1);
   EXPECT_NEAR(behind.count, 2 * 7, 2);

@@ -32,12 +32,12 @@ TEST(ScreenSplats, MoreCoverageIsMorePaint) {
     EXPECT_GT(meanOf(alpha), before + 0.03) << value;
     before = meanOf(alpha);
   }
-  // The noise keeps to its middle, 0.45.
+  // The median of the noise is 0.45.
   EXPECT_NEAR(meanOf(screenSplats(coverage(0.45f), splats)), 0.5, 0.1);
 }
 
 TEST(ScreenSplats, TheCellIsTheirSize) {
-  // Changes of paint along the rows, which halve where cells are twice as large.
+  // Counts changes of paint along the rows; cells twice as large give half as many.
   const auto edges = [](double cell) {
     const image::Image alpha =
         screenSplats(coverage(0.45f), {.cell = cell, .sharpness = 1, .seed = 1});

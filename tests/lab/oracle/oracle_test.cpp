@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: MIT
-// The oracles by themselves: what is known of a scene without any shader.
+// The oracles alone, on scenes with known results, without shaders.
 #include <gtest/gtest.h>
 
 #include <algorithm>
@@ -22,7 +22,7 @@ using lab::stability::pixelsToCompare;
 
 constexpr glm::uvec2 kSize(48, 32);
 
-// A floor y = 0 that meets a wall z = 0, or the floor alone, seen by exact rays.
+// A floor y = 0, with or without a wall at z = 0, seen by exact rays.
 View viewOf(const scene::Camera& camera, bool wall) {
   image::Image depth{.width = kSize.x, .height = kSize.y, .channels = 1, .pixels = {}};
   image::Image normal{.width = kSize.x, .height = kSize.y, .channels = 3, .pixels = {}};
@@ -67,7 +67,8 @@ TEST(Oracle, APlaneIsOpen) {
   }
 }
 
-// The share of cosine-weighted rays that meet the wall within the radius, by counting some.
+// The share of cosine-weighted rays that hit the wall within the radius, estimated with random
+// rays.
 TEST(Oracle, ACornersVisibilityIsThatOfRays) {
   std::mt19937 random(1);
   std::uniform_real_distribution<double> unit(0, 1);
@@ -76,7 +77,7 @@ TEST(Oracle, ACornersVisibilityIsThatOfRays) {
     constexpr int kRays = 200000;
     for (int i = 0; i < kRays; ++i) {
       const double r = std::sqrt(unit(random)), angle = 2 * M_PI * unit(random);
-      open += r * std::cos(angle) > away ? 0 : 1;  // its way to the wall is over the radius
+      open += r * std::cos(angle) > away ? 0 : 1;  // the wall is farther away than the radius
     }
     EXPECT_NEAR(cornerVisibility(away), double{1} * open / kRays, 0.005) << away;
   }
@@ -131,7 +132,7 @@ TEST(Oracle, AHistoryAveragesNoiseAndForgetsWhatIsOld) {
   }
   EXPECT_LT(errors[1], errors[0]);
   EXPECT_LT(errors[7], 0.5 * errors[0]);
-  // What the frames before looked away from has no history.
+  // Surfaces that earlier frames did not show have no history.
   scene::Camera away = kCamera;
   away.target = kCamera.eye + (kCamera.eye - kCamera.target) + glm::dvec3(0, -3, 0);
   const View other = viewOf(away, false);
@@ -186,7 +187,7 @@ TEST(Oracle, WhatTheLastPassDoes) {
   EXPECT_GT(finished(0.5, {.albedo = 0.8}), 0.5);
 }
 
-// One shot at a wall: a pixel on its ray, one beside it, one out of range, one behind the muzzle.
+// One shot at a wall, with a pixel on its ray, beside it, out of range, and behind the muzzle.
 TEST(Oracle, PaintIsItsDefinition) {
   const Shot shot{.origin = {0, 0, 1}, .direction = {0, 0, -1}, .color = {1, 0.5f, 0}, .range = 0};
   const PaintSettings settings{.full = 0.05, .edgeFade = 0, .splatSharpness = 1};
@@ -198,7 +199,7 @@ TEST(Oracle, PaintIsItsDefinition) {
   EXPECT_NEAR(at({0.1, 0, 0}).coverage, 0.5, 1e-12);
   EXPECT_EQ(at({0.26, 0, 0}).coverage, 0);
   EXPECT_EQ(at({0, 0, 2}).coverage, 0);
-  // On surfaces a facet that is turned away has none, nor one that the muzzle does not see.
+  // In `surface` mode, facets that face away or that the muzzle does not see get no paint.
   const auto seen = [&](const glm::dvec3& facet, bool sees) {
     const Sight sight{.facet = facet, .sees = [&](const auto&) { return sees; }};
     return paintOf({0, 0, 0}, 3, 1e-3, {&shot, 1}, settings, sight).coverage;

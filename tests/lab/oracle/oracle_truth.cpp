@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: MIT
-// Ray-traced pictures of a scene: view depth, world normals, ambient visibility.
+// Renders ray-traced pictures of a scene: view depth, world normals, ambient visibility.
 #include <fmt/format.h>
 
 #include <CLI/CLI.hpp>
@@ -76,7 +76,7 @@ double secondsSince(std::chrono::steady_clock::time_point start) {
   return std::chrono::duration<double>(std::chrono::steady_clock::now() - start).count();
 }
 
-// Visibility in slices, so that progress can be told.
+// Traces visibility in parts, to report progress.
 std::vector<trace::Visibility> occlude(const trace::RayTracer& tracer,
                                        std::span<const trace::Hit> hits, const Job& job) {
   const auto start = std::chrono::steady_clock::now();

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: MIT
-// `grisaille-lab paint-mask` as its users run it.
+// `grisaille-lab paint-mask`, run as users run it.
 #include <gtest/gtest.h>
 
 #include <algorithm>

@@ -11,7 +11,8 @@
 namespace grisaille::lab {
 namespace {
 
-// Down onto a floor, with a square lid of 0.5 m half side 1 m over it; seen from beside, 40 m off.
+// Shots straight down onto a floor, with a square lid of half side 0.5 m at a height of 1 m; seen
+// from 40 m to the side.
 class PaintMask : public ::testing::Test {
  protected:
   PaintMask() {
@@ -40,7 +41,7 @@ TEST_F(PaintMask, IsTheDiscUnderTheMuzzleLessWhatTheLidHides) {
   for (size_t i = 0; i < hits_.size(); ++i) {
     const glm::dvec3& p = hits_[i].position;
     const bool lid = p.y > 0.5;
-    // The lid's shadow from 3 m reaches 3 / 2 times as far on the floor.
+    // From a height of 3 m, the lid's shadow on the floor is 3 / 2 times as wide as the lid.
     const double across = std::max(std::abs(p.x), std::abs(p.z));
     const double out = glm::length(glm::dvec2(p.x, p.z));
     if (hits_[i].viewDepth == 0 || std::abs(across - 0.75) < 1e-3 || std::abs(out - 2) < 1e-3) {
@@ -71,7 +72,7 @@ TEST_F(PaintMask, IsTheUnionOfShotsEachWithItsOwnRange) {
 }
 
 TEST_F(PaintMask, NothingBehindTheMuzzleAndNothingTurnedAway) {
-  // Upward from between floor and lid: only the lid's lower side is before it, which no pixel sees.
+  // Upward from between floor and lid: it reaches only the lid's lower side, which no pixel sees.
   Shot up = down(0, 0.5, 5);
   up.direction[1] = 1;
   for (const uint8_t value : paintMask(*tracer_, hits_, std::span(&up, 1), 0)) EXPECT_EQ(value, 0);

@@ -37,7 +37,7 @@ TEST_F(ShotTest, AShotThatTheTableRefusesIsNamed) {
       {.origin = {}, .direction = {1, 0, 0}, .color = {0, 2, 0}, .range = 0}};
   try {
     objectsOf(shotTable(registry_), shots);
-    FAIL() << "a colour of 2 was taken";
+    FAIL() << "a colour of 2 was accepted";
   } catch (const Error& error) {
     EXPECT_EQ(error.id(), ErrorId::kObjectField);
     EXPECT_NE(error.detail().find("shots[1].color[1]"), std::string::npos) << error.detail();

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: MIT
-// What makes a case fail, what is kept of an interrupted sweep, and the program as it is run.
+// Limits that make a case fail, results kept from an interrupted sweep, and the program itself.
 #include <gtest/gtest.h>
 
 #include <algorithm>
@@ -60,7 +60,7 @@ TEST(Stability, AnEdgeAllowsWhatItNames) {
     EXPECT_EQ(faults(result, one), 0u) << edge.key;
     result.backends[0].oracle.shareOver = 1.01 * edge.share;
     EXPECT_EQ(faults(result, one), 1u) << edge.key;
-    // What is no number is none at an edge either.
+    // Values that are not finite are a fault at an edge too.
     result = held();
     result.backends[0].nonFinite = 1;
     EXPECT_EQ(faults(result, one), 1u) << edge.key;
@@ -121,7 +121,7 @@ TEST(Stability, TheProgramWritesItsTable) {
   const std::string csv = readFile(folder.path() / "out/stability.csv");
   EXPECT_EQ(std::ranges::count(csv, '\n'), 6);
   EXPECT_NE(csv.find("\n\"bias, m\",\"0\",\"classic\",\"\",1,"), std::string::npos) << csv;
-  // Nothing else is left.
+  // No other files are left.
   EXPECT_EQ(std::distance(std::filesystem::directory_iterator(folder.path() / "out"), {}), 3);
 }
 
@@ -138,7 +138,7 @@ TEST(Stability, TheProgramShowsEdgesAndMovement) {
   EXPECT_NE(text.find("## Bias under a moving camera"), std::string::npos);
   const std::string picture = "pictures/stability/thin-things-before-a-muzzle.png";
   EXPECT_NE(text.find("](" + picture + ")"), std::string::npos);
-  // Two times 96 pixels are alike but for few.
+  // Two pictures of 96 pixels' width differ in a few pixels.
   const image::Image shown = image::read((folder.path() / "out" / picture).string());
   ASSERT_EQ(shown.width, 3u * 96 * 4 + 16);
   size_t off = 0;

@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: MIT
-// Effects that only have tables: alpha, beta and gamma with a parameter of every type. With
-// -DLATER a later version of the plugin: no gamma, a narrower range, a default, an entry and a
-// parameter that are not the same.
+// Effects that only have tables: alpha, beta and gamma, with parameters of every type. -DLATER
+// builds a later version of the plugin: gamma is missing, one range is narrower, and a default, an
+// entry and a parameter differ.
 #include <cstdint>
 
 #include "grisaille/effect.hpp"

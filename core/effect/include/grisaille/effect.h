@@ -4,16 +4,17 @@
  * The C interface of a Grisaille effect.
  *
  * A plugin is a shared library that exports one constant data symbol, `grisaille_plugin`, of type
- * grisaille_plugin_desc. The host is the program that loads it. Before the host calls a function of
- * the plugin, it checks the tables. It refuses a plugin with a wrong table, and names the field and
- * the reason. Every table is static constant data of the plugin: it stays valid and unchanged while
- * the library is loaded, and the host never frees it.
+ * grisaille_plugin_desc. The host is the program that loads the plugin. The host checks the tables
+ * before it calls any function of the plugin. If a table is wrong, the host refuses the plugin and
+ * reports the field and the reason. Every table is static constant data of the plugin: it stays
+ * valid and unchanged while the library is loaded, and the host never frees it.
  *
  * @par Versions
- * The major number changes when old plugins no longer run; the host takes only its own. The minor
- * number grows when fields are appended; the host takes its own and older ones. A struct that may
- * grow begins with its size, as the side that filled it knows it. A field beyond that size reads as
- * zero. The reader refuses a struct that is longer than it knows.
+ * The major number changes when the host cannot run older plugins; a host loads only plugins of its
+ * own major number. The minor number grows when fields are appended; a host loads plugins of its
+ * own minor number and of older ones. A struct that may grow begins with struct_size, the size of
+ * the struct in the version that its writer was built with. A field beyond that size reads as zero.
+ * The reader refuses a struct that is longer than in its own version.
  *
  * @par Threads
  * The host calls an effect's functions from one thread at a time, though not always the same one.
@@ -21,7 +22,7 @@
  *
  * @par Errors
  * A function that returns grisaille_result returns GRISAILLE_OK or an error. An effect that fails
- * first says why through grisaille_host::fail. No exception may leave a function.
+ * calls grisaille_host::fail with the reason before it returns. No exception may leave a function.
  *
  * @par Units
  * Metres, radians, pixels, seconds. Matrices are column-major, vectors are columns. World axes are
@@ -43,7 +44,7 @@ extern "C" {
 
 /**
  * @defgroup effect_results Effect: versions and results
- * What a plugin and its host agree on first.
+ * The version of the interface, the export macro, and result codes.
  * @{
  */
 
@@ -58,10 +59,10 @@ extern "C" {
 #define GRISAILLE_EXPORT __attribute__((visibility("default")))
 #endif
 
-/** What a call returns. */
+/** The result of a call. */
 typedef enum grisaille_result {
   GRISAILLE_OK = 0,         /**< the call succeeded */
-  GRISAILLE_FAILED = 1,     /**< the call did nothing; the host has noted why */
+  GRISAILLE_FAILED = 1,     /**< the call did nothing; the host has recorded why */
   GRISAILLE_UNSUPPORTED = 2 /**< this host does not offer the service */
 } grisaille_result;
 
@@ -70,9 +71,9 @@ typedef enum grisaille_result {
  * @defgroup effect_parameters Effect: parameters
  * The values that users set.
  *
- * Every value crosses as a double: a float or an int as it is, a bool as 0 or 1, an enum as its
- * index. The panel, the command line, settings files, sweeps and the documentation are made from
- * the table.
+ * The host passes every value as a double: a float or an int unchanged, a bool as 0 or 1, an enum
+ * as its index. The program generates the panel, the command line, settings files, sweeps and the
+ * documentation from the table.
  * @{
  */
 
@@ -81,24 +82,24 @@ typedef enum grisaille_param_type {
   GRISAILLE_PARAM_FLOAT = 0, /**< a number */
   GRISAILLE_PARAM_INT = 1,   /**< a whole number, up to 2^53 */
   GRISAILLE_PARAM_BOOL = 2,  /**< 0 or 1 */
-  GRISAILLE_PARAM_ENUM = 3   /**< an index of grisaille_param_desc::enum_keys */
+  GRISAILLE_PARAM_ENUM = 3   /**< an index into grisaille_param_desc::enum_keys */
 } grisaille_param_type;
 
 /** How the panel shows a parameter. */
 typedef enum grisaille_param_flags {
-  /** The slider has a logarithmic scale; soft_min must be over 0. For floats and ints alone. */
+  /** The slider has a logarithmic scale; soft_min must be over 0. Only for floats and ints. */
   GRISAILLE_PARAM_LOG = 1,
-  GRISAILLE_PARAM_ADVANCED = 2 /**< folded away in the panel */
+  GRISAILLE_PARAM_ADVANCED = 2 /**< the panel hides it in a folded section */
 } grisaille_param_flags;
 
-/** One parameter. All numbers are finite; those of an int are whole. */
+/** One parameter. All numbers are finite; the numbers of an int are whole. */
 typedef struct grisaille_param_desc {
   uint32_t struct_size; /**< sizeof(grisaille_param_desc) */
   uint32_t type;        /**< a grisaille_param_type */
   uint32_t flags;       /**< grisaille_param_flags combined, or 0 */
-  uint32_t enum_count;  /**< enum: number of entries, 2 to 64; else 0 */
+  uint32_t enum_count;  /**< enum: number of entries, 2 to 64; other types: 0 */
   const char* key;      /**< a-z, 0-9, _; begins with a letter; unique in the effect */
-  const char* label;    /**< for people: "Kernel size" */
+  const char* label;    /**< name shown to users: "Kernel size" */
   const char* unit;     /**< "m", "px", "rad", "s", or "" */
   const char* tooltip;  /**< one sentence, without a line break */
   double hard_min;      /**< least value that the host accepts; bool and enum: 0 */
@@ -107,34 +108,34 @@ typedef struct grisaille_param_desc {
   double soft_max;      /**< where the slider ends, over soft_min, at most hard_max */
   double default_value; /**< from hard_min to hard_max */
   double step;          /**< step of the slider, over 0; 0 only with #GRISAILLE_PARAM_LOG */
-  const char* const* enum_keys; /**< enum: for files and the command line: a-z, 0-9, _, -; unique */
-  const char* const* enum_labels; /**< enum: for people, as many as keys */
+  const char* const* enum_keys;   /**< enum: keys for files, command line: a-z, 0-9, _, -; unique */
+  const char* const* enum_labels; /**< enum: names shown to users, one per key */
 } grisaille_param_desc;
 
 /**
  * @}
  * @defgroup effect_pictures Effect: attachments and outputs
- * What an effect reads and writes.
+ * The textures that an effect reads and writes.
  * @{
  */
 
-/** Attachments: pictures of the scene. The host draws one only when an active effect reads it. */
+/** The G-buffer attachments. The host draws an attachment only when an active effect reads it. */
 typedef enum grisaille_attachment {
-  GRISAILLE_DEPTH = 0,       /**< d32f: clip depth as drawn: 1 near, 0 infinitely far and sky */
+  GRISAILLE_DEPTH = 0, /**< d32f: clip depth; 1 at the near plane, 0 at infinity and in the sky */
   GRISAILLE_VIEW_DEPTH = 1,  /**< r32f: distance along the view direction, metres; sky: 0 */
   GRISAILLE_NORMAL = 2,      /**< rgba16f: unit world normal, facing the camera, in xyz; sky: 0 */
   GRISAILLE_BASE_COLOUR = 3, /**< rgba8 sRGB, read as linear: base colour; sky: 0 */
-  /** rgba16f: unit world normal of the triangle itself, facing the camera; sky: 0 */
+  /** rgba16f: unit world normal of the triangle, facing the camera, in xyz; sky: 0 */
   GRISAILLE_FACET_NORMAL = 4,
   /**
    * r32f: view depth, metres, of the nearest surface at or behind the visible one that faces away
-   * or has two sides. The visible body ends there. 0 where no such surface exists, and for the sky.
+   * or is two-sided. The visible body ends there. 0 where no such surface exists, and for the sky.
    */
   GRISAILLE_BACK_DEPTH = 5,
   GRISAILLE_ATTACHMENT_COUNT = 6 /**< number of attachments */
 } grisaille_attachment;
 
-/** The bit of a grisaille_attachment in the result of grisaille_effect_desc::reads. */
+/** The bit for a grisaille_attachment in the result of grisaille_effect_desc::reads. */
 #define GRISAILLE_READS(attachment) (1u << (attachment))
 
 /** The format of a texture. */
@@ -151,14 +152,14 @@ typedef enum grisaille_format {
 
 /** How the composed picture uses an output. */
 typedef enum grisaille_role {
-  GRISAILLE_ROLE_NONE = 0, /**< not at all: the output is written to a file or shown on its own */
+  GRISAILLE_ROLE_NONE = 0, /**< not composed: the user writes it to a file or views it on its own */
   /** The first channel, 0 to 1, multiplies the light; 1 = open. Any format but R32UI. */
   GRISAILLE_ROLE_VISIBILITY = 1,
-  /** Linear rgba with straight alpha is laid over the surface's colour. Four channels. */
+  /** Linear RGBA with straight alpha, composited over the surface's colour. Four channels. */
   GRISAILLE_ROLE_OVERLAY = 2,
   /**
-   * Not composed. Each pixel holds 1 + the index of the object that the overlay's pixel belongs to,
-   * or 0 for none. R32UI.
+   * Not composed. Each pixel holds 1 + the index of the object that the overlay shows at that
+   * pixel, or 0 for no object. R32UI.
    */
   GRISAILLE_ROLE_OWNER = 3,
   /**
@@ -173,14 +174,14 @@ typedef struct grisaille_output_desc {
   uint32_t struct_size; /**< sizeof(grisaille_output_desc) */
   uint32_t format;      /**< a grisaille_format */
   uint32_t role;        /**< a grisaille_role */
-  const char* key;      /**< a key, as in `--write KEY=FILE`; unique in the effect */
+  const char* key;      /**< a key, for `--write KEY=FILE`; unique in the effect */
   const char* tooltip;  /**< one line: what the channels mean, with units and range */
 } grisaille_output_desc;
 
 /**
  * @}
  * @defgroup effect_resources Effect: resources
- * Textures, buffers, samplers, pipelines, and a dispatch that uses them.
+ * Textures, buffers, samplers, pipelines, and the dispatches that use them.
  * @{
  */
 
@@ -205,7 +206,7 @@ typedef struct grisaille_pipeline {
 typedef struct grisaille_range {
   grisaille_buffer buffer; /**< the buffer */
   uint32_t reserved;       /**< 0 */
-  uint64_t offset;         /**< bytes from the buffer's beginning */
+  uint64_t offset;         /**< bytes from the start of the buffer */
   uint64_t size;           /**< bytes; 0: to the buffer's end */
 } grisaille_range;
 
@@ -274,9 +275,9 @@ typedef struct grisaille_binding {
 typedef struct grisaille_dispatch {
   uint32_t struct_size;              /**< sizeof(grisaille_dispatch) */
   grisaille_pipeline pipeline;       /**< a pipeline of the instance */
-  const grisaille_binding* bindings; /**< one for each slot that the shader uses */
+  const grisaille_binding* bindings; /**< one per slot that the shader uses */
   uint32_t binding_count;            /**< number of `bindings` */
-  uint32_t groups[3];                /**< groups on each axis, 1 to the device's limit */
+  uint32_t groups[3];                /**< workgroups on each axis, 1 to the device's limit */
 } grisaille_dispatch;
 
 /**
@@ -284,9 +285,9 @@ typedef struct grisaille_dispatch {
  * @defgroup effect_objects Effect: objects
  * A list of objects that users make: decals, probes, brush strokes.
  *
- * An effect may work on such a list. Its table says which fields an object has and how a user
- * places one. The list itself, its files, the options --add, --load and --save, the panel's list
- * and tools, and undo are made from the table.
+ * An effect may declare one list of objects. Its table says which fields an object has and how a
+ * user places an object. From the table, the program generates the list and its files, the options
+ * --add, --load and --save, the panel's list and tools, and undo.
  * @{
  */
 
@@ -297,12 +298,12 @@ typedef enum grisaille_field_type {
   GRISAILLE_FIELD_POINT = 2,     /**< double[3]: world, metres, each from -1e9 to 1e9 */
   GRISAILLE_FIELD_DIRECTION = 3, /**< float[3]: world, unit length */
   GRISAILLE_FIELD_TEXT = 4, /**< const char*: one line of UTF-8, at most 4096 bytes; not null */
-  GRISAILLE_FIELD_FILE = 5  /**< const char*: a path, otherwise as a text; "": none */
+  GRISAILLE_FIELD_FILE = 5  /**< const char*: a path, with the limits of a text; "": no file */
 } grisaille_field_type;
 
 /** Further properties of a field. */
 typedef enum grisaille_field_flags {
-  /** A file must give the field of every object; only the panel uses the default. */
+  /** Every object in a file must have the field; only the panel uses the default. */
   GRISAILLE_FIELD_REQUIRED = 1
 } grisaille_field_flags;
 
@@ -311,24 +312,24 @@ typedef struct grisaille_field_desc {
   uint32_t struct_size; /**< sizeof(grisaille_field_desc) */
   uint32_t type;        /**< a grisaille_field_type */
   uint32_t flags;       /**< grisaille_field_flags combined, or 0 */
-  uint32_t offset;      /**< bytes from the object's beginning, a multiple of the element's size */
+  uint32_t offset;      /**< bytes from the start of the object, a multiple of the element's size */
   const char* key;      /**< a key, for files and the command line; unique in the object */
-  const char* label;    /**< for people */
-  const char* unit;     /**< of a number, as grisaille_param_desc::unit; else "" */
+  const char* label;    /**< name shown to users */
+  const char* unit;     /**< number: see grisaille_param_desc::unit; other types: "" */
   const char* tooltip;  /**< one line */
-  double min;           /**< number: least value, finite; else 0 */
-  double max;           /**< number: greatest value, finite, over min; else 0 */
+  double min;           /**< number: least value, finite; other types: 0 */
+  double max;           /**< number: greatest value, finite, over min; other types: 0 */
   double default_value[3];  /**< a number uses the first; text and file: 0 */
-  const char* default_text; /**< text, file: the default, not null; else null */
+  const char* default_text; /**< text, file: the default, not null; other types: null */
 } grisaille_field_desc;
 
-/** Which fields a click sets when a user places an object. */
+/** How a click sets the point and the direction of an object that the user places. */
 typedef enum grisaille_placement {
-  /** The point is the camera's eye; the direction goes through the pixel. */
+  /** The point is the camera's position; the direction goes through the pixel. */
   GRISAILLE_PLACE_RAY = 0,
   /**
-   * The point lies on the visible surface; the direction is its facet's normal, towards the camera.
-   * A click on the sky places nothing.
+   * The point lies on the visible surface; the direction is the facet normal, facing the camera. A
+   * click on the sky places nothing.
    */
   GRISAILLE_PLACE_SURFACE = 1
 } grisaille_placement;
@@ -339,10 +340,10 @@ typedef struct grisaille_object_desc {
   uint32_t object_size;               /**< bytes of one object, a multiple of 8, at most 4096 */
   uint32_t field_count;               /**< 1 to 64 */
   uint32_t placement;                 /**< a grisaille_placement */
-  uint32_t point_field;               /**< index of the point that placing sets */
-  uint32_t direction_field;           /**< index of the direction that placing sets */
-  const char* key;                    /**< a key, of the list in files: "decals"; not "version" */
-  const char* label;                  /**< of the list, for people: "Decals" */
+  uint32_t point_field;               /**< index of the point field that a click sets */
+  uint32_t direction_field;           /**< index of the direction field that a click sets */
+  const char* key;                    /**< key of the list in files: "decals"; not "version" */
+  const char* label;                  /**< name of the list, shown to users: "Decals" */
   const char* tooltip;                /**< one line: what one object is */
   const grisaille_field_desc* fields; /**< `field_count` of them */
 } grisaille_object_desc;
@@ -360,7 +361,7 @@ typedef struct grisaille_objects {
 /**
  * @}
  * @defgroup effect_rays Effect: rays and pictures
- * What an effect may ask of the scene and of files.
+ * Ray casts through the scene, and decoded picture files.
  * @{
  */
 
@@ -376,14 +377,14 @@ typedef enum grisaille_hit_kind {
   GRISAILLE_HIT_NONE = 0, /**< nothing within reach */
   /** The first surface, from either side. Rays pass through the holes of a cut-out material. */
   GRISAILLE_HIT_SURFACE = 1,
-  GRISAILLE_HIT_UNKNOWN = 2 /**< this host cannot tell now; it may in a later frame */
+  GRISAILLE_HIT_UNKNOWN = 2 /**< the host does not know yet; it may know in a later frame */
 } grisaille_hit_kind;
 
-/** What a ray hit. */
+/** The result of one ray. */
 typedef struct grisaille_hit {
-  uint32_t kind;   /**< a grisaille_hit_kind; unless it is a surface, the other fields are 0 */
+  uint32_t kind; /**< a grisaille_hit_kind; unless #GRISAILLE_HIT_SURFACE, the other fields are 0 */
   float distance;  /**< metres along the ray */
-  float normal[3]; /**< world, unit length: of the triangle, towards the ray's origin */
+  float normal[3]; /**< the triangle's normal: world, unit length, towards the ray's origin */
 } grisaille_hit;
 
 /** A picture that the host has decoded. */
@@ -393,8 +394,8 @@ typedef struct grisaille_picture {
   uint32_t height;      /**< pixels, over 0 */
   uint32_t reserved;    /**< 0 */
   /**
-   * sRGB with straight alpha, 4 bytes a pixel, top row first. Valid until the instance's next call
-   * of grisaille_host::read_picture or the end of the effect's function.
+   * sRGB with straight alpha, 4 bytes per pixel, top row first. Valid until the instance calls
+   * grisaille_host::read_picture again or the effect's function returns.
    */
   const uint8_t* rgba;
 } grisaille_picture;
@@ -402,7 +403,7 @@ typedef struct grisaille_picture {
 /**
  * @}
  * @defgroup effect_host Effect: services of the host
- * What the host does for one instance of an effect.
+ * The functions that the host offers to one instance of an effect.
  * @{
  */
 
@@ -410,30 +411,30 @@ typedef struct grisaille_picture {
  * The host's services for one instance.
  *
  * The table is valid from create() to destroy() of the instance, and the effect never frees it.
- * Resources belong to the instance. The instance destroys them; the host destroys those that are
- * left after grisaille_effect_desc::destroy. The host reads arguments during the call and keeps
- * none of them.
+ * Resources belong to the instance, which destroys them; the host destroys the remaining resources
+ * after grisaille_effect_desc::destroy. The host reads arguments during the call and keeps no
+ * pointer to them.
  */
 typedef struct grisaille_host {
-  uint32_t struct_size; /**< size of the table that this host offers */
-  uint32_t abi_minor;   /**< minor number that this host offers */
-  void* context;        /**< the host's own */
+  uint32_t struct_size; /**< size of this table in the host's version */
+  uint32_t abi_minor;   /**< minor number of the host's interface */
+  void* context;        /**< for the host's use only */
 
   /**
-   * Notes why the effect is about to return #GRISAILLE_FAILED.
+   * Reports why the effect is about to return #GRISAILLE_FAILED.
    * @param self this table
    * @param why one line; the host copies it
    */
   void (*fail)(const struct grisaille_host* self, const char* why);
 
   /**
-   * Creates a compute pipeline. Call this and the other functions that create resources only inside
-   * create() and record().
+   * Creates a compute pipeline. Call the functions that create resources only inside create() and
+   * record().
    * @param self this table
    * @param desc describes the pipeline
    * @param[out] out the pipeline
-   * @retval GRISAILLE_FAILED The description is wrong, the shader is of another stage, the driver
-   *   refuses the shader, or memory is exhausted.
+   * @retval GRISAILLE_FAILED The description is wrong, the shader is not a compute shader, the
+   *   driver refuses the shader, or memory is exhausted.
    */
   grisaille_result (*create_pipeline)(const struct grisaille_host* self,
                                       const grisaille_pipeline_desc* desc, grisaille_pipeline* out);
@@ -467,29 +468,29 @@ typedef struct grisaille_host {
   grisaille_result (*create_sampler)(const struct grisaille_host* self,
                                      const grisaille_sampler_desc* desc, grisaille_sampler* out);
   /**
-   * Destroys a pipeline of the instance, inside any of its functions. The host frees the memory
-   * once no frame in flight uses it. With the pipeline of another instance, the running function
-   * fails.
+   * Destroys a pipeline of the instance. Call it inside any function of the effect. The host frees
+   * the memory once no frame in flight uses it. If the pipeline belongs to another instance, the
+   * effect's running function fails.
    * @param self this table
-   * @param pipeline a pipeline of the instance; id 0: nothing happens
+   * @param pipeline a pipeline of the instance; id 0: the call does nothing
    */
   void (*destroy_pipeline)(const struct grisaille_host* self, grisaille_pipeline pipeline);
   /**
-   * Destroys a texture, as grisaille_host::destroy_pipeline does a pipeline.
+   * Destroys a texture. The rules of grisaille_host::destroy_pipeline apply.
    * @param self this table
-   * @param texture a texture of the instance; id 0: nothing happens
+   * @param texture a texture of the instance; id 0: the call does nothing
    */
   void (*destroy_texture)(const struct grisaille_host* self, grisaille_texture texture);
   /**
-   * Destroys a buffer, as grisaille_host::destroy_pipeline does a pipeline.
+   * Destroys a buffer. The rules of grisaille_host::destroy_pipeline apply.
    * @param self this table
-   * @param buffer a buffer of the instance; id 0: nothing happens
+   * @param buffer a buffer of the instance; id 0: the call does nothing
    */
   void (*destroy_buffer)(const struct grisaille_host* self, grisaille_buffer buffer);
   /**
-   * Destroys a sampler, as grisaille_host::destroy_pipeline does a pipeline.
+   * Destroys a sampler. The rules of grisaille_host::destroy_pipeline apply.
    * @param self this table
-   * @param sampler a sampler of the instance; id 0: nothing happens
+   * @param sampler a sampler of the instance; id 0: the call does nothing
    */
   void (*destroy_sampler)(const struct grisaille_host* self, grisaille_sampler sampler);
 
@@ -498,20 +499,21 @@ typedef struct grisaille_host {
    * @param self this table
    * @param rays `count` rays
    * @param count number of rays
-   * @param[out] hits `count` hits, one for each ray
-   * @retval GRISAILLE_UNSUPPORTED The host casts no rays.
-   * @retval GRISAILLE_FAILED A ray is not as grisaille_ray says.
+   * @param[out] hits `count` hits, one per ray
+   * @retval GRISAILLE_UNSUPPORTED The host does not cast rays.
+   * @retval GRISAILLE_FAILED A ray is outside the limits of grisaille_ray.
    */
   grisaille_result (*cast_rays)(const struct grisaille_host* self, const grisaille_ray* rays,
                                 uint64_t count, grisaille_hit* hits);
   /**
-   * Decodes a picture file, such as a #GRISAILLE_FIELD_FILE names. Call it only inside record().
+   * Decodes a picture file, such as the value of a #GRISAILLE_FIELD_FILE. Call it only inside
+   * record().
    * @param self this table
    * @param path path of the file
    * @param[out] out the picture; set its `struct_size` before the call
-   * @retval GRISAILLE_UNSUPPORTED The host decodes no pictures.
-   * @retval GRISAILLE_FAILED The host cannot read the file, and warns of it once. The effect may go
-   *   on without the picture.
+   * @retval GRISAILLE_UNSUPPORTED The host does not decode pictures.
+   * @retval GRISAILLE_FAILED The host cannot read the file; it warns the user once. The effect may
+   *   continue without the picture.
    */
   grisaille_result (*read_picture)(const struct grisaille_host* self, const char* path,
                                    grisaille_picture* out);
@@ -520,41 +522,41 @@ typedef struct grisaille_host {
 /**
  * @}
  * @defgroup effect_frame Effect: a frame
- * What an effect is given to record one frame.
+ * The inputs, outputs and functions with which an effect records one frame.
  * @{
  */
 
 /**
- * The camera of a frame, in double precision. Shaders read the same in single precision from the
- * uniform block of shaders/common/view.glsl.
+ * The camera of a frame, in double precision. Shaders read the same camera in single precision from
+ * the uniform block of shaders/common/view.glsl.
  */
 typedef struct grisaille_view {
   uint32_t struct_size;      /**< sizeof(grisaille_view) */
   uint32_t reserved;         /**< 0 */
   double position[3];        /**< world, metres */
   double world_from_view[9]; /**< rotation, column-major 3x3 */
-  double clip_from_view[16]; /**< a pinhole, column-major 4x4; reversed depth, infinitely far */
+  double clip_from_view[16]; /**< pinhole, column-major 4x4; reversed depth, no far plane */
   double near_plane;         /**< metres */
   double pixel_slope;        /**< height of a pixel at 1 m view depth, metres */
 } grisaille_view;
 
 /** One frame of one effect, valid during grisaille_effect_desc::record. */
 typedef struct grisaille_frame {
-  uint32_t struct_size; /**< size of the table that this host offers */
+  uint32_t struct_size; /**< size of this table in the host's version */
   uint32_t width;       /**< pixels of every output, and of every attachment without guard band */
-  uint32_t height;      /**< pixels, as `width` */
-  uint32_t wanted;      /**< bit n: somebody uses output n; an output that nobody uses has id 0 */
-  uint64_t index;       /**< counts the frames of this instance from 0 */
-  void* context;        /**< the host's own */
-  const double* values; /**< one for each parameter, in the table's order, inside its hard range */
+  uint32_t height;      /**< pixels; see `width` */
+  uint32_t wanted;      /**< bit n: output n is in use; an unused output has id 0 */
+  uint64_t index;       /**< number of the frame, counted from 0 for each instance */
+  void* context;        /**< for the host's use only */
+  const double* values; /**< one per parameter, in the table's order, inside its hard range */
   const grisaille_view* view;           /**< the camera */
   grisaille_range view_block;           /**< uniform buffer for shaders/common/view.glsl */
-  const grisaille_texture* attachments; /**< by grisaille_attachment; id 0: not asked for */
-  const grisaille_texture* outputs;     /**< one for each output, in the table's order */
+  const grisaille_texture* attachments; /**< by grisaille_attachment; id 0: not named by reads() */
+  const grisaille_texture* outputs;     /**< one per output, in the table's order */
 
   /**
-   * Begins a pass: a named, timed group of commands. Passes do not nest. Commands are recorded only
-   * inside a pass. Call this and the other functions of the frame only inside record().
+   * Begins a pass: a named, timed group of commands. Passes do not nest. Record commands only
+   * inside a pass. Call the functions of the frame only inside record().
    * @param self this frame
    * @param label names the pass; the host copies it
    * @retval GRISAILLE_FAILED The label is empty, or another pass is open.
@@ -567,11 +569,11 @@ typedef struct grisaille_frame {
    */
   grisaille_result (*end_pass)(const struct grisaille_frame* self);
   /**
-   * Records a dispatch, which sees the results of all commands recorded before it. Attachments are
-   * only read.
+   * Records a dispatch, which sees the results of all commands recorded before it. It may read
+   * attachments but not write them.
    * @param self this frame
    * @param work the dispatch; the host reads it during the call
-   * @retval GRISAILLE_FAILED No pass is open, nothing is bound to a slot of the shader, or a bound
+   * @retval GRISAILLE_FAILED No pass is open, a slot of the shader has no binding, or a bound
    *   resource belongs neither to the instance nor to the frame.
    */
   grisaille_result (*dispatch)(const struct grisaille_frame* self, const grisaille_dispatch* work);
@@ -579,19 +581,19 @@ typedef struct grisaille_frame {
    * Copies bytes into a uniform buffer for this frame.
    * @param self this frame
    * @param data the bytes
-   * @param bytes their number, 1 to 65536
+   * @param bytes number of bytes in `data`, 1 to 65536
    * @param[out] out the part of a buffer that holds the copy
    * @retval GRISAILLE_FAILED `bytes` is out of range, or memory is exhausted.
    */
   grisaille_result (*uniform)(const struct grisaille_frame* self, const void* data, uint32_t bytes,
                               grisaille_range* out);
   /**
-   * Creates a texture for this frame alone. Its contents are undefined, and the effect does not
-   * destroy it.
+   * Creates a texture for this frame only. Its contents are undefined. The host owns and destroys
+   * it.
    * @param self this frame
    * @param desc describes the texture
    * @param[out] out the texture
-   * @retval GRISAILLE_FAILED as grisaille_host::create_texture
+   * @retval GRISAILLE_FAILED See grisaille_host::create_texture.
    */
   grisaille_result (*transient)(const struct grisaille_frame* self,
                                 const grisaille_texture_desc* desc, grisaille_texture* out);
@@ -599,43 +601,44 @@ typedef struct grisaille_frame {
    * Copies bytes into a buffer of the instance.
    * @param self this frame
    * @param buffer the buffer
-   * @param offset bytes from the buffer's beginning
+   * @param offset bytes from the start of the buffer
    * @param data the bytes
-   * @param bytes their number; the range lies inside the buffer
-   * @retval GRISAILLE_FAILED The buffer is another instance's, the range leaves it, or memory is
-   *   exhausted.
+   * @param bytes number of bytes in `data`; the range must lie inside the buffer
+   * @retval GRISAILLE_FAILED The buffer belongs to another instance, the range is not inside the
+   *   buffer, or memory is exhausted.
    */
   grisaille_result (*upload_buffer)(const struct grisaille_frame* self, grisaille_buffer buffer,
                                     uint64_t offset, const void* data, uint64_t bytes);
   /**
-   * Copies texels into the whole of one level and layer.
+   * Copies texels into one whole mip level of one layer.
    * @param self this frame
-   * @param texture a texture of the instance or of the frame, but no attachment
+   * @param texture a texture of the instance or of the frame, but not an attachment
    * @param mip the level
    * @param layer the layer
    * @param data rows, tightly packed, top row first
    * @param bytes number of bytes in `data`
-   * @retval GRISAILLE_FAILED The texture is another one, `bytes` does not fit, or memory is
-   *   exhausted.
+   * @retval GRISAILLE_FAILED The texture is an attachment or belongs to another instance,
+   *   `bytes` is not the size of the level, or memory is exhausted.
    */
   grisaille_result (*upload_texture)(const struct grisaille_frame* self, grisaille_texture texture,
                                      uint32_t mip, uint32_t layer, const void* data,
                                      uint64_t bytes);
 
   const grisaille_objects* objects; /**< null unless the effect's table declares objects */
-  /** Seconds that this frame may still spend on work that can wait; may be infinite. */
+  /** Seconds that the effect may spend in this frame on work that can wait; may be infinite. */
   double patience;
   /**
-   * Tells how many things wait for a later frame. The host then renders again soon.
+   * Reports how many pieces of work wait for a later frame. The host then renders again soon.
    * @param self this frame
-   * @param count their number; 0, as before the first call: the picture is complete
+   * @param count number of waiting pieces; 0 (the value without a call): the picture is complete
    */
   grisaille_result (*waiting)(const struct grisaille_frame* self, uint64_t count);
 
   /**
-   * The guard band: pixels by which every attachment goes beyond the picture on each side. It is at
-   * least what grisaille_effect_desc::guard_band asked for, or 0 if the host has nothing beyond the
-   * picture. attachmentAt() of shaders/common/view.glsl returns texture coordinates.
+   * The guard band: the number of pixels by which every attachment extends beyond the picture on
+   * each side. It is at least the width that grisaille_effect_desc::guard_band requests, or 0 if
+   * the host has no pixels beyond the picture. attachmentAt() of shaders/common/view.glsl converts
+   * a pixel of the picture to texture coordinates in an attachment.
    */
   uint32_t guard;
   uint32_t reserved; /**< 0 */
@@ -650,7 +653,7 @@ typedef struct grisaille_frame {
 
 /** Further properties of an effect. */
 typedef enum grisaille_effect_flags {
-  /** Runs where the user names no effects. Only for the effects of the program itself. */
+  /** The effect runs when the user names no effects. Only the program's own effects may use it. */
   GRISAILLE_EFFECT_DEFAULT = 1
 } grisaille_effect_flags;
 
@@ -661,25 +664,25 @@ typedef struct grisaille_effect_desc {
   uint32_t output_count;                /**< 1 to 16 */
   uint32_t flags;                       /**< grisaille_effect_flags combined, or 0 */
   const char* key;                      /**< a key: "ssao"; unique among effects */
-  const char* label;                    /**< for people: "Ambient occlusion" */
+  const char* label;                    /**< name shown to users: "Ambient occlusion" */
   const char* version;                  /**< "1.0.0" */
   const char* tooltip;                  /**< one line: what the effect does */
   const grisaille_param_desc* params;   /**< `param_count` of them */
   const grisaille_output_desc* outputs; /**< `output_count` of them */
 
   /**
-   * Says which attachments the effect reads. The result depends on the arguments alone. The host
-   * calls it at any time, also without an instance. It cannot fail.
-   * @param values one for each parameter, in the table's order
-   * @param wanted the outputs that somebody uses, as grisaille_frame::wanted
+   * Returns the attachments that the effect reads. The result must depend only on the arguments.
+   * The host calls it at any time, even without an instance. It cannot fail.
+   * @param values one per parameter, in the table's order
+   * @param wanted bit n: output n is in use, same as grisaille_frame::wanted
    * @return GRISAILLE_READS() of each attachment, combined
    */
   uint32_t (*reads)(const double* values, uint32_t wanted);
 
   /**
-   * Creates an instance. After a failure the host calls no other function of it.
+   * Creates an instance. If this fails, the host calls no other function for the instance.
    * @param host the services for this instance
-   * @param[out] out the instance, which the host hands to the other functions
+   * @param[out] out the instance, which the host passes to the other functions
    * @return GRISAILLE_OK, or GRISAILLE_FAILED after grisaille_host::fail
    */
   grisaille_result (*create)(const grisaille_host* host, void** out);
@@ -700,17 +703,17 @@ typedef struct grisaille_effect_desc {
   void (*destroy)(void* instance);
 
   /**
-   * Says how wide a guard band the effect wants; may be null: none. An effect without guard band
-   * gets attachments of the picture's size, drawn separately.
-   * @param values one for each parameter, in the table's order
-   * @return the band on each side, as a share of the picture's height, 0 to 1
+   * Returns the width of the guard band that the effect wants. Null means no guard band. The host
+   * draws separate attachments of the picture's size for effects without a guard band.
+   * @param values one per parameter, in the table's order
+   * @return width of the band on each side, as a fraction of the picture's height, 0 to 1
    */
   double (*guard_band)(const double* values);
 
-  const grisaille_object_desc* objects; /**< the objects that users make for it; null: none */
+  const grisaille_object_desc* objects; /**< the objects that users make; null: no objects */
 } grisaille_effect_desc;
 
-/** What a plugin exports. */
+/** The table that a plugin exports. */
 typedef struct grisaille_plugin_desc {
   uint32_t magic;                              /**< GRISAILLE_MAGIC */
   uint32_t abi_major;                          /**< GRISAILLE_ABI_MAJOR */

@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: MIT
 /// @file
-/// The C++20 interface of an effect over effect.h: an author writes a class and a table.
-/// Header-only; it needs that header and the standard library.
+/// The C++20 interface of an effect, a layer over effect.h: the author writes a class and a table.
+/// Header-only; it needs effect.h and the standard library.
 ///
 /// @code{.cpp}
 /// #include "grisaille/effect.hpp"
@@ -56,14 +56,14 @@
 /// @endcode
 ///
 /// @par Errors
-/// What the host refuses is thrown as Failure. The class may throw Failure or anything else itself.
-/// The functions that cross the C interface catch everything and report it: an exception ends the
-/// frame or the creation, never the program. After a failed record() the host uses the object
-/// again, so keep it whole.
+/// A function throws Failure when the host refuses a call. The class may throw Failure or any other
+/// exception. The functions behind the C interface catch every exception and report it: an
+/// exception ends the frame or the creation, never the program. After a failed record() the host
+/// calls record() on the same object again, so leave it in a valid state.
 ///
 /// @par Lifetime
-/// The object lives from create to destroy. Host is a view that its members may keep. Frame and
-/// Values are views that are valid during record() alone.
+/// The object lives from create to destroy. It may keep a Host in its members: Host is a view that
+/// stays valid as long. Frame and Values are views that are valid only during record().
 #ifndef GRISAILLE_EFFECT_HPP
 #define GRISAILLE_EFFECT_HPP
 
@@ -86,7 +86,7 @@ namespace grisaille::plugin {
 
 /// Binds a part of a buffer to the shader's UNIFORM(slot).
 /// @param slot 0 to 15
-/// @param range the part
+/// @param range the part of the buffer
 /// @return the binding, for Frame::dispatch()
 constexpr grisaille_binding uniform(uint32_t slot, grisaille_range range) {
   return {.slot_class = GRISAILLE_SLOT_UNIFORM,
@@ -99,7 +99,7 @@ constexpr grisaille_binding uniform(uint32_t slot, grisaille_range range) {
 }
 /// Binds a part of a buffer to the shader's STORAGE(slot).
 /// @param slot 0 to 15
-/// @param range the part
+/// @param range the part of the buffer
 /// @return the binding, for Frame::dispatch()
 constexpr grisaille_binding storage(uint32_t slot, grisaille_range range) {
   grisaille_binding binding = uniform(slot, range);
@@ -138,16 +138,16 @@ constexpr grisaille_binding image(uint32_t slot, grisaille_texture texture, uint
           .mip = mip,
           .mip_count = 1};
 }
-/// A whole buffer, for storage().
+/// Returns the range of a whole buffer, for storage().
 /// @param buffer the buffer
-/// @return its range
+/// @return the range
 constexpr grisaille_range whole(grisaille_buffer buffer) {
   return {.buffer = buffer, .reserved = 0, .offset = 0, .size = 0};
 }
 
-/// The number of groups that cover one axis of a picture.
+/// Returns the number of workgroups that cover one axis of a picture.
 /// @param pixels pixels on the axis
-/// @param localSize threads of a group on the axis, over 0
+/// @param localSize threads per workgroup on the axis, over 0
 /// @return pixels / localSize, rounded up
 constexpr uint32_t groupsFor(uint32_t pixels, uint32_t localSize) {
   return pixels / localSize + (pixels % localSize != 0 ? 1u : 0u);
@@ -157,9 +157,9 @@ constexpr uint32_t groupsFor(uint32_t pixels, uint32_t localSize) {
 /// @addtogroup effect_frame
 /// @{
 
-/// Whether somebody uses an output.
+/// Returns whether an output is in use.
 /// @param bits grisaille_frame::wanted
-/// @param output index in the table of outputs, or an enum that counts like the table
+/// @param output index in the table of outputs, or an enum with the table's order
 /// @return whether the output's bit is set
 template <typename Index>
 constexpr bool wants(uint32_t bits, Index output) {
@@ -167,7 +167,7 @@ constexpr bool wants(uint32_t bits, Index output) {
 }
 
 /// A view of one frame, valid during record(). Every function that returns nothing or creates a
-/// resource throws Failure.
+/// resource may throw Failure.
 class Frame {
  public:
   /// @param frame the frame that record() gets
@@ -175,18 +175,18 @@ class Frame {
 
   /// @return pixels of every output, and of every attachment without guard band
   uint32_t width() const { return frame_->width; }
-  /// @return pixels, as width()
+  /// @return pixels; see width()
   uint32_t height() const { return frame_->height; }
-  /// @return the guard band: pixels by which attachments go beyond the picture on each side
+  /// @return the guard band: pixels by which attachments extend beyond the picture on each side
   uint32_t guard() const { return frame_->guard; }
-  /// @return number of this frame; counts the frames of this instance from 0
+  /// @return number of this frame, counted from 0 for each instance
   uint64_t index() const { return frame_->index; }
 
   /// @return the values of all parameters
   Values values() const { return Values(frame_->values); }
-  /// The value of one parameter.
-  /// @tparam T as Values::get() takes it
-  /// @param parameter index in the table of parameters, or an enum that counts like the table
+  /// Returns the value of one parameter.
+  /// @tparam T see Values::get()
+  /// @param parameter index in the table of parameters, or an enum with the table's order
   /// @return the value
   template <typename T, typename Index>
   T value(Index parameter) const {
@@ -198,51 +198,51 @@ class Frame {
   /// @return the uniform buffer for shaders/common/view.glsl
   grisaille_range viewBlock() const { return frame_->view_block; }
 
-  /// An attachment.
-  /// @param attachment which one
-  /// @return the attachment; id 0 unless reads() asked for it with these values
+  /// Returns an attachment.
+  /// @param attachment the attachment
+  /// @return the texture; id 0 unless reads() returned the attachment for these values
   grisaille_texture attachment(grisaille_attachment attachment) const {
     return frame_->attachments[attachment];
   }
-  /// Whether somebody uses an output.
-  /// @param output index in the table of outputs, or an enum that counts like the table
-  /// @return whether it must be written
+  /// Returns whether an output is in use.
+  /// @param output index in the table of outputs, or an enum with the table's order
+  /// @return whether the effect must write it
   template <typename Index>
   bool wanted(Index output) const {
     return wants(frame_->wanted, output);
   }
-  /// An output.
-  /// @param output index in the table of outputs, or an enum that counts like the table
-  /// @return the texture to write; id 0 if nobody uses it
+  /// Returns the texture of an output.
+  /// @param output index in the table of outputs, or an enum with the table's order
+  /// @return the texture to write; id 0 if the output is not in use
   template <typename Index>
   grisaille_texture output(Index output) const {
     return frame_->outputs[static_cast<size_t>(output)];
   }
 
-  /// The objects that users made, oldest first.
+  /// Returns the objects that users made, oldest first.
   /// @tparam T the effect's struct, laid out as the table of objects says
-  /// @return the objects; none unless the effect's table declares objects
-  /// @throws Failure the size of T is not the table's
+  /// @return the objects; empty unless the effect's table declares objects
+  /// @throws Failure the size of T differs from the table's object_size
   template <typename T>
   std::span<const T> objects() const {
     const grisaille_objects* list = frame_->objects;
     if (list == nullptr) return {};
-    if (list->stride != sizeof(T)) throw Failure("the objects are of another size than their type");
+    if (list->stride != sizeof(T)) throw Failure("the objects do not have the size of their type");
     return {static_cast<const T*>(list->objects), static_cast<size_t>(list->count)};
   }
   /// @return number of leading objects unchanged since the last record() that did not throw
   size_t objectsKept() const {
     return frame_->objects == nullptr ? 0 : static_cast<size_t>(frame_->objects->kept);
   }
-  /// @return seconds that this frame may still spend on work that can wait; may be infinite
+  /// @return seconds that the effect may spend in this frame on work that can wait; may be infinite
   double patience() const { return frame_->patience; }
-  /// Tells how many things wait for a later frame. The host then renders again soon.
-  /// @param count their number; 0, as before the first call: the picture is complete
+  /// Reports how many pieces of work wait for a later frame. The host then renders again soon.
+  /// @param count number of waiting pieces; 0 (the value without a call): the picture is complete
   void waiting(uint64_t count) const { require(frame_->waiting(frame_, count), "waiting"); }
 
   /// Records a pass: a named, timed group of commands. Passes do not nest.
   /// @param label names the pass
-  /// @param work records the commands; if it throws, the pass ends all the same
+  /// @param work records the commands; if it throws, the pass still ends
   template <std::invocable Work>
   void pass(const char* label, Work&& work) const {
     require(frame_->begin_pass(frame_, label), "passes");
@@ -258,10 +258,10 @@ class Frame {
   /// Records a dispatch, which sees the results of all commands recorded before it. Call it only
   /// inside a pass.
   /// @param pipeline a pipeline of this instance
-  /// @param bindings one for each slot that the shader uses
-  /// @param groupsX groups on the first axis
-  /// @param groupsY groups on the second axis
-  /// @param groupsZ groups on the third axis
+  /// @param bindings one per slot that the shader uses
+  /// @param groupsX workgroups on the first axis
+  /// @param groupsY workgroups on the second axis
+  /// @param groupsZ workgroups on the third axis
   void dispatch(grisaille_pipeline pipeline, std::span<const grisaille_binding> bindings,
                 uint32_t groupsX, uint32_t groupsY, uint32_t groupsZ = 1) const {
     const grisaille_dispatch work = {.struct_size = sizeof(grisaille_dispatch),
@@ -289,8 +289,8 @@ class Frame {
     return range;
   }
 
-  /// Creates a texture for this frame alone. Its contents are undefined.
-  /// @param spec describes it
+  /// Creates a texture for this frame only. Its contents are undefined.
+  /// @param spec describes the texture
   /// @return the texture, which the host owns
   grisaille_texture transient(const TextureSpec& spec) const {
     const grisaille_texture_desc desc = textureDesc(spec);
@@ -301,15 +301,15 @@ class Frame {
 
   /// Copies data into a buffer of this instance.
   /// @param buffer the buffer
-  /// @param offset bytes from the buffer's beginning
-  /// @param data a contiguous range that fits into the rest of the buffer
+  /// @param offset bytes from the start of the buffer
+  /// @param data a contiguous range that fits into the buffer from `offset` on
   template <std::ranges::contiguous_range Data>
   void uploadBuffer(grisaille_buffer buffer, uint64_t offset, const Data& data) const {
     const auto bytes = std::as_bytes(std::span(data));
     require(frame_->upload_buffer(frame_, buffer, offset, bytes.data(), bytes.size()), "uploads");
   }
-  /// Copies texels into the whole of one level and layer.
-  /// @param texture a texture of this instance or of the frame, but no attachment
+  /// Copies texels into one whole mip level of one layer.
+  /// @param texture a texture of this instance or of the frame, but not an attachment
   /// @param data a contiguous range of rows, tightly packed, top row first
   /// @param mip the level
   /// @param layer the layer
@@ -329,7 +329,7 @@ class Frame {
 /// @addtogroup effect_table
 /// @{
 
-/// A class that wants a guard band, as grisaille_effect_desc::guard_band.
+/// A class with a static function `guardBand(Values)`: see grisaille_effect_desc::guard_band.
 template <typename E>
 concept WantsGuardBand = requires(Values values) {
   { E::guardBand(values) }
@@ -337,8 +337,9 @@ concept WantsGuardBand = requires(Values values) {
 };
 
 /// A class that effect() accepts. It has a constructor that takes a Host, a static noexcept
-/// function `uint32_t reads(Values, uint32_t wanted)` as grisaille_effect_desc::reads, and a
-/// function `record(const Frame&)` as grisaille_effect_desc::record. Its destructor does not throw.
+/// function `uint32_t reads(Values, uint32_t wanted)` (see grisaille_effect_desc::reads), and a
+/// function `record(const Frame&)` (see grisaille_effect_desc::record). Its destructor does not
+/// throw.
 template <typename E>
 concept EffectClass = std::constructible_from<E, Host> && std::is_nothrow_destructible_v<E> &&
     requires(E& effect, const Frame& frame, Values values, uint32_t wanted) {
@@ -347,20 +348,21 @@ concept EffectClass = std::constructible_from<E, Host> && std::is_nothrow_destru
   effect.record(frame);
 };
 
-/// An effect, for effect(). All text and all arrays are static.
+/// Describes an effect, for effect(). All strings and arrays are static.
 struct EffectSpec {
   const char* key = nullptr;                       ///< a key: "ssao"; unique among effects
-  const char* label = nullptr;                     ///< for people: "Ambient occlusion"
+  const char* label = nullptr;                     ///< name shown to users: "Ambient occlusion"
   const char* version = nullptr;                   ///< "1.0.0"
   const char* tooltip = nullptr;                   ///< one line: what the effect does
-  std::span<const grisaille_param_desc> params;    ///< 0 to 256
-  std::span<const grisaille_output_desc> outputs;  ///< 1 to 16
-  const grisaille_object_desc* objects = nullptr;  ///< the objects that users make; null: none
-  bool runsByDefault = false;  ///< runs where the user names no effects; the program's own alone
+  std::span<const grisaille_param_desc> params;    ///< 0 to 256 entries
+  std::span<const grisaille_output_desc> outputs;  ///< 1 to 16 entries
+  const grisaille_object_desc* objects = nullptr;  ///< objects that users make; null: no objects
+  /// whether the effect runs when the user names no effects; only for the program's own effects
+  bool runsByDefault = false;
 };
 
 /// @cond
-// The functions that cross, for one class.
+// The functions of the C interface for one effect class.
 template <EffectClass E>
 class Boundary {
  public:
@@ -400,11 +402,11 @@ class Boundary {
       work();
       return GRISAILLE_OK;
     } catch (const HostRefused&) {
-      // The host knows why, in better words than these.
+      // The host has already recorded the reason, in more detail.
     } catch (const std::exception& error) {
       host->fail(host, error.what());
     } catch (...) {
-      host->fail(host, "an exception that is no std::exception");
+      host->fail(host, "an exception that is not a std::exception");
     }
     return GRISAILLE_FAILED;
   }
@@ -412,8 +414,8 @@ class Boundary {
 
 /// @endcond
 
-/// The table of an effect.
-/// @tparam E the class of its instances
+/// Returns the table of an effect.
+/// @tparam E the class of the effect's instances
 /// @param spec the effect
 /// @return the table
 template <EffectClass E>
@@ -441,7 +443,7 @@ constexpr grisaille_effect_desc effect(const EffectSpec& spec) {
 }  // namespace grisaille::plugin
 
 /// @ingroup effect_table
-/// Exports the effects of a plugin. Write it once in a plugin, at namespace scope. Its arguments
+/// Exports the effects of a plugin. Write it once per plugin, at namespace scope. Its arguments
 /// are the addresses of static constants of type grisaille_effect_desc.
 #define GRISAILLE_EXPORT_PLUGIN(...)                                                   \
   namespace {                                                                          \

@@ -21,21 +21,21 @@ namespace grisaille::plugin {
 /// @addtogroup effect_results
 /// @{
 
-/// Why an effect cannot go on, in one line for the user.
+/// The reason why an effect cannot continue, in one line for the user.
 class Failure : public std::runtime_error {
  public:
   using std::runtime_error::runtime_error;
 };
 
-/// A call that the host refused. The host has noted why; this only ends the work.
+/// A call that the host refused. The host has recorded the reason; the exception only unwinds.
 class HostRefused : public Failure {
  public:
   using Failure::Failure;
 };
 
 /// Throws unless a call succeeded.
-/// @param result what the call returned
-/// @param service what the call asks for, for the message: "a texture"
+/// @param result the result of the call
+/// @param service the service that the call requests, for the message: "a texture"
 /// @throws Failure the host does not offer the service
 /// @throws HostRefused the call failed
 inline void require(grisaille_result result, const char* service) {
@@ -62,11 +62,11 @@ class Owned {
   /// @param id the resource
   Owned(const grisaille_host* host, Id id) : host_(host), id_(id) {}
   /// Takes the resource of another owner.
-  /// @param other owns nothing afterwards
+  /// @param other afterwards owns nothing
   Owned(Owned&& other) noexcept
       : host_(std::exchange(other.host_, nullptr)), id_(std::exchange(other.id_, Id{0})) {}
   /// Exchanges the resources of two owners.
-  /// @param other owns this owner's resource afterwards
+  /// @param other afterwards owns this owner's resource
   /// @return this
   Owned& operator=(Owned&& other) noexcept {
     std::swap(host_, other.host_);
@@ -108,9 +108,9 @@ struct TextureSpec {
   uint32_t layers = 1;  ///< number of layers
 };
 
-/// The same as the C interface takes it.
-/// @param spec the texture
-/// @return its description
+/// Converts a description of a texture to the struct of the C interface.
+/// @param spec describes the texture
+/// @return the struct
 constexpr grisaille_texture_desc textureDesc(const TextureSpec& spec) {
   return {.struct_size = sizeof(grisaille_texture_desc),
           .format = static_cast<uint32_t>(spec.format),
@@ -130,7 +130,7 @@ struct SamplerSpec {
   bool repeat = false;          ///< true: repeat; false: clamp to the edge
 };
 
-/// The value of a specialization constant.
+/// Returns a specialization constant with its value.
 /// @param id constant_id in the shader
 /// @param value the value
 /// @return the constant, for PipelineCache::get() and Host::computePipeline()
@@ -154,8 +154,8 @@ constexpr grisaille_constant specialize(uint32_t id, bool value) {
 /// @addtogroup effect_host
 /// @{
 
-/// A view of the host for one instance, free to copy. Every function that returns a resource throws
-/// Failure.
+/// A view of the host for one instance; copy it freely. Every function that returns a resource may
+/// throw Failure.
 class Host {
  public:
   /// @param host the services that create() gets
@@ -184,7 +184,7 @@ class Host {
   }
 
   /// Creates a texture. Its contents are undefined.
-  /// @param spec describes it
+  /// @param spec describes the texture
   /// @return the texture, which the caller owns
   Texture texture(const TextureSpec& spec) const {
     const grisaille_texture_desc desc = textureDesc(spec);
@@ -209,9 +209,9 @@ class Host {
 
   /// Casts rays through the scene. Call it only inside record().
   /// @param rays the rays
-  /// @param[out] hits one for each ray
-  /// @return false if the host casts no rays
-  /// @throws Failure a ray is not as grisaille_ray says
+  /// @param[out] hits one per ray
+  /// @return false if the host does not cast rays
+  /// @throws Failure a ray is outside the limits of grisaille_ray
   bool castRays(std::span<const grisaille_ray> rays, std::span<grisaille_hit> hits) const {
     const grisaille_result result =
         host_->cast_rays(host_, rays.data(), std::min(rays.size(), hits.size()), hits.data());
@@ -222,9 +222,9 @@ class Host {
 
   /// Decodes a picture file. Call it only inside record().
   /// @param path path of the file
-  /// @return the picture, or nothing if the host decodes no pictures or cannot read the file, of
-  /// which it warns itself. The pixels are valid until the next readPicture() or the end of
-  /// record().
+  /// @return the picture, or nullopt if the host does not decode pictures or cannot read the file;
+  /// the host warns the user about the file. The pixels are valid until the next readPicture() or
+  /// the end of record().
   std::optional<grisaille_picture> readPicture(const char* path) const {
     grisaille_picture picture = {};
     picture.struct_size = sizeof(picture);
@@ -233,7 +233,7 @@ class Host {
   }
 
   /// Creates a sampler.
-  /// @param spec describes it
+  /// @param spec describes the sampler
   /// @return the sampler, which the caller owns
   Sampler sampler(const SamplerSpec& spec) const {
     const grisaille_sampler_desc desc = {.struct_size = sizeof(grisaille_sampler_desc),
@@ -250,11 +250,12 @@ class Host {
   const grisaille_host* host_;
 };
 
-/// Pipelines of one shader, created on first use of each set of specialization constants. It keeps
-/// the sets used last, so that a slider moved to and fro compiles nothing twice.
+/// A cache of one shader's pipelines, one per set of specialization constants, created on first
+/// use. It keeps the most recently used sets, so that a slider moved back compiles no pipeline
+/// again.
 class PipelineCache {
  public:
-  /// Creates no pipeline yet.
+  /// Does not create a pipeline yet.
   /// @param host the host
   /// @param label for messages and debuggers; static; may be null
   /// @param shader a compute shader; static
@@ -262,10 +263,10 @@ class PipelineCache {
   PipelineCache(Host host, const char* label, const grisaille_shader& shader, size_t kept = 8)
       : host_(host), label_(label), shader_(&shader), kept_(std::max<size_t>(kept, 1)) {}
 
-  /// The pipeline with a set of constants.
-  /// @param constants the set; the same constants in another order are another set
-  /// @return the pipeline, which the cache owns; valid until `kept` other sets were asked for
-  /// @throws Failure the host refuses the pipeline; the cache keeps what it has
+  /// Returns the pipeline for a set of constants.
+  /// @param constants the set; the same constants in another order are a different set
+  /// @return the pipeline, which the cache owns; valid until get() is called with `kept` others
+  /// @throws Failure the host refuses the pipeline; the cache keeps its pipelines
   grisaille_pipeline get(std::span<const grisaille_constant> constants) {
     const auto same = [](const grisaille_constant& a, const grisaille_constant& b) {
       return a.id == b.id && a.bits == b.bits;
@@ -296,7 +297,7 @@ class PipelineCache {
   const char* label_;
   const grisaille_shader* shader_;
   size_t kept_;
-  std::vector<Entry> entries_;  // the one used last first
+  std::vector<Entry> entries_;  // most recently used first
 };
 
 /// @}

@@ -2,7 +2,7 @@
 /// @file
 /// The static tables of an effect in C++: parameters, outputs, objects. Part of effect.hpp.
 ///
-/// All text and all arrays that a table points to are static.
+/// All strings and arrays that a table points to are static.
 #ifndef GRISAILLE_EFFECT_TABLE_HPP
 #define GRISAILLE_EFFECT_TABLE_HPP
 
@@ -22,7 +22,7 @@ namespace grisaille::plugin {
 /// A parameter that is a number, for floatParam().
 struct FloatParam {
   const char* key = nullptr;      ///< a-z, 0-9, _; begins with a letter; unique in the effect
-  const char* label = nullptr;    ///< for people: "Kernel size"
+  const char* label = nullptr;    ///< name shown to users: "Kernel size"
   const char* unit = "";          ///< "m", "px", "rad", "s", or ""
   const char* tooltip = nullptr;  ///< one sentence, without a line break
   double hardMin = 0;             ///< least value that the host accepts
@@ -32,13 +32,13 @@ struct FloatParam {
   double defaultValue = 0;        ///< from hardMin to hardMax
   double step = 0;                ///< step of the slider, over 0; may stay 0 if `log` is set
   bool log = false;               ///< whether the slider is logarithmic; softMin must be over 0
-  bool advanced = false;          ///< whether the panel folds it away
+  bool advanced = false;          ///< whether the panel hides it in a folded section
 };
 
 /// A parameter that is a whole number, for intParam().
 struct IntParam {
   const char* key = nullptr;      ///< a-z, 0-9, _; begins with a letter; unique in the effect
-  const char* label = nullptr;    ///< for people: "Samples"
+  const char* label = nullptr;    ///< name shown to users: "Samples"
   const char* unit = "";          ///< "m", "px", "rad", "s", or ""
   const char* tooltip = nullptr;  ///< one sentence, without a line break
   int32_t hardMin = 0;            ///< least value that the host accepts
@@ -48,39 +48,39 @@ struct IntParam {
   int32_t defaultValue = 0;       ///< from hardMin to hardMax
   int32_t step = 1;               ///< step of the slider, over 0
   bool log = false;               ///< whether the slider is logarithmic; softMin must be over 0
-  bool advanced = false;          ///< whether the panel folds it away
+  bool advanced = false;          ///< whether the panel hides it in a folded section
 };
 
 /// A parameter that is on or off, for boolParam().
 struct BoolParam {
   const char* key = nullptr;      ///< a-z, 0-9, _; begins with a letter; unique in the effect
-  const char* label = nullptr;    ///< for people: "Back faces"
+  const char* label = nullptr;    ///< name shown to users: "Back faces"
   const char* tooltip = nullptr;  ///< one sentence, without a line break
   bool defaultValue = false;      ///< the default
-  bool advanced = false;          ///< whether the panel folds it away
+  bool advanced = false;          ///< whether the panel hides it in a folded section
 };
 
-/// A parameter that is one of a list, for enumParam().
+/// A parameter that takes one value of a list, for enumParam().
 struct EnumParam {
   const char* key = nullptr;            ///< a-z, 0-9, _; begins with a letter; unique in the effect
-  const char* label = nullptr;          ///< for people: "Method"
+  const char* label = nullptr;          ///< name shown to users: "Method"
   const char* tooltip = nullptr;        ///< one sentence, without a line break
-  std::span<const char* const> keys;    ///< static, 2 to 64: a-z, 0-9, _, -; unique
-  std::span<const char* const> labels;  ///< static, for people, as many as keys
+  std::span<const char* const> keys;    ///< static, 2 to 64 keys of a-z, 0-9, _, -; unique
+  std::span<const char* const> labels;  ///< static, names shown to users, one per key
   uint32_t defaultValue = 0;            ///< index of the default
-  bool advanced = false;                ///< whether the panel folds it away
+  bool advanced = false;                ///< whether the panel hides it in a folded section
 };
 
 /// Combines grisaille_param_flags.
 /// @param log whether the slider is logarithmic
-/// @param advanced whether the panel folds it away
+/// @param advanced whether the panel hides it in a folded section
 /// @return grisaille_param_desc::flags
 constexpr uint32_t paramFlags(bool log, bool advanced) {
   return (log ? uint32_t{GRISAILLE_PARAM_LOG} : 0u) |
          (advanced ? uint32_t{GRISAILLE_PARAM_ADVANCED} : 0u);
 }
 
-/// The table entry of a number.
+/// Returns the table entry of a number.
 /// @param p the parameter
 /// @return the entry
 constexpr grisaille_param_desc floatParam(const FloatParam& p) {
@@ -102,7 +102,7 @@ constexpr grisaille_param_desc floatParam(const FloatParam& p) {
           .enum_labels = nullptr};
 }
 
-/// The table entry of a whole number.
+/// Returns the table entry of a whole number.
 /// @param p the parameter
 /// @return the entry
 constexpr grisaille_param_desc intParam(const IntParam& p) {
@@ -122,7 +122,7 @@ constexpr grisaille_param_desc intParam(const IntParam& p) {
   return desc;
 }
 
-/// The table entry of a switch.
+/// Returns the table entry of a switch.
 /// @param p the parameter
 /// @return the entry
 constexpr grisaille_param_desc boolParam(const BoolParam& p) {
@@ -138,12 +138,12 @@ constexpr grisaille_param_desc boolParam(const BoolParam& p) {
   return desc;
 }
 
-/// The table entry of a list.
+/// Returns the table entry of a list.
 /// @param p the parameter
 /// @return the entry
-/// @throws std::invalid_argument fewer than two entries, or another number of labels than of keys;
-/// in
-///   a constant table this is an error of compilation
+/// @throws std::invalid_argument fewer than two keys, or a different number of labels; in a
+/// constant
+///   table this is a compilation error
 constexpr grisaille_param_desc enumParam(const EnumParam& p) {
   if (p.keys.size() != p.labels.size() || p.keys.size() < 2) {
     throw std::invalid_argument("an enum needs two entries or more, each with key and label");
@@ -170,13 +170,13 @@ constexpr grisaille_param_desc enumParam(const EnumParam& p) {
 
 /// A texture that an effect writes, for output().
 struct Output {
-  const char* key = nullptr;                        ///< a key, as in `--write KEY=FILE`
+  const char* key = nullptr;                        ///< a key, for `--write KEY=FILE`
   grisaille_format format = GRISAILLE_FORMAT_R32F;  ///< its format
   grisaille_role role = GRISAILLE_ROLE_NONE;        ///< how the composed picture uses it
   const char* tooltip = nullptr;  ///< one line: what the channels mean, with units and range
 };
 
-/// The table entry of an output.
+/// Returns the table entry of an output.
 /// @param o the output
 /// @return the entry
 constexpr grisaille_output_desc output(const Output& o) {
@@ -194,19 +194,20 @@ constexpr grisaille_output_desc output(const Output& o) {
 /// A field of the objects that users make, for field().
 struct Field {
   const char* key = nullptr;      ///< a key, for files and the command line; unique in the object
-  const char* label = nullptr;    ///< for people
-  const char* unit = "";          ///< of a number: "m", "px", "rad", "s", or ""; else ""
+  const char* label = nullptr;    ///< name shown to users
+  const char* unit = "";          ///< number: "m", "px", "rad", "s", or ""; other types: ""
   const char* tooltip = nullptr;  ///< one line
-  grisaille_field_type type = GRISAILLE_FIELD_NUMBER;  ///< type of the field and of its member
-  size_t offset = 0;               ///< offsetof() the member in the effect's struct
-  double min = 0;                  ///< number: least value, finite; else 0
-  double max = 0;                  ///< number: greatest value, finite, over min; else 0
+  grisaille_field_type type = GRISAILLE_FIELD_NUMBER;  ///< type of the field and its member
+  size_t offset = 0;               ///< offsetof() of the member in the effect's struct
+  double min = 0;                  ///< number: least value, finite; other types: 0
+  double max = 0;                  ///< number: greatest value, finite, over min; other types: 0
   double defaults[3] = {0, 0, 0};  ///< a number uses the first; text and file: 0
-  const char* text = nullptr;      ///< text, file: the default, not null; else null
-  bool required = false;           ///< whether a file must give it; only the panel uses the default
+  const char* text = nullptr;      ///< text, file: the default, not null; other types: null
+  /// whether every object in a file must have the field; then only the panel uses the default
+  bool required = false;
 };
 
-/// The table entry of a field.
+/// Returns the table entry of a field.
 /// @param f the field
 /// @return the entry
 constexpr grisaille_field_desc field(const Field& f) {
@@ -226,17 +227,17 @@ constexpr grisaille_field_desc field(const Field& f) {
 
 /// The objects that users make for an effect, for objects().
 struct ObjectSpec {
-  const char* key = nullptr;                            ///< a key, of the list in files: "decals"
-  const char* label = nullptr;                          ///< of the list, for people: "Decals"
-  const char* tooltip = nullptr;                        ///< one line: what one object is
-  std::span<const grisaille_field_desc> fields;         ///< static, 1 to 64
-  grisaille_placement placement = GRISAILLE_PLACE_RAY;  ///< which fields a click sets
-  uint32_t pointField = 0;                              ///< index of the point that placing sets
-  uint32_t directionField = 0;  ///< index of the direction that placing sets
+  const char* key = nullptr;                     ///< key of the list in files: "decals"
+  const char* label = nullptr;                   ///< name of the list, shown to users: "Decals"
+  const char* tooltip = nullptr;                 ///< one line: what one object is
+  std::span<const grisaille_field_desc> fields;  ///< static, 1 to 64 fields
+  grisaille_placement placement = GRISAILLE_PLACE_RAY;  ///< how a click sets point and direction
+  uint32_t pointField = 0;      ///< index of the point field that a click sets
+  uint32_t directionField = 0;  ///< index of the direction field that a click sets
 };
 
-/// The table of an effect's objects.
-/// @tparam Object the effect's struct; Field::offset counts from its beginning
+/// Returns the table of an effect's objects.
+/// @tparam Object the effect's struct; Field::offset counts from its start
 /// @param spec the objects
 /// @return the table
 template <typename Object>
@@ -261,12 +262,13 @@ constexpr grisaille_object_desc objects(const ObjectSpec& spec) {
 /// A view of the parameter values of one frame.
 class Values {
  public:
-  /// @param values one for each parameter, in the table's order
+  /// @param values one per parameter, in the table's order
   explicit Values(const double* values) : values_(values) {}
 
-  /// One value.
-  /// @tparam T float or double for a float, an integer for an int, bool, an enum for an enum
-  /// @param parameter index in the table, or an enum that counts like the table
+  /// Returns one value.
+  /// @tparam T float or double for a float, an integer for an int, bool for a bool, an enum for an
+  ///   enum
+  /// @param parameter index in the table, or an enum with the table's order
   /// @return the value
   template <typename T, typename Index>
   requires std::is_arithmetic_v<T> || std::is_enum_v<T> T get(Index parameter)

@@ -4,14 +4,13 @@
  * One compiled shader stage, as the CMake function `grisaille_add_shaders` writes it.
  *
  * A grisaille_shader holds the SPIR-V that Vulkan takes, the GLSL 4.50 that OpenGL takes, and the
- * shader's interface. All of it is static constant data: a plugin hands out pointers to it, and
- * nobody frees it.
+ * shader's interface. All of it is static constant data of the plugin, and nobody frees it.
  *
  * @par Binding numbers
- * In the source, every binding is of set 0 and of one of four classes. The macros of
- * shaders/common/bindings.glsl write it: UNIFORM(n), STORAGE(n), TEXTURE(n), IMAGE(n), with n from
- * 0 to 15. In SPIR-V, slot n of a class is binding `GRISAILLE_SLOTS_PER_CLASS * class + n`. In GLSL
- * it is binding n, because OpenGL counts each class by itself.
+ * In the source, every binding belongs to set 0 and to one of four classes. Declare bindings with
+ * the macros of shaders/common/bindings.glsl: UNIFORM(n), STORAGE(n), TEXTURE(n), IMAGE(n), with n
+ * from 0 to 15. In SPIR-V, slot n of a class is binding `GRISAILLE_SLOTS_PER_CLASS * class + n`. In
+ * GLSL it is binding n, because OpenGL numbers the bindings of each class separately.
  */
 #ifndef GRISAILLE_SHADER_H
 #define GRISAILLE_SHADER_H
@@ -25,21 +24,21 @@ extern "C" {
 
 /**
  * @defgroup effect_shaders Effect: shaders
- * Compiled shaders and what they read and write (shader.h).
+ * Compiled shaders and the resources that they read and write (shader.h).
  * @{
  */
 
-/** Slots of each grisaille_slot_class. */
+/** Number of slots in each grisaille_slot_class. */
 #define GRISAILLE_SLOTS_PER_CLASS 16u
 
 /** The stage of a shader. */
 typedef enum grisaille_stage {
   GRISAILLE_STAGE_VERTEX = 0,   /**< vertex shader */
   GRISAILLE_STAGE_FRAGMENT = 1, /**< fragment shader */
-  GRISAILLE_STAGE_COMPUTE = 2   /**< compute shader, the only one that effects use */
+  GRISAILLE_STAGE_COMPUTE = 2   /**< compute shader, the only stage that effects use */
 } grisaille_stage;
 
-/** The class of a binding. Slots count from 0 in each class. */
+/** The class of a binding. Each class numbers its slots from 0. */
 typedef enum grisaille_slot_class {
   GRISAILLE_SLOT_UNIFORM = 0, /**< uniform buffer, std140 */
   GRISAILLE_SLOT_STORAGE = 1, /**< storage buffer, std430 */
@@ -52,7 +51,7 @@ typedef enum grisaille_scalar {
   GRISAILLE_SCALAR_UINT = 0,  /**< 32-bit unsigned integer */
   GRISAILLE_SCALAR_INT = 1,   /**< 32-bit signed integer */
   GRISAILLE_SCALAR_FLOAT = 2, /**< 32-bit float */
-  GRISAILLE_SCALAR_BOOL = 3   /**< bool; as bits 0 or 1 */
+  GRISAILLE_SCALAR_BOOL = 3   /**< bool, stored as 0 or 1 */
 } grisaille_scalar;
 
 /** One slot that the shader uses. Arrays of resources are not supported. */
@@ -62,9 +61,9 @@ typedef struct grisaille_shader_slot {
   uint32_t reads;      /**< 1 if the shader may read it, else 0 */
   uint32_t writes;     /**< 1 if the shader may write it, else 0 */
   uint32_t block_size; /**< bytes of a uniform block or of a storage block's fixed part; else 0 */
-  uint32_t arrayed;    /**< 1 for a 2D array texture or image, else 0 */
+  uint32_t arrayed;    /**< 1: a 2D array texture or image; else 0 */
   const char* format;  /**< image format as GLSL spells it ("r32f"); "" for other classes */
-  const char* name;    /**< the name in the source, for messages */
+  const char* name;    /**< name in the source, for messages */
 } grisaille_shader_slot;
 
 /** A specialization constant that the shader declares. */
@@ -72,7 +71,7 @@ typedef struct grisaille_shader_constant {
   uint32_t id;           /**< constant_id in the source */
   uint32_t type;         /**< a grisaille_scalar */
   uint32_t default_bits; /**< the default, as the bits of a uint, int or float; a bool is 0 or 1 */
-  const char* name;      /**< the name in the source, for messages */
+  const char* name;      /**< name in the source, for messages */
 } grisaille_shader_constant;
 
 /** A vertex input or a fragment output: one location. */
@@ -80,7 +79,7 @@ typedef struct grisaille_shader_location {
   uint32_t location;   /**< location in the source */
   uint32_t type;       /**< a grisaille_scalar */
   uint32_t components; /**< 1 to 4 */
-  const char* name;    /**< the name in the source, for messages */
+  const char* name;    /**< name in the source, for messages */
 } grisaille_shader_location;
 
 /** A compiled shader with its interface. */
@@ -96,11 +95,11 @@ typedef struct grisaille_shader {
   uint32_t slot_count;                        /**< number of `slots` */
   const grisaille_shader_constant* constants; /**< the specialization constants */
   uint32_t constant_count;                    /**< number of `constants` */
-  const grisaille_shader_location* inputs;    /**< vertex stage: the attributes; else null */
+  const grisaille_shader_location* inputs;    /**< vertex stage: attributes; others: null */
   uint32_t input_count;                       /**< number of `inputs` */
-  const grisaille_shader_location* outputs;   /**< fragment stage: the colour targets; else null */
+  const grisaille_shader_location* outputs;   /**< fragment stage: colour targets; others: null */
   uint32_t output_count;                      /**< number of `outputs` */
-  uint32_t local_size[3]; /**< compute stage: threads of a group on each axis; else 0 */
+  uint32_t local_size[3]; /**< compute stage: threads per workgroup on each axis; other stages: 0 */
 } grisaille_shader;
 
 /** @} */

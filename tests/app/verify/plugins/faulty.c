@@ -1,8 +1,8 @@
 /* SPDX-License-Identifier: MIT
  *
- * An effect that `grisaille effects --verify` passes or, with -DFAULT_..., fails: each of them
- * while its parameter is at its most, but for those that never write and never are made, and the
- * one that fails between its parameter's default and its ends. KEY is its key. */
+ * An effect that `grisaille effects --verify` passes or, with -DFAULT_..., fails. Most faults show
+ * with the parameter at its maximum. Exceptions: the effects that never write or never finish
+ * create(), and the one that fails between the default and the maximum. KEY is its key. */
 #include <math.h>
 #include <signal.h>
 #include <stdlib.h>

@@ -1,13 +1,13 @@
 // SPDX-License-Identifier: MIT
-// An effect without the wrapper, which lets an exception of its own out of one of its functions:
-// -DTHROWS_IN_..., KEY is its key.
+// An effect that does not use the C++ wrapper. -DTHROWS_IN_... selects the function that throws an
+// exception. KEY is its key.
 #include <exception>
 
 #include "grisaille/effect.h"
 
 namespace {
 
-// Its words are the plugin's: nobody can read them once it is unloaded.
+// The text lies in the plugin and cannot be read after unloading.
 struct Thrown : std::exception {
   const char* what() const noexcept override { return "thrown on purpose"; }
 };

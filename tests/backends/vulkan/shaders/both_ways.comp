@@ -8,7 +8,8 @@ layout(TEXTURE(1)) uniform sampler2D coarse;
 layout(IMAGE(0), r32f) readonly uniform image2D image;
 layout(STORAGE(0), std430) writeonly buffer Out { vec4 data[]; };
 
-// Three reads of one texture: through a sampler, by a view of its second level, and as an image.
+// Three reads of one texture: through a sampler, through a view of its second level, and as an
+// image.
 void main() {
   const int x = int(gl_GlobalInvocationID.x);
   data[x] = vec4(textureLod(sampled, vec2((float(x) + 0.5) / 8.0, 0.5), 0.0).r,

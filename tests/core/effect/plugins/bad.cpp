@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: MIT
-// Effects that fail or break the contract while they work, each in the way that its key names.
+// Effects that fail or break the contract while they run. Each key names the fault.
 #include "grisaille/effect.hpp"
 #include "shaders/copy.h"
 
@@ -34,7 +34,7 @@ struct ThrowsInCreate : Reads {
   plugin::Buffer kept;
 };
 
-// The layer refuses the texture; the effect adds nothing.
+// The layer refuses the texture; the effect adds no message.
 struct RefusedInCreate : Reads {
   explicit RefusedInCreate(plugin::Host host) { host.texture({.label = "nothing", .width = 0}); }
   void record(const plugin::Frame&) {}
@@ -85,7 +85,7 @@ struct WritesAttachment : Reads {
   }
 };
 
-// What the wrapper would not do: the C functions, called directly.
+// Faults that the C++ wrapper prevents: these effects implement the C functions directly.
 grisaille_result makeNothing(const grisaille_host*, void** out) {
   *out = nullptr;
   return GRISAILLE_OK;
@@ -115,7 +115,7 @@ grisaille_result nullData(void*, const grisaille_frame* frame) {
   grisaille_range range = {};
   return frame->uniform(frame, nullptr, 16, &range);
 }
-// The C++ class would keep it in the instance.
+// A C++ effect keeps the host in its instance.
 const grisaille_host* keptHost = nullptr;
 grisaille_result keepHost(const grisaille_host* host, void** out) {
   keptHost = host;

@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: MIT
-// A sound effect in C++: copies view depth to its output by way of a transient texture, in two
-// passes. It uses every service of the host.
+// A valid effect in C++. It copies view depth to its output through a transient texture, in two
+// passes, and uses every service of the host.
 #include <array>
 #include <vector>
 
@@ -75,7 +75,7 @@ class Copy {
         frame.transient({.label = "between", .width = frame.width(), .height = frame.height()});
     const uint32_t entry = frame.value<uint32_t>(kEntry);
     copy(frame, "in", entry, frame.attachment(GRISAILLE_VIEW_DEPTH), between);
-    // The cache holds one pipeline: this drops the one that the frame has just used.
+    // The cache holds one pipeline: this call drops the pipeline that the frame has just used.
     if (frame.wanted(0)) copy(frame, "out", 15 - entry, between, frame.output(0));
     if (frame.wanted(1)) {
       const std::vector<std::array<uint16_t, 4>> zero(size_t{frame.width()} * frame.height());

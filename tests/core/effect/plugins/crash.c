@@ -1,6 +1,6 @@
 /* SPDX-License-Identifier: MIT
  *
- * Plugins whose loading takes a process along, each in the way that -DCRASH_... names. */
+ * Plugins that end the process while it loads them. -DCRASH_... selects how. */
 #include <signal.h>
 #include <stdint.h>
 #include <unistd.h>
@@ -18,7 +18,7 @@ __attribute__((constructor)) static void load(void) {
 }
 
 #if defined(CRASH_UNLOAD)
-/* Only an accepted plugin is unloaded. */
+/* A valid plugin, since only accepted plugins are unloaded. */
 #define KEY "crash_unload"
 #include "plain.c"
 
@@ -30,7 +30,7 @@ __attribute__((destructor)) static void unload(void) {
 static const grisaille_effect_desc kEffect = {.struct_size = sizeof kEffect};
 
 #if defined(CRASH_TABLE)
-/* Nothing is there. */
+/* An address without memory. */
 #define FIRST ((const grisaille_effect_desc*)(uintptr_t)16)
 #else
 #define FIRST &kEffect

@@ -1,13 +1,13 @@
 /* SPDX-License-Identifier: MIT
  *
- * An object of the test plugin `teller`. */
+ * The struct of one object of the test plugin `teller`. */
 #pragma once
 
 namespace grisaille::tests {
 
 #ifdef LATER
-// Of a later version of the plugin: `note` is gone, `colour` is a text, `weight` is new, and the
-// largest size is smaller.
+// The later version of the plugin: no `note`, a text for `colour`, a new `weight`, and a lower
+// limit for `size`.
 struct Mark {
   double position[3];
   double size;

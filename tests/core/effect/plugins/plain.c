@@ -1,7 +1,7 @@
 /* SPDX-License-Identifier: MIT
  *
- * A sound effect in plain C; with -DFAULT_... the same with one thing wrong. KEY is its key. With
- * -DMARKED it runs where nobody names effects. */
+ * A valid effect in plain C; -DFAULT_... adds one fault. KEY is its key. With -DMARKED it is a
+ * default effect: it runs when the user names no effects. */
 #include <stdlib.h>
 
 #include "grisaille/effect.h"
@@ -18,7 +18,7 @@
 
 typedef struct Plain {
   const grisaille_host* host;
-  grisaille_buffer left; /* the host destroys it */
+  grisaille_buffer left; /* left for the host to destroy */
 } Plain;
 
 static uint32_t reads(const double* values, uint32_t wanted) {

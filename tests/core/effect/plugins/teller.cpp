@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: MIT
-// An effect with objects of every type of field that casts rays and reads pictures, well or badly,
-// and writes down what it was given. With -DLATER a later version of the plugin, see mark.h.
+// An effect with objects of every field type. It casts rays and reads pictures, correctly or with
+// faults, and writes its inputs to the output. -DLATER builds a later version of the plugin, see
+// mark.h.
 #include "mark.h"
 
 #include <array>
@@ -110,8 +111,9 @@ constexpr auto kMarks = plugin::objects<Mark>({.key = "marks",
                                                .pointField = 0,
                                                .directionField = 1});
 
-// Texels: number of objects, how many were kept, patience, the last object's x, whether rays are
-// cast, kind and distance of two hits, width and first byte of the picture, the frame's index.
+// Texels of the output: number of objects, number kept, patience, the last object's x, whether rays
+// can be cast, kind and distance of two hits, width and first byte of the picture, the frame's
+// index.
 class Teller {
  public:
   explicit Teller(plugin::Host host) : host_(host) {}

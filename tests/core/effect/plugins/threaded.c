@@ -1,7 +1,7 @@
 /* SPDX-License-Identifier: MIT
  *
- * plain.c with a thread that its loading starts and nothing ends. -DFAULT_... makes the registry
- * refuse it. */
+ * plain.c with a thread that starts when it is loaded and never ends. -DFAULT_... makes the
+ * registry refuse it. */
 #include <pthread.h>
 #include <time.h>
 
