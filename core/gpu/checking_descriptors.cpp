@@ -3,6 +3,7 @@
 
 #include <algorithm>
 #include <bit>
+#include <ranges>
 
 #include "core/base/error.h"
 
@@ -21,12 +22,12 @@ void checkShader(const Shader* shader, grisaille_stage stage, std::string_view l
   }
   if (shader->struct_size < sizeof(Shader)) {
     throw Error(ErrorId::kShaderMissing,
-                "a shader of pipeline '{}' is {} bytes, where this program expects {}", label,
+                "a shader struct of pipeline '{}' has {} bytes; this program expects {}", label,
                 shader->struct_size, sizeof(Shader));
   }
   if (shader->stage != stage) {
-    throw Error(ErrorId::kShaderMissing, "pipeline '{}' has {} as its {} shader", label,
-                shader->name, kStages[stage]);
+    throw Error(ErrorId::kShaderMissing, "pipeline '{}' has {}, of another stage, as its {} shader",
+                label, shader->name, kStages[stage]);
   }
   if (shader->spirv == nullptr || shader->spirv_words == 0 || shader->glsl == nullptr) {
     throw Error(ErrorId::kShaderMissing, "shader {} of pipeline '{}' has no code", shader->name,
@@ -45,8 +46,9 @@ void checkConstants(std::span<const Specialization> constants,
       }
     }
     if (declared == nullptr) {
-      throw Error(ErrorId::kSpecialization, "pipeline '{}' sets constant {}, which {} lacks", label,
-                  id, shaders[0]->name);
+      throw Error(ErrorId::kSpecialization,
+                  "pipeline '{}' sets constant {}, which {} does not declare", label, id,
+                  fmt::join(shaders | std::views::transform(&Shader::name), ", "));
     }
     if (declared->type == GRISAILLE_SCALAR_BOOL && constants[i].bits > 1) {
       throw Error(ErrorId::kSpecialization, "pipeline '{}' sets the bool {} to {}, not 0 or 1",
@@ -62,7 +64,7 @@ void checkConstants(std::span<const Specialization> constants,
 
 void checkAttributes(const GraphicsPipelineDesc& desc) {
   if (desc.streamStrides.size() > kMaxVertexStreams) {
-    throw Error(ErrorId::kVertexLayout, "pipeline '{}' has {} vertex streams, more than {}",
+    throw Error(ErrorId::kVertexLayout, "pipeline '{}' has {} vertex streams; the limit is {}",
                 desc.label, desc.streamStrides.size(), kMaxVertexStreams);
   }
   for (size_t i = 0; i < desc.streamStrides.size(); ++i) {
@@ -75,20 +77,23 @@ void checkAttributes(const GraphicsPipelineDesc& desc) {
     const VertexAttribute& attribute = desc.attributes[i];
     const bool format = attribute.format <= AttributeFormat::kUnorm8x4;
     if (!format || attribute.stream >= desc.streamStrides.size()) {
-      throw Error(ErrorId::kVertexLayout,
-                  "attribute {} of pipeline '{}' is of stream {} of {} or of an unknown format",
-                  attribute.location, desc.label, attribute.stream, desc.streamStrides.size());
+      throw Error(
+          ErrorId::kVertexLayout,
+          "attribute {} of pipeline '{}' names stream {} of {} streams, or an unknown format",
+          attribute.location, desc.label, attribute.stream, desc.streamStrides.size());
     }
     const uint32_t stride = desc.streamStrides[attribute.stream];
     const uint64_t end = uint64_t{attribute.offset} + attributeBytes(attribute.format);
     if (attribute.offset % 4 != 0 || end > stride) {
-      throw Error(ErrorId::kVertexLayout,
-                  "attribute {} of pipeline '{}' ends at byte {} of a vertex of {}",
-                  attribute.location, desc.label, end, stride);
+      throw Error(
+          ErrorId::kVertexLayout,
+          "attribute {} of pipeline '{}' ends at byte {} of a vertex of {}, or its offset is "
+          "not a multiple of 4",
+          attribute.location, desc.label, end, stride);
     }
     for (size_t earlier = 0; earlier < i; ++earlier) {
       if (desc.attributes[earlier].location != attribute.location) continue;
-      throw Error(ErrorId::kVertexLayout, "pipeline '{}' gives attribute {} twice", desc.label,
+      throw Error(ErrorId::kVertexLayout, "pipeline '{}' has attribute {} twice", desc.label,
                   attribute.location);
     }
   }
@@ -106,9 +111,10 @@ void checkVertexInputs(const GraphicsPipelineDesc& desc) {
     }
     const uint32_t components = attributeComponents(fed->format);
     if (input.type != GRISAILLE_SCALAR_FLOAT || components != input.components) {
-      throw Error(ErrorId::kVertexLayout,
-                  "input {} ({}) of pipeline '{}' has {} components, its attribute {} floats",
-                  input.location, input.name, desc.label, input.components, components);
+      throw Error(
+          ErrorId::kVertexLayout,
+          "input {} ({}) of pipeline '{}' has {} components, but its attribute has {} floats",
+          input.location, input.name, desc.label, input.components, components);
     }
   }
 }
@@ -120,7 +126,8 @@ void checkBlend(const GraphicsPipelineDesc& desc) {
   if (desc.blend == Blend::kNone) return;
   for (const Format format : desc.colorFormats) {
     if (formatInfo(format).blends) continue;
-    throw Error(ErrorId::kPipelineTargets, "pipeline '{}' blends a target of format {}", desc.label,
+    throw Error(ErrorId::kPipelineTargets,
+                "pipeline '{}' blends a target of format {}, which cannot blend", desc.label,
                 formatInfo(format).name);
   }
 }
@@ -129,8 +136,8 @@ void checkOutputs(const GraphicsPipelineDesc& desc) {
   const uint32_t outputs = desc.fragment == nullptr ? 0 : desc.fragment->output_count;
   if (desc.colorFormats.size() > kMaxColorTargets || desc.colorFormats.size() != outputs) {
     throw Error(ErrorId::kPipelineTargets,
-                "pipeline '{}' has {} colour formats, its fragment shader {} outputs", desc.label,
-                desc.colorFormats.size(), outputs);
+                "pipeline '{}' has {} colour formats, but its fragment shader has {} outputs",
+                desc.label, desc.colorFormats.size(), outputs);
   }
   for (uint32_t i = 0; i < outputs; ++i) {
     const Format format = desc.colorFormats[i];
@@ -151,7 +158,7 @@ void checkOutputs(const GraphicsPipelineDesc& desc) {
   checkBlend(desc);
   const bool depth = desc.depthFormat != Format::kNone;
   if (depth && (!known(desc.depthFormat) || !formatInfo(desc.depthFormat).depth)) {
-    throw Error(ErrorId::kPipelineTargets, "pipeline '{}' has a depth format without depth",
+    throw Error(ErrorId::kPipelineTargets, "the depth format of pipeline '{}' has no depth",
                 desc.label);
   }
   if (!depth && outputs == 0) {
@@ -163,12 +170,12 @@ void checkOutputs(const GraphicsPipelineDesc& desc) {
 
 void checkDescriptor(const BufferDesc& desc, const Capabilities& capabilities) {
   if (desc.size == 0 || desc.size > capabilities.maxBufferBytes) {
-    throw Error(ErrorId::kBufferSize, "buffer '{}' of {} bytes, the limit is {}", desc.label,
+    throw Error(ErrorId::kBufferSize, "buffer '{}' has {} bytes; the limit is {}", desc.label,
                 desc.size, capabilities.maxBufferBytes);
   }
   if (desc.usage == BufferUsage::kNone || static_cast<unsigned>(desc.usage) > 15u) {
-    throw Error(ErrorId::kBufferUsage, "buffer '{}' has usage {:#x}", desc.label,
-                static_cast<unsigned>(desc.usage));
+    throw Error(ErrorId::kBufferUsage, "buffer '{}' has no usage or an unknown one: {:#x}",
+                desc.label, static_cast<unsigned>(desc.usage));
   }
 }
 
@@ -180,8 +187,9 @@ void checkDescriptor(const TextureDesc& desc, const Capabilities& capabilities) 
   if (std::min(desc.width, desc.height) == 0 || largest > capabilities.maxTextureSize ||
       desc.layers == 0 || desc.layers > capabilities.maxTextureLayers) {
     throw Error(ErrorId::kTextureSize,
-                "texture '{}' of {}x{} texels, {} layers; the limits are {} and {}", desc.label,
-                desc.width, desc.height, desc.layers, capabilities.maxTextureSize,
+                "texture '{}' has {}x{} texels and {} layers; the limits are {} texels per side "
+                "and {} layers",
+                desc.label, desc.width, desc.height, desc.layers, capabilities.maxTextureSize,
                 capabilities.maxTextureLayers);
   }
   const uint32_t levels = static_cast<uint32_t>(std::bit_width(largest));
@@ -190,8 +198,8 @@ void checkDescriptor(const TextureDesc& desc, const Capabilities& capabilities) 
                 desc.label, desc.width, desc.height, desc.mips, levels);
   }
   if (desc.usage == TextureUsage::kNone || static_cast<unsigned>(desc.usage) > 7u) {
-    throw Error(ErrorId::kTextureUsage, "texture '{}' has usage {:#x}", desc.label,
-                static_cast<unsigned>(desc.usage));
+    throw Error(ErrorId::kTextureUsage, "texture '{}' has no usage or an unknown one: {:#x}",
+                desc.label, static_cast<unsigned>(desc.usage));
   }
   if (has(desc.usage, TextureUsage::kStorage) && !formatInfo(desc.format).storage) {
     throw Error(ErrorId::kTextureFormat, "texture '{}' of format {} cannot be a storage image",

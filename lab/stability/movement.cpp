@@ -16,19 +16,19 @@ namespace grisaille::lab::stability {
 namespace {
 
 constexpr int kFrames = 6;
-constexpr glm::ivec2 kMiddle(48, 32);  // pixels that are looked at
-constexpr double kHeight = 720;        // pixels of the picture whose middle they are
+constexpr glm::ivec2 kMiddle(48, 32);  // size of the measured middle, pixels
+constexpr double kHeight = 720;        // height of the full picture, pixels
 constexpr double kRadius = 0.5;        // metres
 constexpr double kUsualBias = 0.01;    // metres
-constexpr double kIntensity = 2;       // what the estimator wants: effects/ssao/README.md
+constexpr double kIntensity = 2;       // recommended for classic, see effects/ssao/README.md
 
 // The width of a pixel at a view depth of 1.
 double pixelWidth() {
   return 2 * std::tan(glm::radians(scene::Camera().fovyDegrees / 2)) / kHeight;
 }
 
-// Of the picture about the middle that is drawn: as far as the radius goes there, and no farther
-// than a picture of kHeight.
+// Width of the rim drawn around the middle, in pixels: the radius as seen there, but not beyond a
+// picture of height kHeight.
 int rimOf(const MovementRow& row) {
   const double reach = std::ceil(kRadius / (row.distance * pixelWidth())) + 1;
   return static_cast<int>(std::min(reach, (kHeight - kMiddle.y) / 2));
@@ -78,7 +78,7 @@ std::vector<glm::uvec2> middleOf(const MovementRow& row) {
   return pixels;
 }
 
-// One channel, not a number but in the middle.
+// A picture with one channel: `at` in the middle, NaN elsewhere.
 image::Image pictureOf(const MovementRow& row, const std::function<float(const glm::uvec2&)>& at) {
   const glm::uvec2 size = sizeOf(row);
   image::Image image{.width = size.x, .height = size.y, .channels = 1, .pixels = {}};
@@ -88,7 +88,7 @@ image::Image pictureOf(const MovementRow& row, const std::function<float(const g
   return image;
 }
 
-// The method with a bias alone, of what a frame showed.
+// The method with a constant bias only, on the input of a frame.
 std::unique_ptr<oracle::Occlusion> aloneOf(const oracle::View& view, double bias) {
   return oracle::makeOcclusion(view, {.classic = true,
                                       .radius = kRadius,
@@ -97,7 +97,8 @@ std::unique_ptr<oracle::Occlusion> aloneOf(const oracle::View& view, double bias
                                       .biasAlone = true});
 }
 
-// Within a twentieth. By the upper end, over all view depths there are, nothing is nearer.
+// The smallest bias that is safe in all views, to within 5 %, by bisection. The upper end exceeds
+// all view depths: no surface can be nearer by that much.
 double safeBiasOf(const MovementRow& row, const std::vector<oracle::View>& views) {
   const std::vector<glm::uvec2> pixels = middleOf(row);
   const auto safe = [&](double bias) {
@@ -117,7 +118,7 @@ double safeBiasOf(const MovementRow& row, const std::vector<oracle::View>& views
   return high;
 }
 
-// A frame whose truth is that all is open, with no visibility yet.
+// A frame with the truth of a plane, a visibility of 1 everywhere. Its `ao` is still empty.
 trace::FlickerFrame frameOf(const MovementRow& row, const trace::RayTracer& tracer,
                             const scene::Camera& camera) {
   const glm::uvec2 size = sizeOf(row);
@@ -150,13 +151,13 @@ std::vector<std::string> faultsOf(const MovementRow& row) {
   std::vector<std::string> faults;
   for (const Steadiness& now : row.now) {
     if (!(now.leastOpen > kLeastOpen)) {
-      faults.push_back(fmt::format("{}: a plane has a visibility of {:.3f} without a bias",
+      faults.push_back(fmt::format("{}: a plane has a visibility of {:.3f} at a bias of 0",
                                    now.backend, now.leastOpen));
     }
     for (const Movement movement : kMovements) {
       const double flicker = now.flicker.at(static_cast<size_t>(movement));
       if (flicker <= kMostFlicker) continue;
-      faults.push_back(fmt::format("{}: a plane flickers by {:.5f} in a {} without a bias",
+      faults.push_back(fmt::format("{}: a plane flickers by {:.5f} in a {} at a bias of 0",
                                    now.backend, flicker, nameOf(movement)));
     }
   }
@@ -176,6 +177,7 @@ std::vector<MovementRow> movementRows(bool quick) {
 
 void measureMovement(Runner& runner, MovementRow& row) {
   row.now.clear();
+  row.flickerAlone = 0;
   for (size_t backend = 0; backend < runner.backends(); ++backend) {
     row.now.push_back({.backend = runner.backend(backend), .flicker = {}});
   }

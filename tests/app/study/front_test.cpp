@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: MIT
-// The presets in the tree are what the study in the tree says, and what it says is still so.
+// The presets in the tree follow from the study in the tree, and the study is still up to date.
 #include <fmt/format.h>
 #include <gtest/gtest.h>
 
@@ -24,10 +24,10 @@ const fs::path kSource = SOURCE_FOLDER;
 
 struct Row {
   Record record;
-  double ofFirst = 0;  // RMSE of the first camera
+  double ofFirst = 0;  // RMSE with the first camera
 };
 
-// A study's results.csv.
+// Reads the results.csv of a study.
 std::vector<Row> readStudy(const fs::path& file) {
   std::istringstream text(readFile(file));
   const auto cells = [](const std::string& line) {
@@ -88,13 +88,14 @@ TEST_P(Front, PresetsAreOnIt) {
   for (const Row& row : readStudy(study())) records.push_back(row.record);
   writePresets(records, folder / "presets.toml");
   EXPECT_EQ(withoutFirstLine(presets()), withoutFirstLine(readFile(folder / "presets.toml")))
-      << "choose them anew: see studies/README.md";
+      << "choose the presets again, see studies/README.md";
 }
 
 INSTANTIATE_TEST_SUITE_P(Effects, Front, testing::Values("ssao", "sspm"),
                          [](const auto& test) { return std::string(test.param); });
 
-// RMSE of the last channel over surfaces, the truth's own noise taken out, if it has any.
+// RMSE of the last channel over surfaces, without the truth's own noise. `noise`: null if it has
+// none.
 double errorOf(const image::Image& shown, const image::Image& truth, const image::Image* noise,
                const image::Image& depth) {
   double sum = 0, count = 0;
@@ -108,7 +109,7 @@ double errorOf(const image::Image& shown, const image::Image& truth, const image
   return std::sqrt(sum / count);
 }
 
-// Renders some of a study's settings on its first camera, and expects the study's errors.
+// Renders some settings of a study with its first camera and expects the study's errors.
 class Study : public testing::Test {
  protected:
   image::Image truth(const std::string& name, const std::string& more) {
@@ -123,7 +124,7 @@ class Study : public testing::Test {
                     const std::string& more, const image::Image& right, const image::Image* noise) {
     const image::Image depth = image::read(folder_ / "d.exr");
     std::vector<Row> rows = readStudy(kSource / "studies" / (effect + ".csv"));
-    // A setting that another's parameter does nothing to stands there several times.
+    // Settings that differ only in a parameter without effect appear several times.
     std::set<double> known;
     std::erase_if(rows, [&](const Row& row) {
       return row.record.backend != "opengl" || !known.insert(row.ofFirst).second;
@@ -138,7 +139,7 @@ class Study : public testing::Test {
       ASSERT_EQ(render.status, 0) << render.err;
       const double error = errorOf(image::read(folder_ / "a.exr"), right, noise, depth);
       EXPECT_NEAR(error, rows[i].ofFirst, 5e-4)
-          << sets << ": measure anew and choose the presets anew, see studies/README.md";
+          << sets << ": measure and choose the presets again, see studies/README.md";
     }
   }
 
@@ -147,7 +148,7 @@ class Study : public testing::Test {
       " --size 640x360 --camera " + (kSource / "studies/cameras/atrium.json").string();
 };
 
-// The effect may not have changed since.
+// Fails if the effect has changed since the study.
 TEST_F(Study, OfSsaoIsStillTrue) {
   const image::Image right = truth("ao", " --samples 128 --write ao_error=e.exr");
   const image::Image noise = image::read(folder_ / "e.exr");
@@ -156,12 +157,12 @@ TEST_F(Study, OfSsaoIsStillTrue) {
 
 TEST_F(Study, OfSspmIsStillTrue) {
   const std::string shots = (kSource / "studies/shots/atrium.json").string();
-  truth("ao", " --samples 16");  // for the depth
+  truth("ao", " --samples 16");  // writes the depth
   const tests::Outcome mask = tests::runShell(
       "grisaille-lab paint-mask --load " + shots + " --write m.exr" + view_, folder_.path());
   ASSERT_EQ(mask.status, 0) << mask.err;
   const image::Image right = image::read(folder_ / "m.exr");
-  expectErrors("sspm", "paint", 4, " --effects sspm --set sspm.edge_fade=0 --load sspm=" + shots,
+  expectErrors("sspm", "paint", 3, " --effects sspm --set sspm.edge_fade=0 --load sspm=" + shots,
                right, nullptr);
 }
 

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: MIT
-// A truth that is traced beside the caller: the same in the end, honest before, ended at any time.
+// A truth traced in the background: exact at the end, honest estimates before, stopped at any time.
 #include "app/truth/live_truth.h"
 
 #include <bit>
@@ -30,7 +30,7 @@ class LiveTruthTest : public tests::FolderTest {
             .samples = samples};
   }
 
-  // Every news until the end.
+  // Passes every update to `seen`, until the last.
   template <typename Seen>
   static void follow(LiveTruth& live, const Seen& seen) {
     Traced traced;
@@ -46,7 +46,7 @@ class LiveTruthTest : public tests::FolderTest {
     while (live.running()) std::this_thread::yield();
   }
 
-  // As the tracer has it, in one go.
+  // Expects the values that the tracer gives in one call.
   static void expectExact(const Traced& traced, const LiveView& view) {
     const trace::RayTracer tracer(*view.scene, view.camera.eye);
     const auto hits = tracer.castPrimary(view.camera, view.size.x, view.size.y);
@@ -82,11 +82,11 @@ TEST_F(LiveTruthTest, IsTheTracersOwnInTheEnd) {
   }
 }
 
-// What is said of a part, of few rays, holds of the whole.
+// Estimates from part of the pixels with few rays hold for the whole.
 TEST_F(LiveTruthTest, EveryEstimateIsHonest) {
-  const LiveView wanted = view({160, 120}, 1024);
-  image::Image shown{.width = 160, .height = 120, .channels = 1, .pixels = {}};
-  for (uint32_t i = 0; i < 160 * 120; ++i) {
+  const LiveView wanted = view({96, 72}, 1024);
+  image::Image shown{.width = 96, .height = 72, .channels = 1, .pixels = {}};
+  for (uint32_t i = 0; i < 96 * 72; ++i) {
     shown.pixels.push_back(0.6f + 0.3f * std::sin(static_cast<float>(i) * 0.003f));
   }
   LiveTruth live;
@@ -95,7 +95,7 @@ TEST_F(LiveTruthTest, EveryEstimateIsHonest) {
   double share = 0, rays = 0;
   follow(live, [&](const Traced& traced) {
     all.push_back(compare(shown, traced.values));
-    const double now = static_cast<double>(traced.pixels) / static_cast<double>(160 * 120);
+    const double now = static_cast<double>(traced.pixels) / static_cast<double>(96 * 72);
     EXPECT_GE(now, share);
     EXPECT_GE(traced.rays, rays);
     share = now;
@@ -107,7 +107,7 @@ TEST_F(LiveTruthTest, EveryEstimateIsHonest) {
   EXPECT_GT(last.rmse, 0.05);
   EXPECT_LT(last.error, 1e-4);
   for (const Comparison& one : all) EXPECT_NEAR(one.rmse, last.rmse, 5 * one.error + 1e-6);
-  EXPECT_GT(all.front().error, 3 * last.error) << "the first news came late";
+  EXPECT_GT(all.front().error, 3 * last.error) << "the first update came late";
 }
 
 TEST_F(LiveTruthTest, IsStartedAnewAndEndedAtAnyTime) {
@@ -126,7 +126,7 @@ TEST_F(LiveTruthTest, IsStartedAnewAndEndedAtAnyTime) {
     live.start(wanted);
     if (below(3) == 0) std::this_thread::sleep_for(std::chrono::milliseconds(below(8)));
     if (live.poll(traced)) {
-      // Never what was asked for before.
+      // Never the result of an earlier request.
       ASSERT_EQ(traced.size, wanted.size);
       ASSERT_EQ(traced.values.size(), size_t{wanted.size.x} * wanted.size.y);
     }
@@ -139,7 +139,7 @@ TEST_F(LiveTruthTest, IsStartedAnewAndEndedAtAnyTime) {
   const LiveView wanted = view({50, 30}, 40);
   live.start(wanted);
   follow(live, [&](const Traced& now) { traced = now; });
-  // The tracer may be another scene's or about another origin: as good, not the same to the bit.
+  // The tracer may belong to another scene or origin: equally good, but not bitwise equal.
   EXPECT_EQ(traced.rays, 40);
   for (int i = 0; i < 20; ++i) {
     LiveTruth ended;
@@ -179,7 +179,7 @@ TEST_F(LiveTruthTest, SaysWhyItCannot) {
   Traced traced;
   EXPECT_ERROR(ErrorId::kSceneImage, live.poll(traced));
   EXPECT_FALSE(live.poll(traced));
-  // Another scene goes on.
+  // It continues with another scene.
   live.start(view({20, 20}, 16));
   follow(live, [&](const Traced& now) { traced = now; });
   EXPECT_EQ(traced.pixels, 400u);
