@@ -48,7 +48,7 @@ void upsamplePixel(Corners corners, ivec2 pixel, vec2 share) {
   // colours.
   float alphas = 0.0, all = 0.0, painted = 0.0, largest = 0.0;
   vec4 least = vec4(1e30), most = vec4(-1e30);  // rgb: of samples with paint; a: coverage of all
-  uint owner = 0u, near = 0u;
+  uint owner = 0u;
   [[unroll]] for (int i = 0; i < 4; ++i) {
     const vec2 bilinear = vec2((i & 1) != 0 ? share.x : 1.0 - share.x,
                                (i & 2) != 0 ? share.y : 1.0 - share.y);
