@@ -31,13 +31,13 @@ class DecalsWindow : public WindowTest {
 };
 GRISAILLE_IN_WINDOWS(DecalsWindow);
 
-constexpr const char* kAbove =
+constexpr const char* kWindowCamera =
     R"({"eye": [-1.5, 2, -1.5], "target": [-1.5, 0, -1.5], "up": [0, 0, -1], "fovy_degrees": 30})";
 
 TEST_P(DecalsWindow, ADecalIsPlacedEditedUndoneDeletedSavedAndLoaded) {
-  DrivenViewer viewer(folder_,
-                      {"--backend", GetParam(), "--size", kWindow, "--plugin-path", builtDecals(),
-                       "--effects", "decals", "--camera", kAbove, "--view", "decals.decals"});
+  DrivenViewer viewer(
+      folder_, {"--backend", GetParam(), "--size", kWindow, "--plugin-path", builtDecals(),
+                "--effects", "decals", "--camera", kWindowCamera, "--view", "decals.decals"});
   type(viewer, "decals.next.picture", "red.png");
   viewer.key("Return");
   viewer.untilValue("decals.next.picture", "red.png");
