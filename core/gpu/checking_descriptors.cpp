@@ -3,7 +3,7 @@
 
 #include <algorithm>
 #include <bit>
-#include <ranges>
+#include <string>
 
 #include "core/base/error.h"
 
@@ -35,6 +35,15 @@ void checkShader(const Shader* shader, grisaille_stage stage, std::string_view l
   }
 }
 
+std::string namesOf(std::span<const Shader* const> shaders) {
+  std::string names;
+  for (const Shader* shader : shaders) {
+    if (!names.empty()) names += ", ";
+    names += shader->name;
+  }
+  return names;
+}
+
 void checkConstants(std::span<const Specialization> constants,
                     std::span<const Shader* const> shaders, std::string_view label) {
   for (size_t i = 0; i < constants.size(); ++i) {
@@ -47,8 +56,8 @@ void checkConstants(std::span<const Specialization> constants,
     }
     if (declared == nullptr) {
       throw Error(ErrorId::kSpecialization,
-                  "pipeline '{}' sets constant {}, which {} does not declare", label, id,
-                  fmt::join(shaders | std::views::transform(&Shader::name), ", "));
+                  "pipeline '{}' sets constant {}, which no shader of it declares: {}", label, id,
+                  namesOf(shaders));
     }
     if (declared->type == GRISAILLE_SCALAR_BOOL && constants[i].bits > 1) {
       throw Error(ErrorId::kSpecialization, "pipeline '{}' sets the bool {} to {}, not 0 or 1",
