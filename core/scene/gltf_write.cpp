@@ -78,7 +78,10 @@ class GlbWriter {
     attributes_ = {{"POSITION", addAttribute(scene_.positions, "VEC3")},
                    {"NORMAL", addAttribute(scene_.normals, "VEC3")},
                    {"TEXCOORD_0", addAttribute(scene_.texCoords, "VEC2")}};
-    if (!scene_.colours.empty()) colours_ = addAttribute(scene_.colours, "VEC4");
+    // All primitives share the vertices, so that those without colours get white ones.
+    if (!scene_.colours.empty()) {
+      attributes_["COLOR_0"] = addAttribute(scene_.colours, "VEC4");
+    }
     glm::vec3 low = scene_.positions.at(0), high = low;
     for (const glm::vec3& p : scene_.positions) {
       low = glm::min(low, p);
@@ -139,7 +142,6 @@ class GlbWriter {
                                                 {"count", primitive.indexCount},
                                                 {"type", "SCALAR"}});
       json run{{"attributes", attributes_}, {"indices", indices}, {"material", primitive.material}};
-      if (primitive.coloured) run["attributes"]["COLOR_0"] = colours_;
       push("meshes", json::object({{"primitives", json::array({std::move(run)})}}));
     }
     json roots = json::array();
@@ -186,7 +188,6 @@ class GlbWriter {
   json document_;
   std::string binary_;
   json attributes_;
-  size_t colours_ = 0;  // accessor
   size_t indexView_ = 0;
 };
 
