@@ -16,10 +16,10 @@
 namespace grisaille {
 namespace {
 
-constexpr uint32_t kWidth = 160, kHeight = 90;
-
 class ModelsTest : public tests::BackendTest {
  protected:
+  static constexpr uint32_t kWidth = 160, kHeight = 90;
+
   image::Image render(const scene::Scene& scene, const scene::Camera& camera,
                       const std::string& output) {
     frame::Renderer renderer(device(), scene);
