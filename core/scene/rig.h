@@ -62,6 +62,7 @@ struct DeformedRun {
   // For each vertex of the run its index in DeformedVertices, three for each triangle. Empty: the
   // vertices are the same in both.
   std::vector<uint32_t> sources;
+  bool mirrored = false;  // the skin mirrors at rest: triangles' own normals point the other way
 };
 
 // A node with a skinned or morphed mesh. Its skinned vertices are relative to a translation, which

@@ -77,7 +77,7 @@ void TracedScene::place() {
     if (!material.masked) continue;
     const int index = material.baseColorTexture;
     const scene::Texture* texture =
-        index < 0 ? nullptr : &scene_.textures[static_cast<size_t>(index)];
+        index < 0 ? nullptr : &scene_.textures.at(static_cast<size_t>(index));
     std::shared_ptr<const image::Alpha8>& alpha = alphas[index];
     if (texture != nullptr && !alpha) {
       alpha = std::make_shared<const image::Alpha8>(scene::alphaOf(*texture));
