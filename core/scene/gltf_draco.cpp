@@ -6,6 +6,7 @@
 #include <draco/core/varint_decoding.h>
 #include <tiny_gltf.h>
 
+#include <algorithm>
 #include <map>
 
 #include "core/base/error.h"
@@ -73,8 +74,10 @@ bool decodeBy(const Declared& declared, std::span<const unsigned char> bytes, dr
 
 void decodeMesh(const Declared& declared, std::span<const unsigned char> bytes, draco::Mesh& mesh) {
   // Few bytes may hold many equal elements, but not without a limit.
-  if (declared.vertices > kMaxZeroElements && declared.vertices > 64 * bytes.size()) {
-    refuseData(fmt::format("{} bytes cannot hold {} vertices", bytes.size(), declared.vertices));
+  const uint64_t most = std::max(declared.vertices, declared.faces);
+  if (most > kMaxZeroElements && most > 64 * bytes.size()) {
+    refuseData(fmt::format("{} bytes cannot hold {} vertices and {} faces", bytes.size(),
+                           declared.vertices, declared.faces));
   }
   draco::DecoderBuffer buffer;
   buffer.Init(reinterpret_cast<const char*>(bytes.data()), bytes.size());

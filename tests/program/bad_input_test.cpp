@@ -68,7 +68,7 @@ std::vector<Case> cases() {
       {"truncated glb", "scene.glb", std::string("glTF\x02\0\0\0\xff\0\0\0", 12), {"FILE"}, 2101},
       badScene("no triangles", asset + "}", 2104),
       badScene("unsupported extension",
-               asset + R"(, "extensionsRequired": ["KHR_draco_mesh_compression"]})", 2103),
+               asset + R"(, "extensionsRequired": ["KHR_texture_basisu"]})", 2103),
       badScene("accessor over its buffer", mesh("4", ""), 2102),
       badScene("accessor over every limit", mesh("4000000000", ""), 2105),
       badScene("node that is its own child", mesh("3", R"(, "children": [0])"), 2102),

@@ -323,5 +323,34 @@ TEST_F(PoseFiles, BadRigsAreRefusedByTheirPlace) {
   refused(set("/animations/0/samplers/0/interpolation", "SMOOTH"), "SMOOTH");
 }
 
+// Every value of a file with a rig is replaced by values of the wrong kind: the loader or pose()
+// refuses it, or takes it.
+TEST_F(PoseFiles, WrongValuesAnywhereDoNoHarm) {
+  Bent gltf;
+  gltf.animate("rotation", 1, 4, "CUBICSPLINE");
+  gltf.animate("weights", 3, 2, "STEP");
+  gltf.document["nodes"][2]["mesh"] = 0;
+  gltf.document["nodes"][2]["extensions"]["EXT_mesh_gpu_instancing"]["attributes"] = {
+      {"TRANSLATION", 0}};
+  ASSERT_NO_THROW(loadGltf(put("good.glb", gltf.bytes())));
+  const json replacements[] = {nullptr, -1, 1, 1u << 31, 1e300, "x", json::array(), json::object()};
+  const json flat = gltf.document.flatten();
+  for (const auto& [pointer, value] : flat.items()) {
+    for (const json& replacement : replacements) {
+      json bad = gltf.document;
+      bad[json::json_pointer(pointer)] = replacement;
+      SCOPED_TRACE(pointer + " = " + replacement.dump());
+      try {
+        Scene scene = loadGltf(put("a.glb", glb(bad, gltf.binary)));
+        if (!scene.rig || scene.rig->animations.empty()) continue;
+        pose(scene, {.animation = 0, .seconds = 0.7});
+      } catch (const Error& error) {
+        const int number = static_cast<int>(error.id());
+        EXPECT_TRUE(number >= 2101 && number <= 2105) << error.what();
+      }
+    }
+  }
+}
+
 }  // namespace
 }  // namespace grisaille::scene
