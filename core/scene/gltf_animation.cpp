@@ -22,11 +22,15 @@ class AnimationReader {
     const tinygltf::Animation& from = model_.animations[index];
     Animation result{.name = from.name, .keys = {}, .channels = {}};
     known_.clear();
+    leftOut_ = 0;
     for (size_t i = 0; i < from.channels.size(); ++i) {
-      inPlace(fmt::format("animations[{}].channels[{}]", index, i), [&] {
-        addChannel(fmt::format("animations[{}].channels[{}]", index, i), from, from.channels[i],
-                   result);
-      });
+      inPlace(fmt::format("animations[{}].channels[{}]", index, i),
+              [&] { addChannel(from, from.channels[i], result); });
+    }
+    if (leftOut_ > 0) {
+      notes_.push_back(fmt::format(
+          "animations[{}]: {} channels left out: their nodes have a matrix, or no morph targets",
+          index, leftOut_));
     }
     for (const Keys& keys : result.keys) {
       result.duration = std::max(result.duration, double{keys.seconds.back()});
@@ -35,8 +39,8 @@ class AnimationReader {
   }
 
  private:
-  void addChannel(const std::string& place, const tinygltf::Animation& animation,
-                  const tinygltf::AnimationChannel& from, Animation& to) {
+  void addChannel(const tinygltf::Animation& animation, const tinygltf::AnimationChannel& from,
+                  Animation& to) {
     constexpr std::pair<std::string_view, Moved> kPaths[] = {{"translation", Moved::kTranslation},
                                                              {"rotation", Moved::kRotation},
                                                              {"scale", Moved::kScale},
@@ -53,11 +57,11 @@ class AnimationReader {
       const int mesh = model_.nodes[channel.node].mesh;
       width = static_cast<uint32_t>(targetCount(model_, mesh));
       if (width == 0) {
-        notes_.push_back(place + ": left out, since its node has no morph targets");
+        ++leftOut_;
         return;
       }
     } else if (rig_.nodes[channel.node].matrix) {
-      notes_.push_back(place + ": left out, since its node has a matrix");
+      ++leftOut_;
       return;
     }
     if (from.sampler < 0 || static_cast<size_t>(from.sampler) >= animation.samplers.size()) {
@@ -128,6 +132,7 @@ class AnimationReader {
   const Rig& rig_;
   std::vector<std::string>& notes_;
   std::map<std::tuple<int, Moved, uint32_t>, size_t> known_;  // of one animation
+  size_t leftOut_ = 0;                                        // channels of one animation
   uint64_t values_ = 0;                                       // of all
 };
 

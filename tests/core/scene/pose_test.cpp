@@ -323,6 +323,19 @@ TEST_F(PoseFiles, BadRigsAreRefusedByTheirPlace) {
   refused(set("/animations/0/samplers/0/interpolation", "SMOOTH"), "SMOOTH");
 }
 
+TEST_F(PoseFiles, ChannelsThatCannotMoveTheirNodeHaveANote) {
+  Bent gltf;
+  gltf.animate("translation", 2, 3, "LINEAR");
+  gltf.animate("weights", 0, 2, "LINEAR");
+  gltf.document["nodes"][2] = {{"matrix", {1, 0, 0, 0, 0, 1, 0, 0, 0, 0, 1, 0, 0, 1, 0, 1}}};
+  gltf.document["animations"][0]["channels"].push_back(
+      json::parse(R"({"sampler": 0, "target": {"path": "pointer"}})"));
+  const Scene scene = loadGltf(put("a.glb", gltf.bytes()));
+  ASSERT_EQ(scene.notes.size(), 1u);
+  EXPECT_NE(scene.notes[0].find("animations[0]: 2 channels left out"), std::string::npos);
+  EXPECT_TRUE(scene.rig->animations[0].channels.empty());
+}
+
 // Every value of a file with a rig is replaced by values of the wrong kind: the loader or pose()
 // refuses it, or takes it.
 TEST_F(PoseFiles, WrongValuesAnywhereDoNoHarm) {
