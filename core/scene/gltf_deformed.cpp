@@ -96,7 +96,7 @@ DeformedMesh DeformedLoader::load(const PlacedMesh& placed) {
         for (const Influence& influence : rig_.vertices[vertices].influences) {
           if (influence.joint < joints) continue;
           throw Error(ErrorId::kSceneInvalid,
-                      "attributes.JOINTS: joint {} of skins[{}], which has {}", influence.joint,
+                      "attributes.JOINTS_0: joint {} of skins[{}], which has {}", influence.joint,
                       model_.nodes[placed.node].skin, joints);
         }
       }

@@ -309,14 +309,16 @@ TEST_F(PoseFiles, BadRigsAreRefusedByTheirPlace) {
   const auto set = [](const char* path, const json& value) {
     return json::array({{{"op", "add"}, {"path", path}, {"value", value}}});
   };
-  refused(set("/skins/0/joints", {1}), "meshes[0].primitives[0]");
+  refused(set("/skins/0/joints", {1}), "meshes[0].primitives[0].attributes.JOINTS_0: joint 1");
   refused(set("/skins/0/joints", {1, 99}), "skins[0].joints[1]");
   refused(set("/nodes/3/skin", 7), "nodes[3].skin");
   refused(set("/skins/0/inverseBindMatrices", 0), "skins[0].inverseBindMatrices");
-  refused(set("/meshes/0/primitives/0/attributes/JOINTS_0", 0), "attributes.JOINTS_0");
+  refused(set("/meshes/0/primitives/0/attributes/JOINTS_0", 0),
+          "meshes[0].primitives[0].attributes.JOINTS_0: ");
   refused(set("/meshes/0/primitives/0/attributes/WEIGHTS_0", 1), "attributes.WEIGHTS_0");
   refused(set("/meshes/0/weights", {1, 2, 3}), "meshes[0].weights");
-  refused(set("/meshes/0/primitives/0/targets/1/POSITION", 2), "targets[1].POSITION");
+  refused(set("/meshes/0/primitives/0/targets/1/POSITION", 2),
+          "meshes[0].primitives[0].targets[1].POSITION: ");
   refused(set("/animations/0/channels/0/target/node", 44), "animations[0].channels[0]");
   refused(set("/animations/0/channels/0/sampler", 3), "animations[0].channels[0]");
   refused(set("/animations/0/samplers/0/output", 0), "animations[0].channels[0]");
