@@ -15,6 +15,7 @@
 #include "app/process/crash_report.h"
 #include "app/truth/interruption.h"
 #include "core/base/error.h"
+#include "core/base/note.h"
 
 namespace grisaille::app {
 namespace {
@@ -73,6 +74,8 @@ int runProgram(int argc, char** argv, const ProgramDesc& desc) {
   occupyClosedStreams();
   nameCrashes();
   signal(SIGXFSZ, SIG_IGN);  // over the limit of file sizes, write() fails and causes an error line
+  setNoteListener(
+      [](const std::string& line) { std::fputs(("note: " + line + "\n").c_str(), stderr); });
   CLI::App program(desc.description, desc.name);
   program.set_version_flag("--version", desc.version);
   program.require_subcommand(1);

@@ -8,11 +8,13 @@ uint64_t hashOf(const scene::Scene& scene) {
   hash.add<glm::vec3>(scene.positions);
   hash.add<glm::vec3>(scene.normals);
   hash.add<glm::vec2>(scene.texCoords);
+  hash.add<glm::vec4>(scene.colours);
   hash.add<uint32_t>(scene.indices);
   for (const scene::Primitive& primitive : scene.primitives) {
     hash.number(primitive.firstIndex);
     hash.number(primitive.indexCount);
     hash.number(primitive.material);
+    if (primitive.coloured) hash.number(primitive.coloured);
   }
   for (const scene::Material& material : scene.materials) {
     hash.number(material.baseColor.a);

@@ -93,6 +93,7 @@ void Session::setScene(std::shared_ptr<const scene::Scene> loaded, const std::st
   scene = std::move(loaded);
   services = std::make_unique<SceneServices>(
       *scene, [this](const std::string& warning) { say("warning: " + warning, true); });
+  for (const std::string& note : scene->notes) say("note: " + note);
   homeCamera = scene::defaultCamera(*scene);
   if (std::exchange(firstScene_, false) && !options_.camera.empty()) homeCamera = camera;
   camera = homeCamera;

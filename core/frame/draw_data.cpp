@@ -64,12 +64,6 @@ std::vector<std::vector<uint8_t>> mipChain(const image::Image8& image) {
   return levels;
 }
 
-std::vector<std::vector<uint8_t>> alphaAlone(const image::Image8& image) {
-  std::vector<uint8_t> alpha(image.pixels.size() / 4);
-  for (size_t i = 0; i < alpha.size(); ++i) alpha[i] = image.pixels[i * 4 + 3];
-  return {alpha};
-}
-
 glm::dmat4 normalTransform(const glm::dmat3& linear) {
   glm::dmat3 cofactor(glm::cross(linear[1], linear[2]), glm::cross(linear[2], linear[0]),
                       glm::cross(linear[0], linear[1]));

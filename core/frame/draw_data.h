@@ -14,9 +14,6 @@ namespace grisaille::frame {
 // image.
 std::vector<std::vector<uint8_t>> mipChain(const image::Image8& image);
 
-// The alpha channel, one byte per texel, in one level.
-std::vector<std::vector<uint8_t>> alphaAlone(const image::Image8& image);
-
 // The transform of normals under a linear map: its cofactor matrix, which equals the inverse
 // transpose up to scale and exists for singular maps too. For a mirroring map it is negated, so
 // that normals do not flip.

@@ -23,7 +23,7 @@ struct DrawBlock {
   glm::vec2 padding = glm::vec2(0);
   glm::mat4 camera_from_object;
 };
-GRISAILLE_CHECK_BLOCK_geometry_vert_110_DrawBlock(DrawBlock);
+GRISAILLE_CHECK_BLOCK_geometry_vert_1100_DrawBlock(DrawBlock);
 
 // Bytes of the block that shaders without facet normals read.
 constexpr size_t kBlockWithoutFacet = offsetof(DrawBlock, camera_from_object);
@@ -38,20 +38,6 @@ gpu::Address address(scene::Wrap wrap) {
       return gpu::Address::kMirror;
   }
   return gpu::Address::kRepeat;
-}
-
-std::vector<scene::Bounds> boundsOfPrimitives(const scene::Scene& scene) {
-  std::vector<scene::Bounds> all;
-  for (const scene::Primitive& primitive : scene.primitives) {
-    scene::Bounds bounds{glm::dvec3(INFINITY), glm::dvec3(-INFINITY)};
-    for (uint32_t i = 0; i < primitive.indexCount; ++i) {
-      const glm::dvec3 p(scene.positions[scene.indices[primitive.firstIndex + i]]);
-      bounds.min = glm::min(bounds.min, p);
-      bounds.max = glm::max(bounds.max, p);
-    }
-    all.push_back(bounds);
-  }
-  return all;
 }
 
 // False if all corners lie outside one side plane of the frustum. The clipper handles the near
@@ -77,10 +63,10 @@ SceneResources::SceneResources(gpu::Device& device, const scene::Scene& scene)
     : device_(device),
       scene_(scene),
       textures_(scene.textures.size()),
-      primitiveBounds_(boundsOfPrimitives(scene)) {}
+      primitiveBounds_(scene::primitiveBounds(scene)) {}
 
 SceneResources::~SceneResources() {
-  for (const gpu::Buffer buffer : {positions_, normals_, texCoords_, indices_}) {
+  for (const gpu::Buffer buffer : {positions_, normals_, texCoords_, colours_, indices_}) {
     device_.destroy(buffer);
   }
   for (const gpu::GraphicsPipeline pipeline : pipelines_) device_.destroy(pipeline);
@@ -121,6 +107,12 @@ gpu::GraphicsPipeline SceneResources::pipeline(Variant variant) {
                           .format = gpu::AttributeFormat::kFloat2});
     strides.push_back(kStrides[2]);
   }
+  if (variant.colour) {
+    attributes.push_back({.location = 3,
+                          .stream = static_cast<uint32_t>(strides.size()),
+                          .format = gpu::AttributeFormat::kFloat4});
+    strides.push_back(sizeof(glm::vec4));
+  }
   if (variant.base) colors.push_back(gpu::Format::kRgba8Srgb);
   if (variant.facet) colors.push_back(gpu::Format::kRgba16Float);
   pipeline = device_.createGraphicsPipeline({.label = "geometry",
@@ -152,16 +144,25 @@ gpu::Texture SceneResources::texture(gpu::Commands& commands, const scene::Mater
   DeviceTexture& texture = textures_[static_cast<size_t>(material.baseColorTexture)];
   gpu::Texture& wanted = base ? texture.colour : texture.alpha;
   if (wanted) return wanted;
-  const image::Image8 image = scene::texelsOf(source);
-  const std::vector<std::vector<uint8_t>> levels = base ? mipChain(image) : alphaAlone(image);
-  wanted = device_.createTexture({.label = source.name,
-                                  .format = base ? gpu::Format::kRgba8Srgb : gpu::Format::kR8Unorm,
-                                  .width = image.width,
-                                  .height = image.height,
-                                  .mips = static_cast<uint32_t>(levels.size()),
-                                  .usage = gpu::TextureUsage::kSampled});
-  for (uint32_t mip = 0; mip < levels.size(); ++mip) {
-    commands.upload(wanted, mip, 0, std::as_bytes(std::span(levels[mip])));
+  gpu::TextureDesc desc{.label = source.name, .usage = gpu::TextureUsage::kSampled};
+  if (base) {
+    const image::Image8 image = scene::texelsOf(source);
+    const std::vector<std::vector<uint8_t>> levels = mipChain(image);
+    desc.format = gpu::Format::kRgba8Srgb;
+    desc.width = image.width;
+    desc.height = image.height;
+    desc.mips = static_cast<uint32_t>(levels.size());
+    wanted = device_.createTexture(desc);
+    for (uint32_t mip = 0; mip < levels.size(); ++mip) {
+      commands.upload(wanted, mip, 0, std::as_bytes(std::span(levels[mip])));
+    }
+  } else {
+    const image::Alpha8 alpha = scene::alphaOf(source);
+    desc.format = gpu::Format::kR8Unorm;
+    desc.width = alpha.width;
+    desc.height = alpha.height;
+    wanted = device_.createTexture(desc);
+    commands.upload(wanted, 0, 0, std::as_bytes(std::span(alpha.pixels)));
   }
   return wanted;
 }
@@ -207,7 +208,7 @@ void SceneResources::draw(gpu::Commands& commands, const scene::Camera& camera, 
   // Draws point into bindings and streams until render() returns: reserve, so that they never move.
   std::vector<gpu::Draw> draws;
   std::vector<std::array<gpu::Binding, 3>> bindings;
-  std::vector<std::array<gpu::BufferRange, 3>> streams;
+  std::vector<std::array<gpu::BufferRange, 4>> streams;
   bindings.reserve(scene_.instances.size());
   streams.reserve(scene_.instances.size());
   for (const scene::Instance& instance : scene_.instances) {
@@ -227,8 +228,12 @@ void SceneResources::draw(gpu::Commands& commands, const scene::Camera& camera, 
                           .front_sign = mirrors ? -1.0f : 1.0f,
                           .camera_from_object = glm::mat4(cameraFromObject)};
     const auto blockBytes = std::as_bytes(std::span(&block, 1));
-    const Variant variant{
-        .facet = facet, .normal = normal, .base = base, .mask = material.masked, .behind = behind};
+    const Variant variant{.facet = facet,
+                          .normal = normal,
+                          .base = base,
+                          .mask = material.masked,
+                          .colour = primitive.coloured && (base || material.masked),
+                          .behind = behind};
 
     auto& stream = streams.emplace_back();
     size_t streamCount = 0;
@@ -243,6 +248,10 @@ void SceneResources::draw(gpu::Commands& commands, const scene::Camera& camera, 
                                                   bytes(scene_.texCoords), vertex);
       binding[bindingCount++] = gpu::textureBinding(
           0, {.texture = texture(commands, material, base)}, sampler(material, base));
+    }
+    if (variant.colour) {
+      stream[streamCount++].buffer =
+          vertexBuffer(commands, colours_, "colours", bytes(scene_.colours), vertex);
     }
     if (behind) {
       binding[bindingCount++] = gpu::textureBinding(1, {.texture = targets.front}, nearest_);

@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: MIT
-// A scene on the device, and the render call that draws it. Normals, texture coordinates and
-// textures are uploaded by the first draw that needs them, and take no memory before.
+// A scene on the device, and the render call that draws it. Normals, texture coordinates, vertex
+// colours and textures are uploaded by the first draw that needs them, and take no memory before.
 #pragma once
 
 #include <array>
@@ -39,14 +39,18 @@ class SceneResources {
  private:
   // The inputs and outputs that a draw needs.
   struct Variant {
-    bool facet = false, normal = false, base = false, mask = false, behind = false;
+    bool facet = false, normal = false, base = false, mask = false;
+    bool colour = false;  // of vertices; only with a base or a mask
+    bool behind = false;
 
     bool uv() const { return base || mask; }
     // Indices into the lists of shaders/geometry_variants.h.
-    size_t vertex() const { return (facet ? 4u : 0u) + (normal ? 2u : 0u) + (uv() ? 1u : 0u); }
+    size_t vertex() const {
+      return (facet ? 8u : 0u) + (normal ? 4u : 0u) + (uv() ? 2u : 0u) + (colour ? 1u : 0u);
+    }
     size_t fragment() const {
-      return (behind ? 16u : 0u) + (facet ? 8u : 0u) + (normal ? 4u : 0u) + (base ? 2u : 0u) +
-             (mask ? 1u : 0u);
+      return (behind ? 32u : 0u) + (facet ? 16u : 0u) + (normal ? 8u : 0u) + (base ? 4u : 0u) +
+             (mask ? 2u : 0u) + (colour ? 1u : 0u);
     }
   };
   // A scene texture on the device: only its alpha, or its colour with mip levels.
@@ -62,8 +66,8 @@ class SceneResources {
 
   gpu::Device& device_;
   const scene::Scene& scene_;
-  gpu::Buffer positions_, normals_, texCoords_, indices_;
-  std::array<gpu::GraphicsPipeline, 18> pipelines_;  // by Variant::fragment()
+  gpu::Buffer positions_, normals_, texCoords_, colours_, indices_;
+  std::array<gpu::GraphicsPipeline, 36> pipelines_;  // by Variant::fragment()
   std::vector<DeviceTexture> textures_;
   std::array<gpu::Sampler, 27> samplers_;       // wrap u, wrap v, one level | mips | anisotropic
   gpu::Sampler nearest_;                        // for SceneTargets::front

@@ -185,23 +185,23 @@ const char* pluginFor(std::span<const std::byte> encoded, const std::string& nam
     if (endsLikeJpeg(encoded)) return "jpeg";
     throw Error(ErrorId::kSceneImage, "image \"{}\": the JPEG is cut short", name);
   }
-  throw Error(ErrorId::kSceneImage, "image \"{}\": neither a PNG nor a JPEG", name);
+  if (encoded.size() >= 12 && std::memcmp(encoded.data(), "RIFF", 4) == 0 &&
+      std::memcmp(&encoded[8], "WEBP", 4) == 0) {
+    return "webp";
+  }
+  throw Error(ErrorId::kSceneImage, "image \"{}\": neither a PNG nor a JPEG nor a WebP", name);
 }
 
 // Converts grey, grey with alpha, RGB or RGBA to RGBA.
-std::vector<uint8_t> toRgba(const std::vector<uint8_t>& from, size_t channels) {
-  const size_t count = from.size() / channels;
-  std::vector<uint8_t> result(count * 4);
-  for (size_t i = 0; i < count; ++i) {
-    const uint8_t* in = &from[i * channels];
-    uint8_t* out = &result[i * 4];
+void toRgba(const std::vector<uint8_t>& from, size_t channels, uint8_t* out) {
+  for (size_t i = 0; i < from.size(); i += channels, out += 4) {
+    const uint8_t* in = &from[i];
     const bool grey = channels < 3;
     out[0] = in[0];
     out[1] = grey ? in[0] : in[1];
     out[2] = grey ? in[0] : in[2];
     out[3] = channels == 2 ? in[1] : channels == 4 ? in[3] : uint8_t{255};
   }
-  return result;
 }
 
 std::unique_ptr<OIIO::ImageInput> openPicture(const std::string& path) {
@@ -258,29 +258,82 @@ Picture readPicture(const std::string& path) {
       .image = pixelsOf(*input, path), .channels = spec.channelnames, .matrices = matricesOf(spec)};
 }
 
+// An encoded image in memory, opened, of checked size.
+class Decoder {
+ public:
+  Decoder(std::span<const std::byte> encoded, const std::string& name)
+      : name_(name), memory_(encoded.data(), encoded.size()) {
+    const char* plugin = pluginFor(encoded, name);
+    input_ = OIIO::ImageInput::create(plugin);
+    if (!input_ || !input_->set_ioproxy(&memory_) || !input_->open(plugin, spec_, readConfig())) {
+      fail();
+    }
+    if (spec_.width < 1 || spec_.height < 1 || spec_.width > kLargestSide ||
+        spec_.height > kLargestSide || spec_.nchannels < 1 || spec_.nchannels > 4) {
+      throw Error(ErrorId::kSceneImage,
+                  "image \"{}\": {} x {} pixels of {} channels, at most {} a side", name,
+                  spec_.width, spec_.height, spec_.nchannels, kLargestSide);
+    }
+  }
+
+  uint32_t width() const { return static_cast<uint32_t>(spec_.width); }
+  uint32_t height() const { return static_cast<uint32_t>(spec_.height); }
+  size_t channels() const { return static_cast<size_t>(spec_.nchannels); }
+
+  // Calls `take(y, pixels)` for rows from the top, several at a time: `pixels` has whole rows.
+  // Reads few rows at once, since OpenImageIO holds another copy of what it reads.
+  template <typename Take>
+  void eachStrip(Take&& take) {
+    constexpr size_t kStrip = size_t{1} << 24;  // bytes
+    const size_t row = width() * channels();
+    const auto rows = static_cast<int>(std::max<size_t>(1, kStrip / row));
+    std::vector<uint8_t> pixels;
+    for (int y = 0; y < spec_.height; y += rows) {
+      const int end = std::min(spec_.height, y + rows);
+      pixels.resize(static_cast<size_t>(end - y) * row);
+      if (!input_->read_scanlines(0, 0, y, end, 0, 0, spec_.nchannels, OIIO::TypeDesc::UINT8,
+                                  pixels.data())) {
+        fail();
+      }
+      take(static_cast<size_t>(y), pixels);
+    }
+  }
+
+ private:
+  [[noreturn]] void fail() const {
+    throw Error(ErrorId::kSceneImage, "image \"{}\": {}", name_, errorOf(input_.get()));
+  }
+
+  const SilentStderr silent_;
+  const std::string& name_;
+  OIIO::Filesystem::IOMemReader memory_;
+  std::unique_ptr<OIIO::ImageInput> input_;
+  OIIO::ImageSpec spec_;
+};
+
 Image8 decode(std::span<const std::byte> encoded, const std::string& name) {
-  const char* plugin = pluginFor(encoded, name);
-  const SilentStderr silent;
-  OIIO::Filesystem::IOMemReader memory(encoded.data(), encoded.size());
-  const auto input = OIIO::ImageInput::create(plugin);
-  OIIO::ImageSpec spec;
-  if (!input || !input->set_ioproxy(&memory) || !input->open(plugin, spec, readConfig())) {
-    throw Error(ErrorId::kSceneImage, "image \"{}\": {}", name, errorOf(input.get()));
-  }
-  if (spec.width < 1 || spec.height < 1 || spec.width > kLargestSide ||
-      spec.height > kLargestSide || spec.nchannels < 1 || spec.nchannels > 4) {
-    throw Error(ErrorId::kSceneImage,
-                "image \"{}\": {} x {} pixels of {} channels, at most {} a side", name, spec.width,
-                spec.height, spec.nchannels, kLargestSide);
-  }
-  std::vector<uint8_t> pixels(spec.image_pixels() * static_cast<size_t>(spec.nchannels));
-  if (!input->read_image(0, 0, 0, spec.nchannels, OIIO::TypeDesc::UINT8, pixels.data())) {
-    throw Error(ErrorId::kSceneImage, "image \"{}\": {}", name, errorOf(input.get()));
-  }
-  if (spec.nchannels != 4) pixels = toRgba(pixels, static_cast<size_t>(spec.nchannels));
-  return {.width = static_cast<uint32_t>(spec.width),
-          .height = static_cast<uint32_t>(spec.height),
-          .pixels = std::move(pixels)};
+  Decoder decoder(encoded, name);
+  Image8 image{.width = decoder.width(),
+               .height = decoder.height(),
+               .pixels = std::vector<uint8_t>(size_t{decoder.width()} * decoder.height() * 4)};
+  decoder.eachStrip([&](size_t y, const std::vector<uint8_t>& pixels) {
+    toRgba(pixels, decoder.channels(), &image.pixels[y * image.width * 4]);
+  });
+  return image;
+}
+
+Alpha8 decodeAlpha(std::span<const std::byte> encoded, const std::string& name) {
+  Decoder decoder(encoded, name);
+  const size_t channels = decoder.channels();
+  Alpha8 alpha{.width = decoder.width(),
+               .height = decoder.height(),
+               .pixels = std::vector<uint8_t>(size_t{decoder.width()} * decoder.height(), 255)};
+  decoder.eachStrip([&](size_t y, const std::vector<uint8_t>& pixels) {
+    if (channels % 2 != 0) return;
+    uint8_t* to = &alpha.pixels[y * alpha.width];
+    for (size_t i = channels - 1; i < pixels.size(); i += channels) *to++ = pixels[i];
+  });
+  return alpha;
 }
 
 std::vector<std::byte> encodePng(const Image8& image) {
@@ -301,7 +354,8 @@ std::vector<std::byte> encodeJpeg(const Image& image, int quality) {
   return {view.begin(), view.end()};
 }
 
-constexpr Codecs kCodecs = {exrOf, pngOf, read, readPicture, decode, encodePng, encodeJpeg};
+constexpr Codecs kCodecs = {exrOf,  pngOf,       read,      readPicture,
+                            decode, decodeAlpha, encodePng, encodeJpeg};
 
 }  // namespace
 }  // namespace grisaille::image

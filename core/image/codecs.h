@@ -15,6 +15,7 @@ struct Codecs {
   Image (*read)(const std::string& path);
   Picture (*readPicture)(const std::string& path);
   Image8 (*decode)(std::span<const std::byte> encoded, const std::string& name);
+  Alpha8 (*decodeAlpha)(std::span<const std::byte> encoded, const std::string& name);
   std::vector<std::byte> (*encodePng)(const Image8& image);
   std::vector<std::byte> (*encodeJpeg)(const Image& image, int quality);
 };

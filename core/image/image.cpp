@@ -81,6 +81,10 @@ Image8 decode(std::span<const std::byte> encoded, const std::string& name) {
   return codecs().decode(encoded, name);
 }
 
+Alpha8 decodeAlpha(std::span<const std::byte> encoded, const std::string& name) {
+  return codecs().decodeAlpha(encoded, name);
+}
+
 std::vector<std::byte> encodePng(const Image8& image) {
   return codecs().encodePng(image);
 }

@@ -31,6 +31,13 @@ struct Image8 {
   std::vector<uint8_t> pixels;  // width * height * 4
 };
 
+// One channel, 8 bits.
+struct Alpha8 {
+  uint32_t width = 0;
+  uint32_t height = 0;
+  std::vector<uint8_t> pixels;  // width * height
+};
+
 enum class Transfer : uint8_t {
   kData,    // numbers, stored unchanged
   kColour,  // linear light; files of integers store it with sRGB encoding
@@ -77,9 +84,12 @@ struct Picture {
 // differs from its display window.
 Picture readPicture(const std::string& path);
 
-// Decodes a PNG or JPEG in memory, of at most 16384 pixels per side. `name` is for messages. Throws
-// kSceneImage, kNoCodecs.
+// Decodes a PNG, JPEG or WebP in memory, of at most 16384 pixels per side. `name` is for messages.
+// Throws kSceneImage, kNoCodecs.
 Image8 decode(std::span<const std::byte> encoded, const std::string& name);
+
+// The same for the alpha channel alone; 255 without one. Needs a quarter of the memory.
+Alpha8 decodeAlpha(std::span<const std::byte> encoded, const std::string& name);
 
 // Encodes a PNG in memory, RGBA with 8 bits per channel.
 std::vector<std::byte> encodePng(const Image8& image);

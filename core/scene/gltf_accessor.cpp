@@ -156,34 +156,52 @@ Elements denseOf(const tinygltf::Model& model, int index, size_t elementSize) {
   return {};
 }
 
-template <typename Vec>
-std::vector<Vec> readVectors(const tinygltf::Model& model, int index, int type) {
+// Reads floats of `components` per element into the memory that `allocate(count)` returns. Elements
+// that the accessor leaves out are zeros.
+template <typename Allocate>
+void readFloatsInto(const tinygltf::Model& model, int index, size_t components,
+                    Allocate&& allocate) {
   const tinygltf::Accessor& accessor = accessorAt(model, index);
-  requireType(index, accessor.type == type);
-  std::vector<Vec> result;
+  float* result = nullptr;
   withType(index, accessor.componentType, [&]<typename T>(T) {
     requireType(index, !std::is_same_v<T, uint32_t>);
-    constexpr int kSize = Vec::length();
-    const Elements dense = denseOf(model, index, sizeof(T) * kSize);
-    const Replacement sparse = replacementOf(model, index, sizeof(T) * kSize);
-    result.resize(accessor.count, Vec(0));
-    const auto convert = [&](const Elements& from, size_t i, Vec& to) {
+    const Elements dense = denseOf(model, index, sizeof(T) * components);
+    const Replacement sparse = replacementOf(model, index, sizeof(T) * components);
+    result = allocate(accessor.count);
+    const auto convert = [&](const Elements& from, size_t i, size_t to) {
       const unsigned char* at = from.first + i * from.stride;
-      for (int c = 0; c < kSize; ++c) {
-        to[c] = toFloat(load<T>(at + static_cast<size_t>(c) * sizeof(T)), accessor.normalized);
+      for (size_t c = 0; c < components; ++c) {
+        result[to * components + c] = toFloat(load<T>(at + c * sizeof(T)), accessor.normalized);
       }
     };
-    for (size_t i = 0; i < dense.count; ++i) convert(dense, i, result[i]);
-    for (size_t i = 0; i < sparse.indices.size(); ++i) {
-      convert(sparse.values, i, result[sparse.indices[i]]);
-    }
+    for (size_t i = 0; i < dense.count; ++i) convert(dense, i, i);
+    for (size_t i = 0; i < sparse.indices.size(); ++i) convert(sparse.values, i, sparse.indices[i]);
   });
-  for (size_t i = 0; i < result.size(); ++i) {
-    for (int c = 0; c < Vec::length(); ++c) {
-      if (std::isfinite(result[i][c])) continue;
-      throw Error(ErrorId::kSceneInvalid, "accessor {}: element {} is not finite", index, i);
-    }
+  for (size_t i = 0; i < accessor.count * components; ++i) {
+    if (std::isfinite(result[i])) continue;
+    throw Error(ErrorId::kSceneInvalid, "accessor {}: element {} is not finite", index,
+                i / components);
   }
+}
+
+template <typename Vec>
+std::vector<Vec> readVectors(const tinygltf::Model& model, int index, int type) {
+  requireType(index, accessorAt(model, index).type == type);
+  std::vector<Vec> result;
+  readFloatsInto(model, index, static_cast<size_t>(Vec::length()), [&](size_t count) {
+    result.resize(count, Vec(0));
+    return &result[0][0];
+  });
+  return result;
+}
+
+std::vector<float> flatten(const tinygltf::Model& model, int index, int type, size_t components) {
+  requireType(index, accessorAt(model, index).type == type);
+  std::vector<float> result;
+  readFloatsInto(model, index, components, [&](size_t count) {
+    result.resize(count * components, 0.0f);
+    return result.data();
+  });
   return result;
 }
 
@@ -217,6 +235,39 @@ std::vector<glm::vec3> readVec3(const tinygltf::Model& model, int accessor) {
 
 std::vector<glm::vec2> readVec2(const tinygltf::Model& model, int accessor) {
   return readVectors<glm::vec2>(model, accessor, TINYGLTF_TYPE_VEC2);
+}
+
+std::vector<glm::vec4> readVec4(const tinygltf::Model& model, int accessor) {
+  return readVectors<glm::vec4>(model, accessor, TINYGLTF_TYPE_VEC4);
+}
+
+std::vector<float> readScalars(const tinygltf::Model& model, int accessor) {
+  return flatten(model, accessor, TINYGLTF_TYPE_SCALAR, 1);
+}
+
+std::vector<glm::dmat4> readMat4(const tinygltf::Model& model, int accessor) {
+  requireType(accessor, accessorAt(model, accessor).componentType == TINYGLTF_COMPONENT_TYPE_FLOAT);
+  const std::vector<float> numbers = flatten(model, accessor, TINYGLTF_TYPE_MAT4, 16);
+  std::vector<glm::dmat4> result(numbers.size() / 16);
+  for (size_t i = 0; i < numbers.size(); ++i) {
+    const auto within = static_cast<int>(i % 16);
+    result[i / 16][within / 4][within % 4] = numbers[i];
+  }
+  return result;
+}
+
+std::vector<glm::uvec4> readJoints(const tinygltf::Model& model, int index) {
+  const tinygltf::Accessor& accessor = accessorAt(model, index);
+  requireType(index, accessor.type == TINYGLTF_TYPE_VEC4 && !accessor.normalized &&
+                         (accessor.componentType == TINYGLTF_COMPONENT_TYPE_UNSIGNED_BYTE ||
+                          accessor.componentType == TINYGLTF_COMPONENT_TYPE_UNSIGNED_SHORT));
+  // Numbers of 16 bits fit a float.
+  const std::vector<glm::vec4> numbers = readVec4(model, index);
+  return {numbers.begin(), numbers.end()};
+}
+
+bool isVec3(const tinygltf::Model& model, int accessor) {
+  return accessorAt(model, accessor).type == TINYGLTF_TYPE_VEC3;
 }
 
 std::vector<uint32_t> readIndices(const tinygltf::Model& model, int index) {

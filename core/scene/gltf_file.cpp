@@ -15,6 +15,8 @@
 #include "core/base/error.h"
 #include "core/base/regular_file.h"
 #include "core/scene/gltf_accessor.h"
+#include "core/scene/gltf_codecs.h"
+#include "core/scene/gltf_document.h"
 
 namespace grisaille::scene {
 namespace {
@@ -25,8 +27,6 @@ using Bytes = std::vector<unsigned char>;
 constexpr uint64_t kMaxFileBytes = std::numeric_limits<uint32_t>::max();
 // Limits the recursion of tinygltf into `extras`. Real files nest a dozen levels.
 constexpr int kDeepestJson = 64;
-constexpr std::string_view kSupportedExtensions[] = {"KHR_mesh_quantization",
-                                                     "KHR_texture_transform"};
 
 // `name`: for messages; the name of a file that the scene refers to, empty for the scene's own
 // file.
@@ -201,24 +201,6 @@ void checkSizes(const json& document) {
   }
 }
 
-void checkExtensions(const json& document) {
-  const auto required = document.find("extensionsRequired");
-  if (required == document.end()) return;
-  if (!required->is_array())
-    throw Error(ErrorId::kSceneInvalid, "extensionsRequired is not an array");
-  for (const json& name : *required) {
-    const bool supported = name.is_string() &&
-                           std::any_of(std::begin(kSupportedExtensions),
-                                       std::end(kSupportedExtensions), [&](std::string_view known) {
-                                         return name.get_ref<const std::string&>() == known;
-                                       });
-    if (!supported) {
-      throw Error(ErrorId::kSceneExtension, "the scene requires the unsupported extension {}",
-                  name.dump());
-    }
-  }
-}
-
 // Returns the number of buffers that tinygltf will read from external files.
 size_t externalBuffers(const json& document) {
   size_t external = 0, embedded = 0;
@@ -260,17 +242,44 @@ Callbacks callbacksFor(Files& files) {
   return callbacks;
 }
 
+// Replaces the JSON of a file.
+void replaceJson(Bytes& bytes, const json& document) {
+  std::string text = document.dump();
+  if (!isBinary(bytes)) {
+    bytes.assign(text.begin(), text.end());
+    return;
+  }
+  text.resize((text.size() + 3) / 4 * 4, ' ');
+  constexpr size_t kHeader = 20;
+  const auto setWord = [&](size_t offset, uint64_t value) {
+    if (value > kMaxFileBytes) {
+      throw Error(ErrorId::kSceneTooLarge, "{} bytes; the limit is {}", value, kMaxFileBytes);
+    }
+    for (size_t i = 0; i < 4; ++i) {
+      bytes[offset + i] = static_cast<unsigned char>(value >> (8 * i) & 0xff);
+    }
+  };
+  const size_t length = word(bytes, 12);
+  setWord(8, word(bytes, 8) - length + text.size());
+  setWord(12, text.size());
+  const auto begin = bytes.begin() + kHeader;
+  bytes.erase(begin, begin + static_cast<std::ptrdiff_t>(length));
+  bytes.insert(bytes.begin() + kHeader, text.begin(), text.end());
+}
+
 }  // namespace
 
-void readModel(const std::string& path, tinygltf::Model& model) {
-  const Bytes bytes = readFile(path, "", kMaxFileBytes, ErrorId::kSceneUnreadable);
+void readModel(const std::string& path, tinygltf::Model& model, std::vector<std::string>& notes) {
+  Bytes bytes = readFile(path, "", kMaxFileBytes, ErrorId::kSceneUnreadable);
   if (bytes.empty()) throw Error(ErrorId::kSceneUnreadable, "the file is empty");
   Files files{.folder = std::filesystem::path(path).parent_path()};
+  Adaptation adaptation;
   {
-    const json document = parseJson(jsonOf(bytes));
+    json document = parseJson(jsonOf(bytes));
     checkAsset(document);
-    checkExtensions(document);
+    checkExtensions(document, notes);
     checkSizes(document);
+    if (adaptation.apply(document)) replaceJson(bytes, document);
     files.buffersLeft = externalBuffers(document);
   }
   tinygltf::TinyGLTF loader;
@@ -291,6 +300,9 @@ void readModel(const std::string& path, tinygltf::Model& model) {
   }
   while (!error.empty() && error.back() == '\n') error.pop_back();
   if (!good || !error.empty()) throw Error(ErrorId::kSceneInvalid, "{}", error);
+  adaptation.undo(model);
+  decodeMeshopt(model);
+  decodeDraco(model);
 }
 
 std::vector<std::byte> imageBytes(const std::string& path, const tinygltf::Model& model,

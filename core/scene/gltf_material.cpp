@@ -5,10 +5,12 @@
 
 #include <cmath>
 #include <map>
+#include <set>
 #include <tuple>
 
 #include "core/base/error.h"
 #include "core/scene/gltf_file.h"
+#include "core/scene/gltf_place.h"
 
 namespace grisaille::scene {
 namespace {
@@ -41,17 +43,18 @@ class MaterialLoader {
     } else if (from.alphaMode != "OPAQUE") {
       refuse(from, fmt::format("alphaMode \"{}\" is unknown", from.alphaMode));
     }
-    const tinygltf::PbrMetallicRoughness& pbr = from.pbrMetallicRoughness;
-    if (pbr.baseColorFactor.size() != 4) refuse(from, "baseColorFactor is not four numbers");
+    const Base base = baseOf(from);
+    if (base.factor.size() != 4) refuse(from, fmt::format("{} is not four numbers", base.name));
     for (int i = 0; i < 4; ++i) {
-      material.baseColor[i] = static_cast<float>(pbr.baseColorFactor[static_cast<size_t>(i)]);
-      if (!std::isfinite(material.baseColor[i])) refuse(from, "baseColorFactor is not finite");
+      material.baseColor[i] = static_cast<float>(base.factor[static_cast<size_t>(i)]);
+      if (!std::isfinite(material.baseColor[i])) {
+        refuse(from, fmt::format("{} is not finite", base.name));
+      }
     }
     if (!std::isfinite(material.alphaCutoff)) refuse(from, "alphaCutoff is not finite");
-    const tinygltf::TextureInfo& info = pbr.baseColorTexture;
-    if (info.index != -1) {
-      material.baseColorTexture = texture(info.index);
-      use = useOf(from, info);
+    if (base.texture.index != -1) {
+      material.baseColorTexture = texture(base.texture.index);
+      use = useOf(from, base.texture);
     }
     return material;
   }
@@ -59,6 +62,51 @@ class MaterialLoader {
  private:
   [[noreturn]] static void refuse(const tinygltf::Material& material, std::string_view why) {
     throw Error(ErrorId::kSceneInvalid, "material \"{}\": {}", material.name, why);
+  }
+
+  // The base colour of a material: factor and texture.
+  struct Base {
+    const char* name;
+    std::vector<double> factor;
+    tinygltf::TextureInfo texture;
+  };
+
+  static Base baseOf(const tinygltf::Material& from) {
+    const auto found = from.extensions.find("KHR_materials_pbrSpecularGlossiness");
+    if (found == from.extensions.end()) {
+      const tinygltf::PbrMetallicRoughness& pbr = from.pbrMetallicRoughness;
+      return {"baseColorFactor", pbr.baseColorFactor, pbr.baseColorTexture};
+    }
+    const tinygltf::Value& extension = found->second;
+    Base base{"diffuseFactor", {1, 1, 1, 1}, {}};
+    if (extension.Has("diffuseFactor")) {
+      const tinygltf::Value& factor = extension.Get("diffuseFactor");
+      base.factor.clear();
+      for (size_t i = 0; factor.IsArray() && i < factor.ArrayLen(); ++i) {
+        const tinygltf::Value& number = factor.Get(static_cast<int>(i));
+        if (!number.IsNumber()) refuse(from, "diffuseFactor is not four numbers");
+        base.factor.push_back(number.GetNumberAsDouble());
+      }
+    }
+    if (extension.Has("diffuseTexture")) {
+      const tinygltf::Value& texture = extension.Get("diffuseTexture");
+      const auto whole = [&](const char* key, int missing) {
+        if (!texture.IsObject() || !texture.Has(key)) return missing;
+        if (!texture.Get(key).IsInt()) {
+          refuse(from, fmt::format("diffuseTexture.{} is not a whole number", key));
+        }
+        return texture.Get(key).GetNumberAsInt();
+      };
+      base.texture.index = whole("index", -2);
+      base.texture.texCoord = whole("texCoord", 0);
+      if (texture.IsObject() && texture.Has("extensions")) {
+        const tinygltf::Value& extensions = texture.Get("extensions");
+        for (const std::string& key : extensions.Keys()) {
+          base.texture.extensions.emplace(key, extensions.Get(key));
+        }
+      }
+    }
+    return base;
   }
 
   static TexCoordUse useOf(const tinygltf::Material& material, const tinygltf::TextureInfo& info) {
@@ -94,16 +142,23 @@ class MaterialLoader {
     return use;
   }
 
+  // Returns the image of a texture; -1: none in a format that can be read.
+  static int sourceOf(const tinygltf::Texture& texture) {
+    const auto webp = texture.extensions.find("EXT_texture_webp");
+    if (webp != texture.extensions.end() && webp->second.IsObject() && webp->second.Has("source") &&
+        webp->second.Get("source").IsInt()) {
+      return webp->second.Get("source").GetNumberAsInt();
+    }
+    return texture.source;
+  }
+
   // Returns the index into scene.textures of a glTF texture. glTF textures with equal image and
-  // wrap modes share one.
+  // wrap modes share one. Returns -1, with a note, if its image cannot be read.
   int texture(int index) {
     if (index < 0 || static_cast<size_t>(index) >= model_.textures.size()) {
       throw Error(ErrorId::kSceneInvalid, "texture {} does not exist", index);
     }
     const tinygltf::Texture& from = model_.textures[static_cast<size_t>(index)];
-    if (from.source < 0) {
-      throw Error(ErrorId::kSceneImage, "texture {} has no PNG or JPEG as its source", index);
-    }
     Texture result;
     if (from.sampler != -1) {
       if (from.sampler < 0 || static_cast<size_t>(from.sampler) >= model_.samplers.size()) {
@@ -113,23 +168,39 @@ class MaterialLoader {
       result.wrapU = wrapOf(sampler.wrapS);
       result.wrapV = wrapOf(sampler.wrapT);
     }
-    const auto [found, isNew] = textures_.try_emplace({from.source, result.wrapU, result.wrapV},
-                                                      static_cast<int>(scene_.textures.size()));
-    if (isNew) {
-      result.encoded = imageBytes(path_, model_, from.source);
-      const tinygltf::Image& image = model_.images[static_cast<size_t>(from.source)];
-      result.name = !image.name.empty()  ? image.name
-                    : !image.uri.empty() ? image.uri
-                                         : fmt::format("image {}", from.source);
-      scene_.textures.push_back(std::move(result));
+    const int source = sourceOf(from);
+    if (source == -1) {
+      leaveOut(fmt::format("textures[{}] has no PNG, JPEG or WebP", index));
+      return -1;
     }
+    const auto [found, isNew] = textures_.try_emplace({source, result.wrapU, result.wrapV}, -1);
+    if (!isNew) return found->second;
+    try {
+      result.encoded = imageBytes(path_, model_, source);
+    } catch (const Error& error) {
+      if (error.id() != ErrorId::kSceneImage) throw;
+      leaveOut(fmt::format("images[{}]: {}", source, error.detail()));
+      return -1;
+    }
+    const tinygltf::Image& image = model_.images[static_cast<size_t>(source)];
+    result.name = !image.name.empty()  ? image.name
+                  : !image.uri.empty() ? image.uri
+                                       : fmt::format("image {}", source);
+    found->second = static_cast<int>(scene_.textures.size());
+    scene_.textures.push_back(std::move(result));
     return found->second;
+  }
+
+  void leaveOut(const std::string& what) {
+    const std::string line = what + "; white and opaque instead";
+    if (leftOut_.insert(line).second) scene_.notes.push_back(line);
   }
 
   const std::string& path_;
   const tinygltf::Model& model_;
   Scene& scene_;
   std::map<std::tuple<int, Wrap, Wrap>, int> textures_;
+  std::set<std::string> leftOut_;
 };
 
 }  // namespace
@@ -138,8 +209,16 @@ std::vector<TexCoordUse> loadMaterials(const std::string& path, const tinygltf::
                                        Scene& scene) {
   MaterialLoader loader(path, model, scene);
   std::vector<TexCoordUse> uses(model.materials.size());
+  size_t blended = 0;
   for (size_t i = 0; i < uses.size(); ++i) {
-    scene.materials.push_back(loader.load(model.materials[i], uses[i]));
+    scene.materials.push_back(inPlace(fmt::format("materials[{}]", i),
+                                      [&] { return loader.load(model.materials[i], uses[i]); }));
+    if (model.materials[i].alphaMode == "BLEND") ++blended;
+  }
+  if (blended > 0) {
+    scene.notes.push_back(
+        fmt::format("{} of {} materials blend; drawn as masks, whose holes have an alpha below 0.5",
+                    blended, model.materials.size()));
   }
   return uses;
 }

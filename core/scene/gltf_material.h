@@ -25,7 +25,7 @@ struct TexCoordUse {
 
 // Appends one material per glTF material to scene.materials, in the file's order, and the textures
 // that they use to scene.textures. `path`: the glTF file. Returns one TexCoordUse per material.
-// Throws kSceneInvalid, kSceneImage, kSceneTooLarge.
+// Adds a note for each image that cannot be read. Throws kSceneInvalid, kSceneTooLarge.
 std::vector<TexCoordUse> loadMaterials(const std::string& path, const tinygltf::Model& model,
                                        Scene& scene);
 

@@ -9,14 +9,10 @@
 #include "core/base/error.h"
 #include "core/scene/gltf_accessor.h"
 #include "core/scene/gltf_file.h"
+#include "core/scene/gltf_place.h"
 
 namespace grisaille::scene {
 namespace {
-
-int attribute(const tinygltf::Primitive& primitive, const std::string& name) {
-  const auto found = primitive.attributes.find(name);
-  return found == primitive.attributes.end() ? -1 : found->second;
-}
 
 // The length of the result is twice the triangle's area.
 glm::dvec3 faceNormal(const glm::dvec3& a, const glm::dvec3& b, const glm::dvec3& c) {
@@ -54,14 +50,15 @@ std::vector<uint32_t> trianglesOf(const tinygltf::Model& model,
       throw Error(ErrorId::kSceneTooLarge, "{} indices; the limit is {}",
                   accessorCount(model, primitive.indices), kMaxIndices / 3);
     }
-    indices = readIndices(model, primitive.indices);
+    indices = inPlace("indices", [&] { return readIndices(model, primitive.indices); });
   } else {
     indices.resize(vertexCount);
     std::iota(indices.begin(), indices.end(), 0u);
   }
   for (const uint32_t index : indices) {
     if (index >= vertexCount) {
-      throw Error(ErrorId::kSceneInvalid, "accessor {}: index {} is out of range for {} vertices",
+      throw Error(ErrorId::kSceneInvalid,
+                  "indices: accessor {}: index {} is out of range for {} vertices",
                   primitive.indices, index, vertexCount);
     }
   }
@@ -73,26 +70,37 @@ std::vector<uint32_t> trianglesOf(const tinygltf::Model& model,
 MeshLoader::MeshLoader(const tinygltf::Model& model, std::vector<TexCoordUse> uses, Scene& scene)
     : model_(model), uses_(std::move(uses)), scene_(scene) {}
 
+int attributeOf(const tinygltf::Primitive& primitive, const std::string& name) {
+  const auto found = primitive.attributes.find(name);
+  return found == primitive.attributes.end() ? -1 : found->second;
+}
+
 const std::vector<uint32_t>& MeshLoader::primitivesOf(int mesh) {
   if (mesh < 0 || static_cast<size_t>(mesh) >= model_.meshes.size()) {
     throw Error(ErrorId::kSceneInvalid, "mesh {} does not exist", mesh);
   }
   const auto [found, isNew] = meshes_.try_emplace(mesh);
   if (isNew) {
-    const tinygltf::Mesh& from = model_.meshes[static_cast<size_t>(mesh)];
-    for (const tinygltf::Primitive& primitive : from.primitives) {
-      loadPrimitive(primitive, found->second);
+    const auto& primitives = model_.meshes[static_cast<size_t>(mesh)].primitives;
+    for (size_t i = 0; i < primitives.size(); ++i) {
+      const auto loaded = inPlace(fmt::format("meshes[{}].primitives[{}]", mesh, i),
+                                  [&] { return loadPrimitive(primitives[i], -1, runs_); });
+      if (loaded) found->second.push_back(loaded->primitive);
     }
   }
   return found->second;
 }
 
-void MeshLoader::loadPrimitive(const tinygltf::Primitive& from, std::vector<uint32_t>& result) {
+std::optional<LoadedPrimitive> MeshLoader::loadPrimitive(const tinygltf::Primitive& from,
+                                                         int deformed, Runs& runs) {
   if (from.mode < TINYGLTF_MODE_POINTS || from.mode > TINYGLTF_MODE_TRIANGLE_FAN) {
-    throw Error(ErrorId::kSceneInvalid, "primitive mode {} is unknown", from.mode);
+    throw Error(ErrorId::kSceneInvalid, "mode {} is unknown", from.mode);
   }
-  VertexKey key{.positions = attribute(from, "POSITION"), .normals = attribute(from, "NORMAL")};
-  if (from.mode < TINYGLTF_MODE_TRIANGLES || key.positions < 0) return;
+  VertexKey key{.positions = attributeOf(from, "POSITION"),
+                .normals = attributeOf(from, "NORMAL"),
+                .colours = attributeOf(from, "COLOR_0"),
+                .deformed = deformed};
+  if (from.mode < TINYGLTF_MODE_TRIANGLES || key.positions < 0) return std::nullopt;
   const uint64_t vertexCount = accessorCount(model_, key.positions);
   if (vertexCount == 0) {
     throw Error(ErrorId::kSceneInvalid, "accessor {} is empty", key.positions);
@@ -103,22 +111,37 @@ void MeshLoader::loadPrimitive(const tinygltf::Primitive& from, std::vector<uint
   }
   const uint32_t material = materialOf(from);
   const TexCoordUse& use = uses_[material];
-  key.texCoords = attribute(from, "TEXCOORD_" + std::to_string(use.set));
+  key.texCoords = attributeOf(from, "TEXCOORD_" + std::to_string(use.set));
   if (use.transform != glm::dmat3x2(1)) key.material = material + 1;
 
+  LoadedPrimitive result;
   std::vector<uint32_t> triangles = trianglesOf(model_, from, vertexCount);
-  if (triangles.empty()) return;
+  if (triangles.empty()) return std::nullopt;
   if (scene_.indices.size() + triangles.size() > kMaxIndices) {
     throw Error(ErrorId::kSceneTooLarge, "more than {} indices", kMaxIndices);
   }
-  const VertexRun run = key.normals < 0 ? flatVertices(key, triangles) : vertices(key);
+  VertexRun run;
+  if (key.normals < 0) {
+    run = appendFlatVertices(key, triangles);
+    result.sources = triangles;
+    std::iota(triangles.begin(), triangles.end(), 0u);
+  } else {
+    const auto [found, isNew] = runs.try_emplace(key);
+    if (isNew) appendVertices(key, found->second);
+    run = found->second;
+    result.newVertices = isNew;
+  }
   const auto first = static_cast<uint32_t>(scene_.indices.size());
   for (const uint32_t index : triangles) scene_.indices.push_back(run.first + index);
   if (run.lacksNormals) repairNormals(std::span(scene_.indices).subspan(first));
-  result.push_back(static_cast<uint32_t>(scene_.primitives.size()));
+  result.primitive = static_cast<uint32_t>(scene_.primitives.size());
+  result.firstVertex = run.first;
+  result.vertexCount = run.count;
   scene_.primitives.push_back({.firstIndex = first,
                                .indexCount = static_cast<uint32_t>(triangles.size()),
-                               .material = material});
+                               .material = material,
+                               .coloured = key.colours >= 0});
+  return result;
 }
 
 uint32_t MeshLoader::materialOf(const tinygltf::Primitive& from) {
@@ -136,9 +159,7 @@ uint32_t MeshLoader::materialOf(const tinygltf::Primitive& from) {
   return static_cast<uint32_t>(defaultMaterial_);
 }
 
-MeshLoader::VertexRun MeshLoader::vertices(const VertexKey& key) {
-  const auto found = runs_.find(key);
-  if (found != runs_.end()) return found->second;
+void MeshLoader::appendVertices(const VertexKey& key, VertexRun& run) {
   const uint64_t count = accessorCount(model_, key.positions);
   if (scene_.positions.size() + count > kMaxVertices) {
     throw Error(ErrorId::kSceneTooLarge, "more than {} vertices", kMaxVertices);
@@ -147,29 +168,37 @@ MeshLoader::VertexRun MeshLoader::vertices(const VertexKey& key) {
     throw Error(ErrorId::kSceneInvalid, "accessor {}: {} normals for {} positions", key.normals,
                 accessorCount(model_, key.normals), count);
   }
-  VertexRun run{.first = static_cast<uint32_t>(scene_.positions.size())};
-  const std::vector<glm::vec3> positions = readVec3(model_, key.positions);
-  std::vector<glm::vec3> normals = readVec3(model_, key.normals);
+  run = {.first = static_cast<uint32_t>(scene_.positions.size()),
+         .count = static_cast<uint32_t>(count)};
+  const auto append = [](auto& to, const auto& from) {
+    to.insert(to.end(), from.begin(), from.end());
+  };
+  append(scene_.positions,
+         inPlace("attributes.POSITION", [&] { return readVec3(model_, key.positions); }));
+  std::vector<glm::vec3> normals =
+      inPlace("attributes.NORMAL", [&] { return readVec3(model_, key.normals); });
   for (glm::vec3& normal : normals) {
     const double length = glm::length(glm::dvec3(normal));
     normal = length > 1e-12 ? glm::vec3(glm::dvec3(normal) / length) : glm::vec3(0);
     run.lacksNormals = run.lacksNormals || length <= 1e-12;
   }
-  scene_.positions.insert(scene_.positions.end(), positions.begin(), positions.end());
-  scene_.normals.insert(scene_.normals.end(), normals.begin(), normals.end());
-  appendTexCoords(key, count);
-  runs_.emplace(key, run);
-  return run;
+  append(scene_.normals, normals);
+  append(scene_.texCoords, texCoordsOf(key, count));
+  if (key.colours < 0 && scene_.colours.empty()) return;
+  scene_.colours.resize(run.first, glm::vec4(1));
+  append(scene_.colours, coloursOf(key, count));
 }
 
 // glTF requires flat shading for primitives without normals: every triangle gets its own vertices.
-MeshLoader::VertexRun MeshLoader::flatVertices(const VertexKey& key,
-                                               std::vector<uint32_t>& triangles) {
+MeshLoader::VertexRun MeshLoader::appendFlatVertices(const VertexKey& key,
+                                                     std::span<const uint32_t> triangles) {
   if (scene_.positions.size() + triangles.size() > kMaxVertices) {
     throw Error(ErrorId::kSceneTooLarge, "more than {} vertices", kMaxVertices);
   }
-  const VertexRun run{.first = static_cast<uint32_t>(scene_.positions.size())};
-  const std::vector<glm::vec3> positions = readVec3(model_, key.positions);
+  const VertexRun run{.first = static_cast<uint32_t>(scene_.positions.size()),
+                      .count = static_cast<uint32_t>(triangles.size())};
+  const std::vector<glm::vec3> positions =
+      inPlace("attributes.POSITION", [&] { return readVec3(model_, key.positions); });
   for (size_t i = 0; i < triangles.size(); i += 3) {
     const glm::vec3 p[] = {positions[triangles[i]], positions[triangles[i + 1]],
                            positions[triangles[i + 2]]};
@@ -180,37 +209,46 @@ MeshLoader::VertexRun MeshLoader::flatVertices(const VertexKey& key,
     scene_.normals.insert(scene_.normals.end(), 3,
                           length > 0 ? glm::vec3(normal / length) : glm::vec3(0, 1, 0));
   }
-  const size_t before = scene_.texCoords.size();
-  appendTexCoords(key, positions.size());
-  const std::vector<glm::vec2> shared(
-      scene_.texCoords.begin() + static_cast<std::ptrdiff_t>(before), scene_.texCoords.end());
-  scene_.texCoords.resize(before);
-  for (const uint32_t index : triangles) scene_.texCoords.push_back(shared[index]);
-  std::iota(triangles.begin(), triangles.end(), 0u);
+  const std::vector<glm::vec2> texCoords = texCoordsOf(key, positions.size());
+  for (const uint32_t index : triangles) scene_.texCoords.push_back(texCoords[index]);
+  if (key.colours < 0 && scene_.colours.empty()) return run;
+  const std::vector<glm::vec4> colours = coloursOf(key, positions.size());
+  scene_.colours.resize(run.first, glm::vec4(1));
+  for (const uint32_t index : triangles) scene_.colours.push_back(colours[index]);
   return run;
 }
 
-void MeshLoader::appendTexCoords(const VertexKey& key, size_t count) {
-  if (key.texCoords < 0) {
-    scene_.texCoords.resize(scene_.texCoords.size() + count, glm::vec2(0));
-    return;
-  }
+std::vector<glm::vec2> MeshLoader::texCoordsOf(const VertexKey& key, size_t count) const {
+  if (key.texCoords < 0) return std::vector<glm::vec2>(count, glm::vec2(0));
   if (accessorCount(model_, key.texCoords) != count) {
     throw Error(ErrorId::kSceneInvalid, "accessor {}: {} texture coordinates for {} positions",
                 key.texCoords, accessorCount(model_, key.texCoords), count);
   }
   std::vector<glm::vec2> texCoords = readVec2(model_, key.texCoords);
-  if (key.material > 0) {
-    const glm::dmat3x2& transform = uses_[key.material - 1].transform;
-    for (glm::vec2& uv : texCoords) {
-      uv = glm::vec2(transform * glm::dvec3(uv, 1));
-      if (std::isfinite(uv.x) && std::isfinite(uv.y)) continue;
-      throw Error(ErrorId::kSceneInvalid,
-                  "accessor {}: KHR_texture_transform makes coordinates that are not finite",
-                  key.texCoords);
-    }
+  if (key.material == 0) return texCoords;
+  const glm::dmat3x2& transform = uses_[key.material - 1].transform;
+  for (glm::vec2& uv : texCoords) {
+    uv = glm::vec2(transform * glm::dvec3(uv, 1));
+    if (std::isfinite(uv.x) && std::isfinite(uv.y)) continue;
+    throw Error(ErrorId::kSceneInvalid,
+                "accessor {}: KHR_texture_transform makes coordinates that are not finite",
+                key.texCoords);
   }
-  scene_.texCoords.insert(scene_.texCoords.end(), texCoords.begin(), texCoords.end());
+  return texCoords;
+}
+
+std::vector<glm::vec4> MeshLoader::coloursOf(const VertexKey& key, size_t count) const {
+  if (key.colours < 0) return std::vector<glm::vec4>(count, glm::vec4(1));
+  return inPlace("attributes.COLOR_0", [&] {
+    if (accessorCount(model_, key.colours) != count) {
+      throw Error(ErrorId::kSceneInvalid, "{} colours for {} positions",
+                  accessorCount(model_, key.colours), count);
+    }
+    if (!isVec3(model_, key.colours)) return readVec4(model_, key.colours);
+    std::vector<glm::vec4> colours;
+    for (const glm::vec3& rgb : readVec3(model_, key.colours)) colours.emplace_back(rgb, 1);
+    return colours;
+  });
 }
 
 // Replaces normals of length 0 by the area-weighted mean normal of the faces in `indices` that use

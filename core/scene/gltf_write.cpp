@@ -29,6 +29,12 @@ int wrapNumber(Wrap wrap) {
   return 10497;
 }
 
+const char* mimeTypeOf(const std::vector<std::byte>& encoded) {
+  if (encoded.empty()) return "image/png";
+  if (encoded[0] == std::byte{0xff}) return "image/jpeg";
+  return encoded[0] == std::byte{'R'} ? "image/webp" : "image/png";
+}
+
 class GlbWriter {
  public:
   explicit GlbWriter(const Scene& scene) : scene_(scene) {}
@@ -72,6 +78,10 @@ class GlbWriter {
     attributes_ = {{"POSITION", addAttribute(scene_.positions, "VEC3")},
                    {"NORMAL", addAttribute(scene_.normals, "VEC3")},
                    {"TEXCOORD_0", addAttribute(scene_.texCoords, "VEC2")}};
+    // All primitives share the vertices, so that those without colours get white ones.
+    if (!scene_.colours.empty()) {
+      attributes_["COLOR_0"] = addAttribute(scene_.colours, "VEC4");
+    }
     glm::vec3 low = scene_.positions.at(0), high = low;
     for (const glm::vec3& p : scene_.positions) {
       low = glm::min(low, p);
@@ -107,14 +117,20 @@ class GlbWriter {
       const bool made = !texture.texels.pixels.empty();
       const std::vector<std::byte> bytes =
           made ? image::encodePng(texture.texels) : texture.encoded;
-      const bool jpeg = !bytes.empty() && bytes[0] == std::byte{0xff};
+      const std::string type = mimeTypeOf(bytes);
       const size_t view = addView(bytes.data(), bytes.size(), 0);
-      const size_t image = push("images", {{"name", texture.name},
-                                           {"bufferView", view},
-                                           {"mimeType", jpeg ? "image/jpeg" : "image/png"}});
+      const size_t image =
+          push("images", {{"name", texture.name}, {"bufferView", view}, {"mimeType", type}});
       const size_t sampler = push(
           "samplers", {{"wrapS", wrapNumber(texture.wrapU)}, {"wrapT", wrapNumber(texture.wrapV)}});
-      push("textures", {{"source", image}, {"sampler", sampler}});
+      json entry{{"sampler", sampler}};
+      if (type == "image/webp") {
+        entry["extensions"]["EXT_texture_webp"]["source"] = image;
+        document_["extensionsUsed"] = document_["extensionsRequired"] = {"EXT_texture_webp"};
+      } else {
+        entry["source"] = image;
+      }
+      push("textures", std::move(entry));
     }
   }
 

@@ -1,12 +1,16 @@
 // SPDX-License-Identifier: MIT
 #include "core/scene/scene.h"
 
+#include <fmt/format.h>
+
 #include <limits>
+
+#include "core/base/error.h"
+#include "core/base/note.h"
 
 namespace grisaille::scene {
 
-void computeBounds(Scene& scene) {
-  // First compute the box of each primitive once, because instances may share primitives.
+std::vector<Bounds> primitiveBounds(const Scene& scene) {
   std::vector<Bounds> boxes(scene.primitives.size());
   for (size_t i = 0; i < boxes.size(); ++i) {
     const Primitive& primitive = scene.primitives[i];
@@ -19,6 +23,12 @@ void computeBounds(Scene& scene) {
     }
     boxes[i] = {.min = low, .max = high};
   }
+  return boxes;
+}
+
+void computeBounds(Scene& scene) {
+  // First compute the box of each primitive once, because instances may share primitives.
+  const std::vector<Bounds> boxes = primitiveBounds(scene);
   constexpr double kFar = std::numeric_limits<double>::max();
   Bounds bounds{.min = glm::dvec3(kFar), .max = glm::dvec3(-kFar)};
   for (const Instance& instance : scene.instances) {
@@ -34,9 +44,39 @@ void computeBounds(Scene& scene) {
   scene.bounds = scene.instances.empty() ? Bounds{} : bounds;
 }
 
+namespace {
+
+// Decodes by `decode`, or returns `instead` and says why.
+template <typename Decode>
+auto decodedOr(Decode&& decode, decltype(decode()) instead) {
+  try {
+    return decode();
+  } catch (const Error& error) {
+    if (error.id() != ErrorId::kSceneImage) throw;
+    note(fmt::format("{}; white and opaque instead", error.detail()));
+    return instead;
+  }
+}
+
+}  // namespace
+
 image::Image8 texelsOf(const Texture& texture) {
   if (!texture.texels.pixels.empty()) return texture.texels;
-  return image::decode(texture.encoded, texture.name);
+  return decodedOr([&] { return image::decode(texture.encoded, texture.name); },
+                   {.width = 1, .height = 1, .pixels = std::vector<uint8_t>(4, 255)});
+}
+
+image::Alpha8 alphaOf(const Texture& texture) {
+  const image::Image8& texels = texture.texels;
+  if (texels.pixels.empty()) {
+    return decodedOr([&] { return image::decodeAlpha(texture.encoded, texture.name); },
+                     {.width = 1, .height = 1, .pixels = {255}});
+  }
+  image::Alpha8 alpha{.width = texels.width,
+                      .height = texels.height,
+                      .pixels = std::vector<uint8_t>(texels.pixels.size() / 4)};
+  for (size_t i = 0; i < alpha.pixels.size(); ++i) alpha.pixels[i] = texels.pixels[4 * i + 3];
+  return alpha;
 }
 
 uint64_t triangleCount(const Scene& scene) {
@@ -48,7 +88,10 @@ uint64_t triangleCount(const Scene& scene) {
 }
 
 Scene loadScene(const std::string& path, const std::function<void(double)>& progress) {
-  return path.empty() ? makeAtrium() : loadGltf(path, progress);
+  if (path.empty()) return makeAtrium();
+  Scene scene = loadGltf(path, progress);
+  for (const std::string& line : scene.notes) note(fmt::format("{}: {}", path, line));
+  return scene;
 }
 
 Camera defaultCamera(const Scene& scene) {

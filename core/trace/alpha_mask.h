@@ -3,7 +3,7 @@
 
 #include <cstdint>
 #include <glm/glm.hpp>
-#include <vector>
+#include <memory>
 
 #include "core/scene/scene.h"
 
@@ -12,18 +12,18 @@ namespace grisaille::trace {
 // The alpha of a masked material, sampled like mip 0 with a linear filter on the GPU.
 class AlphaMask {
  public:
-  // Throws kSceneImage if the texture does not decode.
-  AlphaMask(const scene::Scene& scene, const scene::Material& material);
+  // texture: the base colour texture; null: none
+  // alpha: its alpha; null if there is no texture
+  AlphaMask(const scene::Material& material, const scene::Texture* texture,
+            std::shared_ptr<const image::Alpha8> alpha);
 
-  // Returns true if the alpha is below the material's cutoff.
-  bool isHole(const glm::vec2& texCoord) const;
+  // Returns true if the alpha is below the material's cutoff. `vertexAlpha`: of the vertex colour.
+  bool isHole(const glm::vec2& texCoord, float vertexAlpha) const;
 
  private:
   float texel(int64_t x, int64_t y) const;
 
-  uint32_t width_ = 1;
-  uint32_t height_ = 1;
-  std::vector<uint8_t> alpha_ = {255};
+  std::shared_ptr<const image::Alpha8> alpha_;
   scene::Wrap wrapU_ = scene::Wrap::kRepeat;
   scene::Wrap wrapV_ = scene::Wrap::kRepeat;
   float factor_ = 1;

@@ -4,8 +4,9 @@
 // positions and normals are then computed in double precision.
 //
 // Holes: a masked material lets every ray through where its base colour alpha (texture, mip 0,
-// bilinear, times the factor) is below the cutoff. Primary rays also pass through the back faces of
-// single-sided materials, like the rasteriser; other rays are blocked from either side.
+// bilinear, times factor and vertex colour) is below the cutoff. Primary rays also pass through the
+// back faces of single-sided materials, like the rasteriser; other rays are blocked from either
+// side.
 #pragma once
 
 #include <cstdint>
@@ -42,7 +43,7 @@ class RayTracer {
   // origin: world position at the centre of interest, for example the camera's eye or the centre of
   //   the scene. Embree works in 32 bits; the tracer first transforms all instances in double to
   //   world space relative to `origin`.
-  // Throws kSceneImage (a mask does not decode), kSceneTooLarge, kLeftOut (a build without Embree).
+  // Throws kNoCodecs (it cannot decode a mask), kSceneTooLarge, kLeftOut (a build without Embree).
   RayTracer(const scene::Scene& scene, const glm::dvec3& origin);
   ~RayTracer();
   RayTracer(const RayTracer&) = delete;

@@ -3,6 +3,7 @@
 
 #include <algorithm>
 #include <cmath>
+#include <map>
 
 #include "core/base/error.h"
 
@@ -69,9 +70,19 @@ void TracedScene::place() {
   for (const scene::Instance& instance : scene_.instances) {
     placements_.push_back(placementOf(instance, origin_));
   }
+  // Materials with the same texture share its alpha.
+  std::map<int, std::shared_ptr<const image::Alpha8>> alphas;
   for (const scene::Material& material : scene_.materials) {
     auto& mask = masks_.emplace_back();
-    if (material.masked) mask.emplace(scene_, material);
+    if (!material.masked) continue;
+    const int index = material.baseColorTexture;
+    const scene::Texture* texture =
+        index < 0 ? nullptr : &scene_.textures.at(static_cast<size_t>(index));
+    std::shared_ptr<const image::Alpha8>& alpha = alphas[index];
+    if (texture != nullptr && !alpha) {
+      alpha = std::make_shared<const image::Alpha8>(scene::alphaOf(*texture));
+    }
+    mask.emplace(material, texture, alpha);
   }
 }
 
@@ -141,7 +152,13 @@ bool TracedScene::isHole(const Triangle& triangle, float u, float v) const {
   const uint32_t* index = &scene_.indices[triangle.firstIndex];
   const glm::vec2 texCoord = (1.0f - u - v) * scene_.texCoords[index[0]] +
                              u * scene_.texCoords[index[1]] + v * scene_.texCoords[index[2]];
-  return masks_[materialOf(triangle)]->isHole(texCoord);
+  const scene::Primitive& primitive =
+      scene_.primitives[scene_.instances[triangle.instance].primitive];
+  const float alpha = !primitive.coloured
+                          ? 1.0f
+                          : (1.0f - u - v) * scene_.colours[index[0]].a +
+                                u * scene_.colours[index[1]].a + v * scene_.colours[index[2]].a;
+  return masks_[primitive.material]->isHole(texCoord, alpha);
 }
 
 bool TracedScene::isBack(const Triangle& triangle, const glm::dvec3& direction) const {

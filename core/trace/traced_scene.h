@@ -40,7 +40,7 @@ struct Facet {
 
 class TracedScene {
  public:
-  // Throws kSceneImage, kSceneTooLarge. `scene` must outlive this object.
+  // Throws kNoCodecs, kSceneTooLarge. `scene` must outlive this object.
   TracedScene(const scene::Scene& scene, const glm::dvec3& origin);
   ~TracedScene();
   TracedScene(const TracedScene&) = delete;

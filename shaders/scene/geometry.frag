@@ -11,6 +11,9 @@ layout(location = 0) out vec4 out_normal;
 layout(location = 1) in vec2 uv;
 layout(TEXTURE(0)) uniform sampler2D base_texture;
 #endif
+#if COLOUR
+layout(location = 3) in vec4 colour;  // of the vertices, linear
+#endif
 #if BASE
 layout(location = NORMAL) out vec4 out_base;
 #endif
@@ -24,6 +27,12 @@ layout(TEXTURE(1)) uniform sampler2D front;  // clip depth
 #endif
 
 void main() {
+#if BASE || MASK
+  vec4 factor = draw.base_color;
+#if COLOUR
+  factor *= colour;
+#endif
+#endif
 #if BEHIND
   // Discards fragments nearer than the front surface. The factor keeps two-sided surfaces, whose back
   // has the front's depth up to rounding.
@@ -37,9 +46,9 @@ void main() {
   // Reads the mask from mip 0: smaller mips would thin or close leaves. Without base colour, the
   // texture holds only the alpha channel, in r.
 #if BASE
-  const float alpha = textureLod(base_texture, uv, 0.0).a * draw.base_color.a;
+  const float alpha = textureLod(base_texture, uv, 0.0).a * factor.a;
 #else
-  const float alpha = textureLod(base_texture, uv, 0.0).r * draw.base_color.a;
+  const float alpha = textureLod(base_texture, uv, 0.0).r * factor.a;
 #endif
   if (alpha < draw.alpha_cutoff) discard;
 #endif
@@ -50,7 +59,7 @@ void main() {
   out_normal = vec4(squared > 0.0 ? world_normal * (facing * inversesqrt(squared)) : vec3(0.0), 1.0);
 #endif
 #if BASE
-  out_base = vec4(texture(base_texture, uv).rgb * draw.base_color.rgb, 1.0);
+  out_base = vec4(texture(base_texture, uv).rgb * factor.rgb, 1.0);
 #endif
 #if FACET
   const float area = dot(facet, facet);

@@ -12,6 +12,10 @@ layout(location = 0) out vec3 world_normal;
 layout(location = 2) in vec2 tex_coord;
 layout(location = 1) out vec2 uv;
 #endif
+#if COLOUR
+layout(location = 3) in vec4 vertex_colour;
+layout(location = 3) out vec4 colour;
+#endif
 #if FACET
 layout(location = 2) out vec3 from_camera;
 #endif
@@ -27,6 +31,9 @@ void main() {
 #endif
 #if UV
   uv = tex_coord;
+#endif
+#if COLOUR
+  colour = vertex_colour;
 #endif
 #if FACET
   from_camera = (draw.camera_from_object * vec4(position, 1.0)).xyz;

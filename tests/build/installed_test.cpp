@@ -146,7 +146,8 @@ TEST_F(Installed, PackageHoldsAllAndNamesWhatItNeeds) {
   // Distribution releases differ in the versions in library names.
   for (const char* library :
        {"libc6 ", "libembree[34]", "libfmt[0-9]+", "libglfw3 ", "libopenimageio2\\.[0-9]",
-        "libspirv-cross-c-shared0", "libtinygltf[0-9.]*d?", "libegl1 \\| libvulkan1"}) {
+        "libspirv-cross-c-shared0", "libdraco[0-9]+", "libmeshoptimizer[0-9]+d?",
+        "libtinygltf[0-9.]*d?", "libegl1 \\| libvulkan1"}) {
     EXPECT_TRUE(std::regex_search(made.out, std::regex(library)))
         << library << " not in " << made.out;
   }
