@@ -125,6 +125,9 @@ GRISAILLE_ERROR(kFrontSmall, 5302, "measure a grid whose settings differ in cost
 GRISAILLE_ERROR(kTuneImpossible, 5303,
                 "allow more, --vary more parameters or a larger --evaluations")
 GRISAILLE_ERROR(kUnstable, 5304, "see the cases in bold in the table in --out")
+GRISAILLE_ERROR(kNothingToSee, 5305,
+                "give cameras that see occluders (--camera, --validate), a larger --radius, or "
+                "--random 0")
 // --- 54xx: new effects
 GRISAILLE_ERROR(kProjectName, 5401, "give 1 to 40 of a-z, 0-9 and _, beginning with a letter")
 GRISAILLE_ERROR(kProjectFolder, 5402, "name a folder that is empty or does not exist")
