@@ -187,13 +187,16 @@ Surroundings RayTracer::surroundings(const glm::dvec3& point,
   std::vector<Surroundings> each(directions.size());
   forEach(each.size(), [&](size_t i) { each[i] = impl_->along(point, directions[i]); });
   Surroundings all;
-  const double share = 1 / static_cast<double>(std::max(each.size(), size_t{1}));
   for (const Surroundings& one : each) {
-    all.winding += share * one.winding;
-    all.met += share * one.met;
-    all.backs += share * one.backs;
+    all.winding += one.winding;
+    all.met += one.met;
+    all.backs += one.backs;
     all.nearest = std::min(all.nearest, one.nearest);
   }
+  const auto count = static_cast<double>(std::max(each.size(), size_t{1}));
+  all.winding /= count;
+  all.met /= count;
+  all.backs /= count;
   return all;
 }
 
