@@ -306,6 +306,21 @@ void checkOptions(TuneOptions& options) {
   }
 }
 
+// The setting that the search starts from.
+void addStart(CLI::App& command, SubjectOptions& subject) {
+  command.get_option("--set")->description(
+      "Value of a parameter that the search starts from, see `grisaille effects`");
+  command
+      .add_option("--preset", subject.presets,
+                  "Preset that the search starts from; --config and --set override it")
+      ->type_name("EFFECT=NAME")
+      ->allow_extra_args(false);
+  command
+      .add_option("--config", subject.config,
+                  "Settings file that the search starts from; --effects and --set override it")
+      ->type_name("FILE.toml");
+}
+
 }  // namespace
 
 void addTune(CLI::App& program) {
@@ -324,17 +339,7 @@ void addTune(CLI::App& program) {
                    "milliseconds")
       ->check(positiveNumber());
   options->subject.addTo(*command);
-  command->get_option("--set")->description(
-      "Value of a parameter that the search starts from, see `grisaille effects`");
-  command
-      ->add_option("--preset", options->subject.presets,
-                   "Preset that the search starts from; --config and --set override it")
-      ->type_name("EFFECT=NAME")
-      ->allow_extra_args(false);
-  command
-      ->add_option("--config", options->subject.config,
-                   "Settings file that the search starts from; --effects and --set override it")
-      ->type_name("FILE.toml");
+  addStart(*command, options->subject);
   command
       ->add_option("--vary", options->vary,
                    "Parameters that the search may change; default: those of the presets and all "

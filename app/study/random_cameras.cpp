@@ -12,7 +12,7 @@
 namespace grisaille::app::study {
 namespace {
 
-constexpr size_t kTriesWithin = 400, kTriesOutside = 40;  // for each camera
+constexpr size_t kTriesWithin = 400, kTriesOutside = 120;  // for each camera
 constexpr double kClearance = 0.01;                       // of the scene's diagonal
 constexpr double kSteepest = 0.35;                        // radians up or down, within the scene
 constexpr double kInside = 0.5;                           // winding number
@@ -61,7 +61,7 @@ class Finder {
         bounds_(scene.bounds),
         diagonal_(glm::length(bounds_.max - bounds_.min)),
         clearance_(kClearance * diagonal_),
-        nearest_(std::min(1.5 * desc.radius, 0.3 * diagonal_)),
+        nearest_(std::min(1.5 * desc.radius, 0.15 * diagonal_)),
         farthest_(std::max(nearest_, std::min(12 * desc.radius, diagonal_))),
         tracer_(scene, centre()) {}
 
