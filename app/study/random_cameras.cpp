@@ -13,12 +13,12 @@ namespace grisaille::app::study {
 namespace {
 
 constexpr size_t kTriesWithin = 400, kTriesOutside = 120;  // for each camera
-constexpr double kClearance = 0.01;                       // of the scene's diagonal
-constexpr double kSteepest = 0.35;                        // radians up or down, within the scene
-constexpr double kInside = 0.5;                           // winding number
-constexpr double kMostBacks = 0.6;                        // of the surfaces around the eye
-constexpr int kEyesEach = 12;                             // around the surfaces of one try outside
-constexpr double kSurrounded = 0.5;                       // of all directions, within a scene
+constexpr double kClearance = 0.01;                        // of the scene's diagonal
+constexpr double kSteepest = 0.35;                         // radians up or down, within the scene
+constexpr double kInside = 0.5;                            // winding number
+constexpr double kMostBacks = 0.6;                         // of the surfaces around the eye
+constexpr int kEyesEach = 12;                              // around the surfaces of one try outside
+constexpr double kSurrounded = 0.5;                        // of all directions, within a scene
 // A third of the pixels, and a margin for the coarse picture and its few rays.
 constexpr double kLeastOccluded = 0.4;
 constexpr uint32_t kWidth = 32, kHeight = 18, kRays = 64;
