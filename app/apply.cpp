@@ -11,6 +11,8 @@
 #include <optional>
 
 #include "app/apply/channels.h"
+#include "app/apply/normal_checks.h"
+#include "app/apply/picture_checks.h"
 #include "app/apply/sequence.h"
 #include "app/command.h"
 #include "app/options/camera_option.h"
@@ -30,7 +32,8 @@ namespace {
 
 struct ApplyOptions : EffectOptions {
   std::string depth, normal, baseColour, camera, frames;
-  std::string depthKind = "view", depthChannel, normalChannels, normalSpace = "world";
+  std::string depthKind = "view", depthChannel, normalChannels, normalSpace = "world",
+              normalEncoding = "signed";
   // Metres. A near plane of 0 stands for the camera's.
   double near = 0, far = std::numeric_limits<double>::infinity();
 };
@@ -71,7 +74,7 @@ struct ApplyJob : ChosenEffects {
     requireDistinctOutputs();
   }
 
-  scene::Camera cameraOf(int number, const image::Picture& depthPicture) const;
+  scene::Camera cameraOf(int number, const image::Picture& depthPicture, Warnings& warnings) const;
 
  private:
   void findFrames();
@@ -122,7 +125,8 @@ void ApplyJob::findFrames() {
 }
 
 // The camera of --camera or, without that option, of the matrices in the depth's file.
-scene::Camera ApplyJob::cameraOf(int number, const image::Picture& picture) const {
+scene::Camera ApplyJob::cameraOf(int number, const image::Picture& picture,
+                                 Warnings& warnings) const {
   scene::Camera result;
   if (isInlineCamera(options.camera)) {
     result = scene::parseCamera(options.camera, "--camera");
@@ -141,16 +145,8 @@ scene::Camera ApplyJob::cameraOf(int number, const image::Picture& picture) cons
                 options.depthKind);
   }
   if (options.near > 0) result.nearPlane = options.near;
+  if (!options.camera.empty()) checkCamera(result, picture, depth.at(number), warnings);
   return result;
-}
-
-void toWorld(image::Image& normals, const scene::Camera& camera) {
-  const glm::mat3 rotation(scene::worldFromView(camera));
-  for (size_t i = 0; i < normals.pixels.size(); i += 3) {
-    const glm::vec3 world =
-        rotation * glm::vec3(normals.pixels[i], normals.pixels[i + 1], normals.pixels[i + 2]);
-    for (int c = 0; c < 3; ++c) normals.pixels[i + static_cast<size_t>(c)] = world[c];
-  }
 }
 
 struct LoadedFrame {
@@ -158,25 +154,37 @@ struct LoadedFrame {
   frame::Pictures pictures;
 };
 
-LoadedFrame load(const ApplyJob& job, int number) {
+LoadedFrame load(const ApplyJob& job, int number, Warnings& warnings) {
   const ApplyOptions& options = job.options;
-  const std::string depthFile = job.depth.at(number);
+  const std::string depthFile = job.depth.at(number), normalFile = job.normal.at(number);
   const image::Picture depth = image::readPicture(depthFile);
-  LoadedFrame loaded{.camera = job.cameraOf(number, depth), .pictures = {}};
+  LoadedFrame loaded{.camera = job.cameraOf(number, depth, warnings), .pictures = {}};
+  const image::Image stored = depthChannel(depth, options.depthChannel, depthFile);
+  const DepthSource source{
+      .stored = stored, .integers = depth.integers, .kind = options.depthKind, .file = depthFile};
   frame::Pictures& pictures = loaded.pictures;
+  checkStoredDepth(source);
   pictures.viewDepth = frame::viewDepthOf(
-      depthChannel(depth, options.depthChannel, depthFile),
+      stored,
       {.kind = kindOf(options.depthKind), .near = loaded.camera.nearPlane, .far = options.far},
       loaded.camera, depthFile);
   if (!options.normal.empty()) {
-    const std::string file = job.normal.at(number);
-    pictures.normal = normalChannels(image::readPicture(file), options.normalChannels, file);
-    if (options.normalSpace == "view") toWorld(pictures.normal, loaded.camera);
+    pictures.normal =
+        normalChannels(image::readPicture(normalFile), options.normalChannels, normalFile);
   }
   if (!options.baseColour.empty()) {
     const std::string file = job.baseColour.at(number);
     pictures.baseColour = colourChannels(image::readPicture(file), file);
+    checkBaseColour(pictures.baseColour, file, warnings);
   }
+  frame::checkPictures(pictures);
+  const Surfaces surfaces{.viewDepth = pictures.viewDepth, .camera = loaded.camera};
+  checkViewDepth(source, surfaces, warnings);
+  if (options.normal.empty()) return loaded;
+  takeNormals(pictures.normal,
+              {.view = options.normalSpace == "view",
+               .unsignedCodes = options.normalEncoding == "unsigned"},
+              surfaces, normalFile, warnings);
   return loaded;
 }
 
@@ -190,7 +198,7 @@ void writeOutputs(const ApplyJob& job, int number, const scene::Camera& camera,
   }
 }
 
-void applyFrames(ApplyJob& job, LoadedFrame loaded, gpu::Device& device) {
+void applyFrames(ApplyJob& job, LoadedFrame loaded, Warnings& warnings, gpu::Device& device) {
   const effect::StartedChain started(job.chain, device);
   std::vector<std::string> names;
   for (const Output& output : job.outputs) names.push_back(output.name);
@@ -204,7 +212,7 @@ void applyFrames(ApplyJob& job, LoadedFrame loaded, gpu::Device& device) {
       progress.show({.done = static_cast<double>(done++),
                      .total = static_cast<double>(job.frames.size()),
                      .text = fmt::format("frame {}, {} of {}", number, done, job.frames.size())});
-      if (done > 1) loaded = load(job, number);
+      if (done > 1) loaded = load(job, number, warnings);
       source.show(std::move(loaded.pictures));
       renderer.render({.camera = loaded.camera,
                        .width = source.width(),
@@ -227,14 +235,15 @@ void applyFrames(ApplyJob& job, LoadedFrame loaded, gpu::Device& device) {
 
 void apply(const ApplyOptions& options) {
   ApplyJob job(options);
-  LoadedFrame first = load(job, job.frames.front());  // fails before the device starts
+  Warnings warnings;
+  LoadedFrame first = load(job, job.frames.front(), warnings);  // fails before the device starts
   DriverMessages messages;
   {
     const auto device =
         startDevice(options.backend,
                     {.device = options.device, .check = options.check, .message = messages.sink()});
     printDevice(device->info());
-    applyFrames(job, std::move(first), *device);
+    applyFrames(job, std::move(first), warnings, *device);
   }
   if (options.check) messages.throwIfAny();
 }
@@ -277,6 +286,12 @@ void addPictures(CLI::App& command, ApplyOptions& options) {
       ->check(positiveNumber(Infinite::kTaken));
   command.add_option("--normal-space", options.normalSpace, "Space of the normals")
       ->check(CLI::IsMember({"world", "view"}))
+      ->capture_default_str();
+  command
+      .add_option("--normal-encoding", options.normalEncoding,
+                  "How normals are stored. signed: from -1 to 1; unsigned: (n + 1) / 2, from 0 to "
+                  "1, as in files of integers")
+      ->check(CLI::IsMember({"signed", "unsigned"}))
       ->capture_default_str();
   command
       .add_option("--depth-channel", options.depthChannel,

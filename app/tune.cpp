@@ -4,7 +4,6 @@
 
 #include <algorithm>
 #include <cmath>
-#include <map>
 #include <memory>
 #include <nlohmann/json.hpp>
 
@@ -17,7 +16,7 @@
 #include "app/settings/presets.h"
 #include "app/settings/settings.h"
 #include "app/study/random_cameras.h"
-#include "app/study/search.h"
+#include "app/study/tuning.h"
 #include "app/truth/interruption.h"
 #include "app/truth/progress.h"
 #include "backends/backends.h"
@@ -37,7 +36,7 @@ struct TuneOptions {
 };
 
 // The parameters that may change: those of --vary, else those that a preset of the effect names and
-// all that are not advanced.
+// all that are not advanced, without those of look.
 std::vector<study::Axis> axesOf(const TuneOptions& options, const study::Subject& subject) {
   std::vector<study::Axis> axes;
   const auto add = [&](const effect::Effect& effect, const grisaille_param_desc& param) {
@@ -57,111 +56,6 @@ std::vector<study::Axis> axesOf(const TuneOptions& options, const study::Subject
   return axes;
 }
 
-// The starting points of the search: one per preset name, and the defaults. For each point, every
-// effect with presets takes the preset of that name; values of --set override it.
-class Starts {
- public:
-  Starts(const study::Subject& subject, const std::vector<study::Axis>& axes)
-      : subject_(subject), axes_(axes) {
-    const effect::Selection selection(*subject.registry, subject.effects);
-    for (const effect::Effect* effect : selection.effects()) {
-      presets_.emplace(effect->desc->key, loadPresets(*effect));
-    }
-    for (const char* name : kPresetNames) add(name);
-    add("");
-  }
-  const std::vector<study::Point>& points() const { return points_; }
-
- private:
-  void add(const std::string& preset) {
-    effect::Selection selection(*subject_.registry, subject_.effects);
-    bool any = preset.empty();
-    for (const auto& [effect, presets] : presets_) {
-      if (preset.empty() || presets.all.empty()) continue;
-      applyPreset(selection.values(effect), presets, preset);
-      any = true;
-    }
-    if (!any) return;
-    for (const effect::Assignment& set : subject_.sets) selection.set(set);
-    study::Point point;
-    for (const study::Axis& axis : axes_) {
-      point.push_back(selection.values(axis.name.effect).get(axis.name.key));
-    }
-    points_.push_back(std::move(point));
-  }
-
-  const study::Subject& subject_;
-  const std::vector<study::Axis>& axes_;
-  std::map<std::string, Presets> presets_;  // by effect
-  std::vector<study::Point> points_;
-};
-
-// Measures the error and the cost of points on one device.
-class Bench {
- public:
-  Bench(const study::Subject& subject, const std::vector<study::Axis>& axes, gpu::Device& device)
-      : subject_(subject), axes_(axes), measurer_(subject, device) {}
-
-  study::Setting settingOf(const study::Point& point) const {
-    study::Setting setting;
-    for (size_t i = 0; i < axes_.size(); ++i) setting.push_back({axes_[i].name, point[i]});
-    return setting;
-  }
-
-  double error(const study::Point& point) {
-    double sum = 0;
-    for (const study::CameraErrors& e : measurer_.errors(running(point))) sum += e.rmse;
-    return sum / static_cast<double>(subject_.views.size());
-  }
-
-  // Median of kRounds measurements, milliseconds.
-  double cost(const study::Point& point) {
-    effect::Chain& own = running(point);
-    std::vector<double> all;
-    for (int i = 0; i < kRounds; ++i) all.push_back(measurer_.cost(own));
-    return study::medianOf(all);
-  }
-
-  // Measures in turns with `known`, and scales its cost by the median ratio. Milliseconds.
-  double costBeside(const study::Point& point, const study::Evaluated& known) {
-    effect::Chain& a = running(known.point);
-    effect::Chain& b = running(point);
-    std::vector<double> ratios;
-    for (int i = 0; i < kRounds; ++i) {
-      const double first = measurer_.cost(a);
-      ratios.push_back(measurer_.cost(b) / first);
-    }
-    return known.cost * study::medianOf(ratios);
-  }
-
- private:
-  static constexpr int kRounds = 3;
-  static constexpr size_t kKept = 4;
-
-  // The started chain of a point. Keeps the kKept last used chains, so that the point that others
-  // are measured beside stays started.
-  effect::Chain& running(const study::Point& point) {
-    auto found = std::ranges::find(running_, point, &Kept::point);
-    if (found == running_.end()) {
-      if (running_.size() == kKept) running_.erase(running_.begin());
-      running_.push_back({point, measurer_.start(settingOf(point))});
-      measurer_.cost(*running_.back().chain);  // pipelines are created outside the clock
-    } else {
-      std::rotate(found, found + 1, running_.end());
-    }
-    return *running_.back().chain;
-  }
-
-  struct Kept {
-    study::Point point;
-    std::unique_ptr<effect::Chain> chain;
-  };
-  const study::Subject& subject_;
-  const std::vector<study::Axis>& axes_;
-  study::Measurer measurer_;
-  std::vector<Kept> running_;
-};
-
 // The cameras of --validate.
 std::vector<scene::Camera> givenCameras(const TuneOptions& options) {
   std::vector<scene::Camera> cameras;
@@ -171,28 +65,48 @@ std::vector<scene::Camera> givenCameras(const TuneOptions& options) {
   return cameras;
 }
 
-// Views that the search does not use: those of --validate, else random ones.
-std::vector<study::View> unseenViews(const TuneOptions& options,
-                                     const std::vector<scene::Camera>& given,
-                                     const LoadedSubject& subject) {
-  std::vector<study::View> views;
-  for (size_t i = 0; i < given.size(); ++i) {
-    const std::string bar = fmt::format("unseen truth {} of {}", i + 1, given.size());
-    views.push_back(subject.viewOf(options.validate[i], given[i], bar));
+struct NamedCamera {
+  std::string name;
+  scene::Camera camera;
+};
+
+// The cameras that the search does not use: those of --validate, else random ones.
+std::vector<NamedCamera> unseenCameras(const TuneOptions& options,
+                                       const std::vector<scene::Camera>& given,
+                                       const LoadedSubject& subject) {
+  std::vector<NamedCamera> all;
+  for (size_t i = 0; i < given.size(); ++i) all.push_back({options.validate[i], given[i]});
+  if (!given.empty() || options.random == 0) return all;
+  const double radius = options.subject.radius;
+  for (const scene::Camera& camera :
+       study::randomCameras(*subject.subject().scene, {.like = subject.firstCamera(),
+                                                      .radius = radius,
+                                                      .count = options.random,
+                                                      .seed = options.seed})) {
+    all.push_back({fmt::format("random {}", all.size() + 1), camera});
   }
-  if (!views.empty() || options.random == 0) return views;
-  const study::Subject& known = subject.subject();
-  const auto cameras =
-      study::randomCameras(*known.scene, known.views.front().camera, options.random, options.seed);
-  for (size_t i = 0; i < cameras.size(); ++i) {
-    const std::string bar = fmt::format("unseen truth {} of {}", i + 1, cameras.size());
-    views.push_back(subject.viewOf(fmt::format("random {}", i + 1), cameras[i], bar));
+  if (all.empty()) {
+    throw Error(ErrorId::kNothingToSee,
+                "no random camera sees occluders within --radius {} m on a third of its pixels",
+                radius);
   }
-  if (cameras.size() < options.random) {
-    fmt::print(stderr, "warning: found only {} of {} random cameras with a free view\n",
-               cameras.size(), options.random);
+  if (all.size() < options.random) {
+    fmt::print(stderr,
+               "warning: only {} of {} random cameras see occluders within --radius {} m on a "
+               "third of their pixels\n",
+               all.size(), options.random, radius);
   }
-  return views;
+  return all;
+}
+
+// Throws kNothingToSee if every setting is right, because no camera sees an occluded surface.
+void requireOcclusion(const TuneOptions& options, const study::Subject& subject) {
+  if (!options.subject.references.empty()) return;
+  for (const study::View& view : subject.views) {
+    if (study::occludedShare(view.truth) > 0) return;
+  }
+  throw Error(ErrorId::kNothingToSee, "no --camera sees an occluder within --radius {} m",
+              options.subject.radius);
 }
 
 std::string wishText(const study::Wish& wish) {
@@ -217,8 +131,9 @@ double gridSize(const std::vector<study::Axis>& axes) {
 }
 
 study::Found find(const TuneOptions& options, const LoadedSubject& subject,
-                  const std::vector<study::Axis>& axes, const study::Wish& wish, Bench& bench) {
-  const Starts starts(subject.subject(), axes);
+                  const std::vector<study::Axis>& axes, const study::Wish& wish,
+                  study::Bench& bench) {
+  const auto starts = study::startsOf(subject.subject(), axes);
   truth::Progress progress("tune", options.subject.progress);
   double done = 0;
   const auto told = [&](double error) {
@@ -236,7 +151,7 @@ study::Found find(const TuneOptions& options, const LoadedSubject& subject,
       .costBeside = [&](const study::Point& point,
                         const study::Evaluated& known) { return bench.costBeside(point, known); },
       .stop = truth::Interruption::asked};
-  return study::search(axes, starts.points(), wish, oracle, options.evaluations);
+  return study::search(axes, starts, wish, oracle, options.evaluations);
 }
 
 // Writes the setting as a settings file. `story`: comment lines that say how it was found.
@@ -256,7 +171,7 @@ struct Tuned {
   study::Setting setting;
   std::vector<study::CameraErrors> unseen;  // errors of cameras that the search did not use
   std::vector<scene::Camera> cameras;       // the cameras of `unseen`
-  std::string result, effort;               // one line each
+  std::string result, start, effort;        // one line each
 
   // Mean RMSE of the unseen cameras; 0 if there are none.
   double unseenRmse() const {
@@ -275,11 +190,16 @@ struct Tuned {
   }
 };
 
-void validate(const TuneOptions& options, const std::vector<scene::Camera>& given,
-              const LoadedSubject& subject, gpu::Device& device, Tuned& tuned) {
+void validate(const std::vector<NamedCamera>& cameras, const LoadedSubject& subject,
+              gpu::Device& device, Tuned& tuned) {
+  if (cameras.empty()) return;
   study::Subject unseen = subject.subject();
-  unseen.views = unseenViews(options, given, subject);
-  if (unseen.views.empty()) return;
+  unseen.views.clear();
+  for (const auto& [name, camera] : cameras) {
+    const std::string bar =
+        fmt::format("unseen truth {} of {}", unseen.views.size() + 1, cameras.size());
+    unseen.views.push_back(subject.viewOf(name, camera, bar));
+  }
   study::Measurer measurer(unseen, device);
   tuned.unseen = measurer.errors(*measurer.start(tuned.setting));
   for (const study::View& view : unseen.views) tuned.cameras.push_back(view.camera);
@@ -292,6 +212,8 @@ void describe(const LoadedSubject& subject, const std::vector<study::Axis>& axes
   tuned.result = fmt::format("RMSE {:.4f} at {:.3f} ms ({} clock), {}x{} pixels, {} cameras",
                              found.best.error, found.best.cost, gpu::clockName(info.clock),
                              of.size.x, of.size.y, of.views.size());
+  tuned.start =
+      fmt::format("started from RMSE {:.4f} at {:.3f} ms", found.first.error, found.first.cost);
   tuned.effort = fmt::format(
       "{} evaluations: {} starts, {} steps (for {} of them the cost was not needed); a grid of the "
       "same steps over {} parameters has {:.2g} settings",
@@ -307,6 +229,8 @@ void printJson(const Tuned& tuned, const study::Wish& wish) {
       {"setting", setting},
       {"rmse", tuned.found.best.error},
       {"milliseconds", tuned.found.best.cost},
+      {"start_rmse", tuned.found.first.error},
+      {"start_milliseconds", tuned.found.first.cost},
       {"evaluations", tuned.found.starts + tuned.found.steps},
       {"unseen_rmse", tuned.unseen.empty() ? nlohmann::json() : nlohmann::json(tuned.unseenRmse())},
       {"warning", tuned.unseen.empty() ? "" : tuned.warning(wish)}};
@@ -314,8 +238,9 @@ void printJson(const Tuned& tuned, const study::Wish& wish) {
 }
 
 void printText(const LoadedSubject& subject, const Tuned& tuned, const study::Wish& wish) {
-  fmt::print("{}\n  {}\n{}\n", tuned.result,
-             study::nameOf(study::textOf(subject.registry(), tuned.setting)), tuned.effort);
+  fmt::print("{}\n  {}\n{}\n{}\n", tuned.result,
+             study::nameOf(study::textOf(subject.registry(), tuned.setting)), tuned.start,
+             tuned.effort);
   for (size_t i = 0; i < tuned.unseen.size(); ++i) {
     fmt::print("  {}: RMSE {:.4f}  {}\n", tuned.unseen[i].camera, tuned.unseen[i].rmse,
                scene::cameraJson(tuned.cameras[i]));
@@ -339,10 +264,12 @@ void tune(const TuneOptions& options) {
       options.backend, {.device = options.device, .timed = true, .message = messages.sink()});
   subject.loadScene();
   const truth::Interruption interruption;
+  const std::vector<NamedCamera> unseen = unseenCameras(options, given, subject);
   subject.trace();
+  requireOcclusion(options, subject.subject());
   const gpu::DeviceInfo& info = device->info();
   if (!options.json) printDevice(info);
-  Bench bench(subject.subject(), axes, *device);
+  study::Bench bench(subject.subject(), axes, *device);
   Tuned tuned;
   tuned.found = find(options, subject, axes, wish, bench);
   const study::Evaluated& best = tuned.found.best;
@@ -353,7 +280,7 @@ void tune(const TuneOptions& options) {
   }
   tuned.setting = bench.settingOf(best.point);
   describe(subject, axes, info, tuned);
-  validate(options, given, subject, *device, tuned);
+  validate(unseen, subject, *device, tuned);
   if (options.json) {
     printJson(tuned, wish);
   } else {
@@ -379,6 +306,21 @@ void checkOptions(TuneOptions& options) {
   }
 }
 
+// The setting that the search starts from.
+void addStart(CLI::App& command, SubjectOptions& subject) {
+  command.get_option("--set")->description(
+      "Value of a parameter that the search starts from, see `grisaille effects`");
+  command
+      .add_option("--preset", subject.presets,
+                  "Preset that the search starts from; --config and --set override it")
+      ->type_name("EFFECT=NAME")
+      ->allow_extra_args(false);
+  command
+      .add_option("--config", subject.config,
+                  "Settings file that the search starts from; --effects and --set override it")
+      ->type_name("FILE.toml");
+}
+
 }  // namespace
 
 void addTune(CLI::App& program) {
@@ -397,10 +339,11 @@ void addTune(CLI::App& program) {
                    "milliseconds")
       ->check(positiveNumber());
   options->subject.addTo(*command);
+  addStart(*command, options->subject);
   command
       ->add_option("--vary", options->vary,
                    "Parameters that the search may change; default: those of the presets and all "
-                   "that are not advanced")
+                   "that are neither advanced nor of look")
       ->type_name("EFFECT.PARAMETER,...")
       ->delimiter(',')
       ->allow_extra_args(false);

@@ -11,6 +11,7 @@
 #include "app/options/object_options.h"
 #include "app/options/option_checks.h"
 #include "app/options/size.h"
+#include "app/settings/chosen_effects.h"
 #include "app/truth/content_hash.h"
 #include "app/truth/occlusion_truth.h"
 #include "core/base/error.h"
@@ -30,6 +31,20 @@ std::string defaultOutput(const effect::Selection& selection) {
     }
   }
   throw Error(ErrorId::kUsage, "no effect has a visibility output; give --output");
+}
+
+// The values that differ from their defaults.
+std::vector<effect::Assignment> changesOf(const effect::Selection& selection) {
+  std::vector<effect::Assignment> all;
+  for (const effect::Selection::Entry& entry : selection.entries()) {
+    const effect::Values defaults(entry.effect());
+    for (const grisaille_param_desc& param : entry.effect().params()) {
+      std::string text = entry.values.text(param.key);
+      if (text == defaults.text(param.key)) continue;
+      all.push_back({.name = {.effect = entry.key(), .key = param.key}, .value = std::move(text)});
+    }
+  }
+  return all;
 }
 
 // Sets the truth to NaN at pixels that see no surface.
@@ -84,18 +99,7 @@ LoadedSubject::LoadedSubject(const SubjectOptions& options,
                              std::unique_ptr<effect::Registry> registry,
                              const std::vector<std::string>& swept)
     : options_(options), registry_(std::move(registry)) {
-  subject_.effects = options.effects;
-  for (const std::string& effect : swept) {
-    if (std::ranges::find(subject_.effects, effect) == subject_.effects.end()) {
-      subject_.effects.push_back(effect);
-    }
-  }
-  if (subject_.effects.empty()) subject_.effects = registry_->defaults();
-  effect::Chain chain(effect::Selection(*registry_, subject_.effects));
-  for (const std::string& set : options.sets) {
-    subject_.sets.push_back(effect::parseAssignment(set));
-    chain.selection.set(subject_.sets.back());
-  }
+  effect::Chain chain = chooseEffects(swept);
   subject_.output = options.output.empty() ? defaultOutput(chain.selection) : options.output;
   frame::checkOutput(subject_.output, chain.selection.effects());
   subject_.size = parseSize(options.size);
@@ -114,6 +118,26 @@ LoadedSubject::LoadedSubject(const SubjectOptions& options,
                 options.references.size(), cameras_.size());
   }
   for (size_t i = 0; i < cameras_.size(); ++i) cameras_[i].reference = options.references[i];
+}
+
+// Fills in the subject's effects and sets.
+effect::Chain LoadedSubject::chooseEffects(const std::vector<std::string>& swept) {
+  const Settings settings = options_.config.empty() ? Settings{} : readSettings(options_.config);
+  subject_.effects = options_.effects;
+  if (subject_.effects.empty() && settings.effects) subject_.effects = *settings.effects;
+  for (const std::string& effect : swept) {
+    if (std::ranges::find(subject_.effects, effect) == subject_.effects.end()) {
+      subject_.effects.push_back(effect);
+    }
+  }
+  if (subject_.effects.empty()) subject_.effects = registry_->defaults();
+  effect::Chain chain(chosenEffects(*registry_, subject_.effects, options_.presets, settings));
+  subject_.sets = changesOf(chain.selection);
+  for (const std::string& set : options_.sets) {
+    subject_.sets.push_back(effect::parseAssignment(set));
+    chain.selection.set(subject_.sets.back());
+  }
+  return chain;
 }
 
 void LoadedSubject::loadObjects(effect::Chain& chain) {

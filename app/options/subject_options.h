@@ -15,6 +15,10 @@ namespace grisaille::app {
 
 struct SubjectOptions {
   std::string scene, size = "640x360", output;
+  // A settings file, and presets as EFFECT=NAME. No option of addTo() sets them; `sets` override
+  // both, and the file the presets.
+  std::string config;
+  std::vector<std::string> presets;
   std::vector<std::string> cameras, references, loads, sets, effects, pluginPaths;
   double radius = 0.5;     // metres
   uint32_t samples = 256;  // rays per pixel
@@ -41,6 +45,9 @@ class LoadedSubject {
   // Loads the scene, and takes its default camera if no option gives one.
   void loadScene();
 
+  // The first camera; its size is not set. Call it after loadScene().
+  const scene::Camera& firstCamera() const { return cameras_.front().camera; }
+
   // Traces the truth of every camera, or takes it from the cache. Throws truth::Interrupted.
   void trace();
 
@@ -56,6 +63,7 @@ class LoadedSubject {
   std::string renderCommand(const study::SettingText& setting, const std::string& backend) const;
 
  private:
+  effect::Chain chooseEffects(const std::vector<std::string>& swept);
   void loadObjects(effect::Chain& chain);
 
   SubjectOptions options_;

@@ -20,6 +20,14 @@ const char* typeName(const grisaille_param_desc& param) {
   return kNames[param.type];
 }
 
+// " (advanced)", " (look)" or both, by the parameter's flags.
+std::string markText(const grisaille_param_desc& param) {
+  std::vector<std::string> marks;
+  if ((param.flags & GRISAILLE_PARAM_ADVANCED) != 0) marks.emplace_back("advanced");
+  if ((param.flags & GRISAILLE_PARAM_LOOK) != 0) marks.emplace_back("look");
+  return marks.empty() ? "" : fmt::format(" ({})", fmt::join(marks, ", "));
+}
+
 // "1 ... 256 px" or "box | edge_aware".
 std::string rangeText(const grisaille_param_desc& param) {
   if (param.type == GRISAILLE_PARAM_BOOL) return "true | false";
@@ -91,10 +99,13 @@ std::string readsText(const effect::Effect& effect) {
 }
 
 nlohmann::ordered_json jsonOf(const grisaille_param_desc& param) {
-  nlohmann::ordered_json json = {
-      {"key", param.key},         {"label", param.label},
-      {"type", typeName(param)},  {"unit", param.unit},
-      {"tooltip", param.tooltip}, {"advanced", (param.flags & GRISAILLE_PARAM_ADVANCED) != 0}};
+  nlohmann::ordered_json json = {{"key", param.key},
+                                 {"label", param.label},
+                                 {"type", typeName(param)},
+                                 {"unit", param.unit},
+                                 {"tooltip", param.tooltip},
+                                 {"advanced", (param.flags & GRISAILLE_PARAM_ADVANCED) != 0},
+                                 {"look", (param.flags & GRISAILLE_PARAM_LOOK) != 0}};
   if (param.type == GRISAILLE_PARAM_ENUM) {
     json["default"] = effect::textOf(param, param.default_value);
     for (uint32_t i = 0; i < param.enum_count; ++i) {
@@ -229,8 +240,7 @@ std::string effectMarkdown(const effect::Effect& effect) {
     return escaped;
   };
   for (const grisaille_param_desc& param : effect.params()) {
-    text += fmt::format("| `{}`{} | {} | {} | {} |\n", param.key,
-                        (param.flags & GRISAILLE_PARAM_ADVANCED) != 0 ? " (advanced)" : "",
+    text += fmt::format("| `{}`{} | {} | {} | {} |\n", param.key, markText(param),
                         effect::textOf(param, param.default_value), cell(rangeText(param)),
                         cell(param.tooltip));
   }

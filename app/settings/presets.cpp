@@ -107,7 +107,8 @@ std::vector<const grisaille_param_desc*> tunable(const effect::Effect& effect,
   std::vector<const grisaille_param_desc*> params;
   for (const grisaille_param_desc& param : effect.params()) {
     const bool folded = (param.flags & GRISAILLE_PARAM_ADVANCED) != 0;
-    if (!folded || named.contains(param.key)) params.push_back(&param);
+    const bool look = (param.flags & GRISAILLE_PARAM_LOOK) != 0;
+    if (!look && (!folded || named.contains(param.key))) params.push_back(&param);
   }
   return params;
 }

@@ -50,7 +50,7 @@ std::string presetsToml(const Presets& presets);
 void applyPreset(effect::Values& values, const Presets& presets, const std::string& name);
 
 // The parameters that a search may change: those that a preset names, and all that are not
-// advanced.
+// advanced; none of look (GRISAILLE_PARAM_LOOK).
 std::vector<const grisaille_param_desc*> tunable(const effect::Effect& effect,
                                                  const Presets& presets);
 

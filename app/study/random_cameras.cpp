@@ -4,6 +4,7 @@
 #include <algorithm>
 #include <cmath>
 #include <glm/gtc/constants.hpp>
+#include <optional>
 #include <random>
 
 #include "core/trace/ray_tracer.h"
@@ -11,10 +12,16 @@
 namespace grisaille::app::study {
 namespace {
 
-constexpr size_t kTriesEach = 400;
-constexpr double kClearance = 0.01;  // of the scene's diagonal
-constexpr double kFarthest = 1e6;    // metres
-constexpr double kSteepest = 0.35;   // radians up or down
+constexpr size_t kTriesWithin = 400, kTriesOutside = 120;  // for each camera
+constexpr double kClearance = 0.01;                        // of the scene's diagonal
+constexpr double kSteepest = 0.35;                         // radians up or down, within the scene
+constexpr double kInside = 0.5;                            // winding number
+constexpr double kMostBacks = 0.6;                         // of the surfaces around the eye
+constexpr int kEyesEach = 12;                              // around the surfaces of one try outside
+constexpr double kSurrounded = 0.5;                        // of all directions, within a scene
+// A third of the pixels, and a margin for the coarse picture and its few rays.
+constexpr double kLeastOccluded = 0.4;
+constexpr uint32_t kWidth = 32, kHeight = 18, kRays = 64;
 
 // A number in [0, 1), the same on every machine; std::uniform_real_distribution does not promise
 // that.
@@ -34,6 +41,12 @@ std::vector<glm::dvec3> directions() {
   return all;
 }
 
+// A direction with a random heading, `pitch` radians above the horizon.
+glm::dvec3 heading(std::mt19937& random, double pitch) {
+  const double angle = glm::two_pi<double>() * unit(random);
+  return {std::cos(angle) * std::cos(pitch), std::sin(pitch), std::sin(angle) * std::cos(pitch)};
+}
+
 grisaille_ray rayOf(const glm::dvec3& origin, const glm::dvec3& direction, double reach) {
   const glm::vec3 d(direction);
   return {.origin = {origin.x, origin.y, origin.z},
@@ -43,35 +56,95 @@ grisaille_ray rayOf(const glm::dvec3& origin, const glm::dvec3& direction, doubl
 
 class Finder {
  public:
-  explicit Finder(const scene::Scene& scene)
-      : bounds_(scene.bounds),
-        clearance_(kClearance * glm::length(scene.bounds.max - scene.bounds.min)),
-        tracer_(scene, (scene.bounds.min + scene.bounds.max) / 2.0) {}
+  Finder(const scene::Scene& scene, const RandomCameraDesc& desc)
+      : desc_(desc),
+        bounds_(scene.bounds),
+        diagonal_(glm::length(bounds_.max - bounds_.min)),
+        clearance_(kClearance * diagonal_),
+        nearest_(std::min(1.5 * desc.radius, 0.15 * diagonal_)),
+        farthest_(std::max(nearest_, std::min(12 * desc.radius, diagonal_))),
+        tracer_(scene, centre()) {}
 
-  bool isFree(const glm::dvec3& eye) const {
-    std::vector<grisaille_ray> rays;
-    for (const glm::dvec3& d : directions_) rays.push_back(rayOf(eye, d, kFarthest));
-    std::vector<grisaille_hit> hits(rays.size());
-    tracer_.castRays(rays, hits);
-    size_t met = 0;
-    for (size_t i = 0; i < hits.size(); ++i) {
-      if (hits[i].kind != GRISAILLE_HIT_SURFACE) continue;
-      if (hits[i].distance < clearance_) return false;
-      ++met;
-    }
-    return met * 2 >= hits.size();
+  // Whether a user can stand inside the scene: in a share of its bounds, an eye is free and
+  // surrounded. The share is 0.1 in a wood and 0.4 in a building, but 0.04 around a vehicle.
+  bool isPlace(std::mt19937& random) const {
+    constexpr int kPoints = 300;
+    constexpr double kLeastShare = 0.06;
+    int good = 0;
+    for (int i = 0; i < kPoints; ++i) good += isFree(pointIn(random, 1), kSurrounded);
+    return good >= kLeastShare * kPoints;
   }
 
-  bool isGoodView(const scene::Camera& camera) const {
-    constexpr uint32_t kWidth = 32, kHeight = 18;
+  // A camera that satisfies randomCameras()'s list; none: this try failed.
+  std::optional<scene::Camera> within(std::mt19937& random) const {
+    const glm::dvec3 eye = pointIn(random, 1);
+    const scene::Camera camera =
+        cameraAt(eye, eye + heading(random, kSteepest * (2 * unit(random) - 1)));
+    return isGood(camera, kSurrounded) ? std::optional(camera) : std::nullopt;
+  }
+
+  // The same, with the eye anywhere around an occluded surface.
+  std::optional<scene::Camera> outside(std::mt19937& random) const {
+    const glm::dvec3 aim = pointIn(random, 0.5);
+    const scene::Camera far = cameraAt(aim + diagonal_ * heading(random, 1.2 * unit(random)), aim);
+    const std::vector<trace::Hit> hits = tracer_.castPrimary(far, kWidth, kHeight);
+    const std::vector<trace::Visibility> seen = tracer_.ambientOcclusion(hits, desc_.radius, 16, 1);
+    std::vector<const trace::Hit*> occluded;
+    for (size_t i = 0; i < hits.size(); ++i) {
+      if (seen[i].mean < kOccluded) occluded.push_back(&hits[i]);
+    }
+    if (occluded.empty()) return std::nullopt;
+    for (int i = 0; i < kEyesEach; ++i) {
+      const auto chosen = unit(random) * static_cast<double>(occluded.size());
+      const trace::Hit& hit = *occluded[static_cast<size_t>(chosen)];
+      const double away = nearest_ * std::pow(farthest_ / nearest_, unit(random));
+      const glm::dvec3 back = heading(random, 0.9 * unit(random));
+      if (glm::dot(back, hit.facetNormal) <= 0) continue;
+      const scene::Camera camera = cameraAt(hit.position + away * back, hit.position);
+      if (isGood(camera, 0)) return camera;
+    }
+    return std::nullopt;
+  }
+
+ private:
+  glm::dvec3 centre() const { return (bounds_.min + bounds_.max) / 2.0; }
+
+  // A point in the bounds, shrunk about their centre.
+  glm::dvec3 pointIn(std::mt19937& random, double shrunk) const {
+    const double x = unit(random), y = unit(random), z = unit(random);
+    return centre() + shrunk * (glm::dvec3(x, y, z) - 0.5) * (bounds_.max - bounds_.min);
+  }
+
+  scene::Camera cameraAt(const glm::dvec3& eye, const glm::dvec3& target) const {
+    scene::Camera camera = desc_.like;
+    camera.eye = eye;
+    camera.target = target;
+    camera.up = glm::dvec3(0, 1, 0);
+    // The near plane cuts off no surface, not even in the picture's corners.
+    camera.nearPlane = std::min(camera.nearPlane, 0.4 * clearance_);
+    return camera;
+  }
+
+  // `least`: share of all directions from the eye that meet the scene.
+  bool isFree(const glm::dvec3& eye, double least) const {
+    const trace::Surroundings around = tracer_.surroundings(eye, directions_);
+    return around.winding < kInside && around.backs <= kMostBacks * around.met &&
+           around.nearest >= clearance_ && around.met >= least;
+  }
+
+  bool isGood(const scene::Camera& camera, double least) const {
+    if (!isFree(camera.eye, least)) return false;
     const std::vector<trace::Hit> hits = tracer_.castPrimary(camera, kWidth, kHeight);
+    return seesFar(camera, hits) && isOccluded(hits);
+  }
+
+  bool seesFar(const scene::Camera& camera, const std::vector<trace::Hit>& hits) const {
     std::vector<grisaille_ray> rays;
-    size_t surfaces = 0, far = 0, through = 0;
+    size_t far = 0, through = 0;
     for (const trace::Hit& hit : hits) {
       if (hit.viewDepth == 0) continue;
       if (hit.viewDepth < clearance_) return false;
-      ++surfaces;
-      if (hit.viewDepth > 3 * clearance_) ++far;
+      if (hit.viewDepth > 5 * clearance_) ++far;
       // A ray to just before the visible point can only hit the back of a surface.
       const glm::dvec3 way = hit.position - camera.eye;
       rays.push_back(rayOf(camera.eye, glm::normalize(way), 0.99 * glm::length(way)));
@@ -79,38 +152,45 @@ class Finder {
     std::vector<grisaille_hit> between(rays.size());
     tracer_.castRays(rays, between);
     for (const grisaille_hit& hit : between) through += hit.kind == GRISAILLE_HIT_SURFACE;
-    return surfaces * 4 >= hits.size() * 3 && far * 2 >= surfaces && through * 20 <= surfaces;
+    return far * 2 >= rays.size() && through * 20 <= rays.size();
   }
 
-  glm::dvec3 randomPoint(std::mt19937& random) const {
-    const glm::dvec3 share(unit(random), unit(random), unit(random));
-    return bounds_.min + share * (bounds_.max - bounds_.min);
+  bool isOccluded(const std::vector<trace::Hit>& hits) const {
+    const auto glance = tracer_.ambientOcclusion(hits, desc_.radius, kRays / 8, 1);
+    const auto some = std::ranges::count_if(glance, [](const auto& one) { return one.mean < 1; });
+    if (some * 10 < std::ssize(hits)) return false;
+    const auto seen = tracer_.ambientOcclusion(hits, desc_.radius, kRays, 1);
+    return occludedShare(trace::visibilityImage(seen, kWidth, kHeight)) >= kLeastOccluded;
   }
 
- private:
+  const RandomCameraDesc& desc_;
   scene::Bounds bounds_;
-  double clearance_;
+  double diagonal_, clearance_;  // metres
+  double nearest_, farthest_;    // of an eye outside from its aim, metres
   trace::RayTracer tracer_;
   std::vector<glm::dvec3> directions_ = directions();
 };
 
 }  // namespace
 
-std::vector<scene::Camera> randomCameras(const scene::Scene& scene, const scene::Camera& like,
-                                         size_t count, uint32_t seed) {
-  const Finder finder(scene);
-  std::mt19937 random(seed);
+double occludedShare(const image::Image& visibility) {
+  const auto occluded =
+      std::ranges::count_if(visibility.pixels, [](float value) { return value < kOccluded; });
+  return static_cast<double>(occluded) /
+         static_cast<double>(std::max(visibility.pixels.size(), size_t{1}));
+}
+
+std::vector<scene::Camera> randomCameras(const scene::Scene& scene, const RandomCameraDesc& desc) {
+  const Finder finder(scene, desc);
+  std::mt19937 random(desc.seed);
   std::vector<scene::Camera> cameras;
-  for (size_t i = 0; i < count * kTriesEach && cameras.size() < count; ++i) {
-    scene::Camera camera = like;
-    camera.up = glm::dvec3(0, 1, 0);
-    camera.eye = finder.randomPoint(random);
-    const double heading = glm::two_pi<double>() * unit(random);
-    const double pitch = kSteepest * (2 * unit(random) - 1);
-    camera.target = camera.eye + glm::dvec3(std::cos(heading) * std::cos(pitch), std::sin(pitch),
-                                            std::sin(heading) * std::cos(pitch));
-    if (finder.isFree(camera.eye) && finder.isGoodView(camera)) cameras.push_back(camera);
-  }
+  const auto draw = [&](size_t tries, const auto& once) {
+    for (size_t i = 0; i < desc.count * tries && cameras.size() < desc.count; ++i) {
+      if (const auto camera = once()) cameras.push_back(*camera);
+    }
+  };
+  if (finder.isPlace(random)) draw(kTriesWithin, [&] { return finder.within(random); });
+  draw(kTriesOutside, [&] { return finder.outside(random); });
   return cameras;
 }
 

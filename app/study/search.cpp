@@ -3,6 +3,7 @@
 
 #include <algorithm>
 #include <cmath>
+#include <limits>
 #include <optional>
 
 namespace grisaille::app::study {
@@ -44,6 +45,7 @@ class Search {
       }
     }
     settle(kLastStep);
+    compareWithFirst();
     found_.meetsWish = meets(found_.best, wish_);
     return found_;
   }
@@ -66,7 +68,24 @@ class Search {
     Evaluated start{point, oracle_.error(point), 0};
     start.cost = found_.starts == 0 ? oracle_.cost(point) : oracle_.costBeside(point, found_.best);
     seen_[point] = start;
-    if (found_.starts++ == 0 || isBetter(start, found_.best, wish_)) found_.best = start;
+    if (found_.starts++ == 0) {
+      found_.first = found_.best = start;
+      if (wish_.maxError > 0 && meets(start, wish_)) mostCost_ = start.cost;
+    } else {
+      keepIfBetter(start);
+    }
+  }
+
+  void keepIfBetter(const Evaluated& next) {
+    if (next.cost <= mostCost_ && isBetter(next, found_.best, wish_)) found_.best = next;
+  }
+
+  // The cost of a step is a product of measured ratios, whose errors add up. Measures the result in
+  // turns with the first start itself.
+  void compareWithFirst() {
+    if (found_.stopped || std::isinf(mostCost_) || found_.best.point == found_.first.point) return;
+    found_.best.cost = oracle_.costBeside(found_.best.point, found_.first);
+    if (found_.best.cost > mostCost_) found_.best = found_.first;
   }
 
   // Evaluates the neighbour of at_ along an axis. Does not measure its cost if `ruledOut(error)`.
@@ -92,7 +111,7 @@ class Search {
     next.cost = oracle_.costBeside(point, at_);
     seen_[point] = next;
     effect.cost = std::max(effect.cost, std::abs(std::log(next.cost / at_.cost)));
-    if (isBetter(next, found_.best, wish_)) found_.best = next;
+    keepIfBetter(next);
     return next;
   }
 
@@ -179,6 +198,7 @@ class Search {
   std::vector<Effect> effects_;
   size_t payer_ = 0;
   double rate_ = kFirstRate;
+  double mostCost_ = std::numeric_limits<double>::infinity();  // of the result, milliseconds
 };
 
 }  // namespace

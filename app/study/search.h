@@ -54,6 +54,7 @@ struct Oracle {
 
 struct Found {
   Evaluated best;
+  Evaluated first;  // the first of the starting points
   bool meetsWish = false;
   bool stopped = false;
   size_t starts = 0;      // evaluations of the starting points
@@ -62,7 +63,9 @@ struct Found {
 };
 
 // Starts at the best of `starts` (at least one). Ends when no step of the smallest size helps,
-// after `mostEvaluations`, or when Oracle::stop returns true.
+// after `mostEvaluations`, or when Oracle::stop returns true. The first start is the setting that
+// the user has: if it meets a maximal error, the result costs at most as much, measured in turns
+// with it.
 Found search(const std::vector<Axis>& axes, const std::vector<Point>& starts, const Wish& wish,
              const Oracle& oracle, size_t mostEvaluations);
 

@@ -3,8 +3,6 @@
 
 #include <fmt/format.h>
 
-#include <algorithm>
-
 #include "core/base/quote.h"
 
 namespace grisaille::app::viewer {
@@ -13,8 +11,7 @@ std::string plainPath(const std::string& path) {
   return path.starts_with('-') ? "./" + path : path;
 }
 
-void addEffects(const effect::Selection& effects, const std::vector<effect::ParameterName>& leftOut,
-                std::vector<std::string>& arguments) {
+void addEffects(const effect::Selection& effects, std::vector<std::string>& arguments) {
   std::string keys;
   std::vector<std::string> sets;
   for (const effect::Selection::Entry& entry : effects.entries()) {
@@ -26,7 +23,6 @@ void addEffects(const effect::Selection& effects, const std::vector<effect::Para
       if (text == defaults.text(param.key)) continue;
       const effect::Assignment set{.name = {.effect = entry.key(), .key = param.key},
                                    .value = text};
-      if (std::ranges::find(leftOut, set.name) != leftOut.end()) continue;
       sets.push_back(set.text());
     }
   }
@@ -49,7 +45,7 @@ std::vector<std::string> renderArguments(const RenderCommand& command) {
   if (!command.device.empty()) add("--device", command.device);
   for (const std::string& path : command.pluginPaths) add("--plugin-path", plainPath(path));
   if (command.effects != nullptr) {
-    addEffects(*command.effects, {}, arguments);
+    addEffects(*command.effects, arguments);
   } else {
     add("--effects", "");
   }

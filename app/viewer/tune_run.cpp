@@ -61,7 +61,7 @@ std::vector<std::string> tuneArguments(const TuneCommand& command) {
   if (!command.backend.empty()) add("--backend", command.backend);
   if (!command.device.empty()) add("--device", command.device);
   for (const std::string& path : command.pluginPaths) add("--plugin-path", plainPath(path));
-  addEffects(*command.effects, command.vary, arguments);
+  addEffects(*command.effects, arguments);
   add("--output", command.output);
   add("--radius", fmt::format("{}", command.radius));
   add("--samples", fmt::format("{}", command.samples));

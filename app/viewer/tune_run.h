@@ -20,13 +20,13 @@ struct TuneCommand {
   scene::Camera camera = {};
   glm::uvec2 size = glm::uvec2(640, 360);        // pixels
   std::string backend = {}, device = {};         // "": no option
-  const effect::Selection* effects = nullptr;    // runs those switched on
+  const effect::Selection* effects = nullptr;    // starts from the values of those switched on
   std::string output = {};                       // compared with the truth
   double radius = 0.5;                           // of the truth, metres
   uint32_t samples = 256;                        // of the truth, rays per pixel
   double maxError = 0, budget = 0;               // RMSE; milliseconds; one of them is 0
   uint32_t evaluations = 80;                     // limit
-  std::vector<effect::ParameterName> vary = {};  // all others keep their values
+  std::vector<effect::ParameterName> vary = {};  // the search changes these, from their values
   std::vector<std::string> pluginPaths = {};
 };
 

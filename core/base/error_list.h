@@ -126,6 +126,9 @@ GRISAILLE_ERROR(kFrontSmall, 5302, "measure a grid whose settings differ in cost
 GRISAILLE_ERROR(kTuneImpossible, 5303,
                 "allow more, --vary more parameters or a larger --evaluations")
 GRISAILLE_ERROR(kUnstable, 5304, "see the cases in bold in the table in --out")
+GRISAILLE_ERROR(kNothingToSee, 5305,
+                "give cameras that see occluders (--camera, --validate), a larger --radius, or "
+                "--random 0")
 // --- 54xx: new effects
 GRISAILLE_ERROR(kProjectName, 5401, "give 1 to 40 of a-z, 0-9 and _, beginning with a letter")
 GRISAILLE_ERROR(kProjectFolder, 5402, "name a folder that is empty or does not exist")
@@ -142,6 +145,11 @@ GRISAILLE_ERROR(
     "give the picture that the message names, or leave out the effect or output that reads it")
 GRISAILLE_ERROR(kPictureDeep, 5508,
                 "flatten the picture, for example with `oiiotool DEEP.exr --flatten -o FLAT.exr`")
+GRISAILLE_ERROR(kPictureNormal, 5509,
+                "give normals of length 1 that face the camera; --normal-space, --normal-encoding "
+                "and --normal-channels say how they are stored")
+GRISAILLE_ERROR(kPictureAspect, 5510, "resample the picture to square pixels")
+GRISAILLE_ERROR(kPictureColour, 5511, "repair the picture: base colours are linear, from 0 to 1")
 GRISAILLE_ERROR(kSequence, 5507, "number the files with %04d or ####, the same frames in each")
 // --- 56xx: libgrisaille
 GRISAILLE_ERROR(kHostNull, 5601, "pass a pointer that is not null")

@@ -18,7 +18,8 @@ constexpr uint32_t kMaxEffects = 64;
 constexpr uint32_t kMaxParams = 256;
 constexpr uint32_t kMaxOutputs = 16;
 constexpr uint32_t kMaxEnumEntries = 64;
-constexpr uint32_t kParamFlags = GRISAILLE_PARAM_LOG | GRISAILLE_PARAM_ADVANCED;
+constexpr uint32_t kParamFlags =
+    GRISAILLE_PARAM_LOG | GRISAILLE_PARAM_ADVANCED | GRISAILLE_PARAM_LOOK;
 constexpr uint32_t kMaxFields = 64;
 constexpr uint32_t kMaxObjectSize = 4096;
 constexpr uint32_t kEffectFlags = GRISAILLE_EFFECT_DEFAULT;

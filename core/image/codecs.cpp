@@ -254,8 +254,15 @@ Picture readPicture(const std::string& path) {
                 spec.height, spec.x - spec.full_x, spec.y - spec.full_y, spec.full_width,
                 spec.full_height);
   }
-  return {
-      .image = pixelsOf(*input, path), .channels = spec.channelnames, .matrices = matricesOf(spec)};
+  const float aspect = spec.get_float_attribute("PixelAspectRatio", 1);
+  if (!(std::abs(aspect - 1) < 0.001f)) {
+    throw Error(ErrorId::kPictureAspect, "{}: its pixels have an aspect ratio of {:.4g}, not 1",
+                path, aspect);
+  }
+  return {.image = pixelsOf(*input, path),
+          .channels = spec.channelnames,
+          .matrices = matricesOf(spec),
+          .integers = !spec.format.is_floating_point()};
 }
 
 // An encoded image in memory, opened, of checked size.

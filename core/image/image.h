@@ -78,10 +78,11 @@ struct Picture {
   Image image;
   std::vector<std::string> channels;  // names, one per channel of the image
   std::optional<ViewMatrices> matrices;
+  bool integers = false;  // whether the file stores integers
 };
 
 // The same as read(), with metadata. Also throws kPictureSize if the data window of the file
-// differs from its display window.
+// differs from its display window, and kPictureAspect if its pixels are not square.
 Picture readPicture(const std::string& path);
 
 // Decodes a PNG, JPEG or WebP in memory, of at most 16384 pixels per side. `name` is for messages.

@@ -64,6 +64,7 @@ struct RayTracer::Impl {
   static grisaille_hit hitOf(const Path& path, float reach, const Facet& facet,
                              const glm::dvec3& unit);
   void castBlock(std::span<const grisaille_ray> rays, std::span<grisaille_hit> hits) const;
+  Surroundings along(const glm::dvec3& point, const glm::dvec3& direction) const;
 
   TracedScene traced;
   glm::dvec3 least, most;  // of all triangles, relative to the origin, with a margin
@@ -149,10 +150,54 @@ std::vector<Hit> RayTracer::castPrimary(const scene::Camera& camera, uint32_t wi
   return castPrimary(camera, width, height, pixels);
 }
 
+// The surroundings in one direction.
+Surroundings RayTracer::Impl::along(const glm::dvec3& point, const glm::dvec3& direction) const {
+  constexpr int kMostCrossings = 64;
+  Surroundings seen;
+  float from = 0;
+  for (int i = 0; i < kMostCrossings; ++i) {
+    RTCRayHit ray = makeRay(glm::vec3(point - traced.origin()), glm::vec3(direction), from,
+                            std::numeric_limits<float>::infinity());
+    embree::Context context;
+    embree::intersect1(traced.world(), context, nullptr, ray);
+    if (ray.hit.geomID == RTC_INVALID_GEOMETRY_ID) break;
+    const Triangle& triangle = traced.triangle(ray.hit.geomID, ray.hit.primID);
+    const bool mirrored = traced.placement(triangle.instance).mirrored;
+    const bool back = (glm::dot(traced.facet(triangle).cross, direction) > 0) != mirrored;
+    seen.winding += back ? 1 : -1;
+    if (i == 0) {
+      seen.met = 1;
+      seen.backs = back ? 1 : 0;
+      seen.nearest = double{ray.ray.tfar};
+    }
+    from = ray.ray.tfar + static_cast<float>(margin);
+    from = std::max(from, std::nextafter(ray.ray.tfar, std::numeric_limits<float>::infinity()));
+  }
+  return seen;
+}
+
 Path RayTracer::Impl::pathOf(const grisaille_ray& ray) const {
   const glm::dvec3 origin(ray.origin[0], ray.origin[1], ray.origin[2]);
   const glm::dvec3 direction(ray.direction[0], ray.direction[1], ray.direction[2]);
   return {origin - traced.origin(), glm::normalize(direction)};
+}
+
+Surroundings RayTracer::surroundings(const glm::dvec3& point,
+                                     std::span<const glm::dvec3> directions) const {
+  std::vector<Surroundings> each(directions.size());
+  forEach(each.size(), [&](size_t i) { each[i] = impl_->along(point, directions[i]); });
+  Surroundings all;
+  for (const Surroundings& one : each) {
+    all.winding += one.winding;
+    all.met += one.met;
+    all.backs += one.backs;
+    all.nearest = std::min(all.nearest, one.nearest);
+  }
+  const auto count = static_cast<double>(std::max(each.size(), size_t{1}));
+  all.winding /= count;
+  all.met /= count;
+  all.backs /= count;
+  return all;
 }
 
 // Moves the origin of a ray from outside to the scene's bounds, which keeps the precision of rays

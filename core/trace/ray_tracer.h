@@ -11,6 +11,7 @@
 
 #include <cstdint>
 #include <glm/glm.hpp>
+#include <limits>
 #include <memory>
 #include <span>
 #include <vector>
@@ -37,6 +38,19 @@ struct Hit {
   uint32_t material = 0;
 };
 
+// What rays from one point meet. A surface's back is the side that its triangles' winding order
+// faces away from, also on double-sided materials.
+struct Surroundings {
+  // The generalised winding number: 1 inside a closed body, 0 outside of all, -1 in a room whose
+  // walls have one side. (Jacobson, Kavan and Sorkine-Hornung, "Robust Inside-Outside Segmentation
+  // using Generalized Winding Numbers", ACM Transactions on Graphics 32(4), 2013. Here it is the
+  // mean over the rays: each crossing counts 1 out of a surface's back, -1 into its front.)
+  double winding = 0;
+  double met = 0;    // share of the rays that meet a surface
+  double backs = 0;  // share of the rays whose first surface shows its back
+  double nearest = std::numeric_limits<double>::infinity();  // least distance of a hit, metres
+};
+
 class RayTracer {
  public:
   // scene: must outlive the tracer
@@ -55,6 +69,9 @@ class RayTracer {
   std::vector<Hit> castPrimary(const scene::Camera& camera, uint32_t width, uint32_t height,
                                std::span<const glm::uvec2> pixels) const;
   std::vector<Hit> castPrimary(const scene::Camera& camera, uint32_t width, uint32_t height) const;
+
+  // Casts rays from `point`, with all surfaces that they cross. Directions are unit.
+  Surroundings surroundings(const glm::dvec3& point, std::span<const glm::dvec3> directions) const;
 
   // Finds the first surface that each ray meets within its reach, from either side, also the back
   // of a single-sided material. `hits` is as long as `rays` and has the same order. Directions are

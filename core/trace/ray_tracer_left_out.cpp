@@ -27,6 +27,11 @@ std::vector<Hit> RayTracer::castPrimary(const scene::Camera& /*camera*/, uint32_
   return {};
 }
 
+Surroundings RayTracer::surroundings(const glm::dvec3& /*point*/,
+                                     std::span<const glm::dvec3> /*directions*/) const {
+  return {};
+}
+
 void RayTracer::castRays(std::span<const grisaille_ray> /*rays*/,
                          std::span<grisaille_hit> /*hits*/) const {}
 

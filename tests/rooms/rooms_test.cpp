@@ -48,7 +48,7 @@ constexpr Room kRooms[] = {
      "app/apply app/options app/process app/report app/services app/settings app/study app/truth "
      "app/verify app/viewer/viewer.h backends/backends.h core/effect core/frame core/gpu "
      "core/image core/objects core/scene core/trace grisaille"},
-    {"app/apply", "core/image"},
+    {"app/apply", "core/image core/scene"},
     {"app/settings", "core/effect core/frame core/gpu"},
     {"app/services", "core/effect core/image core/objects core/scene core/trace grisaille"},
     {"app/report",

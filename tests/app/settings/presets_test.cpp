@@ -70,13 +70,14 @@ TEST(PresetTest, IsKnownByItsValues) {
   }
 }
 
-TEST(PresetTest, WhatIsFoldedAwayChangesOnlyIfAPresetNamesIt) {
+TEST(PresetTest, ASearchChangesNeitherLooksNorWhatIsFoldedAwayUnlessAPresetNamesIt) {
   const Tables tables;
   std::mt19937_64 random(2);
   for (effect::Effect effect : tables.registry.effects()) {
     std::vector<grisaille_param_desc> params(effect.params().begin(), effect.params().end());
     for (grisaille_param_desc& param : params) {
       if (random() % 2 == 0) param.flags |= GRISAILLE_PARAM_ADVANCED;
+      if (random() % 3 == 0) param.flags |= GRISAILLE_PARAM_LOOK;
     }
     grisaille_effect_desc desc = *effect.desc;
     desc.params = params.data();
@@ -91,7 +92,9 @@ TEST(PresetTest, WhatIsFoldedAwayChangesOnlyIfAPresetNamesIt) {
     const auto all = tunable(effect, presets);
     for (const grisaille_param_desc& param : params) {
       const bool folded = (param.flags & GRISAILLE_PARAM_ADVANCED) != 0;
-      EXPECT_EQ(std::ranges::count(all, &param), !folded || named(param) ? 1 : 0) << param.key;
+      const bool look = (param.flags & GRISAILLE_PARAM_LOOK) != 0;
+      EXPECT_EQ(std::ranges::count(all, &param), !look && (!folded || named(param)) ? 1 : 0)
+          << param.key;
     }
   }
 }

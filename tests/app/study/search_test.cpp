@@ -113,6 +113,29 @@ TEST_F(Made, CountsWhatItAsksFor) {
   EXPECT_GT(search(axes_, starts, {.maxError = 0.1}, oracle_, 200).costsSaved, 10u);
 }
 
+// The first start is the setting that the user has: a result under the same error never costs more,
+// whichever way the clock errs.
+TEST_F(Made, NeverEndsDearerThanTheFirstStart) {
+  std::mt19937 random(11);
+  const auto unit = [&] { return static_cast<double>(random()) / 4294967296.0; };
+  for (int trial = 0; trial < 60; ++trial) {
+    const Point first = {std::floor(2 + unit() * 60), 0.3 + unit(), unit() * 2,
+                         std::floor(unit() * 3), unit()};
+    const double wish = errorOf(first) * (trial % 3 == 0 ? 1 : 1 + 0.3 * unit());
+    oracle_.costBeside = [&](const Point& p, const Evaluated& known) {
+      return known.cost * costOf(p) / costOf(known.point) * (0.95 + 0.1 * unit());
+    };
+    const std::vector<Point> starts = {first, {256, 0.7, 1.3, 1, 0.5}, {64, 0.7, 1.3, 1, 0}};
+    const size_t most = trial % 2 == 0 ? 200 : 1 + trial % 9;
+    const Found found = search(axes_, starts, {.maxError = wish}, oracle_, most);
+    ASSERT_TRUE(found.meetsWish);
+    EXPECT_EQ(found.first.point, first);
+    EXPECT_LE(found.best.cost, found.first.cost);
+    EXPECT_LE(costOf(found.best.point), 1.06 * costOf(first));
+    EXPECT_LE(errorOf(found.best.point), wish);
+  }
+}
+
 TEST_F(Made, StopsWhenAsked) {
   oracle_.stop = [this] { return errors_ >= 7; };
   const Found found = search(axes_, {{16, 1, 1, 0, 0}}, {.maxError = 0.1}, oracle_, 200);

@@ -4,7 +4,9 @@
 
 #include <nlohmann/json.hpp>
 
+#include "core/scene/scene.h"
 #include "tests/program/run.h"
+#include "tests/support/scenes.h"
 
 namespace grisaille::tests {
 namespace {
@@ -62,6 +64,56 @@ TEST_P(TuneTest, SaysWhatCannotBeHad) {
   EXPECT_FALSE(std::filesystem::exists(folder_ / "tuned.toml"));
 }
 
+// The setting that the user has is the first start, and the result costs at most as much.
+TEST_P(TuneTest, NeverEndsDearerThanItStarted) {
+  folder_.write("own.toml", "effects = [\"ssao\"]\n[ssao]\nslices = 3\nsteps = 9\npower = 1.2\n");
+  const Outcome one = tune({"--max-error", "0.9", "--evaluations", "1", "--random", "0", "--config",
+                            "own.toml", "--set", "ssao.steps=7", "--json"});
+  ASSERT_EQ(one.status, 0) << one.err;
+  const json kept = json::parse(one.out.substr(one.out.rfind("{\"evaluations\"")));
+  EXPECT_EQ(kept.at("setting").at("ssao.slices"), 3);
+  EXPECT_EQ(kept.at("setting").at("ssao.steps"), 7);
+  EXPECT_EQ(kept.at("milliseconds"), kept.at("start_milliseconds"));
+  const Outcome more = tune({"--max-error", "0.9", "--evaluations", "12", "--random", "0",
+                             "--preset", "ssao=fast", "--json"});
+  ASSERT_EQ(more.status, 0) << more.err;
+  const json found = json::parse(more.out.substr(more.out.rfind("{\"evaluations\"")));
+  EXPECT_LE(found.at("milliseconds"), found.at("start_milliseconds"));
+}
+
+// Parameters of look keep their values, unless --vary names them.
+TEST_P(TuneTest, LeavesTheLookAlone) {
+  const Outcome usual = tune({"--budget-ms", "100000", "--evaluations", "8", "--random", "0",
+                              "--set", "ssao.power=1.1", "--json"});
+  ASSERT_EQ(usual.status, 0) << usual.err;
+  const json setting =
+      json::parse(usual.out.substr(usual.out.rfind("{\"evaluations\""))).at("setting");
+  for (const char* look : {"ssao.intensity", "ssao.power", "ssao.bounce", "ssao.albedo"}) {
+    EXPECT_FALSE(setting.contains(look)) << look;
+  }
+  EXPECT_TRUE(setting.contains("ssao.steps"));
+  EXPECT_NE(readFile(folder_ / "tuned.toml").find("power = 1.1"), std::string::npos);
+  const Outcome named = tune({"--budget-ms", "100000", "--evaluations", "2", "--random", "0",
+                              "--vary", "ssao.power,ssao.steps", "--json"});
+  ASSERT_EQ(named.status, 0) << named.err;
+  EXPECT_NE(named.out.find("\"ssao.power\":"), std::string::npos) << named.out;
+}
+
+// An error of 0 where nothing is occluded would say that every setting is right.
+TEST_P(TuneTest, ASceneWithNothingToSeeIsRefused) {
+  scene::writeGlb(floorScene(20), folder_ / "plane.glb");
+  const auto refused = [&](const std::vector<std::string>& more, const std::string& mention) {
+    std::vector<std::string> all = {"plane.glb", "--max-error", "0.1", "--evaluations", "2"};
+    all.insert(all.end(), more.begin(), more.end());
+    const Outcome outcome = tune(all);
+    EXPECT_EQ(outcome.status, 1);
+    EXPECT_EQ(outcome.err.find("error E5305: " + mention), 0u) << outcome.err;
+    EXPECT_FALSE(std::filesystem::exists(folder_ / "tuned.toml"));
+  };
+  refused({}, "no random camera sees occluders within --radius 0.5 m on a third of its pixels");
+  refused({"--random", "0"}, "no --camera sees an occluder within --radius 0.5 m");
+}
+
 INSTANTIATE_TEST_SUITE_P(Backends, TuneTest, testing::Values("opengl", "vulkan"),
                          [](const auto& test) { return std::string(test.param); });
 
@@ -89,6 +141,23 @@ TEST(Tune, SponzaErrsLess) {
   EXPECT_LT(after, 0.99 * before.at("rmse").get<double>()) << tuned.out;
   RecordProperty("before", std::to_string(before.at("rmse").get<double>()));
   RecordProperty("after", std::to_string(after));
+}
+
+// The unseen cameras see what can be wrong: none has an RMSE of almost 0.
+TEST(Tune, SponzasRandomCamerasSeeErrors) {
+  if (sponza().empty()) GTEST_SKIP() << kNoSponza;
+  const TemporaryFolder folder;
+  for (const std::string seed : {"1", "2", "3"}) {
+    const Outcome tuned =
+        runShell("XDG_CACHE_HOME=$PWD grisaille tune " + sponza() + " --camera " +
+                     sponzaCamera("atrium") + " --max-error 0.9 --evaluations 1 --size 160x90" +
+                     " --samples 32 --json --out t.toml --seed " + seed,
+                 folder.path());
+    ASSERT_EQ(tuned.status, 0) << tuned.err;
+    const json last = json::parse(tuned.out.substr(tuned.out.rfind("{\"evaluations\"")));
+    EXPECT_GT(last.at("unseen_rmse").get<double>(), 0.03) << "seed " << seed;
+    EXPECT_LT(last.at("unseen_rmse").get<double>(), 0.3) << "seed " << seed;
+  }
 }
 
 TEST(Tune, MistakesAreNamed) {

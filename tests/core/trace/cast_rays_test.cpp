@@ -179,6 +179,37 @@ TEST(CastRays, CutOutMaterialsLetThroughAndFlatScenesAreMet) {
   }
 }
 
+// A sphere's winding number is 1 inside and 0 outside; turned inside out, -1 inside.
+TEST(CastRays, SurroundingsTellInsideFromOutside) {
+  std::vector<glm::dvec3> directions;
+  std::mt19937 random(4);
+  std::normal_distribution<double> normal;
+  for (int i = 0; i < 400; ++i) {
+    directions.push_back(
+        glm::normalize(glm::dvec3(normal(random), normal(random), normal(random))));
+  }
+  for (const double turned : {1.0, -1.0}) {
+    SceneBuilder builder;
+    builder.place(builder.sphere(glm::vec3(0), 1, builder.material({})));
+    if (turned < 0) {
+      for (size_t i = 0; i < builder.scene.indices.size(); i += 3) {
+        std::swap(builder.scene.indices[i], builder.scene.indices[i + 1]);
+      }
+    }
+    const RayTracer tracer(builder.scene, glm::dvec3(0));
+    const Surroundings inside = tracer.surroundings({0.2, 0.1, 0.3}, directions);
+    EXPECT_NEAR(inside.winding, turned, 0.02);
+    EXPECT_EQ(inside.met, 1);
+    EXPECT_EQ(inside.backs, turned > 0 ? 1 : 0);
+    EXPECT_NEAR(inside.nearest, 1 - std::sqrt(0.14), 0.03);
+    const Surroundings outside = tracer.surroundings({2, 0, 0}, directions);
+    EXPECT_NEAR(outside.winding, 0, 0.02);
+    EXPECT_NEAR(outside.met, (1 - std::sqrt(0.75)) / 2, 0.03);  // the sphere's solid angle
+    EXPECT_EQ(outside.backs, turned > 0 ? 0 : outside.met);
+    EXPECT_NEAR(outside.nearest, 1, 0.05);
+  }
+}
+
 // Moving the scene by a million metres changes nothing.
 TEST(CastRays, NothingChangesFarFromTheWorldsOrigin) {
   const glm::dvec3 away(1e6, 2e6, -4e6);  // whole numbers: the sums below are exact

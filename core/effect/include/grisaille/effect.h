@@ -85,11 +85,13 @@ typedef enum grisaille_param_type {
   GRISAILLE_PARAM_ENUM = 3   /**< an index into grisaille_param_desc::enum_keys */
 } grisaille_param_type;
 
-/** How the panel shows a parameter. */
+/** What a parameter is for, and how the panel shows it. */
 typedef enum grisaille_param_flags {
   /** The slider has a logarithmic scale; soft_min must be over 0. Only for floats and ints. */
   GRISAILLE_PARAM_LOG = 1,
-  GRISAILLE_PARAM_ADVANCED = 2 /**< the panel hides it in a folded section */
+  GRISAILLE_PARAM_ADVANCED = 2, /**< the panel hides it in a folded section */
+  /** A matter of taste, such as an intensity: a search for accuracy leaves it alone. */
+  GRISAILLE_PARAM_LOOK = 8
 } grisaille_param_flags;
 
 /** One parameter. All numbers are finite; the numbers of an int are whole. */

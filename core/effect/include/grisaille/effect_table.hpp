@@ -33,6 +33,7 @@ struct FloatParam {
   double step = 0;                ///< step of the slider, over 0; may stay 0 if `log` is set
   bool log = false;               ///< whether the slider is logarithmic; softMin must be over 0
   bool advanced = false;          ///< whether the panel hides it in a folded section
+  bool look = false;  ///< whether the value is a matter of taste; see #GRISAILLE_PARAM_LOOK
 };
 
 /// A parameter that is a whole number, for intParam().
@@ -49,6 +50,7 @@ struct IntParam {
   int32_t step = 1;               ///< step of the slider, over 0
   bool log = false;               ///< whether the slider is logarithmic; softMin must be over 0
   bool advanced = false;          ///< whether the panel hides it in a folded section
+  bool look = false;  ///< whether the value is a matter of taste; see #GRISAILLE_PARAM_LOOK
 };
 
 /// A parameter that is on or off, for boolParam().
@@ -58,6 +60,7 @@ struct BoolParam {
   const char* tooltip = nullptr;  ///< one sentence, without a line break
   bool defaultValue = false;      ///< the default
   bool advanced = false;          ///< whether the panel hides it in a folded section
+  bool look = false;  ///< whether the value is a matter of taste; see #GRISAILLE_PARAM_LOOK
 };
 
 /// A parameter that takes one value of a list, for enumParam().
@@ -69,15 +72,18 @@ struct EnumParam {
   std::span<const char* const> labels;  ///< static, names shown to users, one per key
   uint32_t defaultValue = 0;            ///< index of the default
   bool advanced = false;                ///< whether the panel hides it in a folded section
+  bool look = false;  ///< whether the value is a matter of taste; see #GRISAILLE_PARAM_LOOK
 };
 
 /// Combines grisaille_param_flags.
 /// @param log whether the slider is logarithmic
 /// @param advanced whether the panel hides it in a folded section
+/// @param look whether the value is a matter of taste
 /// @return grisaille_param_desc::flags
-constexpr uint32_t paramFlags(bool log, bool advanced) {
+constexpr uint32_t paramFlags(bool log, bool advanced, bool look = false) {
   return (log ? uint32_t{GRISAILLE_PARAM_LOG} : 0u) |
-         (advanced ? uint32_t{GRISAILLE_PARAM_ADVANCED} : 0u);
+         (advanced ? uint32_t{GRISAILLE_PARAM_ADVANCED} : 0u) |
+         (look ? uint32_t{GRISAILLE_PARAM_LOOK} : 0u);
 }
 
 /// Returns the table entry of a number.
@@ -86,7 +92,7 @@ constexpr uint32_t paramFlags(bool log, bool advanced) {
 constexpr grisaille_param_desc floatParam(const FloatParam& p) {
   return {.struct_size = sizeof(grisaille_param_desc),
           .type = GRISAILLE_PARAM_FLOAT,
-          .flags = paramFlags(p.log, p.advanced),
+          .flags = paramFlags(p.log, p.advanced, p.look),
           .enum_count = 0,
           .key = p.key,
           .label = p.label,
@@ -117,7 +123,8 @@ constexpr grisaille_param_desc intParam(const IntParam& p) {
                                           .defaultValue = static_cast<double>(p.defaultValue),
                                           .step = static_cast<double>(p.step),
                                           .log = p.log,
-                                          .advanced = p.advanced});
+                                          .advanced = p.advanced,
+                                          .look = p.look});
   desc.type = GRISAILLE_PARAM_INT;
   return desc;
 }
@@ -133,7 +140,8 @@ constexpr grisaille_param_desc boolParam(const BoolParam& p) {
                                           .softMax = 1,
                                           .defaultValue = p.defaultValue ? 1.0 : 0.0,
                                           .step = 1,
-                                          .advanced = p.advanced});
+                                          .advanced = p.advanced,
+                                          .look = p.look});
   desc.type = GRISAILLE_PARAM_BOOL;
   return desc;
 }
@@ -156,7 +164,8 @@ constexpr grisaille_param_desc enumParam(const EnumParam& p) {
                                           .softMax = last,
                                           .defaultValue = static_cast<double>(p.defaultValue),
                                           .step = 1,
-                                          .advanced = p.advanced});
+                                          .advanced = p.advanced,
+                                          .look = p.look});
   desc.type = GRISAILLE_PARAM_ENUM;
   desc.enum_count = static_cast<uint32_t>(p.keys.size());
   desc.enum_keys = p.keys.data();

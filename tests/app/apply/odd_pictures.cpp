@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: MIT
-#include "tests/app/apply/deep_picture.h"
+#include "tests/app/apply/odd_pictures.h"
 
 #include <OpenImageIO/deepdata.h>
 #include <OpenImageIO/imageio.h>
@@ -22,6 +22,17 @@ void writeDeepPicture(const std::string& path) {
   const auto output = OIIO::ImageOutput::create("openexr");
   if (!output || !output->open(path, spec) || !output->write_deep_image(samples) ||
       !output->close()) {
+    throw std::runtime_error(path + ": " + (output ? output->geterror() : OIIO::geterror()));
+  }
+}
+
+void writeWithAspect(const image::Image& image, float aspect, const std::string& path) {
+  OIIO::ImageSpec spec(static_cast<int>(image.width), static_cast<int>(image.height),
+                       static_cast<int>(image.channels), OIIO::TypeDesc::FLOAT);
+  spec.attribute("PixelAspectRatio", aspect);
+  const auto output = OIIO::ImageOutput::create("openexr");
+  if (!output || !output->open(path, spec) ||
+      !output->write_image(spec.format, image.pixels.data()) || !output->close()) {
     throw std::runtime_error(path + ": " + (output ? output->geterror() : OIIO::geterror()));
   }
 }
