@@ -19,6 +19,7 @@
 #include "app/options/option_checks.h"
 #include "app/options/output_file.h"
 #include "app/options/start_device.h"
+#include "app/services/scene_lengths.h"
 #include "app/truth/progress.h"
 #include "core/base/error.h"
 #include "core/frame/picture_attachments.h"
@@ -210,6 +211,7 @@ void applyFrames(ApplyJob& job, LoadedFrame loaded, gpu::Device& device) {
                        .width = source.width(),
                        .height = source.height(),
                        .surface = job.surface,
+                       .background = job.background,
                        .chain = &job.chain,
                        .outputs = names});
       writeOutputs(job, number, loaded.camera, renderer);
@@ -228,6 +230,7 @@ void applyFrames(ApplyJob& job, LoadedFrame loaded, gpu::Device& device) {
 void apply(const ApplyOptions& options) {
   ApplyJob job(options);
   LoadedFrame first = load(job, job.frames.front());  // fails before the device starts
+  fitToDepth(job.chain.selection, first.pictures.viewDepth, first.camera);
   DriverMessages messages;
   {
     const auto device =

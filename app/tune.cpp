@@ -75,6 +75,7 @@ class Starts {
  private:
   void add(const std::string& preset) {
     effect::Selection selection(*subject_.registry, subject_.effects);
+    study::fit(selection, subject_.lengths);
     bool any = preset.empty();
     for (const auto& [effect, presets] : presets_) {
       if (preset.empty() || presets.all.empty()) continue;
@@ -243,7 +244,9 @@ study::Found find(const TuneOptions& options, const LoadedSubject& subject,
 void writeSetting(const TuneOptions& options, const LoadedSubject& subject,
                   const study::Setting& setting, const std::string& story) {
   Settings settings{.effects = subject.subject().effects, .surface = {}, .values = {}};
-  study::SettingText all = subject.subject().sets;
+  study::SettingText all = study::textOf(subject.registry(), subject.subject().lengths);
+  const std::vector<effect::Assignment>& sets = subject.subject().sets;
+  all.insert(all.end(), sets.begin(), sets.end());
   const study::SettingText tuned = study::textOf(subject.registry(), setting);
   all.insert(all.end(), tuned.begin(), tuned.end());
   for (const effect::Assignment& one : all) settings.values.push_back({one.name, one.value, ""});

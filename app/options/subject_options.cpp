@@ -6,11 +6,14 @@
 #include <algorithm>
 #include <filesystem>
 #include <limits>
+#include <optional>
 
 #include "app/options/camera_option.h"
 #include "app/options/object_options.h"
 #include "app/options/option_checks.h"
 #include "app/options/size.h"
+#include "app/services/scene_lengths.h"
+#include "app/study/sweep.h"
 #include "app/truth/content_hash.h"
 #include "app/truth/occlusion_truth.h"
 #include "core/base/error.h"
@@ -68,9 +71,10 @@ void SubjectOptions::addTo(CLI::App& command) {
                   "Load objects of an effect from a file that `grisaille render --save` wrote")
       ->type_name("EFFECT=FILE.json")
       ->allow_extra_args(false);
-  command.add_option("--radius", radius, "Length of the truth's rays, metres")
-      ->check(numberFrom(1e-6, 1e6))
-      ->capture_default_str();
+  command
+      .add_option("--radius", radius,
+                  "Length of the truth's rays, metres; default: chosen for the scene")
+      ->check(numberFrom(1e-6, 1e6));
   command.add_option("--samples", samples, "Number of the truth's rays per pixel")
       ->check(wholeNumberFrom(16, 65536))
       ->capture_default_str();
@@ -82,12 +86,12 @@ void SubjectOptions::addTo(CLI::App& command) {
 
 LoadedSubject::LoadedSubject(const SubjectOptions& options,
                              std::unique_ptr<effect::Registry> registry,
-                             const std::vector<std::string>& swept)
-    : options_(options), registry_(std::move(registry)) {
+                             const std::vector<effect::ParameterName>& swept)
+    : options_(options), swept_(swept), registry_(std::move(registry)) {
   subject_.effects = options.effects;
-  for (const std::string& effect : swept) {
-    if (std::ranges::find(subject_.effects, effect) == subject_.effects.end()) {
-      subject_.effects.push_back(effect);
+  for (const effect::ParameterName& one : swept) {
+    if (std::ranges::find(subject_.effects, one.effect) == subject_.effects.end()) {
+      subject_.effects.push_back(one.effect);
     }
   }
   if (subject_.effects.empty()) subject_.effects = registry_->defaults();
@@ -127,9 +131,25 @@ void LoadedSubject::loadObjects(effect::Chain& chain) {
 
 void LoadedSubject::loadScene() {
   scene_ = scene::loadScene(options_.scene);
+  chooseLengths();
   if (!options_.cameras.empty()) return;
   if (cameras_.empty()) cameras_.push_back({"default", {}, ""});
-  cameras_[0].camera = scene::defaultCamera(scene_);
+  cameras_[0].camera = scene::defaultCamera(scene_, aspectOf(subject_.size));
+}
+
+void LoadedSubject::chooseLengths() {
+  const double radius = suitableRadius(scene_);
+  effect::Selection selection(*registry_, subject_.effects);
+  fitLengths(selection, radius);
+  for (const effect::Assignment& set : subject_.sets) selection.set(set);
+  for (const effect::ParameterName& one : swept_) {
+    effect::Values& values = selection.values(one.effect);
+    values.set(one.key, values.get(one.key));
+  }
+  subject_.lengths = lengthsOf(selection);
+  const bool given = options_.radius != 0;
+  if (!given) options_.radius = radius;
+  printChosen(selection, given ? std::optional<double>() : radius, "the scene");
 }
 
 study::View LoadedSubject::viewOf(const std::string& name, const scene::Camera& camera,
@@ -171,6 +191,9 @@ std::string LoadedSubject::key() const {
   std::string key = fmt::format("scene {:016x}\nsize {}x{}\nradius {}\nsamples {}\noutput {}\n",
                                 truth::hashOf(scene_), subject_.size.x, subject_.size.y,
                                 options_.radius, options_.samples, subject_.output);
+  for (const effect::Assignment& length : study::textOf(*registry_, subject_.lengths)) {
+    key += "length " + length.text() + "\n";
+  }
   for (const effect::Assignment& set : subject_.sets) key += "set " + set.text() + "\n";
   for (const std::string& effect : subject_.effects) key += "effect " + effect + "\n";
   for (const auto& [effect, objects] : subject_.objects) {
@@ -199,6 +222,9 @@ std::string LoadedSubject::renderCommand(const study::SettingText& setting,
   add("--size"), add(fmt::format("{}x{}", subject_.size.x, subject_.size.y));
   add("--effects"), add(fmt::format("{}", fmt::join(subject_.effects, ",")));
   for (const std::string& load : options_.loads) add("--load"), add(load);
+  for (const effect::Assignment& length : study::textOf(*registry_, subject_.lengths)) {
+    add("--set"), add(length.text());
+  }
   for (const effect::Assignment& set : subject_.sets) add("--set"), add(set.text());
   for (const effect::Assignment& one : setting) add("--set"), add(one.text());
   add("--write"), add(subject_.output + "=picture.png");

@@ -16,7 +16,7 @@ namespace grisaille::app {
 struct SubjectOptions {
   std::string scene, size = "640x360", output;
   std::vector<std::string> cameras, references, loads, sets, effects, pluginPaths;
-  double radius = 0.5;     // metres
+  double radius = 0;       // metres; 0: chosen for the scene
   uint32_t samples = 256;  // rays per pixel
   truth::ProgressStyle progress = truth::usualProgress();
 
@@ -27,10 +27,11 @@ struct SubjectOptions {
 class LoadedSubject {
  public:
   // Checks the options and loads objects and cameras; loadScene() and trace() load the rest.
-  // `registry`: the effects of options.pluginPaths. `swept`: effects that run even if no option
-  // names them. Throws kUsage, and the errors of cameras, objects, effects and their parameters.
+  // `registry`: the effects of options.pluginPaths. `swept`: parameters whose effects run even if
+  // no option names them. Throws kUsage, and the errors of cameras, objects, effects and their
+  // parameters.
   LoadedSubject(const SubjectOptions& options, std::unique_ptr<effect::Registry> registry,
-                const std::vector<std::string>& swept);
+                const std::vector<effect::ParameterName>& swept);
 
   LoadedSubject(const LoadedSubject&) = delete;
   LoadedSubject& operator=(const LoadedSubject&) = delete;
@@ -38,8 +39,12 @@ class LoadedSubject {
   const effect::Registry& registry() const { return *registry_; }
   const study::Subject& subject() const { return subject_; }
 
-  // Loads the scene, and takes its default camera if no option gives one.
+  // Loads the scene. Takes its default camera and chooses the radius and the scene's lengths, if no
+  // option gives them; prints the lengths.
   void loadScene();
+
+  // Length of the truth's rays, metres. Call it after loadScene().
+  double radius() const { return options_.radius; }
 
   // Traces the truth of every camera, or takes it from the cache. Throws truth::Interrupted.
   void trace();
@@ -57,8 +62,10 @@ class LoadedSubject {
 
  private:
   void loadObjects(effect::Chain& chain);
+  void chooseLengths();
 
   SubjectOptions options_;
+  std::vector<effect::ParameterName> swept_;
   std::unique_ptr<effect::Registry> registry_;
   scene::Scene scene_;
   study::Subject subject_;

@@ -108,6 +108,7 @@ nlohmann::ordered_json jsonOf(const grisaille_param_desc& param) {
     json["soft_range"] = {param.soft_min, param.soft_max};
     json["step"] = param.step;
     json["scale"] = (param.flags & GRISAILLE_PARAM_LOG) != 0 ? "log" : "linear";
+    json["scene_length"] = (param.flags & GRISAILLE_PARAM_SCENE_LENGTH) != 0;
   }
   return json;
 }
@@ -229,9 +230,11 @@ std::string effectMarkdown(const effect::Effect& effect) {
     return escaped;
   };
   for (const grisaille_param_desc& param : effect.params()) {
-    text += fmt::format("| `{}`{} | {} | {} | {} |\n", param.key,
+    const bool ofScene = (param.flags & GRISAILLE_PARAM_SCENE_LENGTH) != 0;
+    text += fmt::format("| `{}`{} | {}{} | {} | {} |\n", param.key,
                         (param.flags & GRISAILLE_PARAM_ADVANCED) != 0 ? " (advanced)" : "",
-                        effect::textOf(param, param.default_value), cell(rangeText(param)),
+                        effect::textOf(param, param.default_value),
+                        ofScene ? ", scaled to the scene" : "", cell(rangeText(param)),
                         cell(param.tooltip));
   }
   text += "\n| output | what it holds |\n|---|---|\n";

@@ -3,6 +3,8 @@
 
 #include <limits>
 
+#include "core/scene/framing.h"
+
 namespace grisaille::scene {
 
 void computeBounds(Scene& scene) {
@@ -51,8 +53,8 @@ Scene loadScene(const std::string& path, const std::function<void(double)>& prog
   return path.empty() ? makeAtrium() : loadGltf(path, progress);
 }
 
-Camera defaultCamera(const Scene& scene) {
-  return scene.camera ? *scene.camera : overviewCamera(scene.bounds);
+Camera defaultCamera(const Scene& scene, double aspect) {
+  return scene.camera ? *scene.camera : framingCamera(scene, aspect);
 }
 
 }  // namespace grisaille::scene

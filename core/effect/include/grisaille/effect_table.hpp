@@ -33,6 +33,8 @@ struct FloatParam {
   double step = 0;                ///< step of the slider, over 0; may stay 0 if `log` is set
   bool log = false;               ///< whether the slider is logarithmic; softMin must be over 0
   bool advanced = false;          ///< whether the panel hides it in a folded section
+  /// whether it is a length of the scene, see #GRISAILLE_PARAM_SCENE_LENGTH
+  bool sceneLength = false;
 };
 
 /// A parameter that is a whole number, for intParam().
@@ -74,10 +76,12 @@ struct EnumParam {
 /// Combines grisaille_param_flags.
 /// @param log whether the slider is logarithmic
 /// @param advanced whether the panel hides it in a folded section
+/// @param sceneLength whether it is a length of the scene
 /// @return grisaille_param_desc::flags
-constexpr uint32_t paramFlags(bool log, bool advanced) {
+constexpr uint32_t paramFlags(bool log, bool advanced, bool sceneLength = false) {
   return (log ? uint32_t{GRISAILLE_PARAM_LOG} : 0u) |
-         (advanced ? uint32_t{GRISAILLE_PARAM_ADVANCED} : 0u);
+         (advanced ? uint32_t{GRISAILLE_PARAM_ADVANCED} : 0u) |
+         (sceneLength ? uint32_t{GRISAILLE_PARAM_SCENE_LENGTH} : 0u);
 }
 
 /// Returns the table entry of a number.
@@ -86,7 +90,7 @@ constexpr uint32_t paramFlags(bool log, bool advanced) {
 constexpr grisaille_param_desc floatParam(const FloatParam& p) {
   return {.struct_size = sizeof(grisaille_param_desc),
           .type = GRISAILLE_PARAM_FLOAT,
-          .flags = paramFlags(p.log, p.advanced),
+          .flags = paramFlags(p.log, p.advanced, p.sceneLength),
           .enum_count = 0,
           .key = p.key,
           .label = p.label,
