@@ -31,8 +31,9 @@ constexpr double kFarthest = 1e6;
 struct TruthOptions {
   SceneOptions view;
   std::vector<std::string> writes;
+  std::optional<double> radius;
   double error = 0;
-  double radius = 0, thickness = 0;  // 0: not given
+  double thickness = 0;  // 0: not given
   uint32_t samples = 1024, seed = truth::kSeed;
   bool noCache = false, progress = false;
 };
@@ -61,10 +62,10 @@ struct TruthJob {
   SceneView view;
 
   explicit TruthJob(const TruthOptions& options)
-      : radius(options.radius), thickness(options.thickness) {
+      : radius(options.radius.value_or(0)), thickness(options.thickness) {
     for (const std::string& text : options.writes) writes.push_back(parseWrite(text));
     requireDistinct(namedOutputs(writes));
-    if (options.radius != 0) requireLength("--radius", options.radius);
+    if (options.radius) requireLength("--radius", *options.radius);
     if (!(options.error >= 0 && std::isfinite(options.error))) {
       throw Error(ErrorId::kUsage, "--error is {:g}; give a finite number of 0 or more",
                   options.error);
@@ -72,7 +73,7 @@ struct TruthJob {
     checkUse("--thickness", options.thickness != 0, "ceiling");
     if (options.thickness != 0) requireLength("--thickness", options.thickness);
     view = loadView(options.view);
-    if (radius == 0) chooseRadius();
+    if (!options.radius) chooseRadius();
     if (thickness == 0) thickness = radius / 5;
   }
 
