@@ -21,6 +21,7 @@
 #include "app/options/option_checks.h"
 #include "app/options/output_file.h"
 #include "app/options/start_device.h"
+#include "app/services/scene_lengths.h"
 #include "app/truth/progress.h"
 #include "core/base/error.h"
 #include "core/frame/picture_attachments.h"
@@ -218,6 +219,7 @@ void applyFrames(ApplyJob& job, LoadedFrame loaded, Warnings& warnings, gpu::Dev
                        .width = source.width(),
                        .height = source.height(),
                        .surface = job.surface,
+                       .background = job.background,
                        .chain = &job.chain,
                        .outputs = names});
       writeOutputs(job, number, loaded.camera, renderer);
@@ -237,6 +239,7 @@ void apply(const ApplyOptions& options) {
   ApplyJob job(options);
   Warnings warnings;
   LoadedFrame first = load(job, job.frames.front(), warnings);  // fails before the device starts
+  fitToDepth(job.chain.selection, first.pictures.viewDepth, first.camera);
   DriverMessages messages;
   {
     const auto device =

@@ -49,10 +49,10 @@ struct MeasureJob {
 MeasureJob::MeasureJob(const MeasureOptions& options) {
   auto registry = loadEffects(options.subject.pluginPaths);
   std::vector<study::Sweep> sweeps;
-  std::vector<std::string> swept;
+  std::vector<effect::ParameterName> swept;
   for (const std::string& text : options.sweeps) {
     sweeps.push_back(study::parseSweep(*registry, text));
-    swept.push_back(sweeps.back().name.effect);
+    swept.push_back(sweeps.back().name);
   }
   const study::Shard shard = study::parseShard(options.shard);
   const std::vector<study::Setting> grid = study::gridOf(sweeps);
@@ -73,7 +73,7 @@ std::string tracePath(const MeasureOptions& options, MeasureJob& job) {
   for (const scene::Camera& camera : job.path) {
     key += "path " + scene::cameraJson(camera) + "\n";
     job.pathTruth.push_back(study::traceFrame(*subject.scene, camera, subject.size,
-                                              options.subject.radius, options.subject.samples,
+                                              job.subject->radius(), options.subject.samples,
                                               truth::usualProgress()));
   }
   return key;

@@ -11,6 +11,7 @@
 #include "app/command.h"
 #include "app/new_effect_files.h"
 #include "app/settings/load_effects.h"
+#include "app/settings/settings.h"
 #include "core/base/atomic_file.h"
 #include "core/base/error.h"
 #include "core/base/library_folder.h"
@@ -26,8 +27,6 @@ struct NewEffectOptions {
 };
 
 constexpr size_t kLongestKey = 40;
-// Settings files use these keys beside the tables of the effects.
-constexpr const char* kTaken[] = {"effects", "surface"};
 
 void checkKey(const std::string& key) {
   const auto small = [](char c) { return c >= 'a' && c <= 'z'; };
@@ -36,7 +35,7 @@ void checkKey(const std::string& key) {
       !std::ranges::all_of(key, fits)) {
     throw Error(ErrorId::kProjectName, "'{}' is not a valid effect key", oneLine(key));
   }
-  if (std::ranges::find(kTaken, key) != std::end(kTaken)) {
+  if (std::ranges::find(kReservedKeys, key) != std::end(kReservedKeys)) {
     throw Error(ErrorId::kProjectName, "'{}' is a reserved key of settings files", key);
   }
   const auto registry = loadEffects({});

@@ -16,6 +16,7 @@
 #include "app/options/start_device.h"
 #include "app/report/coverage.h"
 #include "app/report/timings.h"
+#include "app/services/scene_lengths.h"
 #include "app/services/scene_services.h"
 #include "core/base/atomic_file.h"
 #include "core/base/error.h"
@@ -54,6 +55,7 @@ struct RenderJob : ChosenEffects {
       frame::checkOutput(write.output, chain.selection.effects());
     options.objects.check(chain);
     view = loadView(options.view);
+    fitToScene(chain.selection, view.scene);
     if (options.coverage.empty()) return;
     owned = findOwned(chain.selection.effects());
     if (!owned) {
@@ -130,6 +132,7 @@ void renderFrames(const RenderOptions& options, RenderJob& job, gpu::Device& dev
                      .width = job.view.size.x,
                      .height = job.view.size.y,
                      .surface = job.surface,
+                     .background = job.background,
                      .chain = &job.chain,
                      .outputs = outputs,
                      .services = services.all()});

@@ -7,6 +7,8 @@
 
 #include "app/command.h"
 #include "app/options/output_file.h"
+#include "app/options/scene_options.h"
+#include "app/options/size.h"
 #include "core/scene/camera.h"
 #include "core/scene/scene.h"
 
@@ -34,7 +36,7 @@ void showScene(const SceneCommand& options) {
     fmt::print("wrote {}\n", options.write);
   }
   if (!options.writeCamera.empty()) {
-    scene::saveCamera(scene::defaultCamera(scene), options.writeCamera);
+    scene::saveCamera(scene::defaultCamera(scene, aspectOf(kDefaultSize)), options.writeCamera);
     fmt::print("wrote {}\n", options.writeCamera);
   }
 }

@@ -13,6 +13,7 @@
 #include "app/options/option_checks.h"
 #include "app/options/output_file.h"
 #include "app/options/scene_options.h"
+#include "app/services/scene_lengths.h"
 #include "app/truth/content_hash.h"
 #include "app/truth/occlusion_truth.h"
 #include "app/truth/progress.h"
@@ -30,7 +31,8 @@ constexpr double kFarthest = 1e6;
 struct TruthOptions {
   SceneOptions view;
   std::vector<std::string> writes;
-  double radius = 0.5, error = 0;
+  std::optional<double> radius;
+  double error = 0;
   double thickness = 0;  // 0: not given
   uint32_t samples = 1024, seed = truth::kSeed;
   bool noCache = false, progress = false;
@@ -56,14 +58,14 @@ void requireLength(const char* option, double metres) {
 // The parsed command line, checked before any slow work starts.
 struct TruthJob {
   std::vector<OutputFile> writes;
-  double thickness;
+  double radius, thickness;
   SceneView view;
 
   explicit TruthJob(const TruthOptions& options)
-      : thickness(options.thickness > 0 ? options.thickness : options.radius / 5) {
+      : radius(options.radius.value_or(0)), thickness(options.thickness) {
     for (const std::string& text : options.writes) writes.push_back(parseWrite(text));
     requireDistinct(namedOutputs(writes));
-    requireLength("--radius", options.radius);
+    if (options.radius) requireLength("--radius", *options.radius);
     if (!(options.error >= 0 && std::isfinite(options.error))) {
       throw Error(ErrorId::kUsage, "--error is {:g}; give a finite number of 0 or more",
                   options.error);
@@ -71,6 +73,8 @@ struct TruthJob {
     checkUse("--thickness", options.thickness != 0, "ceiling");
     if (options.thickness != 0) requireLength("--thickness", options.thickness);
     view = loadView(options.view);
+    if (!options.radius) chooseRadius();
+    if (thickness == 0) thickness = radius / 5;
   }
 
   bool wants(std::string_view output) const {
@@ -78,6 +82,11 @@ struct TruthJob {
   }
 
  private:
+  void chooseRadius() {
+    radius = suitableRadius(view.scene);
+    printChosen({}, radius, "the scene");
+  }
+
   void checkUse(const char* option, bool given, std::string_view output) const {
     if (given && !wants(output) && !wants(fmt::format("{}_error", output))) {
       throw Error(ErrorId::kUsage, "{} is given, but no {} is written", option, output);
@@ -96,14 +105,14 @@ class Truth {
   void trace() {
     if (job_.wants("ao") || job_.wants("ao_error")) {
       ao_ = refine("ao", "", [this](auto hits, uint32_t from, uint32_t to, auto counts) {
-        tracer_.addOcclusion(hits, options_.radius, options_.seed, from, to, counts);
+        tracer_.addOcclusion(hits, job_.radius, options_.seed, from, to, counts);
       });
     }
     if (job_.wants("ceiling") || job_.wants("ceiling_error")) {
       const trace::DepthField field(hits_, job_.view.camera, job_.view.size.x, job_.view.size.y);
       const std::string more = fmt::format("thickness {}\n", job_.thickness);
       ceiling_ = refine("ceiling", more, [&](auto hits, uint32_t from, uint32_t to, auto counts) {
-        field.addOcclusion(hits, options_.radius, job_.thickness, options_.seed, from, to, counts);
+        field.addOcclusion(hits, job_.radius, job_.thickness, options_.seed, from, to, counts);
       });
     }
   }
@@ -132,7 +141,7 @@ class Truth {
     scene::Camera camera = job_.view.camera;
     camera.size = job_.view.size;
     const std::string key =
-        truth::keyOf(name, truth::hashOf(job_.view.scene), camera, options_.radius, options_.seed) +
+        truth::keyOf(name, truth::hashOf(job_.view.scene), camera, job_.radius, options_.seed) +
         more;
     truth::Cache cache(options_.noCache ? std::filesystem::path() : truth::cacheFolder(), key);
     return truth::refine(name, hits_, addRays,
@@ -184,9 +193,10 @@ void addTruth(CLI::App& program) {
   CLI::App* command =
       program.add_subcommand("truth", "Ray trace the reference that effects are measured against");
   options->view.addTo(*command);
-  command->add_option("--radius", options->radius, "Length of occlusion rays, metres")
-      ->type_name("R")
-      ->capture_default_str();
+  command
+      ->add_option("--radius", options->radius,
+                   "Length of occlusion rays, metres; default: chosen for the scene")
+      ->type_name("R");
   command->add_option("--samples", options->samples, "Largest number of occlusion rays per pixel")
       ->check(wholeNumberFrom(16, trace::kMostOcclusionRays))
       ->capture_default_str();

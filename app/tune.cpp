@@ -77,7 +77,7 @@ std::vector<NamedCamera> unseenCameras(const TuneOptions& options,
   std::vector<NamedCamera> all;
   for (size_t i = 0; i < given.size(); ++i) all.push_back({options.validate[i], given[i]});
   if (!given.empty() || options.random == 0) return all;
-  const double radius = options.subject.radius;
+  const double radius = subject.radius();
   for (const scene::Camera& camera :
        study::randomCameras(*subject.subject().scene, {.like = subject.firstCamera(),
                                                       .radius = radius,
@@ -100,13 +100,13 @@ std::vector<NamedCamera> unseenCameras(const TuneOptions& options,
 }
 
 // Throws kNothingToSee if every setting is right, because no camera sees an occluded surface.
-void requireOcclusion(const TuneOptions& options, const study::Subject& subject) {
+void requireOcclusion(const TuneOptions& options, const LoadedSubject& subject) {
   if (!options.subject.references.empty()) return;
-  for (const study::View& view : subject.views) {
+  for (const study::View& view : subject.subject().views) {
     if (study::occludedShare(view.truth) > 0) return;
   }
   throw Error(ErrorId::kNothingToSee, "no --camera sees an occluder within --radius {} m",
-              options.subject.radius);
+              subject.radius());
 }
 
 std::string wishText(const study::Wish& wish) {
@@ -158,7 +158,9 @@ study::Found find(const TuneOptions& options, const LoadedSubject& subject,
 void writeSetting(const TuneOptions& options, const LoadedSubject& subject,
                   const study::Setting& setting, const std::string& story) {
   Settings settings{.effects = subject.subject().effects, .surface = {}, .values = {}};
-  study::SettingText all = subject.subject().sets;
+  study::SettingText all = study::textOf(subject.registry(), subject.subject().lengths);
+  const std::vector<effect::Assignment>& sets = subject.subject().sets;
+  all.insert(all.end(), sets.begin(), sets.end());
   const study::SettingText tuned = study::textOf(subject.registry(), setting);
   all.insert(all.end(), tuned.begin(), tuned.end());
   for (const effect::Assignment& one : all) settings.values.push_back({one.name, one.value, ""});

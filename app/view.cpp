@@ -51,6 +51,7 @@ void addView(CLI::App& program) {
   command
       ->add_option("--surface", session.surface, "Surfaces in color: white, or their base colours")
       ->check(CLI::IsMember({"white", "base"}));
+  addBackground(*command, session.background);
   command->add_option("--view", session.view, "Output to show; default: color");
   command->add_option("--split", session.split,
                       "Second output, shown to the right of a line that you can drag");

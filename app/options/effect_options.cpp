@@ -1,8 +1,9 @@
 // SPDX-License-Identifier: MIT
 #include "app/options/effect_options.h"
-#include "app/settings/load_effects.h"
-
+#include "app/options/option_checks.h"
+#include "app/settings/background.h"
 #include "app/settings/chosen_effects.h"
+#include "app/settings/load_effects.h"
 
 namespace grisaille::app {
 
@@ -31,12 +32,15 @@ CLI::Option* EffectOptions::addTo(CLI::App& command, const std::string& help) {
       ->allow_extra_args(false);
   command
       .add_option("--config", config,
-                  "Settings file: effects, surface and values; other options override it")
+                  "Settings file: effects, surface, background and values; other options override "
+                  "it")
       ->type_name("FILE.toml");
   surfaceGiven =
       command.add_option("--surface", surface, "Surfaces in color: white, or their base colours")
           ->check(CLI::IsMember({"white", "base"}))
           ->capture_default_str();
+  background = textOf(frame::kGrey);
+  backgroundGiven = addBackground(command, background)->capture_default_str();
   command.add_option("--plugin-path", pluginPaths, "Another folder to load effects from")
       ->type_name("DIR")
       ->allow_extra_args(false);
@@ -62,6 +66,10 @@ ChosenEffects::ChosenEffects(const EffectOptions& options)
   const std::string& ground =
       given(options.surfaceGiven) || !settings.surface ? options.surface : *settings.surface;
   if (ground == "base") surface = frame::Surface::kBaseColour;
+  background =
+      backgroundOf(given(options.backgroundGiven) || !settings.background ? options.background
+                                                                          : *settings.background)
+          .value_or(background);
 }
 
 }  // namespace grisaille::app

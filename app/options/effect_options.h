@@ -16,10 +16,10 @@ namespace grisaille::app {
 
 struct EffectOptions {
   std::vector<std::string> effects, presets, sets, writes, pluginPaths;
-  std::string surface = "white", backend, device, config;
+  std::string surface = "white", background, backend, device, config;
   bool check = false;
   // The options, to tell whether the command line has them; null before addTo().
-  const CLI::Option *effectsGiven = nullptr, *surfaceGiven = nullptr;
+  const CLI::Option *effectsGiven = nullptr, *surfaceGiven = nullptr, *backgroundGiven = nullptr;
 
   // Adds the options to `command`, which keeps references to this. Returns --write, with `help` as
   // its help text.
@@ -31,6 +31,7 @@ struct ChosenEffects {
   std::unique_ptr<effect::Registry> registry;
   effect::Chain chain;
   frame::Surface surface = frame::Surface::kWhite;
+  frame::Background background = frame::kGrey;
 
   // Applies presets, then the settings file, then single values; later ones override earlier ones.
   // Throws as loadEffects(), readSettings(), chosenEffects() and Selection::set() do.

@@ -8,6 +8,8 @@
 #include <optional>
 #include <string>
 
+#include "app/settings/background.h"
+
 namespace grisaille::app {
 namespace {
 
@@ -50,6 +52,22 @@ CLI::Validator positiveNumber(Infinite infinite) {
   const bool taken = infinite == Infinite::kTaken;
   return checkOf("over 0", taken ? "a number over 0 or inf" : "a number over 0",
                  [=](double number) { return number > 0 && (taken || std::isfinite(number)); });
+}
+
+CLI::Option* addBackground(CLI::App& command, std::string& text) {
+  const auto check = [](const std::string& given) {
+    return backgroundOf(given) ? std::string()
+                               : fmt::format(
+                                     "'{}' is neither a colour as in #808080 nor "
+                                     "transparent",
+                                     given);
+  };
+  return command
+      .add_option("--background", text,
+                  "Colour of color where there is no surface; transparent: none, with the "
+                  "surfaces in an alpha channel")
+      ->type_name("#rrggbb|transparent")
+      ->check(CLI::Validator(check, ""));
 }
 
 void refuseEmptyValues(CLI::App& command) {

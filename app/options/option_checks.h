@@ -18,6 +18,9 @@ CLI::Validator wholeNumberFrom(uint32_t least, uint32_t most);
 enum class Infinite : uint8_t { kRefused, kTaken };
 CLI::Validator positiveNumber(Infinite infinite = Infinite::kRefused);
 
+// Adds --background, which sets `text`.
+CLI::Option* addBackground(CLI::App& command, std::string& text);
+
 // Makes every option of the command refuse an empty value, so that an unset variable of a script
 // does not select a default. --effects still accepts an empty list.
 void refuseEmptyValues(CLI::App& command);

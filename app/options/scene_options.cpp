@@ -25,9 +25,9 @@ SceneView loadView(const SceneOptions& options) {
   if (!options.size.empty()) given = parseSize(options.size);
   if (!options.camera.empty()) view.camera = cameraOf(options.camera, "--camera");
   view.scene = scene::loadScene(options.scene);
-  if (options.camera.empty()) view.camera = scene::defaultCamera(view.scene);
-  if (view.camera.size.x > 0) view.size = view.camera.size;
   if (given) view.size = *given;
+  if (options.camera.empty()) view.camera = scene::defaultCamera(view.scene, aspectOf(view.size));
+  if (!given && view.camera.size.x > 0) view.size = view.camera.size;
   return view;
 }
 

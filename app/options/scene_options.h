@@ -11,6 +11,8 @@
 
 namespace grisaille::app {
 
+constexpr glm::uvec2 kDefaultSize = glm::uvec2(1280, 720);  // of a picture, pixels
+
 struct SceneOptions {
   std::string scene, camera, size;  // empty: not given
 
@@ -20,7 +22,7 @@ struct SceneOptions {
 struct SceneView {
   scene::Scene scene;
   scene::Camera camera;
-  glm::uvec2 size = glm::uvec2(1280, 720);  // pixels
+  glm::uvec2 size = kDefaultSize;  // pixels
 };
 
 // The view that the options name. Checks size and camera before it loads the scene. Throws as

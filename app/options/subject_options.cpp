@@ -6,12 +6,15 @@
 #include <algorithm>
 #include <filesystem>
 #include <limits>
+#include <optional>
 
 #include "app/options/camera_option.h"
 #include "app/options/object_options.h"
 #include "app/options/option_checks.h"
 #include "app/options/size.h"
+#include "app/services/scene_lengths.h"
 #include "app/settings/chosen_effects.h"
+#include "app/study/sweep.h"
 #include "app/truth/content_hash.h"
 #include "app/truth/occlusion_truth.h"
 #include "core/base/error.h"
@@ -83,9 +86,10 @@ void SubjectOptions::addTo(CLI::App& command) {
                   "Load objects of an effect from a file that `grisaille render --save` wrote")
       ->type_name("EFFECT=FILE.json")
       ->allow_extra_args(false);
-  command.add_option("--radius", radius, "Length of the truth's rays, metres")
-      ->check(numberFrom(1e-6, 1e6))
-      ->capture_default_str();
+  command
+      .add_option("--radius", radius,
+                  "Length of the truth's rays, metres; default: chosen for the scene")
+      ->check(numberFrom(1e-6, 1e6));
   command.add_option("--samples", samples, "Number of the truth's rays per pixel")
       ->check(wholeNumberFrom(16, 65536))
       ->capture_default_str();
@@ -97,9 +101,9 @@ void SubjectOptions::addTo(CLI::App& command) {
 
 LoadedSubject::LoadedSubject(const SubjectOptions& options,
                              std::unique_ptr<effect::Registry> registry,
-                             const std::vector<std::string>& swept)
-    : options_(options), registry_(std::move(registry)) {
-  effect::Chain chain = chooseEffects(swept);
+                             const std::vector<effect::ParameterName>& swept)
+    : options_(options), swept_(swept), registry_(std::move(registry)) {
+  effect::Chain chain = chooseEffects();
   subject_.output = options.output.empty() ? defaultOutput(chain.selection) : options.output;
   frame::checkOutput(subject_.output, chain.selection.effects());
   subject_.size = parseSize(options.size);
@@ -121,13 +125,13 @@ LoadedSubject::LoadedSubject(const SubjectOptions& options,
 }
 
 // Fills in the subject's effects and sets.
-effect::Chain LoadedSubject::chooseEffects(const std::vector<std::string>& swept) {
+effect::Chain LoadedSubject::chooseEffects() {
   const Settings settings = options_.config.empty() ? Settings{} : readSettings(options_.config);
   subject_.effects = options_.effects;
   if (subject_.effects.empty() && settings.effects) subject_.effects = *settings.effects;
-  for (const std::string& effect : swept) {
-    if (std::ranges::find(subject_.effects, effect) == subject_.effects.end()) {
-      subject_.effects.push_back(effect);
+  for (const effect::ParameterName& one : swept_) {
+    if (std::ranges::find(subject_.effects, one.effect) == subject_.effects.end()) {
+      subject_.effects.push_back(one.effect);
     }
   }
   if (subject_.effects.empty()) subject_.effects = registry_->defaults();
@@ -151,9 +155,25 @@ void LoadedSubject::loadObjects(effect::Chain& chain) {
 
 void LoadedSubject::loadScene() {
   scene_ = scene::loadScene(options_.scene);
+  chooseLengths();
   if (!options_.cameras.empty()) return;
   if (cameras_.empty()) cameras_.push_back({"default", {}, ""});
-  cameras_[0].camera = scene::defaultCamera(scene_);
+  cameras_[0].camera = scene::defaultCamera(scene_, aspectOf(subject_.size));
+}
+
+void LoadedSubject::chooseLengths() {
+  const double radius = suitableRadius(scene_);
+  effect::Selection selection(*registry_, subject_.effects);
+  fitLengths(selection, radius);
+  for (const effect::Assignment& set : subject_.sets) selection.set(set);
+  for (const effect::ParameterName& one : swept_) {
+    effect::Values& values = selection.values(one.effect);
+    values.set(one.key, values.get(one.key));
+  }
+  subject_.lengths = lengthsOf(selection);
+  const bool given = options_.radius != 0;
+  if (!given) options_.radius = radius;
+  printChosen(selection, given ? std::optional<double>() : radius, "the scene");
 }
 
 study::View LoadedSubject::viewOf(const std::string& name, const scene::Camera& camera,
@@ -195,6 +215,9 @@ std::string LoadedSubject::key() const {
   std::string key = fmt::format("scene {:016x}\nsize {}x{}\nradius {}\nsamples {}\noutput {}\n",
                                 truth::hashOf(scene_), subject_.size.x, subject_.size.y,
                                 options_.radius, options_.samples, subject_.output);
+  for (const effect::Assignment& length : study::textOf(*registry_, subject_.lengths)) {
+    key += "length " + length.text() + "\n";
+  }
   for (const effect::Assignment& set : subject_.sets) key += "set " + set.text() + "\n";
   for (const std::string& effect : subject_.effects) key += "effect " + effect + "\n";
   for (const auto& [effect, objects] : subject_.objects) {
@@ -223,6 +246,9 @@ std::string LoadedSubject::renderCommand(const study::SettingText& setting,
   add("--size"), add(fmt::format("{}x{}", subject_.size.x, subject_.size.y));
   add("--effects"), add(fmt::format("{}", fmt::join(subject_.effects, ",")));
   for (const std::string& load : options_.loads) add("--load"), add(load);
+  for (const effect::Assignment& length : study::textOf(*registry_, subject_.lengths)) {
+    add("--set"), add(length.text());
+  }
   for (const effect::Assignment& set : subject_.sets) add("--set"), add(set.text());
   for (const effect::Assignment& one : setting) add("--set"), add(one.text());
   add("--write"), add(subject_.output + "=picture.png");

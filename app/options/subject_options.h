@@ -20,7 +20,7 @@ struct SubjectOptions {
   std::string config;
   std::vector<std::string> presets;
   std::vector<std::string> cameras, references, loads, sets, effects, pluginPaths;
-  double radius = 0.5;     // metres
+  double radius = 0;       // metres; 0: chosen for the scene
   uint32_t samples = 256;  // rays per pixel
   truth::ProgressStyle progress = truth::usualProgress();
 
@@ -31,10 +31,11 @@ struct SubjectOptions {
 class LoadedSubject {
  public:
   // Checks the options and loads objects and cameras; loadScene() and trace() load the rest.
-  // `registry`: the effects of options.pluginPaths. `swept`: effects that run even if no option
-  // names them. Throws kUsage, and the errors of cameras, objects, effects and their parameters.
+  // `registry`: the effects of options.pluginPaths. `swept`: parameters whose effects run even if
+  // no option names them. Throws kUsage, and the errors of cameras, objects, effects and their
+  // parameters.
   LoadedSubject(const SubjectOptions& options, std::unique_ptr<effect::Registry> registry,
-                const std::vector<std::string>& swept);
+                const std::vector<effect::ParameterName>& swept);
 
   LoadedSubject(const LoadedSubject&) = delete;
   LoadedSubject& operator=(const LoadedSubject&) = delete;
@@ -42,11 +43,15 @@ class LoadedSubject {
   const effect::Registry& registry() const { return *registry_; }
   const study::Subject& subject() const { return subject_; }
 
-  // Loads the scene, and takes its default camera if no option gives one.
+  // Loads the scene. Takes its default camera and chooses the radius and the scene's lengths, if no
+  // option gives them; prints the lengths.
   void loadScene();
 
   // The first camera; its size is not set. Call it after loadScene().
   const scene::Camera& firstCamera() const { return cameras_.front().camera; }
+
+  // Length of the truth's rays, metres. Call it after loadScene().
+  double radius() const { return options_.radius; }
 
   // Traces the truth of every camera, or takes it from the cache. Throws truth::Interrupted.
   void trace();
@@ -63,10 +68,12 @@ class LoadedSubject {
   std::string renderCommand(const study::SettingText& setting, const std::string& backend) const;
 
  private:
-  effect::Chain chooseEffects(const std::vector<std::string>& swept);
+  effect::Chain chooseEffects();
   void loadObjects(effect::Chain& chain);
+  void chooseLengths();
 
   SubjectOptions options_;
+  std::vector<effect::ParameterName> swept_;
   std::unique_ptr<effect::Registry> registry_;
   scene::Scene scene_;
   study::Subject subject_;

@@ -119,6 +119,7 @@ nlohmann::ordered_json jsonOf(const grisaille_param_desc& param) {
     json["soft_range"] = {param.soft_min, param.soft_max};
     json["step"] = param.step;
     json["scale"] = (param.flags & GRISAILLE_PARAM_LOG) != 0 ? "log" : "linear";
+    json["scene_length"] = (param.flags & GRISAILLE_PARAM_SCENE_LENGTH) != 0;
   }
   return json;
 }
@@ -240,8 +241,10 @@ std::string effectMarkdown(const effect::Effect& effect) {
     return escaped;
   };
   for (const grisaille_param_desc& param : effect.params()) {
-    text += fmt::format("| `{}`{} | {} | {} | {} |\n", param.key, markText(param),
-                        effect::textOf(param, param.default_value), cell(rangeText(param)),
+    const bool ofScene = (param.flags & GRISAILLE_PARAM_SCENE_LENGTH) != 0;
+    text += fmt::format("| `{}`{} | {}{} | {} | {} |\n", param.key, markText(param),
+                        effect::textOf(param, param.default_value),
+                        ofScene ? ", scaled to the scene" : "", cell(rangeText(param)),
                         cell(param.tooltip));
   }
   text += "\n| output | what it holds |\n|---|---|\n";

@@ -91,9 +91,8 @@ std::string presetsToml(const Presets& presets) {
 
 void applyPreset(effect::Values& values, const Presets& presets, const std::string& name) {
   const Preset& chosen = presets.find(values.effect().desc->key, name);
-  const effect::Values defaults(values.effect());
   for (const Preset& preset : presets.all) {
-    for (const auto& [key, text] : preset.values) values.set(key, defaults.text(key));
+    for (const auto& [key, text] : preset.values) values.reset(key);
   }
   for (const auto& [key, text] : chosen.values) values.set(key, text);
 }

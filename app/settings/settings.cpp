@@ -3,6 +3,7 @@
 
 #include <algorithm>
 
+#include "app/settings/background.h"
 #include "app/settings/toml_values.h"
 #include "core/base/atomic_file.h"
 #include "core/base/error.h"
@@ -41,6 +42,16 @@ std::string surfaceOf(const std::string& path, const toml::node& node) {
   return surface->get();
 }
 
+std::string backgroundText(const std::string& path, const toml::node& node) {
+  const toml::value<std::string>* background = node.as_string();
+  if (background == nullptr || !backgroundOf(background->get())) {
+    throw Error(ErrorId::kSettingsInvalid,
+                "{}: 'background' must be a colour as in \"#808080\", or \"transparent\"",
+                placeOf(path, node));
+  }
+  return background->get();
+}
+
 std::string keyToml(const std::string& key) {
   const auto bare = [](char c) {
     return (c >= 'a' && c <= 'z') || (c >= 'A' && c <= 'Z') || (c >= '0' && c <= '9') || c == '_' ||
@@ -51,7 +62,7 @@ std::string keyToml(const std::string& key) {
 
 // The table of one effect. If a parameter has several values, the last one counts.
 std::string tableToml(const Settings& settings, const std::string& effect) {
-  if (effect == "effects" || effect == "surface") {
+  if (std::ranges::find(kReservedKeys, effect) != std::end(kReservedKeys)) {
     throw Error(ErrorId::kSettingsInvalid,
                 "effect '{}' has the name of a reserved key of settings files", effect);
   }
@@ -83,6 +94,8 @@ Settings readSettings(const std::string& path) {
       settings.effects = effectKeys(path, node);
     } else if (key.str() == "surface") {
       settings.surface = surfaceOf(path, node);
+    } else if (key.str() == "background") {
+      settings.background = backgroundText(path, node);
     } else if (const toml::table* values = node.as_table()) {
       for (const auto& [parameter, value] : *values) {
         settings.values.push_back(
@@ -91,9 +104,8 @@ Settings readSettings(const std::string& path) {
              .place = placeOf(path, value)});
       }
     } else {
-      throw Error(ErrorId::kSettingsInvalid,
-                  "{}: '{}' is neither 'effects' nor 'surface' nor the table of an effect",
-                  placeOf(path, node), key.str());
+      throw Error(ErrorId::kSettingsInvalid, "{}: '{}' is neither {} nor the table of an effect",
+                  placeOf(path, node), key.str(), fmt::join(kReservedKeys, " nor "));
     }
   }
   return settings;
@@ -109,6 +121,9 @@ std::string settingsToml(const Settings& settings) {
     text += fmt::format("effects = [{}]\n", keys);
   }
   if (settings.surface) text += fmt::format("surface = {}\n", tomlText(*settings.surface));
+  if (settings.background) {
+    text += fmt::format("background = {}\n", tomlText(*settings.background));
+  }
   std::vector<std::string> effects;
   for (const Settings::Value& value : settings.values) {
     const std::string& effect = value.name.effect;
@@ -140,6 +155,7 @@ Settings settingsOf(const effect::Selection& selection) {
     if (!entry.on) continue;
     settings.effects->emplace_back(entry.key());
     for (const grisaille_param_desc& param : entry.effect().params()) {
+      if (effect::followsScene(entry.values, param)) continue;
       settings.values.push_back({.name = {.effect = entry.key(), .key = param.key},
                                  .text = entry.values.text(param.key),
                                  .place = {}});

@@ -39,6 +39,12 @@ image::Image oneChannel(image::Image picture, const std::string& name) {
   return picture;
 }
 
+void fit(effect::Selection& selection, const std::vector<effect::ParameterValue>& lengths) {
+  for (const effect::ParameterValue& one : lengths) {
+    selection.values(one.name.effect).fit(one.name.key, one.value);
+  }
+}
+
 double costOf(const std::vector<gpu::FrameTimes>& frames, const std::vector<std::string>& effects,
               double guardShare) {
   double sum = 0;
@@ -61,6 +67,7 @@ Measurer::Measurer(const Subject& subject, gpu::Device& device)
 std::unique_ptr<effect::Chain> Measurer::start(const Setting& setting) {
   auto chain =
       std::make_unique<effect::Chain>(effect::Selection(*subject_.registry, subject_.effects));
+  fit(chain->selection, subject_.lengths);
   for (const effect::Assignment& set : subject_.sets) chain->selection.set(set);
   for (const effect::ParameterValue& one : setting) chain->selection.set(one);
   for (const auto& [effect, objects] : subject_.objects) {

@@ -32,6 +32,7 @@ struct Subject {
   glm::uvec2 size = glm::uvec2(640, 360);
   const effect::Registry* registry = nullptr;
   std::vector<std::string> effects;                 // in the order they run
+  std::vector<effect::ParameterValue> lengths;      // chosen for the scene; `sets` override them
   std::vector<effect::Assignment> sets;             // a setting's values override them
   std::string output;                               // the output to compare with the truth
   std::map<std::string, objects::Objects> objects;  // by effect
@@ -40,6 +41,9 @@ struct Subject {
 // Returns the only channel of an output, or the last of four, which is alpha. Throws kEffectOutput
 // if a value is not finite, kSettingsInvalid for any other number of channels.
 image::Image oneChannel(image::Image picture, const std::string& name);
+
+// Makes the lengths the defaults of the selection; see effect::Values::fit().
+void fit(effect::Selection& selection, const std::vector<effect::ParameterValue>& lengths);
 
 // Mean cost of `effects` per frame, milliseconds: the passes with labels "EFFECT/...", and the
 // effects' share of the passes that draw the scene, see frame::shareForEffects(). `guardShare`:

@@ -9,7 +9,8 @@
 namespace grisaille::app::study {
 
 std::vector<Point> startsOf(const Subject& subject, const std::vector<Axis>& axes) {
-  const effect::Selection defaults(*subject.registry, subject.effects);
+  effect::Selection defaults(*subject.registry, subject.effects);
+  fit(defaults, subject.lengths);
   effect::Selection present = defaults;
   for (const effect::Assignment& set : subject.sets) present.set(set);
   std::map<std::string, Presets> presets;  // by effect

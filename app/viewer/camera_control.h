@@ -9,6 +9,7 @@
 
 #include <glm/glm.hpp>
 
+#include "core/scene/bounds.h"
 #include "core/scene/camera.h"
 
 namespace grisaille::app::viewer {

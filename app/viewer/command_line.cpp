@@ -20,7 +20,8 @@ void addEffects(const effect::Selection& effects, std::vector<std::string>& argu
     const effect::Values defaults(entry.effect());
     for (const grisaille_param_desc& param : entry.effect().params()) {
       const std::string text = entry.values.text(param.key);
-      if (text == defaults.text(param.key)) continue;
+      const bool ofScene = (param.flags & GRISAILLE_PARAM_SCENE_LENGTH) != 0;
+      if (text == defaults.text(param.key) && !ofScene) continue;
       const effect::Assignment set{.name = {.effect = entry.key(), .key = param.key},
                                    .value = text};
       sets.push_back(set.text());
@@ -50,6 +51,7 @@ std::vector<std::string> renderArguments(const RenderCommand& command) {
     add("--effects", "");
   }
   add("--surface", command.surface);
+  if (!command.background.empty()) add("--background", command.background);
   for (const auto& [effect, file] : command.loads) add("--load", effect + "=" + file);
   for (const auto& [output, file] : command.writes) add("--write", output + "=" + file);
   return arguments;

@@ -20,21 +20,23 @@ struct RenderCommand {
   std::string backend = {}, device = {};       // "": no option
   const effect::Selection* effects = nullptr;  // only those switched on; null: none
   std::string surface = "white";
+  std::string background = {};  // "": no option
   // --load as effect and file; --write as output and file.
   std::vector<std::pair<std::string, std::string>> loads = {}, writes = {};
   std::vector<std::string> pluginPaths = {};
 };
 
 // The program's name and its arguments, unquoted. --set names only the parameters that differ from
-// their defaults.
+// their defaults, and the lengths of the scene.
 std::vector<std::string> renderArguments(const RenderCommand& command);
 
 // renderArguments() as one line, quoted for a shell.
 std::string renderCommand(const RenderCommand& command);
 
 // Appends --effects with the effects that are on, and --set for each of their values that differs
-// from its default.
-void addEffects(const effect::Selection& effects, std::vector<std::string>& arguments);
+// from its default or is a length of the scene. Skips the parameters in `leftOut`.
+void addEffects(const effect::Selection& effects, const std::vector<effect::ParameterName>& leftOut,
+                std::vector<std::string>& arguments);
 
 // The path, with "./" in front if it starts with '-', so that no parser takes it for an option.
 std::string plainPath(const std::string& path);

@@ -100,6 +100,7 @@ class Panel {
                   Requests& requests);
   void drawParameters(effect::Selection::Entry& entry);
   void drawParameter(effect::Selection::Entry& entry, const grisaille_param_desc& param);
+  void drawSceneLength(effect::Selection::Entry& entry, const grisaille_param_desc& param);
   bool editParameter(const effect::Selection::Entry& entry, const grisaille_param_desc& param,
                      double& value);
   void drawCost(const Status& status);
@@ -113,6 +114,7 @@ class Panel {
   void drawOutcome(const TuneStatus& status);
   // panel_views.cpp
   void drawViews(const Status& status, Requests& requests);
+  void drawBackground();
   void drawViewChoice(const char* label, const char* id, std::string& output,
                       const std::vector<Viewable>& all);
   // panel_objects.cpp

@@ -42,7 +42,7 @@ std::string tooltipOf(const effect::Selection::Entry& entry, const grisaille_par
                         unit, param.unit, param.soft_min, param.soft_max);
   }
   return text + fmt::format("\nCtrl+click: type a value. Right click: back to {}.",
-                            effect::Values(entry.effect()).text(param.key));
+                            effect::textOf(param, entry.values.defaultOf(param.key)));
 }
 
 std::string readsOf(const effect::Selection::Entry& entry) {
@@ -178,8 +178,8 @@ void Panel::drawParameter(effect::Selection::Entry& entry, const grisaille_param
   if (ImGui::IsItemHovered()) {
     ImGui::SetTooltip("%s", tooltipOf(entry, param).c_str());
     if (ImGui::IsMouseClicked(ImGuiMouseButton_Right)) {
-      value = param.default_value;
-      edited = true;
+      session_.resetParameter(entry, param.key);
+      value = entry.values.get(param.key);
     }
   }
   if (edited && value != entry.values.get(param.key)) {
@@ -189,6 +189,32 @@ void Panel::drawParameter(effect::Selection::Entry& entry, const grisaille_param
     });
   }
   layout.note(name, entry.values.text(param.key));
+  if ((param.flags & GRISAILLE_PARAM_SCENE_LENGTH) != 0) drawSceneLength(entry, param);
+}
+
+// Under a length of the scene: whether it follows the scene, with a button that takes the table's
+// default or follows the scene again.
+void Panel::drawSceneLength(effect::Selection::Entry& entry, const grisaille_param_desc& param) {
+  const std::string name = std::string(entry.key()) + "." + param.key;
+  const std::string scenes = effect::textOf(param, entry.values.defaultOf(param.key));
+  const std::string tables = effect::textOf(param, param.default_value);
+  const auto choice = [&](const std::string& label, const char* id) {
+    return button(fmt::format("{}##{}", label, name).c_str(),
+                  fmt::format("{} {}", name, id).c_str());
+  };
+  if (!entry.values.given(param.key)) {
+    if (scenes == tables) return;
+    ImGui::TextDisabled("chosen for the scene");
+    ImGui::SameLine();
+    if (choice(fmt::format("Table's {}", tables), "of the table")) {
+      entry.values.set(param.key, param.default_value);
+      session_.changed(name);
+    }
+  } else if (entry.values.text(param.key) != scenes) {
+    if (choice(fmt::format("Scene's {}", scenes), "of the scene")) {
+      session_.resetParameter(entry, param.key);
+    }
+  }
 }
 
 // Draws the control; true if the user changed `value`.

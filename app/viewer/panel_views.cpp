@@ -5,6 +5,7 @@
 #include <algorithm>
 #include <glm/gtc/color_space.hpp>
 
+#include "app/settings/background.h"
 #include "app/viewer/panel.h"
 
 namespace grisaille::app::viewer {
@@ -21,6 +22,22 @@ void Panel::drawViewChoice(const char* label, const char* id, std::string& outpu
     ImGui::EndCombo();
   }
   layout.note(id, output);
+}
+
+void Panel::drawBackground() {
+  bool transparent = session_.background.a == 0;
+  glm::vec3 colour = glm::convertLinearToSRGB(glm::vec3(session_.background));
+  ImGui::BeginDisabled(transparent);
+  if (ImGui::ColorEdit3("Background", &colour.x, ImGuiColorEditFlags_NoInputs)) {
+    session_.background = frame::Background(glm::convertSRGBToLinear(colour), 1);
+  }
+  ImGui::EndDisabled();
+  layout.note("background", textOf(session_.background));
+  ImGui::SameLine();
+  if (toggle("Transparent", "transparent", transparent,
+             "Saved pictures have an alpha channel: 0 where there is no surface")) {
+    session_.background = transparent ? frame::kTransparent : frame::kGrey;
+  }
 }
 
 void Panel::drawViews(const Status& status, Requests& requests) {
@@ -47,6 +64,7 @@ void Panel::drawViews(const Status& status, Requests& requests) {
   if (toggle("Base colour under the light", "base", base, "Off: all surfaces are white")) {
     session_.surface = base ? frame::Surface::kBaseColour : frame::Surface::kWhite;
   }
+  drawBackground();
   ImGui::SetNextItemWidth(ImGui::GetContentRegionAvail().x * 0.58f);
   ImGui::SliderFloat("Zoom", &session_.zoom, 1, 64, "%.3g px per texel",
                      ImGuiSliderFlags_Logarithmic);

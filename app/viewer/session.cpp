@@ -6,6 +6,7 @@
 
 #include "app/options/camera_option.h"
 #include "app/options/object_options.h"
+#include "app/settings/background.h"
 #include "app/settings/chosen_effects.h"
 #include "app/settings/load_effects.h"
 #include "app/viewer/camera_control.h"
@@ -58,6 +59,9 @@ Session::Session(SessionOptions options)
   loadAllPresets();
   surface =
       surfaceOf(!options_.surface.empty() ? options_.surface : settings.surface.value_or("white"));
+  background = backgroundOf(!options_.background.empty() ? options_.background
+                                                         : settings.background.value_or(""))
+                   .value_or(background);
   if (!options_.camera.empty()) camera = cameraOf(options_.camera, "--camera");
   split = !options_.split.empty();
   beginComparing();
@@ -86,18 +90,37 @@ void Session::apply(const Settings& settings, const std::vector<std::string>& pr
     fresh.entries().push_back(entry);
   }
   chain.selection = std::move(fresh);
+  fitToScene();
 }
 
-void Session::setScene(std::shared_ptr<const scene::Scene> loaded, const std::string& path) {
+// Lengths that nobody has set follow the scene.
+void Session::fitToScene() {
+  fitLengths(chain.selection, suitableRadius_);
+  if (held) fitLengths(*held, suitableRadius_);
+}
+
+void Session::resetParameter(effect::Selection::Entry& entry, const std::string& key) {
+  entry.values.reset(key);
+  changed(fmt::format("{}.{}", entry.key(), key));
+}
+
+void Session::setScene(std::shared_ptr<const scene::Scene> loaded, const std::string& path,
+                       glm::uvec2 size) {
   scenePath = path;
   scene = std::move(loaded);
   services = std::make_unique<SceneServices>(
       *scene, [this](const std::string& warning) { say("warning: " + warning, true); });
   for (const std::string& note : scene->notes) say("note: " + note);
-  homeCamera = scene::defaultCamera(*scene);
+  homeCamera =
+      scene::defaultCamera(*scene, double{1} * std::max(size.x, 1u) / std::max(size.y, 1u));
   if (std::exchange(firstScene_, false) && !options_.camera.empty()) homeCamera = camera;
   camera = homeCamera;
   speed = flySpeed(scene->bounds);
+  suitableRadius_ = suitableRadius(*scene);
+  fitToScene();
+  printChosen(chain.selection, {}, "the scene");
+  ++revision;
+  ++heldRevision;
   zoom = 1;
   centre = glm::vec2(0.5f);
 }
@@ -128,6 +151,7 @@ void Session::rescan(const std::function<void()>& before) {
   held = std::move(heldAgain);
   next_.clear();
   registry_ = std::move(fresh);
+  fitToScene();
   ++revision;
   ++heldRevision;
   loadAllPresets();
@@ -181,6 +205,7 @@ void Session::loadSettings(const std::string& path) {
   const Settings settings = readSettings(path);
   apply(settings, {});
   if (settings.surface) surface = surfaceOf(*settings.surface);
+  if (settings.background) background = backgroundOf(*settings.background).value_or(background);
   changed(fs::path(path).filename().string());
   checkViews();
   say("settings from " + path);
@@ -189,6 +214,7 @@ void Session::loadSettings(const std::string& path) {
 void Session::saveSettings(const std::string& path) {
   Settings settings = settingsOf(chain.selection);
   settings.surface = nameOf(surface);
+  settings.background = textOf(background);
   writeSettings(settings, path);
   say("settings to " + path);
 }
@@ -227,6 +253,7 @@ std::string Session::commandLine(glm::uvec2 size, const std::string& backend,
   command.device = device;
   command.effects = &chain.selection;
   command.surface = nameOf(surface);
+  if (background != frame::kGrey) command.background = textOf(background);
   command.pluginPaths = options_.pluginPaths;
   for (const std::string& effect : effectsWithObjects()) {
     const objects::ObjectList& list = listOf(effect);

@@ -12,6 +12,7 @@
 #include <string>
 #include <vector>
 
+#include "app/services/scene_lengths.h"
 #include "app/services/scene_services.h"
 #include "app/settings/presets.h"
 #include "app/settings/settings.h"
@@ -27,7 +28,7 @@ namespace grisaille::app::viewer {
 
 // Options of the command line.
 struct SessionOptions {
-  std::string scene, camera, config, surface, view, split;
+  std::string scene, camera, config, surface, background, view, split;
   std::vector<std::string> effects, presets, sets, loads, pluginPaths;
   bool effectsGiven = false;
   bool compareTruth = false;
@@ -91,8 +92,9 @@ class Session {
 
   // --- The scene
   // Shows a loaded scene. `path`: its file; "": the built-in scene. The camera becomes --camera for
-  // the first scene if given, else the built-in scene's camera or an overview of the scene.
-  void setScene(std::shared_ptr<const scene::Scene> loaded, const std::string& path);
+  // the first scene if given, else scene::defaultCamera() for a picture of `size` pixels.
+  void setScene(std::shared_ptr<const scene::Scene> loaded, const std::string& path,
+                glm::uvec2 size);
   std::string scenePath;  // "": the built-in scene
   std::shared_ptr<const scene::Scene> scene;
   std::unique_ptr<SceneServices> services;  // of the scene
@@ -113,6 +115,8 @@ class Session {
   void undo();
   void redo();
   const effect::Registry& registry() const { return *registry_; }
+  // Back to the default of a parameter: for a length, to the one that follows the scene.
+  void resetParameter(effect::Selection::Entry& entry, const std::string& key);
   // Loads plugins that are new or have changed. Calls `before` before it destroys instances of the
   // old plugins.
   void rescan(const std::function<void()>& before);
@@ -128,6 +132,7 @@ class Session {
   bool split = false;
   float line = 0.5f;  // of the split, as a share of the picture's width
   frame::Surface surface = frame::Surface::kWhite;
+  frame::Background background = frame::kGrey;
   float zoom = 1;                      // pixels per texel
   glm::vec2 centre = glm::vec2(0.5f);  // point in the middle, as a share of the picture
   bool inspecting = false;             // show the value under the cursor
@@ -209,6 +214,7 @@ class Session {
   void apply(const Settings& settings, const std::vector<std::string>& presets);
   // The effect whose objects a file holds; "": none.
   std::string ownerOf(const std::string& path);
+  void fitToScene();
   void beginComparing();
   void loadAllPresets();
 
@@ -219,6 +225,7 @@ class Session {
   std::map<std::string, objects::Object, std::less<>> next_;  // by effect
   std::string leftBefore_ = "color";                          // left view before the comparison
   bool firstScene_ = true;
+  double suitableRadius_ = kUsualRadius;  // of the scene, metres
 };
 
 }  // namespace grisaille::app::viewer

@@ -43,7 +43,6 @@ std::string Session::comparedOutput() const {
 }
 
 double Session::truthRadius(const std::string& output) const {
-  constexpr double kUsual = 0.5;  // metres; for effects without a radius
   if (comparing.radius) return *comparing.radius;
   for (const effect::Selection::Entry& entry : chain.selection.entries()) {
     if (!output.starts_with(std::string(entry.key()) + ".")) continue;
@@ -53,7 +52,7 @@ double Session::truthRadius(const std::string& output) const {
       if (radius > 0 && radius <= TruthSettings::kFarthest) return radius;
     }
   }
-  return kUsual;
+  return suitableRadius_;  // for effects without a radius
 }
 
 void Session::setTruthRadius(double metres) {

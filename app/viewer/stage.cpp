@@ -26,6 +26,12 @@ Kind kindOf(const effect::Selection& effects, const std::string& output) {
   return Kind::kEncoded;
 }
 
+// A composed picture without a background shows a checkerboard there.
+Kind kindOf(const StageDesc& desc, const effect::Selection& effects, const std::string& output) {
+  const bool clear = output == "color" && desc.background.a < 1;
+  return clear ? Kind::kOverlay : kindOf(effects, output);
+}
+
 // Gives a chain another selection while this lives. The chain keeps its objects and instances.
 class Exchanged {
  public:
@@ -64,8 +70,8 @@ bool Stage::Wanted::operator==(const Wanted& o) const {
   return camera.eye == o.camera.eye && camera.target == o.camera.target &&
          camera.up == o.camera.up && camera.fovyDegrees == o.camera.fovyDegrees &&
          camera.nearPlane == o.camera.nearPlane && size == o.size && surface == o.surface &&
-         revision == o.revision && left == o.left && right == o.right && extra == o.extra &&
-         objects == o.objects;
+         background == o.background && revision == o.revision && left == o.left &&
+         right == o.right && extra == o.extra && objects == o.objects;
 }
 
 Stage::Stage(gpu::Device& device, const scene::Scene& scene, SceneServices& services,
@@ -82,6 +88,7 @@ Stage::Wanted Stage::wanted(const StageDesc& desc, bool held) {
   Wanted all = {.camera = desc.camera,
                 .size = desc.size,
                 .surface = desc.surface,
+                .background = desc.background,
                 .revision = held ? desc.heldRevision : desc.liveRevision,
                 .left = held ? "" : desc.left,
                 .right = held || desc.held == nullptr ? desc.right : "",
@@ -101,6 +108,7 @@ void Stage::render(const StageDesc& desc, glm::uvec2 size, std::span<const std::
                     .width = size.x,
                     .height = size.y,
                     .surface = desc.surface,
+                    .background = desc.background,
                     .chain = desc.chain,
                     .outputs = outputs,
                     .patience = desc.patience,
@@ -149,7 +157,7 @@ void Stage::updateHeld(const StageDesc& desc) {
     throw;
   }
   device_.submit();
-  right_ = {held_, desc.right, kindOf(*desc.held, desc.right), {}};
+  right_ = {held_, desc.right, kindOf(desc, *desc.held, desc.right), {}};
 }
 
 void Stage::update(const StageDesc& desc) {
@@ -171,10 +179,13 @@ void Stage::update(const StageDesc& desc) {
   render(desc, desc.size, outputs);
   waiting_ = renderer_.waiting();
   size_ = desc.size;
-  left_ = {renderer_.texture(desc.left), desc.left, kindOf(desc.chain->selection, desc.left), {}};
+  left_ = {
+      renderer_.texture(desc.left), desc.left, kindOf(desc, desc.chain->selection, desc.left), {}};
   if (!held && !desc.right.empty()) {
-    right_ = {
-        renderer_.texture(desc.right), desc.right, kindOf(desc.chain->selection, desc.right), {}};
+    right_ = {renderer_.texture(desc.right),
+              desc.right,
+              kindOf(desc, desc.chain->selection, desc.right),
+              {}};
   }
 }
 

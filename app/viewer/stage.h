@@ -32,6 +32,7 @@ struct StageDesc {
   scene::Camera camera;
   glm::uvec2 size = glm::uvec2(0);
   frame::Surface surface = frame::Surface::kWhite;
+  frame::Background background = frame::kGrey;
   effect::Chain* chain = nullptr;
   uint64_t liveRevision = 0;                // of the chain's selection
   const effect::Selection* held = nullptr;  // settings of the right side; null: the chain's
@@ -93,6 +94,7 @@ class Stage {
     scene::Camera camera;
     glm::uvec2 size;
     frame::Surface surface;
+    frame::Background background;
     uint64_t revision;
     std::string left, right;
     std::vector<std::string> extra;

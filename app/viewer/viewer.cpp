@@ -267,7 +267,7 @@ void Viewer::takeScene() {
     // Truth and stage refer to the old scene.
     truth_->stop();
     stage_.reset();
-    session_.setScene(scene, path);
+    session_.setScene(scene, path, place().size);
     stage_ = std::make_unique<Stage>(*device_, *session_.scene, *session_.services, session_.chain);
     times_.clear();
     state_.noteRecent(path);

@@ -43,6 +43,7 @@ StageDesc Viewer::stageDesc() {
   desc.camera = session_.camera;
   desc.size = place().size;
   desc.surface = session_.surface;
+  desc.background = session_.background;
   desc.chain = &session_.chain;
   desc.liveRevision = session_.revision;
   // The compared output stands in for truth and error until these have a texture.

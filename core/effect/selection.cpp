@@ -7,6 +7,10 @@
 
 namespace grisaille::effect {
 
+bool followsScene(const Values& values, const grisaille_param_desc& param) {
+  return (param.flags & GRISAILLE_PARAM_SCENE_LENGTH) != 0 && !values.given(param.key);
+}
+
 Selection::Selection(const Registry& registry) : registry_(&registry) {
   for (const Effect& effect : registry.effects()) {
     entries_.push_back({.on = false, .values = Values(effect)});
@@ -65,6 +69,7 @@ Selection::State Selection::state() const {
     one.key = entry.key();
     one.on = entry.on;
     for (const grisaille_param_desc& param : entry.effect().params()) {
+      if (followsScene(entry.values, param)) continue;
       one.values.emplace_back(param.key, entry.values.text(param.key));
     }
   }
@@ -85,7 +90,7 @@ std::vector<std::string> Selection::restore(const State& state) {
     move(index, placed);
     Entry& entry = entries_[placed++];
     entry.on = one.on;
-    entry.values = Values(entry.effect());
+    entry.values.reset();
     for (const auto& [key, text] : one.values) {
       try {
         entry.values.set(key, text);

@@ -15,6 +15,9 @@
 
 namespace grisaille::effect {
 
+// True for a length of the scene that nobody has set: the scene determines its value.
+bool followsScene(const Values& values, const grisaille_param_desc& param);
+
 class Selection {
  public:
   struct Entry {
@@ -26,7 +29,8 @@ class Selection {
   };
 
   // A selection without pointers into plugins, which undo can keep while plugins are reloaded.
-  // Values are the text of Values::text(), which is lossless.
+  // Values are the text of Values::text(), which is lossless. Lengths that follow the scene are
+  // left out.
   struct State {
     struct One {
       std::string key;

@@ -18,8 +18,8 @@ constexpr uint32_t kMaxEffects = 64;
 constexpr uint32_t kMaxParams = 256;
 constexpr uint32_t kMaxOutputs = 16;
 constexpr uint32_t kMaxEnumEntries = 64;
-constexpr uint32_t kParamFlags =
-    GRISAILLE_PARAM_LOG | GRISAILLE_PARAM_ADVANCED | GRISAILLE_PARAM_LOOK;
+constexpr uint32_t kParamFlags = GRISAILLE_PARAM_LOG | GRISAILLE_PARAM_ADVANCED |
+                                 GRISAILLE_PARAM_SCENE_LENGTH | GRISAILLE_PARAM_LOOK;
 constexpr uint32_t kMaxFields = 64;
 constexpr uint32_t kMaxObjectSize = 4096;
 constexpr uint32_t kEffectFlags = GRISAILLE_EFFECT_DEFAULT;
@@ -178,6 +178,16 @@ void checkUnit(const std::string& at, const char* unit) {
   }
 }
 
+void checkSceneLength(const std::string& at, const grisaille_param_desc& param) {
+  if ((param.flags & GRISAILLE_PARAM_SCENE_LENGTH) == 0) return;
+  if (param.type != GRISAILLE_PARAM_FLOAT || std::string_view(param.unit) != "m" ||
+      !(param.default_value > 0)) {
+    refuse(at + ".flags",
+           "sets GRISAILLE_PARAM_SCENE_LENGTH, which only floats with the unit m and a default "
+           "over 0 may have");
+  }
+}
+
 void checkParam(const std::string& at, const grisaille_param_desc& param) {
   checkStructSize(at, param.struct_size, {sizeof(grisaille_param_desc)});
   checkKey(at + ".key", param.key);
@@ -187,6 +197,7 @@ void checkParam(const std::string& at, const grisaille_param_desc& param) {
   checkType(at, param);
   checkNumbers(at, param);
   checkRange(at, param);
+  checkSceneLength(at, param);
 }
 
 void checkOutput(const std::string& at, const grisaille_output_desc& output) {

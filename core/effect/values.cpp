@@ -101,7 +101,10 @@ std::string textOf(const grisaille_param_desc& param, double value) {
 }
 
 Values::Values(const Effect& effect) : effect_(effect) {
-  for (const grisaille_param_desc& param : effect.params()) values_.push_back(param.default_value);
+  for (const grisaille_param_desc& param : effect.params()) {
+    defaults_.push_back(param.default_value);
+  }
+  reset();
 }
 
 size_t Values::indexOf(std::string_view key) const {
@@ -133,6 +136,26 @@ void Values::set(std::string_view key, double value) {
   const grisaille_param_desc& param = effect_.params()[index];
   checkValue(fmt::format("{}.{}", effect_.desc->key, param.key), param, value);
   values_[index] = value;
+  given_[index] = true;
+}
+
+void Values::fit(std::string_view key, double value) {
+  const size_t index = indexOf(key);
+  const grisaille_param_desc& param = effect_.params()[index];
+  checkValue(fmt::format("{}.{}", effect_.desc->key, param.key), param, value);
+  defaults_[index] = value;
+  if (!given_[index]) values_[index] = value;
+}
+
+void Values::reset(std::string_view key) {
+  const size_t index = indexOf(key);
+  values_[index] = defaults_[index];
+  given_[index] = false;
+}
+
+void Values::reset() {
+  values_ = defaults_;
+  given_.assign(defaults_.size(), false);
 }
 
 std::string Values::text(std::string_view key) const {

@@ -1,5 +1,6 @@
 // SPDX-License-Identifier: MIT
-// The values of one effect's parameters, set by key and text and checked against its table.
+// The values of one effect's parameters, set by key and text and checked against its table. A
+// parameter that nobody has set has its default: the table's, or the one that fit() chose.
 #pragma once
 
 #include <span>
@@ -16,7 +17,7 @@ std::string textOf(const grisaille_param_desc& param, double value);
 
 class Values {
  public:
-  explicit Values(const Effect& effect);  // all default values
+  explicit Values(const Effect& effect);  // all default values of the table
 
   const Effect& effect() const { return effect_; }
   std::span<const double> all() const { return values_; }
@@ -31,12 +32,23 @@ class Values {
   void set(std::string_view key, std::string_view text);
   void set(std::string_view key, double value);
 
+  // Replaces the default of a parameter. Changes its value only if nobody has set it. Throws as
+  // set() does.
+  void fit(std::string_view key, double value);
+  // Back to the default, as if nobody had set it.
+  void reset(std::string_view key);
+  void reset();  // all parameters
+  // Whether somebody has set it.
+  bool given(std::string_view key) const { return given_[indexOf(key)]; }
+  double defaultOf(std::string_view key) const { return defaults_[indexOf(key)]; }
+
   // The value in the form that set() reads back without loss.
   std::string text(std::string_view key) const;
 
  private:
   Effect effect_;
-  std::vector<double> values_;
+  std::vector<double> values_, defaults_;
+  std::vector<bool> given_;
 };
 
 }  // namespace grisaille::effect

@@ -4,6 +4,7 @@
 #include <algorithm>
 #include <array>
 #include <cmath>
+#include <cstddef>
 
 #include "core/base/error.h"
 #include "core/base/nearest.h"
@@ -29,7 +30,17 @@ constexpr const char* kClipDepth = "clip depth";
 // Label prefixes of the passes that draw the scene: at the picture's size, or with a guard band.
 constexpr std::string_view kScenePasses = "scene/", kGuardedPasses = "scene/guarded ";
 
+// Prefix of the targets with a guard band.
+constexpr const char* kGuardedPrefix = "guarded ";
+
 constexpr uint32_t kGroup = 8;  // threads per side of a workgroup
+
+// The std140 block of shaders/scene/compose.comp, which documents the fields.
+struct ComposeBlock {
+  glm::vec4 background;
+  glm::vec4 depth;
+};
+GRISAILLE_CHECK_BLOCK_compose_Compose(ComposeBlock);
 
 uint32_t groups(uint32_t pixels) {
   return (pixels + kGroup - 1) / kGroup;
@@ -129,6 +140,7 @@ struct Renderer::Plan {
   };
   std::vector<Active> active;
   bool color = false;
+  bool composeGuarded = false;  // the composed picture reads the guarded depth
 
   Plan(const FrameDesc& desc, const AttachmentSource& source) {
     color = wants(desc, kColor);
@@ -152,6 +164,9 @@ struct Renderer::Plan {
       }
       active.push_back(one);
     }
+    // Any depth shows where the background is.
+    composeGuarded = color && attachments == 0 && guarded != 0;
+    if (color && !composeGuarded) attachments |= GRISAILLE_READS(GRISAILLE_DEPTH);
   }
 
  private:
@@ -213,6 +228,7 @@ void Renderer::render(const FrameDesc& desc) {
   for (auto& [name, slot] : targets_) slot.used = false;
   outputs_.clear();
   waiting_ = 0;
+  opaque_ = desc.background.a == 1;
   gpu::Commands& commands = device_.begin();
   try {
     record(commands, desc, plan);
@@ -240,7 +256,7 @@ void Renderer::record(gpu::Commands& commands, const FrameDesc& desc, const Plan
   };
   const SceneView picture = sceneView(0, plan.attachments, "");
   const SceneView guarded =
-      plan.guard > 0 ? sceneView(plan.guard, plan.guarded, "guarded ") : picture;
+      plan.guard > 0 ? sceneView(plan.guard, plan.guarded, kGuardedPrefix) : picture;
   if (plan.attachments != 0) recordAttachments(commands, picture);
   if (plan.guarded != 0) recordAttachments(commands, guarded);
   recordEffects(commands, desc, plan, picture, guarded);
@@ -329,29 +345,31 @@ std::vector<gpu::Texture> Renderer::outputTargets(const effect::Effect& effect, 
   return outputs;
 }
 
+void Renderer::makeCompose(gpu::Commands& commands) {
+  const auto pipeline = [&](bool tinted) {
+    // Constant 0 of shaders/scene/compose.comp.
+    const gpu::Specialization constant[] = {{0, tinted ? 1u : 0u}};
+    return device_.createComputePipeline(
+        {.label = "compose", .shader = &grisaille_shader_compose, .constants = constant});
+  };
+  compose_ = pipeline(false);
+  composeTinted_ = pipeline(true);
+  const auto neutral = [&](const char* label, uint32_t texel) {
+    const gpu::Texture texture = device_.createTexture({.label = label,
+                                                        .format = gpu::Format::kRgba8Unorm,
+                                                        .width = 1,
+                                                        .height = 1,
+                                                        .usage = gpu::TextureUsage::kSampled});
+    commands.upload(texture, 0, 0, std::as_bytes(std::span(&texel, 1)));
+    return texture;
+  };
+  white_ = neutral("white", 0xffffffffu);
+  clear_ = neutral("clear", 0);
+}
+
 void Renderer::recordCompose(gpu::Commands& commands, const FrameDesc& desc, const Plan& plan) {
   commands.beginPass("compose/color");
-  if (!compose_) {
-    const auto pipeline = [&](bool tinted) {
-      // Constant 0 of shaders/scene/compose.comp.
-      const gpu::Specialization constant[] = {{0, tinted ? 1u : 0u}};
-      return device_.createComputePipeline(
-          {.label = "compose", .shader = &grisaille_shader_compose, .constants = constant});
-    };
-    compose_ = pipeline(false);
-    composeTinted_ = pipeline(true);
-    const auto neutral = [&](const char* label, uint32_t texel) {
-      const gpu::Texture texture = device_.createTexture({.label = label,
-                                                          .format = gpu::Format::kRgba8Unorm,
-                                                          .width = 1,
-                                                          .height = 1,
-                                                          .usage = gpu::TextureUsage::kSampled});
-      commands.upload(texture, 0, 0, std::as_bytes(std::span(&texel, 1)));
-      return texture;
-    };
-    white_ = neutral("white", 0xffffffffu);
-    clear_ = neutral("clear", 0);
-  }
+  if (!compose_) makeCompose(commands);
   // An overlay and the visibility after it share one dispatch.
   std::vector<Layer> layers(1);
   for (const Plan::Active& active : plan.active) {
@@ -367,7 +385,15 @@ void Renderer::recordCompose(gpu::Commands& commands, const FrameDesc& desc, con
       if (!overlay) layers.back().tinted = output.role == GRISAILLE_ROLE_TINT;
     }
   }
+  const double guard = plan.composeGuarded ? plan.guard : 0;
+  const glm::dvec2 depthSize = glm::dvec2(desc.width, desc.height) + 2 * guard;
+  const ComposeBlock block{
+      .background = desc.background,
+      .depth = glm::vec4(glm::dvec4(guard, guard, 1 / depthSize.x, 1 / depthSize.y))};
+  const gpu::BufferRange uniform = commands.uniform(std::as_bytes(std::span(&block, 1)));
   gpu::Texture surface = desc.surface == Surface::kBaseColour ? find(kBaseColour) : white_;
+  gpu::Texture clipDepth =
+      find((plan.composeGuarded ? kGuardedPrefix : "") + std::string(kClipDepth));
   for (size_t i = 0; i < layers.size(); ++i) {
     const bool last = i + 1 == layers.size();
     const gpu::Texture to =
@@ -377,18 +403,22 @@ void Renderer::recordCompose(gpu::Commands& commands, const FrameDesc& desc, con
                                    .width = desc.width,
                                    .height = desc.height,
                                    .usage = kComputed});
-    composeLayer(commands, surface, layers[i], to, desc);
+    composeLayer(commands, surface, clipDepth, uniform, layers[i], to, desc);
     surface = to;
+    clipDepth = white_;  // the first layer holds the background
   }
   commands.endPass();
 }
 
-void Renderer::composeLayer(gpu::Commands& commands, gpu::Texture surface, const Layer& layer,
-                            gpu::Texture target, const FrameDesc& desc) {
+void Renderer::composeLayer(gpu::Commands& commands, gpu::Texture surface, gpu::Texture clipDepth,
+                            gpu::BufferRange block, const Layer& layer, gpu::Texture target,
+                            const FrameDesc& desc) {
   const std::array bindings = {
+      gpu::uniformBinding(0, block),
       gpu::textureBinding(0, {.texture = surface}, nearest_),
       gpu::textureBinding(1, {.texture = layer.overlay ? layer.overlay : clear_}, nearest_),
       gpu::textureBinding(2, {.texture = layer.visibility ? layer.visibility : white_}, nearest_),
+      gpu::textureBinding(3, {.texture = clipDepth}, nearest_),
       gpu::imageBinding(0, target),
   };
   commands.dispatch({.pipeline = layer.tinted ? composeTinted_ : compose_,
@@ -430,7 +460,7 @@ image::Image Renderer::read(std::string_view output) {
   const gpu::Texture from = texture(output);
   const gpu::TextureDesc& desc = targets_.find(outputs_.find(output)->second)->second.desc;
   image::Image image = toImage(device_.read(from), desc.format, desc.width, desc.height);
-  const bool opaque = transferOf(output) != image::Transfer::kData;
+  const bool opaque = transferOf(output) != image::Transfer::kData && (opaque_ || output != kColor);
   return opaque ? firstChannels(image, 3) : image;
 }
 

@@ -24,11 +24,17 @@ namespace grisaille::frame {
 // The surface colour in the composed picture.
 enum class Surface : uint8_t { kWhite, kBaseColour };
 
+// The colour of pixels without a surface in the composed picture: linear light, straight alpha.
+using Background = glm::vec4;
+constexpr Background kGrey = glm::vec4(0.2158605f, 0.2158605f, 0.2158605f, 1);  // #808080
+constexpr Background kTransparent = glm::vec4(0);
+
 struct FrameDesc {
   scene::Camera camera;
   uint32_t width = 0;  // pixels
   uint32_t height = 0;
   Surface surface = Surface::kWhite;
+  Background background = kGrey;
   // Started on the renderer's device. Its selection must not change during render(). Null: no
   // effects.
   effect::Chain* chain = nullptr;
@@ -76,8 +82,9 @@ class Renderer {
   // frame. 0: the last picture is complete.
   uint64_t waiting() const { return waiting_; }
 
-  // Reads back an output of the last frame, with 1, 3 or 4 channels. Waits for the device. Throws
-  // kOutputUnknown unless that frame rendered the output.
+  // Reads back an output of the last frame, with 1, 3 or 4 channels; `color` has a fourth, alpha,
+  // only if the background was not opaque. Waits for the device. Throws kOutputUnknown unless that
+  // frame rendered the output.
   image::Image read(std::string_view output);
 
   // The texture of an output of the last frame, to present it; valid until the next render().
@@ -106,8 +113,10 @@ class Renderer {
     gpu::Texture overlay, visibility;
     bool tinted = false;
   };
-  void composeLayer(gpu::Commands& commands, gpu::Texture surface, const Layer& layer,
-                    gpu::Texture target, const FrameDesc& desc);
+  void makeCompose(gpu::Commands& commands);
+  void composeLayer(gpu::Commands& commands, gpu::Texture surface, gpu::Texture clipDepth,
+                    gpu::BufferRange block, const Layer& layer, gpu::Texture target,
+                    const FrameDesc& desc);
   gpu::Texture target(const std::string& name, gpu::Format format, gpu::TextureUsage usage,
                       uint32_t width, uint32_t height);
   gpu::Texture find(std::string_view name) const;
@@ -121,6 +130,7 @@ class Renderer {
   gpu::Sampler nearest_;
   gpu::Texture white_, clear_;
   uint64_t waiting_ = 0;
+  bool opaque_ = true;  // the background of the last frame
 };
 
 }  // namespace grisaille::frame

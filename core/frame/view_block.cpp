@@ -32,7 +32,8 @@ ViewBlock viewBlock(const scene::Camera& camera, uint32_t width, uint32_t height
   block.pixel_from_view = glm::vec4(glm::dvec4(1.0 / scale, -offset / scale));
   block.size = glm::vec4(glm::dvec4(size, 1.0 / size));
   block.view_from_world = glm::mat4(glm::dmat4(glm::transpose(scene::worldFromView(camera))));
-  block.camera_cell = glm::ivec4(glm::ivec3(cell), 0);
+  // Cells are equal modulo 2^32, so that cameras beyond 2^31 m have one too.
+  block.camera_cell = glm::ivec4(glm::ivec3(glm::uvec3(glm::i64vec3(cell))), 0);
   block.camera_fraction = glm::vec4(glm::dvec4(camera.eye - cell, camera.nearPlane));
   const glm::dvec2 band(guard);
   block.attachment = glm::vec4(glm::dvec4(band, 1.0 / (size + 2.0 * band)));

@@ -7,10 +7,9 @@
 #include <charconv>
 #include <cmath>
 #include <cstring>
-#include <glm/glm.hpp>
-#include <glm/gtc/color_space.hpp>
 #include <utility>
 
+#include "core/base/colour.h"
 #include "core/base/error.h"
 #include "core/base/nearest.h"
 #include "core/base/utf8.h"
@@ -106,16 +105,9 @@ bool isDouble(const Field& field) {
 }
 
 Numbers parseColour(const Field& field, std::string_view text) {
-  uint32_t bits = 0;
-  const auto [end, status] = text.size() == 7
-                                 ? std::from_chars(text.data() + 1, text.data() + 7, bits, 16)
-                                 : std::from_chars_result{text.data(), std::errc::invalid_argument};
-  if (text.size() != 7 || text[0] != '#' || status != std::errc() || end != text.data() + 7) {
-    refuse("{} is '{}', not of the form #rrggbb", field.key, oneLine(text));
-  }
-  const glm::dvec3 encoded = glm::dvec3(bits >> 16, bits >> 8 & 255u, bits & 255u) / 255.0;
-  const glm::vec3 linear(glm::convertSRGBToLinear(encoded));  // the precision that the list stores
-  return {linear.x, linear.y, linear.z};
+  const auto linear = colourOf(text);
+  if (!linear) refuse("{} is '{}', not of the form #rrggbb", field.key, oneLine(text));
+  return {double{(*linear)[0]}, double{(*linear)[1]}, double{(*linear)[2]}};
 }
 
 Numbers parseNumbers(const Field& field, std::string_view text) {
@@ -176,10 +168,7 @@ std::string textOf(const Field& field, const Value& value) {
   if (isText(field)) return value.text;
   if (field.type == GRISAILLE_FIELD_NUMBER) return fmt::format("{}", n[0]);
   if (field.type != GRISAILLE_FIELD_COLOUR) return fmt::format("{}:{}:{}", n[0], n[1], n[2]);
-  const glm::vec3 linear(static_cast<float>(n[0]), static_cast<float>(n[1]),
-                         static_cast<float>(n[2]));
-  const glm::uvec3 bytes(glm::round(glm::convertLinearToSRGB(linear) * 255.0f));
-  return fmt::format("#{:02x}{:02x}{:02x}", bytes.x, bytes.y, bytes.z);
+  return colourText({static_cast<float>(n[0]), static_cast<float>(n[1]), static_cast<float>(n[2])});
 }
 
 Object::Object(const Table& table) {

@@ -97,8 +97,8 @@ void validate(const Camera& camera) {
   if (!(camera.fovyDegrees >= 0.01 && camera.fovyDegrees <= 170)) {
     refuse("fovy_degrees", fmt::format("is {}, not from 0.01 to 170", camera.fovyDegrees));
   }
-  if (!(camera.nearPlane > 0 && camera.nearPlane <= 1e6)) {
-    refuse("near", fmt::format("is {}, not above 0 and at most 1e6", camera.nearPlane));
+  if (!(camera.nearPlane > 0 && camera.nearPlane <= 1e9)) {
+    refuse("near", fmt::format("is {}, not above 0 and at most 1e9", camera.nearPlane));
   }
   if ((camera.size.x == 0) != (camera.size.y == 0) || camera.size.x > kLargestSize ||
       camera.size.y > kLargestSize) {
@@ -107,7 +107,7 @@ void validate(const Camera& camera) {
   const glm::dvec3 view = camera.target - camera.eye;
   const double distance = glm::length(view);
   // The difference of the coordinates must be far larger than their rounding errors.
-  if (!(distance > 1e-9 * (1 + glm::length(camera.eye)))) refuse("target", "is at the eye");
+  if (!(distance > 1e-12 * (1 + glm::length(camera.eye)))) refuse("target", "is at the eye");
   const double upLength = glm::length(camera.up);
   if (!(upLength > 1e-9)) refuse("up", "has no length");
   if (!(glm::length(glm::cross(view / distance, camera.up / upLength)) > 1e-6)) {
@@ -155,20 +155,6 @@ std::string cameraJson(const Camera& camera) {
 
 void saveCamera(const Camera& camera, const std::string& path) {
   writeFileAtomically(path, cameraJson(camera) + "\n");
-}
-
-Camera overviewCamera(const Bounds& bounds) {
-  const glm::dvec3 centre = 0.5 * (bounds.min + bounds.max);
-  const double radius = std::max(0.5 * glm::length(bounds.max - bounds.min), 1e-3);
-  Camera camera;
-  camera.fovyDegrees = 40;
-  // The bounding sphere fits a picture as narrow as 9 : 16 (width : height).
-  const double halfAngle = std::atan(std::tan(glm::radians(camera.fovyDegrees / 2)) * 9.0 / 16.0);
-  const double distance = radius / std::sin(halfAngle);
-  camera.target = centre;
-  camera.eye = centre + distance * glm::normalize(glm::dvec3(0.6, 0.45, 1));
-  camera.nearPlane = std::min((distance - radius) / 2, 0.01 * distance);
-  return camera;
 }
 
 Camera orthographicCamera(const Camera& camera, double height, double width, double far) {

@@ -7,8 +7,6 @@
 #include <string>
 #include <string_view>
 
-#include "core/scene/bounds.h"
-
 namespace grisaille::scene {
 
 struct Camera {
@@ -17,7 +15,7 @@ struct Camera {
   glm::dvec3 up = glm::dvec3(0, 1, 0);
   double fovyDegrees = 60;          // vertical field of view, 0.01 ... 170
   glm::uvec2 size = glm::uvec2(0);  // pixels; 0: not given
-  double nearPlane = 0.01;          // metres, above 0, at most 1e6
+  double nearPlane = 0.01;          // metres, above 0, at most 1e9
 };
 
 // Throws kCameraInvalid with the name of the wrong field: numbers that are not finite, eye equal to
@@ -44,9 +42,6 @@ void saveCamera(const Camera& camera, const std::string& path);
 
 // The default camera of the built-in atrium.
 Camera atriumCamera();
-
-// A camera outside the bounds that sees all of the scene.
-Camera overviewCamera(const Bounds& bounds);
 
 // Approximates an orthographic camera by a distant pinhole, since frames and effects support only
 // pinholes. The pinhole keeps the axes and moves back. Between the near and the far plane, lengths

@@ -7,6 +7,7 @@
 
 #include "core/base/error.h"
 #include "core/base/note.h"
+#include "core/scene/framing.h"
 
 namespace grisaille::scene {
 
@@ -94,8 +95,8 @@ Scene loadScene(const std::string& path, const std::function<void(double)>& prog
   return scene;
 }
 
-Camera defaultCamera(const Scene& scene) {
-  return scene.camera ? *scene.camera : overviewCamera(scene.bounds);
+Camera defaultCamera(const Scene& scene, double aspect) {
+  return scene.camera ? *scene.camera : framingCamera(scene, aspect);
 }
 
 }  // namespace grisaille::scene

@@ -110,7 +110,8 @@ Scene makeAtrium();
 // `path` is empty. Hands Scene::notes to note().
 Scene loadScene(const std::string& path, const std::function<void(double)>& progress = {});
 
-// The camera of a user who names none: the scene's own, or else one that sees all of it.
-Camera defaultCamera(const Scene& scene);
+// The camera of a user who names none: the scene's own, or else framingCamera() for a picture of
+// this shape. aspect: width of the picture divided by its height
+Camera defaultCamera(const Scene& scene, double aspect);
 
 }  // namespace grisaille::scene

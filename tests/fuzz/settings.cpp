@@ -20,7 +20,8 @@ const std::initializer_list<ErrorId> kOfValues = {
 void requireRoundTrip(app::Settings settings) {
   const std::string path = scratchFile("written.toml", app::settingsToml(settings));
   app::Settings again = app::readSettings(path);
-  require(again.effects == settings.effects && again.surface == settings.surface);
+  require(again.effects == settings.effects && again.surface == settings.surface &&
+          again.background == settings.background);
   const auto content = [](const app::Settings::Value& value) {
     return std::tie(value.name, value.text);
   };

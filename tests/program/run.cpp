@@ -13,6 +13,7 @@
 #include <cstring>
 #include <fstream>
 #include <iterator>
+#include <nlohmann/json.hpp>
 #include <stdexcept>
 #include <thread>
 
@@ -132,6 +133,15 @@ Outcome runShell(const std::string& line, const fs::path& folder) {
   const char* path = std::getenv("PATH");
   return run({"/bin/bash", "-c", line}, folder,
              {"PATH=" + fs::path(PROGRAM).parent_path().string() + ":" + (path ? path : "")});
+}
+
+std::vector<std::string> backends() {
+  const Outcome outcome = runProgram({"backends", "--json"}, ".");
+  std::vector<std::string> names;
+  for (const auto& backend : nlohmann::json::parse(outcome.out)) {
+    if (!backend["devices"].empty()) names.push_back(backend["backend"]);
+  }
+  return names;
 }
 
 std::string readFile(const fs::path& path) {

@@ -42,6 +42,9 @@ Outcome runProgram(const std::vector<std::string>& arguments, const std::filesys
 // Runs a shell command line in `folder`, with both programs on the PATH and the same time limit.
 Outcome runShell(const std::string& line, const std::filesystem::path& folder);
 
+// The backends that have a device on this machine.
+std::vector<std::string> backends();
+
 std::string readFile(const std::filesystem::path& path);
 
 // Path of the Sponza scene; "" if it is missing, and tests skip with kNoSponza.

@@ -61,7 +61,8 @@ constexpr Room kRooms[] = {
      "app/services app/settings app/truth core/effect core/frame core/gpu core/image core/objects "
      "core/scene core/trace grisaille"},
     {"app/options",
-     "app/services app/settings app/study/measurer.h app/truth backends/backends.h core/effect "
+     "app/services app/settings app/study/measurer.h app/study/sweep.h app/truth "
+     "backends/backends.h core/effect "
      "core/frame core/gpu core/image core/objects core/scene core/trace"},
     {"app/viewer",
      "app/options/camera_option.h app/options/object_options.h app/process/child.h app/report "

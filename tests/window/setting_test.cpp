@@ -110,6 +110,8 @@ TEST_P(SettingTest, WhatIsSavedComesBack) {
     viewer.click("sspm.down");
     viewer.click("base");
     viewer.untilValue("base", "true");
+    viewer.click("transparent");
+    viewer.untilValue("background", "transparent");
     viewer.key("Escape space");
     viewer.untilValue("sspm.objects", "1");
     before = viewer.savePicture();
@@ -117,6 +119,8 @@ TEST_P(SettingTest, WhatIsSavedComesBack) {
     viewer.until("settings", [](const nlohmann::json& now) {
       return now["message"]["value"].get<std::string>().starts_with("settings to");
     });
+    viewer.click("section View");  // makes room
+    viewer.untilValue("section View", "closed");
     viewer.click("sspm.save");
     viewer.until("shots", [](const nlohmann::json& now) {
       return now["message"]["value"].get<std::string>().starts_with("1 shots to");
@@ -126,6 +130,9 @@ TEST_P(SettingTest, WhatIsSavedComesBack) {
   DrivenViewer viewer(folder_,
                       {"--backend", GetParam(), "--size", kWindow, "--config", "settings.toml"});
   EXPECT_EQ(viewer.value("base"), "true");
+  EXPECT_EQ(viewer.value("background"), "transparent");
+  viewer.click("section View");
+  viewer.untilValue("section View", "closed");
   viewer.click("sspm.load");
   viewer.untilValue("sspm.objects", "1");
   expectSame(viewer.savePicture(), before);

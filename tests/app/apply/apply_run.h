@@ -17,11 +17,13 @@ inline constexpr const char* kCamera =
 
 class ApplyOnce : public ::testing::Test {
  protected:
-  // Runs a command line; @ stands for the camera.
+  // Runs a command line; @ stands for the camera. `apply` has the radius of `render`, although it
+  // would choose another one for the part of the scene that the pictures show.
   Outcome grisaille(const std::string& line) {
     std::istringstream words(line);
     std::vector<std::string> arguments;
     for (std::string word; words >> word;) arguments.push_back(word == "@" ? kCamera : word);
+    if (line.starts_with("apply ")) arguments.insert(arguments.end(), {"--set", "ssao.radius=0.5"});
     return runProgram(arguments, folder_.path(), environment_);
   }
   void run(const std::string& line) {

@@ -94,9 +94,10 @@ TEST_F(ApplyOnce, SequencesAreAppliedFrameByFrame) {
   }
   EXPECT_GT(image::shareOver(read("ao.0009.exr"), read("ao.0010.exr"), 1.0 / 255), 0.0);
   // A terminal shows a progress bar.
-  const Outcome shown = runShell(
-      "script -qec 'grisaille " + common + "--frames 9-11x2 --write ao=few.%02d.exr' /dev/null",
-      folder_.path());
+  const Outcome shown =
+      runShell("script -qec 'grisaille " + common +
+                   "--set ssao.radius=0.5 --frames 9-11x2 --write ao=few.%02d.exr' /dev/null",
+               folder_.path());
   EXPECT_EQ(shown.status, 0) << shown.err;
   EXPECT_NE(shown.out.find("\rapply ["), std::string::npos) << shown.out;
   EXPECT_NE(shown.out.find("frame 9, 1 of 2"), std::string::npos) << shown.out;

@@ -1,5 +1,6 @@
 // SPDX-License-Identifier: MIT
 #include "app/settings/settings.h"
+#include "app/settings/background.h"
 #include "app/settings/chosen_effects.h"
 
 #include <algorithm>
@@ -107,6 +108,7 @@ TEST_F(SettingsFile, WhatIsNotGivenIsNotThere) {
   EXPECT_EQ(settingsToml({}), "");
   EXPECT_FALSE(back({}).effects);
   EXPECT_FALSE(back({}).surface);
+  EXPECT_FALSE(back({}).background);
   const Settings none{.effects = std::vector<std::string>(), .surface = "base", .values = {}};
   EXPECT_EQ(back(none).effects, none.effects);
   EXPECT_EQ(back(none).surface, "base");
@@ -116,6 +118,7 @@ TEST_F(SettingsFile, ReadsAsAPersonWouldWriteIt) {
   const Settings settings{
       .effects = {{"ssao", "sspm"}},
       .surface = "white",
+      .background = "#a0a0ff",
       .values = {{.name = {.effect = "ssao", .key = "radius"}, .text = "0.5", .place = {}},
                  {.name = {.effect = "sspm", .key = "mode"}, .text = "surface", .place = {}},
                  {.name = {.effect = "ssao", .key = "blur"}, .text = "box", .place = {}},
@@ -124,6 +127,7 @@ TEST_F(SettingsFile, ReadsAsAPersonWouldWriteIt) {
   EXPECT_EQ(settingsToml(settings),
             "effects = [\"ssao\", \"sspm\"]\n"
             "surface = \"white\"\n"
+            "background = \"#a0a0ff\"\n"
             "\n"
             "[ssao]\n"
             "radius = 2\n"
@@ -134,8 +138,20 @@ TEST_F(SettingsFile, ReadsAsAPersonWouldWriteIt) {
             "mode = \"surface\"\n");
 }
 
+TEST_F(SettingsFile, TheBackgroundIsAColourOrTransparent) {
+  for (const char* text : {"#000000", "#ffffff", "#12ab9f", "transparent"}) {
+    Settings settings;
+    settings.background = text;
+    EXPECT_EQ(back(settings).background, text);
+    ASSERT_TRUE(backgroundOf(text));
+    EXPECT_EQ(textOf(*backgroundOf(text)), text);
+  }
+  EXPECT_EQ(textOf(frame::kGrey), "#808080");
+  EXPECT_EQ(backgroundOf("transparent"), frame::kTransparent);
+}
+
 TEST_F(SettingsFile, RefusesWhatItCannotHold) {
-  for (const char* key : {"effects", "surface"}) {
+  for (const char* key : {"effects", "surface", "background"}) {
     const Settings settings{
         .effects = {},
         .surface = {},
@@ -143,7 +159,8 @@ TEST_F(SettingsFile, RefusesWhatItCannotHold) {
     EXPECT_ERROR(ErrorId::kSettingsInvalid, settingsToml(settings));
   }
   EXPECT_ERROR(ErrorId::kFileUnwritable, writeSettings({}, file("missing/a.toml")));
-  for (const char* text : {"surface = \"black\"", "surface = 1", "[surface]\na = 1"}) {
+  for (const char* text : {"surface = \"black\"", "surface = 1", "[surface]\na = 1",
+                           "background = \"grey\"", "background = \"#12345\"", "background = 0"}) {
     EXPECT_ERROR(ErrorId::kSettingsInvalid, readSettings(fileOf("bad.toml", text)));
   }
 }

@@ -99,16 +99,18 @@ TEST_F(CommandLine, SaysWhatIsSetAndNothingElse) {
   command.device = "llvmpipe (LLVM)";
   command.effects = nullptr;
   command.surface = "base";
+  command.background = "transparent";
   command.pluginPaths = {"/plugins", "-"};
   command.loads = {{"sspm", "my shots.json"}};
   command.writes = {{"color", "a.png"}, {"ssao.ao", "ao.exr"}};
-  EXPECT_EQ(renderCommand(command),
-            "grisaille render './-a scene.glb' --camera "
-            "'{\"eye\":[1.0,2.0,3.0],\"target\":[0.0,0.0,0.0],\"up\":[0.0,1.0,0.0],"
-            "\"fovy_degrees\":50.0,\"near\":0.01}' --size 640x360 --backend vulkan "
-            "--device 'llvmpipe (LLVM)' --plugin-path /plugins --plugin-path ./- --effects '' "
-            "--surface base --load 'sspm=my shots.json' --write color=a.png "
-            "--write ssao.ao=ao.exr");
+  EXPECT_EQ(
+      renderCommand(command),
+      "grisaille render './-a scene.glb' --camera "
+      "'{\"eye\":[1.0,2.0,3.0],\"target\":[0.0,0.0,0.0],\"up\":[0.0,1.0,0.0],"
+      "\"fovy_degrees\":50.0,\"near\":0.01}' --size 640x360 --backend vulkan "
+      "--device 'llvmpipe (LLVM)' --plugin-path /plugins --plugin-path ./- --effects '' "
+      "--surface base --background transparent --load 'sspm=my shots.json' --write color=a.png "
+      "--write ssao.ao=ao.exr");
 }
 
 }  // namespace

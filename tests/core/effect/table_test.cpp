@@ -203,8 +203,29 @@ const std::vector<Fault>& faults() {
       {"effects[0].params[0].struct_size", [](Table& t) { t.params[0].struct_size = 200; }},
       {"effects[0].params[0].struct_size", [](Table& t) { t.params[0].struct_size = 0; }},
       {"effects[0].params[0].type", [](Table& t) { t.params[0].type = 4; }},
-      {"effects[0].params[0].flags", [](Table& t) { t.params[0].flags |= 4; }},
+      {"effects[0].params[0].flags", [](Table& t) { t.params[0].flags |= 64; }},
       {"effects[0].params[2].flags", [](Table& t) { t.params[2].flags = GRISAILLE_PARAM_LOG; }},
+      {"effects[0].params[1].flags",
+       [](Table& t) { t.params[1].flags = GRISAILLE_PARAM_SCENE_LENGTH; }},
+      {"effects[0].params[2].flags",
+       [](Table& t) { t.params[2].flags = GRISAILLE_PARAM_SCENE_LENGTH; }},
+      {"effects[0].params[0].flags",
+       [](Table& t) {
+         t.params[0].flags |= GRISAILLE_PARAM_SCENE_LENGTH;
+         t.params[0].unit = "";
+       }},
+      {"effects[0].params[0].flags",
+       [](Table& t) {
+         t.params[0] = plugin::floatParam({.key = "radius",
+                                           .label = "Radius",
+                                           .unit = "m",
+                                           .tooltip = "How far",
+                                           .hardMax = 1,
+                                           .softMax = 1,
+                                           .defaultValue = 0,
+                                           .step = 0.1,
+                                           .sceneLength = true});
+       }},
       {"effects[0].params[3].flags", [](Table& t) { t.params[3].flags = GRISAILLE_PARAM_LOG; }},
       {"effects[0].params[0].enum_count", [](Table& t) { t.params[0].enum_count = 2; }},
       {"effects[0].params[0].key", [](Table& t) { t.params[0].key = nullptr; }},

@@ -75,6 +75,25 @@ TEST_F(ValuesTest, BeginsWithDefaults) {
   EXPECT_EQ(values.get("blur"), 1);
 }
 
+TEST_F(ValuesTest, ADefaultThatIsFittedYieldsToAValueThatIsSet) {
+  values.fit("radius", 3);
+  EXPECT_EQ(values.get("radius"), 3);
+  EXPECT_FALSE(values.given("radius"));
+  values.set("radius", "7");
+  values.fit("radius", 4);
+  EXPECT_EQ(values.get("radius"), 7);
+  EXPECT_TRUE(values.given("radius"));
+  EXPECT_EQ(values.defaultOf("radius"), 4);
+  values.reset("radius");
+  EXPECT_EQ(values.get("radius"), 4);
+  EXPECT_FALSE(values.given("radius"));
+  EXPECT_ERROR(ErrorId::kParameterRange, values.fit("radius", 1e7));
+  EXPECT_EQ(values.get("radius"), 4);
+  values.set("kernel_size", "3");
+  values.reset();
+  EXPECT_EQ(values.get("kernel_size"), 16);
+}
+
 TEST_F(ValuesTest, TakesEveryWayToWriteAValue) {
   const struct {
     const char *key, *text;

@@ -3,6 +3,8 @@
 // device.
 #include <gtest/gtest.h>
 
+#include <algorithm>
+
 #include "core/frame/renderer.h"
 #include "core/gpu/checking_device.h"
 #include "core/gpu/null_device.h"
@@ -72,10 +74,21 @@ class PlanTest : public ::testing::Test {
   std::optional<frame::Renderer> renderer_;
 };
 
-TEST_F(PlanTest, ColorAloneDrawsNoScene) {
+TEST_F(PlanTest, ColorAloneDrawsDepthToFindTheBackground) {
   const Recording recording = record({"color"}, false);
-  EXPECT_EQ(recording.passes, Labels{"compose/color"});
-  EXPECT_TRUE(recording.renders.empty());
+  EXPECT_EQ(recording.passes, (Labels{"scene/geometry", "compose/color"}));
+  ASSERT_EQ(recording.renders.size(), 1u);
+  EXPECT_EQ(recording.renders[0].targets, Labels{"clip depth"});
+}
+
+TEST_F(PlanTest, ColorReadsTheDepthThatAGuardedEffectDraws) {
+  values_->set("guard_band", "0.1");
+  const Recording recording = record({"color"}, true);
+  EXPECT_EQ(recording.passes.front(), "scene/guarded geometry");
+  EXPECT_EQ(std::ranges::count_if(
+                recording.passes,
+                [](const std::string& pass) { return pass.find("geometry") != std::string::npos; }),
+            1);
 }
 
 TEST_F(PlanTest, DepthDrawsDepthAlone) {
@@ -208,7 +221,7 @@ TEST_F(PlanTest, AGuardBandDrawsLargerAttachmentsForItsEffectAlone) {
 }
 
 TEST_F(PlanTest, BaseColourIsDrawnForTheBaseSurfaceAlone) {
-  EXPECT_TRUE(record({"color"}, false).renders.empty());
+  EXPECT_EQ(record({"color"}, false).renders.at(0).targets, Labels{"clip depth"});
   const Recording recording = record({"color"}, false, frame::Surface::kBaseColour);
   ASSERT_EQ(recording.renders.size(), 1u);
   EXPECT_EQ(recording.renders[0].targets, (Labels{"base_colour", "clip depth"}));
@@ -312,7 +325,7 @@ TEST_F(PlanTest, WhatIsBehindTheCameraIsNotDrawn) {
 TEST_F(PlanTest, UnknownOutputIsAnErrorAndTheNextFrameWorks) {
   EXPECT_ERROR(ErrorId::kOutputUnknown, record({"oa"}, true));
   EXPECT_ERROR(ErrorId::kOutputUnknown, record({"ao"}, false));
-  EXPECT_EQ(record({"color"}, false).passes.size(), 1u);
+  EXPECT_EQ(record({"color"}, false).passes.size(), 2u);
   EXPECT_ERROR(ErrorId::kOutputUnknown, renderer_->read("ao"));
 }
 

@@ -75,7 +75,7 @@ TEST(CameraText, ComesBackBitByBit) {
                   .up = {any(1e15), any(1e15), any(1e15)},
                   .fovyDegrees = 1 + std::abs(any(169)),
                   .size = random() % 2 ? glm::uvec2(0) : glm::uvec2(1 + random() % 16384, 7),
-                  .nearPlane = std::abs(any(1e6))};
+                  .nearPlane = std::abs(any(1e9))};
     try {
       validate(camera);
     } catch (const Error&) {
@@ -229,28 +229,6 @@ TEST(Camera, DepthIsReversed) {
   // The top right corner of a picture twice as wide as it is high.
   EXPECT_NEAR(project({6, 3, -3}).x, 1, 1e-12);
   EXPECT_NEAR(project({6, 3, -3}).y, 1, 1e-12);
-}
-
-TEST(Camera, OverviewSeesAllCorners) {
-  for (const Bounds& bounds : {Bounds{.min = {-1, -2, -3}, .max = {4, 5, 6}},
-                               Bounds{.min = {1e4, 0, 0}, .max = {1e4 + 1, 100, 0}},
-                               Bounds{.min = {-500, 0, -2}, .max = {500, 1, 2}}}) {
-    const Camera camera = overviewCamera(bounds);
-    EXPECT_NO_THROW(validate(camera));
-    for (const double aspect : {9.0 / 16, 1.0, 16.0 / 9}) {
-      const glm::dmat4 clip = clipFromView(camera, aspect);
-      for (int i = 0; i < 8; ++i) {
-        const glm::dvec3 corner((i & 1 ? bounds.max : bounds.min).x,
-                                (i & 2 ? bounds.max : bounds.min).y,
-                                (i & 4 ? bounds.max : bounds.min).z);
-        const glm::dvec3 view = glm::transpose(worldFromView(camera)) * (corner - camera.eye);
-        const glm::dvec4 p = clip * glm::dvec4(view, 1);
-        EXPECT_LE(std::abs(p.x), p.w);
-        EXPECT_LE(std::abs(p.y), p.w);
-        EXPECT_LE(camera.nearPlane, p.w);
-      }
-    }
-  }
 }
 
 }  // namespace

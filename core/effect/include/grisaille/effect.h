@@ -85,11 +85,18 @@ typedef enum grisaille_param_type {
   GRISAILLE_PARAM_ENUM = 3   /**< an index into grisaille_param_desc::enum_keys */
 } grisaille_param_type;
 
-/** What a parameter is for, and how the panel shows it. */
+/** What a parameter is for, how the panel shows it, and how the program chooses its value. */
 typedef enum grisaille_param_flags {
   /** The slider has a logarithmic scale; soft_min must be over 0. Only for floats and ints. */
   GRISAILLE_PARAM_LOG = 1,
   GRISAILLE_PARAM_ADVANCED = 2, /**< the panel hides it in a folded section */
+  /**
+   * A length of the scene. The default suits a scene in which ambient occlusion has a radius of
+   * 0.5 m, such as a hall. If nobody sets the parameter, the program scales the default to its
+   * scene. Only for floats with the unit m and a default over 0; hosts of libgrisaille get the
+   * default.
+   */
+  GRISAILLE_PARAM_SCENE_LENGTH = 4,
   /** A matter of taste, such as an intensity: a search for accuracy leaves it alone. */
   GRISAILLE_PARAM_LOOK = 8
 } grisaille_param_flags;

@@ -34,6 +34,8 @@ struct FloatParam {
   bool log = false;               ///< whether the slider is logarithmic; softMin must be over 0
   bool advanced = false;          ///< whether the panel hides it in a folded section
   bool look = false;  ///< whether the value is a matter of taste; see #GRISAILLE_PARAM_LOOK
+  /// whether it is a length of the scene, see #GRISAILLE_PARAM_SCENE_LENGTH
+  bool sceneLength = false;
 };
 
 /// A parameter that is a whole number, for intParam().
@@ -79,11 +81,14 @@ struct EnumParam {
 /// @param log whether the slider is logarithmic
 /// @param advanced whether the panel hides it in a folded section
 /// @param look whether the value is a matter of taste
+/// @param sceneLength whether it is a length of the scene
 /// @return grisaille_param_desc::flags
-constexpr uint32_t paramFlags(bool log, bool advanced, bool look = false) {
+constexpr uint32_t paramFlags(bool log, bool advanced, bool look = false,
+                              bool sceneLength = false) {
   return (log ? uint32_t{GRISAILLE_PARAM_LOG} : 0u) |
          (advanced ? uint32_t{GRISAILLE_PARAM_ADVANCED} : 0u) |
-         (look ? uint32_t{GRISAILLE_PARAM_LOOK} : 0u);
+         (look ? uint32_t{GRISAILLE_PARAM_LOOK} : 0u) |
+         (sceneLength ? uint32_t{GRISAILLE_PARAM_SCENE_LENGTH} : 0u);
 }
 
 /// Returns the table entry of a number.
@@ -92,7 +97,7 @@ constexpr uint32_t paramFlags(bool log, bool advanced, bool look = false) {
 constexpr grisaille_param_desc floatParam(const FloatParam& p) {
   return {.struct_size = sizeof(grisaille_param_desc),
           .type = GRISAILLE_PARAM_FLOAT,
-          .flags = paramFlags(p.log, p.advanced, p.look),
+          .flags = paramFlags(p.log, p.advanced, p.look, p.sceneLength),
           .enum_count = 0,
           .key = p.key,
           .label = p.label,

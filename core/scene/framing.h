@@ -1,0 +1,17 @@
+// SPDX-License-Identifier: MIT
+// Chooses a camera for a scene that has none.
+#pragma once
+
+#include "core/scene/camera.h"
+#include "core/scene/scene.h"
+
+namespace grisaille::scene {
+
+// A camera that sees every vertex of the scene, as large as the picture allows, from a direction in
+// which the scene covers much of it and shows much of its surface. Inside a scene that encloses its
+// surfaces, such as a room, a camera that looks across it. The same scene and shape give the same
+// camera.
+// aspect: width of the picture divided by its height
+Camera framingCamera(const Scene& scene, double aspect);
+
+}  // namespace grisaille::scene
