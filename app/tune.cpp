@@ -268,7 +268,7 @@ void tune(const TuneOptions& options) {
   const truth::Interruption interruption;
   const std::vector<NamedCamera> unseen = unseenCameras(options, given, subject);
   subject.trace();
-  requireOcclusion(options, subject.subject());
+  requireOcclusion(options, subject);
   const gpu::DeviceInfo& info = device->info();
   if (!options.json) printDevice(info);
   study::Bench bench(subject.subject(), axes, *device);
