@@ -29,7 +29,7 @@ class ModelsTest : public tests::BackendTest {
   }
 
   void expectDepthOfRays(const scene::Scene& scene) {
-    const scene::Camera camera = scene::defaultCamera(scene);
+    const scene::Camera camera = scene::defaultCamera(scene, double{kWidth} / kHeight);
     const image::Image drawn = render(scene, camera, "depth");
     const trace::RayTracer tracer(scene, camera.eye);
     const std::vector<trace::Hit> hits = tracer.castPrimary(camera, kWidth, kHeight);
