@@ -107,11 +107,13 @@ TEST_P(TuneTest, ASceneWithNothingToSeeIsRefused) {
     all.insert(all.end(), more.begin(), more.end());
     const Outcome outcome = tune(all);
     EXPECT_EQ(outcome.status, 1);
-    EXPECT_EQ(outcome.err.find("error E5305: " + mention), 0u) << outcome.err;
+    EXPECT_NE(outcome.err.find("error E5305: " + mention), std::string::npos) << outcome.err;
     EXPECT_FALSE(std::filesystem::exists(folder_ / "tuned.toml"));
   };
-  refused({}, "no random camera sees occluders within --radius 0.5 m on a third of its pixels");
-  refused({"--random", "0"}, "no --camera sees an occluder within --radius 0.5 m");
+  refused({"--radius", "0.5"},
+          "no random camera sees occluders within --radius 0.5 m on a third of its pixels");
+  refused({"--radius", "0.5", "--random", "0"},
+          "no --camera sees an occluder within --radius 0.5 m");
 }
 
 INSTANTIATE_TEST_SUITE_P(Backends, TuneTest, testing::Values("opengl", "vulkan"),

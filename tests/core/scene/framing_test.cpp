@@ -188,9 +188,10 @@ TEST(Framing, SharedModelsCoverAThirdOfThePicture) {
       try {
         const Scene scene = loadGltf(entry.path());
         covered.push_back(coveredBy(scene, framingCamera(scene, 16.0 / 9), 16.0 / 9));
-        EXPECT_GT(covered.back(), 0.2) << entry.path();
-      } catch (const Error&) {
-        // A model that needs an extension or is damaged.
+        // Thin shapes cover little, whatever the direction.
+        EXPECT_GT(covered.back(), 0.1) << entry.path();
+      } catch (const Error& error) {
+        EXPECT_EQ(error.id(), ErrorId::kSceneEmpty) << error.what();
       }
     }
   }
