@@ -70,6 +70,7 @@ void expectViews(const scene::Scene& scene, const std::vector<scene::Camera>& ca
 
 TEST(RandomCameras, SeeTheAtriumFromInside) {
   const scene::Scene scene = scene::makeAtrium();
+  const trace::RayTracer tracer(scene, glm::dvec3(0));
   for (const uint32_t seed : {1u, 2u, 3u}) {
     const auto cameras =
         randomCameras(scene, {.like = scene::atriumCamera(), .count = 4, .seed = seed});
@@ -78,6 +79,14 @@ TEST(RandomCameras, SeeTheAtriumFromInside) {
     for (const scene::Camera& camera : cameras) {
       EXPECT_TRUE(glm::all(glm::greaterThan(camera.eye, scene.bounds.min)));
       EXPECT_TRUE(glm::all(glm::lessThan(camera.eye, scene.bounds.max)));
+      const auto hits = tracer.castPrimary(camera, 160, 90);
+      size_t seen = 0, near = 0;
+      for (const trace::Hit& hit : hits) {
+        seen += hit.viewDepth > 0;
+        near += hit.viewDepth > 0 && hit.viewDepth < 0.1;
+      }
+      EXPECT_GT(seen * 10, hits.size() * 7);
+      EXPECT_LT(near * 100, hits.size());
     }
   }
 }
