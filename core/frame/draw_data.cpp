@@ -5,6 +5,8 @@
 #include <array>
 #include <cmath>
 
+#include "core/scene/normal_map.h"
+
 namespace grisaille::frame {
 namespace {
 
@@ -65,13 +67,10 @@ std::vector<std::vector<uint8_t>> mipChain(const image::Image8& image) {
 }
 
 glm::dmat4 normalTransform(const glm::dmat3& linear) {
-  glm::dmat3 cofactor(glm::cross(linear[1], linear[2]), glm::cross(linear[2], linear[0]),
-                      glm::cross(linear[0], linear[1]));
-  if (glm::determinant(linear) < 0) cofactor = -cofactor;
+  const glm::dmat3 map = scene::normalMap(linear);
   // Scale to lengths near 1: the matrices of tiny and huge scenes then fit single precision.
-  const double largest =
-      std::max({glm::length(cofactor[0]), glm::length(cofactor[1]), glm::length(cofactor[2])});
-  return glm::dmat4(largest > 0 ? cofactor / largest : cofactor);
+  const double largest = std::max({glm::length(map[0]), glm::length(map[1]), glm::length(map[2])});
+  return glm::dmat4(largest > 0 ? map / largest : map);
 }
 
 }  // namespace grisaille::frame

@@ -14,9 +14,7 @@ namespace grisaille::frame {
 // image.
 std::vector<std::vector<uint8_t>> mipChain(const image::Image8& image);
 
-// The transform of normals under a linear map: its cofactor matrix, which equals the inverse
-// transpose up to scale and exists for singular maps too. For a mirroring map it is negated, so
-// that normals do not flip.
+// scene::normalMap(), scaled to lengths near 1.
 glm::dmat4 normalTransform(const glm::dmat3& linear);
 
 }  // namespace grisaille::frame

@@ -12,13 +12,14 @@
 #include "core/scene/gltf_place.h"
 
 namespace grisaille::scene {
-namespace {
 
 // The accessors of JOINTS_n and WEIGHTS_n, four influences each.
 struct InfluenceSet {
   std::string joints, weights;  // names of the attributes
   int jointAccessor = -1, weightAccessor = -1;
 };
+
+namespace {
 
 std::vector<InfluenceSet> influenceSets(const tinygltf::Primitive& primitive) {
   std::vector<InfluenceSet> sets;
@@ -192,14 +193,13 @@ uint32_t DeformedLoader::verticesOf(const tinygltf::Primitive& primitive, bool s
                 accessorCount(model_, positions), kMaxVertices);
   }
   vertices.positions = inPlace("attributes.POSITION", [&] { return readVec3(model_, positions); });
-  if (!sets.empty()) addInfluences(primitive, vertices);
+  if (!sets.empty()) addInfluences(sets, vertices);
   addTargets(primitive, vertices);
   rig_.vertices.push_back(std::move(vertices));
   return found->second;
 }
 
-void DeformedLoader::addInfluences(const tinygltf::Primitive& primitive, DeformedVertices& to) {
-  const std::vector<InfluenceSet> sets = influenceSets(primitive);
+void DeformedLoader::addInfluences(const std::vector<InfluenceSet>& sets, DeformedVertices& to) {
   const size_t count = to.positions.size();
   influences_ += uint64_t{4} * sets.size() * count;
   if (influences_ > kMaxInfluences) {

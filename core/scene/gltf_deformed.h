@@ -18,6 +18,8 @@ struct DeformedMesh {
   std::vector<uint32_t> primitives;  // indices into scene.primitives
 };
 
+struct InfluenceSet;
+
 class DeformedLoader {
  public:
   // The arguments must outlive the loader. It sets the weights of the tree's nodes.
@@ -34,7 +36,7 @@ class DeformedLoader {
  private:
   int skinOf(const PlacedMesh& placed);
   uint32_t verticesOf(const tinygltf::Primitive& primitive, bool skinned);
-  void addInfluences(const tinygltf::Primitive& primitive, DeformedVertices& to);
+  void addInfluences(const std::vector<InfluenceSet>& sets, DeformedVertices& to);
   void addTargets(const tinygltf::Primitive& primitive, DeformedVertices& to);
   std::vector<double> weightsOf(const PlacedMesh& placed) const;
   void keepNormals(const std::vector<DeformedRun>& runs);

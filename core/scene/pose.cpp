@@ -5,6 +5,7 @@
 #include <unordered_map>
 
 #include "core/base/error.h"
+#include "core/scene/normal_map.h"
 #include "core/scene/rig.h"
 
 namespace grisaille::scene {
@@ -60,12 +61,6 @@ std::vector<glm::dmat4> worldsOf(const Rig& rig, const MovedNodes& moved) {
     worlds[i] = node.parent < 0 ? local : worlds[static_cast<size_t>(node.parent)] * local;
   }
   return worlds;
-}
-
-// Inverse transpose up to a positive factor, which also exists for singular maps.
-glm::dmat3 normalMap(const glm::dmat3& m) {
-  const glm::dmat3 cofactor(glm::cross(m[1], m[2]), glm::cross(m[2], m[0]), glm::cross(m[0], m[1]));
-  return glm::determinant(m) < 0 ? -cofactor : cofactor;
 }
 
 struct Vertices {

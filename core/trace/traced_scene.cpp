@@ -6,6 +6,7 @@
 #include <map>
 
 #include "core/base/error.h"
+#include "core/scene/normal_map.h"
 
 namespace grisaille::trace {
 namespace {
@@ -15,11 +16,7 @@ Placement placementOf(const scene::Instance& instance, const glm::dvec3& origin)
   p.linear = glm::dmat3(instance.worldFromObject);
   p.offset = glm::dvec3(instance.worldFromObject[3]) - origin;
   p.mirrored = glm::determinant(p.linear) < 0;
-  // The cofactor matrix equals the inverse transpose up to a positive factor (with the sign below),
-  // and also exists for singular transforms.
-  const glm::dmat3& m = p.linear;
-  p.normals = glm::dmat3(glm::cross(m[1], m[2]), glm::cross(m[2], m[0]), glm::cross(m[0], m[1]));
-  if (p.mirrored) p.normals = -p.normals;
+  p.normals = scene::normalMap(p.linear);
   return p;
 }
 
