@@ -13,13 +13,13 @@
 #include "app/apply/channels.h"
 #include "app/apply/normal_checks.h"
 #include "app/apply/picture_checks.h"
-#include "app/apply/sequence.h"
 #include "app/command.h"
 #include "app/options/camera_option.h"
 #include "app/options/driver_messages.h"
 #include "app/options/effect_options.h"
 #include "app/options/option_checks.h"
 #include "app/options/output_file.h"
+#include "app/options/sequence.h"
 #include "app/options/start_device.h"
 #include "app/services/scene_lengths.h"
 #include "app/truth/progress.h"
@@ -45,16 +45,11 @@ frame::DepthKind kindOf(const std::string& name) {
   return name == "distance" ? frame::DepthKind::kDistance : frame::DepthKind::kView;
 }
 
-struct Output {
-  std::string name;
-  FileName file;
-};
-
 // The parsed command line, checked before any slow work starts.
 struct ApplyJob : ChosenEffects {
   const ApplyOptions& options;
   FileName depth, normal, baseColour, camera;
-  std::vector<Output> outputs;
+  std::vector<OutputFiles> outputs;
   std::vector<int> frames;  // frame numbers; {0} if the file names are not numbered
 
   explicit ApplyJob(const ApplyOptions& given)
@@ -70,7 +65,9 @@ struct ApplyJob : ChosenEffects {
       throw Error(ErrorId::kUsage, "--far {} is not greater than --near {}", options.far,
                   options.near);
     }
-    for (const Output& output : outputs) frame::checkOutput(output.name, chain.selection.effects());
+    for (const OutputFiles& output : outputs) {
+      frame::checkOutput(output.output, chain.selection.effects());
+    }
     findFrames();
     requireDistinctOutputs();
   }
@@ -86,9 +83,9 @@ struct ApplyJob : ChosenEffects {
 void ApplyJob::requireDistinctOutputs() const {
   std::vector<NamedOutput> all;
   for (const int number : frames) {
-    for (const Output& output : outputs) {
+    for (const OutputFiles& output : outputs) {
       const std::string file = output.file.at(number);
-      all.push_back({fmt::format("--write {}={}", output.name, file), file});
+      all.push_back({fmt::format("--write {}={}", output.output, file), file});
     }
   }
   requireDistinct(all);
@@ -97,7 +94,7 @@ void ApplyJob::requireDistinctOutputs() const {
 // Lists the frames, and checks that every file of every frame exists before work starts.
 void ApplyJob::findFrames() {
   const bool sequence = depth.numbered();
-  for (const Output& output : outputs) {
+  for (const OutputFiles& output : outputs) {
     if (output.file.numbered() != sequence) {
       throw Error(ErrorId::kSequence, "'{}' {}", output.file.at(0),
                   sequence ? "has no frame number, but --depth is a numbered sequence"
@@ -191,10 +188,10 @@ LoadedFrame load(const ApplyJob& job, int number, Warnings& warnings) {
 
 void writeOutputs(const ApplyJob& job, int number, const scene::Camera& camera,
                   frame::Renderer& renderer) {
-  for (const Output& output : job.outputs) {
-    const image::Image picture = renderer.read(output.name);
-    writeOutput(picture, {.output = output.name, .file = output.file.at(number)},
-                {.transfer = frame::transferOf(output.name),
+  for (const OutputFiles& output : job.outputs) {
+    const image::Image picture = renderer.read(output.output);
+    writeOutput(picture, {.output = output.output, .file = output.file.at(number)},
+                {.transfer = frame::transferOf(output.output),
                  .matrices = scene::matricesOf(camera, picture.width, picture.height)});
   }
 }
@@ -202,7 +199,7 @@ void writeOutputs(const ApplyJob& job, int number, const scene::Camera& camera,
 void applyFrames(ApplyJob& job, LoadedFrame loaded, Warnings& warnings, gpu::Device& device) {
   const effect::StartedChain started(job.chain, device);
   std::vector<std::string> names;
-  for (const Output& output : job.outputs) names.push_back(output.name);
+  for (const OutputFiles& output : job.outputs) names.push_back(output.output);
   frame::PictureAttachments source(&device);
   frame::Renderer renderer(device, source);
   {
@@ -225,7 +222,7 @@ void applyFrames(ApplyJob& job, LoadedFrame loaded, Warnings& warnings, gpu::Dev
       writeOutputs(job, number, loaded.camera, renderer);
     }
   }
-  for (const Output& output : job.outputs) {
+  for (const OutputFiles& output : job.outputs) {
     const std::string first = output.file.at(job.frames.front());
     if (job.frames.size() == 1) {
       fmt::print("wrote {}\n", first);

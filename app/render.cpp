@@ -1,7 +1,9 @@
 // SPDX-License-Identifier: MIT
-// grisaille render: renders a scene from one camera and writes pictures to files.
+// grisaille render: renders a scene from one camera, at one time or at many, and writes pictures to
+// files.
 #include <fmt/format.h>
 
+#include <algorithm>
 #include <cstdio>
 #include <memory>
 #include <optional>
@@ -13,11 +15,14 @@
 #include "app/options/option_checks.h"
 #include "app/options/output_file.h"
 #include "app/options/scene_options.h"
+#include "app/options/sequence.h"
 #include "app/options/start_device.h"
 #include "app/report/coverage.h"
 #include "app/report/timings.h"
 #include "app/services/scene_lengths.h"
 #include "app/services/scene_services.h"
+#include "app/truth/interruption.h"
+#include "app/truth/progress.h"
 #include "core/base/atomic_file.h"
 #include "core/base/error.h"
 #include "core/image/image.h"
@@ -28,34 +33,40 @@ namespace {
 
 struct RenderOptions : EffectOptions {
   SceneOptions view;
-  std::string timings, coverage;
+  std::string timings, coverage, times;
   ObjectOptions objects;
   uint32_t frames = 1;
 };
 
 // The parsed command line, checked before any slow work starts.
 struct RenderJob : ChosenEffects {
-  std::vector<OutputFile> writes;
+  std::vector<OutputFiles> outputs;
+  std::vector<double> times;  // of --times, seconds; empty: one picture, of view.pose
   SceneView view;
 
   // Outputs that --coverage reads; none without --coverage.
   std::optional<Owned> owned;
 
-  explicit RenderJob(const RenderOptions& options)
-      : ChosenEffects(options), writes(parseOutputFiles(options.writes)) {
+  explicit RenderJob(const RenderOptions& options) : ChosenEffects(options) {
+    if (!options.times.empty()) times = parseTimes(options.times);
+    findOutputs(options);
     if (options.timings == "-" && options.coverage == "-") {
       throw Error(ErrorId::kUsage, "--timings and --coverage cannot both be standard output");
     }
-    if (writes.empty()) writes.push_back({.output = "color", .file = "grisaille.png"});
     requireDistinctOutputs(options);
     for (const std::string& file : {options.timings, options.coverage}) {
       if (!file.empty() && file != "-") requireWritable(file);
     }
-    for (const OutputFile& write : writes)
-      frame::checkOutput(write.output, chain.selection.effects());
+    for (const OutputFiles& output : outputs) {
+      frame::checkOutput(output.output, chain.selection.effects());
+    }
     options.objects.check(chain);
-    view = loadView(options.view);
+    SceneOptions first = options.view;
+    if (!times.empty()) first.pose.time = times.front();
+    view = loadView(first);
+    if (!times.empty()) requireWithin(view.scene, *view.pose.animation, times.back());
     fitToScene(chain.selection, view.scene);
+    view.takePose();
     if (options.coverage.empty()) return;
     owned = findOwned(chain.selection.effects());
     if (!owned) {
@@ -66,17 +77,35 @@ struct RenderJob : ChosenEffects {
   }
 
  private:
+  void findOutputs(const RenderOptions& options);
   void requireDistinctOutputs(const RenderOptions& options) const;
 };
 
+void RenderJob::findOutputs(const RenderOptions& options) {
+  for (const OutputFile& write : parseOutputFiles(options.writes)) {
+    outputs.push_back({write.output, FileName(write.file)});
+    if (outputs.back().file.numbered() == !times.empty()) continue;
+    throw Error(ErrorId::kSequence, "'{}' {}", write.file,
+                times.empty() ? "has a frame number, but --times is not given"
+                              : "has no frame number, but --times writes a sequence");
+  }
+  if (!outputs.empty()) return;
+  outputs.push_back({"color", FileName(times.empty() ? "grisaille.png" : "grisaille.####.png")});
+}
+
+// Compares the output files of all frames.
 void RenderJob::requireDistinctOutputs(const RenderOptions& options) const {
-  std::vector<NamedOutput> outputs = namedOutputs(writes);
-  const std::vector<NamedOutput> saves = options.objects.outputs();
-  outputs.insert(outputs.end(), saves.begin(), saves.end());
-  if (options.timings != "-") outputs.push_back({"--timings " + options.timings, options.timings});
+  std::vector<NamedOutput> files = options.objects.outputs();
+  if (options.timings != "-") files.push_back({"--timings " + options.timings, options.timings});
   const std::string& coverage = options.coverage;
-  if (coverage != "-") outputs.push_back({"--coverage " + coverage, coverage});
-  requireDistinct(outputs);
+  if (coverage != "-") files.push_back({"--coverage " + coverage, coverage});
+  for (int i = 0; i < static_cast<int>(std::max(times.size(), size_t{1})); ++i) {
+    for (const OutputFiles& output : outputs) {
+      const std::string file = output.file.at(i);
+      files.push_back({fmt::format("--write {}={}", output.output, file), file});
+    }
+  }
+  requireDistinct(files);
 }
 
 // Messages go to standard error when a table goes to standard output.
@@ -108,13 +137,48 @@ void writeCoverage(const RenderOptions& options, RenderJob& job, frame::Renderer
   writeText(options.coverage, coverageCsv(shares));
 }
 
-void writeOutputs(const RenderOptions& options, const RenderJob& job, frame::Renderer& renderer) {
-  for (const OutputFile& write : job.writes) {
-    writeOutput(renderer.read(write.output), write,
-                {.transfer = frame::transferOf(write.output),
+// `number`: of the frame, for numbered files.
+void writeOutputs(const RenderJob& job, int number, frame::Renderer& renderer) {
+  for (const OutputFiles& output : job.outputs) {
+    writeOutput(renderer.read(output.output),
+                {.output = output.output, .file = output.file.at(number)},
+                {.transfer = frame::transferOf(output.output),
                  .matrices = scene::matricesOf(job.view.camera, job.view.size.x, job.view.size.y)});
-    fmt::print(notesOf(options), "wrote {}\n", write.file);
   }
+}
+
+// `frames`: number of frames that are written.
+void printWritten(const RenderOptions& options, const RenderJob& job, int frames) {
+  for (const OutputFiles& output : job.outputs) {
+    const std::string first = output.file.at(0);
+    const std::string last = frames > 1 ? " to " + output.file.at(frames - 1) : "";
+    if (frames > 0) fmt::print(notesOf(options), "wrote {}{}\n", first, last);
+  }
+}
+
+// Renders and writes one frame after another with one renderer, so that effects with a history find
+// their frame before. A signal ends the sequence between two frames.
+void renderSequence(const RenderOptions& options, RenderJob& job, const frame::FrameDesc& desc,
+                    frame::Renderer& renderer) {
+  const truth::Interruption interruption;
+  const auto frames = static_cast<int>(job.times.size());
+  int done = 0;
+  {
+    truth::Progress progress("render", truth::usualProgress());
+    for (; done < frames && !truth::Interruption::asked(); ++done) {
+      const double seconds = job.times[static_cast<size_t>(done)];
+      progress.show({.done = static_cast<double>(done),
+                     .total = static_cast<double>(frames),
+                     .text = fmt::format("frame {} of {}, {:.3f} s", done + 1, frames, seconds)});
+      scene::pose(job.view.scene, {.animation = job.view.pose.animation, .seconds = seconds});
+      renderer.render(desc);
+      writeOutputs(job, done, renderer);
+    }
+  }
+  printWritten(options, job, done);
+  if (done == frames) return;
+  fmt::print(stderr, "note: interrupted after {} of {} frames\n", done, frames);
+  throw truth::Interrupted();
 }
 
 void renderFrames(const RenderOptions& options, RenderJob& job, gpu::Device& device) {
@@ -122,22 +186,26 @@ void renderFrames(const RenderOptions& options, RenderJob& job, gpu::Device& dev
   options.objects.apply(job.chain, job.view.camera, job.view.size, services.rays());
   const effect::StartedChain started(job.chain, device);
   std::vector<std::string> outputs;
-  for (const OutputFile& write : job.writes) outputs.push_back(write.output);
+  for (const OutputFiles& output : job.outputs) outputs.push_back(output.output);
   if (job.owned) {
     outputs.insert(outputs.end(), {job.owned->owner, job.owned->overlay, "depth", "facet_normal"});
   }
   frame::Renderer renderer(device, job.view.scene);
-  for (uint32_t i = 0; i < options.frames; ++i) {
-    renderer.render({.camera = job.view.camera,
-                     .width = job.view.size.x,
-                     .height = job.view.size.y,
-                     .surface = job.surface,
-                     .background = job.background,
-                     .chain = &job.chain,
-                     .outputs = outputs,
-                     .services = services.all()});
+  const frame::FrameDesc desc = {.camera = job.view.camera,
+                                 .width = job.view.size.x,
+                                 .height = job.view.size.y,
+                                 .surface = job.surface,
+                                 .background = job.background,
+                                 .chain = &job.chain,
+                                 .outputs = outputs,
+                                 .services = services.all()};
+  if (!job.times.empty()) {
+    renderSequence(options, job, desc, renderer);
+  } else {
+    for (uint32_t i = 0; i < options.frames; ++i) renderer.render(desc);
+    writeOutputs(job, 0, renderer);
+    printWritten(options, job, 1);
   }
-  writeOutputs(options, job, renderer);
   if (job.owned) writeCoverage(options, job, renderer);
   options.objects.save(job.chain);
   if (renderer.waiting() > 0) {
@@ -170,12 +238,21 @@ void addRender(CLI::App& program) {
   options->addTo(
       *command,
       "Output and its .exr or .png file. Outputs: color, depth and back_depth (metres, 0 = sky), "
-      "normal and facet_normal (world space), base_colour, and those of the effects; default: "
+      "normal and facet_normal (world space), base_colour, motion (pixels since the previous "
+      "frame), and those of the effects; default: "
       "color=grisaille.png");
+  CLI::Option* times =
+      command
+          ->add_option("--times", options->times,
+                       "Render the animation at these times, LAST included; #### in a file name "
+                       "stands for the frame number, from 0. STEP may be a fraction: 0:4:1/24")
+          ->type_name("FIRST:LAST:STEP")
+          ->excludes("--time");
   command
       ->add_option("--frames", options->frames,
                    "Number of frames to render; the last one is written")
       ->check(wholeNumberFrom(1, 1000000))
+      ->excludes(times)
       ->capture_default_str();
   command
       ->add_option("--timings", options->timings,
@@ -187,7 +264,8 @@ void addRender(CLI::App& program) {
           "--coverage", options->coverage,
           "Write as CSV which share of the visible surface the objects of each colour cover; -: to "
           "standard output")
-      ->type_name("FILE.csv|-");
+      ->type_name("FILE.csv|-")
+      ->excludes(times);
   command->callback([options] { render(*options); });
 }
 

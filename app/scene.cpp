@@ -1,5 +1,6 @@
 // SPDX-License-Identifier: MIT
-// grisaille scene: prints the contents of a scene; writes the scene and a camera for it to files.
+// grisaille scene: prints the contents of a scene, with its animations; writes the scene and a
+// camera for it to files.
 #include <fmt/format.h>
 
 #include <cstdio>
@@ -9,6 +10,7 @@
 #include "app/options/output_file.h"
 #include "app/options/scene_options.h"
 #include "app/options/size.h"
+#include "core/base/quote.h"
 #include "core/scene/camera.h"
 #include "core/scene/scene.h"
 
@@ -17,13 +19,17 @@ namespace {
 
 struct SceneCommand {
   std::string scene, write, writeCamera;
+  PoseOptions pose;
 };
 
 void showScene(const SceneCommand& options) {
   const NamedOutput outputs[] = {{"--write " + options.write, options.write},
                                  {"--write-camera " + options.writeCamera, options.writeCamera}};
   requireDistinct(outputs);
-  const scene::Scene scene = scene::loadScene(options.scene);
+  scene::Scene scene = scene::loadScene(options.scene);
+  const scene::Pose pose = options.pose.poseOf(scene);
+  const scene::Camera camera = defaultCamera(scene, pose, aspectOf(kDefaultSize));
+  if (pose.animation) scene::pose(scene, pose);
   const scene::Bounds& b = scene.bounds;
   fmt::print(
       "{}: {} triangles, {} primitives, {} instances, {} materials, {} textures\n"
@@ -31,12 +37,17 @@ void showScene(const SceneCommand& options) {
       scene.name, scene::triangleCount(scene), scene.primitives.size(), scene.instances.size(),
       scene.materials.size(), scene.textures.size(), b.min.x, b.min.y, b.min.z, b.max.x, b.max.y,
       b.max.z);
+  for (size_t i = 0; i < animationsOf(scene).size(); ++i) {
+    const scene::Animation& animation = animationsOf(scene)[i];
+    fmt::print("animation {}: {}{}{} s\n", i, oneLine(animation.name),
+               animation.name.empty() ? "" : ", ", secondsText(animation.duration));
+  }
   if (!options.write.empty()) {
     scene::writeGlb(scene, options.write);
     fmt::print("wrote {}\n", options.write);
   }
   if (!options.writeCamera.empty()) {
-    scene::saveCamera(scene::defaultCamera(scene, aspectOf(kDefaultSize)), options.writeCamera);
+    scene::saveCamera(camera, options.writeCamera);
     fmt::print("wrote {}\n", options.writeCamera);
   }
 }
@@ -49,7 +60,10 @@ void addScene(CLI::App& program) {
       program.add_subcommand("scene", "Print the contents of a scene; write the scene or a camera");
   command->add_option("scene", options->scene,
                       "A .gltf or .glb file; default: the built-in atrium");
-  command->add_option("--write", options->write, "Write the scene with its textures")
+  options->pose.addTo(*command);
+  command
+      ->add_option("--write", options->write,
+                   "Write the scene with its textures, in its pose and without animations")
       ->type_name("FILE.glb");
   command
       ->add_option("--write-camera", options->writeCamera,

@@ -74,6 +74,7 @@ struct TruthJob {
     if (options.thickness != 0) requireLength("--thickness", options.thickness);
     view = loadView(options.view);
     if (!options.radius) chooseRadius();
+    view.takePose();
     if (thickness == 0) thickness = radius / 5;
   }
 

@@ -28,6 +28,7 @@ void addView(CLI::App& program) {
   command->add_option("scene", session.scene, "A .gltf or .glb file; default: the built-in atrium");
   command->add_option("--camera", session.camera,
                       "A camera file or its JSON; default: a view of the scene");
+  session.pose.addTo(*command);
   command
       ->add_option("--size", options->windowSize,
                    "Size of the window; default: its size when it was last closed")

@@ -30,9 +30,10 @@ constexpr KernelRow kRows[Kernels::kKernels] = {
 // storage images need one; shaders that sample it see no difference.
 constexpr gpu::Format kFormats[GRISAILLE_ATTACHMENT_COUNT] = {
     gpu::Format::kR32Float,    gpu::Format::kR32Float,    gpu::Format::kRgba16Float,
-    gpu::Format::kRgba16Float, gpu::Format::kRgba16Float, gpu::Format::kR32Float};
+    gpu::Format::kRgba16Float, gpu::Format::kRgba16Float, gpu::Format::kR32Float,
+    gpu::Format::kRgba16Float};
 constexpr const char* kLabels[GRISAILLE_ATTACHMENT_COUNT] = {
-    "clip depth", "depth", "normal", "base_colour", "facet_normal", "back_depth"};
+    "clip depth", "depth", "normal", "base_colour", "facet_normal", "back_depth", "motion"};
 
 // Not a grisaille_host_depth: the shader writes sky everywhere.
 constexpr int kNothing = -1;
@@ -101,6 +102,7 @@ void Attachments::prepare(uint32_t reads, bool normalsGiven) {
     kernels_.turn(kFormats[GRISAILLE_BASE_COLOUR]);
   }
   reads |= GRISAILLE_READS(GRISAILLE_VIEW_DEPTH);  // all other attachments are computed with it
+  reads &= ~GRISAILLE_READS(GRISAILLE_MOTION);     // hosts give none
   for (size_t i = 0; i < targets_.size(); ++i) {
     const bool read = (reads & GRISAILLE_READS(i)) != 0;
     if (read && !targets_[i]) {

@@ -41,7 +41,9 @@ void writePaintMask(const PaintMaskOptions& options) {
                 range, kFarthest);
   }
   const std::vector<Shot> shots = shotsFrom(options);
-  const auto [scene, camera, size] = app::loadView(options.view);
+  app::SceneView view = app::loadView(options.view);
+  view.takePose();
+  const auto& [scene, pose, camera, size] = view;
 
   const trace::RayTracer tracer(scene, camera.eye);
   const std::vector<uint8_t> mask =

@@ -54,6 +54,11 @@ CLI::Validator positiveNumber(Infinite infinite) {
                  [=](double number) { return number > 0 && (taken || std::isfinite(number)); });
 }
 
+CLI::Validator zeroOrMore() {
+  return checkOf("0 or more", "a number of 0 or more",
+                 [](double number) { return number >= 0 && std::isfinite(number); });
+}
+
 CLI::Option* addBackground(CLI::App& command, std::string& text) {
   const auto check = [](const std::string& given) {
     return backgroundOf(given) ? std::string()

@@ -18,6 +18,9 @@ CLI::Validator wholeNumberFrom(uint32_t least, uint32_t most);
 enum class Infinite : uint8_t { kRefused, kTaken };
 CLI::Validator positiveNumber(Infinite infinite = Infinite::kRefused);
 
+// Finite numbers of 0 or more.
+CLI::Validator zeroOrMore();
+
 // Adds --background, which sets `text`.
 CLI::Option* addBackground(CLI::App& command, std::string& text);
 

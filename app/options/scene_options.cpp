@@ -15,6 +15,7 @@ void SceneOptions::addTo(CLI::App& command) {
                   "A camera file (JSON with eye, target and fovy_degrees) or its JSON; default: "
                   "a view of the scene")
       ->type_name("FILE|{...}");
+  pose.addTo(command);
   command.add_option("--size", size, "Size in pixels; default: the camera's size, else 1280x720")
       ->type_name("WxH");
 }
@@ -25,8 +26,10 @@ SceneView loadView(const SceneOptions& options) {
   if (!options.size.empty()) given = parseSize(options.size);
   if (!options.camera.empty()) view.camera = cameraOf(options.camera, "--camera");
   view.scene = scene::loadScene(options.scene);
+  view.pose = options.pose.poseOf(view.scene);
   if (given) view.size = *given;
-  if (options.camera.empty()) view.camera = scene::defaultCamera(view.scene, aspectOf(view.size));
+  if (options.camera.empty())
+    view.camera = defaultCamera(view.scene, view.pose, aspectOf(view.size));
   if (!given && view.camera.size.x > 0) view.size = view.camera.size;
   return view;
 }

@@ -65,6 +65,7 @@ void SubjectOptions::addTo(CLI::App& command) {
                   "A camera file or its JSON; errors are averaged over all --camera")
       ->type_name("FILE|{...}")
       ->allow_extra_args(false);
+  pose.addTo(command);
   command.add_option("--set", sets, "Value of a parameter in all settings")
       ->type_name("EFFECT.PARAMETER=VALUE")
       ->allow_extra_args(false);
@@ -155,10 +156,14 @@ void LoadedSubject::loadObjects(effect::Chain& chain) {
 
 void LoadedSubject::loadScene() {
   scene_ = scene::loadScene(options_.scene);
+  pose_ = options_.pose.poseOf(scene_);
+  // Lengths are chosen for the scene at rest, as in SceneView.
   chooseLengths();
-  if (!options_.cameras.empty()) return;
-  if (cameras_.empty()) cameras_.push_back({"default", {}, ""});
-  cameras_[0].camera = scene::defaultCamera(scene_, aspectOf(subject_.size));
+  if (options_.cameras.empty()) {
+    if (cameras_.empty()) cameras_.push_back({"default", {}, ""});
+    cameras_[0].camera = defaultCamera(scene_, pose_, aspectOf(subject_.size));
+  }
+  if (pose_.animation) scene::pose(scene_, pose_);
 }
 
 void LoadedSubject::chooseLengths() {
@@ -242,6 +247,7 @@ std::string LoadedSubject::renderCommand(const study::SettingText& setting,
   std::string command = "grisaille render";
   const auto add = [&](const std::string& word) { command += " " + shellQuoted(word); };
   if (!options_.scene.empty()) add(options_.scene);
+  for (const std::string& word : poseArguments(pose_)) add(word);
   add("--backend"), add(backend), add("--camera"), add(scene::cameraJson(subject_.views[0].camera));
   add("--size"), add(fmt::format("{}x{}", subject_.size.x, subject_.size.y));
   add("--effects"), add(fmt::format("{}", fmt::join(subject_.effects, ",")));

@@ -8,6 +8,7 @@
 #include <string>
 #include <vector>
 
+#include "app/options/pose_options.h"
 #include "app/study/measurer.h"
 #include "app/truth/progress.h"
 
@@ -20,6 +21,7 @@ struct SubjectOptions {
   std::string config;
   std::vector<std::string> presets;
   std::vector<std::string> cameras, references, loads, sets, effects, pluginPaths;
+  PoseOptions pose;
   double radius = 0;       // metres; 0: chosen for the scene
   uint32_t samples = 256;  // rays per pixel
   truth::ProgressStyle progress = truth::usualProgress();
@@ -73,6 +75,7 @@ class LoadedSubject {
   void chooseLengths();
 
   SubjectOptions options_;
+  scene::Pose pose_;
   std::vector<effect::ParameterName> swept_;
   std::unique_ptr<effect::Registry> registry_;
   scene::Scene scene_;

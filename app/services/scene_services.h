@@ -17,11 +17,12 @@ namespace grisaille::app {
 // Casts rays with Embree. The first cast() builds Embree's scene.
 class SceneRays : public effect::RayService {
  public:
-  // `scene` must outlive this and must not change.
+  // `scene` must outlive this and change only by scene::pose(), between two casts.
   explicit SceneRays(const scene::Scene& scene) : scene_(scene) {}
 
   void cast(std::span<const grisaille_ray> rays, std::span<grisaille_hit> hits) override {
     if (!tracer_) tracer_.emplace(scene_, (scene_.bounds.min + scene_.bounds.max) / 2.0);
+    tracer_->follow();
     tracer_->castRays(rays, hits);
   }
 

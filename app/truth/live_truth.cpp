@@ -41,10 +41,10 @@ void giveWay() {
 }  // namespace
 
 bool LiveView::operator==(const LiveView& o) const {
-  return scene == o.scene && camera.eye == o.camera.eye && camera.target == o.camera.target &&
-         camera.up == o.camera.up && camera.fovyDegrees == o.camera.fovyDegrees &&
-         camera.nearPlane == o.camera.nearPlane && size == o.size && radius == o.radius &&
-         samples == o.samples;
+  return scene == o.scene && pose == o.pose && camera.eye == o.camera.eye &&
+         camera.target == o.camera.target && camera.up == o.camera.up &&
+         camera.fovyDegrees == o.camera.fovyDegrees && camera.nearPlane == o.camera.nearPlane &&
+         size == o.size && radius == o.radius && samples == o.samples;
 }
 
 struct LiveTruth::Job {
@@ -68,6 +68,10 @@ void LiveTruth::start(const LiveView& view) {
   {
     const std::lock_guard lock(mutex_);
     next_ = view;
+    if (copied_ != view.scene) {
+      copied_ = view.scene;
+      copy_ = view.scene->rig ? std::make_shared<scene::Scene>(*view.scene) : nullptr;
+    }
     stop_ = true;
     traced_ = {};
     failure_ = nullptr;
@@ -81,6 +85,8 @@ void LiveTruth::cancel() {
   {
     const std::lock_guard lock(mutex_);
     next_.reset();
+    copied_.reset();
+    copy_.reset();
     traced_ = {};
     failure_ = nullptr;
     running_ = fresh_ = false;
@@ -112,16 +118,19 @@ void LiveTruth::work() {
       if (std::exchange(forget_, false)) {
         tracer_.reset();
         scene_.reset();
+        posed_.reset();
         continue;
       }
       const LiveView view = *std::exchange(next_, std::nullopt);
+      const std::shared_ptr<scene::Scene> copy = copy_;
       stop_ = false;
       lock.unlock();
       std::exception_ptr failure;
       try {
-        trace(view);
+        trace(view, copy);
       } catch (...) {
         failure = std::current_exception();
+        scene_.reset();  // the next view begins anew
       }
       lock.lock();
       if (stop_) continue;
@@ -132,15 +141,28 @@ void LiveTruth::work() {
 }
 
 // Keeps the tracer from view to view, so that a move of the camera does not wait for a new one.
-void LiveTruth::trace(const LiveView& view) {
-  if (scene_ != view.scene || !tracer_) {
+void LiveTruth::setUp(const LiveView& view, const std::shared_ptr<scene::Scene>& copy) {
+  const bool fresh = scene_ != view.scene || !tracer_;
+  if (fresh) {
     tracer_.reset();
     sceneHash_.reset();
     scene_ = view.scene;
-    tracer_ = std::make_unique<trace::RayTracer>(*scene_, view.camera.eye);
+    posed_ = copy;
   }
+  if (posed_ && (fresh || !(pose_ == view.pose))) {
+    sceneHash_.reset();
+    scene::pose(*posed_, view.pose);
+    pose_ = view.pose;
+  }
+  const scene::Scene& scene = posed_ ? *posed_ : *scene_;
+  if (fresh) tracer_ = std::make_unique<trace::RayTracer>(scene, view.camera.eye);
+  tracer_->follow();
+  if (!stop_ && !sceneHash_) sceneHash_ = hashOf(scene);
+}
+
+void LiveTruth::trace(const LiveView& view, const std::shared_ptr<scene::Scene>& copy) {
+  setUp(view, copy);
   if (stop_) return;
-  if (!sceneHash_) sceneHash_ = hashOf(*scene_);
   scene::Camera sized = view.camera;
   sized.size = view.size;
   const size_t size = size_t{view.size.x} * view.size.y;

@@ -13,7 +13,7 @@
 #include <vector>
 
 #include "core/scene/camera.h"
-#include "core/scene/scene.h"
+#include "core/scene/rig.h"
 #include "core/trace/ray_tracer.h"
 
 namespace grisaille::app::truth {
@@ -21,6 +21,7 @@ namespace grisaille::app::truth {
 // The view to trace.
 struct LiveView {
   std::shared_ptr<const scene::Scene> scene;
+  scene::Pose pose = {};            // that the scene has
   scene::Camera camera;             // camera.size is ignored
   glm::uvec2 size = glm::uvec2(0);  // pixels
   double radius = 0.5;              // metres
@@ -47,7 +48,8 @@ class LiveTruth {
 
   // Starts tracing `view` and drops the view before it. Does not wait. Starts from the counts that
   // `grisaille truth` cached for this view; does not write the cache, since a view that the camera
-  // passes is seldom seen again.
+  // passes is seldom seen again. Copies a scene that has a rig, so that its owner may pose it while
+  // this traces.
   void start(const LiveView& view);
 
   // Stops tracing and releases the scene. Does not wait.
@@ -62,11 +64,14 @@ class LiveTruth {
  private:
   struct Job;
   void work();
-  void trace(const LiveView& view);
+  void trace(const LiveView& view, const std::shared_ptr<scene::Scene>& copy);
+  void setUp(const LiveView& view, const std::shared_ptr<scene::Scene>& copy);
   bool addSlice(Job& job, size_t first, uint32_t from, uint32_t to);
 
   // Used by the tracing thread only.
-  std::shared_ptr<const scene::Scene> scene_;  // the scene of tracer_
+  std::shared_ptr<const scene::Scene> scene_;  // the scene of tracer_, as its owner knows it
+  std::shared_ptr<scene::Scene> posed_;        // its copy; null: it has no rig
+  scene::Pose pose_;                           // of posed_
   std::unique_ptr<trace::RayTracer> tracer_;
   std::optional<uint64_t> sceneHash_;
   std::vector<uint32_t> order_;  // pixelOrder(orderSize_)
@@ -75,6 +80,8 @@ class LiveTruth {
   mutable std::mutex mutex_;
   std::condition_variable wake_;
   std::optional<LiveView> next_;
+  std::shared_ptr<const scene::Scene> copied_;  // the scene of copy_, as its owner knows it
+  std::shared_ptr<scene::Scene> copy_;          // only the tracing thread uses its content
   Traced traced_;
   std::exception_ptr failure_;
   bool running_ = false, fresh_ = false, forget_ = false, quit_ = false;

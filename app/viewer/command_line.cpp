@@ -38,6 +38,7 @@ std::vector<std::string> renderArguments(const RenderCommand& command) {
   };
   // Before --effects, which would take the path as another effect.
   if (!command.scene.empty()) arguments.push_back(plainPath(command.scene));
+  arguments.insert(arguments.end(), command.pose.begin(), command.pose.end());
   scene::Camera camera = command.camera;
   camera.size = glm::uvec2(0);  // --size gives it
   add("--camera", scene::cameraJson(camera));

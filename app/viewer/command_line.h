@@ -14,7 +14,8 @@
 namespace grisaille::app::viewer {
 
 struct RenderCommand {
-  std::string scene = {};  // path; "": the built-in scene
+  std::string scene = {};              // path; "": the built-in scene
+  std::vector<std::string> pose = {};  // --animation and --time; empty: at rest
   scene::Camera camera = {};
   glm::uvec2 size = glm::uvec2(1280, 720);     // pixels
   std::string backend = {}, device = {};       // "": no option

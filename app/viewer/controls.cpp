@@ -205,6 +205,10 @@ void Controls::updateViewKeys() {
   if (isKeyPressed(GLFW_KEY_I)) session_.inspecting = !session_.inspecting;
   if (isKeyPressed(GLFW_KEY_P)) session_.paused = !session_.paused;
   if (isKeyPressed(GLFW_KEY_N)) session_.step = true;
+  if (isKeyPressed(GLFW_KEY_K))
+    session_.attempt([&] { session_.play(!session_.playback.playing); });
+  if (isKeyPressed(GLFW_KEY_COMMA, true)) session_.stepFrames(-1);
+  if (isKeyPressed(GLFW_KEY_PERIOD, true)) session_.stepFrames(1);
   if (isKeyPressed(GLFW_KEY_HOME)) session_.camera = session_.homeCamera;
   if (isKeyPressed(GLFW_KEY_KP_ADD, true) || isKeyPressed(GLFW_KEY_EQUAL, true)) {
     session_.zoom = std::min(session_.zoom * 1.25f, 64.0f);

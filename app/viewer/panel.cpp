@@ -39,6 +39,8 @@ constexpr struct {
     {"I", "value under the cursor"},
     {"Ctrl + scroll, + / -", "zoom into pixels"},
     {"P, N", "pause, one frame"},
+    {"K", "play or pause the animation"},
+    {", .", "one frame of the animation back, on"},
     {"", ""},
     {"Ctrl + C", "copy the command line"},
     {"Ctrl + S", "save the settings"},
@@ -100,6 +102,7 @@ Requests Panel::draw(const Status& status, glm::vec2 window) {
       layout.note(std::string("section ") + label, is ? "open" : "closed");
       return is;
     };
+    if (session_.hasAnimations() && section("Time", true)) drawTime();
     if (section("Effects", true)) drawEffects(status, requests);
     if (section("View", true)) drawViews(status, requests);
     wantsCoverage = false;

@@ -117,6 +117,9 @@ class Panel {
   void drawBackground();
   void drawViewChoice(const char* label, const char* id, std::string& output,
                       const std::vector<Viewable>& all);
+  // panel_time.cpp
+  void drawTime();
+  void drawAnimationChoice();
   // panel_objects.cpp
   void drawObjects(const Status& status);
   void drawObjectsOf(const std::string& effect, const Status& status);

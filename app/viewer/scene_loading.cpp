@@ -14,11 +14,11 @@ void SceneLoading::start(const std::string& path) {
   *progress_ = 0;
   result_ = std::async(std::launch::async, [path, progress = progress_] {
     const auto report = [&](double share) { *progress = share; };
-    return std::make_shared<const scene::Scene>(scene::loadScene(path, report));
+    return std::make_shared<scene::Scene>(scene::loadScene(path, report));
   });
 }
 
-std::shared_ptr<const scene::Scene> SceneLoading::take() {
+std::shared_ptr<scene::Scene> SceneLoading::take() {
   if (!result_.valid() || result_.wait_for(std::chrono::seconds(0)) != std::future_status::ready) {
     return nullptr;
   }

@@ -25,12 +25,12 @@ class SceneLoading {
 
   // The scene, once; null while it is still being read or nothing was started. Throws the errors of
   // scene::loadGltf().
-  std::shared_ptr<const scene::Scene> take();
+  std::shared_ptr<scene::Scene> take();
 
  private:
   std::string path_;
   std::shared_ptr<std::atomic<double>> progress_ = std::make_shared<std::atomic<double>>(0);
-  std::future<std::shared_ptr<const scene::Scene>> result_;
+  std::future<std::shared_ptr<scene::Scene>> result_;
 };
 
 }  // namespace grisaille::app::viewer

@@ -104,18 +104,22 @@ void Session::resetParameter(effect::Selection::Entry& entry, const std::string&
   changed(fmt::format("{}.{}", entry.key(), key));
 }
 
-void Session::setScene(std::shared_ptr<const scene::Scene> loaded, const std::string& path,
+void Session::setScene(std::shared_ptr<scene::Scene> loaded, const std::string& path,
                        glm::uvec2 size) {
   scenePath = path;
-  scene = std::move(loaded);
+  posed_ = std::move(loaded);
+  scene = posed_;
+  playback = {};
   services = std::make_unique<SceneServices>(
       *scene, [this](const std::string& warning) { say("warning: " + warning, true); });
   for (const std::string& note : scene->notes) say("note: " + note);
-  homeCamera =
-      scene::defaultCamera(*scene, double{1} * std::max(size.x, 1u) / std::max(size.y, 1u));
-  if (std::exchange(firstScene_, false) && !options_.camera.empty()) homeCamera = camera;
+  aspect_ = double{1} * std::max(size.x, 1u) / std::max(size.y, 1u);
+  const bool first = std::exchange(firstScene_, false);
+  homeGiven_ = first && !options_.camera.empty();
+  homeCamera = homeGiven_ ? camera : scene::defaultCamera(*scene, aspect_);
   camera = homeCamera;
   speed = flySpeed(scene->bounds);
+  extent = glm::length(scene->bounds.max - scene->bounds.min);
   suitableRadius_ = suitableRadius(*scene);
   fitToScene();
   printChosen(chain.selection, {}, "the scene");
@@ -123,6 +127,12 @@ void Session::setScene(std::shared_ptr<const scene::Scene> loaded, const std::st
   ++heldRevision;
   zoom = 1;
   centre = glm::vec2(0.5f);
+  if (!first) return;
+  attempt([&] {
+    const scene::Pose pose = options_.pose.poseOf(*scene);
+    choose(pose.animation);
+    takePose(pose);
+  });
 }
 
 void Session::noteChanges() {
@@ -225,6 +235,8 @@ std::string Session::rescue(const fs::path& folder) {
   std::vector<std::string> words = {"grisaille", "view"};
   const std::string& path = scene ? scenePath : options_.scene;  // maybe not loaded yet
   if (!path.empty()) words.push_back(plainPath(path));
+  const std::vector<std::string> pose = poseArguments(playback.pose);
+  words.insert(words.end(), pose.begin(), pose.end());
   const auto keep = [&](const char* option, const std::string& prefix, const fs::path& file) {
     words.insert(words.end(), {option, prefix + file.string()});
     return file.string();
@@ -247,6 +259,7 @@ std::string Session::commandLine(glm::uvec2 size, const std::string& backend,
                                  const std::string& device) {
   RenderCommand command;
   command.scene = scenePath;
+  command.pose = poseArguments(playback.pose);
   command.camera = camera;
   command.size = size;
   command.backend = backend;

@@ -12,6 +12,7 @@
 #include <string>
 #include <vector>
 
+#include "app/options/pose_options.h"
 #include "app/services/scene_lengths.h"
 #include "app/services/scene_services.h"
 #include "app/settings/presets.h"
@@ -30,10 +31,20 @@ namespace grisaille::app::viewer {
 struct SessionOptions {
   std::string scene, camera, config, surface, background, view, split;
   std::vector<std::string> effects, presets, sets, loads, pluginPaths;
+  PoseOptions pose;
   bool effectsGiven = false;
   bool compareTruth = false;
   double truthRadius = 0;  // metres; 0: the effect's radius
   uint32_t truthRays = 0;  // per pixel; 0: the default
+};
+
+// The pose of the scene, and how it plays.
+struct Playback {
+  static constexpr double kFrames = 24;  // per second; files name no frame rate
+
+  scene::Pose pose = {};
+  bool playing = false;
+  double speed = 1;  // seconds of the animation per second
 };
 
 // Settings of the comparison with the truth.
@@ -92,14 +103,32 @@ class Session {
 
   // --- The scene
   // Shows a loaded scene. `path`: its file; "": the built-in scene. The camera becomes --camera for
-  // the first scene if given, else scene::defaultCamera() for a picture of `size` pixels.
-  void setScene(std::shared_ptr<const scene::Scene> loaded, const std::string& path,
-                glm::uvec2 size);
+  // the first scene if given, else defaultCamera() for a picture of `size` pixels. The first
+  // scene takes the pose of the command line; others are at rest.
+  void setScene(std::shared_ptr<scene::Scene> loaded, const std::string& path, glm::uvec2 size);
   std::string scenePath;  // "": the built-in scene
   std::shared_ptr<const scene::Scene> scene;
   std::unique_ptr<SceneServices> services;  // of the scene
   scene::Camera camera, homeCamera;
-  double speed = 1;  // of flying, metres per second
+  double speed = 1;   // of flying, metres per second
+  double extent = 0;  // of the scene at rest, metres
+
+  // --- Time; session_time.cpp
+  Playback playback;
+  bool hasAnimations() const { return scene && !animationsOf(*scene).empty(); }
+  bool isPlaying() const { return playback.playing && !paused; }
+  double duration() const;     // of the animation, or at rest of the first one; seconds
+  double frameNumber() const;  // of the current time, at Playback::kFrames
+  double lastFrame() const;    // of the animation
+  // Poses the scene. After an error of scene::pose(), the scene is at rest and the error goes on.
+  void takePose(const scene::Pose& pose);
+  // The functions below do nothing without animations.
+  void seek(double seconds);  // a time of the animation; the time line ends at its ends
+  // Goes to the start of an animation, or to rest. A camera at home moves to the new home.
+  void choose(std::optional<size_t> animation);
+  void play(bool on);            // a scene at rest plays its first animation
+  void advance(double seconds);  // while it plays: goes on, and from the end to the start
+  void stepFrames(int frames);   // pauses; goes to the next or previous whole frame
 
   // --- Effects
   effect::Chain chain;    // all loaded effects, on or off
@@ -216,15 +245,19 @@ class Session {
   std::string ownerOf(const std::string& path);
   void fitToScene();
   void beginComparing();
+  static constexpr double kWithin = 1e-6;  // rounding of times, frames
   void loadAllPresets();
 
   SessionOptions options_;
+  std::shared_ptr<scene::Scene> posed_;           // the same as `scene`
   std::map<std::string, EffectPresets> presets_;  // by effect
   std::string lastChange_;
   std::string placer_;                                        // effect chosen last
   std::map<std::string, objects::Object, std::less<>> next_;  // by effect
   std::string leftBefore_ = "color";                          // left view before the comparison
   bool firstScene_ = true;
+  bool homeGiven_ = false;                // by --camera
+  double aspect_ = 1;                     // of the picture when the scene was loaded
   double suitableRadius_ = kUsualRadius;  // of the scene, metres
 };
 

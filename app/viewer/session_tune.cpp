@@ -51,6 +51,7 @@ TuneCommand Session::tuneCommand(const TuneWish& wish, glm::uvec2 view, const st
     throw Error(ErrorId::kUsage, "effect '{}' has no visibility output to tune", wish.effect);
   }
   command.scene = scenePath;
+  command.pose = poseArguments(playback.pose);
   command.camera = camera;
   command.camera.size = glm::uvec2(0);
   command.size = tuneSize(view);

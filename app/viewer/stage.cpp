@@ -71,7 +71,7 @@ bool Stage::Wanted::operator==(const Wanted& o) const {
          camera.up == o.camera.up && camera.fovyDegrees == o.camera.fovyDegrees &&
          camera.nearPlane == o.camera.nearPlane && size == o.size && surface == o.surface &&
          background == o.background && revision == o.revision && left == o.left &&
-         right == o.right && extra == o.extra && objects == o.objects;
+         right == o.right && extra == o.extra && objects == o.objects && poses == o.poses;
 }
 
 Stage::Stage(gpu::Device& device, const scene::Scene& scene, SceneServices& services,
@@ -93,7 +93,8 @@ Stage::Wanted Stage::wanted(const StageDesc& desc, bool held) {
                 .left = held ? "" : desc.left,
                 .right = held || desc.held == nullptr ? desc.right : "",
                 .extra = held ? std::vector<std::string>() : desc.extra,
-                .objects = desc.chain->objectsRevision()};
+                .objects = desc.chain->objectsRevision(),
+                .poses = desc.poses};
   return all;
 }
 

@@ -41,11 +41,13 @@ struct StageDesc {
   std::string right;                    // "": no right side
   std::vector<std::string> extra = {};  // further outputs of the live settings, for read()
   double patience = 0.05;               // seconds per frame for work that can wait
+  uint64_t poses = 0;                   // Scene::poses
 };
 
 class Stage {
  public:
-  // All arguments must outlive this; the scene must not change. Starts the chain on the device.
+  // All arguments must outlive this; the scene may change between updates, by scene::pose(). Starts
+  // the chain on the device.
   Stage(gpu::Device& device, const scene::Scene& scene, SceneServices& services,
         effect::Chain& chain);
   ~Stage();
@@ -99,6 +101,7 @@ class Stage {
     std::string left, right;
     std::vector<std::string> extra;
     uint64_t objects;  // revision
+    uint64_t poses;
 
     bool operator==(const Wanted& other) const;
   };

@@ -56,6 +56,7 @@ std::vector<std::string> tuneArguments(const TuneCommand& command) {
   };
   // Before --effects and --vary, which would take the path as another value.
   if (!command.scene.empty()) arguments.push_back(plainPath(command.scene));
+  arguments.insert(arguments.end(), command.pose.begin(), command.pose.end());
   add("--camera", scene::cameraJson(command.camera));
   add("--size", fmt::format("{}x{}", command.size.x, command.size.y));
   if (!command.backend.empty()) add("--backend", command.backend);

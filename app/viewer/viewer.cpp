@@ -136,7 +136,8 @@ void Viewer::showFrames() {
     const bool hurry = options_.frames > 0 && !truth_->running();
     if (lookAround() || hurry) settle_ = std::max(settle_, 1);
     const bool stale = stage_ && !session_.paused && stage_->isStale(stageDesc());
-    const bool due = settle_ > 0 || moving_ || stale || session_.continuous || session_.step;
+    const bool due = settle_ > 0 || moving_ || stale || session_.continuous || session_.step ||
+                     session_.isPlaying();
     const glm::uvec2 pixels = window_->pixels();
     if (!due || pixels.x == 0 || pixels.y == 0) continue;
     const Clock::time_point now = Clock::now();
@@ -157,7 +158,8 @@ void Viewer::showFrames() {
 double Viewer::patience() {
   const bool visible = window_->pixels().x > 0;
   const bool stale = stage_ && !session_.paused && stage_->isStale(stageDesc());
-  if (visible && (settle_ > 0 || moving_ || stale || session_.continuous)) return 0;
+  const bool runs = moving_ || session_.continuous || session_.isPlaying();
+  if (visible && (settle_ > 0 || stale || runs)) return 0;
   if (loading_.running() || !rebuild_.building().empty() || tune_.started() || truth_->running()) {
     return kWaitInterval;
   }
@@ -167,7 +169,8 @@ double Viewer::patience() {
 // Checks scene loading, plugin builds, tune and truth. True if one of them has news.
 bool Viewer::lookAround() {
   bool news = loading_.running();  // its progress
-  if (loading_.running()) takeScene();
+  // The panel has its width, and the picture its shape, after the first frame.
+  if (loading_.running() && drawn_ > 0) takeScene();
   const Clock::time_point now = Clock::now();
   const std::string before = rebuild_.building();
   if (std::chrono::duration<double>(now - lastLook_).count() >= kLookInterval) {
@@ -211,6 +214,7 @@ void Viewer::frame(double seconds) {
   const float scale = window_->scale() * static_cast<float>(state_.textScale);
   if (context_.setScale(scale)) screen_->fontChanged();
   takeDropped();
+  session_.advance(seconds);
   window_->feedInterface();
   ImGui::NewFrame();
   if (drawn_ <= 1) ImGui::SetWindowFocus(nullptr);  // at first, the keys belong to the picture

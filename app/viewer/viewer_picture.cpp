@@ -46,6 +46,7 @@ StageDesc Viewer::stageDesc() {
   desc.background = session_.background;
   desc.chain = &session_.chain;
   desc.liveRevision = session_.revision;
+  desc.poses = session_.scene ? session_.scene->poses : 0;
   // The compared output stands in for truth and error until these have a texture.
   const std::string compared = session_.comparedOutput();
   desc.left = isTruthView(session_.left) ? compared : session_.left;
@@ -85,6 +86,7 @@ void Viewer::updateStage() {
     const std::string compared = session_.comparedOutput();
     if (compared.empty()) return;
     truth_->show({.scene = session_.scene,
+                  .pose = session_.playback.pose,
                   .camera = desc.camera,
                   .size = desc.size,
                   .radius = session_.truthRadius(),
@@ -183,8 +185,7 @@ void Viewer::drawWindow() {
   desc.line = session_.line;
   desc.zoom = session_.zoom;
   desc.centre = session_.centre;
-  const scene::Bounds bounds = session_.scene ? session_.scene->bounds : scene::Bounds{};
-  desc.farDepth = std::max(1e-6f, static_cast<float>(glm::length(bounds.max - bounds.min)) / 8);
+  desc.farDepth = std::max(1e-6f, static_cast<float>(session_.extent) / 8);
   desc.lineWidth = std::max(1.0f, window_->scale());
   shown_ = screen_->draw(desc, *ImGui::GetDrawData());
   if (!device_->present(shown_)) settle_ = std::max(settle_, 1);
@@ -230,8 +231,10 @@ void Viewer::writeLayout() {
   if (options_.layoutFile.empty()) return;
   const Place where = place();
   const auto corner = glm::vec2(where.corner), end = corner + glm::vec2(where.size);
-  panel_.layout.note("picture", corner.x, corner.y, end.x, end.y,
-                     settle_ == 0 && stage_ && !stage_->isStale(stageDesc()) ? "done" : "stale");
+  panel_.layout.note(
+      "picture", corner.x, corner.y, end.x, end.y,
+      settle_ == 0 && !session_.isPlaying() && stage_ && !stage_->isStale(stageDesc()) ? "done"
+                                                                                       : "stale");
   panel_.layout.note("camera", 0, 0, 0, 0, scene::cameraJson(session_.camera));
   panel_.layout.note("drawn", 0, 0, 0, 0, fmt::format("{}", drawn_));
   if (session_.comparing.on) {

@@ -1,6 +1,8 @@
 // SPDX-License-Identifier: MIT
 #include "core/base/error.h"
 
+#include "core/base/utf8.h"
+
 namespace grisaille {
 namespace {
 
@@ -26,6 +28,10 @@ std::string oneLine(std::string_view text) {
   std::string line(text.substr(0, kLongest));
   for (char& c : line) {
     if (static_cast<unsigned char>(c) < 0x20 || c == 0x7f) c = '?';
+  }
+  // What is cut off in the middle of a character is no UTF-8 either.
+  for (size_t at = invalidUtf8(line); at != std::string::npos; at = invalidUtf8(line)) {
+    line[at] = '?';
   }
   if (text.size() > kLongest) line += "...";
   return line;

@@ -20,8 +20,8 @@ enum class ErrorId : int {
 // The remedy for an error, from the list, without a full stop.
 std::string_view remedyOf(ErrorId id);
 
-// Replaces every control character by '?', which keeps text from a file or a driver on one line,
-// and truncates the text to 400 bytes.
+// Replaces control characters and bytes that are not UTF-8 by '?', which keeps text from a file or
+// a driver on one line that every reader can decode, and truncates the text to 400 bytes.
 std::string oneLine(std::string_view text);
 
 // The exception of all core code. what() returns the full line.

@@ -61,7 +61,8 @@ GRISAILLE_ERROR(kSceneExtension, 2103, "export the scene without this extension"
 GRISAILLE_ERROR(kSceneEmpty, 2104, "give a scene with at least one triangle")
 GRISAILLE_ERROR(kSceneTooLarge, 2105, "give a scene within the limits that the message names")
 GRISAILLE_ERROR(kSceneImage, 2106, "replace the image by a PNG, JPEG or WebP that opens elsewhere")
-GRISAILLE_ERROR(kSceneAnimation, 2107, "choose one of the scene's animations and a finite time")
+GRISAILLE_ERROR(kSceneAnimation, 2107,
+                "see its animations and their durations with `grisaille scene FILE`")
 // --- 22xx: cameras
 GRISAILLE_ERROR(kCameraUnreadable, 2201, "check the path and that the file is JSON")
 GRISAILLE_ERROR(kCameraInvalid, 2202, "write eye, target, fovy_degrees and optionally up and size")

@@ -29,8 +29,8 @@ void checkAbi(const grisaille_plugin_desc& plugin) {
 }
 
 // Indexed by grisaille_attachment.
-constexpr std::array kAttachmentNames = {"depth",       "view_depth",   "normal",
-                                         "base_colour", "facet_normal", "back_depth"};
+constexpr std::array kAttachmentNames = {"depth",        "view_depth", "normal", "base_colour",
+                                         "facet_normal", "back_depth", "motion"};
 static_assert(kAttachmentNames.size() == GRISAILLE_ATTACHMENT_COUNT);
 
 }  // namespace

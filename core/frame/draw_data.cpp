@@ -73,4 +73,36 @@ glm::dmat4 normalTransform(const glm::dmat3& linear) {
   return glm::dmat4(largest > 0 ? map / largest : map);
 }
 
+glm::dmat4 clipFromCamera(const scene::Camera& camera, glm::uvec2 size) {
+  return scene::clipFromView(camera, double{1} * size.x / size.y) *
+         glm::dmat4(glm::transpose(scene::worldFromView(camera)));
+}
+
+glm::dmat4 cameraFromObject(const glm::dmat4& worldFromObject, const glm::dvec3& eye) {
+  glm::dmat4 matrix = worldFromObject;
+  matrix[3] -= glm::dvec4(eye, 0);
+  return matrix;
+}
+
+bool mayBeSeen(const scene::Bounds& bounds, const glm::dmat4& clipFromObject) {
+  int outside[4] = {0, 0, 0, 0};
+  for (int corner = 0; corner < 8; ++corner) {
+    const glm::dvec4 p =
+        clipFromObject * glm::dvec4((corner & 1) != 0 ? bounds.max.x : bounds.min.x,
+                                    (corner & 2) != 0 ? bounds.max.y : bounds.min.y,
+                                    (corner & 4) != 0 ? bounds.max.z : bounds.min.z, 1);
+    outside[0] += p.x > p.w ? 1 : 0;
+    outside[1] += p.x < -p.w ? 1 : 0;
+    outside[2] += p.y > p.w ? 1 : 0;
+    outside[3] += p.y < -p.w ? 1 : 0;
+  }
+  return std::find(std::begin(outside), std::end(outside), 8) == std::end(outside);
+}
+
+gpu::Cull cullOf(const scene::Material& material, const glm::dmat4& worldFromObject) {
+  if (material.doubleSided) return gpu::Cull::kNone;
+  const bool mirrors = glm::determinant(glm::dmat3(worldFromObject)) < 0;
+  return mirrors ? gpu::Cull::kFront : gpu::Cull::kBack;
+}
+
 }  // namespace grisaille::frame

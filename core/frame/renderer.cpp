@@ -2,16 +2,12 @@
 #include "core/frame/renderer.h"
 
 #include <algorithm>
-#include <array>
-#include <cmath>
-#include <cstddef>
 
 #include "core/base/error.h"
 #include "core/base/nearest.h"
 #include "core/frame/scene_attachments.h"
 #include "core/frame/texture_image.h"
 #include "core/frame/view_block.h"
-#include "shaders/compose.h"
 
 namespace grisaille::frame {
 namespace {
@@ -22,29 +18,13 @@ constexpr const char* kNormal = "normal";
 constexpr const char* kBaseColour = "base_colour";
 constexpr const char* kFacetNormal = "facet_normal";
 constexpr const char* kBackDepth = "back_depth";
-constexpr const char* kFrameOutputs[] = {kColor,      kDepth,       kNormal,
-                                         kBaseColour, kFacetNormal, kBackDepth};
+constexpr const char* kMotion = "motion";
+constexpr const char* kFrameOutputs[] = {kColor,       kDepth,     kNormal, kBaseColour,
+                                         kFacetNormal, kBackDepth, kMotion};
 // Target of clip depth, which is not an output.
 constexpr const char* kClipDepth = "clip depth";
-
-// Label prefixes of the passes that draw the scene: at the picture's size, or with a guard band.
-constexpr std::string_view kScenePasses = "scene/", kGuardedPasses = "scene/guarded ";
-
 // Prefix of the targets with a guard band.
 constexpr const char* kGuardedPrefix = "guarded ";
-
-constexpr uint32_t kGroup = 8;  // threads per side of a workgroup
-
-// The std140 block of shaders/scene/compose.comp, which documents the fields.
-struct ComposeBlock {
-  glm::vec4 background;
-  glm::vec4 depth;
-};
-GRISAILLE_CHECK_BLOCK_compose_Compose(ComposeBlock);
-
-uint32_t groups(uint32_t pixels) {
-  return (pixels + kGroup - 1) / kGroup;
-}
 
 // The target that holds an effect's output.
 std::string targetName(const effect::Effect& effect, const grisaille_output_desc& output) {
@@ -94,23 +74,6 @@ std::vector<std::string> outputNames(std::span<const effect::Effect* const> effe
   return all;
 }
 
-double guardShare(const effect::Selection& selection, uint32_t width, uint32_t height) {
-  double band = 0;
-  for (const effect::Selection::Entry& entry : selection.entries()) {
-    if (entry.on) band = std::max<double>(band, effect::guardBand(entry.values, height));
-  }
-  return 1 - double{1} * width * height / ((width + 2 * band) * (height + 2 * band));
-}
-
-double shareForEffects(std::string_view pass, double guardShare) {
-  const bool guarded = pass.starts_with(kGuardedPasses);
-  const bool scene = guarded || pass.starts_with(kScenePasses);
-  if (!scene) return 0;
-  pass.remove_prefix(guarded ? kGuardedPasses.size() : kScenePasses.size());
-  if (pass.starts_with(SceneAttachments::kBackPasses)) return 1;
-  return guarded ? guardShare : 0;
-}
-
 void checkOutput(std::string_view name, std::span<const effect::Effect* const> effects) {
   const std::vector<std::string> all = outputNames(effects);
   if (std::find(all.begin(), all.end(), name) != all.end()) return;
@@ -130,6 +93,9 @@ struct Renderer::Plan {
   uint32_t attachments = 0;  // of GRISAILLE_READS
   // Attachments with a guard band, of GRISAILLE_READS, and the band's width in pixels.
   uint32_t guarded = 0, guard = 0;
+  // The camera of the previous frame; nothing: motion since then is not known.
+  std::optional<scene::Camera> then;
+  std::vector<MotionReader> motionReaders;
   struct Active {
     const effect::Selection::Entry* entry;
     uint32_t wanted;  // wanted outputs, by bit; 0: the effect does not run
@@ -142,12 +108,17 @@ struct Renderer::Plan {
   bool color = false;
   bool composeGuarded = false;  // the composed picture reads the guarded depth
 
+  bool readsMotion() const {
+    return ((attachments | guarded) & GRISAILLE_READS(GRISAILLE_MOTION)) != 0;
+  }
+
   Plan(const FrameDesc& desc, const AttachmentSource& source) {
     color = wants(desc, kColor);
     if (wants(desc, kDepth)) attachments |= GRISAILLE_READS(GRISAILLE_VIEW_DEPTH);
     if (wants(desc, kNormal)) attachments |= GRISAILLE_READS(GRISAILLE_NORMAL);
     if (wants(desc, kFacetNormal)) attachments |= GRISAILLE_READS(GRISAILLE_FACET_NORMAL);
     if (wants(desc, kBackDepth)) attachments |= GRISAILLE_READS(GRISAILLE_BACK_DEPTH);
+    if (wants(desc, kMotion)) attachments |= GRISAILLE_READS(GRISAILLE_MOTION);
     if (wants(desc, kBaseColour) || (color && desc.surface == Surface::kBaseColour)) {
       attachments |= GRISAILLE_READS(GRISAILLE_BASE_COLOUR);
     }
@@ -161,12 +132,19 @@ struct Renderer::Plan {
         one.guarded = band > 0;
         (one.guarded ? guarded : attachments) |= one.reads;
         guard = std::max(guard, band);
+        if ((one.reads & GRISAILLE_READS(GRISAILLE_MOTION)) != 0) {
+          motionReaders.emplace_back(desc.chain, &entry->effect());
+        }
       }
       active.push_back(one);
     }
     // Any depth shows where the background is.
     composeGuarded = color && attachments == 0 && guarded != 0;
     if (color && !composeGuarded) attachments |= GRISAILLE_READS(GRISAILLE_DEPTH);
+  }
+
+  static bool wants(const FrameDesc& desc, std::string_view name) {
+    return std::find(desc.outputs.begin(), desc.outputs.end(), name) != desc.outputs.end();
   }
 
  private:
@@ -181,16 +159,13 @@ struct Renderer::Plan {
     }
     return bits;
   }
-
-  static bool wants(const FrameDesc& desc, std::string_view name) {
-    return std::find(desc.outputs.begin(), desc.outputs.end(), name) != desc.outputs.end();
-  }
 };
 
 // One set of attachments: of the picture's size, or with the guard band around it.
 struct Renderer::SceneView {
   scene::Camera camera;
   uint32_t width, height;  // pixels
+  uint32_t guard;          // pixels on each side
   uint32_t attachments;    // of GRISAILLE_READS
   gpu::BufferRange block;
   std::string prefix;  // of the names of targets
@@ -203,18 +178,14 @@ struct Renderer::SceneView {
 Renderer::Renderer(gpu::Device& device, const scene::Scene& scene)
     : device_(device),
       scene_(std::make_unique<SceneAttachments>(device, scene)),
-      source_(*scene_) {}
+      source_(*scene_),
+      compositor_(device) {}
 
 Renderer::Renderer(gpu::Device& device, AttachmentSource& source)
-    : device_(device), source_(source) {}
+    : device_(device), source_(source), compositor_(device) {}
 
 Renderer::~Renderer() {
   for (const auto& [name, slot] : targets_) device_.destroy(slot.texture);
-  device_.destroy(compose_);
-  device_.destroy(composeTinted_);
-  device_.destroy(nearest_);
-  device_.destroy(white_);
-  device_.destroy(clear_);
 }
 
 void Renderer::render(const FrameDesc& desc) {
@@ -223,7 +194,11 @@ void Renderer::render(const FrameDesc& desc) {
   for (const effect::Selection::Entry* entry : activeOf(desc)) effects.push_back(&entry->effect());
   for (const std::string& name : desc.outputs) checkOutput(name, effects);
 
-  const Plan plan(desc, source_);
+  Plan plan(desc, source_);
+  if (Plan::wants(desc, kMotion) && !source_.hasMotion()) {
+    throw Error(ErrorId::kPictureMissing, "motion is needed, but no picture has any");
+  }
+  if (plan.readsMotion()) plan.then = before_.cameraFor(plan.motionReaders, source_);
   if (desc.chain != nullptr) desc.chain->create();
   for (auto& [name, slot] : targets_) slot.used = false;
   outputs_.clear();
@@ -237,6 +212,8 @@ void Renderer::render(const FrameDesc& desc) {
     throw;
   }
   device_.submit();
+  before_.add(desc.camera, plan.motionReaders, source_);
+  source_.finish(plan.readsMotion());
   std::erase_if(targets_, [&](const auto& entry) {
     if (!entry.second.used) device_.destroy(entry.second.texture);
     return !entry.second.used;
@@ -244,12 +221,12 @@ void Renderer::render(const FrameDesc& desc) {
 }
 
 void Renderer::record(gpu::Commands& commands, const FrameDesc& desc, const Plan& plan) {
-  if (!nearest_) nearest_ = device_.createSampler({.label = "nearest"});
   const auto sceneView = [&](uint32_t guard, uint32_t attachments, const char* prefix) {
     const ViewBlock block = viewBlock(desc.camera, desc.width, desc.height, guard);
     return SceneView{.camera = widened(desc.camera, desc.height, guard),
                      .width = desc.width + 2 * guard,
                      .height = desc.height + 2 * guard,
+                     .guard = guard,
                      .attachments = attachments,
                      .block = commands.uniform(std::as_bytes(std::span(&block, 1))),
                      .prefix = prefix};
@@ -257,14 +234,15 @@ void Renderer::record(gpu::Commands& commands, const FrameDesc& desc, const Plan
   const SceneView picture = sceneView(0, plan.attachments, "");
   const SceneView guarded =
       plan.guard > 0 ? sceneView(plan.guard, plan.guarded, kGuardedPrefix) : picture;
-  if (plan.attachments != 0) recordAttachments(commands, picture);
-  if (plan.guarded != 0) recordAttachments(commands, guarded);
+  if (plan.attachments != 0) recordAttachments(commands, desc, plan, picture);
+  if (plan.guarded != 0) recordAttachments(commands, desc, plan, guarded);
   recordEffects(commands, desc, plan, picture, guarded);
   if (plan.color) recordCompose(commands, desc, plan);
   for (const std::string& name : desc.outputs) outputs_.try_emplace(name, name);
 }
 
-void Renderer::recordAttachments(gpu::Commands& commands, const SceneView& view) {
+void Renderer::recordAttachments(gpu::Commands& commands, const FrameDesc& desc, const Plan& plan,
+                                 const SceneView& view) {
   const auto attachment = [&](const char* name, gpu::Format format, gpu::TextureUsage usage) {
     return target(view.prefix + name, format, usage, view.width, view.height);
   };
@@ -285,6 +263,11 @@ void Renderer::recordAttachments(gpu::Commands& commands, const SceneView& view)
   if (view.reads(GRISAILLE_BACK_DEPTH)) {
     targets.backDepth = attachment(kBackDepth, gpu::Format::kR32Float, kComputed);
   }
+  if (view.reads(GRISAILLE_MOTION) && source_.hasMotion()) {
+    targets.motion.texture = attachment(kMotion, gpu::Format::kRgba16Float, kDrawn);
+    if (plan.then) targets.motion.then = widened(*plan.then, desc.height, view.guard);
+    targets.motion.guard = glm::dvec2(view.guard);
+  }
   source_.record(commands, view.camera, view.width, view.height, view.block, targets,
                  view.prefix.empty() ? kScenePasses : kGuardedPasses);
 }
@@ -303,7 +286,7 @@ void Renderer::recordEffects(gpu::Commands& commands, const FrameDesc& desc, con
     inputs.guard = active.guarded ? plan.guard : 0;
     inputs.viewBlock = seen.block;
     constexpr const char* kAttachments[GRISAILLE_ATTACHMENT_COUNT] = {
-        kClipDepth, kDepth, kNormal, kBaseColour, kFacetNormal, kBackDepth};
+        kClipDepth, kDepth, kNormal, kBaseColour, kFacetNormal, kBackDepth, kMotion};
     for (size_t a = 0; a < GRISAILLE_ATTACHMENT_COUNT; ++a) {
       if ((active.reads & GRISAILLE_READS(a)) != 0)
         inputs.attachments[a] = find(seen.prefix + kAttachments[a]);
@@ -345,32 +328,8 @@ std::vector<gpu::Texture> Renderer::outputTargets(const effect::Effect& effect, 
   return outputs;
 }
 
-void Renderer::makeCompose(gpu::Commands& commands) {
-  const auto pipeline = [&](bool tinted) {
-    // Constant 0 of shaders/scene/compose.comp.
-    const gpu::Specialization constant[] = {{0, tinted ? 1u : 0u}};
-    return device_.createComputePipeline(
-        {.label = "compose", .shader = &grisaille_shader_compose, .constants = constant});
-  };
-  compose_ = pipeline(false);
-  composeTinted_ = pipeline(true);
-  const auto neutral = [&](const char* label, uint32_t texel) {
-    const gpu::Texture texture = device_.createTexture({.label = label,
-                                                        .format = gpu::Format::kRgba8Unorm,
-                                                        .width = 1,
-                                                        .height = 1,
-                                                        .usage = gpu::TextureUsage::kSampled});
-    commands.upload(texture, 0, 0, std::as_bytes(std::span(&texel, 1)));
-    return texture;
-  };
-  white_ = neutral("white", 0xffffffffu);
-  clear_ = neutral("clear", 0);
-}
-
 void Renderer::recordCompose(gpu::Commands& commands, const FrameDesc& desc, const Plan& plan) {
-  commands.beginPass("compose/color");
-  if (!compose_) makeCompose(commands);
-  // An overlay and the visibility after it share one dispatch.
+  // An overlay and the visibility after it share one layer.
   std::vector<Layer> layers(1);
   for (const Plan::Active& active : plan.active) {
     for (const grisaille_output_desc& output : active.effect().outputs()) {
@@ -385,45 +344,19 @@ void Renderer::recordCompose(gpu::Commands& commands, const FrameDesc& desc, con
       if (!overlay) layers.back().tinted = output.role == GRISAILLE_ROLE_TINT;
     }
   }
-  const double guard = plan.composeGuarded ? plan.guard : 0;
-  const glm::dvec2 depthSize = glm::dvec2(desc.width, desc.height) + 2 * guard;
-  const ComposeBlock block{
-      .background = desc.background,
-      .depth = glm::vec4(glm::dvec4(guard, guard, 1 / depthSize.x, 1 / depthSize.y))};
-  const gpu::BufferRange uniform = commands.uniform(std::as_bytes(std::span(&block, 1)));
-  gpu::Texture surface = desc.surface == Surface::kBaseColour ? find(kBaseColour) : white_;
-  gpu::Texture clipDepth =
-      find((plan.composeGuarded ? kGuardedPrefix : "") + std::string(kClipDepth));
-  for (size_t i = 0; i < layers.size(); ++i) {
-    const bool last = i + 1 == layers.size();
-    const gpu::Texture to =
-        last ? target(kColor, gpu::Format::kRgba16Float, kComputed, desc.width, desc.height)
-             : commands.transient({.label = "layer",
-                                   .format = gpu::Format::kRgba16Float,
-                                   .width = desc.width,
-                                   .height = desc.height,
-                                   .usage = kComputed});
-    composeLayer(commands, surface, clipDepth, uniform, layers[i], to, desc);
-    surface = to;
-    clipDepth = white_;  // the first layer holds the background
-  }
+  const bool base = desc.surface == Surface::kBaseColour;
+  commands.beginPass("compose/color");
+  compositor_.record(
+      commands,
+      {.width = desc.width,
+       .height = desc.height,
+       .surface = base ? find(kBaseColour) : gpu::Texture{},
+       .clipDepth = find((plan.composeGuarded ? kGuardedPrefix : "") + std::string(kClipDepth)),
+       .guard = plan.composeGuarded ? plan.guard : 0,
+       .background = desc.background,
+       .layers = layers,
+       .target = target(kColor, gpu::Format::kRgba16Float, kComputed, desc.width, desc.height)});
   commands.endPass();
-}
-
-void Renderer::composeLayer(gpu::Commands& commands, gpu::Texture surface, gpu::Texture clipDepth,
-                            gpu::BufferRange block, const Layer& layer, gpu::Texture target,
-                            const FrameDesc& desc) {
-  const std::array bindings = {
-      gpu::uniformBinding(0, block),
-      gpu::textureBinding(0, {.texture = surface}, nearest_),
-      gpu::textureBinding(1, {.texture = layer.overlay ? layer.overlay : clear_}, nearest_),
-      gpu::textureBinding(2, {.texture = layer.visibility ? layer.visibility : white_}, nearest_),
-      gpu::textureBinding(3, {.texture = clipDepth}, nearest_),
-      gpu::imageBinding(0, target),
-  };
-  commands.dispatch({.pipeline = layer.tinted ? composeTinted_ : compose_,
-                     .bindings = bindings,
-                     .groups = {groups(desc.width), groups(desc.height), 1}});
 }
 
 gpu::Texture Renderer::target(const std::string& name, gpu::Format format, gpu::TextureUsage usage,

@@ -14,6 +14,9 @@
 
 #include "core/effect/chain.h"
 #include "core/frame/attachments.h"
+#include "core/frame/compositor.h"
+#include "core/frame/effect_share.h"
+#include "core/frame/frames_before.h"
 #include "core/gpu/device.h"
 #include "core/image/image.h"
 #include "core/scene/camera.h"
@@ -45,16 +48,9 @@ struct FrameDesc {
   effect::Services services = {};
 };
 
-// The share of the time of a pass with a guard band that is spent beyond the picture, estimated
-// from the area. 0 if no effect has a guard band.
-double guardShare(const effect::Selection& selection, uint32_t width, uint32_t height);
-// The share of a pass's time to count as a cost of the effects, although the pass draws the scene:
-// the whole pass for back faces, the added area for guard bands. Most renderers need neither.
-double shareForEffects(std::string_view pass, double guardShare);
-
 // Every frame has color (composed, linear light), depth (linear view depth in metres, 0 = sky),
-// normal and facet_normal (world), base_colour and back_depth (same units as depth); an active
-// effect adds its own outputs.
+// normal and facet_normal (world), base_colour, back_depth (same units as depth) and motion (as
+// GRISAILLE_MOTION); an active effect adds its own outputs.
 std::vector<std::string> outputNames(std::span<const effect::Effect* const> effects);
 
 // Throws kOutputUnknown with the nearest name unless outputNames() lists `name`.
@@ -66,7 +62,8 @@ image::Transfer transferOf(std::string_view output);
 
 class Renderer {
  public:
-  // Draws the scene. Device and scene must outlive this; the scene must not change.
+  // Draws the scene. Device and scene must outlive this. The scene may change only between frames,
+  // by scene::pose().
   Renderer(gpu::Device& device, const scene::Scene& scene);
   // Takes the attachments from `source`. Device and source must outlive this.
   Renderer(gpu::Device& device, AttachmentSource& source);
@@ -101,22 +98,13 @@ class Renderer {
   };
 
   void record(gpu::Commands& commands, const FrameDesc& desc, const Plan& plan);
-  void recordAttachments(gpu::Commands& commands, const SceneView& view);
+  void recordAttachments(gpu::Commands& commands, const FrameDesc& desc, const Plan& plan,
+                         const SceneView& view);
   void recordEffects(gpu::Commands& commands, const FrameDesc& desc, const Plan& plan,
                      const SceneView& picture, const SceneView& guarded);
   std::vector<gpu::Texture> outputTargets(const effect::Effect& effect, uint32_t wanted,
                                           const FrameDesc& desc);
   void recordCompose(gpu::Commands& commands, const FrameDesc& desc, const Plan& plan);
-  // One layer of the composition: `overlay` is composited over the surface, then `visibility`
-  // multiplies it, per channel if tinted. Null: the neutral texture.
-  struct Layer {
-    gpu::Texture overlay, visibility;
-    bool tinted = false;
-  };
-  void makeCompose(gpu::Commands& commands);
-  void composeLayer(gpu::Commands& commands, gpu::Texture surface, gpu::Texture clipDepth,
-                    gpu::BufferRange block, const Layer& layer, gpu::Texture target,
-                    const FrameDesc& desc);
   gpu::Texture target(const std::string& name, gpu::Format format, gpu::TextureUsage usage,
                       uint32_t width, uint32_t height);
   gpu::Texture find(std::string_view name) const;
@@ -126,10 +114,9 @@ class Renderer {
   AttachmentSource& source_;
   std::map<std::string, Slot, std::less<>> targets_;         // by name of output or attachment
   std::map<std::string, std::string, std::less<>> outputs_;  // of the last frame: output to target
-  gpu::ComputePipeline compose_, composeTinted_;
-  gpu::Sampler nearest_;
-  gpu::Texture white_, clear_;
+  Compositor compositor_;
   uint64_t waiting_ = 0;
+  FramesBefore before_;
   bool opaque_ = true;  // the background of the last frame
 };
 

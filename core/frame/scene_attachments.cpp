@@ -26,6 +26,10 @@ void SceneAttachments::record(gpu::Commands& commands, const scene::Camera& came
   if (targets.viewDepth) {
     viewDepth(commands, targets.depth, viewBlock, targets.viewDepth, {width, height}, passes);
   }
+  if (targets.motion.texture) {
+    motion_.record(commands, camera, {width, height}, viewBlock, targets.depth, targets.motion,
+                   passes);
+  }
   if (targets.backDepth) {
     const gpu::Texture back =
         commands.transient({.label = "back",
@@ -38,6 +42,14 @@ void SceneAttachments::record(gpu::Commands& commands, const scene::Camera& came
     scene_.draw(commands, camera, width, height, {.depth = back, .front = targets.depth});
     commands.endPass();
     viewDepth(commands, back, viewBlock, targets.backDepth, {width, height}, backs);
+  }
+}
+
+void SceneAttachments::finish(bool motion) {
+  if (motion) {
+    motion_.remember();
+  } else {
+    motion_.forget();
   }
 }
 

@@ -3,6 +3,7 @@
 #pragma once
 
 #include "core/frame/attachments.h"
+#include "core/frame/scene_motion.h"
 #include "core/frame/scene_resources.h"
 
 namespace grisaille::frame {
@@ -12,12 +13,19 @@ class SceneAttachments : public AttachmentSource {
   // Label prefix of the passes that draw back faces; it follows record()'s `passes`.
   static constexpr std::string_view kBackPasses = "back ";
 
-  // Device and scene must outlive this; the scene must not change.
+  // Device and scene must outlive this. The scene may change only between calls, by scene::pose().
   SceneAttachments(gpu::Device& device, const scene::Scene& scene)
-      : device_(device), scene_(device, scene) {}
+      : device_(device),
+        poses_(scene.poses),
+        scene_(device, scene),
+        motion_(device, scene, scene_) {}
   ~SceneAttachments() override;
 
   bool goesBeyond() const override { return true; }
+  bool hasMotion() const override { return true; }
+  uint64_t poses() const override { return poses_; }
+  bool knowsMotion(uint64_t poses) const override { return motion_.knows(poses); }
+  void finish(bool motion) override;
   void record(gpu::Commands& commands, const scene::Camera& camera, uint32_t width, uint32_t height,
               gpu::BufferRange viewBlock, const AttachmentTargets& targets,
               std::string_view passes) override;
@@ -28,7 +36,9 @@ class SceneAttachments : public AttachmentSource {
                  gpu::Texture to, glm::uvec2 size, std::string_view passes);
 
   gpu::Device& device_;
+  const uint64_t& poses_;  // of the scene
   SceneResources scene_;
+  SceneMotion motion_;
   gpu::ComputePipeline viewDepth_;
   gpu::Sampler nearest_;
 };

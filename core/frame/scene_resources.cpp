@@ -8,6 +8,7 @@
 
 #include "core/frame/draw_data.h"
 #include "core/image/image.h"
+#include "core/scene/rig.h"
 #include "shaders/geometry_variants.h"
 
 namespace grisaille::frame {
@@ -40,33 +41,18 @@ gpu::Address address(scene::Wrap wrap) {
   return gpu::Address::kRepeat;
 }
 
-// False if all corners lie outside one side plane of the frustum. The clipper handles the near
-// plane.
-bool mayBeSeen(const scene::Bounds& bounds, const glm::dmat4& clipFromObject) {
-  int outside[4] = {0, 0, 0, 0};
-  for (int corner = 0; corner < 8; ++corner) {
-    const glm::dvec4 p =
-        clipFromObject * glm::dvec4((corner & 1) != 0 ? bounds.max.x : bounds.min.x,
-                                    (corner & 2) != 0 ? bounds.max.y : bounds.min.y,
-                                    (corner & 4) != 0 ? bounds.max.z : bounds.min.z, 1);
-    outside[0] += p.x > p.w ? 1 : 0;
-    outside[1] += p.x < -p.w ? 1 : 0;
-    outside[2] += p.y > p.w ? 1 : 0;
-    outside[3] += p.y < -p.w ? 1 : 0;
-  }
-  return std::find(std::begin(outside), std::end(outside), 8) == std::end(outside);
-}
-
 }  // namespace
 
 SceneResources::SceneResources(gpu::Device& device, const scene::Scene& scene)
     : device_(device),
       scene_(scene),
       textures_(scene.textures.size()),
-      primitiveBounds_(scene::primitiveBounds(scene)) {}
+      primitiveBounds_(scene::primitiveBounds(scene)),
+      boundsPoses_(scene.poses) {}
 
 SceneResources::~SceneResources() {
-  for (const gpu::Buffer buffer : {positions_, normals_, texCoords_, colours_, indices_}) {
+  for (const gpu::Buffer buffer :
+       {positions_.buffer, normals_.buffer, texCoords_, colours_, indices_}) {
     device_.destroy(buffer);
   }
   for (const gpu::GraphicsPipeline pipeline : pipelines_) device_.destroy(pipeline);
@@ -87,6 +73,40 @@ gpu::Buffer SceneResources::vertexBuffer(gpu::Commands& commands, gpu::Buffer& b
     commands.upload(buffer, 0, bytes);
   }
   return buffer;
+}
+
+gpu::Buffer SceneResources::posed(gpu::Commands& commands, PosedVertices& vertices,
+                                  const char* label, const std::vector<glm::vec3>& values) {
+  const std::span all(values);
+  if (!vertices.buffer) {
+    vertexBuffer(commands, vertices.buffer, label, std::as_bytes(all), gpu::BufferUsage::kVertex);
+  } else if (vertices.poses != scene_.poses && scene_.rig) {
+    for (const scene::DeformedNode& node : scene_.rig->deformed) {
+      for (const scene::DeformedRun& run : node.runs) {
+        commands.upload(vertices.buffer, run.firstVertex * sizeof(glm::vec3),
+                        std::as_bytes(all.subspan(run.firstVertex, run.vertexCount)));
+      }
+    }
+  }
+  vertices.poses = scene_.poses;
+  return vertices.buffer;
+}
+
+gpu::Buffer SceneResources::positions(gpu::Commands& commands) {
+  return posed(commands, positions_, "positions", scene_.positions);
+}
+
+gpu::Buffer SceneResources::indices(gpu::Commands& commands) {
+  return vertexBuffer(commands, indices_, "indices", std::as_bytes(std::span(scene_.indices)),
+                      gpu::BufferUsage::kIndex);
+}
+
+const std::vector<scene::Bounds>& SceneResources::primitiveBounds() {
+  if (boundsPoses_ != scene_.poses && scene_.rig && !scene_.rig->deformed.empty()) {
+    primitiveBounds_ = scene::primitiveBounds(scene_);
+  }
+  boundsPoses_ = scene_.poses;
+  return primitiveBounds_;
 }
 
 gpu::GraphicsPipeline SceneResources::pipeline(Variant variant) {
@@ -174,7 +194,8 @@ gpu::Sampler SceneResources::sampler(const scene::Material& material, bool base)
     v = scene_.textures[static_cast<size_t>(material.baseColorTexture)].wrapV;
   }
   // A mask is read from one level, but drivers' anisotropic filters may read other levels.
-  const bool anisotropic = base && !material.masked;
+  // Without a texture, coordinates may be equal everywhere, where Mesa 25's llvmpipe filters to 0.
+  const bool anisotropic = base && !material.masked && material.baseColorTexture >= 0;
   gpu::Sampler& sampler = samplers_[static_cast<size_t>(u) * 9 + static_cast<size_t>(v) * 3 +
                                     (anisotropic ? 2
                                      : base      ? 1
@@ -198,12 +219,13 @@ void SceneResources::draw(gpu::Commands& commands, const scene::Camera& camera, 
   if (behind && !nearest_) nearest_ = device_.createSampler({.label = "nearest"});
   const auto bytes = [](const auto& values) { return std::as_bytes(std::span(values)); };
   const auto vertex = gpu::BufferUsage::kVertex;
-  vertexBuffer(commands, positions_, "positions", bytes(scene_.positions), vertex);
-  vertexBuffer(commands, indices_, "indices", bytes(scene_.indices), gpu::BufferUsage::kIndex);
-  if (normal) vertexBuffer(commands, normals_, "normals", bytes(scene_.normals), vertex);
+  const gpu::Buffer positions = this->positions(commands);
+  indices(commands);
+  const gpu::Buffer normals =
+      normal ? posed(commands, normals_, "normals", scene_.normals) : gpu::Buffer{};
+  const std::vector<scene::Bounds>& bounds = primitiveBounds();
 
-  const glm::dmat4 clipFromCamera = scene::clipFromView(camera, double{1} * width / height) *
-                                    glm::dmat4(glm::transpose(scene::worldFromView(camera)));
+  const glm::dmat4 clipFromCamera = frame::clipFromCamera(camera, {width, height});
 
   // Draws point into bindings and streams until render() returns: reserve, so that they never move.
   std::vector<gpu::Draw> draws;
@@ -214,10 +236,10 @@ void SceneResources::draw(gpu::Commands& commands, const scene::Camera& camera, 
   for (const scene::Instance& instance : scene_.instances) {
     const scene::Primitive& primitive = scene_.primitives[instance.primitive];
     const scene::Material& material = scene_.materials[primitive.material];
-    glm::dmat4 cameraFromObject = instance.worldFromObject;
-    cameraFromObject[3] -= glm::dvec4(camera.eye, 0);
+    const glm::dmat4 cameraFromObject =
+        frame::cameraFromObject(instance.worldFromObject, camera.eye);
     const glm::dmat4 clipFromObject = clipFromCamera * cameraFromObject;
-    if (!mayBeSeen(primitiveBounds_[instance.primitive], clipFromObject)) continue;
+    if (!mayBeSeen(bounds[instance.primitive], clipFromObject)) continue;
 
     const glm::dmat3 linear(cameraFromObject);
     const bool mirrors = glm::determinant(linear) < 0;
@@ -237,8 +259,8 @@ void SceneResources::draw(gpu::Commands& commands, const scene::Camera& camera, 
 
     auto& stream = streams.emplace_back();
     size_t streamCount = 0;
-    stream[streamCount++].buffer = positions_;
-    if (normal) stream[streamCount++].buffer = normals_;
+    stream[streamCount++].buffer = positions;
+    if (normal) stream[streamCount++].buffer = normals;
     auto& binding = bindings.emplace_back();
     size_t bindingCount = 0;
     binding[bindingCount++] = gpu::uniformBinding(

@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: MIT
 // A scene on the device, and the render call that draws it. Normals, texture coordinates, vertex
 // colours and textures are uploaded by the first draw that needs them, and take no memory before.
+// After scene::pose(), the next draw uploads the vertices that moved.
 #pragma once
 
 #include <array>
@@ -26,7 +27,7 @@ struct SceneTargets {
 
 class SceneResources {
  public:
-  // Device and scene must outlive this; the scene must not change.
+  // Device and scene must outlive this. The scene may change only between draws, by scene::pose().
   SceneResources(gpu::Device& device, const scene::Scene& scene);
   ~SceneResources();
   SceneResources(const SceneResources&) = delete;
@@ -35,6 +36,12 @@ class SceneResources {
   // Draws every instance that may be visible. Call it inside a pass.
   void draw(gpu::Commands& commands, const scene::Camera& camera, uint32_t width, uint32_t height,
             const SceneTargets& targets);
+
+  // Buffers of the scene's positions, in its present pose, and indices; uploaded if necessary.
+  gpu::Buffer positions(gpu::Commands& commands);
+  gpu::Buffer indices(gpu::Commands& commands);
+  // The box of each primitive in the present pose, in object space.
+  const std::vector<scene::Bounds>& primitiveBounds();
 
  private:
   // The inputs and outputs that a draw needs.
@@ -58,21 +65,31 @@ class SceneResources {
     gpu::Texture alpha, colour;
   };
 
+  // Vertices that scene::pose() writes, as they are in pose number `poses` of the scene.
+  struct PosedVertices {
+    gpu::Buffer buffer;
+    uint64_t poses = 0;
+  };
+
   gpu::Buffer vertexBuffer(gpu::Commands& commands, gpu::Buffer& buffer, const char* label,
                            std::span<const std::byte> bytes, gpu::BufferUsage usage);
+  gpu::Buffer posed(gpu::Commands& commands, PosedVertices& vertices, const char* label,
+                    const std::vector<glm::vec3>& values);
   gpu::GraphicsPipeline pipeline(Variant variant);
   gpu::Texture texture(gpu::Commands& commands, const scene::Material& material, bool base);
   gpu::Sampler sampler(const scene::Material& material, bool base);
 
   gpu::Device& device_;
   const scene::Scene& scene_;
-  gpu::Buffer positions_, normals_, texCoords_, colours_, indices_;
+  PosedVertices positions_, normals_;
+  gpu::Buffer texCoords_, colours_, indices_;
   std::array<gpu::GraphicsPipeline, 36> pipelines_;  // by Variant::fragment()
   std::vector<DeviceTexture> textures_;
   std::array<gpu::Sampler, 27> samplers_;       // wrap u, wrap v, one level | mips | anisotropic
   gpu::Sampler nearest_;                        // for SceneTargets::front
   gpu::Texture white_;                          // for materials without a texture
   std::vector<scene::Bounds> primitiveBounds_;  // object space
+  uint64_t boundsPoses_ = 0;                    // the pose that they belong to
 };
 
 }  // namespace grisaille::frame

@@ -63,79 +63,9 @@ std::string errorOf(const Stream* stream) {
   return text.empty() ? "no reason is known" : text;
 }
 
-// IEC 61966-2-1.
-double encodeSrgb(double linear) {
-  return linear <= 0.0031308 ? 12.92 * linear : 1.055 * std::pow(linear, 1.0 / 2.4) - 0.055;
-}
-
-bool isAlpha(uint32_t channel, uint32_t channels) {
-  return channels % 2 == 0 && channel + 1 == channels;
-}
-
-template <typename Integer>
-std::vector<Integer> quantise(const Image& image, Transfer transfer) {
-  constexpr double kLargest = std::numeric_limits<Integer>::max();
-  std::vector<Integer> result(image.pixels.size());
-  for (size_t i = 0; i < result.size(); ++i) {
-    const float stored = image.pixels[i];
-    const double shown = transfer == Transfer::kSigned ? (double{stored} + 1) / 2 : double{stored};
-    double value = std::isnan(shown) ? 0.0 : std::clamp(shown, 0.0, 1.0);
-    const auto channel = static_cast<uint32_t>(i % image.channels);
-    if (transfer == Transfer::kColour && !isAlpha(channel, image.channels)) {
-      value = encodeSrgb(value);
-    }
-    result[i] = static_cast<Integer>(std::lround(value * kLargest));
-  }
-  return result;
-}
-
-OIIO::ImageSpec specOf(const Image& image, const OIIO::TypeDesc& type) {
-  OIIO::ImageSpec spec(static_cast<int>(image.width), static_cast<int>(image.height),
-                       static_cast<int>(image.channels), type);
-  if (image.channels == 1) spec.channelnames = {"Y"};
-  if (image.channels == 2) spec.channelnames = {"R", "G"};
-  // Store the values unchanged: no division by alpha.
-  spec.attribute("oiio:UnassociatedAlpha", 1);
-  // Otherwise OpenImageIO stores the current time, and equal pictures give different files.
-  spec.attribute("DateTime", "1970:01:01 00:00:00");
-  return spec;
-}
-
-// The bytes of a file, encoded in memory: OpenImageIO does not report a full disk.
-std::vector<unsigned char> encode(const char* plugin, const OIIO::ImageSpec& spec,
-                                  const void* pixels) {
-  const SilentStderr silent;
-  std::vector<unsigned char> bytes;
-  OIIO::Filesystem::IOVecOutput memory(bytes);
-  const auto output = OIIO::ImageOutput::create(plugin);
-  if (!output || !output->set_ioproxy(&memory) || !output->open(plugin, spec) ||
-      !output->write_image(spec.format, pixels) || !output->close()) {
-    throw Error(ErrorId::kFileUnwritable, "the {} encoder fails: {}", plugin,
-                errorOf(output.get()));
-  }
-  return bytes;
-}
-
-std::vector<unsigned char> pngOf(const Image& image, const WriteOptions& options) {
-  const bool wide = options.pngBits == 16;
-  OIIO::ImageSpec spec = specOf(image, wide ? OIIO::TypeDesc::UINT16 : OIIO::TypeDesc::UINT8);
-  if (options.transfer == Transfer::kColour) spec.attribute("oiio:ColorSpace", "sRGB");
-  return wide ? encode("png", spec, quantise<uint16_t>(image, options.transfer).data())
-              : encode("png", spec, quantise<uint8_t>(image, options.transfer).data());
-}
-
 // OpenImageIO's names of OpenEXR's worldToCamera and worldToNDC.
 constexpr const char* kWorldToCamera = "worldtocamera";
 constexpr const char* kWorldToNdc = "worldtoNDC";
-
-std::vector<unsigned char> exrOf(const Image& image, const WriteOptions& options) {
-  OIIO::ImageSpec spec = specOf(image, OIIO::TypeDesc::FLOAT);
-  if (options.matrices) {
-    spec.attribute(kWorldToCamera, OIIO::TypeMatrix, options.matrices->worldToCamera.data());
-    spec.attribute(kWorldToNdc, OIIO::TypeMatrix, options.matrices->worldToNdc.data());
-  }
-  return encode("openexr", spec, image.pixels.data());
-}
 
 std::optional<ViewMatrices> matricesOf(const OIIO::ImageSpec& spec) {
   ViewMatrices matrices;
@@ -343,26 +273,24 @@ Alpha8 decodeAlpha(std::span<const std::byte> encoded, const std::string& name) 
   return alpha;
 }
 
-std::vector<std::byte> encodePng(const Image8& image) {
-  OIIO::ImageSpec spec(static_cast<int>(image.width), static_cast<int>(image.height), 4,
-                       OIIO::TypeDesc::UINT8);
-  spec.attribute("oiio:UnassociatedAlpha", 1);
-  const std::vector<unsigned char> bytes = encode("png", spec, image.pixels.data());
-  const auto view = std::as_bytes(std::span(bytes));
-  return {view.begin(), view.end()};
-}
-
-std::vector<std::byte> encodeJpeg(const Image& image, int quality) {
-  OIIO::ImageSpec spec = specOf(image, OIIO::TypeDesc::UINT8);
+std::vector<std::byte> encodeJpeg(const std::vector<uint8_t>& pixels, uint32_t width,
+                                  uint32_t height, uint32_t channels, int quality) {
+  const SilentStderr silent;
+  OIIO::ImageSpec spec(static_cast<int>(width), static_cast<int>(height),
+                       static_cast<int>(channels), OIIO::TypeDesc::UINT8);
   spec.attribute("Compression", "jpeg:" + std::to_string(quality));
-  const std::vector<unsigned char> bytes =
-      encode("jpeg", spec, quantise<uint8_t>(image, Transfer::kData).data());
+  std::vector<unsigned char> bytes;
+  OIIO::Filesystem::IOVecOutput memory(bytes);
+  const auto output = OIIO::ImageOutput::create("jpeg");
+  if (!output || !output->set_ioproxy(&memory) || !output->open("jpeg", spec) ||
+      !output->write_image(spec.format, pixels.data()) || !output->close()) {
+    throw Error(ErrorId::kFileUnwritable, "the JPEG encoder fails: {}", errorOf(output.get()));
+  }
   const auto view = std::as_bytes(std::span(bytes));
   return {view.begin(), view.end()};
 }
 
-constexpr Codecs kCodecs = {exrOf,  pngOf,       read,      readPicture,
-                            decode, decodeAlpha, encodePng, encodeJpeg};
+constexpr Codecs kCodecs = {read, readPicture, decode, decodeAlpha, encodeJpeg};
 
 }  // namespace
 }  // namespace grisaille::image

@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: MIT
 // The image functions that use OpenImageIO. They are in a separate library, which is loaded when
-// the program first reads or writes a picture file. OpenImageIO depends on some 260 libraries;
-// loading them would take nearly all of the start-up time of a program that needs none of them.
+// the program first reads a picture. OpenImageIO depends on some 260 libraries; loading them takes
+// 0.25 CPU seconds.
 #pragma once
 
 #include "core/image/image.h"
@@ -10,14 +10,13 @@ namespace grisaille::image {
 
 // See the functions of image.h. The caller has checked the arguments.
 struct Codecs {
-  std::vector<unsigned char> (*exrOf)(const Image& image, const WriteOptions& options);
-  std::vector<unsigned char> (*pngOf)(const Image& image, const WriteOptions& options);
   Image (*read)(const std::string& path);
   Picture (*readPicture)(const std::string& path);
   Image8 (*decode)(std::span<const std::byte> encoded, const std::string& name);
   Alpha8 (*decodeAlpha)(std::span<const std::byte> encoded, const std::string& name);
-  std::vector<std::byte> (*encodePng)(const Image8& image);
-  std::vector<std::byte> (*encodeJpeg)(const Image& image, int quality);
+  // pixels: width * height * channels, 1 or 3 channels
+  std::vector<std::byte> (*encodeJpeg)(const std::vector<uint8_t>& pixels, uint32_t width,
+                                       uint32_t height, uint32_t channels, int quality);
 };
 
 // The function that the library exports, and its name.

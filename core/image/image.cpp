@@ -11,6 +11,7 @@
 #include "core/base/error.h"
 #include "core/base/library_folder.h"
 #include "core/image/codecs.h"
+#include "core/image/encode.h"
 
 namespace grisaille::image {
 namespace {
@@ -64,8 +65,8 @@ void write(const Image& image, const std::string& path, const WriteOptions& opti
     throw Error(ErrorId::kImageFormat, "{}: a PNG cannot have {} bits, only 8 or 16", path,
                 options.pngBits);
   }
-  const std::vector<unsigned char> bytes =
-      format == Format::kExr ? codecs().exrOf(image, options) : codecs().pngOf(image, options);
+  const std::vector<std::byte> bytes =
+      format == Format::kExr ? exrOf(image, options) : pngOf(image, options);
   writeFileAtomically(path, {reinterpret_cast<const char*>(bytes.data()), bytes.size()});
 }
 
@@ -85,12 +86,9 @@ Alpha8 decodeAlpha(std::span<const std::byte> encoded, const std::string& name) 
   return codecs().decodeAlpha(encoded, name);
 }
 
-std::vector<std::byte> encodePng(const Image8& image) {
-  return codecs().encodePng(image);
-}
-
 std::vector<std::byte> encodeJpeg(const Image& image, int quality) {
-  return codecs().encodeJpeg(image, quality);
+  return codecs().encodeJpeg(quantise<uint8_t>(image, Transfer::kData), image.width, image.height,
+                             image.channels, quality);
 }
 
 }  // namespace grisaille::image

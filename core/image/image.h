@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: MIT
-// Pictures in memory, reading and writing of picture files (with OpenImageIO), and image metrics.
+// Pictures in memory, reading and writing of picture files, and image metrics.
 #pragma once
 
 #include <array>
@@ -58,8 +58,7 @@ struct WriteOptions {
 
 // Writes a file whose format the name's ending selects: .exr stores 32-bit floats unchanged, .png
 // clamps to [0, 1] (NaN: 0) and rounds to integers. The write is atomic: a failure leaves no
-// partial file and an older file unchanged. Throws kImageFormat, kImageMismatch, kFileUnwritable,
-// kNoCodecs.
+// partial file and an older file unchanged. Throws kImageFormat, kImageMismatch, kFileUnwritable.
 void write(const Image& image, const std::string& path, const WriteOptions& options = {});
 
 // Checks, before long work, that write() can write to `path`. Throws kImageFormat for an ending

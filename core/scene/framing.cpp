@@ -7,6 +7,7 @@
 #include <limits>
 
 #include "core/scene/depth_sketch.h"
+#include "core/scene/rig.h"
 
 namespace grisaille::scene {
 namespace {
@@ -30,6 +31,8 @@ constexpr double kFrontWeight = 0.15;
 constexpr double kInteriorCovered = 0.97, kInteriorFaces = 100;
 constexpr size_t kMostInside = 4;      // views that the whole scene is drawn for
 constexpr double kInteriorNear = 0.1;  // as a share of half the diagonal of the bounds
+
+constexpr int kFramedTimes = 17;  // of an animation
 
 // Half the picture's width and height at 1 m view depth, without the border.
 glm::dvec2 slopeOf(double aspect) {
@@ -108,12 +111,16 @@ glm::dvec3 directionOf(double azimuth, double elevation) {
   return {std::sin(a) * std::cos(e), std::sin(e), std::cos(a) * std::cos(e)};
 }
 
+// Adds all points that the picture must hold. `origin`: that the points are relative to.
+using AddAll = std::function<void(const glm::dvec3& origin, Extent& extent)>;
+
 // A sample of the scene's faces, relative to the centre of its bounds, and the picture's shape.
 class Views {
  public:
-  Views(const Scene& scene, double aspect)
+  Views(const Scene& scene, double aspect, AddAll addAll)
       : scene_(scene),
         aspect_(aspect),
+        addAll_(std::move(addAll)),
         origin_((scene.bounds.min + scene.bounds.max) / 2.0),
         samples_(samplesOf(scene, origin_)) {}
 
@@ -217,7 +224,7 @@ class Views {
   Camera framed(const glm::dvec3& direction) const {
     Extent extent(direction, slopeOf(aspect_));
     if (samples_.empty()) extent.add(glm::dvec3(0));
-    forEachFace(scene_, origin_, [&](const Face& face) { extent.add(face); });
+    addAll_(origin_, extent);
     return extent.camera(least());
   }
 
@@ -226,6 +233,7 @@ class Views {
 
   const Scene& scene_;
   double aspect_;
+  AddAll addAll_;
   glm::dvec3 origin_;
   std::vector<Face> samples_;
 };
@@ -233,7 +241,25 @@ class Views {
 }  // namespace
 
 Camera framingCamera(const Scene& scene, double aspect) {
-  return Views(scene, aspect).best();
+  const auto addAll = [&](const glm::dvec3& origin, Extent& extent) {
+    forEachFace(scene, origin, [&](const Face& face) { extent.add(face); });
+  };
+  return Views(scene, aspect, addAll).best();
+}
+
+Camera framingCamera(Scene& scene, size_t animation, double aspect) {
+  pose(scene, {.animation = animation, .seconds = 0});
+  const double duration = scene.rig->animations[animation].duration;
+  const auto addAll = [&](const glm::dvec3& origin, Extent& extent) {
+    for (int i = 0; i < kFramedTimes; ++i) {
+      const double seconds = duration * i / (kFramedTimes - 1);
+      pose(scene, {.animation = animation, .seconds = seconds});
+      forEachFace(scene, origin, [&](const Face& face) { extent.add(face); });
+    }
+  };
+  const Camera camera = Views(scene, aspect, addAll).best();
+  pose(scene, {});
+  return camera;
 }
 
 }  // namespace grisaille::scene

@@ -14,4 +14,8 @@ namespace grisaille::scene {
 // aspect: width of the picture divided by its height
 Camera framingCamera(const Scene& scene, double aspect);
 
+// The same for one of the scene's animations: sees every vertex at 17 times from its start to its
+// end, from a direction chosen for the start. Leaves the scene at rest. Throws as pose() does.
+Camera framingCamera(Scene& scene, size_t animation, double aspect);
+
 }  // namespace grisaille::scene

@@ -1,5 +1,6 @@
 // SPDX-License-Identifier: MIT
 // Poses a scene by its rig: node transforms, morph targets, then skins, in double precision.
+#include <algorithm>
 #include <cmath>
 #include <limits>
 #include <unordered_map>
@@ -207,6 +208,34 @@ std::vector<glm::dmat4> nodeTransforms(const Rig& rig, const Pose& pose) {
   return worldsOf(rig, movedBy(rig, pose));
 }
 
+std::vector<bool> movingInstances(const Scene& scene) {
+  std::vector<bool> result(scene.instances.size(), false);
+  if (!scene.rig) return result;
+  const Rig& rig = *scene.rig;
+  std::vector<bool> placed(rig.nodes.size(), false), shaped(rig.nodes.size(), false);
+  for (const Animation& animation : rig.animations) {
+    for (const Channel& channel : animation.channels) {
+      (channel.moved == Moved::kWeights ? shaped : placed)[channel.node] = true;
+    }
+  }
+  for (const uint32_t i : rig.order) {
+    const int parent = rig.nodes[i].parent;
+    if (parent >= 0 && placed[static_cast<size_t>(parent)]) placed[i] = true;
+  }
+  for (size_t i = 0; i < result.size(); ++i) {
+    const RigInstance& instance = rig.instances[i];
+    bool moves = placed[instance.node] || shaped[instance.node];
+    if (instance.deformed >= 0) {
+      const DeformedNode& deformed = rig.deformed[static_cast<size_t>(instance.deformed)];
+      const RigSkin& skin = rig.skins[static_cast<size_t>(deformed.skin)];
+      moves |= placed[deformed.node] || shaped[deformed.node] ||
+               std::ranges::any_of(skin.joints, [&](uint32_t joint) { return placed[joint]; });
+    }
+    result[i] = moves;
+  }
+  return result;
+}
+
 void pose(Scene& scene, const Pose& pose) {
   const size_t count = scene.rig ? scene.rig->animations.size() : 0;
   if (pose.animation && *pose.animation >= count) {
@@ -215,6 +244,7 @@ void pose(Scene& scene, const Pose& pose) {
   if (!std::isfinite(pose.seconds)) {
     throw Error(ErrorId::kSceneAnimation, "{} seconds are not a finite time", pose.seconds);
   }
+  ++scene.poses;
   if (scene.rig) Poser(scene, pose).run();
 }
 

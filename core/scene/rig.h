@@ -121,6 +121,8 @@ struct Rig {
 struct Pose {
   std::optional<size_t> animation;  // index into Rig::animations
   double seconds = 0;
+
+  bool operator==(const Pose&) const = default;
 };
 
 // The numbers of `keys` at a time. `rotation`: they are quaternions, which are interpolated along
@@ -130,6 +132,9 @@ std::vector<double> sample(const Keys& keys, double seconds, bool rotation);
 // World from node, for each node of the rig. Nodes outside Rig::order: the identity. The pose's
 // animation must exist.
 std::vector<glm::dmat4> nodeTransforms(const Rig& rig, const Pose& pose);
+
+// For each of the scene's instances, whether any animation can move it or change its shape.
+std::vector<bool> movingInstances(const Scene& scene);
 
 // Sets the transforms of the scene's instances, the positions and normals of deformed vertices, and
 // the bounds. Throws kSceneAnimation if the scene has no such animation or `seconds` is not finite,

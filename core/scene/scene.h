@@ -78,6 +78,7 @@ struct Scene {
   Bounds bounds;                   // of all instances, in world space
   std::optional<Camera> camera;    // the one that the scene was made for
   std::shared_ptr<const Rig> rig;  // what can move: see rig.h; null: nothing
+  uint64_t poses = 0;              // number of calls of pose(); what is made of a pose stores it
   std::vector<std::string> notes;  // what the loader left out or replaced; one line each
 };
 
@@ -98,8 +99,7 @@ uint64_t triangleCount(const Scene& scene);
 Scene loadGltf(const std::string& path, const std::function<void(double)>& progress = {});
 
 // Writes the scene as one .glb, without its rig: first to a temporary file, which it then renames.
-// Textures held as texels become PNGs. Throws kFileUnwritable, kSceneEmpty, kSceneTooLarge,
-// kNoCodecs.
+// Textures held as texels become PNGs. Throws kFileUnwritable, kSceneEmpty, kSceneTooLarge.
 void writeGlb(const Scene& scene, const std::string& path);
 
 // The built-in scene: an atrium with columns, arches, vases, steps, hanging cloths and alpha-masked

@@ -44,17 +44,11 @@ constexpr double kRounding = 1e-6;
 
 struct RayTracer::Impl {
   Impl(const scene::Scene& theScene, const glm::dvec3& origin) : traced(theScene, origin) {
-    RTCBounds b = {};
-    rtcGetSceneBounds(traced.world(), &b);
-    least = glm::dvec3(b.lower_x, b.lower_y, b.lower_z);
-    most = glm::dvec3(b.upper_x, b.upper_y, b.upper_z);
-    margin = kRounding * glm::length(glm::max(glm::abs(least), glm::abs(most)));
-    const double spread = 0.01 * glm::length(most - least);
-    nearest.emplace(traced.world(), static_cast<float>(margin), static_cast<float>(spread));
-    least -= margin;
-    most += margin;
+    measure();
   }
 
+  // Sets the members below from Embree's bounds.
+  void measure();
   // Fills `hit`. The view depth of `direction` is 1 m.
   void see(const Triangle& triangle, const glm::dvec3& eye, const glm::dvec3& direction,
            Hit& hit) const;
@@ -71,6 +65,18 @@ struct RayTracer::Impl {
   double margin = 0;       // metres, above the largest error of a 32-bit triangle coordinate
   std::optional<NearestTriangles> nearest;
 };
+
+void RayTracer::Impl::measure() {
+  RTCBounds b = {};
+  rtcGetSceneBounds(traced.world(), &b);
+  least = glm::dvec3(b.lower_x, b.lower_y, b.lower_z);
+  most = glm::dvec3(b.upper_x, b.upper_y, b.upper_z);
+  margin = kRounding * glm::length(glm::max(glm::abs(least), glm::abs(most)));
+  const double spread = 0.01 * glm::length(most - least);
+  nearest.emplace(traced.world(), static_cast<float>(margin), static_cast<float>(spread));
+  least -= margin;
+  most += margin;
+}
 
 void RayTracer::Impl::see(const Triangle& triangle, const glm::dvec3& eye,
                           const glm::dvec3& direction, Hit& hit) const {
@@ -113,6 +119,10 @@ RayTracer::RayTracer(const scene::Scene& scene, const glm::dvec3& origin)
     : impl_(std::make_unique<Impl>(scene, origin)) {}
 
 RayTracer::~RayTracer() = default;
+
+void RayTracer::follow() {
+  if (impl_->traced.follow()) impl_->measure();
+}
 
 std::vector<Hit> RayTracer::castPrimary(const scene::Camera& camera, uint32_t width,
                                         uint32_t height, std::span<const glm::uvec2> pixels) const {

@@ -53,7 +53,7 @@ struct Surroundings {
 
 class RayTracer {
  public:
-  // scene: must outlive the tracer
+  // scene: must outlive the tracer, and change only by scene::pose(): see follow()
   // origin: world position at the centre of interest, for example the camera's eye or the centre of
   //   the scene. Embree works in 32 bits; the tracer first transforms all instances in double to
   //   world space relative to `origin`.
@@ -62,6 +62,10 @@ class RayTracer {
   ~RayTracer();
   RayTracer(const RayTracer&) = delete;
   RayTracer& operator=(const RayTracer&) = delete;
+
+  // Takes the scene's current pose. Call it after scene::pose() and before the next rays; it costs
+  // nothing if the pose is the same. Throws kSceneTooLarge.
+  void follow();
 
   // Casts rays from the camera through the pixel centres (x + 0.5, y + 0.5), y down, and clips them
   // at the near plane. Returns one hit per element of `pixels`, in the same order; without

@@ -16,6 +16,8 @@ RayTracer::~RayTracer() = default;
 
 // The functions below are never called, because no tracer exists.
 
+void RayTracer::follow() {}
+
 std::vector<Hit> RayTracer::castPrimary(const scene::Camera& /*camera*/, uint32_t /*width*/,
                                         uint32_t /*height*/,
                                         std::span<const glm::uvec2> /*pixels*/) const {

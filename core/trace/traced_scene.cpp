@@ -4,9 +4,11 @@
 #include <algorithm>
 #include <cmath>
 #include <map>
+#include <numeric>
 
 #include "core/base/error.h"
 #include "core/scene/normal_map.h"
+#include "core/scene/rig.h"
 
 namespace grisaille::trace {
 namespace {
@@ -38,19 +40,14 @@ double Facet::crossing(const glm::dvec3& from, const glm::dvec3& direction) cons
 }
 
 TracedScene::TracedScene(const scene::Scene& scene, const glm::dvec3& origin)
-    : scene_(scene), origin_(origin) {
+    : scene_(scene), origin_(origin), poses_(scene.poses) {
   place();
+  loadMasks();
   sortTriangles();
   device_ = rtcNewDevice(nullptr);
   try {
     throwOnFailure("start for");
-    world_ = rtcNewScene(device_);
-    rtcSetSceneFlags(world_,
-                     static_cast<RTCSceneFlags>(RTC_SCENE_FLAG_ROBUST | embree::kFilterOfQuery));
-    rtcSetSceneBuildQuality(world_, RTC_BUILD_QUALITY_HIGH);
-    for (uint32_t id = 0; id < buckets_.size(); ++id) attach(id, buckets_[id]);
-    rtcCommitScene(world_);
-    throwOnFailure("load");
+    build();
   } catch (...) {
     if (world_ != nullptr) rtcReleaseScene(world_);
     if (device_ != nullptr) rtcReleaseDevice(device_);
@@ -64,9 +61,13 @@ TracedScene::~TracedScene() {
 }
 
 void TracedScene::place() {
+  placements_.clear();
   for (const scene::Instance& instance : scene_.instances) {
     placements_.push_back(placementOf(instance, origin_));
   }
+}
+
+void TracedScene::loadMasks() {
   // Materials with the same texture share its alpha.
   std::map<int, std::shared_ptr<const image::Alpha8>> alphas;
   for (const scene::Material& material : scene_.materials) {
@@ -88,11 +89,14 @@ void TracedScene::sortTriangles() {
     buckets_[i].owner = this;
     buckets_[i].masked = (i & 1u) != 0;
     buckets_[i].doubleSided = (i & 2u) != 0;
+    buckets_[i].moving = (i & 4u) != 0;
   }
+  const std::vector<bool> moving = scene::movingInstances(scene_);
   for (uint32_t i = 0; i < scene_.instances.size(); ++i) {
     const scene::Primitive& primitive = scene_.primitives[scene_.instances[i].primitive];
     const scene::Material& material = scene_.materials[primitive.material];
-    auto& triangles = buckets_[material.masked + 2 * material.doubleSided].triangles;
+    auto& triangles =
+        buckets_[material.masked + 2 * material.doubleSided + 4 * moving[i]].triangles;
     for (uint32_t k = 0; k < primitive.indexCount; k += 3) {
       triangles.push_back({i, primitive.firstIndex + k});
     }
@@ -106,6 +110,23 @@ void TracedScene::throwOnFailure(const char* what) const {
               what, scene::triangleCount(scene_), static_cast<int>(error));
 }
 
+// A scene that stands still is one hierarchy. For a dynamic scene of low quality, Embree builds a
+// hierarchy of usual quality for each geometry, and one above them: a new pose rebuilds those of
+// moving geometries alone. With a fox of 576 triangles in a hall of 262,000, follow() takes 0.4 ms
+// in place of 93 ms; the rays cost some 2 % more.
+void TracedScene::build() {
+  const bool moves = std::ranges::any_of(
+      buckets_, [](const Bucket& bucket) { return bucket.moving && !bucket.triangles.empty(); });
+  world_ = rtcNewScene(device_);
+  const auto dynamic = moves ? RTC_SCENE_FLAG_DYNAMIC : RTC_SCENE_FLAG_NONE;
+  rtcSetSceneFlags(
+      world_, static_cast<RTCSceneFlags>(RTC_SCENE_FLAG_ROBUST | embree::kFilterOfQuery | dynamic));
+  rtcSetSceneBuildQuality(world_, moves ? RTC_BUILD_QUALITY_LOW : RTC_BUILD_QUALITY_HIGH);
+  for (uint32_t id = 0; id < buckets_.size(); ++id) attach(id, buckets_[id]);
+  rtcCommitScene(world_);
+  throwOnFailure("load");
+}
+
 void TracedScene::attach(uint32_t id, Bucket& bucket) {
   const size_t count = bucket.triangles.size();
   if (count == 0) return;
@@ -115,13 +136,8 @@ void TracedScene::attach(uint32_t id, Bucket& bucket) {
   auto* indices = static_cast<uint32_t*>(rtcSetNewGeometryBuffer(
       geometry, RTC_BUFFER_TYPE_INDEX, 0, RTC_FORMAT_UINT3, 3 * sizeof(uint32_t), count));
   if (vertices != nullptr && indices != nullptr) {
-    for (size_t i = 0; i < count; ++i) {
-      const Facet f = facet(bucket.triangles[i]);
-      for (size_t k = 0; k < 3; ++k) {
-        vertices[3 * i + k] = glm::vec3(f.corners[k]);
-        indices[3 * i + k] = static_cast<uint32_t>(3 * i + k);
-      }
-    }
+    writeVertices(bucket, vertices);
+    std::iota(indices, indices + 3 * count, 0u);
     rtcSetGeometryUserData(geometry, &bucket);
     if (bucket.masked) {
       rtcSetGeometryIntersectFilterFunction(geometry, passHoles);
@@ -131,6 +147,30 @@ void TracedScene::attach(uint32_t id, Bucket& bucket) {
     rtcAttachGeometryByID(world_, geometry, id);
   }
   rtcReleaseGeometry(geometry);
+}
+
+void TracedScene::writeVertices(const Bucket& bucket, glm::vec3* vertices) const {
+  for (const Triangle& triangle : bucket.triangles) {
+    for (const glm::dvec3& corner : facet(triangle).corners) *vertices++ = glm::vec3(corner);
+  }
+}
+
+bool TracedScene::follow() {
+  if (poses_ == scene_.poses) return false;
+  place();
+  for (uint32_t id = 0; id < buckets_.size(); ++id) {
+    const Bucket& bucket = buckets_[id];
+    if (!bucket.moving || bucket.triangles.empty()) continue;
+    const RTCGeometry geometry = rtcGetGeometry(world_, id);
+    writeVertices(bucket, static_cast<glm::vec3*>(
+                              rtcGetGeometryBufferData(geometry, RTC_BUFFER_TYPE_VERTEX, 0)));
+    rtcUpdateGeometryBuffer(geometry, RTC_BUFFER_TYPE_VERTEX, 0);
+    rtcCommitGeometry(geometry);
+  }
+  rtcCommitScene(world_);
+  throwOnFailure("pose");
+  poses_ = scene_.poses;
+  return true;
 }
 
 Facet TracedScene::facet(const Triangle& triangle) const {

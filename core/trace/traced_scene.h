@@ -40,11 +40,15 @@ struct Facet {
 
 class TracedScene {
  public:
-  // Throws kNoCodecs, kSceneTooLarge. `scene` must outlive this object.
+  // Throws kNoCodecs, kSceneTooLarge. `scene` must outlive this object and change only by
+  // scene::pose().
   TracedScene(const scene::Scene& scene, const glm::dvec3& origin);
   ~TracedScene();
   TracedScene(const TracedScene&) = delete;
   TracedScene& operator=(const TracedScene&) = delete;
+
+  // Takes the scene's current pose. Returns false if it has it already. Throws kSceneTooLarge.
+  bool follow();
 
   // Holes let every ray through. Back faces block rays, except in queries with the filter
   // passBackFaces().
@@ -63,18 +67,22 @@ class TracedScene {
   Facet facet(const Triangle& triangle) const;
 
  private:
-  // Triangles with the same mask and sidedness: one Embree geometry, with a filter only if they
-  // need one.
+  // Triangles with the same mask and sidedness that all move or all stand still: one Embree
+  // geometry, with a filter only if they need one.
   struct Bucket {
     const TracedScene* owner = nullptr;
     bool masked = false;
     bool doubleSided = false;
+    bool moving = false;
     std::vector<Triangle> triangles;
   };
 
   void place();
+  void loadMasks();
   void sortTriangles();
+  void build();
   void attach(uint32_t id, Bucket& bucket);
+  void writeVertices(const Bucket& bucket, glm::vec3* vertices) const;
   void throwOnFailure(const char* what) const;
   bool isHole(const Triangle& triangle, float u, float v) const;
   bool isBack(const Triangle& triangle, const glm::dvec3& direction) const;
@@ -82,9 +90,11 @@ class TracedScene {
 
   const scene::Scene& scene_;
   const glm::dvec3 origin_;
+  uint64_t poses_ = 0;                           // Scene::poses of the loaded vertices
   std::vector<Placement> placements_;            // one per instance
   std::vector<std::optional<AlphaMask>> masks_;  // one per material; none: not masked
-  std::array<Bucket, 4> buckets_;                // index: masked + 2 * doubleSided; Embree's geomID
+  // Index, and Embree's geomID: masked + 2 * doubleSided + 4 * moving.
+  std::array<Bucket, 8> buckets_;
   RTCDevice device_ = nullptr;
   RTCScene world_ = nullptr;
 };

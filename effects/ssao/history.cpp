@@ -6,7 +6,10 @@
 #include <utility>
 
 #include "dispatch.h"
+#include "parameters.h"
 #include "shaders/ssao_accumulate.h"
+#include "shaders/ssao_reach.h"
+#include "shaders/ssao_spread.h"
 
 namespace grisaille::ssao {
 namespace {
@@ -16,15 +19,30 @@ struct AccumulateBlock {
   glm::mat4 then_from_view;
   glm::vec4 then_view_from_pixel;
   glm::vec4 then_pixel_from_view;
+  glm::vec4 then_from_pixel;
   glm::vec2 then_size;
   float then_scale;
   float most;
   float tolerance;
+  float margin;
 };
 GRISAILLE_CHECK_BLOCK_ssao_accumulate_Settings(AccumulateBlock);
 
+// shaders/ssao/reach.comp, std140.
+struct ReachBlock {
+  float radius;
+};
+GRISAILLE_CHECK_BLOCK_ssao_reach_Settings(ReachBlock);
+
+// Pixels per side of a tile in shaders/ssao/reach.comp.
+constexpr uint32_t kTile = 16;
+
 // Plane tolerance of the history rejection, in view depths.
 constexpr float kSameSurface = 0.01f;
+// Largest difference between the history and the frame near surfaces that move. Without a denoiser
+// as wide as the noise pattern, a frame is too noisy to judge the history by.
+constexpr float kMargin = 0.03f;
+constexpr uint32_t kPattern = 5;  // texels
 
 // Projection of a view: pixel = view.xy / view depth * .xy + .zw.
 glm::dvec4 pixelFromView(const grisaille_view& view, glm::dvec2 size) {
@@ -47,6 +65,8 @@ glm::dmat4 between(const grisaille_view& from, const grisaille_view& to) {
 History::History(plugin::Host host)
     : host_(host),
       accumulate_(host, "accumulate", grisaille_shader_ssao_accumulate),
+      reach_(host, "reach", grisaille_shader_ssao_reach),
+      spread_(host, "spread", grisaille_shader_ssao_spread),
       clamped_(host.sampler({.label = "clamped"})) {}
 
 void History::keepOnly(const Values& values) {
@@ -60,8 +80,32 @@ void History::forget() {
   frames_ = 0;
 }
 
+grisaille_texture History::reachOf(const plugin::Frame& frame, grisaille_texture motion) {
+  const uint32_t width = plugin::groupsFor(frame.width() + 2 * frame.guard(), kTile);
+  const uint32_t height = plugin::groupsFor(frame.height() + 2 * frame.guard(), kTile);
+  const auto tiles = [&](const char* label) {
+    return frame.transient(
+        {.label = label, .format = GRISAILLE_FORMAT_R32F, .width = width, .height = height});
+  };
+  const grisaille_texture reach = tiles("reach"), rows = tiles("reach along rows");
+  const ReachBlock settings = {.radius = frame.value<float>(kRadius)};
+  const grisaille_binding bindings[] = {
+      plugin::uniform(0, frame.viewBlock()), plugin::uniform(1, frame.uniform(settings)),
+      plugin::texture(0, motion, clamped_),
+      plugin::texture(1, frame.attachment(GRISAILLE_VIEW_DEPTH), clamped_),
+      plugin::image(0, reach)};
+  dispatch(frame, reach_.get({}), bindings, width, height);
+  const auto spread = [&](bool column, grisaille_texture from, grisaille_texture to) {
+    const grisaille_binding spreads[] = {plugin::texture(0, from, clamped_), plugin::image(0, to)};
+    dispatch(frame, spread_.get({plugin::specialize(0, column)}), spreads, width, height);
+  };
+  spread(false, reach, rows);
+  spread(true, rows, reach);
+  return reach;
+}
+
 grisaille_texture History::accumulate(const plugin::Frame& frame, uint32_t scale, uint32_t most,
-                                      grisaille_texture raw) {
+                                      grisaille_texture denoised) {
   Seen now = std::move(spare_);
   spare_ = {};
   const uint32_t width = plugin::groupsFor(frame.width(), scale);
@@ -80,24 +124,35 @@ grisaille_texture History::accumulate(const plugin::Frame& frame, uint32_t scale
 
   const Seen& then = frames_ > 0 ? then_ : now;
   const glm::dvec4 pixel = pixelFromView(then.view, then.size);
+  const double zoom = then.size.y / now.size.y;
   const AccumulateBlock settings = {
       .then_from_view = glm::mat4(between(now.view, then.view)),
       .then_view_from_pixel =
           glm::vec4(1.0 / pixel.x, 1.0 / pixel.y, -pixel.z / pixel.x, -pixel.w / pixel.y),
       .then_pixel_from_view = glm::vec4(pixel),
+      .then_from_pixel =
+          glm::vec4(glm::dvec4(glm::dvec2(zoom), then.size / 2.0 - now.size / 2.0 * zoom)),
       .then_size = glm::vec2(then.width, then.height),
       .then_scale = static_cast<float>(then.scale),
       .most = frames_ > 0 ? static_cast<float>(most) : 0.0f,
-      .tolerance = 1 / kSameSurface};
+      .tolerance = 1 / kSameSurface,
+      .margin = frame.value<uint32_t>(kDenoiseSize) >= kPattern ? kMargin : 1.0f};
+  const grisaille_texture motion = frame.attachment(GRISAILLE_MOTION);
+  const bool moves = motion.id != 0;
+  grisaille_texture reach = denoised;
+  if (moves) frame.pass("movement", [&] { reach = reachOf(frame, motion); });
   frame.pass("accumulate", [&] {
     const grisaille_binding bindings[] = {
         plugin::uniform(0, frame.viewBlock()),
         plugin::uniform(1, frame.uniform(settings)),
-        plugin::texture(0, raw, clamped_),
+        plugin::texture(0, denoised, clamped_),
         plugin::texture(1, frame.attachment(GRISAILLE_NORMAL), clamped_),
-        plugin::texture(2, frames_ > 0 ? grisaille_texture(then_.mean) : raw, clamped_),
+        plugin::texture(2, frames_ > 0 ? grisaille_texture(then_.mean) : denoised, clamped_),
+        plugin::texture(3, moves ? motion : denoised, clamped_),
+        plugin::texture(4, reach, clamped_),
         plugin::image(0, now.mean)};
-    dispatch(frame, accumulate_.get({plugin::specialize(0, scale)}), bindings, width, height);
+    dispatch(frame, accumulate_.get({plugin::specialize(0, scale), plugin::specialize(1, moves)}),
+             bindings, width, height);
   });
   spare_ = std::exchange(then_, std::move(now));
   ++frames_;

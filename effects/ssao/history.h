@@ -1,7 +1,8 @@
 // SPDX-License-Identifier: MIT
-// Temporal accumulation: visibility averaged over the frames that saw the same surface. The camera
-// may move, and the picture may change its size and resolution: the shader reprojects surfaces into
-// the previous frame.
+// Temporal accumulation: visibility averaged over the frames that saw the same surface. Camera and
+// surfaces may move, and the picture may change its size and resolution: the shader reprojects
+// surfaces into the previous frame. Near surfaces that move, the history stays close to the frame's
+// own visibility.
 #pragma once
 
 #include <array>
@@ -24,14 +25,14 @@ class History {
   // Number of frames accumulated since the history was empty.
   uint64_t frames() const { return frames_; }
 
-  // Records the pass that averages `raw` with the history. Throws plugin::Failure.
-  // scale: pixels per texel of `raw`, in both directions.
+  // Records the passes that average `denoised` with the history. Throws plugin::Failure.
+  // scale: pixels per texel of `denoised`, in both directions.
   // most: largest number of earlier frames in the mean, at least 1.
-  // raw: rg32f, visibility and view depth.
+  // denoised: rg32f, visibility and view depth.
   // Returns an rgba32f texture that starts with the same two components. This object owns it; it is
   // valid until the next call.
   grisaille_texture accumulate(const plugin::Frame& frame, uint32_t scale, uint32_t most,
-                               grisaille_texture raw);
+                               grisaille_texture denoised);
 
  private:
   // Accumulated visibility, and the view that it belongs to.
@@ -43,8 +44,11 @@ class History {
     grisaille_view view = {};
   };
 
+  // The tiles that moving surfaces may change: see shaders/ssao/spread.comp.
+  grisaille_texture reachOf(const plugin::Frame& frame, grisaille_texture motion);
+
   plugin::Host host_;
-  plugin::PipelineCache accumulate_;
+  plugin::PipelineCache accumulate_, reach_, spread_;
   plugin::Sampler clamped_;
   Seen then_, spare_;
   Values values_ = {};

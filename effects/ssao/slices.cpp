@@ -89,7 +89,8 @@ Slices::Slices(plugin::Host host)
 
 uint32_t Slices::reads(plugin::Values values) noexcept {
   return GRISAILLE_READS(GRISAILLE_VIEW_DEPTH) | GRISAILLE_READS(GRISAILLE_NORMAL) |
-         (values.get<bool>(kBackFaces) ? GRISAILLE_READS(GRISAILLE_BACK_DEPTH) : 0u);
+         (values.get<bool>(kBackFaces) ? GRISAILLE_READS(GRISAILLE_BACK_DEPTH) : 0u) |
+         (values.get<uint32_t>(kHistory) > 1 ? GRISAILLE_READS(GRISAILLE_MOTION) : 0u);
 }
 
 void Slices::record(const plugin::Frame& frame, Pair outputs) {
@@ -117,16 +118,15 @@ void Slices::record(const plugin::Frame& frame, Pair outputs) {
   Kernels& kernels = bent ? openAndBent_ : open_;
   const Pair raw = pair("raw visibility", "raw open direction");
   frame.pass("occlusion", [&] { occlude(frame, kernels, size, raw); });
-  Pair from = raw;
-  if (averaged > 1) from.open = history_.accumulate(frame, scale, averaged - 1, raw.open);
-  Pair spare = from;
+  Pair from = raw, spare = raw;
   if (blur > 1) {
     spare = pair("visibility denoised", "open direction denoised");
     frame.pass("denoise rows",
                [&] { denoise(frame, kernels.denoise, size, false, blur, from, spare); });
     from = spare;
   }
-  if (scale == 1 && !edges) {
+  const bool averages = averaged > 1, last = scale == 1 && !averages;
+  if (last && !edges) {
     frame.pass("denoise columns",
                [&] { denoise(frame, kernels.denoiseLast, size, true, blur, from, outputs); });
     return;
@@ -137,12 +137,18 @@ void Slices::record(const plugin::Frame& frame, Pair outputs) {
     from = raw;
   }
   if (edges) {
-    const Pair target = scale == 1 ? outputs : spare;
+    const Pair target = last ? outputs : spare;
     frame.pass("denoise edges", [&] {
-      alongEdges(frame, scale == 1 ? kernels.edgesLast : kernels.edges, size, from, target);
+      alongEdges(frame, last ? kernels.edgesLast : kernels.edges, size, from, target);
     });
-    if (scale == 1) return;
+    if (last) return;
     from = target;
+  }
+  if (averages) from.open = history_.accumulate(frame, scale, averaged - 1, from.open);
+  if (scale == 1) {
+    frame.pass("finish",
+               [&] { denoise(frame, kernels.denoiseLast, size, true, 1, from, outputs); });
+    return;
   }
   frame.pass("upsample", [&] { upsample(frame, kernels, size, from, outputs); });
 }

@@ -10,7 +10,10 @@
 //   note = "..."                       optional: a remark on the measurement
 //   scene = "FILE.gltf"                relative to the claims file; default: the built-in atrium
 //   camera = {eye = [..], ...}         same keys as a camera file; for a path, an array of cameras
-//   frames = 12                        number of frames of the path; only with a path
+//   frames = 12                        number of frames; only with a path or an animation
+//   seconds = [0, 1]                   optional: times of the first and the last frame in the
+//                                      scene's animation; the others lie evenly between
+//   animation = 0                      which animation; only with `seconds`
 //   size = [480, 270]                  pixels
 //   radius = 0.5                       metres: length of the truth's rays, and scale of regions
 //   distance = 10                      metres of view depth: end of the region "near"
@@ -59,6 +62,8 @@ struct ClaimRun {
   std::string name;
   std::vector<std::string> sets;       // override the claim's values
   std::vector<scene::Camera> cameras;  // one per frame
+  std::vector<double> seconds;         // one per frame; empty: the scene is at rest
+  bool still = false;                  // all frames are the last one
   std::string against;                 // run to compare with; "": the truth
   uint32_t shots = 0;                  // number of shots
   bool screenNoise = false;            // splats fixed to the screen
@@ -70,6 +75,8 @@ struct Claim {
   std::string scene;  // a path; "": the built-in atrium
   glm::uvec2 size = glm::uvec2(480, 270);
   double radius = 0.5, distance = 10;
+  size_t animation = 0;         // of the scene
+  std::vector<double> seconds;  // one per frame; empty: the scene is at rest
   std::vector<std::string> effects;
   std::string output;
   std::vector<std::string> sets;

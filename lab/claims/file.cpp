@@ -55,17 +55,30 @@ scene::Camera cameraOf(const TomlTable& owner, const toml::table& table) {
   return scene::parseCamera(jsonOf(table), owner.placeOf(table));
 }
 
-// The cameras of `frames` frames, one per frame. 1: a picture, not a path.
-std::vector<scene::Camera> camerasOf(TomlTable& table, uint32_t frames) {
+// The cameras of `frames` frames, one per frame. 1: a picture, not a path. `animated`: one camera
+// may see all frames.
+std::vector<scene::Camera> camerasOf(TomlTable& table, uint32_t frames, bool animated) {
   std::vector<scene::Camera> keys;
   for (const toml::table* one : table.tables("camera")) keys.push_back(cameraOf(table, *one));
   const toml::node& node = table.require("camera");
-  if ((frames > 1) != (keys.size() > 1)) {
+  const bool fits = animated ? frames > 1 : (frames > 1) == (keys.size() > 1);
+  if (!fits) {
     table.refuse(node,
-                 "a path needs at least two cameras and 'frames'; a picture needs one camera");
+                 "a path needs at least two cameras and 'frames'; a picture needs one camera; an "
+                 "animation needs 'frames'");
   }
-  if (frames == 1) return keys;
+  if (keys.size() == 1) return {frames, keys[0]};
   return at(table.placeOf(node), [&] { return scene::camerasOf({keys, frames}); });
+}
+
+// The times of `frames` frames in an animation; none: the scene is at rest.
+std::vector<double> secondsOf(TomlTable& table, uint32_t frames) {
+  const std::vector<double> ends = table.numbers("seconds", 2);
+  std::vector<double> times;
+  for (uint32_t i = 0; !ends.empty() && i < frames; ++i) {
+    times.push_back(ends[0] + (ends[1] - ends[0]) * i / std::max(frames - 1, 1u));
+  }
+  return times;
 }
 
 std::vector<Shot> shotsOf(TomlTable& table, const effect::Registry& registry) {
@@ -132,7 +145,16 @@ ClaimRun runOf(TomlTable& table, const Claim& claim, const std::vector<scene::Ca
   run.sets = table.texts("set");
   run.cameras = cameras;
   if (table.find("camera") != nullptr) {
-    run.cameras = camerasOf(table, static_cast<uint32_t>(cameras.size()));
+    run.cameras = camerasOf(table, static_cast<uint32_t>(cameras.size()), !claim.seconds.empty());
+  }
+  run.seconds = claim.seconds;
+  run.still = table.flag("still", false);
+  if (run.still && cameras.size() == 1) {
+    table.refuse(table.require("still"), "'still' needs a path or an animation");
+  }
+  if (run.still) {
+    std::ranges::fill(run.cameras, scene::Camera(run.cameras.back()));
+    if (!run.seconds.empty()) std::ranges::fill(run.seconds, double{run.seconds.back()});
   }
   run.against = table.text("against", "");
   run.shots = table.whole("shots", static_cast<uint32_t>(claim.shots.size()), 0, kMostShots);
@@ -188,8 +210,9 @@ void addExpectations(TomlTable& table, Claim& claim, bool alongPath) {
       if (std::ranges::find(claim.runs, term->run, &ClaimRun::name) == claim.runs.end()) {
         table.refuse(line, fmt::format("this claim has no run '{}'", term->run));
       }
-      if (findMetric(term->metric)->alongPath && !alongPath) {
-        table.refuse(line, fmt::format("'{}' needs a path of cameras", term->metric));
+      if (findMetric(term->metric)->over != Over::kFirst && !alongPath) {
+        table.refuse(line,
+                     fmt::format("'{}' needs a path of cameras or an animation", term->metric));
       }
       if (claim.shots.empty() &&
           (term->metric == "mask_outside" || term->region.find("painted") != std::string::npos)) {
@@ -228,7 +251,12 @@ Claim claimOf(TomlTable& table, const effect::Registry& registry) {
   claim.sets = table.texts("set");
   claim.shots = shotsOf(table, registry);
   const uint32_t frames = table.whole("frames", 1, 1, scene::kMostPathFrames);
-  const std::vector<scene::Camera> cameras = camerasOf(table, frames);
+  claim.seconds = secondsOf(table, frames);
+  claim.animation = table.whole("animation", 0, 0, 65535);
+  if (claim.seconds.empty() && table.find("animation") != nullptr) {
+    table.refuse(table.require("animation"), "'animation' needs 'seconds'");
+  }
+  const std::vector<scene::Camera> cameras = camerasOf(table, frames, !claim.seconds.empty());
   at(table.place(), [&] { app::study::checkPathSize(claim.key, frames, claim.size); });
   addRuns(table, claim, cameras, registry);
   addExpectations(table, claim, frames > 1);

@@ -17,28 +17,30 @@ constexpr uint32_t kSquare = 4;      // pixels per side: holds each rotation of 
 constexpr uint32_t kMaskMargin = 2;  // pixels
 
 constexpr std::array kMetrics = {
-    MetricInfo{"mean", "mean of the output", false, false},
-    MetricInfo{"bias", "mean error", false, false},
-    MetricInfo{"rmse", "root mean square error", false, false},
+    MetricInfo{"mean", "mean of the output", Over::kFirst, false},
+    MetricInfo{"bias", "mean error", Over::kFirst, false},
+    MetricInfo{"rmse", "root mean square error", Over::kFirst, false},
     MetricInfo{"noise",
                "standard deviation of the error within 4x4 pixels, rms over all squares in the "
                "region; a 4x4 blur removes it",
-               false, false},
-    MetricInfo{"bands", "rms of the error's mean over 4x4 pixels; a 4x4 blur leaves it", false,
-               false},
+               Over::kFirst, false},
+    MetricInfo{"bands", "rms of the error's mean over 4x4 pixels; a 4x4 blur leaves it",
+               Over::kFirst, false},
     MetricInfo{"flicker",
-               "rms change of the error from frame to frame, at the same point of the world", true,
-               false},
+               "rms change of the error from frame to frame, at the same point of the world",
+               Over::kAll, false},
     MetricInfo{"swim",
-               "rms change of the output from frame to frame, at the same point of the world", true,
-               false},
+               "rms change of the output from frame to frame, at the same point of the world",
+               Over::kAll, false},
     MetricInfo{"moving_rmse", "root mean square error along the path, without its first frame",
-               true, false},
+               Over::kAll, false},
+    MetricInfo{"last_rmse", "root mean square error of the last frame", Over::kLast, false},
     MetricInfo{"mask_outside",
                "share of the painted pixels (alpha over 1/2) that lie more than 2 pixels outside "
                "the ray-traced mask",
-               false, false},
-    MetricInfo{"milliseconds", "time of the effects' passes, median of the rounds", false, true}};
+               Over::kFirst, false},
+    MetricInfo{"milliseconds", "time of the effects' passes, median of the rounds", Over::kFirst,
+               true}};
 
 // The picture with NaN outside the region.
 image::Image inRegion(const image::Image& picture, const std::vector<uint8_t>& region) {
@@ -122,8 +124,9 @@ double measured(std::string_view metric, const Evidence& evidence) {
     return metric == "moving_rmse" ? along.error : along.rms;
   }
   if (metric == "mask_outside") return shareOutside(evidence);
-  const image::Image shown = inRegion(evidence.shown[0], evidence.region[0]);
-  image::Image reference = evidence.reference[0];
+  const size_t frame = metric == "last_rmse" ? evidence.shown.size() - 1 : 0;
+  const image::Image shown = inRegion(evidence.shown[frame], evidence.region[frame]);
+  image::Image reference = evidence.reference[frame];
   if (metric == "noise" || metric == "bands") {
     const Squares squares = squaresOf(shown, reference);
     const double sum = metric == "noise" ? squares.variances : squares.means;
@@ -132,7 +135,7 @@ double measured(std::string_view metric, const Evidence& evidence) {
   if (metric == "mean") std::fill(reference.pixels.begin(), reference.pixels.end(), 0.0f);
   const image::Difference difference = image::compare(shown, reference);
   if (difference.compared == 0) return kNone;
-  return metric == "rmse" ? difference.rmse : difference.bias;
+  return metric.ends_with("rmse") ? difference.rmse : difference.bias;
 }
 
 }  // namespace grisaille::lab::claims

@@ -11,10 +11,13 @@
 
 namespace grisaille::lab::claims {
 
+// The frames that a metric is computed from.
+enum class Over : uint8_t { kFirst, kAll, kLast };
+
 struct MetricInfo {
   const char* key;
   const char* meaning;  // for reports
-  bool alongPath;       // over all frames of a camera path; else only over the first frame
+  Over over;            // kAll and kLast need more than one frame
   bool timed;           // depends on the machine as well as the settings
 };
 

@@ -31,6 +31,7 @@ constexpr std::array kRegions = {
         "behind",
         "open, and as near on the screen as the radius reaches to the silhouette of an object that "
         "is nearer by more than the radius"},
+    RegionInfo{"beside", "rests, within the radius of a visible surface that moves"},
     RegionInfo{"near", "view depth up to the claim's distance"},
     RegionInfo{"far", "view depth over the claim's distance"}};
 
@@ -110,6 +111,29 @@ Mask openBehind(const trace::FlickerFrame& frame, double radius) {
   return mask;
 }
 
+// Pixels of surfaces that rest, within `radius` of a visible one that moves.
+Mask besideMoved(const trace::FlickerFrame& frame, const RegionScale& scale) {
+  constexpr size_t kStep = 5;  // of the pixels that move, one in five
+  std::vector<glm::dvec3> moved;
+  const auto moves = [&](const trace::Hit& hit) {
+    return hit.instance < scale.moved.size() && scale.moved[hit.instance] != 0;
+  };
+  for (size_t i = 0; i < frame.hits.size(); ++i) {
+    if (i % kStep == 0 && seen(frame.hits[i]) && moves(frame.hits[i])) {
+      moved.push_back(frame.hits[i].position);
+    }
+  }
+  Mask mask(frame.hits.size(), 0);
+  for (size_t i = 0; i < mask.size(); ++i) {
+    const trace::Hit& hit = frame.hits[i];
+    if (!seen(hit) || moves(hit)) continue;
+    mask[i] = std::ranges::any_of(moved, [&](const glm::dvec3& place) {
+      return glm::distance(place, hit.position) < scale.radius;
+    });
+  }
+  return mask;
+}
+
 template <typename Test>
 Mask where(const trace::FlickerFrame& frame, const Test& test) {
   Mask mask(frame.hits.size(), 0);
@@ -127,6 +151,7 @@ Mask oneRegion(std::string_view name, const trace::FlickerFrame& frame, const Re
       return fallsAway(a, b, scale.radius);
     });
   }
+  if (name == "beside") return besideMoved(frame, scale);
   if (name == "behind") return openBehind(frame, scale.radius);
   if (name == "flat") {
     const Mask edges = about(frame, kFlatMargin, [&](const trace::Hit& a, const trace::Hit& b) {

@@ -20,10 +20,12 @@ struct RegionInfo {
 // Every region that a claim can name.
 std::span<const RegionInfo> regions();
 
-// Lengths that regions depend on, metres.
+// What regions depend on besides the frame. Lengths in metres.
 struct RegionScale {
   double radius = 0.5;   // of the occlusion
   double distance = 10;  // where "near" ends and "far" begins, view depth
+  // 1 for each instance that moved since the frame before, by index; empty: none moved.
+  std::span<const uint8_t> moved = {};
 };
 
 // 1 for each pixel of the frame that lies in all of `names`, known regions joined by "+".

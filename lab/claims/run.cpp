@@ -1,6 +1,8 @@
 // SPDX-License-Identifier: MIT
 #include "lab/claims/run.h"
 
+#include <fmt/format.h>
+
 #include <algorithm>
 #include <cmath>
 #include <limits>
@@ -10,6 +12,7 @@
 #include "app/study/measurer.h"
 #include "app/study/record.h"
 #include "core/base/error.h"
+#include "core/scene/rig.h"
 #include "core/trace/projection.h"
 #include "lab/claims/metrics.h"
 #include "lab/claims/picture.h"
@@ -19,9 +22,10 @@
 
 namespace grisaille::lab::claims {
 
-// The ray-traced frames along one path of cameras.
+// The ray-traced frames along one path of cameras and times. Frames that no metric reads are empty.
 struct ClaimsRunner::View {
   std::vector<scene::Camera> cameras;
+  std::vector<double> seconds;
   std::vector<trace::FlickerFrame> frames;
   std::vector<image::Image> truth;  // one per frame
   std::map<std::string, std::vector<std::vector<uint8_t>>> regions;
@@ -39,7 +43,7 @@ struct ClaimsRunner::Run {
 // Measures one claim on one device.
 class ClaimsRunner::Stage {
  public:
-  Stage(const ClaimsDesc& desc, const Claim& claim, gpu::Device& device, const scene::Scene& scene)
+  Stage(const ClaimsDesc& desc, const Claim& claim, gpu::Device& device, scene::Scene& scene)
       : desc_(desc),
         claim_(claim),
         device_(device),
@@ -53,7 +57,10 @@ class ClaimsRunner::Stage {
   ClaimResult judge();
 
  private:
-  View& viewOf(const std::vector<scene::Camera>& cameras);
+  View& viewOf(const ClaimRun& run);
+  void poseAt(const std::vector<double>& seconds, size_t frame);
+  std::vector<uint8_t> movedLast() const;
+  bool reads(Over over) const;
   trace::FlickerFrame frameOf(const scene::Camera& camera) const;
   bool timed() const;
   void render(Run& run, const scene::Camera& camera, const std::vector<std::string>& outputs);
@@ -67,7 +74,8 @@ class ClaimsRunner::Stage {
   const ClaimsDesc& desc_;
   const Claim& claim_;
   gpu::Device& device_;
-  const scene::Scene& scene_;
+  scene::Scene& scene_;
+  std::vector<uint8_t> moved_;  // instances that move up to the last frame
   app::SceneServices services_;
   frame::Renderer renderer_;
   std::vector<std::unique_ptr<View>> views_;
@@ -97,17 +105,58 @@ trace::FlickerFrame ClaimsRunner::Stage::frameOf(const scene::Camera& camera) co
   return frame;
 }
 
-ClaimsRunner::View& ClaimsRunner::Stage::viewOf(const std::vector<scene::Camera>& cameras) {
+void ClaimsRunner::Stage::poseAt(const std::vector<double>& seconds, size_t frame) {
+  if (seconds.empty()) return;
+  scene::pose(scene_, {.animation = claim_.animation, .seconds = seconds[frame]});
+}
+
+// Instances that move from the last frame but one to the last.
+std::vector<uint8_t> ClaimsRunner::Stage::movedLast() const {
+  if (claim_.seconds.empty()) return {};
+  const size_t last = claim_.seconds.size() - 1;
+  scene::Scene then = scene_, now = scene_;
+  scene::pose(then, {.animation = claim_.animation, .seconds = claim_.seconds[last - 1]});
+  scene::pose(now, {.animation = claim_.animation, .seconds = claim_.seconds[last]});
+  std::vector<uint8_t> moved;
+  for (size_t i = 0; i < now.instances.size(); ++i) {
+    const scene::Primitive& primitive = now.primitives[now.instances[i].primitive];
+    bool moves = then.instances[i].worldFromObject != now.instances[i].worldFromObject;
+    for (uint32_t k = 0; k < primitive.indexCount && !moves; ++k) {
+      const uint32_t vertex = now.indices[primitive.firstIndex + k];
+      moves = then.positions[vertex] != now.positions[vertex];
+    }
+    moved.push_back(moves ? 1 : 0);
+  }
+  return moved;
+}
+
+// Whether an expectation or a picture reads these frames.
+bool ClaimsRunner::Stage::reads(Over over) const {
+  if (over == Over::kLast) return true;  // the pictures
+  if (over == Over::kAll && claim_.picture.show == PictureKind::kChange) return true;
+  const auto needs = [&](const Term& term) { return findMetric(term.metric)->over == over; };
+  return std::ranges::any_of(claim_.expectations, [&](const Expectation& e) {
+    return needs(e.left) || (e.right && needs(*e.right));
+  });
+}
+
+ClaimsRunner::View& ClaimsRunner::Stage::viewOf(const ClaimRun& run) {
   const auto same = [&](const scene::Camera& a, const scene::Camera& b) {
     return scene::cameraJson(a) == scene::cameraJson(b);
   };
   for (const auto& view : views_) {
-    if (std::ranges::equal(view->cameras, cameras, same)) return *view;
+    if (view->seconds == run.seconds && std::ranges::equal(view->cameras, run.cameras, same)) {
+      return *view;
+    }
   }
   auto view = std::make_unique<View>();
-  view->cameras = cameras;
-  for (const scene::Camera& camera : cameras) {
-    view->frames.push_back(frameOf(camera));
+  view->cameras = run.cameras;
+  view->seconds = run.seconds;
+  for (size_t i = 0; i < run.cameras.size(); ++i) {
+    const bool last = i + 1 == run.cameras.size();
+    const bool traced = reads(Over::kAll) || last || (i == 0 && reads(Over::kFirst));
+    poseAt(run.seconds, i);
+    view->frames.push_back(traced ? frameOf(run.cameras[i]) : trace::FlickerFrame());
     view->truth.push_back(view->frames.back().truth);
   }
   views_.push_back(std::move(view));
@@ -115,6 +164,9 @@ ClaimsRunner::View& ClaimsRunner::Stage::viewOf(const std::vector<scene::Camera>
 }
 
 void ClaimsRunner::Stage::start() {
+  // Another claim may have left the scene in a pose.
+  if (scene_.rig && claim_.seconds.empty()) scene::pose(scene_, {});
+  moved_ = movedLast();
   for (const ClaimRun& desc : claim_.runs) {
     Run run;
     run.desc = &desc;
@@ -127,7 +179,7 @@ void ClaimsRunner::Stage::start() {
       }
       list->assign(objectsOf(list->table(), shots).view());
     }
-    run.view = &viewOf(desc.cameras);
+    run.view = &viewOf(desc);
     runs_.push_back(std::move(run));
   }
 }
@@ -171,8 +223,9 @@ image::Image ClaimsRunner::Stage::shownBy(Run& run, const scene::Camera& camera)
 
 void ClaimsRunner::Stage::showAll() {
   for (Run& run : runs_) {
-    for (const scene::Camera& camera : run.view->cameras) {
-      run.shown.push_back(shownBy(run, camera));
+    for (size_t i = 0; i < run.view->cameras.size(); ++i) {
+      poseAt(run.view->seconds, i);
+      run.shown.push_back(shownBy(run, run.view->cameras[i]));
       run.color = renderer_.read("color");
     }
   }
@@ -216,9 +269,13 @@ const std::vector<std::vector<uint8_t>>& ClaimsRunner::Stage::regionOn(
   auto [found, fresh] = view.regions.try_emplace(names);
   for (size_t i = 0; fresh && i < view.frames.size(); ++i) {
     trace::FlickerFrame& frame = view.frames[i];
+    if (frame.hits.empty()) {
+      found->second.emplace_back();
+      continue;
+    }
     frame.truth = view.truth[i];  // metrics overwrite it
-    found->second.push_back(
-        regionOf(names, frame, {.radius = claim_.radius, .distance = claim_.distance}));
+    found->second.push_back(regionOf(
+        names, frame, {.radius = claim_.radius, .distance = claim_.distance, .moved = moved_}));
   }
   return found->second;
 }
@@ -262,9 +319,17 @@ ClaimResult ClaimsRunner::Stage::judge() {
 std::vector<PictureRow> ClaimsRunner::Stage::pictures() {
   const PictureDesc& desc = claim_.picture;
   std::vector<PictureRow> rows;
+  std::map<std::string, size_t> rowOf;  // by the last frame's camera and time
   for (const auto& view : views_) {
-    PictureRow row;
-    if (desc.show != PictureKind::kChange) {
+    const std::string last = fmt::format("{} {}", scene::cameraJson(view->cameras.back()),
+                                         view->seconds.empty() ? 0.0 : view->seconds.back());
+    const bool fresh = desc.show == PictureKind::kChange || !rowOf.contains(last);
+    if (fresh) {
+      rowOf[last] = rows.size();
+      rows.emplace_back();
+    }
+    PictureRow& row = rows[rowOf[last]];
+    if (fresh && desc.show != PictureKind::kChange) {
       // The last frame, whose history holds the earlier frames.
       row.push_back({"truth", pictureOf(view->truth.back(), desc)});
     }
@@ -284,7 +349,6 @@ std::vector<PictureRow> ClaimsRunner::Stage::pictures() {
         row.push_back({run.desc->name, pictureOf(color ? run.color : run.shown.back(), desc)});
       }
     }
-    rows.push_back(std::move(row));
   }
   return rows;
 }
@@ -294,7 +358,7 @@ ClaimsRunner::ClaimsRunner(const ClaimsDesc& desc, gpu::Device& device)
 
 ClaimsRunner::~ClaimsRunner() = default;
 
-const scene::Scene& ClaimsRunner::sceneOf(const std::string& path) {
+scene::Scene& ClaimsRunner::sceneOf(const std::string& path) {
   const auto found = scenes_.find(path);
   if (found != scenes_.end()) return found->second;
   return scenes_.emplace(path, scene::loadScene(path)).first->second;

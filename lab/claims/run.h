@@ -59,7 +59,7 @@ class ClaimsRunner {
   struct View;
   class Stage;
 
-  const scene::Scene& sceneOf(const std::string& path);
+  scene::Scene& sceneOf(const std::string& path);
 
   ClaimsDesc desc_;
   gpu::Device& device_;

@@ -66,6 +66,14 @@ uint32_t TomlTable::whole(const std::string& key, uint32_t fallback, uint32_t lo
   return static_cast<uint32_t>(value);
 }
 
+bool TomlTable::flag(const std::string& key, bool fallback) {
+  const toml::node* node = find(key);
+  if (node == nullptr) return fallback;
+  const auto* value = node->as_boolean();
+  if (value == nullptr) refuse(*node, fmt::format("'{}' is not true or false", key));
+  return value->get();
+}
+
 std::vector<std::string> TomlTable::texts(const std::string& key) {
   std::vector<std::string> result;
   const toml::node* node = find(key);

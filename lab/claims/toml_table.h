@@ -30,6 +30,7 @@ class TomlTable {
   std::string text(const std::string& key, const std::optional<std::string>& fallback = {});
   double number(const std::string& key, double fallback, double low, double high);
   uint32_t whole(const std::string& key, uint32_t fallback, uint32_t low, uint32_t high);
+  bool flag(const std::string& key, bool fallback);
   std::vector<std::string> texts(const std::string& key);             // {}: no such key
   std::vector<double> numbers(const std::string& key, size_t count);  // {}: no such key
 

@@ -85,16 +85,16 @@ class Slices : public Occlusion {
         past_(std::move(past)),
         frames_(past_ ? past_->frames : 0),
         raw_(texels_, [this](const glm::ivec2& t) { return estimate(t); }),
-        means_(texels_, [this](const glm::ivec2& t) { return mean(t); }),
         rows_(texels_,
               [this](const glm::ivec2& t) {
-                return denoised([this](const glm::ivec2& at) { return averaged(at); }, t, {1, 0});
+                return denoised([this](const glm::ivec2& at) { return raw_(at); }, t, {1, 0});
               }),
         columns_(texels_,
                  [this](const glm::ivec2& t) {
                    return denoised([this](const glm::ivec2& at) { return rows_(at); }, t, {0, 1});
                  }),
-        edges_(texels_, [this](const glm::ivec2& t) { return alongEdge(t); }) {}
+        edges_(texels_, [this](const glm::ivec2& t) { return alongEdge(t); }),
+        means_(texels_, [this](const glm::ivec2& t) { return mean(t); }) {}
 
   double visibility(const glm::ivec2& pixel) override { return finished(at(pixel).w, settings_); }
   glm::dvec3 bentNormal(const glm::ivec2& pixel) override {
@@ -109,14 +109,16 @@ class Slices : public Occlusion {
  private:
   Texel at(const glm::ivec2& pixel) {
     if (view_.depth(pixel) <= 0) return kSky;
-    return settings_.scale == 1 ? filtered(pixel) : upsampled(pixel);
+    return settings_.scale == 1 ? averaged(pixel) : upsampled(pixel);
   }
-  // The denoiser's input. The history holds only visibility.
+  // The history holds only visibility.
   Texel averaged(const glm::ivec2& texel) {
-    return settings_.history > 1 ? Texel(glm::dvec3(raw_(texel)), means_(texel).open) : raw_(texel);
+    const Texel own = filtered(texel);
+    return settings_.history > 1 ? Texel(glm::dvec3(own), means_(texel).open) : own;
   }
   Texel filtered(const glm::ivec2& texel) {
-    return settings_.denoiseSize > 1 && settings_.edgeDenoise > 0 ? edges_(texel) : columns_(texel);
+    if (settings_.denoiseSize <= 1) return raw_(texel);
+    return settings_.edgeDenoise > 0 ? edges_(texel) : columns_(texel);
   }
   Texel estimate(const glm::ivec2& texel) const;
   Mean mean(const glm::ivec2& texel);
@@ -150,12 +152,12 @@ class Slices : public Occlusion {
   std::shared_ptr<const PastFrame> past_;
   int frames_;  // number of frames before this one
   Lazy<Texel> raw_;
-  Lazy<Mean> means_;
   Lazy<Texel> rows_, columns_, edges_;
+  Lazy<Mean> means_;
 };
 
 Mean Slices::mean(const glm::ivec2& texel) {
-  const double now = raw_(texel).w;
+  const double now = filtered(texel).w;
   const glm::ivec2 pixel = texel * settings_.scale;
   if (!past_ || view_.depth(pixel) <= 0) return {.open = now};
   const glm::dvec3 place =
@@ -412,7 +414,7 @@ Texel Slices::upsampled(const glm::ivec2& pixel) {
     const double share =
         (corner.x != 0 ? part.x : 1 - part.x) * (corner.y != 0 ? part.y : 1 - part.y);
     const double weight = share * std::max(0.0, 1 - off) + 1e-4 / (1 + off * off * off);
-    sum += weight * (settings_.denoiseSize > 1 ? filtered(texel) : averaged(texel));
+    sum += weight * averaged(texel);
     weights += weight;
   }
   return weights > 0 ? sum / weights : kSky;

@@ -4,13 +4,15 @@
 // Variance-Guided Filtering"). The texel's position is reprojected into the previous frame. History
 // rejection leaves out texels of the bilinear footprint that lie off the tangent plane or have
 // another normal. The result is the mean of all frames that saw the surface, up to a limit. Beyond
-// the limit it is an exponential moving average.
+// the limit it is an exponential moving average. Within reach of surfaces that move, the history is
+// clamped to the frame.
 #extension GL_GOOGLE_include_directive : require
 #extension GL_EXT_control_flow_attributes : require
 #include "common/view.glsl"
 #include "plane.glsl"
 
-layout(constant_id = 0) const uint kScale = 1u;  // pixels per texel, each way
+layout(constant_id = 0) const uint kScale = 1u;       // pixels per texel, each way
+layout(constant_id = 1) const bool kMotion = false;  // the host has motion
 
 layout(local_size_x = 8, local_size_y = 8) in;
 // `then` is the previous frame, which may have another size and scale.
@@ -18,16 +20,22 @@ layout(UNIFORM(1), std140) uniform Settings {
   mat4 then_from_view;        // this frame's view space to the previous frame's
   vec4 then_view_from_pixel;  // of the previous frame, as in view.glsl
   vec4 then_pixel_from_view;
+  vec4 then_from_pixel;       // pixel of a frame of the previous size = pixel * .xy + .zw
   vec2 then_size;             // texels
   float then_scale;           // pixels per texel
   float most;                 // largest history length, frames; 0: no history
   float tolerance;            // inverse of the plane tolerance, 1 / view depth
+  float margin;               // largest difference of a history from this frame near movement
 } settings;
-layout(TEXTURE(0)) uniform sampler2D raw;  // visibility and view depth; nearest, clamped
+layout(TEXTURE(0)) uniform sampler2D denoised;  // visibility and view depth; nearest, clamped
 layout(TEXTURE(1)) uniform sampler2D world_normal;
 layout(TEXTURE(2)) uniform sampler2D history;
+layout(TEXTURE(3)) uniform sampler2D motion;  // with kMotion
+layout(TEXTURE(4)) uniform sampler2D reach;   // with kMotion; see spread.comp
 // Visibility; view depth; history length, frames; world normal in two times 12 bits.
 layout(IMAGE(0), rgba32f) writeonly uniform image2D target;
+
+const float kAfterChange = 2.0;  // largest history length after a change, frames
 
 // Octahedral encoding: Meyer et al. 2010, "On Floating-Point Normal Vectors".
 float encodeOctahedral(vec3 n) {
@@ -48,14 +56,41 @@ vec3 decodeOctahedral(float bits) {
   return normalize(n);
 }
 
-// Reprojects a surface. x: visibility in the previous frame; y: history length, frames. A length of
-// 0 is a disocclusion: the previous frame did not see the surface.
-vec2 reproject(vec3 position, vec3 normal, vec3 world) {
-  const vec3 then = (settings.then_from_view * vec4(position, 1.0)).xyz;
+// A surface in the previous frame.
+struct Before {
+  vec3 position;  // view space
+  vec2 pixel;
+  bool seen;
+};
+
+// A surface that rests, by the cameras alone: motion vectors are half floats.
+Before resting(vec3 position) {
+  Before before;
+  before.position = (settings.then_from_view * vec4(position, 1.0)).xyz;
+  before.pixel = before.position.xy * (settings.then_pixel_from_view.xy / -before.position.z) +
+                 settings.then_pixel_from_view.zw;
+  before.seen = before.position.z < -1e-6 * length(position);
+  return before;
+}
+
+Before moving(vec2 pixel, float depth, vec4 moved) {
+  Before before;
+  before.pixel =
+      (pixel + moved.xy) * settings.then_from_pixel.xy + settings.then_from_pixel.zw;
+  const vec2 ray =
+      before.pixel * settings.then_view_from_pixel.xy + settings.then_view_from_pixel.zw;
+  before.position = vec3(ray, -1.0) * (depth * (1.0 + moved.z));
+  before.seen = true;
+  return before;
+}
+
+// The history of a surface. x: visibility in the previous frame; y: history length, frames. A length
+// of 0 is a disocclusion: the previous frame did not see the surface.
+vec2 reproject(Before before, vec3 normal, vec3 world) {
+  const vec3 then = before.position;
+  const vec2 pixel = before.pixel;
   const vec3 facing = mat3(settings.then_from_view) * normal;
-  if (then.z >= -1e-6 * length(position)) return vec2(0.0);
-  const vec2 pixel =
-      then.xy * (settings.then_pixel_from_view.xy / -then.z) + settings.then_pixel_from_view.zw;
+  if (!before.seen) return vec2(0.0);
   const vec2 at = (pixel - 0.5) / settings.then_scale;
   if (any(lessThan(at, vec2(-0.5))) || any(greaterThan(at, settings.then_size - 0.5))) {
     return vec2(0.0);
@@ -82,16 +117,40 @@ vec2 reproject(vec3 position, vec3 normal, vec3 world) {
   return weights > 0.01 ? sum / weights : vec2(0.0);
 }
 
+// Whether a surface that moves may have changed the visibility of a pixel.
+bool mayChange(vec2 pixel) {
+  const vec2 tiles = vec2(textureSize(reach, 0));
+  const vec2 tile = floor((pixel + view.attachment.xy) / 16.0);
+  return textureLod(reach, (tile + 0.5) / tiles, 0.0).x > 0.0;
+}
+
+// The history of a pixel whose visibility may have changed: clamped to the frame's own visibility
+// (Karis 2014, "High Quality Temporal Supersampling"), and shortened if it was outside. The denoiser
+// has removed most of the frame's noise, which would otherwise be wider than a ghost.
+vec2 kept(vec2 old, float now) {
+  const float clamped = clamp(old.x, now - settings.margin, now + settings.margin);
+  return clamped == old.x ? old : vec2(clamped, min(old.y, kAfterChange));
+}
+
 void main() {
   const ivec2 texel = ivec2(gl_GlobalInvocationID.xy);
   const ivec2 size = imageSize(target);
   if (any(greaterThanEqual(texel, size))) return;
-  const vec2 now = textureLod(raw, (vec2(texel) + 0.5) / vec2(size), 0.0).xy;
+  const vec2 now = textureLod(denoised, (vec2(texel) + 0.5) / vec2(size), 0.0).xy;
   vec4 result = vec4(now, 1.0, 0.0);
   if (now.y > 0.0) {
     const vec2 pixel = vec2(texel) * float(kScale) + 0.5;
     const vec3 world = textureLod(world_normal, attachmentAt(pixel), 0.0).xyz;
-    const vec2 old = reproject(viewPosition(pixel, now.y), viewNormal(world), world);
+    Before before = resting(viewPosition(pixel, now.y));
+    bool may_change = false;
+    if (kMotion) {
+      const vec4 moved = textureLod(motion, attachmentAt(pixel), 0.0);
+      if (moved.w > 1.5) before = moving(pixel, now.y, moved);
+      before.seen = before.seen && moved.w > 0.5;
+      may_change = mayChange(pixel);
+    }
+    vec2 old = reproject(before, viewNormal(world), world);
+    if (may_change) old = kept(old, now.x);
     const float frames = min(old.y, settings.most);
     if (frames > 0.0) {  // else the history is uninitialised or rejected
       result.x = (old.x * frames + now.x) / (frames + 1.0);

@@ -6,7 +6,7 @@
 #include <cstring>
 
 #include "app/apply/channels.h"
-#include "app/apply/sequence.h"
+#include "app/options/sequence.h"
 #include "core/scene/camera_matrices.h"
 #include "tests/fuzz/fuzz.h"
 
@@ -24,6 +24,15 @@ void checkNames(const std::string& name, const std::string& frames) {
     const std::vector<int> numbers = app::parseFrames(frames);
     require(!numbers.empty() && numbers.front() >= 0);
     for (size_t i = 1; i < numbers.size(); ++i) require(numbers[i] > numbers[i - 1]);
+  });
+}
+
+// Only short sequences: the longest one takes a millisecond.
+void checkTimes(const std::string& text) {
+  accepted({ErrorId::kUsage}, [&] {
+    const std::vector<double> times = app::parseTimes(text);
+    require(!times.empty() && times.front() >= 0);
+    for (size_t i = 1; i < times.size(); ++i) require(times[i] >= times[i - 1]);
   });
 }
 
@@ -74,6 +83,7 @@ extern "C" int LLVMFuzzerTestOneInput(const uint8_t* data, size_t size) {
   const std::string wanted(fuzz::cut(rest, '\n'));
   const std::string_view channels = fuzz::cut(rest, '\n');
   fuzz::checkNames(name, frames);
+  fuzz::checkTimes(frames);
   fuzz::checkChannels(wanted, channels);
   fuzz::checkMatrices(rest);
   return 0;

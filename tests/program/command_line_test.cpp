@@ -40,9 +40,10 @@ TEST_F(CommandLine, HelpNamesEverySubcommandAndOption) {
     EXPECT_EQ(grisaille({command, "--help"}).status, 0);
   }
   const std::string render = grisaille({"render", "--help"}).out;
-  for (const char* option : {"--camera", "--size", "--backend", "--device", "--effects", "--set",
-                             "--config", "--write", "--frames", "--timings", "--plugin-path",
-                             "--check", "--surface", "--load", "--add", "--save", "--coverage"}) {
+  for (const char* option :
+       {"--camera", "--size",   "--backend",  "--device",      "--effects", "--set",     "--config",
+        "--write",  "--frames", "--timings",  "--plugin-path", "--check",   "--surface", "--load",
+        "--add",    "--save",   "--coverage", "--animation",   "--time",    "--times"}) {
     EXPECT_NE(render.find(option), std::string::npos) << option;
   }
   EXPECT_EQ(grisaille({"--version"}).out, "0.1.0\n");
@@ -169,7 +170,7 @@ TEST_F(CommandLine, CompletionIsAScriptThatCompletes) {
       "echo \"${COMPREPLY[@]}\"",
       folder_.path());
   EXPECT_EQ(outcome.out,
-            "ssao.kernel_size=\nrender\n--timings\n"
+            "ssao.kernel_size=\nrender\n--time --times --timings\n"
             "sspm=fast sspm=balanced sspm=fine sspm=reference\n"
             "fast balanced fine reference\nfast\n"
             "sspm=\nsspm=\npaint= paint_coverage= paint_owner=\n")
@@ -209,7 +210,7 @@ TEST_F(CommandLine, MissingLibraryOfOneBackendLeavesTheOther) {
 
 // The program loads the slow picture codecs only for commands that read or write picture files.
 // Tracing and drawing the built-in scene work without them.
-TEST_F(CommandLine, OnlyPicturesNeedTheirLibrary) {
+TEST_F(CommandLine, OnlyReadingPicturesNeedsItsLibrary) {
   const std::vector<std::string> without = {"LD_PRELOAD=" HIDE_LIBRARY, "HIDE_LIBRARY=codecs"};
   const auto run = [&](const std::vector<std::string>& arguments) {
     return runProgram(arguments, folder_.path(), without);
@@ -220,7 +221,9 @@ TEST_F(CommandLine, OnlyPicturesNeedTheirLibrary) {
   const Outcome tuned = run({"tune", "--max-error", "1", "--evaluations", "1", "--random", "0",
                              "--size", "16x16", "--samples", "16", "--out", "t.toml"});
   EXPECT_EQ(tuned.status, 0) << tuned.err;
-  expectError(run({"render", "--size", "8x8", "--write", "color=c.png"}), 4105);
+  const Outcome drawn = run({"render", "--size", "8x8", "--write", "depth=d.exr"});
+  EXPECT_EQ(drawn.status, 0) << drawn.err;
+  expectError(run({"apply", "--depth", "d.exr", "--write", "color=c.png"}), 4105);
 }
 
 }  // namespace

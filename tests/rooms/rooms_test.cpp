@@ -65,9 +65,10 @@ constexpr Room kRooms[] = {
      "backends/backends.h core/effect "
      "core/frame core/gpu core/image core/objects core/scene core/trace"},
     {"app/viewer",
-     "app/options/camera_option.h app/options/object_options.h app/process/child.h app/report "
-     "app/services app/settings app/truth backends/backends.h backends/glfw/window.h core/effect "
-     "core/frame core/gpu core/image core/objects core/scene grisaille shaders"},
+     "app/options/camera_option.h app/options/object_options.h app/options/pose_options.h "
+     "app/process/child.h app/report app/services app/settings app/truth backends/backends.h "
+     "backends/glfw/window.h core/effect core/frame core/gpu core/image core/objects core/scene "
+     "grisaille shaders"},
     {"lab",
      "app/options app/process/program.h app/report/machine.h app/settings app/truth "
      "backends/backends.h core/image lab/claims lab/paint lab/stability"},

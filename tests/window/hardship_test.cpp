@@ -113,9 +113,16 @@ TEST_P(HardshipTest, WhatIsHeldCountsForWhatWasTurned) {
 
 TEST_P(HardshipTest, NothingIsDrawnWhileNothingChanges) {
   DrivenViewer viewer(folder_, arguments());
-  const std::string drawn = viewer.value("drawn");
-  std::this_thread::sleep_for(std::chrono::seconds(2));
-  EXPECT_EQ(viewer.value("drawn"), drawn);
+  std::string drawn;
+  const auto draws = [&] {
+    drawn = viewer.value("drawn");
+    std::this_thread::sleep_for(std::chrono::seconds(2));
+    return viewer.value("drawn") != drawn;
+  };
+  // On a busy machine the window's own events still arrive after the first pictures.
+  bool still = false;
+  for (int i = 0; i < 5 && !still; ++i) still = !draws();
+  EXPECT_TRUE(still);
   viewer.send("mousemove_relative 3 3");
   viewer.untilChanged("drawn", drawn);
   expectQuits(viewer);

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: MIT
-#include "app/apply/sequence.h"
+#include "app/options/sequence.h"
 
 #include <gtest/gtest.h>
 
@@ -48,6 +48,33 @@ TEST(Frames, AreARangeWithAStep) {
   for (const char* text : {"", "a", "5-3", "1-", "-3", "1-9x0", "1-3-5", "0-999999999", "1.5"}) {
     EXPECT_ERROR(ErrorId::kUsage, parseFrames(text));
   }
+}
+
+TEST(Times, StepsMayBeFractionsAndMeetTheLast) {
+  using Times = std::vector<double>;
+  EXPECT_EQ(parseTimes("0:1:0.25"), (Times{0, 0.25, 0.5, 0.75, 1}));
+  EXPECT_EQ(parseTimes("0.5:0.5:1"), Times{0.5});
+  EXPECT_EQ(parseTimes("1/2:1:1/3"), (Times{0.5, 0.5 + 1.0 / 3}));
+  EXPECT_EQ(parseTimes("0:1e-1:2e-2").size(), 6u);
+  const Times film = parseTimes("0:4:1/24");
+  ASSERT_EQ(film.size(), 97u);
+  EXPECT_EQ(film[12], 0.5);
+  EXPECT_EQ(film.back(), 4);
+  // Rounding of a decimal step loses no frame, and none lies after the last time.
+  const Times third = parseTimes("0:1:0.3333333333");
+  ASSERT_EQ(third.size(), 4u);
+  EXPECT_EQ(third.back(), 1);
+  EXPECT_EQ(parseTimes("0:99999:1").size(), 100000u);
+}
+
+TEST(Times, OthersAreRefused) {
+  for (const std::string text :
+       {"", "0:1", "0:1:0", "1:0:0.1", "-1:1:0.1", "0:1:-0.1", "0:1:1/0", "0:1:1/2/3", "a:b:c",
+        "0:1:0.1:2", "0:inf:1", "0:nan:1", "0:1:nan", " 0:1:1", "0:100000:1", "0:1:1e-300",
+        "0:1:1e-9", "0:1e308/1e-308:1"}) {
+    EXPECT_ERROR(ErrorId::kUsage, parseTimes(text));
+  }
+  EXPECT_ERROR(ErrorId::kUsage, parseTimes(std::string(100000, ':')));
 }
 
 }  // namespace

@@ -10,6 +10,7 @@
 
 #include "app/truth/comparison.h"
 #include "app/truth/occlusion_truth.h"
+#include "tests/support/animated_gltf.h"
 #include "tests/support/folder_test.h"
 
 namespace grisaille::app::truth {
@@ -160,6 +161,29 @@ TEST_F(LiveTruthTest, TakesUpWhatWasKept) {
   for (size_t i = 0; i < last.values.size(); ++i) {
     const float a = last.values[i].mean, b = kept.visibility.pixels[i];
     EXPECT_TRUE(a == b || (std::isnan(a) && std::isnan(b))) << i;
+  }
+}
+
+// The owner poses the scene while the thread traces: each truth is that of its view's pose.
+TEST_F(LiveTruthTest, TracesThePoseOfItsView) {
+  const auto shown =
+      std::make_shared<scene::Scene>(scene::loadGltf(fileOf("a.glb", tests::animatedGlb())));
+  LiveView wanted = view({40, 30}, 32);
+  wanted.scene = shown;
+  wanted.camera = scene::defaultCamera(*shown, 4.0 / 3);
+  LiveTruth live;
+  Traced last;
+  for (const double seconds : {0.0, 1.0, 1.5}) {
+    wanted.pose = {.animation = 0, .seconds = seconds};
+    scene::pose(*shown, wanted.pose);
+    live.start(wanted);
+    scene::pose(*shown, {.animation = 1, .seconds = 0.6});
+    follow(live, [&](const Traced& traced) { last = traced; });
+    scene::Scene posed = *shown;
+    scene::pose(posed, wanted.pose);
+    LiveView expected = wanted;
+    expected.scene = std::make_shared<scene::Scene>(posed);
+    expectExact(last, expected);
   }
 }
 

@@ -5,6 +5,8 @@
 
 #include <set>
 
+#include "core/base/utf8.h"
+
 namespace grisaille {
 namespace {
 
@@ -52,6 +54,15 @@ TEST(OneLine, HasNoControlCharacterAndAnEnd) {
   for (char c = 1; c < ' '; ++c) EXPECT_EQ(oneLine(std::string(1, c)), "?") << int{c};
   EXPECT_LE(oneLine(std::string(100000, 'x')).size(), 410u);
   EXPECT_GE(oneLine(std::string(100000, 'x')).size(), 400u);
+}
+
+TEST(OneLine, IsUtf8WhateverAFileHolds) {
+  EXPECT_EQ(oneLine("\"POSITI\xe3N\""), "\"POSITI?N\"");
+  EXPECT_EQ(oneLine("\xff\xc3\xa9\x80"), "?\xc3\xa9?");
+  for (size_t ahead = 390; ahead < 401; ++ahead) {  // the cut meets each byte of a character
+    const std::string line = oneLine(std::string(ahead, 'x') + "\xf0\x9f\x8e\xa8 and more text");
+    EXPECT_EQ(invalidUtf8(line), std::string_view::npos) << ahead;
+  }
 }
 
 }  // namespace

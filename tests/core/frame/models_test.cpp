@@ -11,6 +11,7 @@
 #include "core/scene/rig.h"
 #include "core/trace/ray_tracer.h"
 #include "tests/support/devices.h"
+#include "tests/support/scene_files.h"
 #include "tests/support/scenes.h"
 
 namespace grisaille {
@@ -20,17 +21,31 @@ class ModelsTest : public tests::BackendTest {
  protected:
   static constexpr uint32_t kWidth = 160, kHeight = 90;
 
-  image::Image render(const scene::Scene& scene, const scene::Camera& camera,
-                      const std::string& output) {
-    frame::Renderer renderer(device(), scene);
+  static image::Image render(frame::Renderer& renderer, const scene::Camera& camera,
+                             const std::string& output) {
     const std::vector<std::string> outputs = {output};
     renderer.render({.camera = camera, .width = kWidth, .height = kHeight, .outputs = outputs});
     return renderer.read(output);
   }
 
+  image::Image render(const scene::Scene& scene, const scene::Camera& camera,
+                      const std::string& output) {
+    frame::Renderer renderer(device(), scene);
+    return render(renderer, camera, output);
+  }
+
+  static scene::Camera cameraOf(const scene::Scene& scene) {
+    return scene::defaultCamera(scene, double{kWidth} / kHeight);
+  }
+
   void expectDepthOfRays(const scene::Scene& scene) {
-    const scene::Camera camera = scene::defaultCamera(scene, double{kWidth} / kHeight);
-    const image::Image drawn = render(scene, camera, "depth");
+    frame::Renderer renderer(device(), scene);
+    expectDepthOfRays(scene, renderer, cameraOf(scene));
+  }
+
+  void expectDepthOfRays(const scene::Scene& scene, frame::Renderer& renderer,
+                         const scene::Camera& camera) {
+    const image::Image drawn = render(renderer, camera, "depth");
     const trace::RayTracer tracer(scene, camera.eye);
     const std::vector<trace::Hit> hits = tracer.castPrimary(camera, kWidth, kHeight);
     std::vector<double> errors;
@@ -60,26 +75,61 @@ class ModelsTest : public tests::BackendTest {
 };
 GRISAILLE_ON_EVERY_DEVICE(ModelsTest);
 
-TEST_P(ModelsTest, DepthOfSharedModelsIsThatOfRays) {
+TEST_P(ModelsTest, DepthOfSharedScenesIsThatOfRays) {
   size_t found = 0;
-  for (const char* name :
-       {"fox.glb", "bitmoji_walk.glb", "instancing.glb", "meshopt_box.glb",
-        "simple_skin/SimpleSkin.gltf", "skinned_cylinder/03_skinned_cylinder.gltf",
-        "simple_morph/SimpleMorph.gltf", "morph_stress/MorphStressTest.gltf",
-        "animation_pointer/24_animation_pointer.gltf", "lights/sphere_lights.gltf",
-        "unlit_ship/craft_speederD.gltf", "vertex_colours/VertexColorTest.gltf",
-        "draco_engine/2CylinderEngine.gltf", "optional_draco/BoxDraco.gltf"}) {
-    const std::string path = std::string(SHARED_MODELS) + "/" + name;
-    if (!std::filesystem::exists(path)) continue;
+  for (const std::string& path : tests::sceneFilesBelow({SHARED_MODELS, SHARED_SCENES})) {
+    // It has no mesh.
+    if (path.ends_with("/no_inverse_bind.glb")) continue;
     ++found;
-    SCOPED_TRACE(name);
+    SCOPED_TRACE(path);
     scene::Scene scene = scene::loadGltf(path);
     expectDepthOfRays(scene);
     if (!scene.rig || scene.rig->animations.empty()) continue;
     scene::pose(scene, {.animation = 0, .seconds = 0.4 * scene.rig->animations[0].duration});
     expectDepthOfRays(scene);
   }
+  if (found == 0) GTEST_SKIP() << "no scenes in " << SHARED_MODELS;
+}
+
+// One renderer follows scene::pose(): its picture is that of a renderer made after the pose.
+// Normals are drawn in the first and the last frame alone, so that poses pass between their
+// uploads.
+TEST_P(ModelsTest, RendererFollowsThePose) {
+  size_t found = 0;
+  for (const char* name : {"fox.glb", "bitmoji_walk.glb", "simple_skin/SimpleSkin.gltf",
+                           "simple_morph/SimpleMorph.gltf", "morph_stress/MorphStressTest.gltf",
+                           "animation_pointer/24_animation_pointer.gltf"}) {
+    const std::string path = std::string(SHARED_MODELS) + "/" + name;
+    if (!std::filesystem::exists(path)) continue;
+    ++found;
+    SCOPED_TRACE(name);
+    scene::Scene scene = scene::loadGltf(path);
+    const scene::Camera camera = cameraOf(scene);
+    frame::Renderer renderer(device(), scene);
+    render(renderer, camera, "normal");
+    for (size_t animation = 0; animation < scene.rig->animations.size(); ++animation) {
+      for (const double share : {0.3, 0.5, 0.8}) {
+        SCOPED_TRACE(share);
+        const double seconds = share * scene.rig->animations[animation].duration;
+        scene::pose(scene, {.animation = animation, .seconds = seconds});
+        expectDepthOfRays(scene, renderer, camera);
+      }
+    }
+    EXPECT_EQ(render(renderer, camera, "normal").pixels, render(scene, camera, "normal").pixels);
+    EXPECT_EQ(render(renderer, camera, "depth").pixels, render(scene, camera, "depth").pixels);
+  }
   if (found == 0) GTEST_SKIP() << "missing: " << SHARED_MODELS;
+}
+
+// Texture coordinates that are equal everywhere have gradients of 0, which some filters divide by.
+TEST_P(ModelsTest, ABaseColourNeedsNoTexture) {
+  scene::Scene scene = tests::wallScene(4, 4);
+  scene.materials[0].baseColor = {0.5f, 0.25f, 1, 1};
+  std::ranges::fill(scene.texCoords, glm::vec2(0));
+  const image::Image drawn = render(scene, {.eye = {0, 0, 6}, .target = {0, 0, 0}}, "base_colour");
+  for (uint32_t c = 0; c < 3; ++c) {
+    EXPECT_NEAR(drawn.at(kWidth / 2, kHeight / 2, c), scene.materials[0].baseColor[c], 0.01);
+  }
 }
 
 TEST_P(ModelsTest, VertexColoursMultiplyTheBaseColour) {

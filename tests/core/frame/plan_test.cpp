@@ -168,7 +168,8 @@ TEST_F(PlanTest, HistoryOpenDirectionsAndTintCostNothingUnlessAskedFor) {
   EXPECT_EQ(passes({"bent_normal"}), visibility);
   EXPECT_EQ(passes({"tint"}), tinted);
   values_->set("history", "8");
-  EXPECT_EQ(passes({"ao"}), (Labels{"ssao/occlusion", "ssao/accumulate", "ssao/denoise columns"}));
+  EXPECT_EQ(passes({"ao"}), (Labels{"scene/motion", "ssao/occlusion", "ssao/movement",
+                                    "ssao/accumulate", "ssao/finish"}));
   values_->set("history", "1");
   EXPECT_EQ(passes({"ao"}), visibility);
 
@@ -247,6 +248,23 @@ TEST_F(PlanTest, BackFacesAreDrawnWhenAskedForAlone) {
   ASSERT_EQ(recording.renders.size(), 2u);
   EXPECT_EQ(recording.renders[0].targets, (Labels{"clip depth"}));
   EXPECT_EQ(recording.renders[1].targets, (Labels{"back"}));
+}
+
+// A scene that rests takes one triangle for its motion; only instances that moved are drawn again.
+TEST_F(PlanTest, MotionIsDrawnWhenAskedForAlone) {
+  EXPECT_EQ(record({"depth", "ao"}, true).renders.size(), 1u);
+  record({"motion"}, false);
+  const Recording resting = record({"motion"}, false);
+  EXPECT_EQ(resting.passes, (Labels{"scene/geometry", "scene/motion"}));
+  ASSERT_EQ(resting.renders.size(), 2u);
+  EXPECT_EQ(resting.renders[1].draws, 1u);
+  scene_.instances.back().worldFromObject[3].x += 0.1;
+  ++scene_.poses;
+  const Recording moving = record({"motion"}, false);
+  ASSERT_EQ(moving.renders.size(), 3u);
+  EXPECT_EQ(moving.renders[2].targets, Labels{"motion"});
+  EXPECT_EQ(moving.renders[2].draws, 1u);
+  EXPECT_EQ(record({"motion"}, false).renders.size(), 2u);
 }
 
 TEST_F(PlanTest, ObjectsReachTheEffectsAndWhatWaitsComesBack) {

@@ -5,12 +5,12 @@
 
 #include <algorithm>
 #include <cmath>
-#include <filesystem>
 #include <random>
 #include <string>
 
 #include "core/base/error.h"
 #include "core/scene/depth_sketch.h"
+#include "tests/support/scene_files.h"
 
 namespace grisaille::scene {
 namespace {
@@ -177,25 +177,20 @@ TEST(Framing, ASceneWithoutExtentHasAValidCamera) {
   EXPECT_NO_THROW(validate(framingCamera(Scene{}, 1)));
 }
 
-TEST(Framing, SharedModelsCoverAThirdOfThePicture) {
-  namespace fs = std::filesystem;
+TEST(Framing, FilesCoverAThirdOfThePicture) {
   std::vector<double> covered;
-  for (const char* folder : {"models", "scenes"}) {
-    std::error_code missing;
-    for (const auto& entry : fs::recursive_directory_iterator(fs::path(SHARED) / folder, missing)) {
-      const std::string ending = entry.path().extension();
-      if (ending != ".glb" && ending != ".gltf") continue;
-      try {
-        const Scene scene = loadGltf(entry.path());
-        covered.push_back(coveredBy(scene, framingCamera(scene, 16.0 / 9), 16.0 / 9));
-        // Thin shapes cover little, whatever the direction.
-        EXPECT_GT(covered.back(), 0.1) << entry.path();
-      } catch (const Error& error) {
-        EXPECT_EQ(error.id(), ErrorId::kSceneEmpty) << error.what();
-      }
+  for (const std::string& file :
+       tests::sceneFilesBelow({SHARED "/models", SHARED "/scenes", STUDIES "/scenes"})) {
+    try {
+      const Scene scene = loadGltf(file);
+      covered.push_back(coveredBy(scene, framingCamera(scene, 16.0 / 9), 16.0 / 9));
+      // Thin shapes cover little, whatever the direction.
+      EXPECT_GT(covered.back(), 0.1) << file;
+    } catch (const Error& error) {
+      EXPECT_EQ(error.id(), ErrorId::kSceneEmpty) << error.what();
     }
   }
-  if (covered.empty()) GTEST_SKIP() << "no models in " << SHARED;
+  ASSERT_FALSE(covered.empty());
   std::ranges::sort(covered);
   EXPECT_GE(covered[covered.size() / 2], 0.35);
 }

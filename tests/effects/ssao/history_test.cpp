@@ -4,6 +4,7 @@
 
 #include "tests/effects/ssao/render_ao.h"
 #include "tests/support/devices.h"
+#include "tests/support/moving_scenes.h"
 #include "tests/support/scenes.h"
 
 namespace grisaille {
@@ -98,6 +99,85 @@ TEST_P(HistoryTest, WhatWasCoveredLeavesNoGhost) {
   for (int i = 0; i <= 20; ++i) last = moving.show(at(i), kWidth, kHeight);
   const image::Image alone = tests::renderAo(device(), scene, at(20), {}, kWidth, kHeight);
   EXPECT_LT(image::compare(last, alone).largest, 0.02);
+}
+
+const scene::Camera kBesideTheBox = {.eye = glm::dvec3(0.6, 1.3, 2.6),
+                                     .target = glm::dvec3(0.2, 0.2, 0.3)};
+
+// A box that slides by 6 cm a frame. The floor and the wall beside it rest, but their visibility
+// changes.
+TEST_P(HistoryTest, AMovingBoxLeavesNoGhost) {
+  for (const char* resolution : {"full", "half"}) {
+    for (const char* guard : {"0", "0.1"}) {
+      const Settings alone = {{"resolution", resolution}, {"guard_band", guard}};
+      Settings averaged = alone;
+      averaged.emplace_back("history", "32");
+      scene::Scene scene = tests::boxOnFloor(-1.2);
+      AoFrames frames(device(), scene, averaged);
+      image::Image last;
+      for (int i = 0; i <= 24; ++i) {
+        tests::moveBox(scene, -1.2 + 0.06 * i);
+        last = frames.show(kBesideTheBox, kWidth, kHeight);
+      }
+      const image::Image now =
+          tests::renderAo(device(), scene, kBesideTheBox, alone, kWidth, kHeight);
+      EXPECT_LT(image::compare(last, now).rmse, 0.02) << resolution << " " << guard;
+    }
+  }
+}
+
+// The history of a moving surface goes with it: on the face of a box that comes nearer, noise falls
+// as it does at rest.
+TEST_P(HistoryTest, AMovingSurfaceKeepsItsHistory) {
+  const scene::Camera camera = {.eye = glm::dvec3(3, 0.5, 0.7),
+                                .target = glm::dvec3(0.3, 0.3, 0.5)};
+  scene::Scene scene = tests::boxOnFloor(-0.6);
+  AoFrames frames(device(), scene, kNoisy);
+  image::Image last, motion;
+  for (int i = 0; i < 16; ++i) {
+    tests::moveBox(scene, -0.6 + 0.06 * i);
+    std::vector<image::Image> images = frames.showAll(camera, kWidth, kHeight, {"ao", "motion"});
+    last = std::move(images[0]);
+    motion = std::move(images[1]);
+  }
+  const auto onBox = [&](const scene::Scene& from, const image::Image& ao) {
+    const image::Image reference = tests::renderAo(
+        device(), from, camera, {{"denoise_size", "0"}, {"resolution", "full"}, {"slices", "32"}},
+        kWidth, kHeight);
+    double sum = 0;
+    int count = 0;
+    for (uint32_t y = 0; y < kHeight; ++y) {
+      for (uint32_t x = 0; x < kWidth; ++x) {
+        if (motion.at(x, y, 3) != 2) continue;
+        const double error = double{ao.at(x, y)} - reference.at(x, y);
+        sum += error * error;
+        ++count;
+      }
+    }
+    EXPECT_GT(count, 200);
+    return std::sqrt(sum / count);
+  };
+  const image::Image alone = tests::renderAo(device(), scene, camera, kNoisy, kWidth, kHeight);
+  EXPECT_LT(onBox(scene, last), 0.5 * onBox(scene, alone));
+}
+
+// The visibility of surfaces that no movement reaches is that of a scene at rest, to the last bit.
+TEST_P(HistoryTest, MovementChangesOnlyWhatItReaches) {
+  const auto leftmost = [&](double step) {
+    scene::Scene scene = tests::boxOnFloor(0.9);
+    AoFrames frames(device(), scene, {{"history", "8"}, {"radius", "0.2"}});
+    image::Image last;
+    for (int i = 0; i < 6; ++i) {
+      tests::moveBox(scene, 0.9 + step * i);
+      last = frames.show(kBesideTheBox, kWidth, kHeight);
+    }
+    std::vector<float> values;
+    for (uint32_t y = 0; y < kHeight; ++y) {
+      for (uint32_t x = 0; x < kWidth / 4; ++x) values.push_back(last.at(x, y));
+    }
+    return values;
+  };
+  EXPECT_EQ(leftmost(0.01), leftmost(0));
 }
 
 TEST_P(HistoryTest, ANewSizeOrResolutionDoesNotFlash) {

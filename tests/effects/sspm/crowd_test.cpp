@@ -68,14 +68,14 @@ TEST_P(CrowdTest, HidingChangesNothing) {
   }
 }
 
-// A million shots at 200 places, then one more: each pixel shows the newest shot that reaches it.
+// A million shots at 140 places, then one more: each pixel shows the newest shot that reaches it.
 TEST_P(CrowdTest, TheNewestWinsOfAMillion) {
   const scene::Scene scene = wallScene();
   TracedRays rays(scene);
   std::mt19937 random(5);
   std::uniform_real_distribution<double> unit(0, 1);
   std::vector<std::pair<glm::dvec3, glm::dvec3>> places;
-  for (int i = 0; i < 200; ++i) {
+  for (int i = 0; i < 140; ++i) {
     places.emplace_back(glm::dvec3(3 * unit(random) - 1.5, 2 * unit(random) - 1, 2),
                         glm::dvec3(3 * unit(random) - 1.5, 2 * unit(random) - 1, 0));
   }

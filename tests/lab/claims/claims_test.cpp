@@ -147,6 +147,33 @@ expect = ["averaged.flicker < alone.flicker"]
   EXPECT_NE(alone, readFile(folder + "walk-averaged.png"));
 }
 
+// An animation runs through the frames of a run; a run that is still shows its end alone. Their
+// pictures stand in one row, beside one truth.
+TEST_F(ClaimsTest, AnAnimationRunsThroughTheFrames) {
+  const std::string scene = std::string(SOURCE_FOLDER) + "/studies/scenes/sliding_box.gltf";
+  const std::string file = folder_.write("slide.toml", R"([[claim]]
+key = "slide"
+text = "A box that slides leaves no ghost."
+source = "A test."
+scene = ")" + scene + R"("
+camera = {eye = [1.0, 1.3, 2.4], target = [0.6, 0.2, -0.2], fovy_degrees = 60}
+seconds = [0.4, 0.8]
+frames = 17
+size = [96, 54]
+runs = [{name = "alone"}, {name = "averaged", set = ["ssao.history=16"]}, {name = "end", still = true}]
+expect = ["averaged.last_rmse@beside < 1.3 * alone.last_rmse@beside", "end.last_rmse > 0"]
+)");
+  const Outcome outcome =
+      claims({file, "--samples", "32", "--rounds", "1", "--backend", "opengl", "--out", "out"});
+  ASSERT_EQ(outcome.status, 0) << outcome.err;
+  const json report = json::parse(readFile(folder_ / "out/claims.json"));
+  const json& claim = report["backends"][0]["claims"][0];
+  EXPECT_EQ(claim["verdict"], "holds") << claim;
+  // Without a history, the last frame of the movement is the frame at rest.
+  EXPECT_EQ(claim["values"]["alone"]["last_rmse"], claim["values"]["end"]["last_rmse"]);
+  EXPECT_NE(claim["values"]["alone"]["last_rmse"], claim["values"]["averaged"]["last_rmse"]);
+}
+
 TEST_F(ClaimsTest, MistakesAreOneLine) {
   const auto refused = [&](const std::vector<std::string>& arguments, const std::string& number) {
     const Outcome outcome = claims(arguments);

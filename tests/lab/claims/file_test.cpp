@@ -103,6 +103,16 @@ TEST_F(ClaimsFileTest, APathAndShots) {
   EXPECT_EQ(claim.shots[0].direction[2], -1);
 }
 
+TEST_F(ClaimsFileTest, AnAnimationAndItsEnd) {
+  std::string text = with("set =", "frames = 5\nseconds = [0, 2]\nanimation = 3\nset =");
+  text.replace(text.find("\"b\"},\n]"), 4, "\"b\", still = true}");
+  const Claim claim = load(text).claims[0];
+  EXPECT_EQ(claim.animation, 3u);
+  EXPECT_EQ(claim.runs[0].cameras.size(), 5u);
+  EXPECT_EQ(claim.runs[0].seconds, (std::vector<double>{0, 0.5, 1, 1.5, 2}));
+  EXPECT_EQ(claim.runs[1].seconds, std::vector<double>(5, 2));
+}
+
 TEST_F(ClaimsFileTest, MistakesAreNamedWithTheirPlace) {
   const ErrorId bad = ErrorId::kSettingsInvalid;
   refused("[[claim]\n", ErrorId::kSettingsUnreadable, "1", "");
@@ -121,6 +131,11 @@ TEST_F(ClaimsFileTest, MistakesAreNamedWithTheirPlace) {
   refused(with("set =", "output = \"ssao.none\"\nset ="), ErrorId::kOutputUnknown, "9", "none");
   refused(with("set =", "size = [8, 270]\nset ="), bad, "6", "size");
   refused(with("set =", "radius = -1\nset ="), bad, "6", "radius");
+  refused(with("set =", "seconds = [0, 1]\nset ="), bad, "5", "frames");
+  refused(with("set =", "animation = 1\nset ="), bad, "6", "seconds");
+  refused(with("name = \"b\"", "name = \"b\", still = true"), bad, "9", "still");
+  refused(with("name = \"b\"", "name = \"b\", still = 1"), bad, "9", "true or false");
+  refused(with("a.mean@flat", "a.last_rmse"), bad, "13", "path");
   refused(with("against = \"b\"", "against = \"c\""), bad, "7", "'c'");
   refused(with("name = \"b\"", "name = \"a\""), bad, "9", "two runs");
   refused(with("name = \"b\"", "name = \"b\", shots = 4"), bad, "9", "no shots");

@@ -91,6 +91,21 @@ TEST(Regions, ConvexIsAboutTheEdgeThatFallsAway) {
   EXPECT_EQ(columnsOf("convex+flat", boxFrame(-45)).count, 0u);
 }
 
+// The wall is 1.5 m behind the face. Only within a larger radius is it beside the face.
+TEST(Regions, BesideIsWhatRestsNearWhatMoves) {
+  const trace::FlickerFrame frame = boxFrame(0);
+  const auto count = [&](double radius, std::vector<uint8_t> moved) {
+    const auto mask = regionOf("beside", frame, {.radius = radius, .moved = moved});
+    EXPECT_EQ(mask[kSide / 2 * kSide + kSide / 2], 0) << "the face itself";
+    return std::ranges::count(mask, 1);
+  };
+  EXPECT_EQ(count(2, {}), 0);
+  EXPECT_EQ(count(2, {0, 0, 0}), 0);
+  EXPECT_EQ(count(1.4, {0, 1, 0}), 0);
+  EXPECT_GT(count(1.8, {0, 1, 0}), 100);
+  EXPECT_GT(count(2.5, {0, 1, 0}), count(1.8, {0, 1, 0}));
+}
+
 TEST(Regions, TheSkyIsInNone) {
   trace::FlickerFrame frame = boxFrame(0);
   for (trace::Hit& hit : frame.hits) hit.viewDepth = 0;

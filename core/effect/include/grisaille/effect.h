@@ -141,7 +141,19 @@ typedef enum grisaille_attachment {
    * or is two-sided. The visible body ends there. 0 where no such surface exists, and for the sky.
    */
   GRISAILLE_BACK_DEPTH = 5,
-  GRISAILLE_ATTACHMENT_COUNT = 6 /**< number of attachments */
+  /**
+   * rgba16f: the motion of the visible surface since the previous frame, of camera and object.
+   * - xy: the surface's place in the previous frame minus its place now, pixels of this frame's
+   *   size, x to the right, y down.
+   * - z: (its view depth then - its view depth now) / its view depth now.
+   * - w: 2 where the surface moves in the world, 1 where it rests; 0 in the sky and where the
+   * motion is unknown, and xyz are 0 too. It is unknown in the first frame, where the surface lay
+   * behind the camera, and everywhere if something moved while an effect that reads it did not run.
+   *
+   * A host without motion leaves the texture's id at 0, although the effect reads it.
+   */
+  GRISAILLE_MOTION = 6,
+  GRISAILLE_ATTACHMENT_COUNT = 7 /**< number of attachments */
 } grisaille_attachment;
 
 /** The bit for a grisaille_attachment in the result of grisaille_effect_desc::reads. */
@@ -560,7 +572,8 @@ typedef struct grisaille_frame {
   const double* values; /**< one per parameter, in the table's order, inside its hard range */
   const grisaille_view* view;           /**< the camera */
   grisaille_range view_block;           /**< uniform buffer for shaders/common/view.glsl */
-  const grisaille_texture* attachments; /**< by grisaille_attachment; id 0: not named by reads() */
+  const grisaille_texture* attachments; /**< by grisaille_attachment; id 0: not named by reads(), or
+                                           motion that the host lacks */
   const grisaille_texture* outputs;     /**< one per output, in the table's order */
 
   /**

@@ -200,7 +200,8 @@ class Frame {
 
   /// Returns an attachment.
   /// @param attachment the attachment
-  /// @return the texture; id 0 unless reads() returned the attachment for these values
+  /// @return the texture; id 0 unless reads() returned the attachment for these values, and for
+  ///   motion that the host lacks
   grisaille_texture attachment(grisaille_attachment attachment) const {
     return frame_->attachments[attachment];
   }

@@ -1,8 +1,9 @@
 // SPDX-License-Identifier: MIT
-#include "app/apply/sequence.h"
+#include "app/options/sequence.h"
 
 #include <algorithm>
 #include <charconv>
+#include <cmath>
 #include <filesystem>
 #include <regex>
 
@@ -21,7 +22,7 @@ bool isDigit(char c) {
 }
 
 // The frame number of `digits`; none if FileName::at() would not write these digits.
-std::optional<int> numberIn(std::string_view digits, size_t width) {
+std::optional<int> frameIn(std::string_view digits, size_t width) {
   if (digits.size() < width || digits.size() > kMostDigits || digits.empty() ||
       !std::ranges::all_of(digits, isDigit)) {
     return std::nullopt;
@@ -30,6 +31,32 @@ std::optional<int> numberIn(std::string_view digits, size_t width) {
   int number = 0;
   std::from_chars(digits.data(), digits.data() + digits.size(), number);
   return number;
+}
+
+struct Fraction {
+  double above = 0, below = 1;
+  double value() const { return above / below; }
+};
+
+// A number of 0 or more; none for other texts.
+std::optional<double> numberIn(std::string_view text) {
+  double number = 0;
+  const auto [end, failed] = std::from_chars(text.data(), text.data() + text.size(), number);
+  const bool whole = failed == std::errc() && end == text.data() + text.size();
+  return whole && number >= 0 && std::isfinite(number) ? std::optional(number) : std::nullopt;
+}
+
+// "4", "0.25" or "1/24".
+std::optional<Fraction> fractionIn(std::string_view text) {
+  const size_t slash = text.find('/');
+  const auto above = numberIn(text.substr(0, slash));
+  const auto below = slash == std::string_view::npos ? 1 : numberIn(text.substr(slash + 1));
+  if (!above || !below || *below == 0) return std::nullopt;
+  return Fraction{*above, *below};
+}
+
+std::string shortened(const std::string& text) {
+  return text.size() > 60 ? text.substr(0, 60) + "..." : text;
 }
 
 }  // namespace
@@ -76,7 +103,7 @@ std::vector<int> FileName::numbers() const {
         !name.ends_with(after_)) {
       continue;
     }
-    const auto number = numberIn(
+    const auto number = frameIn(
         std::string_view(name).substr(before.size(), name.size() - before.size() - after_.size()),
         width_);
     if (number) found.push_back(*number);
@@ -102,6 +129,39 @@ std::vector<int> parseFrames(const std::string& text) {
   std::vector<int> frames;
   for (int number = first; number <= last; number += step) frames.push_back(number);
   return frames;
+}
+
+std::vector<double> parseTimes(const std::string& text) {
+  const size_t one = text.find(':'), two = text.find(':', one == std::string::npos ? one : one + 1);
+  std::optional<Fraction> first, last, step;
+  if (two != std::string::npos) {
+    first = fractionIn(text.substr(0, one));
+    last = fractionIn(text.substr(one + 1, two - one - 1));
+    step = fractionIn(text.substr(two + 1));
+  }
+  if (!first || !last || !step) {
+    throw Error(ErrorId::kUsage,
+                "'{}' is not of the form FIRST:LAST:STEP, in seconds; a step may be a fraction, as "
+                "in 0:4:1/24",
+                shortened(text));
+  }
+  if (!(step->value() > 0 && last->value() >= first->value())) {
+    throw Error(ErrorId::kUsage, "'{}' needs a step over 0, and a last time not before the first",
+                shortened(text));
+  }
+  constexpr double kRounding = 1e-6;  // of a step
+  constexpr double kMost = 100000;
+  const double steps = std::floor((last->value() - first->value()) / step->value() + kRounding);
+  if (!(steps < kMost)) {
+    throw Error(ErrorId::kUsage, "'{}' has more than {} frames", shortened(text), kMost);
+  }
+  std::vector<double> times;
+  for (double i = 0; i <= steps; ++i) {
+    const double time = first->value() + i * step->above / step->below;
+    const bool ends = std::abs(time - last->value()) <= kRounding * step->value();
+    times.push_back(ends ? last->value() : time);
+  }
+  return times;
 }
 
 }  // namespace grisaille::app

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: MIT
-// File names of a numbered sequence: "depth.%04d.exr" or "depth.####.exr".
+// Numbered sequences: their file names, "depth.%04d.exr" or "depth.####.exr", and their frames.
 #pragma once
 
 #include <optional>
@@ -28,7 +28,18 @@ class FileName {
   size_t width_ = 0;            // smallest number of digits; 0: not numbered
 };
 
+// An output and its file or files.
+struct OutputFiles {
+  std::string output;
+  FileName file;
+};
+
 // Parses "7", "1-100" or "1-100x2" into ascending frame numbers. Throws kUsage.
 std::vector<int> parseFrames(const std::string& text);
+
+// Parses "FIRST:LAST:STEP" into ascending times, in seconds, of which the last is LAST if a step
+// meets it up to rounding. Each part is a number of 0 or more, or a fraction such as 1/24; the step
+// is over 0. Throws kUsage, also for more than 100,000 times.
+std::vector<double> parseTimes(const std::string& text);
 
 }  // namespace grisaille::app

@@ -1,0 +1,19 @@
+#version 460
+// SPDX-License-Identifier: MIT
+#extension GL_GOOGLE_include_directive : require
+#include "motion_draw.glsl"
+
+layout(location = 0) in vec3 position;
+layout(location = 1) in vec3 then_position;
+// Both from interpolated positions, so that a vertex that the rasteriser snaps moves both alike.
+layout(location = 0) out vec3 now;   // clip x, y, w
+layout(location = 1) out vec3 then;
+
+// Same position as in geometry.vert, so that the fragments have equal depth.
+invariant gl_Position;
+
+void main() {
+  gl_Position = draw.clip_from_object * vec4(position, 1.0);
+  now = gl_Position.xyw;
+  then = (draw.then_clip_from_object * vec4(then_position, 1.0)).xyw;
+}
