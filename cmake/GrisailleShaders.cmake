@@ -38,7 +38,7 @@ function(grisaille_add_shader target name source)
     COMMENT "Compiling shader ${name}"
     VERBATIM)
   # Each of these files defines `spirv`, `glsl` and other static names: a unity build would clash.
-  set_source_files_properties(${stem}.c PROPERTIES SKIP_UNITY_BUILD_INCLUSION ON)
+  set_source_files_properties(${stem}.c PROPERTIES SKIP_UNITY_BUILD_INCLUSION ON SKIP_PRECOMPILE_HEADERS ON)
   target_sources(${target} PRIVATE ${stem}.c ${stem}.h)
   set_property(GLOBAL APPEND PROPERTY GRISAILLE_GENERATED ${stem}.h)
   target_include_directories(${target} PRIVATE ${folder})

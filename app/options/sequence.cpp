@@ -156,7 +156,7 @@ std::vector<double> parseTimes(const std::string& text) {
     throw Error(ErrorId::kUsage, "'{}' has more than {} frames", shortened(text), kMost);
   }
   std::vector<double> times;
-  for (double i = 0; i <= steps; ++i) {
+  for (int i = 0; i <= static_cast<int>(steps); ++i) {
     const double time = first->value() + i * step->above / step->below;
     const bool ends = std::abs(time - last->value()) <= kRounding * step->value();
     times.push_back(ends ? last->value() : time);

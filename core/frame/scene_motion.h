@@ -16,6 +16,13 @@
 
 namespace grisaille::frame {
 
+// A scene as it was in the previous frame.
+struct FormerScene {
+  uint64_t poses = 0;
+  std::vector<glm::dmat4> transforms;  // of its instances
+  std::vector<glm::vec3> deformed;     // positions of the rig's runs, one after the other
+};
+
 class SceneMotion {
  public:
   // All arguments must outlive this.
@@ -39,13 +46,6 @@ class SceneMotion {
               std::string_view passes);
 
  private:
-  // The scene in the previous frame.
-  struct Then {
-    uint64_t poses = 0;
-    std::vector<glm::dmat4> transforms;  // of its instances
-    std::vector<glm::vec3> deformed;     // positions of the rig's runs, one after the other
-  };
-
   void recordCamera(gpu::Commands& commands, const scene::Camera& camera, glm::uvec2 size,
                     gpu::BufferRange viewBlock, gpu::Texture depth, const MotionTarget& to);
   void recordMoved(gpu::Commands& commands, const scene::Camera& camera, glm::uvec2 size,
@@ -56,7 +56,7 @@ class SceneMotion {
   gpu::Device& device_;
   const scene::Scene& scene_;
   SceneResources& resources_;
-  std::optional<Then> then_;
+  std::optional<FormerScene> then_;
   gpu::GraphicsPipeline camera_, moved_;
   gpu::Sampler nearest_;
   gpu::Buffer thenPositions_;  // as long as the scene's, but only deformed runs are written

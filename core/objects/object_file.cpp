@@ -292,7 +292,7 @@ std::string listKeyOf(const std::string& path) {
     const size_t colon =
         end == std::string::npos ? end : head.find_first_not_of(" \t\n\r", end + 1);
     if (colon == std::string::npos || head[colon] != ':') return "";
-    const std::string key = head.substr(at + 1, end - at - 1);
+    std::string key = head.substr(at + 1, end - at - 1);
     if (key != "version") return key;
     at = end;
   }

@@ -23,7 +23,8 @@ struct DirectionRing {
   double weight;
 };
 constexpr DirectionRing kRings[] = {{12, 1}, {24, 1}, {36, 0.9}, {50, 0.7}};
-constexpr double kAzimuthStep = 30, kFront = 30;  // degrees
+constexpr int kAzimuthStep = 30;  // degrees
+constexpr double kFront = 30;     // degrees
 constexpr double kFrontWeight = 0.15;
 
 // A scene is an interior if a view from within its bounds shows hardly any sky, this many faces,
@@ -166,7 +167,7 @@ class Views {
     View best;
     if (samples_.empty()) return best;
     for (const DirectionRing& ring : kRings) {
-      for (double azimuth = -180; azimuth < 180; azimuth += kAzimuthStep) {
+      for (int azimuth = -180; azimuth < 180; azimuth += kAzimuthStep) {
         const double front = 1 + kFrontWeight * std::cos(glm::radians(azimuth - kFront));
         const glm::dvec3 direction = directionOf(azimuth, ring.elevation);
         Extent extent(direction, slopeOf(aspect_));

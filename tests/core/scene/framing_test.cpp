@@ -179,8 +179,8 @@ TEST(Framing, ASceneWithoutExtentHasAValidCamera) {
 
 TEST(Framing, FilesCoverAThirdOfThePicture) {
   std::vector<double> covered;
-  for (const std::string& file :
-       tests::sceneFilesBelow({SHARED "/models", SHARED "/scenes", STUDIES "/scenes"})) {
+  for (const std::string& file : tests::sceneFilesBelow(
+           {SHARED_FOLDER "/models", SHARED_FOLDER "/scenes", STUDIES "/scenes"})) {
     try {
       const Scene scene = loadGltf(file);
       covered.push_back(coveredBy(scene, framingCamera(scene, 16.0 / 9), 16.0 / 9));

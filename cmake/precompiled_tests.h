@@ -1,0 +1,5 @@
+// SPDX-License-Identifier: MIT
+// As precompiled.h, for the tests.
+#include <gtest/gtest.h>
+
+#include "cmake/precompiled.h"
