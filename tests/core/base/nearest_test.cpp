@@ -31,7 +31,7 @@ TEST(Nearest, FindsWhatWasMeantAndNothingElse) {
 // A key from a file may be as long as the file. Comparing lengths alone must reject it.
 TEST(Nearest, LongWordsTakeNoTime) {
   const std::vector<std::string> keys = {"radius", std::string(1000, 'r')};
-  EXPECT_EQ(nearest(std::string(100'000'000, 'r'), keys), "");
+  EXPECT_EQ(nearest(std::string(8'000'000, 'r'), keys), "");
 }
 
 }  // namespace

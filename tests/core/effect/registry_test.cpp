@@ -254,9 +254,9 @@ TEST_F(RegistryTest, LoadingAndUnloadingAThousandTimesLeaksNothing) {
     ASSERT_EQ(registry.effects().size(), 2u);
     ASSERT_TRUE(isLoaded(kPlugins / "sound" / "copy.so"));
   };
-  // The loader grows tables that it never shrinks, at loads that depend on the length of the plugins'
-  // paths. A leak grows in each of the rounds: by 16 bytes or more in each load, malloc's smallest
-  // step.
+  // The loader grows tables that it never shrinks, at loads that depend on the length of the
+  // plugins' paths. A leak grows in each of the rounds: by 16 bytes or more in each load, malloc's
+  // smallest step.
   constexpr size_t kLoads = 250;
   for (size_t i = 0; i < kLoads; ++i) load();
   const Holdings before;
