@@ -67,7 +67,7 @@ grisaille_module(TOMLPLUSPLUS tomlplusplus libtomlplusplus-dev "settings files")
 # OpenImageIO's CMake config names a folder that Debian lacks; its pkg-config file is correct.
 grisaille_module(OPENIMAGEIO OpenImageIO libopenimageio-dev "reading pictures")
 grisaille_module(OPENEXR OpenEXR libopenexr-dev "writing pictures")
-grisaille_module(PNG libpng libpng-dev "writing pictures")
+grisaille_module(PNG libpng libpng-dev "reading and writing PNGs")
 grisaille_module(SPIRV_CROSS spirv-cross-c-shared libspirv-cross-c-shared-dev "compiling shaders")
 find_program(GRISAILLE_GLSLC glslc)
 grisaille_found(GRISAILLE_GLSLC glslc glslc "compiling shaders")

@@ -82,19 +82,6 @@ OIIO::ImageSpec readConfig() {
   return config;
 }
 
-// Whether all chunks up to IEND lie inside the bytes. OpenImageIO leaks memory if they do not.
-bool isWholePng(std::span<const std::byte> bytes) {
-  constexpr size_t kSignature = 8, kFrame = 12;  // bytes of a chunk's length, type and checksum
-  for (size_t at = kSignature; bytes.size() - at >= kFrame;) {
-    size_t length = 0;
-    for (size_t i = 0; i < 4; ++i) length = length << 8 | std::to_integer<size_t>(bytes[at + i]);
-    if (length > bytes.size() - at - kFrame) return false;
-    if (std::memcmp(&bytes[at + 4], "IEND", 4) == 0) return true;
-    at += kFrame + length;
-  }
-  return false;
-}
-
 bool endsLikeJpeg(std::span<const std::byte> bytes) {
   // A truncated file decodes to grey without an error: look for the end marker. Some writers pad.
   const size_t from = bytes.size() > 64 ? bytes.size() - 64 : 0;
@@ -105,12 +92,7 @@ bool endsLikeJpeg(std::span<const std::byte> bytes) {
 }
 
 const char* pluginFor(std::span<const std::byte> encoded, const std::string& name) {
-  constexpr unsigned char kPng[] = {0x89, 'P', 'N', 'G', 0x0d, 0x0a, 0x1a, 0x0a};
   constexpr unsigned char kJpeg[] = {0xff, 0xd8, 0xff};
-  if (encoded.size() >= sizeof kPng && std::memcmp(encoded.data(), kPng, sizeof kPng) == 0) {
-    if (isWholePng(encoded)) return "png";
-    throw Error(ErrorId::kSceneImage, "image \"{}\": the PNG is cut short", name);
-  }
   if (encoded.size() >= sizeof kJpeg && std::memcmp(encoded.data(), kJpeg, sizeof kJpeg) == 0) {
     if (endsLikeJpeg(encoded)) return "jpeg";
     throw Error(ErrorId::kSceneImage, "image \"{}\": the JPEG is cut short", name);

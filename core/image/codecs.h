@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: MIT
 // The image functions that use OpenImageIO. They are in a separate library, which is loaded when
-// the program first reads a picture. OpenImageIO depends on some 260 libraries; loading them takes
-// 0.25 CPU seconds.
+// the program first reads a picture, except for PNGs of scenes and effects (decode_png.h).
+// OpenImageIO depends on some 260 libraries; loading them takes 0.25 CPU seconds.
 #pragma once
 
 #include "core/image/image.h"
@@ -12,6 +12,7 @@ namespace grisaille::image {
 struct Codecs {
   Image (*read)(const std::string& path);
   Picture (*readPicture)(const std::string& path);
+  // Not PNGs.
   Image8 (*decode)(std::span<const std::byte> encoded, const std::string& name);
   Alpha8 (*decodeAlpha)(std::span<const std::byte> encoded, const std::string& name);
   // pixels: width * height * channels, 1 or 3 channels

@@ -11,6 +11,7 @@
 #include "core/base/error.h"
 #include "core/base/library_folder.h"
 #include "core/image/codecs.h"
+#include "core/image/decode_png.h"
 #include "core/image/encode.h"
 
 namespace grisaille::image {
@@ -79,11 +80,11 @@ Picture readPicture(const std::string& path) {
 }
 
 Image8 decode(std::span<const std::byte> encoded, const std::string& name) {
-  return codecs().decode(encoded, name);
+  return isPng(encoded) ? decodePng(encoded, name) : codecs().decode(encoded, name);
 }
 
 Alpha8 decodeAlpha(std::span<const std::byte> encoded, const std::string& name) {
-  return codecs().decodeAlpha(encoded, name);
+  return isPng(encoded) ? decodePngAlpha(encoded, name) : codecs().decodeAlpha(encoded, name);
 }
 
 std::vector<std::byte> encodeJpeg(const Image& image, int quality) {
