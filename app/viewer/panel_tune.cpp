@@ -153,10 +153,11 @@ void Panel::drawTune(const effect::Selection::Entry& entry, const TuneStatus& st
   TuneWish& wish = wishOf(key);
   if (open) drawWish(entry, wish);
   if (own && status.running) {
+    // The text may wrap, and changes all the time: below the button, which stays where it is.
     ImGui::ProgressBar(static_cast<float>(status.state.done));
+    if (button("Cancel", (key + ".tune.cancel").c_str())) requests.cancelTune = true;
     drawQuiet(status.state.text);
     layout.note(key + ".tune.progress", status.state.text);
-    if (button("Cancel", (key + ".tune.cancel").c_str())) requests.cancelTune = true;
     return;
   }
   if (open) {

@@ -17,7 +17,7 @@ class Time : public ::testing::Test {
  protected:
   Time() { folder_.write("a.glb", animatedGlb()); }
 
-  Outcome run(std::vector<std::string> arguments) {
+  Outcome run(const std::vector<std::string>& arguments) {
     return runProgram(arguments, folder_.path(), {"XDG_CACHE_HOME=" + (folder_ / "cache")});
   }
   Outcome expectRuns(const std::vector<std::string>& arguments) {
