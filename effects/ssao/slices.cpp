@@ -29,9 +29,6 @@ struct SlicesBlock {
   float turn;
   float tolerance;
   glm::uvec2 exchange;
-  uint32_t slices;
-  uint32_t steps;
-  uint32_t edge_slices;
 };
 GRISAILLE_CHECK_BLOCK_ssao_slices_Settings(SlicesBlock);
 GRISAILLE_CHECK_BLOCK_ssao_slices_bent_Settings(SlicesBlock);
@@ -168,14 +165,13 @@ void Slices::occlude(const plugin::Frame& frame, Kernels& kernels, Size size, Pa
                                 .thickness = radius * frame.value<float>(kThickness),
                                 .turn = turn,
                                 .tolerance = toleranceOf(frame),
-                                .exchange = {2 * drawn % 5, (drawn + 2 * (drawn / 5)) % 5},
-                                .slices = frame.value<uint32_t>(kSlices),
-                                .steps = frame.value<uint32_t>(kSteps),
-                                .edge_slices = frame.value<uint32_t>(kEdgeSlices)};
+                                .exchange = {2 * drawn % 5, (drawn + 2 * (drawn / 5)) % 5}};
   const bool back = frame.value<bool>(kBackFaces);
-  // Constants 0 and 1 of shaders/ssao/slices.glsl.
-  const grisaille_constant constants[] = {plugin::specialize(0, size.scale),
-                                          plugin::specialize(1, back)};
+  // Constants 0 ... 4 of shaders/ssao/slices.glsl.
+  const grisaille_constant constants[] = {
+      plugin::specialize(0, frame.value<uint32_t>(kSlices)),
+      plugin::specialize(1, frame.value<uint32_t>(kSteps)), plugin::specialize(2, size.scale),
+      plugin::specialize(3, back), plugin::specialize(4, frame.value<uint32_t>(kEdgeSlices))};
   Bindings bindings = {
       plugin::uniform(0, frame.viewBlock()),
       plugin::uniform(1, frame.uniform(settings)),

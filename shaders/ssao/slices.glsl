@@ -15,14 +15,16 @@
 //   The sphere of the radius cuts this solid off; it has no falloff.
 //
 // A texel of the target samples one of kScale x kScale pixels, the top left one. At edges, where
-// the denoiser finds few texels of one surface, the texel takes `edge_slices` times as many slices.
+// the denoiser finds few texels of one surface, the texel takes kEdgeSlices times as many slices.
 // BENT is 0 or 1; 1 also computes the mean open direction.
 #include "common/view.glsl"
 #include "plane.glsl"
 
-// What users vary is in Settings: a constant would be a pipeline for each of its values.
-layout(constant_id = 0) const uint kScale = 1u;  // pixels per texel, each way
-layout(constant_id = 1) const bool kBack = false;  // read back_depth
+layout(constant_id = 0) const uint kSlices = 1u;
+layout(constant_id = 1) const uint kSteps = 8u;  // taps on each side
+layout(constant_id = 2) const uint kScale = 1u;  // pixels per texel, each way
+layout(constant_id = 3) const bool kBack = false;  // read back_depth
+layout(constant_id = 4) const uint kEdgeSlices = 1u;  // factor on the slices at edges
 
 layout(local_size_x = 8, local_size_y = 8) in;
 layout(UNIFORM(1), std140) uniform Settings {
@@ -31,9 +33,6 @@ layout(UNIFORM(1), std140) uniform Settings {
   float turn;       // rotation of the slice pattern, 0 to 1
   float tolerance;  // inverse of the plane tolerance, 1 / metres
   uvec2 exchange;   // offset of the texel in the 5x5 pattern, 0 to 4
-  uint slices;
-  uint steps;       // taps on each side
-  uint edge_slices; // factor on the slices at edges
 } settings;
 layout(TEXTURE(0)) uniform sampler2D view_depth;  // nearest, clamped
 layout(TEXTURE(1)) uniform sampler2D world_normal;
@@ -183,7 +182,7 @@ uint sectorsBeyond(Slice s, Side last, float side, float dither) {
 // finer, so that no two taps fall on one pixel.
 vec2 tapAt(vec2 pixel, vec2 way, float pixels) {
   const float below = uintBitsToFloat(floatBitsToUint(pixels) & 0x7f800000u);  // a power of two
-  const uint finer = max(8u, (1u << uint(findMSB(settings.steps - 1u) + 1)) / 2u);
+  const uint finer = max(8u, (1u << uint(findMSB(kSteps - 1u) + 1)) / 2u);
   const float grid = max(below / float(finer), 1.0);
   return floor((pixel + way * pixels - 0.5) / grid + 0.5) * grid + 0.5;
 }
@@ -222,10 +221,10 @@ float sliceOf(vec3 position, vec3 view_vec, vec3 normal, vec3 direction, vec2 pi
   Side ahead = Side(vec3(0.0), vec3(0.0), 1.0, -1e30, 0.0);
   Side behind = Side(vec3(0.0), vec3(0.0), 0.0, -1e30, 0.0);
   // Not unrolled: unrolling costs a third more on lavapipe and gains nothing elsewhere.
-  for (uint i = 0u; i < settings.steps; ++i) {
+  for (uint i = 0u; i < kSteps; ++i) {
     // Taps are denser near the pixel. Tap i is at least i + 1 pixels away.
-    const float one = (float(i) + jitter) / float(settings.steps);
-    const float two = (float(i) + 1.0 - jitter) / float(settings.steps);
+    const float one = (float(i) + jitter) / float(kSteps);
+    const float two = (float(i) + 1.0 - jitter) / float(kSteps);
     const float least = float(i) + 1.0;
     const float to = max(one * sqrt(sqrt(one)) * reach, least);
     const float back = max(two * sqrt(sqrt(two)) * reach, least);
@@ -242,8 +241,8 @@ float sliceOf(vec3 position, vec3 view_vec, vec3 normal, vec3 direction, vec2 pi
   const uint low_bits = (1u << uint(low)) - 1u;
   const float occluded_behind = float(bitCount(occluded & low_bits)) / low;
   const float occluded_ahead = float(bitCount(occluded & ~low_bits)) / (32.0 - low);
-  const float lacks_behind = 1.0 - behind.seen / float(settings.steps);
-  const float lacks_ahead = 1.0 - ahead.seen / float(settings.steps);
+  const float lacks_behind = 1.0 - behind.seen / float(kSteps);
+  const float lacks_ahead = 1.0 - ahead.seen / float(kSteps);
   const float share = low / 32.0;
   return 1.0 - mix(max(occluded_ahead, lacks_ahead * (1.0 - lacks_behind) * occluded_behind),
                    max(occluded_behind, lacks_behind * (1.0 - lacks_ahead) * occluded_ahead), share);
@@ -271,9 +270,9 @@ float openAt(uvec2 texel, vec2 pixel, float depth, out vec3 bent) {
   const vec3 position = viewPosition(pixel, depth);
   const vec3 view_vec = position * -inversesqrt(dot(position, position));
   vec3 normal = viewNormal(textureLod(world_normal, attachmentAt(pixel), 0.0).xyz);
-  uint count = settings.slices;
-  if (settings.edge_slices > 1u) {
-    if (isEdge(pixel, depth, normal)) count = settings.slices * settings.edge_slices;
+  uint count = kSlices;
+  if (kEdgeSlices > 1u) {
+    if (isEdge(pixel, depth, normal)) count = kSlices * kEdgeSlices;
   }
   // Interpolated normals may face away from the camera. Turns them to the silhouette, or a little
   // past it towards the camera if they face away by more than their rounding: at exactly edge-on,
