@@ -35,9 +35,8 @@ std::vector<std::string> renderArguments(const RenderCommand& command);
 std::string renderCommand(const RenderCommand& command);
 
 // Appends --effects with the effects that are on, and --set for each of their values that differs
-// from its default or is a length of the scene. Skips the parameters in `leftOut`.
-void addEffects(const effect::Selection& effects, const std::vector<effect::ParameterName>& leftOut,
-                std::vector<std::string>& arguments);
+// from its default or is a length of the scene.
+void addEffects(const effect::Selection& effects, std::vector<std::string>& arguments);
 
 // The path, with "./" in front if it starts with '-', so that no parser takes it for an option.
 std::string plainPath(const std::string& path);
