@@ -51,7 +51,10 @@ effect::Chain chainOf(const grisaille_host_device& device, const grisaille_host_
 
 grisaille_host_effect::grisaille_host_effect(grisaille_host_device& of,
                                              const grisaille_host_effect_desc& desc)
-    : device(of), rows_(desc.rows), chain_(chainOf(of, desc)), attachments_(*of.gpu, of.kernels) {
+    : device(of),
+      rows_(desc.rows),
+      chain_(host::chainOf(of, desc)),
+      attachments_(*of.gpu, of.kernels) {
   of.gpu->requireUsable();
   chain_.start(*of.gpu);
   chain_.create();

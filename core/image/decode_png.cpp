@@ -13,26 +13,30 @@ namespace grisaille::image {
 namespace {
 
 // libpng's state for one file, whose rows it converts to RGBA with 8 bits per channel. Errors
-// arrive by longjmp(), which runs no destructors: open() and readRows() have no objects of their
-// own.
+// arrive by longjmp(), which runs no destructors: the functions that call setjmp() have no objects
+// of their own.
 class PngReader {
  public:
   PngReader(std::span<const std::byte> encoded, const std::string& name)
-      : left_(encoded), name_(name) {
+      : left_(encoded), name_(name) {}
+  ~PngReader() { png_destroy_read_struct(&png_, &info_, nullptr); }
+  PngReader(const PngReader&) = delete;
+  PngReader& operator=(const PngReader&) = delete;
+
+  // Reads the file's head. Call it once, before all else; a constructor that throws would leave
+  // libpng's state behind.
+  void begin() {
     png_ = png_create_read_struct(PNG_LIBPNG_VER_STRING, this, onError, onWarning);
     info_ = png_ != nullptr ? png_create_info_struct(png_) : nullptr;
     if (info_ == nullptr) throw std::bad_alloc();
     if (!open()) fail();
     if (width_ > kLargestSide || height_ > kLargestSide) {
-      throw Error(ErrorId::kSceneImage, "image \"{}\": {} x {} pixels, at most {} a side", name,
+      throw Error(ErrorId::kSceneImage, "image \"{}\": {} x {} pixels, at most {} a side", name_,
                   width_, height_, kLargestSide);
     }
     // The rows of an interlaced file are complete after its last pass: all are kept until then.
     pixels_.resize(rowBytes() * (passes_ > 1 ? height_ : 1));
   }
-  ~PngReader() { png_destroy_read_struct(&png_, &info_, nullptr); }
-  PngReader(const PngReader&) = delete;
-  PngReader& operator=(const PngReader&) = delete;
 
   uint32_t width() const { return width_; }
   uint32_t height() const { return height_; }
@@ -121,6 +125,7 @@ bool isPng(std::span<const std::byte> encoded) {
 
 Image8 decodePng(std::span<const std::byte> encoded, const std::string& name) {
   PngReader reader(encoded, name);
+  reader.begin();
   Image8 image{.width = reader.width(), .height = reader.height(), .pixels = {}};
   image.pixels.reserve(reader.rowBytes() * image.height);
   reader.eachRow([&](const uint8_t* row) {
@@ -131,6 +136,7 @@ Image8 decodePng(std::span<const std::byte> encoded, const std::string& name) {
 
 Alpha8 decodePngAlpha(std::span<const std::byte> encoded, const std::string& name) {
   PngReader reader(encoded, name);
+  reader.begin();
   Alpha8 alpha{.width = reader.width(), .height = reader.height(), .pixels = {}};
   alpha.pixels.reserve(size_t{alpha.width} * alpha.height);
   reader.eachRow([&](const uint8_t* row) {

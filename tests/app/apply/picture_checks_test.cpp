@@ -2,6 +2,7 @@
 // `grisaille apply` names pictures that cannot be right, and says nothing of sound ones.
 #include <gtest/gtest.h>
 
+#include <algorithm>
 #include <functional>
 #include <glm/gtc/packing.hpp>
 #include <limits>

@@ -3,8 +3,10 @@
 
 #include <gtest/gtest.h>
 
+#include <algorithm>
 #include <array>
 #include <filesystem>
+#include <ranges>
 
 #include "core/trace/ray_tracer.h"
 #include "tests/program/run.h"

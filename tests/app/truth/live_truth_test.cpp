@@ -5,6 +5,7 @@
 #include <bit>
 #include <cmath>
 #include <cstdlib>
+#include <random>
 #include <stdexcept>
 #include <thread>
 
