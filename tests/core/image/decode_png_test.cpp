@@ -4,6 +4,7 @@
 
 #include <algorithm>
 #include <array>
+#include <cmath>
 #include <initializer_list>
 #include <random>
 #include <span>
@@ -78,7 +79,9 @@ std::array<int, 4> expected(const Kind& kind, const Samples& samples, size_t pix
     return {colour[0], colour[1], colour[2], kind.transparent ? colour[3] : 255};
   }
   const double most = (1u << kind.bits) - 1;
-  const auto to8 = [&](uint32_t value) { return static_cast<int>(value / most * 255 + 0.5); };
+  const auto to8 = [&](uint32_t value) {
+    return static_cast<int>(std::lround(value / most * 255));
+  };
   const bool grey = channels < 3;
   // The tRNS chunk names the colour of the first pixel.
   const bool hidden = kind.transparent && std::equal(in, in + channels, samples.values.begin());
