@@ -20,7 +20,6 @@
 namespace grisaille::image {
 namespace {
 
-constexpr int kLargestSide = 16384;  // pixels
 constexpr uint64_t kMostValues = uint64_t{1} << 29;
 
 // Redirects the process's standard error to /dev/null for its lifetime: libpng prints each error,

@@ -8,6 +8,8 @@
 
 namespace grisaille::image {
 
+constexpr int kLargestSide = 16384;  // of a picture that is read, pixels
+
 // See the functions of image.h. The caller has checked the arguments.
 struct Codecs {
   Image (*read)(const std::string& path);

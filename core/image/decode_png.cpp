@@ -3,11 +3,13 @@
 
 #include <png.h>
 
+#include <algorithm>
 #include <csetjmp>
 #include <cstring>
 #include <new>
 
 #include "core/base/error.h"
+#include "core/image/codecs.h"
 
 namespace grisaille::image {
 namespace {
@@ -30,7 +32,7 @@ class PngReader {
     info_ = png_ != nullptr ? png_create_info_struct(png_) : nullptr;
     if (info_ == nullptr) throw std::bad_alloc();
     if (!open()) fail();
-    if (width_ > kLargestSide || height_ > kLargestSide) {
+    if (std::max(width_, height_) > uint32_t{kLargestSide}) {
       throw Error(ErrorId::kSceneImage, "image \"{}\": {} x {} pixels, at most {} a side", name_,
                   width_, height_, kLargestSide);
     }
@@ -57,8 +59,6 @@ class PngReader {
   }
 
  private:
-  static constexpr uint32_t kLargestSide = 16384;  // pixels
-
   bool open() {
     if (setjmp(png_jmpbuf(png_)) != 0) return false;
     png_set_user_limits(png_, PNG_UINT_31_MAX, PNG_UINT_31_MAX);  // the caller checks them
