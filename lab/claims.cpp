@@ -17,6 +17,7 @@
 #include "backends/backends.h"
 #include "core/base/atomic_file.h"
 #include "core/base/error.h"
+#include "core/base/note.h"
 #include "core/base/quote.h"
 #include "core/base/regular_file.h"
 #include "lab/claims/part.h"
@@ -29,7 +30,7 @@ namespace {
 namespace fs = std::filesystem;
 
 struct ClaimsOptions {
-  std::string file, out, backend = "both", device;
+  std::string file, out, scenes, backend = "both", device;
   std::vector<std::string> only, pluginPaths;
   double scale = 1;
   uint32_t samples = 256, rounds = 5;
@@ -54,6 +55,7 @@ std::string commandOf(const ClaimsOptions& options) {
   const ClaimsOptions usual;
   if (options.backend != usual.backend) command += " --backend " + options.backend;
   if (!options.only.empty()) command += fmt::format(" --only {}", fmt::join(options.only, ","));
+  if (!options.scenes.empty()) command += " --scenes " + shellQuoted(options.scenes);
   if (options.scale != usual.scale) command += fmt::format(" --scale {}", options.scale);
   if (options.samples != usual.samples) command += fmt::format(" --samples {}", options.samples);
   if (options.rounds != usual.rounds) command += fmt::format(" --rounds {}", options.rounds);
@@ -111,14 +113,31 @@ claims::ClaimsOfBackend runOn(const std::string& backend, const ClaimsOptions& o
   return result;
 }
 
+// Removes the optional claims whose scene is missing, and says so.
+void leaveOut(claims::ClaimsFile& file) {
+  std::erase_if(file.claims, [](const claims::Claim& claim) {
+    std::error_code failed;
+    if (!claim.optional || fs::exists(claim.scene, failed)) return false;
+    note(
+        fmt::format("left out the claim '{}': there is no file {}; pass the folder of such files "
+                    "with --scenes",
+                    claim.key, claim.scene));
+    return true;
+  });
+  if (file.claims.empty()) {
+    throw Error(ErrorId::kUsage, "the scene of every chosen claim is missing; pass --scenes");
+  }
+}
+
 void runClaims(const ClaimsOptions& options) {
   const auto registry = app::loadEffects(options.pluginPaths);
-  claims::ClaimsReport report{.file = claims::loadClaims(options.file, *registry),
+  claims::ClaimsReport report{.file = claims::loadClaims(options.file, *registry, options.scenes),
                               .command = commandOf(options),
                               .machine = app::machineName(),
                               .commit = GRISAILLE_COMMIT,
                               .backends = {}};
   choose(report.file, options.only);
+  leaveOut(report.file);
   for (claims::Claim& claim : report.file.claims) claim = claims::scaled(claim, options.scale);
   const std::vector<std::string> names = app::chosenBackends(options.backend);
   const claims::ClaimsDesc desc{.registry = registry.get(),
@@ -156,6 +175,10 @@ void addClaims(CLI::App& program) {
   command->add_option("--only", options->only, "Measure only these claims of the file")
       ->type_name("KEY,...")
       ->delimiter(',');
+  command
+      ->add_option("--scenes", options->scenes,
+                   "Another folder for scenes that do not stand beside the file")
+      ->type_name("DIR");
   command->add_option("--backend", options->backend, "opengl, vulkan or both")
       ->capture_default_str();
   command->add_option("--device", options->device, "Number or part of a device's name");

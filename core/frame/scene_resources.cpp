@@ -8,6 +8,7 @@
 
 #include "core/frame/draw_data.h"
 #include "core/image/image.h"
+#include "core/scene/bodies.h"
 #include "core/scene/rig.h"
 #include "shaders/geometry_variants.h"
 
@@ -55,6 +56,7 @@ SceneResources::~SceneResources() {
        {positions_.buffer, normals_.buffer, texCoords_, colours_, indices_}) {
     device_.destroy(buffer);
   }
+  if (farSides_) device_.destroy(farSides_->indices);
   for (const gpu::GraphicsPipeline pipeline : pipelines_) device_.destroy(pipeline);
   for (const DeviceTexture& texture : textures_) {
     device_.destroy(texture.alpha);
@@ -99,6 +101,38 @@ gpu::Buffer SceneResources::positions(gpu::Commands& commands) {
 gpu::Buffer SceneResources::indices(gpu::Commands& commands) {
   return vertexBuffer(commands, indices_, "indices", std::as_bytes(std::span(scene_.indices)),
                       gpu::BufferUsage::kIndex);
+}
+
+const SceneResources::FarSides& SceneResources::farSides(gpu::Commands& commands) {
+  if (farSides_) return *farSides_;
+  farSides_.emplace().bodyCounts.resize(scene_.primitives.size());
+  const auto twoSided = [&](const scene::Primitive& primitive) {
+    return scene_.materials[primitive.material].doubleSided;
+  };
+  if (std::ranges::none_of(scene_.primitives, twoSided)) return *farSides_;
+  const std::vector<bool> bodies = scene::bodyTriangles(scene_);
+  std::vector<uint32_t> ordered = scene_.indices, others;
+  for (size_t i = 0; i < scene_.primitives.size(); ++i) {
+    const scene::Primitive& primitive = scene_.primitives[i];
+    if (!twoSided(primitive)) continue;
+    const auto begin = ordered.begin() + primitive.firstIndex;
+    auto to = begin;
+    others.clear();
+    for (auto from = begin; from != begin + primitive.indexCount; from += 3) {
+      if (bodies[static_cast<size_t>(from - ordered.begin()) / 3]) {
+        to = std::copy(from, from + 3, to);
+      } else {
+        others.insert(others.end(), from, from + 3);
+      }
+    }
+    std::ranges::copy(others, to);
+    farSides_->bodyCounts[i] = static_cast<uint32_t>(to - begin);
+  }
+  if (ordered != scene_.indices) {
+    vertexBuffer(commands, farSides_->indices, "indices of far sides",
+                 std::as_bytes(std::span(ordered)), gpu::BufferUsage::kIndex);
+  }
+  return *farSides_;
 }
 
 const std::vector<scene::Bounds>& SceneResources::primitiveBounds() {
@@ -221,6 +255,7 @@ void SceneResources::draw(gpu::Commands& commands, const scene::Camera& camera, 
   const auto vertex = gpu::BufferUsage::kVertex;
   const gpu::Buffer positions = this->positions(commands);
   indices(commands);
+  const FarSides* far = behind ? &farSides(commands) : nullptr;
   const gpu::Buffer normals =
       normal ? posed(commands, normals_, "normals", scene_.normals) : gpu::Buffer{};
   const std::vector<scene::Bounds>& bounds = primitiveBounds();
@@ -278,15 +313,21 @@ void SceneResources::draw(gpu::Commands& commands, const scene::Camera& camera, 
     if (behind) {
       binding[bindingCount++] = gpu::textureBinding(1, {.texture = targets.front}, nearest_);
     }
-    draws.push_back({.pipeline = pipeline(variant),
-                     .bindings = std::span(binding).first(bindingCount),
-                     .vertexStreams = std::span(stream).first(streamCount),
-                     .indices = {.buffer = indices_},
-                     .count = primitive.indexCount,
-                     .first = primitive.firstIndex,
-                     .cull = material.doubleSided ? gpu::Cull::kNone
-                             : mirrors != behind  ? gpu::Cull::kFront
-                                                  : gpu::Cull::kBack});
+    const auto add = [&](uint32_t first, uint32_t count, bool bothSides) {
+      if (count == 0) return;
+      draws.push_back({.pipeline = pipeline(variant),
+                       .bindings = std::span(binding).first(bindingCount),
+                       .vertexStreams = std::span(stream).first(streamCount),
+                       .indices = {.buffer = far && far->indices ? far->indices : indices_},
+                       .count = count,
+                       .first = first,
+                       .cull = bothSides           ? gpu::Cull::kNone
+                               : mirrors != behind ? gpu::Cull::kFront
+                                                   : gpu::Cull::kBack});
+    };
+    const uint32_t bodyCount = far ? far->bodyCounts[instance.primitive] : 0;
+    add(primitive.firstIndex, bodyCount, false);
+    add(primitive.firstIndex + bodyCount, primitive.indexCount - bodyCount, material.doubleSided);
   }
 
   std::vector<gpu::ColorTarget> colors;

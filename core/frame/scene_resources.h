@@ -20,8 +20,9 @@ struct SceneTargets {
   gpu::Texture normal = {};       // kRgba16Float
   gpu::Texture baseColour = {};   // kRgba8Srgb
   gpu::Texture facetNormal = {};  // kRgba16Float
-  // kD32Float: the depth of an earlier draw. If not null, the draw writes only depth, of surfaces
-  // at or behind that depth that face away or are two-sided.
+  // kD32Float: the depth of an earlier draw. If not null, the draw writes only depth: of surfaces
+  // at or behind that depth at which matter may end. These are the far sides of closed bodies
+  // (core/scene/bodies.h), both sides of other double-sided triangles, and all that face away.
   gpu::Texture front = {};
 };
 
@@ -65,6 +66,13 @@ class SceneResources {
     gpu::Texture alpha, colour;
   };
 
+  // The indices in the order of the draw of far sides: of each primitive, first the triangles of
+  // double-sided bodies.
+  struct FarSides {
+    gpu::Buffer indices;               // null: the scene's own order is that order
+    std::vector<uint32_t> bodyCounts;  // number of indices of such triangles, one per primitive
+  };
+
   // Vertices that scene::pose() writes, as they are in pose number `poses` of the scene.
   struct PosedVertices {
     gpu::Buffer buffer;
@@ -75,6 +83,7 @@ class SceneResources {
                            std::span<const std::byte> bytes, gpu::BufferUsage usage);
   gpu::Buffer posed(gpu::Commands& commands, PosedVertices& vertices, const char* label,
                     const std::vector<glm::vec3>& values);
+  const FarSides& farSides(gpu::Commands& commands);
   gpu::GraphicsPipeline pipeline(Variant variant);
   gpu::Texture texture(gpu::Commands& commands, const scene::Material& material, bool base);
   gpu::Sampler sampler(const scene::Material& material, bool base);
@@ -83,6 +92,7 @@ class SceneResources {
   const scene::Scene& scene_;
   PosedVertices positions_, normals_;
   gpu::Buffer texCoords_, colours_, indices_;
+  std::optional<FarSides> farSides_;                 // of the first draw with SceneTargets::front
   std::array<gpu::GraphicsPipeline, 36> pipelines_;  // by Variant::fragment()
   std::vector<DeviceTexture> textures_;
   std::array<gpu::Sampler, 27> samplers_;       // wrap u, wrap v, one level | mips | anisotropic

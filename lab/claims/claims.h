@@ -8,7 +8,10 @@
 //   text = "..."                       the statement
 //   source = "..."                     its author
 //   note = "..."                       optional: a remark on the measurement
-//   scene = "FILE.gltf"                relative to the claims file; default: the built-in atrium
+//   scene = "FILE.gltf"                relative to the claims file, or to --scenes; default: the
+//                                      built-in atrium
+//   optional = true                    leaves the claim out if there is no such file
+//   floor = true                       puts a floor under the scene
 //   camera = {eye = [..], ...}         same keys as a camera file; for a path, an array of cameras
 //   frames = 12                        number of frames; only with a path or an animation
 //   seconds = [0, 1]                   optional: times of the first and the last frame in the
@@ -71,8 +74,10 @@ struct ClaimRun {
 
 struct Claim {
   std::string key, text, source, note;
-  std::string place;  // file:line, for messages
-  std::string scene;  // a path; "": the built-in atrium
+  std::string place;      // file:line, for messages
+  std::string scene;      // a path; "": the built-in atrium
+  bool optional = false;  // left out if there is no such file
+  bool floor = false;     // addFloor()
   glm::uvec2 size = glm::uvec2(480, 270);
   double radius = 0.5, distance = 10;
   size_t animation = 0;         // of the scene
@@ -91,10 +96,12 @@ struct ClaimsFile {
   std::vector<Claim> claims;
 };
 
-// Loads and checks a claims file, as far as possible without rendering. Throws kSettingsUnreadable,
+// Loads and checks a claims file, as far as possible without rendering. `scenes`: a folder for
+// scenes that do not stand beside the claims file; "": none. Throws kSettingsUnreadable,
 // kSettingsInvalid, and the errors of a camera, a shot, an effect or a parameter. Each message
 // starts with file:line.
-ClaimsFile loadClaims(const std::string& path, const effect::Registry& registry);
+ClaimsFile loadClaims(const std::string& path, const effect::Registry& registry,
+                      const std::string& scenes = "");
 
 // The claim's effects with the claim's values and, unless `run` is null, the run's values. Throws
 // kUsage, and what Selection throws.

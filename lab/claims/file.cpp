@@ -223,7 +223,16 @@ void addExpectations(TomlTable& table, Claim& claim, bool alongPath) {
   }
 }
 
-Claim claimOf(TomlTable& table, const effect::Registry& registry) {
+// The scene file beside the claims file or, if there is none, in the folder `scenes`.
+std::string sceneFile(const std::string& claims, const std::string& scene,
+                      const std::string& scenes) {
+  const fs::path beside = fs::path(claims).parent_path() / scene;
+  std::error_code failed;
+  if (scenes.empty() || fs::exists(beside, failed)) return beside.string();
+  return (fs::path(scenes) / scene).string();
+}
+
+Claim claimOf(TomlTable& table, const effect::Registry& registry, const std::string& scenes) {
   Claim claim;
   claim.place = table.place();
   claim.key = table.text("key");
@@ -232,7 +241,9 @@ Claim claimOf(TomlTable& table, const effect::Registry& registry) {
   claim.source = table.text("source");
   claim.note = table.text("note", "");
   const std::string scene = table.text("scene", "");
-  if (!scene.empty()) claim.scene = (fs::path(table.file()).parent_path() / scene).string();
+  if (!scene.empty()) claim.scene = sceneFile(table.file(), scene, scenes);
+  claim.optional = table.flag("optional", false);
+  claim.floor = table.flag("floor", false);
   if (const std::vector<double> size = table.numbers("size", 2); !size.empty()) {
     for (int i = 0; i < 2; ++i) {
       const double side = size[static_cast<size_t>(i)];
@@ -276,13 +287,14 @@ effect::Selection selectionOf(const effect::Registry& registry, const Claim& cla
   return selection;
 }
 
-ClaimsFile loadClaims(const std::string& path, const effect::Registry& registry) {
+ClaimsFile loadClaims(const std::string& path, const effect::Registry& registry,
+                      const std::string& scenes) {
   const toml::table document = app::parseTomlFile(path);
   TomlTable table(path, document);
   ClaimsFile file{.title = table.text("title", "Claims"), .claims = {}};
   for (const toml::table* one : table.tables("claim")) {
     TomlTable claim(path, *one);
-    file.claims.push_back(claimOf(claim, registry));
+    file.claims.push_back(claimOf(claim, registry, scenes));
     const std::string& key = file.claims.back().key;
     if (std::ranges::count(file.claims, key, &Claim::key) > 1) {
       claim.refuse(*one, fmt::format("there are two claims '{}'", key));

@@ -14,6 +14,7 @@
 #include "core/base/error.h"
 #include "core/scene/rig.h"
 #include "core/trace/projection.h"
+#include "lab/claims/floor.h"
 #include "lab/claims/metrics.h"
 #include "lab/claims/picture.h"
 #include "lab/claims/regions.h"
@@ -358,14 +359,17 @@ ClaimsRunner::ClaimsRunner(const ClaimsDesc& desc, gpu::Device& device)
 
 ClaimsRunner::~ClaimsRunner() = default;
 
-scene::Scene& ClaimsRunner::sceneOf(const std::string& path) {
-  const auto found = scenes_.find(path);
-  if (found != scenes_.end()) return found->second;
-  return scenes_.emplace(path, scene::loadScene(path)).first->second;
+scene::Scene& ClaimsRunner::sceneOf(const Claim& claim) {
+  const auto [found, isNew] = scenes_.try_emplace(std::pair(claim.scene, claim.floor));
+  if (isNew) {
+    found->second = scene::loadScene(claim.scene);
+    if (claim.floor) addFloor(found->second);
+  }
+  return found->second;
 }
 
 ClaimResult ClaimsRunner::run(const Claim& claim) {
-  Stage stage(desc_, claim, device_, sceneOf(claim.scene));
+  Stage stage(desc_, claim, device_, sceneOf(claim));
   stage.start();
   stage.showAll();
   stage.timeAll();

@@ -59,11 +59,11 @@ class ClaimsRunner {
   struct View;
   class Stage;
 
-  scene::Scene& sceneOf(const std::string& path);
+  scene::Scene& sceneOf(const Claim& claim);
 
   ClaimsDesc desc_;
   gpu::Device& device_;
-  std::map<std::string, scene::Scene> scenes_;
+  std::map<std::pair<std::string, bool>, scene::Scene> scenes_;  // by path and floor
 };
 
 }  // namespace grisaille::lab::claims

@@ -22,6 +22,21 @@ void addQuad(scene::Scene& scene, const std::array<glm::vec3, 4>& corners, glm::
   scene::computeBounds(scene);
 }
 
+void addBox(scene::Scene& scene, const glm::dmat4& worldFromObject, uint32_t material) {
+  for (int axis = 0; axis < 3; ++axis) {
+    for (const float side : {-1.0f, 1.0f}) {
+      glm::vec3 normal(0), u(0), v(0);
+      normal[axis] = side;
+      u[(axis + 1) % 3] = 1;
+      v[(axis + 2) % 3] = side;
+      addQuad(scene, {normal - u - v, normal + u - v, normal + u + v, normal - u + v}, normal,
+              material);
+      scene.instances.back().worldFromObject = worldFromObject;
+    }
+  }
+  scene::computeBounds(scene);
+}
+
 scene::Scene floorScene(float size) {
   scene::Scene scene;
   scene.name = "floor";

@@ -13,6 +13,10 @@ namespace grisaille::tests {
 void addQuad(scene::Scene& scene, const std::array<glm::vec3, 4>& corners, glm::vec3 normal,
              uint32_t material = 0);
 
+// Adds a closed box, from -1 to 1 along each axis, as six primitives with outward normals: the
+// sides at -x, +x, -y, +y, -z and +z. Each has an instance with this transform.
+void addBox(scene::Scene& scene, const glm::dmat4& worldFromObject, uint32_t material = 0);
+
 // The floor y = 0, centred at the origin, `size` metres on each side, with one white material.
 scene::Scene floorScene(float size = 100);
 

@@ -19,26 +19,15 @@ constexpr double kNone = std::numeric_limits<double>::infinity();
 class BackDepthTest : public tests::BackendTest {};
 GRISAILLE_ON_EVERY_DEVICE(BackDepthTest);
 
-// A closed box whose faces look outwards.
-void addBox(scene::Scene& scene, const glm::dmat4& placed, uint32_t material) {
-  for (int axis = 0; axis < 3; ++axis) {
-    for (const float side : {-1.0f, 1.0f}) {
-      glm::vec3 normal(0), u(0), v(0);
-      normal[axis] = side;
-      u[(axis + 1) % 3] = 1;
-      v[(axis + 2) % 3] = side;
-      tests::addQuad(scene, {normal - u - v, normal + u - v, normal + u + v, normal - u + v},
-                     normal, material);
-      scene.instances.back().worldFromObject = placed;
-    }
-  }
-}
+constexpr uint32_t kOneSided = 0, kTwoSided = 1, kTwoSidedBody = 2;  // materials
 
-// Boxes, some of them mirrored, and one-sided and two-sided cards, on an empty background.
+// Boxes, some of them mirrored or double-sided, and one-sided and two-sided cards, on an empty
+// background.
 scene::Scene mixedScene() {
   scene::Scene scene;
   scene.materials.push_back({.name = "one side"});
   scene.materials.push_back({.name = "two sides", .doubleSided = true});
+  scene.materials.push_back({.name = "two sides of a body", .doubleSided = true});
   std::mt19937 random(3);
   std::uniform_real_distribution<double> unit(-1, 1);
   for (int i = 0; i < 12; ++i) {
@@ -49,11 +38,11 @@ scene::Scene mixedScene() {
     placed[2].x = 0.2 * unit(random);
     placed[3] = glm::dvec4(1.6 * unit(random), 1.1 * unit(random), 1.5 * unit(random), 1);
     if (i % 3 != 0) {
-      addBox(scene, placed, 0);
+      tests::addBox(scene, placed, i % 3 == 1 ? kOneSided : kTwoSidedBody);
       continue;
     }
     tests::addQuad(scene, {glm::vec3(-1, -1, 0.2f), {1, -1, 0.5f}, {1, 1, -0.1f}, {-1, 1, -0.4f}},
-                   {0, 0, 1}, i % 2 == 0 ? 1 : 0);
+                   {0, 0, 1}, i % 2 == 0 ? kTwoSided : kOneSided);
     scene.instances.back().worldFromObject = placed;
   }
   scene::computeBounds(scene);
@@ -70,7 +59,7 @@ std::vector<Crossing> crossings(const scene::Scene& scene, glm::dvec3 eye, glm::
   std::vector<Crossing> found;
   for (const scene::Instance& instance : scene.instances) {
     const scene::Primitive& primitive = scene.primitives[instance.primitive];
-    const bool two = scene.materials[primitive.material].doubleSided;
+    const bool two = primitive.material != kOneSided, sheet = primitive.material == kTwoSided;
     const bool mirrors = glm::determinant(glm::dmat3(instance.worldFromObject)) < 0;
     for (uint32_t i = 0; i < primitive.indexCount; i += 3) {
       glm::dvec3 p[3];
@@ -82,7 +71,7 @@ std::vector<Crossing> crossings(const scene::Scene& scene, glm::dvec3 eye, glm::
       const glm::dvec3 x = glm::inverse(glm::dmat3(p[1] - p[0], p[2] - p[0], -ray)) * -p[0];
       if (x.x < 0 || x.y < 0 || x.x + x.y > 1 || x.z <= 0) continue;
       const bool faces = (glm::dot(glm::cross(p[1] - p[0], p[2] - p[0]), ray) < 0) != mirrors;
-      found.push_back({.depth = x.z, .front = faces || two, .back = !faces || two});
+      found.push_back({.depth = x.z, .front = faces || two, .back = !faces || sheet});
     }
   }
   return found;

@@ -174,6 +174,42 @@ expect = ["averaged.last_rmse@beside < 1.3 * alone.last_rmse@beside", "end.last_
   EXPECT_NE(claim["values"]["alone"]["last_rmse"], claim["values"]["averaged"]["last_rmse"]);
 }
 
+TEST_F(ClaimsTest, AnOptionalSceneThatIsMissingIsLeftOut) {
+  const std::string scene = std::string(SOURCE_FOLDER) + "/studies/scenes/corner.gltf";
+  const std::string claim = R"([[claim]]
+key = "KEY"
+text = "A corner is dark."
+source = "A test."
+scene = "KEY.gltf"
+optional = true
+camera = {eye = [1.0, 1.3, 2.4], target = [0, 0, 0], fovy_degrees = 60}
+size = [32, 32]
+runs = [{name = "alone"}]
+expect = ["alone.mean < 1"]
+)";
+  std::string text;
+  for (const char* key : {"there", "missing"}) {
+    std::string one = claim;
+    while (one.find("KEY") != std::string::npos) one.replace(one.find("KEY"), 3, key);
+    text += one;
+  }
+  const std::string file = folder_.write("claims.toml", text);
+  const std::vector<std::string> usual = {file,    "--samples", "16",        "--rounds", "1",
+                                          "--out", "out",       "--backend", "opengl"};
+  const Outcome none = claims(usual);
+  EXPECT_EQ(none.status, 2) << none.err;
+  const TemporaryFolder scenes;
+  fs::copy_file(scene, scenes / "there.gltf");
+  std::vector<std::string> with = usual;
+  with.insert(with.end(), {"--scenes", scenes.path()});
+  const Outcome one = claims(with);
+  ASSERT_EQ(one.status, 0) << one.err;
+  EXPECT_NE(one.err.find("left out the claim 'missing'"), std::string::npos) << one.err;
+  const json report = json::parse(readFile(folder_ / "out/claims.json"));
+  ASSERT_EQ(report["backends"][0]["claims"].size(), 1u);
+  EXPECT_EQ(report["backends"][0]["claims"][0]["key"], "there");
+}
+
 TEST_F(ClaimsTest, MistakesAreOneLine) {
   const auto refused = [&](const std::vector<std::string>& arguments, const std::string& number) {
     const Outcome outcome = claims(arguments);

@@ -113,6 +113,26 @@ TEST_F(ClaimsFileTest, AnAnimationAndItsEnd) {
   EXPECT_EQ(claim.runs[1].seconds, std::vector<double>(5, 2));
 }
 
+// A scene stands beside the claims file or, if it is not there, in the folder of scenes.
+TEST_F(ClaimsFileTest, ScenesOfAnotherFolder) {
+  const std::string text =
+      with("set =", "scene = \"walker.glb\"\noptional = true\nfloor = true\nset =");
+  const std::string file = folder_.write("study.toml", text);
+  const tests::TemporaryFolder scenes;
+  const auto sceneOf = [&](const std::string& folder) {
+    return loadClaims(file, registry_, folder).claims[0].scene;
+  };
+  EXPECT_EQ(sceneOf(""), folder_ / "walker.glb");
+  EXPECT_EQ(sceneOf(scenes.path()), scenes / "walker.glb");
+  folder_.write("walker.glb", "");
+  EXPECT_EQ(sceneOf(scenes.path()), folder_ / "walker.glb");
+  const Claim claim = load(text).claims[0];
+  EXPECT_TRUE(claim.optional);
+  EXPECT_TRUE(claim.floor);
+  EXPECT_FALSE(load(kGood).claims[0].optional);
+  EXPECT_FALSE(load(kGood).claims[0].floor);
+}
+
 TEST_F(ClaimsFileTest, MistakesAreNamedWithTheirPlace) {
   const ErrorId bad = ErrorId::kSettingsInvalid;
   refused("[[claim]\n", ErrorId::kSettingsUnreadable, "1", "");

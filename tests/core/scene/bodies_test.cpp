@@ -1,0 +1,140 @@
+// SPDX-License-Identifier: MIT
+// Which triangles belong to closed bodies.
+#include "core/scene/bodies.h"
+
+#include <gtest/gtest.h>
+
+#include <algorithm>
+
+#include "tests/support/scenes.h"
+
+namespace grisaille {
+namespace {
+
+constexpr size_t kBoxTriangles = 12;
+
+scene::Scene boxScene(bool doubleSided = false) {
+  scene::Scene scene;
+  scene.materials.push_back({.name = "box", .doubleSided = doubleSided});
+  tests::addBox(scene, glm::dmat4(1));
+  return scene;
+}
+
+auto bodiesOf(const scene::Scene& scene) {
+  return std::ranges::count(scene::bodyTriangles(scene), true);
+}
+
+glm::dmat4 movedTo(double x) {
+  glm::dmat4 place(1);
+  place[3].x = x;
+  return place;
+}
+
+// Turns the triangles of a primitive around.
+void turn(scene::Scene& scene, size_t primitive) {
+  const scene::Primitive& turned = scene.primitives[primitive];
+  for (uint32_t i = 0; i < turned.indexCount; i += 3) {
+    std::swap(scene.indices[turned.firstIndex + i], scene.indices[turned.firstIndex + i + 1]);
+  }
+}
+
+TEST(Bodies, AClosedBoxIsOneWhateverItsMaterialSays) {
+  EXPECT_EQ(bodiesOf(boxScene(false)), 12);
+  EXPECT_EQ(bodiesOf(boxScene(true)), 12);
+}
+
+TEST(Bodies, NegativeZeroIsZero) {
+  scene::Scene scene = boxScene();
+  for (size_t i = 0; i < scene.positions.size(); ++i) {
+    glm::vec3& p = scene.positions[i];
+    if (p.x == 1) p.x = i % 2 == 0 ? 0.0f : -0.0f;
+  }
+  EXPECT_EQ(bodiesOf(scene), 12);
+}
+
+TEST(Bodies, ABoxTurnedInsideOutIsStillClosed) {
+  scene::Scene scene = boxScene();
+  for (size_t i = 0; i < scene.primitives.size(); ++i) turn(scene, i);
+  EXPECT_EQ(bodiesOf(scene), 12);
+}
+
+TEST(Bodies, ABoxWithoutALidIsNone) {
+  scene::Scene scene = boxScene();
+  scene.instances.pop_back();
+  EXPECT_EQ(bodiesOf(scene), 0);
+}
+
+TEST(Bodies, ABoxWithOneSideTurnedIsNone) {
+  scene::Scene scene = boxScene();
+  turn(scene, 2);
+  EXPECT_EQ(bodiesOf(scene), 0);
+}
+
+TEST(Bodies, AMaskedSideIsAHole) {
+  scene::Scene scene = boxScene();
+  scene.materials.push_back({.name = "grille", .masked = true});
+  scene.primitives[3].material = 1;
+  EXPECT_EQ(bodiesOf(scene), 0);
+}
+
+TEST(Bodies, ASideElsewhereLeavesTheBoxOpen) {
+  scene::Scene scene = boxScene();
+  scene.instances[4].worldFromObject = movedTo(1e-9);
+  EXPECT_EQ(bodiesOf(scene), 0);
+}
+
+TEST(Bodies, PartsAreJudgedOneByOne) {
+  scene::Scene scene = boxScene(true);
+  // A sheet that touches the box in one corner, and one beside it.
+  tests::addQuad(scene, {glm::vec3(1, 1, 1), {2, 1, 1}, {2, 2, 1}, {1, 2, 1}}, {0, 0, 1});
+  tests::addQuad(scene, {glm::vec3(3, 0, 0), {4, 0, 0}, {4, 1, 0}, {3, 1, 0}}, {0, 0, 1});
+  const std::vector<bool> bodies = scene::bodyTriangles(scene);
+  ASSERT_EQ(bodies.size(), kBoxTriangles + 4);
+  EXPECT_EQ(std::ranges::count(bodies, true), 12);
+  EXPECT_EQ(std::count(bodies.begin() + kBoxTriangles, bodies.end(), true), 0);
+}
+
+TEST(Bodies, BoxesThatShareAnEdgeAreClosed) {
+  scene::Scene scene = boxScene();
+  tests::addBox(scene, glm::dmat4(1));
+  for (size_t i = scene.positions.size() / 2; i < scene.positions.size(); ++i) {
+    scene.positions[i] += glm::vec3(2, 2, 0);
+  }
+  EXPECT_EQ(bodiesOf(scene), 24);
+}
+
+TEST(Bodies, TrianglesWithoutAnAreaBelongToNone) {
+  scene::Scene scene = boxScene();
+  scene.primitives.push_back(
+      {.firstIndex = static_cast<uint32_t>(scene.indices.size()), .indexCount = 3});
+  scene.instances.push_back({.primitive = 6});
+  scene.indices.insert(scene.indices.end(), {0, 0, 1});
+  const std::vector<bool> bodies = scene::bodyTriangles(scene);
+  EXPECT_EQ(std::ranges::count(bodies, true), 12);
+  EXPECT_FALSE(bodies.back());
+}
+
+TEST(Bodies, EachInstanceMustBeClosed) {
+  scene::Scene scene = boxScene();
+  // The same six sides twice more, then one side alone.
+  for (const double x : {3.0, 6.0}) {
+    for (uint32_t i = 0; i < 6; ++i) {
+      scene.instances.push_back({.primitive = i, .worldFromObject = movedTo(x)});
+    }
+  }
+  EXPECT_EQ(bodiesOf(scene), 12);
+  scene.instances.push_back({.primitive = 1, .worldFromObject = movedTo(9)});
+  const std::vector<bool> bodies = scene::bodyTriangles(scene);
+  EXPECT_EQ(std::ranges::count(bodies, true), 10);
+  EXPECT_FALSE(bodies[2] || bodies[3]);
+}
+
+TEST(Bodies, PrimitivesWithoutAnInstanceAndEmptyScenesHaveNone) {
+  scene::Scene scene = boxScene();
+  scene.instances.clear();
+  EXPECT_EQ(bodiesOf(scene), 0);
+  EXPECT_TRUE(scene::bodyTriangles(scene::Scene()).empty());
+}
+
+}  // namespace
+}  // namespace grisaille
