@@ -107,7 +107,8 @@ const SceneResources::FarSides& SceneResources::farSides(gpu::Commands& commands
   if (farSides_) return *farSides_;
   farSides_.emplace().bodyCounts.resize(scene_.primitives.size());
   const auto twoSided = [&](const scene::Primitive& primitive) {
-    return scene_.materials[primitive.material].doubleSided;
+    const scene::Material& material = scene_.materials[primitive.material];
+    return material.doubleSided && !material.masked;
   };
   if (std::ranges::none_of(scene_.primitives, twoSided)) return *farSides_;
   const std::vector<bool> bodies = scene::bodyTriangles(scene_);

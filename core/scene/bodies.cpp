@@ -3,8 +3,10 @@
 
 #include <algorithm>
 #include <array>
+#include <cmath>
 #include <cstring>
 #include <map>
+#include <numbers>
 #include <numeric>
 #include <set>
 #include <span>
@@ -57,6 +59,17 @@ std::set<Object> objectsOf(const Scene& scene) {
   return objects;
 }
 
+std::vector<uint32_t> trianglesOf(const Scene& scene, const Object& object) {
+  std::vector<uint32_t> triangles;
+  for (const uint32_t number : object) {
+    const Primitive& primitive = scene.primitives[number];
+    for (uint32_t i = 0; i < primitive.indexCount; i += 3) {
+      triangles.push_back((primitive.firstIndex + i) / 3);
+    }
+  }
+  return triangles;
+}
+
 std::vector<Edge> edgesOf(const Scene& scene, const Object& object,
                           const std::vector<uint32_t>& welded) {
   std::vector<Edge> edges;
@@ -79,6 +92,61 @@ std::vector<Edge> edgesOf(const Scene& scene, const Object& object,
     return std::array{edge.low, edge.high, edge.triangle};
   });
   return edges;
+}
+
+// A triangle of a part.
+struct Corners {
+  glm::dvec3 a, b, c;
+};
+
+std::vector<Corners> cornersOf(const Scene& scene, const std::vector<uint32_t>& triangles) {
+  std::vector<Corners> corners;
+  for (const uint32_t triangle : triangles) {
+    const auto at = [&](uint32_t k) {
+      return glm::dvec3(scene.positions[scene.indices[size_t{triangle} * 3 + k]]);
+    };
+    corners.push_back({at(0), at(1), at(2)});
+  }
+  return corners;
+}
+
+// The solid angle of a triangle from a point, over 4 pi: van Oosterom and Strackee, "The Solid
+// Angle of a Plane Triangle", IEEE Transactions on Biomedical Engineering 30(2), 1983, equation 8.
+// Positive if the point is on the inner side.
+double solidAngle(const Corners& t, const glm::dvec3& point) {
+  const glm::dvec3 a = t.a - point, b = t.b - point, c = t.c - point;
+  const double la = glm::length(a), lb = glm::length(b), lc = glm::length(c);
+  const double over = glm::dot(a, glm::cross(b, c));
+  const double under =
+      la * lb * lc + glm::dot(a, b) * lc + glm::dot(b, c) * la + glm::dot(c, a) * lb;
+  return std::atan2(over, under) / (2 * std::numbers::pi);
+}
+
+// Whether a part that is not closed encloses matter all the same.
+bool enclosesMatter(const std::vector<Corners>& part) {
+  constexpr size_t kPoints = 16;
+  constexpr double kLeast = 0.65;
+  constexpr double kBelow = 1e-6;  // of the part's size, to leave the triangle itself
+  std::vector<double> areas;       // twice the area of the triangles up to each
+  double area = 0;
+  glm::dvec3 least = part.front().a, most = least;
+  for (const Corners& t : part) {
+    areas.push_back(area += glm::length(glm::cross(t.b - t.a, t.c - t.a)));
+    least = glm::min(least, glm::min(t.a, glm::min(t.b, t.c)));
+    most = glm::max(most, glm::max(t.a, glm::max(t.b, t.c)));
+  }
+  if (!(area > 0)) return false;
+  double sum = 0;
+  for (size_t k = 0; k < kPoints; ++k) {
+    // Points that share the area evenly.
+    const double wanted = (static_cast<double>(k) + 0.5) / kPoints * area;
+    const auto found = std::ranges::lower_bound(areas, wanted);
+    const Corners& t = part[static_cast<size_t>(found - areas.begin())];
+    const glm::dvec3 normal = glm::normalize(glm::cross(t.b - t.a, t.c - t.a));
+    const glm::dvec3 point = (t.a + t.b + t.c) / 3.0 - kBelow * glm::length(most - least) * normal;
+    for (const Corners& other : part) sum += solidAngle(other, point);
+  }
+  return sum >= kLeast * kPoints;
 }
 
 // Sets of triangles that grow together.
@@ -129,9 +197,15 @@ std::vector<bool> bodyTriangles(const Scene& scene) {
       if (static_cast<size_t>(ascending) * 2 != run.size())
         openPart[parts.of(run.front().triangle)] = true;
     });
-    for (const Edge& edge : edges) {
-      inPart[edge.triangle] = true;
-      if (openPart[parts.of(edge.triangle)]) open[edge.triangle] = true;
+    for (const Edge& edge : edges) inPart[edge.triangle] = true;
+    std::map<uint32_t, std::vector<uint32_t>> openParts;  // their triangles
+    for (const uint32_t triangle : trianglesOf(scene, object)) {
+      const uint32_t part = parts.of(triangle);
+      if (inPart[triangle] && openPart[part]) openParts[part].push_back(triangle);
+    }
+    for (const auto& [part, all] : openParts) {
+      if (enclosesMatter(cornersOf(scene, all))) continue;
+      for (const uint32_t triangle : all) open[triangle] = true;
     }
   }
   std::vector<bool> bodies(triangles);

@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: MIT
-// Tells solid bodies from sheets. A body's surface is closed, so that its far side is its back. A
-// sheet, such as a leaf or a banner, has no thickness, and its back is its front. Exporters mark
-// closed meshes as double-sided too: only the mesh itself tells.
+// Tells solid bodies from sheets. A body's surface encloses matter, so that its far side is its
+// back. A sheet, such as a leaf or a banner, has no thickness, and its back is its front. Exporters
+// mark bodies as double-sided too: only the mesh itself tells.
 #pragma once
 
 #include <vector>
@@ -10,14 +10,22 @@
 
 namespace grisaille::scene {
 
-// One value for each triangle of Scene::indices: whether it is part of a closed body.
+// One value for each triangle of Scene::indices: whether it belongs to a body.
 //
 // Vertices at equal positions count as one. Triangles that share an edge belong to one part; a part
-// may span several primitives, if their instances have equal transforms. A part is closed if each
-// of its edges runs as often one way as the other. Triangles with a masked material or without an
-// area belong to no part. A primitive with several instances must be closed in each.
+// may span several primitives, if their instances have equal transforms. A part is a body in either
+// case:
 //
-// Takes the scene in its present pose. Time: that of sorting the scene's edges.
+// - it is closed: each of its edges runs as often one way as the other;
+// - just below its surface, its generalised winding number is at least 0.65 on average. A flat
+// sheet
+//   has 0.5, a closed body 1; a body with cracks or without a bottom is near 1. Jacobson, Kavan and
+//   Sorkine-Hornung, "Robust Inside-Outside Segmentation using Generalized Winding Numbers", ACM
+//   Transactions on Graphics 32(4), 2013.
+//
+// Triangles with a masked material or without an area belong to no part. A primitive with several
+// instances must be part of bodies in each. Takes the scene in its present pose. Time: that of
+// sorting the scene's edges, and of 16 solid angles for each triangle of a part that is not closed.
 std::vector<bool> bodyTriangles(const Scene& scene);
 
 }  // namespace grisaille::scene
