@@ -18,6 +18,8 @@ constexpr double kGolden = 0.618034;      // offset between a pixel's slices, go
 constexpr double kPlaneTolerance = 0.05;  // radii
 constexpr double kPlanePixels = 4;        // upper limit of the tolerance, pixel widths
 constexpr double kMostBent = 0.5;         // largest angle between facet and normal, tangent
+constexpr double kSteepest = 8;           // slope of a surface that taps share, if backs are known
+constexpr double kLone = 2.5;             // reach of a surface of one tap, distances between taps
 
 // A slice of the hemisphere over a surface. Angles start at the view vector, and are positive on
 // the side of `across`.
@@ -69,6 +71,7 @@ struct Walk {
   glm::dvec3 point{0}, step{0};   // the previous tap, and the step that led to it
   std::optional<double> depth{};  // of the previous tap, if the next may be joined to it
   int seen = 0;                   // number of taps inside the attachments
+  glm::ivec2 at{0};               // pixel of the previous tap
 };
 
 // Values of a texel: the mean open direction in view space, of any length, and the visibility.
@@ -284,10 +287,19 @@ uint32_t Slices::tap(const Slice& slice, const glm::dvec3& position, const glm::
   const double depth = view_.depth(at);
   const glm::dvec3 ray = view_.ray(glm::dvec2(at) + 0.5);
   const glm::dvec3 front = ray * depth - position, step = front - walk.point;
-  const bool joined = seen && walk.depth && std::abs(depth - *walk.depth) < thickness_;
+  bool joined = seen && walk.depth && std::abs(depth - *walk.depth) < thickness_;
   const double beyond = glm::dot(front, front) - settings_.radius * settings_.radius;
   const bool inside = beyond <= 0;
-  const double first = slice.below(front, walk.side);
+  glm::dvec3 wide(0);
+  if (settings_.backFaces) {
+    const double across = glm::length(step - ray * (glm::dot(step, ray) / glm::dot(ray, ray)));
+    joined = joined && std::abs(depth - *walk.depth) < kSteepest * across;
+    if (inside && !joined && walk.seen > 0) {
+      wide = kLone * depth * glm::dvec3(glm::dvec2(at - walk.at) / view_.focal(), 0);
+      wide -= slice.up * (glm::dot(wide, slice.up) / glm::dot(slice.up, slice.up));
+    }
+  }
+  const double first = slice.below(front - wide, walk.side);
   uint32_t bits = 0;
   bool present = false;
   double from = first;
@@ -304,8 +316,8 @@ uint32_t Slices::tap(const Slice& slice, const glm::dvec3& position, const glm::
     const double root = std::sqrt(std::max(d, 0.0));
     const double near = std::max(0.0, -b - root), far = std::min(matter, root - b);
     present = seen && depth > 0 && d > 0 && near <= far;
-    from = slice.below(front + near * ray, walk.side);
-    const double last = slice.below(front + far * ray, walk.side);
+    from = slice.below(front + near * ray - wide, walk.side);
+    const double last = slice.below(front + far * ray + wide, walk.side);
     const double low = joined ? std::min(from, walk.share) : from;
     const double high = joined ? std::max(from, walk.share) : from;
     bits = sectors(std::min(low, last), std::max(high, last), dither);
@@ -315,6 +327,7 @@ uint32_t Slices::tap(const Slice& slice, const glm::dvec3& position, const glm::
   walk.share = from;
   walk.depth = present && inside ? std::optional(depth) : std::nullopt;
   walk.seen += seen ? 1 : 0;
+  walk.at = at;
   return present ? bits : 0;
 }
 

@@ -43,6 +43,12 @@ layout(IMAGE(1), rgba16f) writeonly uniform image2D bent_target;  // in view spa
 #endif
 
 const float kPi = 3.14159265358979;
+// With known backs: two taps belong to one surface only if it is at most this steep, in metres of
+// view depth per metre across the view.
+const float kSteepest = 8.0;
+// With known backs: how far a tap of its own surface reaches to both sides, in distances from the
+// tap before it.
+const float kLone = 2.5;
 
 // Error at most 7e-5 radians: Hastings 1955, "Approximations for Digital Computers", sheet 38; x in
 // [0, 1].
@@ -115,6 +121,7 @@ struct Side {
   float share;       // see shareOf(); of the previous tap
   float depth;       // of the previous tap, metres; -1e30: the next tap does not connect to it
   float seen;        // number of taps inside the picture
+  vec2 at;           // of the previous tap, pixels
 };
 
 uint sectorsBetween(float low, float high, float dither) {
@@ -151,12 +158,24 @@ uint sectorsOfTap(Slice s, vec2 at, float side, float dither, inout Side before)
   // Two successive taps whose depths differ by less than the thickness belong to one surface: the
   // sectors between them are occluded too, up to the sphere. With few taps this has a smaller error
   // than gaps between the taps, even if the back is known.
-  const bool connected = seen && abs(depth - before.depth) < settings.thickness;
   const bool inside = beyond <= 0.0;
-  const bool leaves = connected && !inside;
   const vec3 step = front - before.point;
-  const vec3 from = front + near * ray;
-  const vec3 to = leaves ? leavesAt(before, step) : front + far * ray;
+  bool connected = seen && abs(depth - before.depth) < settings.thickness;
+  vec3 wide = vec3(0.0);
+  if (kBack) {
+    const float along = dot(step, ray);
+    const float across = sqrt(max(dot(step, step) - along * along * a, 0.0));
+    connected = connected && abs(depth - before.depth) < kSteepest * across;
+    // A surface of one tap, such as a leaf or a bar, stands for what lies between taps: it reaches
+    // to both sides, parallel to the pixel's tangent plane.
+    if (inside && !connected && before.seen > 0.0) {
+      wide = vec3(kLone * depth * (at - before.at) * view.view_from_pixel.xy, 0.0);
+      wide -= s.up * (dot(wide, s.up) / dot(s.up, s.up));
+    }
+  }
+  const bool leaves = connected && !inside;
+  const vec3 from = front + near * ray - wide;
+  const vec3 to = leaves ? leavesAt(before, step) : front + far * ray + wide;
   const float first = shareOf(s, from, side), last = shareOf(s, to, side);
   const float low = min(leaves ? before.share : min(first, connected ? before.share : 1.0), last);
   const float high = max(leaves ? before.share : max(first, connected ? before.share : 0.0), last);
@@ -166,6 +185,7 @@ uint sectorsOfTap(Slice s, vec2 at, float side, float dither, inout Side before)
   before.share = first;
   before.depth = present && inside ? depth : -1e30;
   before.seen += seen ? 1.0 : 0.0;
+  before.at = at;
   return present ? sectorsBetween(low, high, dither) : 0u;
 }
 
@@ -218,8 +238,8 @@ float sliceOf(vec3 position, vec3 view_vec, vec3 normal, vec3 direction, vec2 pi
   const float near = settings.radius * settings.radius / dot(position, position);
   const float reach = settings.radius / (depth * depth) * sqrt(stretch / max(1.0 - near, 0.0625));
   uint occluded = 0u;
-  Side ahead = Side(vec3(0.0), vec3(0.0), 1.0, -1e30, 0.0);
-  Side behind = Side(vec3(0.0), vec3(0.0), 0.0, -1e30, 0.0);
+  Side ahead = Side(vec3(0.0), vec3(0.0), 1.0, -1e30, 0.0, pixel);
+  Side behind = Side(vec3(0.0), vec3(0.0), 0.0, -1e30, 0.0, pixel);
   // Not unrolled: unrolling costs a third more on lavapipe and gains nothing elsewhere.
   for (uint i = 0u; i < kSteps; ++i) {
     // Taps are denser near the pixel. Tap i is at least i + 1 pixels away.

@@ -38,7 +38,7 @@ class TruthTest : public WindowTest {
   }
   static double rmse(const DrivenViewer& viewer) { return std::stod(viewer.value("rmse")); }
 };
-GRISAILLE_IN_WINDOWS(TruthTest);
+GRISAILLE_IN_A_WINDOW(TruthTest, "vulkan");
 
 TEST_P(TruthTest, WhatIsShownIsTheError) {
   DrivenViewer viewer(folder_, arguments(), environment());
