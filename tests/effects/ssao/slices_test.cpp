@@ -4,6 +4,7 @@
 
 #include <algorithm>
 #include <glm/gtc/constants.hpp>
+#include <random>
 
 #include "core/frame/view_block.h"
 #include "tests/effects/ssao/render_ao.h"
@@ -26,7 +27,9 @@ std::string join(const tests::Settings& settings) {
 }
 
 TEST_P(SlicesTest, APlaneIsOpenAtEveryTiltAndDistance) {
-  const scene::Scene scene = tests::floorScene(1e5f);
+  // A sheet too, which is its own back.
+  scene::Scene scene = tests::floorScene(1e5f);
+  scene.materials[0].doubleSided = true;
   for (const double degrees : {1.0, 10.0, 35.0, 60.0, 90.0}) {
     for (const double distance : {0.2, 2.0, 50.0, 1000.0}) {
       const double tilt = glm::radians(degrees);
@@ -35,12 +38,13 @@ TEST_P(SlicesTest, APlaneIsOpenAtEveryTiltAndDistance) {
           .eye = distance * glm::dvec3(0.1 * std::cos(tilt), std::sin(tilt), std::cos(tilt)),
           .target = glm::dvec3(0),
           .up = glm::normalize(glm::dvec3(0.3, std::cos(tilt), -std::sin(tilt)))};
-      for (const char* resolution : kResolutions) {
-        const image::Image ao =
-            tests::renderAo(device(), scene, camera, {{"resolution", resolution}});
+      const auto expectOpen = [&](const tests::Settings& settings) {
+        const image::Image ao = tests::renderAo(device(), scene, camera, settings);
         const float least = *std::min_element(ao.pixels.begin(), ao.pixels.end());
-        EXPECT_GT(least, 0.98f) << resolution << ", " << degrees << " degrees, " << distance;
-      }
+        EXPECT_GT(least, 0.98f) << join(settings) << degrees << " degrees, " << distance;
+      };
+      for (const char* resolution : kResolutions) expectOpen({{"resolution", resolution}});
+      expectOpen({{"back_faces", "true"}, {"thickness", "1"}});
     }
   }
 }
@@ -195,6 +199,93 @@ TEST_P(SlicesTest, BackFacesSayHowThickABoardIs) {
   };
   EXPECT_GT(mean(0.02f, "1", "true"), mean(0.02f, "1", "false") + 0.005);
   EXPECT_LT(mean(0.4f, "0.05", "true"), mean(0.4f, "0.05", "false") - 0.005);
+}
+
+// A square sheet with the corners centre +- u +- v.
+struct Leaf {
+  glm::dvec3 centre, u, v, normal;
+};
+
+// Leaves in a layer over the floor, at random places and tilts.
+std::vector<Leaf> leaves() {
+  std::vector<Leaf> all;
+  std::mt19937 random(5);
+  std::uniform_real_distribution<double> unit(-1, 1);
+  for (int i = 0; i < 400; ++i) {
+    Leaf leaf;
+    leaf.centre = {1.5 * unit(random), 0.35 + 0.25 * unit(random), 1.5 * unit(random)};
+    leaf.normal = glm::normalize(glm::dvec3(unit(random), 1.2, unit(random)));
+    leaf.u = 0.05 * glm::normalize(glm::cross(leaf.normal, glm::dvec3(0, 0, 1)));
+    leaf.v = glm::cross(leaf.normal, leaf.u);
+    all.push_back(leaf);
+  }
+  return all;
+}
+
+// Share of the cosine-weighted directions from a point that meet no leaf within the radius.
+double tracedVisibility(const std::vector<Leaf>& leaves, const glm::dvec3& point,
+                        const glm::dvec3& normal, double radius) {
+  constexpr int kRays = 64;
+  const glm::dvec3 along = glm::normalize(
+      glm::cross(normal, std::abs(normal.x) < 0.5 ? glm::dvec3(1, 0, 0) : glm::dvec3(0, 1, 0)));
+  const glm::dvec3 across = glm::cross(normal, along);
+  int open = 0;
+  for (int i = 0; i < kRays; ++i) {
+    const double u = (i + 0.5) / kRays, phi = i * 2.399963;  // a spiral
+    const glm::dvec3 ray =
+        std::sqrt(u) * (std::cos(phi) * along + std::sin(phi) * across) + std::sqrt(1 - u) * normal;
+    open += std::ranges::none_of(leaves, [&](const Leaf& leaf) {
+      const double t = glm::dot(leaf.centre - point, leaf.normal) / glm::dot(ray, leaf.normal);
+      if (!(t > 1e-4 && t < radius)) return false;
+      const glm::dvec3 at = point + t * ray - leaf.centre;
+      return std::max(std::abs(glm::dot(at, leaf.u)), std::abs(glm::dot(at, leaf.v))) <=
+             glm::dot(leaf.u, leaf.u);
+    });
+  }
+  return static_cast<double>(open) / kRays;
+}
+
+// Most taps miss a leaf. Those that meet one stand for its neighbours too.
+TEST_P(SlicesTest, LeavesDarkenAsMuchAsTheyShould) {
+  scene::Scene scene = tests::floorScene();
+  scene.materials.push_back({.name = "leaf", .doubleSided = true});
+  const std::vector<Leaf> all = leaves();
+  for (const Leaf& leaf : all) {
+    const glm::vec3 c(leaf.centre), u(leaf.u), v(leaf.v);
+    tests::addQuad(scene, {c - u + v, c + u + v, c + u - v, c - u - v}, glm::vec3(leaf.normal), 1);
+  }
+  const scene::Camera camera = {.eye = glm::dvec3(0.3, 1.6, 2.6), .target = glm::dvec3(0, 0.2, 0)};
+  constexpr double kRadius = 0.4;
+  tests::AoFrames frames(device(), scene,
+                         {{"radius", "0.4"},
+                          {"back_faces", "true"},
+                          {"thickness", "1"},
+                          {"steps", "12"},
+                          {"resolution", "full"}});
+  const auto shown = frames.showAll(camera, 192, 144, {"ao", "depth", "facet_normal"});
+  const glm::dmat3 axes = scene::worldFromView(camera);
+  const double slope = std::tan(glm::radians(camera.fovyDegrees) / 2) * 2 / 144;
+  double squares = 0, sum = 0;
+  int count = 0;
+  for (uint32_t y = 3; y < 144; y += 8) {
+    for (uint32_t x = 3; x < 192; x += 8) {
+      const double depth = shown[1].at(x, y);
+      if (depth == 0) continue;
+      const glm::dvec3 ray((x - 95.5) * slope, (71.5 - y) * slope, -1);
+      const glm::dvec3 point = camera.eye + axes * ray * depth;
+      if (std::max(std::abs(point.x), std::abs(point.z)) > 1.2) continue;
+      const float* n = &shown[2].pixels[(size_t{y} * 192 + x) * shown[2].channels];
+      const double truth =
+          tracedVisibility(all, point, glm::normalize(glm::dvec3(n[0], n[1], n[2])), kRadius);
+      const double error = shown[0].at(x, y) - truth;
+      squares += error * error;
+      sum += error;
+      ++count;
+    }
+  }
+  ASSERT_GE(count, 100);
+  EXPECT_LT(std::sqrt(squares / count), 0.2);
+  EXPECT_LT(std::abs(sum / count), 0.1);
 }
 
 // With a guard band, a picture equals the middle of a larger one. The band is a multiple of the
