@@ -45,7 +45,7 @@ std::vector<size_t> thinned(std::span<const Price> prices, std::span<const size_
 // of the front would be the natural choice, but a front is nearly straight in error and logarithm
 // of cost. Its knees jump from one end to the other with the noise of the clock.) Throws
 // kFrontSmall for fewer than four points.
-constexpr double kReferenceRatio = 3, kPresetRatio = 2.6;
+constexpr double kReferenceRatio = 3, kPresetRatio = 2;
 std::vector<size_t> presetsOn(std::span<const Price> front);
 
 // Chooses the presets of an effect from the records and writes the presets file. Throws

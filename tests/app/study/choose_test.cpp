@@ -45,8 +45,8 @@ TEST(Presets, AreOnTheFrontAndInOrder) {
 TEST(Presets, EachCostsAtMostItsShareOfTheNext) {
   std::vector<Price> front;
   for (int i = 0; i <= 10; ++i) front.push_back({std::exp2(i), 1 - 0.05 * i});
-  // With 1024 as the highest cost, the others may cost at most 50.5, 131.3 and 341.3.
-  EXPECT_EQ(presetsOn(front), (std::vector<size_t>{5, 7, 8, 10}));
+  // With 1024 as the highest cost, the others may cost at most 85.3, 170.7 and 341.3.
+  EXPECT_EQ(presetsOn(front), (std::vector<size_t>{6, 7, 8, 10}));
   // Without cheap settings, the presets are spread evenly.
   front = {{40, 0.9}, {45, 0.8}, {50, 0.7}, {60, 0.6}, {100, 0.5}};
   EXPECT_EQ(presetsOn(front), (std::vector<size_t>{0, 1, 3, 4}));
