@@ -20,8 +20,14 @@ using Object = std::vector<uint32_t>;
 // The edge of a triangle between two welded vertices, `low` < `high`.
 struct Edge {
   uint32_t low, high;
-  uint32_t triangle;
-  bool ascends;  // runs from `low` to `high`
+  uint32_t triangle;  // index into Mesh::triangles
+  bool ascends;       // runs from `low` to `high`
+};
+
+// The triangles of an object that count, and their edges, in the order of their vertices.
+struct Mesh {
+  std::vector<uint32_t> triangles;  // numbers in the scene
+  std::vector<Edge> edges;
 };
 
 // For each vertex, the lowest vertex at the same position.
@@ -59,20 +65,8 @@ std::set<Object> objectsOf(const Scene& scene) {
   return objects;
 }
 
-std::vector<uint32_t> trianglesOf(const Scene& scene, const Object& object) {
-  std::vector<uint32_t> triangles;
-  for (const uint32_t number : object) {
-    const Primitive& primitive = scene.primitives[number];
-    for (uint32_t i = 0; i < primitive.indexCount; i += 3) {
-      triangles.push_back((primitive.firstIndex + i) / 3);
-    }
-  }
-  return triangles;
-}
-
-std::vector<Edge> edgesOf(const Scene& scene, const Object& object,
-                          const std::vector<uint32_t>& welded) {
-  std::vector<Edge> edges;
+Mesh meshOf(const Scene& scene, const Object& object, const std::vector<uint32_t>& welded) {
+  Mesh mesh;
   for (const uint32_t number : object) {
     const Primitive& primitive = scene.primitives[number];
     if (scene.materials[primitive.material].masked) continue;
@@ -82,16 +76,18 @@ std::vector<Edge> edgesOf(const Scene& scene, const Object& object,
       for (uint32_t k = 0; k < 3; ++k) corners[k] = welded[scene.indices[first + k]];
       if (corners[0] == corners[1] || corners[1] == corners[2] || corners[2] == corners[0])
         continue;
+      const auto triangle = static_cast<uint32_t>(mesh.triangles.size());
+      mesh.triangles.push_back(first / 3);
       for (uint32_t k = 0; k < 3; ++k) {
         const uint32_t from = corners[k], to = corners[(k + 1) % 3];
-        edges.push_back({std::min(from, to), std::max(from, to), first / 3, from < to});
+        mesh.edges.push_back({std::min(from, to), std::max(from, to), triangle, from < to});
       }
     }
   }
-  std::ranges::sort(edges, {}, [](const Edge& edge) {
+  std::ranges::sort(mesh.edges, {}, [](const Edge& edge) {
     return std::array{edge.low, edge.high, edge.triangle};
   });
-  return edges;
+  return mesh;
 }
 
 // A triangle of a part.
@@ -186,22 +182,22 @@ std::vector<bool> bodyTriangles(const Scene& scene) {
   const std::vector<uint32_t> welded = weld(scene.positions);
   std::vector<bool> inPart(triangles), open(triangles);
   for (const Object& object : objectsOf(scene)) {
-    const std::vector<Edge> edges = edgesOf(scene, object, welded);
-    Parts parts(triangles);
-    forEachRun(edges, [&](std::span<const Edge> run) {
+    const Mesh mesh = meshOf(scene, object, welded);
+    Parts parts(mesh.triangles.size());
+    forEachRun(mesh.edges, [&](std::span<const Edge> run) {
       for (const Edge& edge : run) parts.join(edge.triangle, run.front().triangle);
     });
-    std::vector<bool> openPart(triangles);
-    forEachRun(edges, [&](std::span<const Edge> run) {
+    std::vector<bool> openPart(mesh.triangles.size());
+    forEachRun(mesh.edges, [&](std::span<const Edge> run) {
       const auto ascending = std::ranges::count_if(run, &Edge::ascends);
       if (static_cast<size_t>(ascending) * 2 != run.size())
         openPart[parts.of(run.front().triangle)] = true;
     });
-    for (const Edge& edge : edges) inPart[edge.triangle] = true;
-    std::map<uint32_t, std::vector<uint32_t>> openParts;  // their triangles
-    for (const uint32_t triangle : trianglesOf(scene, object)) {
-      const uint32_t part = parts.of(triangle);
-      if (inPart[triangle] && openPart[part]) openParts[part].push_back(triangle);
+    std::map<uint32_t, std::vector<uint32_t>> openParts;  // numbers of their triangles in the scene
+    for (uint32_t i = 0; i < mesh.triangles.size(); ++i) {
+      inPart[mesh.triangles[i]] = true;
+      const uint32_t part = parts.of(i);
+      if (openPart[part]) openParts[part].push_back(mesh.triangles[i]);
     }
     for (const auto& [part, all] : openParts) {
       if (enclosesMatter(cornersOf(scene, all))) continue;
