@@ -30,6 +30,7 @@ namespace fs = std::filesystem;
 struct MeasureOptions {
   SubjectOptions subject;
   std::string backend = "both", device, out, shard = "1/1", presets, path;
+  std::vector<std::string> also;
   std::vector<std::string> sweeps;
   uint32_t rounds = 5;
   bool check = false, reportOnly = false;
@@ -107,16 +108,26 @@ void requireDistinctOutputs(const MeasureOptions& options) {
   requireDistinct(outputs);
 }
 
+std::vector<study::NamedPreset> namedPresets(const MeasureOptions& options) {
+  if (!options.also.empty() && options.presets.empty()) {
+    throw Error(ErrorId::kUsage, "--also names presets, but --presets with their file is missing");
+  }
+  std::vector<study::NamedPreset> named;
+  for (const std::string& text : options.also) named.push_back(study::parseNamedPreset(text));
+  return named;
+}
+
 void report(const MeasureOptions& options) {
   study::writeReport(options.out);
   fmt::print("wrote {}\n", (fs::path(options.out) / "index.html").string());
   if (options.presets.empty()) return;
-  study::writePresets(study::loadAll(options.out), options.presets);
+  study::writePresets(study::loadAll(options.out), namedPresets(options), options.presets);
   fmt::print("wrote {}\n", options.presets);
 }
 
 void measure(const MeasureOptions& options) {
   requireDistinctOutputs(options);
+  namedPresets(options);  // mistakes in it show before anything is measured
   if (options.reportOnly) return report(options);
   MeasureJob job(options);
   requireDevices(job.backendNames, options.device);
@@ -193,6 +204,11 @@ void addMeasure(CLI::App& program) {
       ->add_option("--presets", options->presets,
                    "Choose presets of the swept effect from the front, and write them")
       ->type_name("FILE.toml");
+  command
+      ->add_option("--also", options->also,
+                   "With --presets: also the preset NAME, of the settings with this value the one "
+                   "with the least error")
+      ->type_name("NAME=EFFECT.KEY=VALUE");
   command->add_flag("--check", options->check,
                     "Validate every graphics call, in the rendering layer and in the driver");
   command->callback([options] { measure(*options); });

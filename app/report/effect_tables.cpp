@@ -20,11 +20,13 @@ const char* typeName(const grisaille_param_desc& param) {
   return kNames[param.type];
 }
 
-// " (advanced)", " (look)" or both, by the parameter's flags.
-std::string markText(const grisaille_param_desc& param) {
+// " (advanced, look, used when estimator = slices)", as far as it holds.
+std::string markText(const effect::Effect& effect, const grisaille_param_desc& param) {
   std::vector<std::string> marks;
   if ((param.flags & GRISAILLE_PARAM_ADVANCED) != 0) marks.emplace_back("advanced");
   if ((param.flags & GRISAILLE_PARAM_LOOK) != 0) marks.emplace_back("look");
+  const std::string condition = effect::usedWhenText(effect, param);
+  if (!condition.empty()) marks.push_back("used when " + condition);
   return marks.empty() ? "" : fmt::format(" ({})", fmt::join(marks, ", "));
 }
 
@@ -98,7 +100,7 @@ std::string readsText(const effect::Effect& effect) {
   }
 }
 
-nlohmann::ordered_json jsonOf(const grisaille_param_desc& param) {
+nlohmann::ordered_json jsonOf(const effect::Effect& effect, const grisaille_param_desc& param) {
   nlohmann::ordered_json json = {{"key", param.key},
                                  {"label", param.label},
                                  {"type", typeName(param)},
@@ -120,6 +122,12 @@ nlohmann::ordered_json jsonOf(const grisaille_param_desc& param) {
     json["step"] = param.step;
     json["scale"] = (param.flags & GRISAILLE_PARAM_LOG) != 0 ? "log" : "linear";
     json["scene_length"] = (param.flags & GRISAILLE_PARAM_SCENE_LENGTH) != 0;
+  }
+  if (param.used_when_key != nullptr) {
+    const auto other = std::ranges::find(effect.params(), std::string_view(param.used_when_key),
+                                         &grisaille_param_desc::key);
+    json["used_when"] = {{"parameter", other->key},
+                         {"value", effect::textOf(*other, param.used_when_value)}};
   }
   return json;
 }
@@ -176,9 +184,9 @@ std::string effectsText(const effect::Registry& registry) {
                         effect.desc->tooltip, runs ? "runs by default\n  " : "", effect.path,
                         readsText(effect));
     for (const grisaille_param_desc& param : effect.params()) {
-      text +=
-          fmt::format("  {:<14} {:<10} {:<32} {}\n", param.key,
-                      effect::textOf(param, param.default_value), rangeText(param), param.tooltip);
+      text += fmt::format("  {:<14} {:<10} {:<32} {}{}\n", param.key,
+                          effect::textOf(param, param.default_value), rangeText(param),
+                          param.tooltip, markText(effect, param));
     }
     for (const grisaille_output_desc& output : effect.outputs()) {
       text += fmt::format("  writes {}: {}\n", output.key, output.tooltip);
@@ -213,7 +221,7 @@ std::string effectsJson(const effect::Registry& registry) {
                                     {"outputs", nlohmann::json::array()},
                                     {"presets", presetsJson(effect)}};
     for (const grisaille_param_desc& param : effect.params()) {
-      entry["parameters"].push_back(jsonOf(param));
+      entry["parameters"].push_back(jsonOf(effect, param));
     }
     for (const grisaille_output_desc& output : effect.outputs()) {
       entry["outputs"].push_back({{"key", output.key}, {"tooltip", output.tooltip}});
@@ -242,7 +250,7 @@ std::string effectMarkdown(const effect::Effect& effect) {
   };
   for (const grisaille_param_desc& param : effect.params()) {
     const bool ofScene = (param.flags & GRISAILLE_PARAM_SCENE_LENGTH) != 0;
-    text += fmt::format("| `{}`{} | {}{} | {} | {} |\n", param.key, markText(param),
+    text += fmt::format("| `{}`{} | {}{} | {} | {} |\n", param.key, markText(effect, param),
                         effect::textOf(param, param.default_value),
                         ofScene ? ", scaled to the scene" : "", cell(rangeText(param)),
                         cell(param.tooltip));

@@ -3,6 +3,7 @@
 
 #include <fmt/format.h>
 #include <algorithm>
+#include <ranges>
 #include <set>
 
 #include "app/settings/toml_values.h"
@@ -47,7 +48,14 @@ const Preset& Presets::find(const std::string& effect, const std::string& name) 
   if (found != all.end()) return *found;
   if (all.empty()) throw Error(ErrorId::kPresetUnknown, "effect '{}' has no presets", effect);
   throw Error(ErrorId::kPresetUnknown, "effect '{}' has no preset '{}', only {}", effect, name,
-              fmt::join(kPresetNames, ", "));
+              fmt::join(std::views::transform(all, &Preset::name), ", "));
+}
+
+bool isPresetName(std::string_view name) {
+  const auto small = [](char c) { return c >= 'a' && c <= 'z'; };
+  return !name.empty() && small(name.front()) && name != "study" &&
+         std::ranges::all_of(
+             name, [&](char c) { return small(c) || (c >= '0' && c <= '9') || c == '_'; });
 }
 
 std::filesystem::path presetsFile(const effect::Effect& effect) {
@@ -66,7 +74,16 @@ Presets loadPresets(const effect::Effect& effect) {
     throw Error(ErrorId::kPresetFile, "{}", error.detail());
   }
   presets.study = table["study"].value_or(std::string());
-  for (const char* name : kPresetNames) {
+  std::vector<std::string> names(std::begin(kPresetNames), std::end(kPresetNames));
+  for (const auto& [key, node] : table) {
+    if (key == "study" || std::ranges::count(names, key.str()) > 0) continue;
+    if (!isPresetName(key.str())) {
+      throw Error(ErrorId::kPresetFile, "{}: '{}' is no name of a preset: use a-z, 0-9, _", path,
+                  oneLine(key.str()));
+    }
+    names.emplace_back(key.str());
+  }
+  for (const std::string& name : names) {
     const toml::table* own = table[name].as_table();
     if (own == nullptr)
       throw Error(ErrorId::kPresetFile, "{}: the table '{}' is missing", path, name);
@@ -92,7 +109,11 @@ std::string presetsToml(const Presets& presets) {
 void applyPreset(effect::Values& values, const Presets& presets, const std::string& name) {
   const Preset& chosen = presets.find(values.effect().desc->key, name);
   for (const Preset& preset : presets.all) {
-    for (const auto& [key, text] : preset.values) values.reset(key);
+    for (const auto& [key, text] : preset.values) {
+      const uint32_t flags = values.effect().params()[values.indexOf(key)].flags;
+      const bool look = (flags & GRISAILLE_PARAM_LOOK) != 0;
+      if (!look || values.text(key) == text) values.reset(key);
+    }
   }
   for (const auto& [key, text] : chosen.values) values.set(key, text);
 }

@@ -7,10 +7,13 @@
 //   error = 0.105           # RMSE against the truth
 //   cost = 0.31             # balanced = 1
 //   values = {kernel_size = 8, blur_size = 4}
+//
+// The four presets of kPresetNames must be there; others may follow.
 #pragma once
 
 #include <filesystem>
 #include <string>
+#include <string_view>
 #include <utility>
 #include <vector>
 
@@ -21,7 +24,7 @@ namespace grisaille::app {
 inline constexpr const char* kPresetNames[] = {"fast", "balanced", "fine", "reference"};
 
 struct Preset {
-  std::string name;  // of kPresetNames
+  std::string name;  // see isPresetName()
   double error = 0;
   double cost = 0;  // as a multiple of the cost of `balanced`
   // Key and value as text. Parameters that are not listed have their defaults.
@@ -30,11 +33,14 @@ struct Preset {
 
 struct Presets {
   std::string study;
-  std::vector<Preset> all;  // in the order of kPresetNames
+  std::vector<Preset> all;  // first those of kPresetNames, in that order
 
   // Throws kPresetUnknown.
   const Preset& find(const std::string& effect, const std::string& name) const;
 };
+
+// Whether a preset may have this name: a-z, 0-9, _, beginning with a letter; not "study".
+bool isPresetName(std::string_view name);
 
 std::filesystem::path presetsFile(const effect::Effect& effect);
 
@@ -45,8 +51,9 @@ Presets loadPresets(const effect::Effect& effect);
 // The text of a file that loadPresets() reads.
 std::string presetsToml(const Presets& presets);
 
-// Sets the values of the preset, and the defaults of parameters that only other presets name.
-// Throws kPresetUnknown.
+// Sets the values of the preset, and the defaults of parameters that only other presets name. A
+// parameter of look (GRISAILLE_PARAM_LOOK) keeps its value, unless one of those presets gave it
+// that value. Throws kPresetUnknown.
 void applyPreset(effect::Values& values, const Presets& presets, const std::string& name);
 
 // The parameters that a search may change: those that a preset names, and all that are not

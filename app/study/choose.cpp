@@ -112,7 +112,23 @@ std::vector<size_t> thinned(std::span<const Price> prices, std::span<const size_
   return kept;
 }
 
-void writePresets(std::span<const Record> records, const std::string& file) {
+NamedPreset parseNamedPreset(const std::string& text) {
+  const size_t name = text.find('='), value = text.find('=', name + 1);
+  const auto refuse = [&](const std::string& why) {
+    throw Error(ErrorId::kUsage, "--also '{}' {}; write NAME=EFFECT.KEY=VALUE", oneLine(text), why);
+  };
+  if (name == std::string::npos || value == std::string::npos) refuse("has fewer than two '='");
+  NamedPreset named;
+  named.name = text.substr(0, name);
+  if (!isPresetName(named.name)) refuse("begins with no name of a preset (a-z, 0-9, _)");
+  if (std::ranges::count(kPresetNames, named.name) > 0) refuse("names a preset of the front");
+  named.value = {effect::parseParameterName(text.substr(name + 1, value - name - 1)),
+                 text.substr(value + 1)};
+  return named;
+}
+
+void writePresets(std::span<const Record> records, std::span<const NamedPreset> more,
+                  const std::string& file) {
   const std::vector<Choice> choices = choicesOf(records);
   requireOneEffect(choices);
   std::vector<Price> prices, front;
@@ -121,9 +137,8 @@ void writePresets(std::span<const Record> records, const std::string& file) {
   for (const size_t i : order) front.push_back(prices[i]);
   const std::vector<size_t> chosen = presetsOn(front);
   Presets presets{.study = sentenceOf(records), .all = {}};
-  for (size_t i = 0; i < chosen.size(); ++i) {
-    const Choice& choice = choices[order[chosen[i]]];
-    Preset preset{.name = kPresetNames[i],
+  const auto add = [&](const std::string& name, const Choice& choice) {
+    Preset preset{.name = name,
                   .error = choice.price.error,
                   .cost = choice.price.cost / front[chosen[1]].cost,
                   .values = {}};
@@ -131,6 +146,21 @@ void writePresets(std::span<const Record> records, const std::string& file) {
       preset.values.emplace_back(one.name.key, one.value);
     }
     presets.all.push_back(std::move(preset));
+  };
+  for (size_t i = 0; i < chosen.size(); ++i) add(kPresetNames[i], choices[order[chosen[i]]]);
+  for (const NamedPreset& named : more) {
+    const Choice* best = nullptr;
+    for (const Choice& choice : choices) {
+      const bool has = std::ranges::any_of(choice.setting, [&](const effect::Assignment& one) {
+        return one.text() == named.value.text();
+      });
+      if (has && (best == nullptr || choice.price.error < best->price.error)) best = &choice;
+    }
+    if (best == nullptr) {
+      throw Error(ErrorId::kUsage, "--also {}: no measured setting has {}", named.name,
+                  named.value.text());
+    }
+    add(named.name, *best);
   }
   writeFileAtomically(file, presetsToml(presets));
 }

@@ -48,8 +48,20 @@ std::vector<size_t> thinned(std::span<const Price> prices, std::span<const size_
 constexpr double kReferenceRatio = 3, kPresetRatio = 2;
 std::vector<size_t> presetsOn(std::span<const Price> front);
 
-// Chooses the presets of an effect from the records and writes the presets file. Throws
-// kFrontSmall, kUsage if the settings are not all of one effect, kFileUnwritable.
-void writePresets(std::span<const Record> records, const std::string& file);
+// A preset beside those of kPresetNames: of the settings with this value, the one with the least
+// error.
+struct NamedPreset {
+  std::string name;
+  effect::Assignment value;
+};
+
+// Parses "classic=ssao.estimator=classic". Throws kUsage.
+NamedPreset parseNamedPreset(const std::string& text);
+
+// Chooses the presets of an effect from the records and writes the presets file, first those of
+// kPresetNames. Throws kFrontSmall, kUsage if the settings are not all of one effect or none has
+// the value of `more`, kFileUnwritable.
+void writePresets(std::span<const Record> records, std::span<const NamedPreset> more,
+                  const std::string& file);
 
 }  // namespace grisaille::app::study

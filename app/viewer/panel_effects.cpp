@@ -41,6 +41,8 @@ std::string tooltipOf(const effect::Selection::Entry& entry, const grisaille_par
     text += fmt::format(": {:g} to {:g}{}{}, usually {:g} to {:g}", param.hard_min, param.hard_max,
                         unit, param.unit, param.soft_min, param.soft_max);
   }
+  const std::string condition = effect::usedWhenText(entry.effect(), param);
+  if (!condition.empty()) text += "\nUsed when " + condition + ".";
   return text + fmt::format("\nCtrl+click: type a value. Right click: back to {}.",
                             effect::textOf(param, entry.values.defaultOf(param.key)));
 }
@@ -165,7 +167,11 @@ void Panel::drawParameter(effect::Selection::Entry& entry, const grisaille_param
   const std::string name = std::string(entry.key()) + "." + param.key;
   double value = entry.values.get(param.key);
   ImGui::SetNextItemWidth(ImGui::GetContentRegionAvail().x * 0.58f);
+  // Fainter if it does nothing now; it can still be set.
+  const bool used = entry.values.isUsed(param);
+  if (!used) ImGui::PushStyleVar(ImGuiStyleVar_Alpha, ImGui::GetStyle().DisabledAlpha);
   bool edited = editParameter(entry, param, value);
+  if (!used) ImGui::PopStyleVar();
   // A typed value is applied when the user leaves the text field; Esc drops it.
   if (ImGui::TempInputIsActive(ImGui::GetItemID())) {
     if (edited) typed_ = {name, value};

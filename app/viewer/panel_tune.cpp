@@ -40,7 +40,8 @@ void Panel::drawPresets(effect::Selection::Entry& entry) {
   }
   if (own.presets.all.empty()) return;
   const Preset* const now = presetOf(entry.values, own.presets);
-  drawQuiet("Preset: " + (now != nullptr ? now->name + ", " + priceOf(*now) : "custom"));
+  drawQuiet("Preset: " + (now != nullptr ? now->name + ", " + priceOf(*now)
+                                         : "custom; error and cost of the others:"));
   layout.note(key + ".presets", now != nullptr ? now->name : "custom");
   const auto count = static_cast<float>(own.presets.all.size());
   const float gap = ImGui::GetStyle().ItemInnerSpacing.x;
@@ -52,7 +53,7 @@ void Panel::drawPresets(effect::Selection::Entry& entry) {
     const bool is = &preset == now;
     if (is) ImGui::PushStyleColor(ImGuiCol_Button, ImGui::GetStyleColorVec4(ImGuiCol_ButtonActive));
     const std::string label =
-        fmt::format("{}\nerror {:.3f}\n{:.2f} x", preset.name, preset.error, preset.cost);
+        fmt::format("{}\n{:.3f}\n{:.2f} x", preset.name, preset.error, preset.cost);
     if (ImGui::Button(label.c_str(), ImVec2(width, height))) chosen = preset.name;
     if (is) ImGui::PopStyleColor();
     if (ImGui::IsItemHovered()) ImGui::SetTooltip("%s", tooltipOf(preset, own.presets).c_str());

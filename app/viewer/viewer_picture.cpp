@@ -4,6 +4,8 @@
 #include <cmath>
 #include <filesystem>
 
+#include <imgui/imgui.h>
+
 #include "app/truth/error_map.h"
 #include "app/viewer/viewer.h"
 #include "core/base/atomic_file.h"
@@ -237,6 +239,7 @@ void Viewer::writeLayout() {
                                                                                        : "stale");
   panel_.layout.note("camera", 0, 0, 0, 0, scene::cameraJson(session_.camera));
   panel_.layout.note("drawn", 0, 0, 0, 0, fmt::format("{}", drawn_));
+  panel_.layout.note("typing", 0, 0, 0, 0, ImGui::GetIO().WantTextInput ? "true" : "false");
   if (session_.comparing.on) {
     panel_.layout.note("truths", 0, 0, 0, 0, fmt::format("{}", truth_->started()));
     panel_.layout.note("rmse", 0, 0, 0, 0, fmt::format("{:.7f}", truth_->comparison().rmse));

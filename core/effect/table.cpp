@@ -188,6 +188,28 @@ void checkSceneLength(const std::string& at, const grisaille_param_desc& param) 
   }
 }
 
+// Needs checked parameters.
+void checkUsedWhen(const std::string& at, const grisaille_effect_desc& effect,
+                   const grisaille_param_desc& param) {
+  if (param.used_when_key == nullptr)
+    return checkZero(at + ".used_when_value", param.used_when_value);
+  checkLine(at + ".used_when_key", param.used_when_key);
+  const std::string_view key = param.used_when_key;
+  const std::span params(effect.params, effect.param_count);
+  const auto other = std::ranges::find(params, key, &grisaille_param_desc::key);
+  if (other == params.end() || key == param.key ||
+      (other->type != GRISAILLE_PARAM_ENUM && other->type != GRISAILLE_PARAM_BOOL)) {
+    refuse(at + ".used_when_key",
+           "is \"{}\", must be the key of another parameter that is an enum "
+           "or a bool",
+           oneLine(key));
+  }
+  if (param.used_when_value > other->hard_max) {
+    refuse(at + ".used_when_value", "is {}, over the {} of {}", param.used_when_value,
+           other->hard_max, key);
+  }
+}
+
 void checkParam(const std::string& at, const grisaille_param_desc& param) {
   checkStructSize(at, param.struct_size, {sizeof(grisaille_param_desc)});
   checkKey(at + ".key", param.key);
@@ -342,6 +364,9 @@ void checkEffect(const std::string& at, const grisaille_effect_desc* desc) {
   for (uint32_t i = 0; i < effect.param_count; ++i) {
     checkParam(fmt::format("{}.params[{}]", at, i), effect.params[i]);
     checkUnique(at + ".params", ".key", i, [&](uint32_t n) { return effect.params[n].key; });
+  }
+  for (uint32_t i = 0; i < effect.param_count; ++i) {
+    checkUsedWhen(fmt::format("{}.params[{}]", at, i), effect, effect.params[i]);
   }
   checkCount(at + ".output_count", effect.output_count, 1, kMaxOutputs);
   checkPresent(at + ".outputs", effect.outputs);

@@ -100,6 +100,14 @@ std::string textOf(const grisaille_param_desc& param, double value) {
   }
 }
 
+std::string usedWhenText(const Effect& effect, const grisaille_param_desc& param) {
+  if (param.used_when_key == nullptr) return "";
+  const auto params = effect.params();
+  const auto other =
+      std::ranges::find(params, std::string_view(param.used_when_key), &grisaille_param_desc::key);
+  return fmt::format("{} = {}", other->key, textOf(*other, param.used_when_value));
+}
+
 Values::Values(const Effect& effect) : effect_(effect) {
   for (const grisaille_param_desc& param : effect.params()) {
     defaults_.push_back(param.default_value);
@@ -161,6 +169,11 @@ void Values::reset() {
 std::string Values::text(std::string_view key) const {
   const size_t index = indexOf(key);
   return textOf(effect_.params()[index], values_[index]);
+}
+
+bool Values::isUsed(const grisaille_param_desc& param) const {
+  return param.used_when_key == nullptr ||
+         get(param.used_when_key) == static_cast<double>(param.used_when_value);
 }
 
 }  // namespace grisaille::effect

@@ -15,6 +15,9 @@ namespace grisaille::effect {
 // A valid value of the parameter, in the form that Values::set() reads back without loss.
 std::string textOf(const grisaille_param_desc& param, double value);
 
+// "estimator = classic" for a parameter of `effect` that is used only then; "": it is always used.
+std::string usedWhenText(const Effect& effect, const grisaille_param_desc& param);
+
 class Values {
  public:
   explicit Values(const Effect& effect);  // all default values of the table
@@ -44,6 +47,9 @@ class Values {
 
   // The value in the form that set() reads back without loss.
   std::string text(std::string_view key) const;
+
+  // Whether the effect's other values let it use the parameter.
+  bool isUsed(const grisaille_param_desc& param) const;
 
  private:
   Effect effect_;

@@ -1,6 +1,8 @@
 // SPDX-License-Identifier: MIT
 #include "classic.h"
 
+#include <algorithm>
+
 #include "dispatch.h"
 #include "finish.h"
 #include "kernel.h"
@@ -14,7 +16,7 @@ namespace {
 
 // shaders/ssao/occlusion.glsl, std140.
 struct SettingsBlock {
-  glm::vec4 kernel[kMaxKernelSize];
+  glm::vec4 kernel[kMostPoints];
   glm::vec4 finish;
   float radius;
   float bias;
@@ -73,8 +75,7 @@ void Classic::occlude(const plugin::Frame& frame, grisaille_texture target, bool
   const auto sampling = frame.value<Sampling>(kSampling);
   const uint32_t count = frame.value<uint32_t>(kKernelSize);
   SettingsBlock settings{};
-  const auto kernel = makeKernel(count, sampling, seed);
-  for (uint32_t i = 0; i < count; ++i) settings.kernel[i] = kernel[i];
+  std::ranges::copy(makeKernel(sampling, seed), settings.kernel);
   settings.radius = frame.value<float>(kRadius);
   settings.bias = frame.value<float>(kBias);
   settings.finish = finishOf(frame);

@@ -136,7 +136,7 @@ grisaille_texture History::accumulate(const plugin::Frame& frame, uint32_t scale
       .then_scale = static_cast<float>(then.scale),
       .most = frames_ > 0 ? static_cast<float>(most) : 0.0f,
       .tolerance = 1 / kSameSurface,
-      .margin = frame.value<uint32_t>(kDenoiseSize) >= kPattern ? kMargin : 1.0f};
+      .margin = frame.value<uint32_t>(kBlurSize) >= kPattern * scale ? kMargin : 1.0f};
   const grisaille_texture motion = frame.attachment(GRISAILLE_MOTION);
   const bool moves = motion.id != 0;
   grisaille_texture reach = denoised;

@@ -18,7 +18,7 @@ class History {
 
   // Values of the parameters that change the estimate. keepOnly() forgets the history if they
   // differ from those of the previous call.
-  using Values = std::array<double, 6>;
+  using Values = std::array<double, 7>;
   void keepOnly(const Values& values);
   void forget();
 

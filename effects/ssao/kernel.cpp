@@ -34,7 +34,7 @@ double fraction(double value) {
 
 }  // namespace
 
-std::array<glm::vec4, kMaxKernelSize> makeKernel(uint32_t size, Sampling sampling, uint32_t seed) {
+std::array<glm::vec4, kMostPoints> makeKernel(Sampling sampling, uint32_t seed) {
   // Points of the R3 sequence (Roberts 2018) from a random start: each seed gives another set, and
   // no set has the clumps and gaps of independent random points.
   constexpr double kPlastic = 1.2207440846057596;  // root of x^4 = x + 1
@@ -43,8 +43,8 @@ std::array<glm::vec4, kMaxKernelSize> makeKernel(uint32_t size, Sampling samplin
   // the compiler.
   glm::dvec3 start(0);
   for (const int axis : {2, 1, 0}) start[axis] = random.unit();
-  std::array<glm::vec4, kMaxKernelSize> kernel{};
-  for (uint32_t i = 0; i < size; ++i) {
+  std::array<glm::vec4, kMostPoints> kernel{};
+  for (uint32_t i = 0; i < kMostPoints; ++i) {
     const double u = fraction(start.x + i / kPlastic);
     const double v = fraction(start.y + i / (kPlastic * kPlastic));
     const double w = fraction(start.z + i / (kPlastic * kPlastic * kPlastic));

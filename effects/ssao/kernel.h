@@ -12,12 +12,12 @@ namespace grisaille::ssao {
 
 enum class Sampling : uint32_t { kHemisphere = 0, kSphere = 1 };
 
-constexpr uint32_t kMaxKernelSize = 256;
-constexpr uint32_t kNoiseSize = 4;  // width and height, pixels
+constexpr uint32_t kMostPoints = 256;  // shaders/ssao/occlusion.glsl repeats them, turned
+constexpr uint32_t kNoiseSize = 4;     // width and height, pixels
 
 // Sample points in the unit sphere, or in its half around +z; w is 0.
-// size: number of points, 1 ... kMaxKernelSize; points beyond it are 0.
-std::array<glm::vec4, kMaxKernelSize> makeKernel(uint32_t size, Sampling sampling, uint32_t seed);
+// The first points of it are as good a kernel as all of them.
+std::array<glm::vec4, kMostPoints> makeKernel(Sampling sampling, uint32_t seed);
 
 // Noise tile of kNoiseSize x kNoiseSize rotations, (cosine, sine): the angles divide the circle
 // evenly, in random order.

@@ -3,31 +3,28 @@
 #pragma once
 
 #include "grisaille/effect.hpp"
-#include "kernel.h"
 
 namespace grisaille::ssao {
 
 enum Parameter {
   kEstimator,
   kRadius,
-  kSlices,
-  kEdgeSlices,
-  kSteps,
+  kKernelSize,
+  kBlurSize,
+  kBias,
   kThickness,
   kBackFaces,
   kResolution,
   kGuardBand,
   kHistory,
-  kDenoiseSize,
-  kEdgeDenoise,
   kIntensity,
   kPower,
   kBounce,
   kAlbedo,
   kSeed,
-  kKernelSize,
-  kBias,
-  kBlurSize,
+  kSlices,
+  kEdgeSlices,
+  kEdgeDenoise,
   kSampling,
   kRotation,
   kRangeCheck,
@@ -55,6 +52,10 @@ constexpr const char* kBounceLabels[] = {"None", "Off the albedo", "Off base col
 constexpr const char* kResolutionKeys[] = {"full", "half", "quarter"};
 constexpr const char* kResolutionLabels[] = {"Full", "Half", "Quarter"};
 
+// Parameters that only one estimator uses. `slices` also computes the open directions.
+constexpr plugin::UsedWhen kSlicesOnly = {"estimator", static_cast<uint32_t>(Estimator::kSlices)};
+constexpr plugin::UsedWhen kClassicOnly = {"estimator", static_cast<uint32_t>(Estimator::kClassic)};
+
 constexpr grisaille_param_desc kParams[] = {
     plugin::enumParam(
         {.key = "estimator",
@@ -76,33 +77,43 @@ constexpr grisaille_param_desc kParams[] = {
                         .defaultValue = 0.5,
                         .log = true,
                         .sceneLength = true}),
-    plugin::intParam({.key = "slices",
-                      .label = "Slices",
-                      .tooltip = "Slices per pixel; cost grows in proportion, noise falls",
+    plugin::intParam({.key = "kernel_size",
+                      .label = "Kernel size",
+                      .tooltip =
+                          "Taps per pixel; cost grows with their number, error falls. Slices: "
+                          "on both sides of all slices together, rounded up to the same "
+                          "number on each side",
                       .hardMin = 1,
-                      .hardMax = 64,
-                      .softMin = 1,
-                      .softMax = 16,
-                      .defaultValue = 1,
+                      .hardMax = 4096,
+                      .softMin = 4,
+                      .softMax = 128,
+                      .defaultValue = 12,
                       .log = true}),
-    plugin::intParam({.key = "edge_slices",
-                      .label = "Edge slices",
-                      .tooltip = "Factor on the slices at edges and on details a few pixels wide, "
-                                 "where the denoiser finds few texels to average",
-                      .hardMin = 1,
-                      .hardMax = 16,
-                      .softMin = 1,
-                      .softMax = 4,
-                      .defaultValue = 2}),
-    plugin::intParam({.key = "steps",
-                      .label = "Steps",
-                      .tooltip = "Taps on each side of a slice; too few miss thin occluders",
-                      .hardMin = 1,
-                      .hardMax = 64,
-                      .softMin = 2,
-                      .softMax = 32,
-                      .defaultValue = 6,
-                      .log = true}),
+    plugin::intParam(
+        {.key = "blur_size",
+         .label = "Blur size",
+         .unit = "px",
+         .tooltip = "Width of the filter that removes noise, in pixels of the picture. "
+                    "Slices: width at half height, off up to the width of one computed pixel; "
+                    "5, 10 and 15 of those remove the noise pattern exactly. Classic: 4, 8, "
+                    "12 and 16 average every rotation, 0 and 1 are off",
+         .hardMin = 0,
+         .hardMax = 20,
+         .softMin = 0,
+         .softMax = 20,
+         .defaultValue = 10}),
+    plugin::floatParam({.key = "bias",
+                        .label = "Bias",
+                        .unit = "m",
+                        .tooltip =
+                            "Height over the surface under which nothing occludes; hides the "
+                            "facets of coarse meshes, and loses detail",
+                        .hardMin = 0,
+                        .hardMax = 1e6,
+                        .softMin = 0,
+                        .softMax = 0.1,
+                        .defaultValue = 0,
+                        .step = 0.001}),
     plugin::floatParam(
         {.key = "thickness",
          .label = "Thickness",
@@ -112,63 +123,43 @@ constexpr grisaille_param_desc kParams[] = {
          .softMin = 0,
          .softMax = 2,
          .defaultValue = 0.7,
-         .step = 0.01}),
+         .step = 0.01,
+         .usedWhen = kSlicesOnly}),
     plugin::boolParam({.key = "back_faces",
                        .label = "Back faces",
-                       .tooltip = "Slices: also draws back faces, and ends an occluder at its back "
+                       .tooltip = "Also draws back faces, and ends an occluder at its back "
                                   "face instead of after the thickness",
-                       .defaultValue = false}),
+                       .defaultValue = false,
+                       .usedWhen = kSlicesOnly}),
     plugin::enumParam({.key = "resolution",
                        .label = "Resolution",
-                       .tooltip = "Slices: computed at every pixel, at one of 2x2 or at one of 4x4",
+                       .tooltip = "Computed at every pixel, at one of 2x2 or at one of 4x4",
                        .keys = kResolutionKeys,
                        .labels = kResolutionLabels,
-                       .defaultValue = 1}),
+                       .defaultValue = 1,
+                       .usedWhen = kSlicesOnly}),
     plugin::floatParam({.key = "guard_band",
                         .label = "Guard band",
-                        .tooltip =
-                            "Slices: width of the border drawn beyond the picture, in picture "
-                            "heights; surfaces in it occlude",
+                        .tooltip = "Width of the border drawn beyond the picture, in picture "
+                                   "heights; surfaces in it occlude",
                         .hardMin = 0,
                         .hardMax = 1,
                         .softMin = 0,
                         .softMax = 0.25,
-                        .defaultValue = 0,
-                        .step = 0.005}),
+                        .defaultValue = 0.045,
+                        .step = 0.005,
+                        .usedWhen = kSlicesOnly}),
     plugin::intParam({.key = "history",
                       .label = "History",
-                      .tooltip =
-                          "Slices: number of frames averaged where they saw the same surface; "
-                          "1: no averaging",
+                      .tooltip = "Number of frames averaged where they saw the same surface; "
+                                 "1: no averaging",
                       .hardMin = 1,
                       .hardMax = 256,
                       .softMin = 1,
                       .softMax = 32,
                       .defaultValue = 1,
-                      .log = true}),
-    plugin::intParam({.key = "denoise_size",
-                      .label = "Denoise size",
-                      .unit = "px",
-                      .tooltip =
-                          "Slices: width of the denoiser's kernel at half height, in pixels of "
-                          "the chosen resolution; 0 and 1: off; 5, 10 and 15 remove the noise "
-                          "pattern exactly",
-                      .hardMin = 0,
-                      .hardMax = 16,
-                      .softMin = 0,
-                      .softMax = 10,
-                      .defaultValue = 5}),
-    plugin::intParam(
-        {.key = "edge_denoise",
-         .label = "Edge denoise",
-         .unit = "px",
-         .tooltip = "Slices: reach of the denoiser along edges, where rows and columns hold "
-                    "few pixels of one surface, in pixels of the chosen resolution; 0 and 1: off",
-         .hardMin = 0,
-         .hardMax = 32,
-         .softMin = 0,
-         .softMax = 16,
-         .defaultValue = 6}),
+                      .log = true,
+                      .usedWhen = kSlicesOnly}),
     plugin::floatParam({.key = "intensity",
                         .label = "Intensity",
                         .tooltip = "Multiplies the occlusion before it is clamped to 1; 1: as "
@@ -208,7 +199,8 @@ constexpr grisaille_param_desc kParams[] = {
                         .softMax = 1,
                         .defaultValue = 0.8,
                         .step = 0.01,
-                        .look = true}),
+                        .look = true,
+                        .usedWhen = {"bounce", static_cast<uint32_t>(Bounce::kAlbedo)}}),
     plugin::intParam({.key = "seed",
                       .label = "Seed",
                       .tooltip = "Seed of the random slices, or of the sample points and rotations",
@@ -218,77 +210,82 @@ constexpr grisaille_param_desc kParams[] = {
                       .softMax = 100,
                       .defaultValue = 0,
                       .advanced = true}),
-    plugin::intParam(
-        {.key = "kernel_size",
-         .label = "Kernel size",
-         .tooltip = "Classic: sample points per pixel; cost grows in proportion, noise falls",
-         .hardMin = 1,
-         .hardMax = kMaxKernelSize,
-         .softMin = 4,
-         .softMax = 128,
-         .defaultValue = 64,
-         .log = true}),
-    plugin::floatParam({.key = "bias",
-                        .label = "Bias",
-                        .unit = "m",
-                        .tooltip =
-                            "Classic: how much nearer than a sample point a surface must be to "
-                            "occlude it, in addition to the rounding tolerance; a larger bias "
-                            "loses detail",
-                        .hardMin = 0,
-                        .hardMax = 1e6,
-                        .softMin = 0,
-                        .softMax = 0.1,
-                        .defaultValue = 0,
-                        .step = 0.001}),
-    plugin::intParam({.key = "blur_size",
-                      .label = "Blur size",
-                      .unit = "px",
-                      .tooltip = "Classic: width of the blur; 0 and 1: off; 4, 8, 12 and 16 "
-                                 "average every rotation",
-                      .hardMin = 0,
+    plugin::intParam({.key = "slices",
+                      .label = "Slices",
+                      .tooltip = "Slices that share the taps of a pixel: more of them lower the "
+                                 "noise, but find less each",
+                      .hardMin = 1,
+                      .hardMax = 64,
+                      .softMin = 1,
+                      .softMax = 16,
+                      .defaultValue = 1,
+                      .log = true,
+                      .advanced = true,
+                      .usedWhen = kSlicesOnly}),
+    plugin::intParam({.key = "edge_slices",
+                      .label = "Edge slices",
+                      .tooltip =
+                          "Factor on slices and taps at edges and on details a few pixels wide, "
+                          "where the denoiser finds few texels to average",
+                      .hardMin = 1,
                       .hardMax = 16,
-                      .softMin = 0,
-                      .softMax = 8,
-                      .defaultValue = 4}),
-    plugin::enumParam(
-        {.key = "sampling",
-         .label = "Sampling",
-         .tooltip = "Classic: where the sample points lie: in the hemisphere over the surface, or "
-                    "all around it, which needs no normals and brightens convex edges",
-         .keys = kSamplingKeys,
-         .labels = kSamplingLabels,
-         .defaultValue = 0,
-         .advanced = true}),
+                      .softMin = 1,
+                      .softMax = 4,
+                      .defaultValue = 2,
+                      .advanced = true,
+                      .usedWhen = kSlicesOnly}),
+    plugin::intParam(
+        {.key = "edge_denoise",
+         .label = "Edge denoise",
+         .unit = "px",
+         .tooltip = "Reach of the denoiser along edges, where rows and columns hold "
+                    "few pixels of one surface, in pixels of the chosen resolution; 0 and 1: off",
+         .hardMin = 0,
+         .hardMax = 32,
+         .softMin = 0,
+         .softMax = 16,
+         .defaultValue = 6,
+         .advanced = true,
+         .usedWhen = kSlicesOnly}),
+    plugin::enumParam({.key = "sampling",
+                       .label = "Sampling",
+                       .tooltip =
+                           "Where the sample points lie: in the hemisphere over the surface, or "
+                           "all around it, which needs no normals and brightens convex edges",
+                       .keys = kSamplingKeys,
+                       .labels = kSamplingLabels,
+                       .defaultValue = 0,
+                       .advanced = true,
+                       .usedWhen = kClassicOnly}),
     plugin::enumParam({.key = "rotation",
                        .label = "Rotation",
-                       .tooltip = "Classic: rotates the kernel from pixel to pixel, so that few "
-                                  "points show as noise and "
-                                  "not as bands",
+                       .tooltip = "Rotates the kernel from pixel to pixel, so that few points show "
+                                  "as noise and not as bands",
                        .keys = kRotationKeys,
                        .labels = kRotationLabels,
                        .defaultValue = 0,
-                       .advanced = true}),
+                       .advanced = true,
+                       .usedWhen = kClassicOnly}),
     plugin::enumParam(
         {.key = "range_check",
          .label = "Range check",
-         .tooltip =
-             "Classic: which depth difference must be below the radius for a surface to occlude; "
-             "raw depth is wrong near and far, none leaves halos",
+         .tooltip = "Which depth difference must be below the radius for a surface to occlude; "
+                    "raw depth is wrong near and far, none leaves halos",
          .keys = kRangeKeys,
          .labels = kRangeLabels,
          .defaultValue = 0,
-         .advanced = true}),
-    plugin::enumParam(
-        {.key = "blur",
-         .label = "Blur",
-         .tooltip =
-             "Classic: box averages across edges; edge-aware leaves out depths more than one "
-             "radius nearer or farther",
-         .keys = kBlurKeys,
-         .labels = kBlurLabels,
-         .defaultValue = 0,
-         .advanced = true}),
+         .advanced = true,
+         .usedWhen = kClassicOnly}),
+    plugin::enumParam({.key = "blur",
+                       .label = "Blur",
+                       .tooltip =
+                           "Box averages across edges; edge-aware leaves out depths more than one "
+                           "radius nearer or farther",
+                       .keys = kBlurKeys,
+                       .labels = kBlurLabels,
+                       .defaultValue = 0,
+                       .advanced = true,
+                       .usedWhen = kClassicOnly}),
 };
 
 }  // namespace grisaille::ssao

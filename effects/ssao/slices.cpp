@@ -29,6 +29,7 @@ struct SlicesBlock {
   float turn;
   float tolerance;
   glm::uvec2 exchange;
+  float bias;
 };
 GRISAILLE_CHECK_BLOCK_ssao_slices_Settings(SlicesBlock);
 GRISAILLE_CHECK_BLOCK_ssao_slices_bent_Settings(SlicesBlock);
@@ -54,6 +55,11 @@ constexpr float kTolerance = 0.05f;
 
 float toleranceOf(const plugin::Frame& frame) {
   return 1 / (kTolerance * frame.value<float>(kRadius));
+}
+
+// Taps on each side of a slice.
+uint32_t stepsOf(const plugin::Frame& frame) {
+  return plugin::groupsFor(frame.value<uint32_t>(kKernelSize), 2 * frame.value<uint32_t>(kSlices));
 }
 
 FilterBlock filterBlock(const plugin::Frame& frame) {
@@ -107,11 +113,13 @@ void Slices::record(const plugin::Frame& frame, Pair outputs) {
     return Pair{.open = texture(open, GRISAILLE_FORMAT_RG32F),
                 .bent = bent ? texture(direction, GRISAILLE_FORMAT_RGBA16F) : grisaille_texture{0}};
   };
-  const uint32_t blur = std::max(frame.value<uint32_t>(kDenoiseSize), 1u);
-  const bool edges = blur > 1 && frame.value<uint32_t>(kEdgeDenoise) > 1;
+  const uint32_t width = frame.value<uint32_t>(kBlurSize);  // pixels
+  const uint32_t blur = width > scale ? width : 0;          // one texel or less: none
+  const bool edges = blur > 0 && frame.value<uint32_t>(kEdgeDenoise) > 1;
   history_.keepOnly({frame.value<double>(kRadius), frame.value<double>(kSlices),
-                     frame.value<double>(kEdgeSlices), frame.value<double>(kSteps),
-                     frame.value<double>(kThickness), frame.value<double>(kBackFaces)});
+                     frame.value<double>(kEdgeSlices), frame.value<double>(kKernelSize),
+                     frame.value<double>(kBias), frame.value<double>(kThickness),
+                     frame.value<double>(kBackFaces)});
   const uint32_t averaged = frame.value<uint32_t>(kHistory);
   if (averaged == 1) history_.forget();
 
@@ -119,7 +127,7 @@ void Slices::record(const plugin::Frame& frame, Pair outputs) {
   const Pair raw = pair("raw visibility", "raw open direction");
   frame.pass("occlusion", [&] { occlude(frame, kernels, size, raw); });
   Pair from = raw, spare = raw;
-  if (blur > 1) {
+  if (blur > 0) {
     spare = pair("visibility denoised", "open direction denoised");
     frame.pass("denoise rows",
                [&] { denoise(frame, kernels.denoise, size, false, blur, from, spare); });
@@ -131,7 +139,7 @@ void Slices::record(const plugin::Frame& frame, Pair outputs) {
                [&] { denoise(frame, kernels.denoiseLast, size, true, blur, from, outputs); });
     return;
   }
-  if (blur > 1) {
+  if (blur > 0) {
     frame.pass("denoise columns",
                [&] { denoise(frame, kernels.denoise, size, true, blur, from, raw); });
     from = raw;
@@ -147,7 +155,7 @@ void Slices::record(const plugin::Frame& frame, Pair outputs) {
   if (averages) from.open = history_.accumulate(frame, scale, averaged - 1, from.open);
   if (scale == 1) {
     frame.pass("finish",
-               [&] { denoise(frame, kernels.denoiseLast, size, true, 1, from, outputs); });
+               [&] { denoise(frame, kernels.denoiseLast, size, true, 0, from, outputs); });
     return;
   }
   frame.pass("upsample", [&] { upsample(frame, kernels, size, from, outputs); });
@@ -165,13 +173,14 @@ void Slices::occlude(const plugin::Frame& frame, Kernels& kernels, Size size, Pa
                                 .thickness = radius * frame.value<float>(kThickness),
                                 .turn = turn,
                                 .tolerance = toleranceOf(frame),
-                                .exchange = {2 * drawn % 5, (drawn + 2 * (drawn / 5)) % 5}};
+                                .exchange = {2 * drawn % 5, (drawn + 2 * (drawn / 5)) % 5},
+                                .bias = frame.value<float>(kBias)};
   const bool back = frame.value<bool>(kBackFaces);
   // Constants 0 ... 4 of shaders/ssao/slices.glsl.
   const grisaille_constant constants[] = {
-      plugin::specialize(0, frame.value<uint32_t>(kSlices)),
-      plugin::specialize(1, frame.value<uint32_t>(kSteps)), plugin::specialize(2, size.scale),
-      plugin::specialize(3, back), plugin::specialize(4, frame.value<uint32_t>(kEdgeSlices))};
+      plugin::specialize(0, frame.value<uint32_t>(kSlices)), plugin::specialize(1, stepsOf(frame)),
+      plugin::specialize(2, size.scale), plugin::specialize(3, back),
+      plugin::specialize(4, frame.value<uint32_t>(kEdgeSlices))};
   Bindings bindings = {
       plugin::uniform(0, frame.viewBlock()),
       plugin::uniform(1, frame.uniform(settings)),

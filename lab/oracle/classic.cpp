@@ -47,6 +47,14 @@ std::vector<glm::dvec3> samplePoints(const OcclusionSettings& settings) {
     const double angle = glm::two_pi<double>() * v;
     points.push_back(w * glm::dvec3(across * std::cos(angle), across * std::sin(angle), z));
   }
+  // Beyond 256 points, the same again, turned by the golden section of a circle.
+  for (size_t i = 256; i < points.size(); ++i) {
+    const double angle = glm::two_pi<double>() * 0.6180339887498949 * static_cast<double>(i / 256);
+    const glm::dvec3 first = points[i % 256];
+    const glm::dvec2 turned = first.x * glm::dvec2(std::cos(angle), std::sin(angle)) +
+                              first.y * glm::dvec2(-std::sin(angle), std::cos(angle));
+    points[i] = glm::dvec3(turned, first.z);
+  }
   return points;
 }
 
@@ -87,14 +95,17 @@ class Classic : public Occlusion {
     const double depth = view_.depth(pixel);
     if (depth <= 0) return 1;
     glm::dmat3 axes(1);
-    if (!settings_.sphere) axes = axesAbout(view_.normal(pixel));
+    const glm::dvec3 up = settings_.sphere ? glm::dvec3(0, 0, 1) : view_.normal(pixel);
+    if (!settings_.sphere) axes = axesAbout(up);
     if (settings_.rotated) {
       const int index = (pixel.y & 3) * 4 + (pixel.x & 3);
       const double angle = glm::two_pi<double>() * rotations_[static_cast<size_t>(index)] / 16;
       const double c = std::cos(angle), s = std::sin(angle);
       axes = glm::dmat3(c * axes[0] + s * axes[1], c * axes[1] - s * axes[0], axes[2]);
     }
-    const glm::dvec3 position = view_.position(pixel);
+    const std::optional<Raised> raised = raisedBy(view_, pixel, up, settings_.bias);
+    if (!raised) return 1;
+    const glm::dvec3 position = raised->position;
     const Own own = ownOf(pixel);
     int occluded = 0;
     for (const glm::dvec3& point : points_) {
@@ -105,22 +116,24 @@ class Classic : public Occlusion {
 
   // The tolerances that keep a surface from occluding itself.
   struct Own {
-    double bias;          // metres that an occluder must be nearer than the sample point
-    glm::dvec2 slope{0};  // change of the surface's inverse view depth per pixel
+    double tolerance = 0;  // metres that an occluder must be nearer than the sample point
+    glm::dvec2 slope{0};   // change of the raised plane's inverse view depth per pixel
   };
 
   Own ownOf(const glm::ivec2& pixel) const {
-    if (settings_.biasAlone) return {.bias = settings_.bias};
-    const double depth = view_.depth(pixel), bias = settings_.bias + depth * kDepthRounding;
-    if (settings_.sphere) return {.bias = bias};
+    if (settings_.depthBias) return {.tolerance = *settings_.depthBias};
+    const double depth = view_.depth(pixel), rounding = depth * kDepthRounding;
+    if (settings_.sphere) return {.tolerance = rounding};
     const glm::dvec3 normal = view_.normal(pixel);
     const double facing = std::max(-glm::dot(normal, view_.ray(glm::dvec2(pixel) + 0.5)), 1e-3);
-    const glm::dvec2 slope = -glm::dvec2(normal) / view_.focal() / (facing * depth);
+    const double away = facing * depth;  // from the plane to the eye
+    const glm::dvec2 slope =
+        -glm::dvec2(normal) / view_.focal() / (away - std::min(settings_.bias, 0.999 * away));
     const double turned = kNormalRounding / facing;
     const double aside = turned / view_.focal().x / facing;
     const double place =
         depth * kPlaceRounding * glm::dot(glm::abs(slope), glm::dvec2(view_.size()));
-    return {.bias = bias + settings_.radius * (turned + aside) + depth * (aside + place),
+    return {.tolerance = rounding + settings_.radius * (turned + aside) + depth * (aside + place),
             .slope = slope};
   }
 
@@ -138,7 +151,7 @@ class Classic : public Occlusion {
     // Moves the point along the surface's plane to the centre of the pixel that depth() read.
     const glm::dvec2 tap = glm::clamp(whole + 0.5, glm::dvec2(0.5), glm::dvec2(view_.size()) - 0.5);
     const double turned = pointDepth * glm::dot(own.slope, tap - at);
-    if (!(surface * (1 + turned) < pointDepth - own.bias)) return false;
+    if (!(surface * (1 + turned) < pointDepth - own.tolerance)) return false;
     using Range = OcclusionSettings::Range;
     const double near = view_.nearPlane();
     if (settings_.range == Range::kLinear) return surface > depth - settings_.radius;

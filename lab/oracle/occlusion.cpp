@@ -33,6 +33,14 @@ glm::dvec3 tintOf(Occlusion& occlusion, const View& view, const OcclusionSetting
   return {bounced(open, colour.x), bounced(open, colour.y), bounced(open, colour.z)};
 }
 
+std::optional<Raised> raisedBy(const View& view, const glm::ivec2& pixel, const glm::dvec3& normal,
+                               double bias) {
+  const glm::dvec3 position = view.position(pixel) + bias * normal;
+  if (bias > 0 && -position.z <= view.nearPlane()) return std::nullopt;
+  const glm::dvec2 middle = glm::dvec2(view.size()) / 2.0;
+  return Raised{position, glm::dvec2(position) / -position.z * view.focal() + middle - 0.5};
+}
+
 std::unique_ptr<Occlusion> makeOcclusion(const View& view, const OcclusionSettings& settings,
                                          std::shared_ptr<const Past> past) {
   return settings.classic ? makeClassic(view, settings)

@@ -18,20 +18,22 @@ namespace grisaille::lab::oracle {
 struct OcclusionSettings {
   bool classic = false;
   double radius = 0.5;
-  int slices = 1, edgeSlices = 1, steps = 6;
-  double thickness = 0.7;             // radii
-  bool backFaces = false;             // takes the thickness from the view's back depth, if any
-  int history = 1;                    // frames; over 1 needs a Past from the second frame on
-  int scale = 2;                      // pixels per texel: 1, 2 or 4
-  int denoiseSize = 5, blurSize = 4;  // of slices; of classic
+  int kernelSize = 12;  // taps a pixel; of slices: of all slices, both sides
+  int blurSize = 10;    // pixels
+  double bias = 0;
+  int slices = 1, edgeSlices = 1;
+  double thickness = 0.7;  // radii
+  bool backFaces = false;  // takes the thickness from the view's back depth, if any
+  int history = 1;         // frames; over 1 needs a Past from the second frame on
+  int scale = 2;           // pixels per texel: 1, 2 or 4
   int edgeDenoise = 6;
   double intensity = 1, power = 1;
   double albedo = 0;        // albedo of the bounce; 0: no bounce
   bool baseColour = false;  // the tint's bounce uses the view's base colours
   uint32_t seed = 0;
-  int kernelSize = 64;
-  double bias = 0.01;
-  bool biasAlone = false;  // classic: no rounding tolerance, no move along the tangent plane
+  // classic: how much nearer than a sample point an occluder must be, metres, in place of the
+  // rounding tolerance and the move along the tangent plane.
+  std::optional<double> depthBias = {};
   bool sphere = false, rotated = true, edgeAware = false;
   enum class Range { kLinear, kRawDepth, kNone } range = Range::kLinear;
 };
@@ -91,6 +93,15 @@ class Lazy {
   Source source_;
   std::vector<std::optional<T>> values_;
 };
+
+// A surface's point, raised by the bias along its normal: matter lower than that does not occlude.
+struct Raised {
+  glm::dvec3 position;  // view space
+  glm::dvec2 pixel;     // (0, 0): the centre of the top left pixel
+};
+// Nothing if the raised point is not in front of the near plane.
+std::optional<Raised> raisedBy(const View& view, const glm::ivec2& pixel, const glm::dvec3& normal,
+                               double bias);
 
 std::unique_ptr<Occlusion> makeClassic(const View& view, const OcclusionSettings& settings);
 std::unique_ptr<Occlusion> makeSlices(const View& view, const OcclusionSettings& settings,

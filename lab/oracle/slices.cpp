@@ -84,6 +84,7 @@ class Slices : public Occlusion {
       : view_(view),
         settings_(settings),
         thickness_(static_cast<float>(settings.radius) * static_cast<float>(settings.thickness)),
+        steps_((settings.kernelSize + 2 * settings.slices - 1) / (2 * settings.slices)),
         texels_((view.size() + settings.scale - 1) / settings.scale),
         past_(std::move(past)),
         frames_(past_ ? past_->frames : 0),
@@ -120,14 +121,14 @@ class Slices : public Occlusion {
     return settings_.history > 1 ? Texel(glm::dvec3(own), means_(texel).open) : own;
   }
   Texel filtered(const glm::ivec2& texel) {
-    if (settings_.denoiseSize <= 1) return raw_(texel);
+    if (settings_.blurSize <= settings_.scale) return raw_(texel);
     return settings_.edgeDenoise > 0 ? edges_(texel) : columns_(texel);
   }
   Texel estimate(const glm::ivec2& texel) const;
   Mean mean(const glm::ivec2& texel);
   bool isEdge(const glm::ivec2& pixel) const;
   Texel sliceOf(const glm::dvec3& position, const glm::dvec3& normal, const glm::dvec3& direction,
-                const glm::ivec2& pixel, double dither) const;
+                const glm::dvec2& pixel, double dither) const;
   uint32_t tap(const Slice& slice, const glm::dvec3& position, const glm::ivec2& at, double dither,
                Walk& walk) const;
   glm::dvec3 leavesAt(const Walk& walk, const glm::dvec3& step) const;
@@ -151,6 +152,7 @@ class Slices : public Occlusion {
   const View& view_;
   OcclusionSettings settings_;
   double thickness_;  // metres
+  int steps_;         // taps on each side of a slice
   glm::ivec2 texels_;
   std::shared_ptr<const PastFrame> past_;
   int frames_;  // number of frames before this one
@@ -193,9 +195,11 @@ bool Slices::isEdge(const glm::ivec2& pixel) const {
 Texel Slices::estimate(const glm::ivec2& texel) const {
   const glm::ivec2 pixel = texel * settings_.scale;
   if (view_.depth(pixel) <= 0) return kSky;
-  const glm::dvec3 position = view_.position(pixel);
-  const glm::dvec3 toward = -glm::normalize(position);
   glm::dvec3 normal = view_.normal(pixel);
+  const std::optional<Raised> raised = raisedBy(view_, pixel, normal, settings_.bias);
+  if (!raised) return kSky;
+  const glm::dvec3 position = raised->position;
+  const glm::dvec3 toward = -glm::normalize(position);
   const double facing = glm::dot(normal, toward);
   normal = glm::normalize(normal + toward * std::max((facing < -1e-3 ? 1e-2 : 1e-3) - facing, 0.0));
   // A block of 5x5 texels holds the 25 points of a Hammersley set. Each frame of a history takes
@@ -215,13 +219,13 @@ Texel Slices::estimate(const glm::ivec2& texel) const {
     const double r = std::sqrt(u);
     const glm::dvec3 direction =
         axes * glm::dvec3(r * std::cos(phi), r * std::sin(phi), std::sqrt(1 - u));
-    sum += sliceOf(position, normal, direction, pixel, u);
+    sum += sliceOf(position, normal, direction, raised->pixel, u);
   }
   return sum / static_cast<double>(slices);
 }
 
 Texel Slices::sliceOf(const glm::dvec3& position, const glm::dvec3& normal,
-                      const glm::dvec3& direction, const glm::ivec2& pixel, double dither) const {
+                      const glm::dvec3& direction, const glm::dvec2& pixel, double dither) const {
   const glm::dvec3 toward = -glm::normalize(position);
   glm::dvec3 across = direction - toward * glm::dot(direction, toward);
   across /= std::sqrt(std::max(glm::dot(across, across), 1e-12));
@@ -241,15 +245,14 @@ Texel Slices::sliceOf(const glm::dvec3& position, const glm::dvec3& normal,
   const double reach = settings_.radius / (depth * depth) * std::sqrt(stretch / cut);
   Walk ahead{.side = 1, .share = 1}, behind{.side = -1, .share = 0};
   uint32_t shut = 0;
-  const uint32_t finer = std::max(8u, std::bit_ceil(static_cast<uint32_t>(settings_.steps)) / 2);
-  for (int i = 0; i < settings_.steps; ++i) {
+  const uint32_t finer = std::max(8u, std::bit_ceil(static_cast<uint32_t>(steps_)) / 2);
+  for (int i = 0; i < steps_; ++i) {
     for (Walk* walk : {&ahead, &behind}) {
-      const double at = (i + (walk->side > 0 ? dither : 1 - dither)) / settings_.steps;
+      const double at = (i + (walk->side > 0 ? dither : 1 - dither)) / steps_;
       const double pixels = std::max(std::pow(at, 1.25) * reach, i + 1.0);
       const double grid = std::max(std::exp2(std::floor(std::log2(pixels))) / finer, 1.0);
       const glm::dvec2 place = glm::clamp(
-          glm::floor((glm::dvec2(pixel) + walk->side * pixels * way) / grid + 0.5) * grid, -1e6,
-          1e6);
+          glm::floor((pixel + walk->side * pixels * way) / grid + 0.5) * grid, -1e6, 1e6);
       shut |= tap(slice, position, glm::ivec2(place), dither, *walk);
     }
   }
@@ -263,8 +266,8 @@ Texel Slices::sliceOf(const glm::dvec3& position, const glm::dvec3& normal,
   const int low = std::clamp(static_cast<int>(std::lround(slice.below(0) * 32)), 1, 31);
   const double shutBehind = static_cast<double>(std::popcount(shut & ((1u << low) - 1))) / low;
   const double shutAhead = static_cast<double>(std::popcount(shut >> low)) / (32 - low);
-  const double lacksAhead = 1 - static_cast<double>(ahead.seen) / settings_.steps;
-  const double lacksBehind = 1 - static_cast<double>(behind.seen) / settings_.steps;
+  const double lacksAhead = 1 - static_cast<double>(ahead.seen) / steps_;
+  const double lacksBehind = 1 - static_cast<double>(behind.seen) / steps_;
   const double shutAll =
       glm::mix(std::max(shutAhead, lacksAhead * (1 - lacksBehind) * shutBehind),
                std::max(shutBehind, lacksBehind * (1 - lacksAhead) * shutAhead), low / 32.0);
@@ -354,7 +357,8 @@ double Slices::slopeAlong(const glm::ivec2& texel, const glm::ivec2& along) cons
 
 Texel Slices::denoised(const std::function<Texel(const glm::ivec2&)>& from, const glm::ivec2& texel,
                        const glm::ivec2& along) const {
-  const int reach = std::max(settings_.denoiseSize, 1);
+  const double width = std::max(static_cast<double>(settings_.blurSize) / settings_.scale, 1.0);
+  const int reach = static_cast<int>(std::ceil(width));
   const glm::ivec2 surface = texel * settings_.scale;
   const double own = view_.depth(surface);
   if (own <= 0) return kSky;
@@ -368,7 +372,7 @@ Texel Slices::denoised(const std::function<Texel(const glm::ivec2&)>& from, cons
     const double depth = view_.depth(inside * settings_.scale);
     if (depth <= 0) continue;
     const double off = std::abs((depth - own) * facing + depth * i * slope) / toleranceAt(surface);
-    const double weight = (reach - std::abs(i)) * std::max(1 - off, 0.0);
+    const double weight = (width - std::abs(i)) * std::max(1 - off, 0.0);
     sum += weight * from(inside);
     weights += weight;
   }

@@ -24,28 +24,46 @@ struct Variant {
 const std::vector<Variant>& variants() {
   static const std::vector<Variant> kVariants = {
       {"slices", "ssao", "ao", {}},
-      {"slices, raw", "ssao", "ao", {{"resolution", "full"}, {"denoise_size", "0"}}},
+      {"slices, raw", "ssao", "ao", {{"resolution", "full"}, {"blur_size", "0"}}},
       {"slices, quarter", "ssao", "ao", {{"resolution", "quarter"}}},
       {"slices, exact",
        "ssao",
        "ao",
        {{"resolution", "full"},
         {"slices", "32"},
-        {"steps", "64"},
-        {"denoise_size", "0"},
+        {"kernel_size", "4096"},
+        {"blur_size", "0"},
         {"thickness", "10"},
         {"guard_band", "0.2"}}},
       {"slices, backs",
        "ssao",
        "ao",
-       {{"resolution", "full"}, {"denoise_size", "0"}, {"back_faces", "true"}}},
+       {{"resolution", "full"}, {"blur_size", "0"}, {"back_faces", "true"}}},
       {"history", "ssao", "ao", {{"history", "4"}}},
       {"open directions", "ssao", "bent_normal", {}},
       {"tint", "ssao", "tint", {{"bounce", "base_colour"}}},
-      {"classic", "ssao", "ao", {{"estimator", "classic"}}},
-      {"classic, raw", "ssao", "ao", {{"estimator", "classic"}, {"blur_size", "0"}}},
-      {"sphere", "ssao", "ao", {{"estimator", "classic"}, {"sampling", "sphere"}}},
-      {"edge-aware", "ssao", "ao", {{"estimator", "classic"}, {"blur", "edge_aware"}}},
+      {"classic",
+       "ssao",
+       "ao",
+       {{"estimator", "classic"}, {"kernel_size", "64"}, {"blur_size", "4"}}},
+      {"classic, raw",
+       "ssao",
+       "ao",
+       {{"estimator", "classic"}, {"kernel_size", "64"}, {"blur_size", "0"}}},
+      {"sphere",
+       "ssao",
+       "ao",
+       {{"estimator", "classic"},
+        {"kernel_size", "64"},
+        {"blur_size", "4"},
+        {"sampling", "sphere"}}},
+      {"edge-aware",
+       "ssao",
+       "ao",
+       {{"estimator", "classic"},
+        {"kernel_size", "64"},
+        {"blur_size", "4"},
+        {"blur", "edge_aware"}}},
       {"paint", "sspm", "paint", {{"mode", "per_shot"}}},
       {"paint on surfaces", "sspm", "paint", {{"mode", "surface"}}},
   };
@@ -80,15 +98,14 @@ void drawOcclusion(Draws& draw, Case& one) {
   set("estimator", draw.of({"slices", "classic"}));
   set("radius", lengthText(scale * draw.decades(-3, 2)));
   set("slices", std::to_string(1 + draw.below(4)));
-  set("steps", std::to_string(1 + draw.below(16)));
   set("thickness", fmt::format("{}", draw.decades(-2, 1)));
   set("resolution", draw.of({"full", "half", "quarter"}));
-  set("blur_size", std::to_string(draw.of({0, 2, 3, 4, 7, 8})));
+  set("blur_size", std::to_string(draw.of({0, 2, 4, 7, 8, 10, 20})));
   set("intensity", fmt::format("{}", 2 * draw.unit()));
   set("power", fmt::format("{}", 0.5 + draw.unit()));
   set("bounce", draw.of({"none", "none", "albedo"}));
   set("seed", std::to_string(draw.below(65536)));
-  set("kernel_size", std::to_string(16 + draw.below(241)));
+  set("kernel_size", std::to_string(2 + draw.below(300)));
   set("bias", fmt::format("{}", std::min(scale * draw.decades(-4, 0), 1e6)));
   set("sampling", draw.of({"hemisphere", "hemisphere", "sphere"}));
   set("rotation", draw.of({"noise", "noise", "none"}));
@@ -96,7 +113,6 @@ void drawOcclusion(Draws& draw, Case& one) {
   set("blur", draw.of({"box", "edge_aware"}));
   set("edge_slices", std::to_string(1 + draw.below(4)));
   set("back_faces", draw.of({"false", "false", "true"}));
-  set("denoise_size", std::to_string(draw.of({0, 2, 5, 5, 8, 10})));
   set("edge_denoise", std::to_string(draw.of({0, 1, 6, 6, 9, 32})));
 }
 
@@ -200,7 +216,7 @@ const std::vector<Edge>& edges() {
        "In `surface` mode the shader computes positions as offsets from the muzzle, in single "
        "precision. From 10^5 m on they are centimetres off, which moves rims. `per_shot` mode "
        "computes them from the ray, and stays within the limit."},
-      {"a direction between two sectors", 0.005,
+      {"a direction between two sectors", 0.015,
        "The bent normal looks directions up in 32 sectors, each occluded or open. If an occluded "
        "sector ends at a direction, rounding decides whether that direction counts. Bent normals "
        "around it then turn by half a degree."},

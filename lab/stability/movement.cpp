@@ -64,6 +64,8 @@ Case caseOf(const MovementRow& row, Movement movement, int frame) {
   one.size = sizeOf(row);
   one.effect = "ssao";
   one.settings = {{"estimator", "classic"},
+                  {"kernel_size", "64"},
+                  {"blur_size", "4"},
                   {"radius", fmt::format("{}", kRadius)},
                   {"intensity", fmt::format("{}", kIntensity)},
                   {"bias", "0"}};
@@ -92,9 +94,10 @@ image::Image pictureOf(const MovementRow& row, const std::function<float(const g
 std::unique_ptr<oracle::Occlusion> aloneOf(const oracle::View& view, double bias) {
   return oracle::makeOcclusion(view, {.classic = true,
                                       .radius = kRadius,
+                                      .kernelSize = 64,
+                                      .blurSize = 4,
                                       .intensity = kIntensity,
-                                      .bias = bias,
-                                      .biasAlone = true});
+                                      .depthBias = bias});
 }
 
 // The smallest bias that is safe in all views, to within 5 %, by bisection. The upper end exceeds

@@ -1,8 +1,8 @@
 // SPDX-License-Identifier: MIT
 // Denoiser: a joint bilateral filter (after Tomasi and Manduchi 1998, "Bilateral Filtering for Gray
 // and Color Images"), separated into a pass along rows and a pass along columns. The spatial kernel
-// is a tent with the weights 1, 2 ... kSize ... 2, 1. If kSize is a multiple of 5, the two passes
-// give every slice of the 5x5 noise pattern the same weight. The range weight falls linearly with
+// is a tent that is w texels wide at half height. If w is a multiple of 5, the two passes give every
+// slice of the 5x5 noise pattern the same weight. The range weight falls linearly with
 // the distance of a tap from the centre's tangent plane, to 0 at the plane tolerance.
 //
 // LAST is 1 in the pass that applies finished(). BENT is 0 or 1; 1 also averages the mean open
@@ -11,7 +11,7 @@
 // One invocation filters a run of 4 texels, which share most of their taps.
 #include "filter.glsl"
 
-layout(constant_id = 0) const uint kSize = 5u;       // width at half height, texels, 1 ... 16
+layout(constant_id = 0) const uint kBlur = 5u;       // width at half height, pixels; 0: 1 texel
 layout(constant_id = 1) const uint kScale = 1u;      // pixels per texel, each way
 layout(constant_id = 2) const bool kColumn = false;  // along columns, else along rows
 
@@ -66,14 +66,15 @@ void main() {
 #if BENT
   mat4x3 bent = mat4x3(0.0);
 #endif
-  const int reach = int(kSize) - 1;
+  const float width = max(float(kBlur) / float(kScale), 1.0);  // texels
+  const int reach = max(int((kBlur + kScale - 1u) / kScale), 1) - 1;
   [[unroll]] for (int i = -reach; i < 4 + reach; ++i) {
     const vec2 from = (vec2(first + along * i) + 0.5) * inverse;
     const vec2 other = textureLod(source, from, 0.0).xy;
     const vec4 k = float(i) - vec4(0.0, 1.0, 2.0, 3.0);
     // Spatial weight times range weight. Sky, depth 0, has none.
     const vec4 plane_distance = abs((other.y - depths) * facing + other.y * (k * slope));
-    const vec4 bilateral = max(float(kSize) - abs(k), 0.0) * max(1.0 - plane_distance, 0.0);
+    const vec4 bilateral = max(width - abs(k), 0.0) * max(1.0 - plane_distance, 0.0);
     const vec4 weight = other.y > 0.0 ? bilateral : vec4(0.0);
     sum += weight * other.x;
     weights += weight;

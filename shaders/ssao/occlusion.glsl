@@ -4,11 +4,12 @@
 // the hemisphere over the surface (Filion and McNaughton 2008, "StarCraft II: Effects and
 // Techniques").
 //
-// 1. Reconstruct the pixel's position in view space from its depth.
+// 1. Reconstruct the pixel's position in view space from its depth, and raise it along its normal by
+//    the bias (sphere: towards the camera).
 // 2. Rotate the kernel by the noise tile, and orient it about the normal (hemisphere only).
 // 3. Project each sample point and read the depth buffer there (a tap).
-// 4. The point is occluded if the tap's depth is nearer than the point by more than the bias, and
-//    passes the range check. Occlusion is the share of occluded points.
+// 4. The point is occluded if the tap's depth is nearer than the point and passes the range check.
+//    Occlusion is the share of occluded points.
 #include "common/view.glsl"
 #include "finish.glsl"
 #include "plane.glsl"
@@ -35,13 +36,14 @@ layout(IMAGE(0), r16f) writeonly uniform image2D visibility;
 // Values that all sample points of a pixel share. Depth offsets count from the pixel's view depth.
 struct Taps {
   vec4 row_x, row_y;  // dot(row, (kernel point, 1)): pixels from the view axis, times view depth
-  vec3 row_offset;    // dot(row, kernel point): the sample point's depth offset, metres
+  vec3 row_offset;    // dot(row, kernel point): the sample point's depth offset from the centre's
+  float centre;       // depth offset of the sample points' centre, metres
   float depth;        // the pixel's view depth, metres
   float near_offset;  // depth offset of the near plane, metres
   float range_limit;  // range check: least depth offset of an occluder, metres
   float raw_depth;    // the pixel's raw depth: near plane / view depth
-  float bias;         // metres
-  vec2 slope;         // of the tangent plane's inverse view depth, 1 / m per pixel
+  float tolerance;    // how much nearer than a sample point an occluder must be, metres
+  vec2 slope;         // inverse view depth of the plane through the centre, 1 / m per pixel
 };
 
 // Rounding errors. Of a view depth that went through the float depth buffer: relative. Of a normal
@@ -49,27 +51,26 @@ struct Taps {
 const float kDepthRounding = 5e-7, kNormalRounding = 5e-4, kPlaceRounding = 2.5e-7;
 
 // Keeps a surface from occluding itself. Two causes:
-// - Rounding of depth, normal and position: taps.bias grows by the tolerance in
-//   effects/ssao/README.md.
+// - Rounding of depth, normal and position: taps.tolerance, see effects/ssao/README.md.
 // - A tap is the centre of a pixel, beside the projected point, or far from it outside the picture:
 //   isOccluded() moves the point there along the tangent plane, whose inverse view depth is linear
 //   over the picture with this slope.
-void addSelfOcclusionBias(inout Taps taps, vec2 pixel, float depth, vec3 normal) {
+void tolerateRounding(inout Taps taps, vec2 pixel, float depth, vec3 normal) {
   const Plane plane = planeOf(pixel, normal);
   const float facing = max(-plane.facing, 1e-3);
-  taps.slope = -plane.slope / (depth * facing);
+  taps.slope = -plane.slope / (depth * facing - min(settings.bias, 0.999 * depth * facing));
   const float turned = kNormalRounding / facing;
   const float aside = turned * view.view_from_pixel.x / facing;
   const float place = depth * kPlaceRounding * dot(abs(taps.slope), view.size.xy);
-  taps.bias += settings.radius * (turned + aside) + depth * (aside + place);
+  taps.tolerance += settings.radius * (turned + aside) + depth * (aside + place);
 }
 
 // Steps 3 and 4: 1 if sample point i is occluded, else 0.
 float isOccluded(Taps taps, uint i) {
-  const vec4 point = vec4(settings.kernel[i].xyz, 1.0);
+  const vec4 point = vec4(settings.kernel[i & 255u].xyz, 1.0);
   // Compares offsets from the pixel's depth: a far surface's depth plus a small radius would round
   // to the depth alone.
-  const float point_offset = dot(taps.row_offset, point.xyz);
+  const float point_offset = dot(taps.row_offset, point.xyz) + taps.centre;
   const float point_depth = max(taps.depth + point_offset, view.camera_fraction.w);
   const float inverse = 1.0 / point_depth;
   const vec2 projected =
@@ -84,8 +85,8 @@ float isOccluded(Taps taps, uint i) {
   const float moved = point_depth * dot(taps.slope, tap - projected);
 #endif
   // Depth test. Sample points nearer than the near plane are open.
-  const bool in_front =
-      tap_offset + taps.bias + moved * tap_depth < point_offset && point_offset > taps.near_offset;
+  const bool in_front = tap_offset + taps.tolerance + moved * tap_depth < point_offset &&
+                        point_offset > taps.near_offset;
   // Range check, linear: the tap is less than the radius in front of the pixel. Raw depth compares
   // depth buffer values. The sky, depth 0, never passes.
   bool occluded = in_front && tap_offset > taps.range_limit;
@@ -94,6 +95,16 @@ float isOccluded(Taps taps, uint i) {
         occluded && abs(taps.raw_depth - view.camera_fraction.w / tap_depth) < settings.radius;
   }
   return occluded ? 1.0 : 0.0;
+}
+
+// Points beyond the kernel's 256 are these again, turned about the z axis by the golden section of a
+// circle for each 256.
+void turn(inout Taps taps) {
+  const float c = -0.7373688781, s = -0.6754902942;
+  taps.row_x.xy = vec2(c * taps.row_x.x + s * taps.row_x.y, c * taps.row_x.y - s * taps.row_x.x);
+  taps.row_y.xy = vec2(c * taps.row_y.x + s * taps.row_y.y, c * taps.row_y.y - s * taps.row_y.x);
+  const vec2 offset = taps.row_offset.xy;
+  taps.row_offset.xy = vec2(c * offset.x + s * offset.y, c * offset.y - s * offset.x);
 }
 
 // Macros unroll the loop over taps: with a constant index, drivers load a sample point once for all
@@ -105,17 +116,20 @@ float isOccluded(Taps taps, uint i) {
 
 float occlusionAt(ivec2 pixel, float depth) {
   const vec2 centre = vec2(pixel) + 0.5;
-  const vec3 position = viewPosition(centre, depth);
   Taps taps;
-  taps.bias = settings.bias + depth * kDepthRounding;
+  taps.tolerance = depth * kDepthRounding;
   taps.slope = vec2(0.0);
 #if SPHERE
+  const vec3 normal = vec3(0.0, 0.0, 1.0);
   mat3 axes = mat3(1.0);
 #else
   const vec3 normal = viewNormal(textureLod(world_normal, centre * view.size.zw, 0.0).xyz);
   mat3 axes = basisAbout(normal);
-  addSelfOcclusionBias(taps, centre, depth, normal);
+  tolerateRounding(taps, centre, depth, normal);
 #endif
+  const Raised at = raised(viewPosition(centre, depth), normal, settings.bias);
+  if (at.hidden) return 0.0;
+  const vec3 position = at.position;
   // Step 2: rotates the kernel about its z axis, by one of 16 angles.
   if (kRotation == 0u) {
     const vec2 rotation = textureLod(rotations, centre * 0.25, 0.0).xy;
@@ -130,13 +144,15 @@ float occlusionAt(ivec2 pixel, float depth) {
   taps.row_y = vec4(vec3(axes[0].y, axes[1].y, axes[2].y) * scale.y, position.y * scale.y);
   taps.row_offset = -vec3(axes[0].z, axes[1].z, axes[2].z);
   taps.depth = depth;
+  taps.centre = -settings.bias * normal.z;
   taps.near_offset = view.camera_fraction.w - depth;
-  taps.range_limit = kRangeCheck == 0u ? max(-settings.radius, -depth) : -depth;
-  taps.raw_depth = view.camera_fraction.w / depth;
+  taps.range_limit = kRangeCheck == 0u ? max(taps.centre - settings.radius, -depth) : -depth;
+  taps.raw_depth = view.camera_fraction.w / (depth + taps.centre);
 
   float occluded = 0.0;
   TAP16(0u) TAP16(16u) TAP16(32u) TAP16(48u)
   for (uint i = 64u; i < kKernelSize; i += 4u) {
+    if ((i & 255u) == 0u) turn(taps);
     TAP4(i)
   }
   return occluded / float(kKernelSize);

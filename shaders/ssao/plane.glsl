@@ -39,6 +39,21 @@ float planeDistance(Plane plane, float depth, float other, vec2 across) {
   return abs((other - depth) * plane.facing + other * dot(plane.slope, across));
 }
 
+// A surface's point, raised along its normal by the effect's bias. Matter lower than that does not
+// occlude it.
+struct Raised {
+  vec3 position;  // view space
+  vec2 moved;     // how far it moves in the picture, pixels; without a bias exactly 0
+  bool hidden;    // not in front of the near plane: nothing in the picture occludes it
+};
+
+Raised raised(vec3 position, vec3 normal, float bias) {
+  const vec3 up = bias * normal, at = position + up;
+  const float depth = max(-at.z, 1e-30);
+  return Raised(at, (up.xy + position.xy / -position.z * up.z) / depth * view.pixel_from_view.xy,
+                bias > 0.0 && -at.z <= view.camera_fraction.w);
+}
+
 // Inverse of the plane tolerance at view depth `depth`, 1 / metres. The tolerance is the lesser of
 // 1 / `inverse` and the width of four pixels at that depth: a larger one would smear grooves and
 // ledges of a few pixels.

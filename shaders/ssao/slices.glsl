@@ -21,7 +21,7 @@
 #include "plane.glsl"
 
 layout(constant_id = 0) const uint kSlices = 1u;
-layout(constant_id = 1) const uint kSteps = 8u;  // taps on each side
+layout(constant_id = 1) const uint kSteps = 8u;  // taps on each side of a slice
 layout(constant_id = 2) const uint kScale = 1u;  // pixels per texel, each way
 layout(constant_id = 3) const bool kBack = false;  // read back_depth
 layout(constant_id = 4) const uint kEdgeSlices = 1u;  // factor on the slices at edges
@@ -33,6 +33,7 @@ layout(UNIFORM(1), std140) uniform Settings {
   float turn;       // rotation of the slice pattern, 0 to 1
   float tolerance;  // inverse of the plane tolerance, 1 / metres
   uvec2 exchange;   // offset of the texel in the 5x5 pattern, 0 to 4
+  float bias;       // metres
 } settings;
 layout(TEXTURE(0)) uniform sampler2D view_depth;  // nearest, clamped
 layout(TEXTURE(1)) uniform sampler2D world_normal;
@@ -287,9 +288,11 @@ bool isEdge(vec2 pixel, float depth, vec3 normal) {
 // space.
 float openAt(uvec2 texel, vec2 pixel, float depth, out vec3 bent) {
   bent = vec3(0.0);
-  const vec3 position = viewPosition(pixel, depth);
-  const vec3 view_vec = position * -inversesqrt(dot(position, position));
   vec3 normal = viewNormal(textureLod(world_normal, attachmentAt(pixel), 0.0).xyz);
+  const Raised at = raised(viewPosition(pixel, depth), normal, settings.bias);
+  if (at.hidden) return 1.0;
+  const vec3 position = at.position;
+  const vec3 view_vec = position * -inversesqrt(dot(position, position));
   uint count = kSlices;
   if (kEdgeSlices > 1u) {
     if (isEdge(pixel, depth, normal)) count = kSlices * kEdgeSlices;
@@ -313,7 +316,7 @@ float openAt(uvec2 texel, vec2 pixel, float depth, out vec3 bent) {
     const float u = fract(jitter + float(k) * 0.618034);
     const float r = sqrt(u);
     const vec3 direction = axes * vec3(r * cos(phi), r * sin(phi), sqrt(1.0 - u));
-    open += sliceOf(position, view_vec, normal, direction, pixel, u, bent);
+    open += sliceOf(position, view_vec, normal, direction, pixel + at.moved, u, bent);
   }
   bent /= float(count);
   return open / float(count);

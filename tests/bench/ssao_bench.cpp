@@ -71,13 +71,13 @@ std::vector<Setting> settings(const Options& options, const effect::Effect& effe
       setting.values.emplace_back(key, value);
     }
   }
-  const std::string classic = "estimator=classic intensity=2 ";
+  const std::string classic = "estimator=classic intensity=2 blur_size=4 ";
   for (const char* taps : {"4", "8", "16", "32", "64", "128", "256"}) {
     all.push_back(parseSetting(classic + "kernel_size=" + taps));
   }
-  all.push_back(parseSetting("estimator=classic"));
+  all.push_back(parseSetting("estimator=classic kernel_size=64 blur_size=4"));
   for (const char* more : {"blur_size=0", "blur=edge_aware", "blur_size=8", "sampling=sphere"}) {
-    all.push_back(parseSetting(classic + more));
+    all.push_back(parseSetting(classic + "kernel_size=64 " + more));
   }
   std::erase_if(all, [&](const Setting& setting) {
     return setting.name.find(options.only) == std::string::npos;

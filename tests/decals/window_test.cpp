@@ -24,7 +24,7 @@ class DecalsWindow : public WindowTest {
     }
   }
   static void type(DrivenViewer& viewer, const std::string& field, const std::string& text) {
-    viewer.click(field);
+    viewer.clickText(field);
     viewer.key("ctrl+a");
     viewer.type("'" + text + "'");
   }

@@ -30,7 +30,9 @@ constexpr grisaille_param_desc param(uint32_t type, const char* key, double low,
           .default_value = value,
           .step = 1,
           .enum_keys = isEnum ? kEnumKeys.data() : nullptr,
-          .enum_labels = isEnum ? kEnumLabels.data() : nullptr};
+          .enum_labels = isEnum ? kEnumLabels.data() : nullptr,
+          .used_when_key = nullptr,
+          .used_when_value = 0};
 }
 
 constexpr std::array kParams = {

@@ -96,7 +96,7 @@ TEST_F(CommandLine, MistakesNameTheNearestValidThing) {
   expectError(render({"--effects", "sao"}), 3201, "ssao");
   expectError(render({"--effects", "ssao,ssao"}), 3204);
   expectError(render({"--set", "ssao.radus=1"}), 3301, "radius");
-  expectError(render({"--set", "ssao.kernel_size=300"}), 3302, "256");
+  expectError(render({"--set", "ssao.kernel_size=5000"}), 3302, "4096");
   expectError(render({"--set", "ssao.kernel_size=many"}), 3303);
   expectError(render({"--set", "ssao.blur=boxx"}), 3302, "box");
   expectError(render({"--set", "ssao.radius=nan"}), 3303);

@@ -21,8 +21,8 @@ class DeviceFaults : public testing::TestWithParam<std::string> {
   }
   Outcome render(const std::vector<std::string>& more, const std::string& fault = "none",
                  int after = 0) const {
-    std::vector<std::string> words = {"render",       "--size",  "16x9",     "--set",
-                                      "ssao.steps=1", "--write", "ao=ao.exr"};
+    std::vector<std::string> words = {"render",  "--size",   "16x9", "--set", "ssao.kernel_size=2",
+                                      "--write", "ao=ao.exr"};
     words.insert(words.end(), more.begin(), more.end());
     return run(words, fault, after);
   }
@@ -68,9 +68,10 @@ TEST(LostDevice, EndsTheCheckOfAnEffectByAFault) {
 // Both backends run by default. If one is missing, the program says so before it measures anything.
 TEST(MissingBackend, IsNamedBeforeAnyWork) {
   const TemporaryFolder folder;
-  const Outcome outcome = runProgram(
-      {"measure", "--sweep", "ssao.steps=1,2", "--size", "16x9", "--samples", "16", "--out", "m"},
-      folder.path(), {"LD_PRELOAD=" HIDE_LIBRARY, "HIDE_LIBRARY=libvulkan.so"});
+  const Outcome outcome =
+      runProgram({"measure", "--sweep", "ssao.kernel_size=2,4", "--size", "16x9", "--samples", "16",
+                  "--out", "m"},
+                 folder.path(), {"LD_PRELOAD=" HIDE_LIBRARY, "HIDE_LIBRARY=libvulkan.so"});
   expectEnds(outcome, 1001);
   EXPECT_TRUE(folder.files().empty());
 }

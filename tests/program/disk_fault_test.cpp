@@ -50,8 +50,11 @@ class DiskFaults : public testing::TestWithParam<std::string> {
     return runProgram(words, folder_.path(), environment);
   }
   Words measure() const {
-    return {"measure",  "--sweep", "ssao.steps=1,2", "--size",     "32x18", "--samples", "16",
-            "--rounds", "1",       "--backend",      presentOne(), "--out", "out/study"};
+    return {"measure",   "--sweep",    "ssao.kernel_size=2,4",
+            "--size",    "32x18",      "--samples",
+            "16",        "--rounds",   "1",
+            "--backend", presentOne(), "--out",
+            "out/study"};
   }
   Words claims() {
     return {"claims",    folder_.write("claims.toml", claimsFile()),

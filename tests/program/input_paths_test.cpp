@@ -57,8 +57,8 @@ TEST_F(InputPaths, EveryReaderNamesWhatIsNoRegularFile) {
       {"measure --size 8x8 --out out --effects sspm --output sspm.paint --reference r.exr --load "
        "sspm=",
        "json", 3411},
-      {"measure --size 8x8 --out out --sweep ssao.steps=1 --camera", "json", 2201},
-      {"measure --size 8x8 --out out --sweep ssao.steps=1 --path", "json", 2201},
+      {"measure --size 8x8 --out out --sweep ssao.kernel_size=2 --camera", "json", 2201},
+      {"measure --size 8x8 --out out --sweep ssao.kernel_size=2 --path", "json", 2201},
       {"tune --size 8x8 --max-error 1 --out out.toml --validate", "json", 2201},
       {"claims --out out", "toml", 5103},
       {"scene", "glb", 2101},
@@ -89,7 +89,8 @@ TEST_F(InputPaths, ATruthCacheFileThatIsNoFileIsNamed) {
 
 TEST_F(InputPaths, AStudyRecordThatIsNoFileIsNamed) {
   const std::string measure =
-      "measure --size 16x16 --samples 16 --rounds 1 --backend opengl --sweep ssao.steps=1 --out s";
+      "measure --size 16x16 --samples 16 --rounds 1 --backend opengl --sweep ssao.kernel_size=2 "
+      "--out s";
   const Outcome outcome = run(measure);
   ASSERT_EQ(outcome.status, 0) << outcome.err;
   const fs::path file = fs::directory_iterator(folder_ / "s/records")->path();
@@ -121,7 +122,7 @@ TEST_F(InputPaths, AnEmptyPathIsAMistakeOfUsage) {
            "measure --out out --effects sspm --load sspm=",
            "scene --write ''",
            "scene ''",
-           "measure --out '' --sweep ssao.steps=1",
+           "measure --out '' --sweep ssao.kernel_size=2",
            "measure --out out --presets ''",
            "tune --max-error 1 --out ''",
            "tune --max-error 1 --out out.toml --validate ''",

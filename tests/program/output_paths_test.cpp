@@ -53,7 +53,7 @@ TEST_F(OutputPaths, TwoOutputsOfOneFileAreRefusedBeforeAnyWork) {
            std::string("apply --depth d.exr --write ao=x.exr --write depth=x.exr"),
            std::string("truth --size 8x8 --write ao=x.exr --write depth=here/x.exr"),
            std::string("scene --write x.glb --write-camera ./x.glb"),
-           std::string("measure --out s --sweep ssao.steps=1 --presets s/results.csv"),
+           std::string("measure --out s --sweep ssao.kernel_size=2 --presets s/results.csv"),
            std::string("view --capture x.png --layout ./x.png"),
        }) {
     const Outcome outcome = run(words);

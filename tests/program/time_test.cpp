@@ -221,9 +221,9 @@ TEST_F(Time, AnInterruptedSequenceLeavesWholeFiles) {
 // The poses of a study are separate settings, with their own truth and command.
 TEST_F(Time, MeasureKeepsTimesApart) {
   const auto measured = [&](const std::string& time) {
-    expectRuns({"measure", "a.glb", "--time", time, "--sweep", "ssao.steps=3", "--size", "64x36",
-                "--samples", "16", "--rounds", "1", "--backend", backends().front(), "--out",
-                "study"});
+    expectRuns({"measure", "a.glb", "--time", time, "--sweep", "ssao.kernel_size=6", "--size",
+                "64x36", "--samples", "16", "--rounds", "1", "--backend", backends().front(),
+                "--out", "study"});
     return nlohmann::json::parse(readFile(folder_ / "study/results.json"));
   };
   const auto records = [&] {

@@ -134,6 +134,16 @@ void DrivenViewer::click(Point point, int button) {
        std::to_string(button));
 }
 
+void DrivenViewer::clickText(const std::string& control) {
+  // On a busy machine the panel may still move when the pointer arrives.
+  for (int attempt = 0; attempt < 5; ++attempt) {
+    click(control);
+    untilDrawn();
+    if (value("typing") == "true") return;
+  }
+  throw std::runtime_error(control + " takes no text: " + layout().dump());
+}
+
 void DrivenViewer::drag(Point from, Point to, int button) {
   const auto move = [](Point p) {
     return "mousemove " + std::to_string(p.x) + " " + std::to_string(p.y);

@@ -43,6 +43,8 @@ class DrivenViewer {
 
   void click(Point point, int button = 1);
   void click(const std::string& control, int button = 1) { click(middle(control), button); }
+  // Clicks a field until it takes text. Throws std::runtime_error if it never does.
+  void clickText(const std::string& control);
   void drag(Point from, Point to, int button = 1);
   void key(const std::string& keys) { send("key " + keys); }
   void type(const std::string& text) { send("type " + text); }

@@ -14,7 +14,7 @@ GRISAILLE_IN_WINDOWS(HardshipTest);
 
 TEST_P(HardshipTest, EverySize) {
   DrivenViewer viewer(folder_, {"--backend", GetParam(), "--size", "900x1000", "--set",
-                                "ssao.steps=1", "--set", "ssao.denoise_size=0"});
+                                "ssao.kernel_size=2", "--set", "ssao.blur_size=0"});
   const std::string before = viewer.savePicture();
   const auto resize = [&](int width, int height) {
     viewer.send("search --name Grisaille windowsize " + std::to_string(width) + " " +
@@ -41,7 +41,7 @@ GRISAILLE_IN_WINDOWS(InputTest);
 
 TEST_P(InputTest, AnyInput) {
   DrivenViewer viewer(folder_, {"--backend", GetParam(), "--size", "500x560", "--effects",
-                                "ssao,sspm", "--set", "ssao.steps=2"});
+                                "ssao,sspm", "--set", "ssao.kernel_size=4"});
   std::mt19937 random(GetParam() == "opengl" ? 1 : 2);
   const auto below = [&](int count) {
     return std::to_string(std::uniform_int_distribution<int>(0, count - 1)(random));
@@ -135,7 +135,7 @@ TEST_P(HardshipTest, ABackendThatIsMissingIsNamedOrReplaced) {
   EXPECT_EQ(refused.status, 1);
   EXPECT_NE(refused.err.find(GetParam() == "opengl" ? "5202" : "1001"), std::string::npos)
       << refused.err;
-  DrivenViewer viewer(folder_, {"--size", "640x700", "--set", "ssao.steps=2"}, hidden);
+  DrivenViewer viewer(folder_, {"--size", "640x700", "--set", "ssao.kernel_size=4"}, hidden);
   if (GetParam() == "opengl") {
     EXPECT_NE(viewer.value("message").find("opengl:"), std::string::npos);
   }

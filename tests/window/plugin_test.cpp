@@ -22,7 +22,7 @@ TEST_P(PluginTest, ARescanFindsWhatIsNew) {
   viewer.untilValue("alpha.on", "false");
   EXPECT_NE(viewer.value("refused").find("broken.so"), std::string::npos);
   // The earlier settings are still there.
-  EXPECT_EQ(viewer.value("ssao.steps"), "3");
+  EXPECT_EQ(viewer.value("ssao.kernel_size"), "6");
   expectQuits(viewer);
 }
 

@@ -20,7 +20,7 @@ TEST_P(SettingTest, ADraggedSliderIsTheRenderedSetting) {
                                      "--backend",
                                      GetParam(),
                                      "--set",
-                                     "ssao.steps=3",
+                                     "ssao.kernel_size=6",
                                      "--set",
                                      "ssao.radius=" + radius,
                                      "--write",

@@ -16,7 +16,7 @@ class TimeTest : public WindowTest {
 
   std::vector<std::string> viewer(std::vector<std::string> more) const {
     more.insert(more.begin(), {"a.glb", "--backend", GetParam(), "--size", kWindow, "--effects",
-                               "ssao", "--set", "ssao.steps=3", "--set", "ssao.radius=0.3"});
+                               "ssao", "--set", "ssao.kernel_size=6", "--set", "ssao.radius=0.3"});
     return more;
   }
   static bool is(const nlohmann::json& layout, const std::string& control,
@@ -57,6 +57,10 @@ TEST_P(TimeTest, ThePictureIsThatOfTheTimeLine) {
   expectSame(driven.savePicture(), rendered(driven, {"--time", driven.value("time")}));
 
   driven.drag(driven.at("time", 0.3, 0.5), driven.at("time", 0.8, 0.5));
+  driven.until("the time of the drag's end", [](const nlohmann::json& now) {
+    return std::stod(now["time"]["value"].get<std::string>()) > 1.4;
+  });
+  driven.untilDrawn();
   const double dragged = std::stod(driven.value("time"));
   EXPECT_GT(dragged, 1.4);
   EXPECT_LT(dragged, 2);

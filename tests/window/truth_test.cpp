@@ -12,8 +12,9 @@ namespace {
 class TruthTest : public WindowTest {
  protected:
   std::vector<std::string> arguments() const {
-    return {"--backend", GetParam(),     "--size",          kWindow,        "--effects", "ssao",
-            "--set",     "ssao.steps=3", "--compare-truth", "--truth-rays", "24"};
+    return {"--backend",       GetParam(),     "--size", kWindow,
+            "--effects",       "ssao",         "--set",  "ssao.kernel_size=6",
+            "--compare-truth", "--truth-rays", "24"};
   }
   std::vector<std::string> environment() const { return {"XDG_CACHE_HOME=" + (folder_ / "cache")}; }
 

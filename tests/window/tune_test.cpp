@@ -22,8 +22,8 @@ class TuneTest : public WindowTest {
 
   static std::map<std::string, std::string> values(const DrivenViewer& viewer) {
     std::map<std::string, std::string> all;
-    for (const char* key : {"resolution", "slices", "steps", "thickness", "radius", "denoise_size",
-                            "intensity", "power"}) {
+    for (const char* key : {"resolution", "slices", "kernel_size", "thickness", "radius",
+                            "blur_size", "intensity", "power"}) {
       all[key] = viewer.value(std::string("ssao.") + key);
     }
     return all;
@@ -45,6 +45,8 @@ TEST_P(TuneTest, APresetIsOneStep) {
   const toml::table file = toml::parse_file(EFFECTS_FOLDER "/ssao.presets.toml");
   DrivenViewer viewer(folder_, narrow({"--preset", "ssao=fine", "--set", "ssao.radius=0.75"}));
   EXPECT_EQ(viewer.value("ssao.preset.fine"), "true");
+  viewer.click(viewer.at("ssao.advanced", 0.2, 0.5));
+  viewer.untilThere("ssao.slices");
   for (const std::string name : {"fast", "balanced", "reference"}) {
     const auto before = values(viewer);
     const std::string was = viewer.value("ssao.presets");
@@ -69,7 +71,7 @@ TEST_P(TuneTest, APresetIsOneStep) {
     viewer.key("ctrl+shift+z");
     viewer.untilValue("ssao.presets", name);
   }
-  viewer.drag(viewer.at("ssao.steps", 0.4, 0.5), viewer.at("ssao.steps", 0.7, 0.5));
+  viewer.drag(viewer.at("ssao.kernel_size", 0.4, 0.5), viewer.at("ssao.kernel_size", 0.7, 0.5));
   viewer.untilValue("ssao.presets", "custom");
   for (const std::string name : {"fast", "balanced", "fine", "reference"}) {
     EXPECT_EQ(viewer.value("ssao.preset." + name), "false");
@@ -83,11 +85,11 @@ TEST_P(TuneTest, SettingsGoOverAPreset) {
     EXPECT_NE(outcome.status, 0);
     EXPECT_NE(outcome.err.find(number), std::string::npos) << outcome.err;
   }
-  folder_.write("own.toml", "[ssao]\nintensity = 1.25\nsteps = 7\n");
+  folder_.write("own.toml", "[ssao]\nintensity = 1.25\nkernel_size = 14\n");
   DrivenViewer viewer(folder_, narrow({"--preset", "ssao=reference", "--config", "own.toml",
-                                       "--set", "ssao.steps=9"}));
+                                       "--set", "ssao.kernel_size=18"}));
   EXPECT_EQ(viewer.value("ssao.presets"), "custom");
-  EXPECT_EQ(viewer.value("ssao.steps"), "9");
+  EXPECT_EQ(viewer.value("ssao.kernel_size"), "18");
   EXPECT_EQ(viewer.value("ssao.intensity"), "1.25");
   EXPECT_EQ(viewer.value("ssao.resolution"), "full");  // from the preset
   expectQuits(viewer);
@@ -103,7 +105,7 @@ TEST_P(TuneTest, APresetFileThatCannotBeReadSaysWhy) {
   EXPECT_NE(viewer.value("alpha.presets").find("E3312"), std::string::npos);
   viewer.click("alpha.hard");
   viewer.untilValue("alpha.hard", "true");
-  EXPECT_EQ(viewer.value("ssao.presets"), "custom");  // the defaults have no guard band
+  EXPECT_EQ(viewer.value("ssao.presets"), "balanced");  // the defaults
   expectQuits(viewer);
 }
 
@@ -136,7 +138,7 @@ TEST_P(TuneTest, WhatIsFoundIsOneStep) {
   viewer.untilValue("ssao.presets", "reference");
   EXPECT_EQ(values(viewer), before);
   viewer.key("ctrl+shift+z");
-  viewer.untilValue("ssao.steps", after.at("steps"));
+  viewer.untilValue("ssao.kernel_size", after.at("kernel_size"));
   EXPECT_EQ(values(viewer), after);
   // A search without a result shows the child's last line and changes nothing.
   type(viewer, "ssao.tune.error", "0.0001");

@@ -23,7 +23,7 @@ class WindowTest : public testing::TestWithParam<std::string> {
   std::vector<std::string> arguments(std::vector<std::string> more = {}) const {
     std::vector<std::string> all = {"--backend", GetParam(), "--size", kWindow};
     all.insert(all.end(), more.begin(), more.end());
-    all.insert(all.end(), {"--set", "ssao.steps=3"});
+    all.insert(all.end(), {"--set", "ssao.kernel_size=6"});
     return all;
   }
   // Quits the viewer and expects no message of the driver, its validation or the layer.

@@ -7,6 +7,8 @@
 
 #include <gtest/gtest.h>
 
+#include "tests/program/run.h"
+#include "tests/support/expect_error.h"
 #include "tests/support/selections.h"
 
 namespace grisaille::app {
@@ -67,6 +69,46 @@ TEST(PresetTest, IsKnownByItsValues) {
         }
       }
     }
+  }
+}
+
+// A preset's own look goes with it; a look that the user chose stays.
+TEST(PresetTest, AnotherPresetKeepsTheLook) {
+  effect::Registry registry;
+  registry.scan(EFFECTS_FOLDER);
+  const effect::Effect& ssao = registry.find("ssao");
+  const Presets presets = loadPresets(ssao);
+  effect::Values values(ssao);
+  EXPECT_EQ(presetOf(values, presets)->name, "balanced");  // the defaults
+  applyPreset(values, presets, "classic");
+  EXPECT_EQ(values.text("estimator"), "classic");
+  EXPECT_GT(values.get("intensity"), 1);
+  applyPreset(values, presets, "fast");
+  EXPECT_EQ(values.get("intensity"), 1);
+  values.set("intensity", "1.3");
+  applyPreset(values, presets, "balanced");
+  EXPECT_EQ(values.get("intensity"), 1.3);
+  EXPECT_EQ(presetOf(values, presets)->name, "balanced");
+}
+
+TEST(PresetTest, AFileMayHoldMorePresets) {
+  const tests::TemporaryFolder folder;
+  effect::Registry registry;
+  registry.scan(EFFECTS_FOLDER);
+  effect::Effect ssao = registry.find("ssao");
+  Presets presets = loadPresets(ssao);
+  ssao.path = folder / "ssao.so";
+  const auto with = [&](const std::string& name) {
+    Presets all = presets;
+    all.all.push_back(all.all.front());
+    all.all.back().name = name;
+    folder.write("ssao.presets.toml", presetsToml(all));
+    return loadPresets(ssao);
+  };
+  EXPECT_EQ(with("mine_2").find("ssao", "mine_2").values, presets.all.front().values);
+  EXPECT_EQ(with("mine_2").all.size(), presets.all.size() + 1);
+  for (const char* wrong : {"Mine", "2", "\"a b\"", "_a"}) {
+    EXPECT_ERROR(ErrorId::kPresetFile, with(wrong));
   }
 }
 

@@ -107,7 +107,8 @@ TEST(Presets, FileHoldsWhatWasChosen) {
     records.push_back(record("opengl", i, 0.5 / i, std::to_string(i)));
   }
   records.push_back(record("opengl", 100, 0.4, "3"));  // beaten by another
-  writePresets(records, folder / "p.toml");
+  NamedPreset other = parseNamedPreset("few=ssao.kernel_size=2");
+  writePresets(records, {&other, 1}, folder / "p.toml");
   const std::string text = tests::readFile(folder / "p.toml");
   for (const char* name : kPresetNames) {
     EXPECT_NE(text.find(fmt::format("[{}]", name)), std::string::npos) << text;
@@ -115,8 +116,16 @@ TEST(Presets, FileHoldsWhatWasChosen) {
   EXPECT_NE(text.find("values = {kernel_size = 32}"), std::string::npos) << text;
   EXPECT_EQ(text.find("kernel_size = 3}"), std::string::npos) << text;
   EXPECT_NE(text.find("cost = 1.0000"), std::string::npos) << text;
+  EXPECT_NE(text.find("[few]\nerror = 0.25000"), std::string::npos) << text;
+  other.value.value = "3000";
+  EXPECT_ERROR(ErrorId::kUsage, writePresets(records, {&other, 1}, folder / "q.toml"));
+  for (const char* wrong :
+       {"few", "few=2", "few=ssao.kernel_size", "Few=ssao.kernel_size=2", "=ssao.kernel_size=2",
+        "fine=ssao.kernel_size=2", "few=kernel_size=2"}) {
+    EXPECT_ERROR(ErrorId::kUsage, parseNamedPreset(wrong));
+  }
   records[0].setting = {{{"other", "size"}, "1"}};
-  EXPECT_ERROR(ErrorId::kUsage, writePresets(records, folder / "q.toml"));
+  EXPECT_ERROR(ErrorId::kUsage, writePresets(records, {}, folder / "q.toml"));
 }
 
 }  // namespace

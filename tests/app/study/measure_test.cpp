@@ -27,7 +27,7 @@ class MeasureTest : public testing::Test {
                                     "--rounds",
                                     "2",
                                     "--sweep",
-                                    "ssao.steps=1,8",
+                                    "ssao.kernel_size=2,16",
                                     "--sweep",
                                     "ssao.radius=0.25,0.5",
                                     "--backend",
@@ -50,7 +50,7 @@ TEST_F(MeasureTest, GoesOnFromWhatThereIsAndIsTheSameTwice) {
   ASSERT_EQ(first.status, 0) << first.err;
   const auto errors = errorsOf(folder_.path() / "a");
   EXPECT_EQ(errors.size(), 4u);
-  EXPECT_LT(errors.at("steps=8 radius=0.5"), errors.at("steps=1 radius=0.5"));
+  EXPECT_LT(errors.at("kernel_size=16 radius=0.5"), errors.at("kernel_size=2 radius=0.5"));
   const std::string results = readFile(folder_ / "a/results.json");
   // The results are complete: nothing is measured again.
   ASSERT_EQ(measure({"--out", "a"}).status, 0);
@@ -99,7 +99,8 @@ TEST_F(MeasureTest, EndsAtAnyTimeAndGoesOn) {
   constexpr size_t kSettings = 4;
   ASSERT_EQ(measure({"--out", "whole"}).status, 0);
   const std::string command =
-      "grisaille measure --size 96x54 --samples 32 --rounds 2 --sweep ssao.steps=1,8 --sweep "
+      "grisaille measure --size 96x54 --samples 32 --rounds 2 --sweep ssao.kernel_size=2,16 "
+      "--sweep "
       "ssao.radius=0.25,0.5 --backend opengl --out ended";
   size_t before = 0;
   for (const char* signal : {"KILL", "INT", "KILL", "TERM"}) {

@@ -86,10 +86,10 @@ TEST(ParetoFront, EachKindOfSettingHasItsOwn) {
     records.push_back(record(cost, error));
     records.back().setting = std::move(setting);
   };
-  add({{{"ssao", "estimator"}, "new"}, {{"ssao", "steps"}, "1"}}, 1, 0.5);
+  add({{{"ssao", "estimator"}, "new"}, {{"ssao", "kernel_size"}, "1"}}, 1, 0.5);
   add({{{"ssao", "estimator"}, "old"}, {{"ssao", "size"}, "1"}, {{"ssao", "blur"}, "box"}}, 2,
       0.75);
-  add({{{"ssao", "steps"}, "2"}, {{"ssao", "estimator"}, "new"}}, 2, 0.25);
+  add({{{"ssao", "kernel_size"}, "2"}, {{"ssao", "estimator"}, "new"}}, 2, 0.25);
   add({{{"ssao", "estimator"}, "old"}, {{"ssao", "size"}, "2"}, {{"ssao", "blur"}, "box"}}, 4,
       0.625);
   add({{{"ssao", "estimator"}, "old"}, {{"ssao", "size"}, "3"}, {{"ssao", "blur"}, "box"}}, 5,

@@ -33,7 +33,7 @@ TEST_F(SweepTest, MistakesAreNamed) {
   }
   EXPECT_ERROR(ErrorId::kEffectUnknown, parseSweep(registry, "none.radius=1"));
   EXPECT_ERROR(ErrorId::kParameterUnknown, parseSweep(registry, "ssao.raduis=1"));
-  EXPECT_ERROR(ErrorId::kParameterRange, parseSweep(registry, "ssao.kernel_size=8,1000"));
+  EXPECT_ERROR(ErrorId::kParameterRange, parseSweep(registry, "ssao.kernel_size=8,5000"));
   EXPECT_ERROR(ErrorId::kParameterType, parseSweep(registry, "ssao.radius=1,,2"));
   const Sweep one = parseSweep(registry, "ssao.radius=1");
   EXPECT_ERROR(ErrorId::kUsage, gridOf({one, one}));

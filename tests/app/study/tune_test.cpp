@@ -66,13 +66,14 @@ TEST_P(TuneTest, SaysWhatCannotBeHad) {
 
 // The setting that the user has is the first start, and the result costs at most as much.
 TEST_P(TuneTest, NeverEndsDearerThanItStarted) {
-  folder_.write("own.toml", "effects = [\"ssao\"]\n[ssao]\nslices = 3\nsteps = 9\npower = 1.2\n");
+  folder_.write("own.toml",
+                "effects = [\"ssao\"]\n[ssao]\nslices = 3\nkernel_size = 18\npower = 1.2\n");
   const Outcome one = tune({"--max-error", "0.9", "--evaluations", "1", "--random", "0", "--config",
-                            "own.toml", "--set", "ssao.steps=7", "--json"});
+                            "own.toml", "--set", "ssao.kernel_size=14", "--json"});
   ASSERT_EQ(one.status, 0) << one.err;
   const json kept = json::parse(one.out.substr(one.out.rfind("{\"evaluations\"")));
   EXPECT_EQ(kept.at("setting").at("ssao.slices"), 3);
-  EXPECT_EQ(kept.at("setting").at("ssao.steps"), 7);
+  EXPECT_EQ(kept.at("setting").at("ssao.kernel_size"), 14);
   EXPECT_EQ(kept.at("milliseconds"), kept.at("start_milliseconds"));
   const Outcome more = tune({"--max-error", "0.9", "--evaluations", "12", "--random", "0",
                              "--preset", "ssao=fast", "--json"});
@@ -91,10 +92,10 @@ TEST_P(TuneTest, LeavesTheLookAlone) {
   for (const char* look : {"ssao.intensity", "ssao.power", "ssao.bounce", "ssao.albedo"}) {
     EXPECT_FALSE(setting.contains(look)) << look;
   }
-  EXPECT_TRUE(setting.contains("ssao.steps"));
+  EXPECT_TRUE(setting.contains("ssao.kernel_size"));
   EXPECT_NE(readFile(folder_ / "tuned.toml").find("power = 1.1"), std::string::npos);
   const Outcome named = tune({"--budget-ms", "100000", "--evaluations", "2", "--random", "0",
-                              "--vary", "ssao.power,ssao.steps", "--json"});
+                              "--vary", "ssao.power,ssao.kernel_size", "--json"});
   ASSERT_EQ(named.status, 0) << named.err;
   EXPECT_NE(named.out.find("\"ssao.power\":"), std::string::npos) << named.out;
 }
@@ -210,8 +211,8 @@ TEST_F(PresetTest, GivesItsValuesUnderConfigAndSet) {
       ASSERT_EQ(render("b.exr" + sets).status, 0);
       EXPECT_EQ(readFile(folder_ / "a.exr"), readFile(folder_ / "b.exr")) << name;
       // --set overrides the preset, wherever it stands.
-      ASSERT_EQ(render("c.exr --set ssao.steps=3 --preset ssao=" + name).status, 0);
-      ASSERT_EQ(render("d.exr" + sets + " --set ssao.steps=3").status, 0);
+      ASSERT_EQ(render("c.exr --set ssao.kernel_size=6 --preset ssao=" + name).status, 0);
+      ASSERT_EQ(render("d.exr" + sets + " --set ssao.kernel_size=6").status, 0);
       EXPECT_EQ(readFile(folder_ / "c.exr"), readFile(folder_ / "d.exr")) << name;
     }
   }

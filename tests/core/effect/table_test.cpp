@@ -237,6 +237,16 @@ const std::vector<Fault>& faults() {
       {"effects[0].params[0].tooltip", [](Table& t) { t.params[0].tooltip = nullptr; }},
       {"effects[0].params[0].tooltip", [](Table& t) { t.params[0].tooltip = "a\rb"; }},
 
+      {"effects[0].params[0].used_when_key", [](Table& t) { t.params[0].used_when_key = "depth"; }},
+      {"effects[0].params[0].used_when_key", [](Table& t) { t.params[0].used_when_key = "size"; }},
+      {"effects[0].params[0].used_when_key", [](Table& t) { t.params[0].used_when_key = "a\nb"; }},
+      {"effects[0].params[3].used_when_key", [](Table& t) { t.params[3].used_when_key = "way"; }},
+      {"effects[0].params[0].used_when_value", [](Table& t) { t.params[0].used_when_value = 1; }},
+      {"effects[0].params[0].used_when_value",
+       [](Table& t) {
+         t.params[0].used_when_key = "way";
+         t.params[0].used_when_value = 3;
+       }},
       {"effects[0].params[0].hard_min", [](Table& t) { t.params[0].hard_min = -kInf; }},
       {"effects[0].params[0].hard_max", [](Table& t) { t.params[0].hard_max = kInf; }},
       {"effects[0].params[0].soft_min", [](Table& t) { t.params[0].soft_min = kNan; }},

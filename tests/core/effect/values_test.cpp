@@ -35,7 +35,10 @@ constexpr grisaille_param_desc kParams[] = {
                       .softMin = 4,
                       .softMax = 64,
                       .defaultValue = 16}),
-    plugin::boolParam({.key = "noise", .label = "Noise", .tooltip = "Whether"}),
+    plugin::boolParam({.key = "noise",
+                       .label = "Noise",
+                       .tooltip = "Whether",
+                       .usedWhen = {.key = "blur", .value = 2}}),
     plugin::enumParam({.key = "blur",
                        .label = "Blur",
                        .tooltip = "Which",
@@ -107,6 +110,15 @@ TEST_F(ValuesTest, TakesEveryWayToWriteAValue) {
     values.set(c.key, c.text);
     EXPECT_EQ(values.get(c.key), c.value) << c.key << "=" << c.text;
   }
+}
+
+TEST_F(ValuesTest, KnowsWhichParametersTheOthersLetItUse) {
+  EXPECT_TRUE(values.isUsed(kParams[0]));
+  EXPECT_EQ(usedWhenText(values.effect(), kParams[0]), "");
+  EXPECT_FALSE(values.isUsed(kParams[2]));
+  EXPECT_EQ(usedWhenText(values.effect(), kParams[2]), "blur = none");
+  values.set("blur", "none");
+  EXPECT_TRUE(values.isUsed(kParams[2]));
 }
 
 TEST_F(ValuesTest, RefusesWhatIsNoValueOfTheType) {

@@ -33,6 +33,7 @@ class PlanTest : public ::testing::Test {
         std::move(null), [](gpu::Severity, std::string_view text) { ADD_FAILURE() << text; });
     chain_.selection = effect::Selection(registry_, Labels{"ssao"});
     values_ = &chain_.selection.values("ssao");
+    values_->set("guard_band", "0");
     chain_.start(*device_);
     renderer_.emplace(*device_, scene_);
   }
@@ -134,7 +135,7 @@ TEST_F(PlanTest, NoBlurRecordsNoBlurPass) {
 TEST_F(PlanTest, SlicesRecordWhatTheirResolutionAndBlurNeed) {
   const auto passes = [&](const char* resolution, const char* blur) {
     values_->set("resolution", resolution);
-    values_->set("denoise_size", blur);
+    values_->set("blur_size", blur);
     const Recording recording = record({"ao"}, true);
     EXPECT_EQ(recording.renders.at(0).targets, (Labels{"normal", "clip depth"}));
     return Labels(recording.passes.begin() + 2, recording.passes.end());
@@ -144,7 +145,9 @@ TEST_F(PlanTest, SlicesRecordWhatTheirResolutionAndBlurNeed) {
                                          "ssao/denoise columns", "ssao/denoise edges"}));
   for (const char* coarse : {"half", "quarter"}) {
     EXPECT_EQ(passes(coarse, "0"), (Labels{"ssao/occlusion", "ssao/upsample"}));
-    EXPECT_EQ(passes(coarse, "5"),
+    EXPECT_EQ(passes(coarse, coarse == std::string("half") ? "2" : "4"),
+              (Labels{"ssao/occlusion", "ssao/upsample"}));
+    EXPECT_EQ(passes(coarse, "10"),
               (Labels{"ssao/occlusion", "ssao/denoise rows", "ssao/denoise columns",
                       "ssao/denoise edges", "ssao/upsample"}));
   }
@@ -162,7 +165,7 @@ TEST_F(PlanTest, HistoryOpenDirectionsAndTintCostNothingUnlessAskedFor) {
     return Labels(recording.passes.begin() + 2, recording.passes.end());
   };
   values_->set("resolution", "full");
-  values_->set("denoise_size", "0");
+  values_->set("blur_size", "0");
   const Labels visibility = {"ssao/occlusion", "ssao/denoise columns"};
   const Labels tinted = {"ssao/occlusion", "ssao/denoise columns", "ssao/tint"};
   EXPECT_EQ(passes({"bent_normal"}), visibility);

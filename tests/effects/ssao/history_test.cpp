@@ -15,16 +15,17 @@ using tests::Settings;
 
 constexpr uint32_t kWidth = 96, kHeight = 72;
 // Without a blur, the noise of a frame stays visible.
-const Settings kNoisy = {{"denoise_size", "0"}, {"resolution", "full"}, {"history", "32"}};
+const Settings kNoisy = {{"blur_size", "0"}, {"resolution", "full"}, {"history", "32"}};
 
 class HistoryTest : public tests::BackendTest {
  protected:
   // Reference: one frame with 32 slices per pixel.
   image::Image still(const scene::Camera& camera, uint32_t width = kWidth,
                      uint32_t height = kHeight) {
-    return tests::renderAo(device(), scene_, camera,
-                           {{"denoise_size", "0"}, {"resolution", "full"}, {"slices", "32"}}, width,
-                           height);
+    return tests::renderAo(
+        device(), scene_, camera,
+        {{"blur_size", "0"}, {"resolution", "full"}, {"slices", "32"}, {"kernel_size", "384"}},
+        width, height);
   }
   // Root mean square error against still().
   double errorOf(const image::Image& ao, const scene::Camera& camera) {
@@ -142,7 +143,8 @@ TEST_P(HistoryTest, AMovingSurfaceKeepsItsHistory) {
   }
   const auto onBox = [&](const scene::Scene& from, const image::Image& ao) {
     const image::Image reference = tests::renderAo(
-        device(), from, camera, {{"denoise_size", "0"}, {"resolution", "full"}, {"slices", "32"}},
+        device(), from, camera,
+        {{"blur_size", "0"}, {"resolution", "full"}, {"slices", "32"}, {"kernel_size", "384"}},
         kWidth, kHeight);
     double sum = 0;
     int count = 0;

@@ -41,7 +41,8 @@ glm::dvec3 openOverFloor(double distance) {
 TEST_P(LightTest, BentNormalsOfACornerAreTheAnalyticOnes) {
   const scene::Scene scene = tests::cornerScene();
   for (const char* resolution : {"full", "half"}) {
-    AoFrames frames(device(), scene, {{"resolution", resolution}, {"slices", "4"}});
+    AoFrames frames(device(), scene,
+                    {{"resolution", resolution}, {"slices", "4"}, {"kernel_size", "48"}});
     const auto images =
         frames.showAll(kCreaseView, kLitWidth, kLitHeight, {"bent_normal", "depth", "normal"});
     const glm::dmat3 axes = scene::worldFromView(kCreaseView);

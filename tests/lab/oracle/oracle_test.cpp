@@ -88,7 +88,7 @@ TEST(Oracle, ACornersVisibilityIsThatOfRays) {
 TEST(Oracle, SlicesFindACorner) {
   const View view = viewOf(kCamera, true);
   const OcclusionSettings settings{
-      .slices = 64, .steps = 64, .thickness = 10, .scale = 1, .denoiseSize = 0};
+      .kernelSize = 8192, .blurSize = 0, .slices = 64, .thickness = 10, .scale = 1};
   const auto oracle = makeOcclusion(view, settings);
   const glm::dmat3 axes = scene::worldFromView(kCamera);
   double sum = 0, count = 0;
@@ -106,7 +106,8 @@ TEST(Oracle, SlicesFindACorner) {
 
 TEST(Oracle, OpenDirectionsOfAPlaneAreItsNormal) {
   const View view = viewOf(kCamera, false);
-  const auto oracle = makeOcclusion(view, {.slices = 16, .scale = 1});
+  const auto oracle =
+      makeOcclusion(view, {.kernelSize = 192, .blurSize = 5, .slices = 16, .scale = 1});
   for (const glm::ivec2& pixel : pixelsToCompare(view.size())) {
     if (view.depth(pixel) == 0) continue;
     EXPECT_GT(oracle->bentNormal(pixel).y, 0.999) << pixel.x << ", " << pixel.y;
@@ -115,8 +116,8 @@ TEST(Oracle, OpenDirectionsOfAPlaneAreItsNormal) {
 
 TEST(Oracle, AHistoryAveragesNoiseAndForgetsWhatIsOld) {
   const View view = viewOf(kCamera, true);
-  const OcclusionSettings settings{.history = 16, .scale = 1, .denoiseSize = 0};
-  const OcclusionSettings still{.slices = 64, .scale = 1, .denoiseSize = 0};
+  const OcclusionSettings settings{.blurSize = 0, .history = 16, .scale = 1};
+  const OcclusionSettings still{.kernelSize = 768, .blurSize = 0, .slices = 64, .scale = 1};
   const auto exact = makeOcclusion(view, still);
   std::shared_ptr<const Past> past;
   std::vector<double> errors;
@@ -137,7 +138,7 @@ TEST(Oracle, AHistoryAveragesNoiseAndForgetsWhatIsOld) {
   away.target = kCamera.eye + (kCamera.eye - kCamera.target) + glm::dvec3(0, -3, 0);
   const View other = viewOf(away, false);
   const auto after = makeOcclusion(other, settings, past);
-  const auto first = makeOcclusion(other, {.history = 1, .scale = 1, .denoiseSize = 0});
+  const auto first = makeOcclusion(other, {.blurSize = 0, .history = 1, .scale = 1});
   EXPECT_NEAR(after->visibility({24, 28}), first->visibility({24, 28}), 1e-12);
 }
 
@@ -157,9 +158,12 @@ TEST(Oracle, MatterEndsAtItsBack) {
   const View thin(kCamera, kSize, 0,
                   {.depth = depth, .normal = normal, .back = back, .colour = {}});
   const auto sum = [](const View& view, bool backFaces) {
-    const auto oracle = makeOcclusion(
-        view,
-        {.slices = 8, .thickness = 0.7, .backFaces = backFaces, .scale = 1, .denoiseSize = 0});
+    const auto oracle = makeOcclusion(view, {.kernelSize = 96,
+                                             .blurSize = 0,
+                                             .slices = 8,
+                                             .thickness = 0.7,
+                                             .backFaces = backFaces,
+                                             .scale = 1});
     double all = 0;
     for (const glm::ivec2& pixel : pixelsToCompare(view.size())) all += oracle->visibility(pixel);
     return all;
@@ -170,7 +174,8 @@ TEST(Oracle, MatterEndsAtItsBack) {
 
 TEST(Oracle, TheClassicFindsACorner) {
   const View view = viewOf(kCamera, true);
-  const auto oracle = makeOcclusion(view, {.classic = true, .intensity = 2, .kernelSize = 256});
+  const auto oracle =
+      makeOcclusion(view, {.classic = true, .kernelSize = 256, .blurSize = 4, .intensity = 2});
   double least = 1, most = 0;
   for (const glm::ivec2& pixel : pixelsToCompare(view.size())) {
     least = std::min(least, oracle->visibility(pixel));

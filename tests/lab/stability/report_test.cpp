@@ -113,13 +113,13 @@ TEST(Stability, TheProgramWritesItsTable) {
                  folder.path());
   ASSERT_EQ(outcome.status, 0) << outcome.out << outcome.err;
   const json all = json::parse(readFile(folder.path() / "out/stability.json"));
-  EXPECT_EQ(all["cases"].size(), 5u);
+  EXPECT_EQ(all["cases"].size(), 10u);
   for (const json& one : all["cases"]) EXPECT_TRUE(one["faults"].empty()) << one;
   const std::string text = readFile(folder.path() / "out/stability.md");
   EXPECT_NE(text.find("## bias, m"), std::string::npos);
-  EXPECT_NE(text.find("**5 of 5 cases hold.**"), std::string::npos);
+  EXPECT_NE(text.find("**10 of 10 cases hold.**"), std::string::npos);
   const std::string csv = readFile(folder.path() / "out/stability.csv");
-  EXPECT_EQ(std::ranges::count(csv, '\n'), 6);
+  EXPECT_EQ(std::ranges::count(csv, '\n'), 11);
   EXPECT_NE(csv.find("\n\"bias, m\",\"0\",\"classic\",\"\",1,"), std::string::npos) << csv;
   // No other files are left.
   EXPECT_EQ(std::distance(std::filesystem::directory_iterator(folder.path() / "out"), {}), 3);

@@ -119,6 +119,10 @@ typedef struct grisaille_param_desc {
   double step;          /**< step of the slider, over 0; 0 only with #GRISAILLE_PARAM_LOG */
   const char* const* enum_keys;   /**< enum: keys for files, command line: a-z, 0-9, _, -; unique */
   const char* const* enum_labels; /**< enum: names shown to users, one per key */
+  /** Key of an enum or bool of the same effect: hosts show that this parameter does nothing unless
+   * that one has the value `used_when_value`. Null: this parameter is always used. */
+  const char* used_when_key;
+  uint32_t used_when_value; /**< index of the enum's entry, or 0 or 1 for a bool; no key: 0 */
 } grisaille_param_desc;
 
 /**

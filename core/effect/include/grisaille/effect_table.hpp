@@ -19,6 +19,13 @@ namespace grisaille::plugin {
 /// @addtogroup effect_parameters
 /// @{
 
+/// The value of another parameter with which a parameter is used; see
+/// grisaille_param_desc::used_when_key.
+struct UsedWhen {
+  const char* key = nullptr;  ///< key of an enum or bool of the same effect; null: always used
+  uint32_t value = 0;         ///< index of the enum's entry, or 0 or 1 for a bool
+};
+
 /// A parameter that is a number, for floatParam().
 struct FloatParam {
   const char* key = nullptr;      ///< a-z, 0-9, _; begins with a letter; unique in the effect
@@ -36,6 +43,7 @@ struct FloatParam {
   bool look = false;  ///< whether the value is a matter of taste; see #GRISAILLE_PARAM_LOOK
   /// whether it is a length of the scene, see #GRISAILLE_PARAM_SCENE_LENGTH
   bool sceneLength = false;
+  UsedWhen usedWhen = {};  ///< the value of another parameter with which this one is used
 };
 
 /// A parameter that is a whole number, for intParam().
@@ -52,7 +60,8 @@ struct IntParam {
   int32_t step = 1;               ///< step of the slider, over 0
   bool log = false;               ///< whether the slider is logarithmic; softMin must be over 0
   bool advanced = false;          ///< whether the panel hides it in a folded section
-  bool look = false;  ///< whether the value is a matter of taste; see #GRISAILLE_PARAM_LOOK
+  bool look = false;       ///< whether the value is a matter of taste; see #GRISAILLE_PARAM_LOOK
+  UsedWhen usedWhen = {};  ///< the value of another parameter with which this one is used
 };
 
 /// A parameter that is on or off, for boolParam().
@@ -62,7 +71,8 @@ struct BoolParam {
   const char* tooltip = nullptr;  ///< one sentence, without a line break
   bool defaultValue = false;      ///< the default
   bool advanced = false;          ///< whether the panel hides it in a folded section
-  bool look = false;  ///< whether the value is a matter of taste; see #GRISAILLE_PARAM_LOOK
+  bool look = false;       ///< whether the value is a matter of taste; see #GRISAILLE_PARAM_LOOK
+  UsedWhen usedWhen = {};  ///< the value of another parameter with which this one is used
 };
 
 /// A parameter that takes one value of a list, for enumParam().
@@ -74,7 +84,8 @@ struct EnumParam {
   std::span<const char* const> labels;  ///< static, names shown to users, one per key
   uint32_t defaultValue = 0;            ///< index of the default
   bool advanced = false;                ///< whether the panel hides it in a folded section
-  bool look = false;  ///< whether the value is a matter of taste; see #GRISAILLE_PARAM_LOOK
+  bool look = false;       ///< whether the value is a matter of taste; see #GRISAILLE_PARAM_LOOK
+  UsedWhen usedWhen = {};  ///< the value of another parameter with which this one is used
 };
 
 /// Combines grisaille_param_flags.
@@ -110,7 +121,9 @@ constexpr grisaille_param_desc floatParam(const FloatParam& p) {
           .default_value = p.defaultValue,
           .step = p.step,
           .enum_keys = nullptr,
-          .enum_labels = nullptr};
+          .enum_labels = nullptr,
+          .used_when_key = p.usedWhen.key,
+          .used_when_value = p.usedWhen.value};
 }
 
 /// Returns the table entry of a whole number.
@@ -129,7 +142,8 @@ constexpr grisaille_param_desc intParam(const IntParam& p) {
                                           .step = static_cast<double>(p.step),
                                           .log = p.log,
                                           .advanced = p.advanced,
-                                          .look = p.look});
+                                          .look = p.look,
+                                          .usedWhen = p.usedWhen});
   desc.type = GRISAILLE_PARAM_INT;
   return desc;
 }
@@ -146,7 +160,8 @@ constexpr grisaille_param_desc boolParam(const BoolParam& p) {
                                           .defaultValue = p.defaultValue ? 1.0 : 0.0,
                                           .step = 1,
                                           .advanced = p.advanced,
-                                          .look = p.look});
+                                          .look = p.look,
+                                          .usedWhen = p.usedWhen});
   desc.type = GRISAILLE_PARAM_BOOL;
   return desc;
 }
@@ -170,7 +185,8 @@ constexpr grisaille_param_desc enumParam(const EnumParam& p) {
                                           .defaultValue = static_cast<double>(p.defaultValue),
                                           .step = 1,
                                           .advanced = p.advanced,
-                                          .look = p.look});
+                                          .look = p.look,
+                                          .usedWhen = p.usedWhen});
   desc.type = GRISAILLE_PARAM_ENUM;
   desc.enum_count = static_cast<uint32_t>(p.keys.size());
   desc.enum_keys = p.keys.data();
