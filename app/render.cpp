@@ -238,8 +238,8 @@ void addRender(CLI::App& program) {
   options->addTo(
       *command,
       "Output and its .exr or .png file. Outputs: color, depth and back_depth (metres, 0 = sky), "
-      "normal and facet_normal (world space), base_colour, motion (pixels since the previous "
-      "frame), and those of the effects; default: "
+      "thickness (metres, below 0 = unknown), normal and facet_normal (world space), base_colour, "
+      "motion (pixels since the previous frame), and those of the effects; default: "
       "color=grisaille.png");
   CLI::Option* times =
       command

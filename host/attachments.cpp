@@ -31,9 +31,10 @@ constexpr KernelRow kRows[Kernels::kKernels] = {
 constexpr gpu::Format kFormats[GRISAILLE_ATTACHMENT_COUNT] = {
     gpu::Format::kR32Float,    gpu::Format::kR32Float,    gpu::Format::kRgba16Float,
     gpu::Format::kRgba16Float, gpu::Format::kRgba16Float, gpu::Format::kR32Float,
-    gpu::Format::kRgba16Float};
+    gpu::Format::kRgba16Float, gpu::Format::kR32Float};
 constexpr const char* kLabels[GRISAILLE_ATTACHMENT_COUNT] = {
-    "clip depth", "depth", "normal", "base_colour", "facet_normal", "back_depth", "motion"};
+    "clip depth",   "depth",      "normal", "base_colour",
+    "facet_normal", "back_depth", "motion", "thickness"};
 
 // Not a grisaille_host_depth: the shader writes sky everywhere.
 constexpr int kNothing = -1;
@@ -90,7 +91,8 @@ void Attachments::resize(uint32_t width, uint32_t height) {
   height_ = height;
 }
 
-void Attachments::prepare(uint32_t reads, bool normalsGiven) {
+void Attachments::prepare(uint32_t reads, const Textures& textures) {
+  const bool normalsGiven{textures.normal};
   kernels_.nearest();
   kernels_.get(Kernels::kDepth);
   if ((reads & GRISAILLE_READS(GRISAILLE_DEPTH)) != 0) kernels_.get(Kernels::kClipDepth);
@@ -101,8 +103,10 @@ void Attachments::prepare(uint32_t reads, bool normalsGiven) {
   if ((reads & GRISAILLE_READS(GRISAILLE_BASE_COLOUR)) != 0) {
     kernels_.turn(kFormats[GRISAILLE_BASE_COLOUR]);
   }
+  if (textures.thickness) kernels_.turn(kFormats[GRISAILLE_THICKNESS]);
   reads |= GRISAILLE_READS(GRISAILLE_VIEW_DEPTH);  // all other attachments are computed with it
   reads &= ~GRISAILLE_READS(GRISAILLE_MOTION);     // hosts give none
+  if (!textures.thickness) reads &= ~GRISAILLE_READS(GRISAILLE_THICKNESS);
   for (size_t i = 0; i < targets_.size(); ++i) {
     const bool read = (reads & GRISAILLE_READS(i)) != 0;
     if (read && !targets_[i]) {
@@ -180,6 +184,10 @@ void Attachments::record(gpu::Commands& commands, const SourceBlock& source,
   if (const gpu::Texture colour = targets_[GRISAILLE_BASE_COLOUR]) {
     copy(commands, block, textures.baseColour, colour, kFormats[GRISAILLE_BASE_COLOUR],
          "host/base colour");
+  }
+  if (const gpu::Texture thickness = targets_[GRISAILLE_THICKNESS]) {
+    copy(commands, block, textures.thickness, thickness, kFormats[GRISAILLE_THICKNESS],
+         "host/thickness");
   }
 }
 

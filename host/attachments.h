@@ -14,7 +14,7 @@ namespace grisaille::host {
 
 // The host's textures; all but depth may be null.
 struct Textures {
-  gpu::Texture depth, normal, backDepth, baseColour;
+  gpu::Texture depth, normal, backDepth, baseColour, thickness;
 };
 
 // The pipelines that convert them, one set per device; each is created on first use.
@@ -50,7 +50,7 @@ class Attachments {
 
   // Creates the missing attachments of `reads`, a combination of GRISAILLE_READS, and destroys the
   // others. Throws kOutOfDeviceMemory.
-  void prepare(uint32_t reads, bool normalsGiven);
+  void prepare(uint32_t reads, const Textures& textures);
 
   // Fills the prepared attachments. Call it outside a pass.
   void record(gpu::Commands& commands, const SourceBlock& source, const Textures& textures);

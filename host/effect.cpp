@@ -156,10 +156,12 @@ host::Textures grisaille_host_effect::texturesOf(const grisaille_host_frame& fra
       host::checked(&host::present(frame.depth, "frame.depth"), *this, 1, "frame.depth");
   textures.normal = host::checked(frame.normal, *this, 3, "frame.normal");
   textures.backDepth = host::checked(frame.back_depth, *this, 1, "frame.back_depth");
+  textures.thickness = host::checked(frame.thickness, *this, 1, "frame.thickness");
   textures.baseColour = host::checked(frame.base_colour, *this, 3, "frame.base_colour");
   const auto read = [&](grisaille_attachment a) { return (reads & GRISAILLE_READS(a)) != 0; };
   if (!read(GRISAILLE_NORMAL)) textures.normal = {};
   if (!read(GRISAILLE_BACK_DEPTH)) textures.backDepth = {};
+  if (!read(GRISAILLE_THICKNESS)) textures.thickness = {};
   if (!read(GRISAILLE_BASE_COLOUR)) {
     textures.baseColour = {};
   } else if (!textures.baseColour) {
@@ -174,11 +176,11 @@ void grisaille_host_effect::record(const grisaille_host_frame& frame) {
   const uint32_t reads = values().effect().reads(values().all().data(), wanted_);
   const host::View view = host::viewOf(frame, width, height, rows_);
   const host::Textures textures = texturesOf(frame, reads);
-  attachments_.prepare(reads, static_cast<bool>(textures.normal));
-  std::array<gpu::Texture, 4> read;
+  attachments_.prepare(reads, textures);
+  std::array<gpu::Texture, 5> read;
   size_t count = 0;
-  for (const gpu::Texture texture :
-       {textures.depth, textures.normal, textures.backDepth, textures.baseColour}) {
+  for (const gpu::Texture texture : {textures.depth, textures.normal, textures.backDepth,
+                                     textures.baseColour, textures.thickness}) {
     if (texture) read[count++] = texture;
   }
   gpu::Commands& commands =

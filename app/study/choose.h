@@ -55,7 +55,7 @@ struct NamedPreset {
   effect::Assignment value;
 };
 
-// Parses "classic=ssao.estimator=classic". Throws kUsage.
+// Parses "NAME=EFFECT.KEY=VALUE". Throws kUsage.
 NamedPreset parseNamedPreset(const std::string& text);
 
 // Chooses the presets of an effect from the records and writes the presets file, first those of

@@ -30,7 +30,7 @@ void checkAbi(const grisaille_plugin_desc& plugin) {
 
 // Indexed by grisaille_attachment.
 constexpr std::array kAttachmentNames = {"depth",        "view_depth", "normal", "base_colour",
-                                         "facet_normal", "back_depth", "motion"};
+                                         "facet_normal", "back_depth", "motion", "thickness"};
 static_assert(kAttachmentNames.size() == GRISAILLE_ATTACHMENT_COUNT);
 
 }  // namespace

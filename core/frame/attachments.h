@@ -28,6 +28,7 @@ struct AttachmentTargets {
   gpu::Texture baseColour;   // kRgba8Srgb
   gpu::Texture facetNormal;  // kRgba16Float
   gpu::Texture backDepth;    // kR32Float
+  gpu::Texture thickness;    // kR32Float; only with a normal
   MotionTarget motion;
 };
 
@@ -40,6 +41,8 @@ class AttachmentSource {
 
   // Whether the source can fill the motion of surfaces.
   virtual bool hasMotion() const { return false; }
+  // Whether the source can fill the thickness of matter.
+  virtual bool hasThickness() const { return false; }
   // Counts the changes of what the source shows, apart from the camera.
   virtual uint64_t poses() const { return 0; }
   // Ends a frame. `motion`: whether the next frame's motion is since this frame.

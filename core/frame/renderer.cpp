@@ -18,9 +18,10 @@ constexpr const char* kNormal = "normal";
 constexpr const char* kBaseColour = "base_colour";
 constexpr const char* kFacetNormal = "facet_normal";
 constexpr const char* kBackDepth = "back_depth";
+constexpr const char* kThickness = "thickness";
 constexpr const char* kMotion = "motion";
 constexpr const char* kFrameOutputs[] = {kColor,       kDepth,     kNormal, kBaseColour,
-                                         kFacetNormal, kBackDepth, kMotion};
+                                         kFacetNormal, kBackDepth, kMotion, kThickness};
 // Target of clip depth, which is not an output.
 constexpr const char* kClipDepth = "clip depth";
 // Prefix of the targets with a guard band.
@@ -119,6 +120,7 @@ struct Renderer::Plan {
     if (wants(desc, kFacetNormal)) attachments |= GRISAILLE_READS(GRISAILLE_FACET_NORMAL);
     if (wants(desc, kBackDepth)) attachments |= GRISAILLE_READS(GRISAILLE_BACK_DEPTH);
     if (wants(desc, kMotion)) attachments |= GRISAILLE_READS(GRISAILLE_MOTION);
+    if (wants(desc, kThickness)) attachments |= GRISAILLE_READS(GRISAILLE_THICKNESS);
     if (wants(desc, kBaseColour) || (color && desc.surface == Surface::kBaseColour)) {
       attachments |= GRISAILLE_READS(GRISAILLE_BASE_COLOUR);
     }
@@ -198,6 +200,9 @@ void Renderer::render(const FrameDesc& desc) {
   if (Plan::wants(desc, kMotion) && !source_.hasMotion()) {
     throw Error(ErrorId::kPictureMissing, "motion is needed, but no picture has any");
   }
+  if (Plan::wants(desc, kThickness) && !source_.hasThickness()) {
+    throw Error(ErrorId::kPictureMissing, "thickness is needed, but no picture has any");
+  }
   if (plan.readsMotion()) plan.then = before_.cameraFor(plan.motionReaders, source_);
   if (desc.chain != nullptr) desc.chain->create();
   for (auto& [name, slot] : targets_) slot.used = false;
@@ -248,7 +253,8 @@ void Renderer::recordAttachments(gpu::Commands& commands, const FrameDesc& desc,
   };
   AttachmentTargets targets;
   targets.depth = attachment(kClipDepth, gpu::Format::kD32Float, kDrawn);
-  if (view.reads(GRISAILLE_NORMAL)) {
+  const bool thickness = view.reads(GRISAILLE_THICKNESS) && source_.hasThickness();
+  if (view.reads(GRISAILLE_NORMAL) || thickness) {
     targets.normal = attachment(kNormal, gpu::Format::kRgba16Float, kDrawn);
   }
   if (view.reads(GRISAILLE_BASE_COLOUR)) {
@@ -263,6 +269,7 @@ void Renderer::recordAttachments(gpu::Commands& commands, const FrameDesc& desc,
   if (view.reads(GRISAILLE_BACK_DEPTH)) {
     targets.backDepth = attachment(kBackDepth, gpu::Format::kR32Float, kComputed);
   }
+  if (thickness) targets.thickness = attachment(kThickness, gpu::Format::kR32Float, kDrawn);
   if (view.reads(GRISAILLE_MOTION) && source_.hasMotion()) {
     targets.motion.texture = attachment(kMotion, gpu::Format::kRgba16Float, kDrawn);
     if (plan.then) targets.motion.then = widened(*plan.then, desc.height, view.guard);
@@ -286,7 +293,7 @@ void Renderer::recordEffects(gpu::Commands& commands, const FrameDesc& desc, con
     inputs.guard = active.guarded ? plan.guard : 0;
     inputs.viewBlock = seen.block;
     constexpr const char* kAttachments[GRISAILLE_ATTACHMENT_COUNT] = {
-        kClipDepth, kDepth, kNormal, kBaseColour, kFacetNormal, kBackDepth, kMotion};
+        kClipDepth, kDepth, kNormal, kBaseColour, kFacetNormal, kBackDepth, kMotion, kThickness};
     for (size_t a = 0; a < GRISAILLE_ATTACHMENT_COUNT; ++a) {
       if ((active.reads & GRISAILLE_READS(a)) != 0)
         inputs.attachments[a] = find(seen.prefix + kAttachments[a]);

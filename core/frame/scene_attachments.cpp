@@ -21,7 +21,8 @@ void SceneAttachments::record(gpu::Commands& commands, const scene::Camera& came
               {.depth = targets.depth,
                .normal = targets.normal,
                .baseColour = targets.baseColour,
-               .facetNormal = targets.facetNormal});
+               .facetNormal = targets.facetNormal,
+               .thickness = targets.thickness});
   commands.endPass();
   if (targets.viewDepth) {
     viewDepth(commands, targets.depth, viewBlock, targets.viewDepth, {width, height}, passes);

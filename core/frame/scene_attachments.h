@@ -23,6 +23,7 @@ class SceneAttachments : public AttachmentSource {
 
   bool goesBeyond() const override { return true; }
   bool hasMotion() const override { return true; }
+  bool hasThickness() const override { return true; }
   uint64_t poses() const override { return poses_; }
   bool knowsMotion(uint64_t poses) const override { return motion_.knows(poses); }
   void finish(bool motion) override;

@@ -8,7 +8,6 @@
 
 #include "core/frame/draw_data.h"
 #include "core/image/image.h"
-#include "core/scene/bodies.h"
 #include "core/scene/rig.h"
 #include "shaders/geometry_variants.h"
 
@@ -22,10 +21,11 @@ struct DrawBlock {
   glm::vec4 base_color;
   float alpha_cutoff = 0;
   float front_sign = 1;
-  glm::vec2 padding = glm::vec2(0);
+  float scale = 1;
+  float padding = 0;
   glm::mat4 camera_from_object;
 };
-GRISAILLE_CHECK_BLOCK_geometry_vert_1100_DrawBlock(DrawBlock);
+GRISAILLE_CHECK_BLOCK_geometry_vert_01100_DrawBlock(DrawBlock);
 
 // Bytes of the block that shaders without facet normals read.
 constexpr size_t kBlockWithoutFacet = offsetof(DrawBlock, camera_from_object);
@@ -53,7 +53,7 @@ SceneResources::SceneResources(gpu::Device& device, const scene::Scene& scene)
 
 SceneResources::~SceneResources() {
   for (const gpu::Buffer buffer :
-       {positions_.buffer, normals_.buffer, texCoords_, colours_, indices_}) {
+       {positions_.buffer, normals_.buffer, thickness_, texCoords_, colours_, indices_}) {
     device_.destroy(buffer);
   }
   if (farSides_) device_.destroy(farSides_->indices);
@@ -103,6 +103,20 @@ gpu::Buffer SceneResources::indices(gpu::Commands& commands) {
                       gpu::BufferUsage::kIndex);
 }
 
+const scene::Matter& SceneResources::matter() {
+  if (!matter_) matter_ = scene::matterOf(scene_);
+  return *matter_;
+}
+
+gpu::Buffer SceneResources::thickness(gpu::Commands& commands) {
+  if (!thickness_) {
+    const std::vector<float> values = scene::vertexThickness(scene_, matter());
+    vertexBuffer(commands, thickness_, "thickness", std::as_bytes(std::span(values)),
+                 gpu::BufferUsage::kVertex);
+  }
+  return thickness_;
+}
+
 const SceneResources::FarSides& SceneResources::farSides(gpu::Commands& commands) {
   if (farSides_) return *farSides_;
   farSides_.emplace().bodyCounts.resize(scene_.primitives.size());
@@ -111,7 +125,7 @@ const SceneResources::FarSides& SceneResources::farSides(gpu::Commands& commands
     return material.doubleSided && !material.masked;
   };
   if (std::ranges::none_of(scene_.primitives, twoSided)) return *farSides_;
-  const std::vector<bool> bodies = scene::bodyTriangles(scene_);
+  const std::vector<bool>& bodies = matter().bodies;
   std::vector<uint32_t> ordered = scene_.indices, others;
   for (size_t i = 0; i < scene_.primitives.size(); ++i) {
     const scene::Primitive& primitive = scene_.primitives[i];
@@ -168,8 +182,15 @@ gpu::GraphicsPipeline SceneResources::pipeline(Variant variant) {
                           .format = gpu::AttributeFormat::kFloat4});
     strides.push_back(sizeof(glm::vec4));
   }
+  if (variant.thickness) {
+    attributes.push_back({.location = 4,
+                          .stream = static_cast<uint32_t>(strides.size()),
+                          .format = gpu::AttributeFormat::kFloat1});
+    strides.push_back(sizeof(float));
+  }
   if (variant.base) colors.push_back(gpu::Format::kRgba8Srgb);
   if (variant.facet) colors.push_back(gpu::Format::kRgba16Float);
+  if (variant.thickness) colors.push_back(gpu::Format::kR32Float);
   pipeline = device_.createGraphicsPipeline({.label = "geometry",
                                              .vertex = kGeometryVertex[variant.vertex()],
                                              .fragment = kGeometryFragment[variant.fragment()],
@@ -250,6 +271,7 @@ gpu::Sampler SceneResources::sampler(const scene::Material& material, bool base)
 void SceneResources::draw(gpu::Commands& commands, const scene::Camera& camera, uint32_t width,
                           uint32_t height, const SceneTargets& targets) {
   const bool normal{targets.normal}, base{targets.baseColour}, facet{targets.facetNormal};
+  const bool thick{targets.thickness};
   const bool behind{targets.front};
   if (behind && !nearest_) nearest_ = device_.createSampler({.label = "nearest"});
   const auto bytes = [](const auto& values) { return std::as_bytes(std::span(values)); };
@@ -259,6 +281,7 @@ void SceneResources::draw(gpu::Commands& commands, const scene::Camera& camera, 
   const FarSides* far = behind ? &farSides(commands) : nullptr;
   const gpu::Buffer normals =
       normal ? posed(commands, normals_, "normals", scene_.normals) : gpu::Buffer{};
+  const gpu::Buffer thickness = thick ? this->thickness(commands) : gpu::Buffer{};
   const std::vector<scene::Bounds>& bounds = primitiveBounds();
 
   const glm::dmat4 clipFromCamera = frame::clipFromCamera(camera, {width, height});
@@ -266,7 +289,7 @@ void SceneResources::draw(gpu::Commands& commands, const scene::Camera& camera, 
   // Draws point into bindings and streams until render() returns: reserve, so that they never move.
   std::vector<gpu::Draw> draws;
   std::vector<std::array<gpu::Binding, 3>> bindings;
-  std::vector<std::array<gpu::BufferRange, 4>> streams;
+  std::vector<std::array<gpu::BufferRange, 5>> streams;
   bindings.reserve(scene_.instances.size());
   streams.reserve(scene_.instances.size());
   for (const scene::Instance& instance : scene_.instances) {
@@ -279,18 +302,21 @@ void SceneResources::draw(gpu::Commands& commands, const scene::Camera& camera, 
 
     const glm::dmat3 linear(cameraFromObject);
     const bool mirrors = glm::determinant(linear) < 0;
-    const DrawBlock block{.clip_from_object = glm::mat4(clipFromObject),
-                          .normal_from_object = glm::mat4(normalTransform(linear)),
-                          .base_color = material.baseColor,
-                          .alpha_cutoff = material.alphaCutoff,
-                          .front_sign = mirrors ? -1.0f : 1.0f,
-                          .camera_from_object = glm::mat4(cameraFromObject)};
+    const DrawBlock block{
+        .clip_from_object = glm::mat4(clipFromObject),
+        .normal_from_object = glm::mat4(normalTransform(linear)),
+        .base_color = material.baseColor,
+        .alpha_cutoff = material.alphaCutoff,
+        .front_sign = mirrors ? -1.0f : 1.0f,
+        .scale = static_cast<float>(std::cbrt(std::abs(glm::determinant(linear)))),
+        .camera_from_object = glm::mat4(cameraFromObject)};
     const auto blockBytes = std::as_bytes(std::span(&block, 1));
     const Variant variant{.facet = facet,
                           .normal = normal,
                           .base = base,
                           .mask = material.masked,
                           .colour = primitive.coloured && (base || material.masked),
+                          .thickness = thick,
                           .behind = behind};
 
     auto& stream = streams.emplace_back();
@@ -311,6 +337,7 @@ void SceneResources::draw(gpu::Commands& commands, const scene::Camera& camera, 
       stream[streamCount++].buffer =
           vertexBuffer(commands, colours_, "colours", bytes(scene_.colours), vertex);
     }
+    if (thick) stream[streamCount++].buffer = thickness;
     if (behind) {
       binding[bindingCount++] = gpu::textureBinding(1, {.texture = targets.front}, nearest_);
     }
@@ -335,6 +362,7 @@ void SceneResources::draw(gpu::Commands& commands, const scene::Camera& camera, 
   if (normal) colors.push_back({.view = {.texture = targets.normal}});
   if (base) colors.push_back({.view = {.texture = targets.baseColour}});
   if (facet) colors.push_back({.view = {.texture = targets.facetNormal}});
+  if (thick) colors.push_back({.view = {.texture = targets.thickness}});
   commands.render(
       {.colors = colors, .depth = {.view = {.texture = targets.depth}}, .draws = draws});
 }

@@ -9,6 +9,7 @@
 #include <vector>
 
 #include "core/gpu/device.h"
+#include "core/scene/bodies.h"
 #include "core/scene/camera.h"
 #include "core/scene/scene.h"
 
@@ -20,6 +21,7 @@ struct SceneTargets {
   gpu::Texture normal = {};       // kRgba16Float
   gpu::Texture baseColour = {};   // kRgba8Srgb
   gpu::Texture facetNormal = {};  // kRgba16Float
+  gpu::Texture thickness = {};    // kR32Float; only with a normal
   // kD32Float: the depth of an earlier draw. If not null, the draw writes only depth: of surfaces
   // at or behind that depth at which matter may end. These are the far sides of closed bodies
   // (core/scene/bodies.h), both sides of other double-sided triangles, and all that face away.
@@ -48,17 +50,19 @@ class SceneResources {
   // The inputs and outputs that a draw needs.
   struct Variant {
     bool facet = false, normal = false, base = false, mask = false;
-    bool colour = false;  // of vertices; only with a base or a mask
+    bool colour = false;     // of vertices; only with a base or a mask
+    bool thickness = false;  // only with a normal
     bool behind = false;
 
     bool uv() const { return base || mask; }
     // Indices into the lists of shaders/geometry_variants.h.
     size_t vertex() const {
-      return (facet ? 8u : 0u) + (normal ? 4u : 0u) + (uv() ? 2u : 0u) + (colour ? 1u : 0u);
+      return (thickness ? 16u : 0u) + (facet ? 8u : 0u) + (normal ? 4u : 0u) + (uv() ? 2u : 0u) +
+             (colour ? 1u : 0u);
     }
     size_t fragment() const {
-      return (behind ? 32u : 0u) + (facet ? 16u : 0u) + (normal ? 8u : 0u) + (base ? 4u : 0u) +
-             (mask ? 2u : 0u) + (colour ? 1u : 0u);
+      return (behind ? 64u : 0u) + (thickness ? 32u : 0u) + (facet ? 16u : 0u) +
+             (normal ? 8u : 0u) + (base ? 4u : 0u) + (mask ? 2u : 0u) + (colour ? 1u : 0u);
     }
   };
   // A scene texture on the device: only its alpha, or its colour with mip levels.
@@ -83,6 +87,8 @@ class SceneResources {
                            std::span<const std::byte> bytes, gpu::BufferUsage usage);
   gpu::Buffer posed(gpu::Commands& commands, PosedVertices& vertices, const char* label,
                     const std::vector<glm::vec3>& values);
+  const scene::Matter& matter();
+  gpu::Buffer thickness(gpu::Commands& commands);
   const FarSides& farSides(gpu::Commands& commands);
   gpu::GraphicsPipeline pipeline(Variant variant);
   gpu::Texture texture(gpu::Commands& commands, const scene::Material& material, bool base);
@@ -91,9 +97,10 @@ class SceneResources {
   gpu::Device& device_;
   const scene::Scene& scene_;
   PosedVertices positions_, normals_;
-  gpu::Buffer texCoords_, colours_, indices_;
+  gpu::Buffer texCoords_, colours_, thickness_, indices_;
+  std::optional<scene::Matter> matter_;              // of the pose in which it was first needed
   std::optional<FarSides> farSides_;                 // of the first draw with SceneTargets::front
-  std::array<gpu::GraphicsPipeline, 36> pipelines_;  // by Variant::fragment()
+  std::array<gpu::GraphicsPipeline, 68> pipelines_;  // by Variant::fragment()
   std::vector<DeviceTexture> textures_;
   std::array<gpu::Sampler, 27> samplers_;       // wrap u, wrap v, one level | mips | anisotropic
   gpu::Sampler nearest_;                        // for SceneTargets::front

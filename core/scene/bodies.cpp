@@ -5,9 +5,11 @@
 #include <array>
 #include <cmath>
 #include <cstring>
+#include <limits>
 #include <map>
 #include <numbers>
 #include <numeric>
+#include <optional>
 #include <set>
 #include <span>
 
@@ -95,16 +97,41 @@ struct Corners {
   glm::dvec3 a, b, c;
 };
 
+Corners cornersOf(const Scene& scene, uint32_t triangle) {
+  const auto at = [&](uint32_t k) {
+    return glm::dvec3(scene.positions[scene.indices[size_t{triangle} * 3 + k]]);
+  };
+  return {at(0), at(1), at(2)};
+}
+
 std::vector<Corners> cornersOf(const Scene& scene, const std::vector<uint32_t>& triangles) {
   std::vector<Corners> corners;
-  for (const uint32_t triangle : triangles) {
-    const auto at = [&](uint32_t k) {
-      return glm::dvec3(scene.positions[scene.indices[size_t{triangle} * 3 + k]]);
-    };
-    corners.push_back({at(0), at(1), at(2)});
-  }
+  for (const uint32_t triangle : triangles) corners.push_back(cornersOf(scene, triangle));
   return corners;
 }
+
+// Surface and volume of a part, relative to a corner of it.
+struct Bulk {
+  std::optional<glm::dvec3> origin;
+  double area = 0, volume = 0;
+  glm::dvec3 centre{0}, direction{0};  // sums of centroids by area, and of directed areas
+
+  void add(const Corners& t) {
+    if (!origin) origin = t.a;
+    const glm::dvec3 a = t.a - *origin, b = t.b - *origin, c = t.c - *origin;
+    const glm::dvec3 directed = glm::cross(b - a, c - a) / 2.0;
+    const double own = glm::length(directed);
+    area += own;
+    centre += own * (a + b + c) / 3.0;
+    volume += glm::dot(a, directed) / 3;
+    direction += directed;
+  }
+  // Where the part is open, its volume is that of the cones from its surface to its centroid.
+  double meanChord() const {
+    if (!(area > 0)) return 0;
+    return 4 * std::abs(volume - glm::dot(centre, direction) / (3 * area)) / area;
+  }
+};
 
 // The solid angle of a triangle from a point, over 4 pi: van Oosterom and Strackee, "The Solid
 // Angle of a Plane Triangle", IEEE Transactions on Biomedical Engineering 30(2), 1983, equation 8.
@@ -177,10 +204,11 @@ void forEachRun(const std::vector<Edge>& edges, Use&& use) {
 
 }  // namespace
 
-std::vector<bool> bodyTriangles(const Scene& scene) {
+Matter matterOf(const Scene& scene) {
   const size_t triangles = scene.indices.size() / 3;
   const std::vector<uint32_t> welded = weld(scene.positions);
   std::vector<bool> inPart(triangles), open(triangles);
+  std::vector<float> chords(triangles, std::numeric_limits<float>::infinity());
   for (const Object& object : objectsOf(scene)) {
     const Mesh mesh = meshOf(scene, object, welded);
     Parts parts(mesh.triangles.size());
@@ -193,20 +221,42 @@ std::vector<bool> bodyTriangles(const Scene& scene) {
       if (static_cast<size_t>(ascending) * 2 != run.size())
         openPart[parts.of(run.front().triangle)] = true;
     });
+    std::vector<Bulk> bulks(mesh.triangles.size());       // by part
     std::map<uint32_t, std::vector<uint32_t>> openParts;  // numbers of their triangles in the scene
     for (uint32_t i = 0; i < mesh.triangles.size(); ++i) {
       inPart[mesh.triangles[i]] = true;
       const uint32_t part = parts.of(i);
+      bulks[part].add(cornersOf(scene, mesh.triangles[i]));
       if (openPart[part]) openParts[part].push_back(mesh.triangles[i]);
+    }
+    for (uint32_t i = 0; i < mesh.triangles.size(); ++i) {
+      float& chord = chords[mesh.triangles[i]];
+      chord = std::min(chord, static_cast<float>(bulks[parts.of(i)].meanChord()));
     }
     for (const auto& [part, all] : openParts) {
       if (enclosesMatter(cornersOf(scene, all))) continue;
       for (const uint32_t triangle : all) open[triangle] = true;
     }
   }
-  std::vector<bool> bodies(triangles);
-  for (size_t i = 0; i < triangles; ++i) bodies[i] = inPart[i] && !open[i];
-  return bodies;
+  Matter matter{.bodies = std::vector<bool>(triangles), .thickness = std::move(chords)};
+  for (const Primitive& primitive : scene.primitives) {
+    const Material& material = scene.materials[primitive.material];
+    const float other = material.doubleSided || material.masked ? 0.0f : -1.0f;
+    for (size_t i = primitive.firstIndex / 3; i < (primitive.firstIndex + primitive.indexCount) / 3;
+         ++i) {
+      matter.bodies[i] = inPart[i] && !open[i];
+      if (!matter.bodies[i]) matter.thickness[i] = other;
+    }
+  }
+  return matter;
+}
+
+std::vector<float> vertexThickness(const Scene& scene, const Matter& matter) {
+  std::vector<float> thickness(scene.positions.size(), -1.0f);
+  for (size_t i = 0; i < scene.indices.size(); ++i) {
+    thickness[scene.indices[i]] = matter.thickness[i / 3];
+  }
+  return thickness;
 }
 
 }  // namespace grisaille::scene

@@ -1,7 +1,8 @@
 // SPDX-License-Identifier: MIT
 // Tells solid bodies from sheets. A body's surface encloses matter, so that its far side is its
 // back. A sheet, such as a leaf or a banner, has no thickness, and its back is its front. Exporters
-// mark bodies as double-sided too: only the mesh itself tells.
+// mark bodies as double-sided too: only the mesh itself tells. It also tells how thick a body is on
+// average.
 #pragma once
 
 #include <vector>
@@ -10,8 +11,17 @@
 
 namespace grisaille::scene {
 
-// One value for each triangle of Scene::indices: whether it belongs to a body.
-//
+// The matter behind each triangle of Scene::indices.
+struct Matter {
+  // Whether the triangle belongs to a body.
+  std::vector<bool> bodies;
+  // How thick the matter is, in units of the object; -1: unknown. A body's mean chord, 4 times its
+  // volume over its surface (Cauchy's formula, exact for convex bodies: Santalo, "Integral Geometry
+  // and Geometric Probability", 1976); 0 for other triangles with a double-sided or masked
+  // material, which are sheets; unknown for the rest, such as the walls of a room.
+  std::vector<float> thickness;
+};
+
 // Vertices at equal positions count as one. Triangles that share an edge belong to one part; a part
 // may span several primitives, if their instances have equal transforms. A part is a body in either
 // case:
@@ -24,8 +34,12 @@ namespace grisaille::scene {
 //   Transactions on Graphics 32(4), 2013.
 //
 // Triangles with a masked material or without an area belong to no part. A primitive with several
-// instances must be part of bodies in each. Takes the scene in its present pose. Time: that of
-// sorting the scene's edges, and of 16 solid angles for each triangle of a part that is not closed.
-std::vector<bool> bodyTriangles(const Scene& scene);
+// instances must be part of bodies in each; its thickness is the least of them. Takes the scene in
+// its present pose. Time: that of sorting the scene's edges, and of 16 solid angles for each
+// triangle of a part that is not closed.
+Matter matterOf(const Scene& scene);
+
+// The thickness at each vertex of the scene: that of a triangle with this vertex.
+std::vector<float> vertexThickness(const Scene& scene, const Matter& matter);
 
 }  // namespace grisaille::scene

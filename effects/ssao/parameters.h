@@ -13,7 +13,7 @@ enum Parameter {
   kBlurSize,
   kBias,
   kThickness,
-  kBackFaces,
+  kBacks,
   kResolution,
   kGuardBand,
   kHistory,
@@ -32,6 +32,7 @@ enum Parameter {
 };
 
 enum class Estimator : uint32_t { kSlices = 0, kClassic = 1 };
+enum class Backs : uint32_t { kAssumed = 0, kBodies = 1, kDrawn = 2 };
 enum class Bounce : uint32_t { kNone = 0, kAlbedo = 1, kBaseColour = 2 };
 
 enum Output { kAo, kBentNormal, kTint };
@@ -47,6 +48,8 @@ constexpr const char* kBlurLabels[] = {"Box", "Edge-aware"};
 
 constexpr const char* kEstimatorKeys[] = {"slices", "classic"};
 constexpr const char* kEstimatorLabels[] = {"Slices", "Classic"};
+constexpr const char* kBacksKeys[] = {"assumed", "bodies", "drawn"};
+constexpr const char* kBacksLabels[] = {"Assumed", "Mean of the body", "Drawn"};
 constexpr const char* kBounceKeys[] = {"none", "albedo", "base_colour"};
 constexpr const char* kBounceLabels[] = {"None", "Off the albedo", "Off base colours"};
 constexpr const char* kResolutionKeys[] = {"full", "half", "quarter"};
@@ -114,22 +117,26 @@ constexpr grisaille_param_desc kParams[] = {
                         .softMax = 0.1,
                         .defaultValue = 0,
                         .step = 0.001}),
-    plugin::floatParam(
-        {.key = "thickness",
-         .label = "Thickness",
-         .tooltip = "Assumed thickness of solid matter behind a visible surface, in radii",
-         .hardMin = 0,
-         .hardMax = 1e6,
-         .softMin = 0,
-         .softMax = 2,
-         .defaultValue = 0.7,
-         .step = 0.01,
-         .usedWhen = kSlicesOnly}),
-    plugin::boolParam({.key = "back_faces",
-                       .label = "Back faces",
-                       .tooltip = "Also draws back faces, and ends an occluder at its back "
-                                  "face instead of after the thickness",
-                       .defaultValue = false,
+    plugin::floatParam({.key = "thickness",
+                        .label = "Thickness",
+                        .tooltip = "Thickness of solid matter behind a visible surface where its "
+                                   "back is unknown, in radii",
+                        .hardMin = 0,
+                        .hardMax = 1e6,
+                        .softMin = 0,
+                        .softMax = 2,
+                        .defaultValue = 0.7,
+                        .step = 0.01,
+                        .usedWhen = kSlicesOnly}),
+    plugin::enumParam({.key = "backs",
+                       .label = "Backs",
+                       .tooltip =
+                           "Where the matter behind a visible surface ends: after the thickness, "
+                           "after the mean thickness of its body, or at its back faces, which are "
+                           "drawn for it",
+                       .keys = kBacksKeys,
+                       .labels = kBacksLabels,
+                       .defaultValue = 0,
                        .usedWhen = kSlicesOnly}),
     plugin::enumParam({.key = "resolution",
                        .label = "Resolution",

@@ -95,7 +95,8 @@ Slices::Slices(plugin::Host host)
 
 uint32_t Slices::reads(plugin::Values values) noexcept {
   return GRISAILLE_READS(GRISAILLE_VIEW_DEPTH) | GRISAILLE_READS(GRISAILLE_NORMAL) |
-         (values.get<bool>(kBackFaces) ? GRISAILLE_READS(GRISAILLE_BACK_DEPTH) : 0u) |
+         (values.get<Backs>(kBacks) == Backs::kDrawn ? GRISAILLE_READS(GRISAILLE_BACK_DEPTH) : 0u) |
+         (values.get<Backs>(kBacks) == Backs::kBodies ? GRISAILLE_READS(GRISAILLE_THICKNESS) : 0u) |
          (values.get<uint32_t>(kHistory) > 1 ? GRISAILLE_READS(GRISAILLE_MOTION) : 0u);
 }
 
@@ -119,7 +120,7 @@ void Slices::record(const plugin::Frame& frame, Pair outputs) {
   history_.keepOnly({frame.value<double>(kRadius), frame.value<double>(kSlices),
                      frame.value<double>(kEdgeSlices), frame.value<double>(kKernelSize),
                      frame.value<double>(kBias), frame.value<double>(kThickness),
-                     frame.value<double>(kBackFaces)});
+                     frame.value<double>(kBacks)});
   const uint32_t averaged = frame.value<uint32_t>(kHistory);
   if (averaged == 1) history_.forget();
 
@@ -175,20 +176,29 @@ void Slices::occlude(const plugin::Frame& frame, Kernels& kernels, Size size, Pa
                                 .tolerance = toleranceOf(frame),
                                 .exchange = {2 * drawn % 5, (drawn + 2 * (drawn / 5)) % 5},
                                 .bias = frame.value<float>(kBias)};
-  const bool back = frame.value<bool>(kBackFaces);
+  // A host may not know how thick bodies are.
+  auto backs = frame.value<Backs>(kBacks);
+  grisaille_texture known = frame.attachment(GRISAILLE_VIEW_DEPTH);
+  if (backs == Backs::kDrawn) known = frame.attachment(GRISAILLE_BACK_DEPTH);
+  if (backs == Backs::kBodies) {
+    const grisaille_texture thickness = frame.attachment(GRISAILLE_THICKNESS);
+    if (thickness.id != 0) {
+      known = thickness;
+    } else {
+      backs = Backs::kAssumed;
+    }
+  }
   // Constants 0 ... 4 of shaders/ssao/slices.glsl.
   const grisaille_constant constants[] = {
       plugin::specialize(0, frame.value<uint32_t>(kSlices)), plugin::specialize(1, stepsOf(frame)),
-      plugin::specialize(2, size.scale), plugin::specialize(3, back),
+      plugin::specialize(2, size.scale), plugin::specialize(3, static_cast<uint32_t>(backs)),
       plugin::specialize(4, frame.value<uint32_t>(kEdgeSlices))};
-  Bindings bindings = {
-      plugin::uniform(0, frame.viewBlock()),
-      plugin::uniform(1, frame.uniform(settings)),
-      plugin::texture(0, frame.attachment(GRISAILLE_VIEW_DEPTH), clamped_),
-      plugin::texture(1, frame.attachment(GRISAILLE_NORMAL), clamped_),
-      plugin::texture(2, frame.attachment(back ? GRISAILLE_BACK_DEPTH : GRISAILLE_VIEW_DEPTH),
-                      clamped_),
-      plugin::image(0, target.open)};
+  Bindings bindings = {plugin::uniform(0, frame.viewBlock()),
+                       plugin::uniform(1, frame.uniform(settings)),
+                       plugin::texture(0, frame.attachment(GRISAILLE_VIEW_DEPTH), clamped_),
+                       plugin::texture(1, frame.attachment(GRISAILLE_NORMAL), clamped_),
+                       plugin::texture(2, known, clamped_),
+                       plugin::image(0, target.open)};
   if (target.bent.id != 0) bindings.add(plugin::image(1, target.bent));
   dispatch(frame, kernels.occlusion.get(constants), bindings, size.width, size.height);
 }

@@ -23,9 +23,10 @@ struct OcclusionSettings {
   double bias = 0;
   int slices = 1, edgeSlices = 1;
   double thickness = 0.7;  // radii
-  bool backFaces = false;  // takes the thickness from the view's back depth, if any
-  int history = 1;         // frames; over 1 needs a Past from the second frame on
-  int scale = 2;           // pixels per texel: 1, 2 or 4
+  // Where matter ends: after `thickness`, or by the view's thickness or back depth if it is known.
+  enum class Backs { kAssumed, kBodies, kDrawn } backs = Backs::kAssumed;
+  int history = 1;  // frames; over 1 needs a Past from the second frame on
+  int scale = 2;    // pixels per texel: 1, 2 or 4
   int edgeDenoise = 6;
   double intensity = 1, power = 1;
   double albedo = 0;        // albedo of the bounce; 0: no bounce

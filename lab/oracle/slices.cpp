@@ -294,7 +294,8 @@ uint32_t Slices::tap(const Slice& slice, const glm::dvec3& position, const glm::
   const double beyond = glm::dot(front, front) - settings_.radius * settings_.radius;
   const bool inside = beyond <= 0;
   glm::dvec3 wide(0);
-  if (settings_.backFaces) {
+  using Backs = OcclusionSettings::Backs;
+  if (settings_.backs != Backs::kAssumed) {
     const double across = glm::length(step - ray * (glm::dot(step, ray) / glm::dot(ray, ray)));
     joined = joined && std::abs(depth - *walk.depth) < kSteepest * across;
     if (inside && !joined && walk.seen > 0) {
@@ -313,7 +314,9 @@ uint32_t Slices::tap(const Slice& slice, const glm::dvec3& position, const glm::
   } else {
     // The part of front + k ray, k in [0, matter], inside the sphere.
     double matter = thickness_;
-    if (settings_.backFaces && view_.back(at) > 0) matter = std::max(view_.back(at) - depth, 0.0);
+    if (settings_.backs == Backs::kDrawn && view_.back(at) > 0)
+      matter = std::max(view_.back(at) - depth, 0.0);
+    if (settings_.backs == Backs::kBodies && view_.thickness(at) >= 0) matter = view_.thickness(at);
     const double length = glm::dot(ray, ray), b = glm::dot(ray, front) / length;
     const double d = b * b - beyond / length;
     const double root = std::sqrt(std::max(d, 0.0));

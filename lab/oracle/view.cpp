@@ -41,6 +41,12 @@ double View::depth(const glm::ivec2& pixel) const {
   return attachments_.depth.at(at.x, at.y);
 }
 
+double View::thickness(const glm::ivec2& pixel) const {
+  if (attachments_.thickness.pixels.empty()) return -1;
+  const glm::ivec2 at = nearest(pixel);
+  return attachments_.thickness.at(at.x, at.y);
+}
+
 double View::back(const glm::ivec2& pixel) const {
   const glm::uvec2 at(nearest(pixel));
   return attachments_.back.at(at.x, at.y);

@@ -16,10 +16,11 @@ namespace grisaille::lab::oracle {
 // Attachments read back from the GPU, all of one size. Those that an oracle does not read may be
 // empty.
 struct Attachments {
-  image::Image depth;   // view depth, metres; 0: sky
-  image::Image normal;  // three channels, world
-  image::Image back;    // view depth of the visible surface's back, metres; 0: none
-  image::Image colour;  // base colour
+  image::Image depth;      // view depth, metres; 0: sky
+  image::Image normal;     // three channels, world
+  image::Image back;       // view depth of the visible surface's back, metres; 0: none
+  image::Image thickness;  // of the matter behind, metres; below 0: unknown
+  image::Image colour;     // base colour
 };
 
 class View {
@@ -45,6 +46,8 @@ class View {
   glm::dvec3 worldNormal(const glm::ivec2& pixel) const;
   // View depth of the surface's back, as with depth(); 0: none.
   double back(const glm::ivec2& pixel) const;
+  // Thickness of the matter behind the surface, as with depth(); below 0: unknown.
+  double thickness(const glm::ivec2& pixel) const;
   glm::dvec3 colour(const glm::ivec2& pixel) const;
 
   // View ray through a point of the picture in pixels, (0, 0) the top left corner; its z is -1.

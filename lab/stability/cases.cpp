@@ -69,7 +69,8 @@ std::string number(double value) {
 void addCameras(Cases& cases) {
   for (const double near : {1e-4, 1e-3, 1e-2, 0.1, 1.0, 2.5, 10.0}) {
     cases.add("near plane", number(near) + " m",
-              {"slices", "slices, backs", "history", "open directions", "tint", "classic", "paint"},
+              {"slices", "slices, backs", "slices, bodies", "history", "open directions", "tint",
+               "classic", "paint"},
               [&](Case& one) {
                 one.camera.nearPlane = near;
                 one.quick = near == 1e-4;
@@ -97,7 +98,8 @@ void addCameras(Cases& cases) {
   for (const double away : {1e3, 1e5, 1e6, 1e7}) {
     const Scenery scenery{.origin = {away, -0.3 * away, 0.7 * away}};
     cases.add("camera far from the world's origin", number(away) + " m", scenery,
-              {"slices", "slices, backs", "history", "open directions", "tint", "classic", "paint"},
+              {"slices", "slices, backs", "slices, bodies", "history", "open directions", "tint",
+               "classic", "paint"},
               [&](Case& one) { one.quick = away == 1e7; });
     const Scenery corner{.kind = Kind::kCorner, .origin = scenery.origin};
     cases.add("camera far from the world's origin", number(away) + " m", corner,
@@ -117,8 +119,8 @@ void addCameras(Cases& cases) {
 void addScales(Cases& cases) {
   for (const double scale : kScales) {
     cases.add("scene's scale", number(scale), {.scale = scale},
-              {"slices", "slices, raw", "slices, backs", "history", "open directions", "tint",
-               "classic", "paint"},
+              {"slices", "slices, raw", "slices, backs", "slices, bodies", "history",
+               "open directions", "tint", "classic", "paint"},
               [&](Case& one) { one.quick = scale == 1e-4 || scale == 1e6; });
     cases.add("scene's scale", number(scale), {.kind = Kind::kCorner, .scale = scale},
               {"paint on surfaces"}, [&](Case& one) { one.quick = scale == 1e6; });
@@ -214,13 +216,14 @@ void addValues(Cases& cases) {
 void addOddScenes(Cases& cases) {
   for (const Kind kind : {Kind::kSky, Kind::kTriangle, Kind::kWires, Kind::kPair}) {
     cases.add("odd scene", nameOf(kind), {.kind = kind},
-              {"slices", "slices, raw", "slices, backs", "history", "open directions", "classic",
-               "paint", "paint on surfaces"},
+              {"slices", "slices, raw", "slices, backs", "slices, bodies", "history",
+               "open directions", "classic", "paint", "paint on surfaces"},
               [&](Case& one) { one.quick = true; });
   }
   for (const Kind kind : {Kind::kNoNormals, Kind::kBackNormals}) {
     cases.add("odd scene", nameOf(kind), {.kind = kind},
-              {"slices", "slices, raw", "slices, backs", "history", "open directions", "classic"},
+              {"slices", "slices, raw", "slices, backs", "slices, bodies", "history",
+               "open directions", "classic"},
               [&](Case& one) { one.quick = true; });
   }
   for (const Kind kind : {Kind::kAtNear, Kind::kAtFar, Kind::kMixed, Kind::kNormless}) {

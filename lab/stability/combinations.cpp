@@ -38,7 +38,8 @@ const std::vector<Variant>& variants() {
       {"slices, backs",
        "ssao",
        "ao",
-       {{"resolution", "full"}, {"blur_size", "0"}, {"back_faces", "true"}}},
+       {{"resolution", "full"}, {"blur_size", "0"}, {"backs", "drawn"}}},
+      {"slices, bodies", "ssao", "ao", {{"backs", "bodies"}, {"thickness", "1"}}},
       {"history", "ssao", "ao", {{"history", "4"}}},
       {"open directions", "ssao", "bent_normal", {}},
       {"tint", "ssao", "tint", {{"bounce", "base_colour"}}},
@@ -112,7 +113,7 @@ void drawOcclusion(Draws& draw, Case& one) {
   set("range_check", draw.of({"linear", "linear", "raw_depth", "none"}));
   set("blur", draw.of({"box", "edge_aware"}));
   set("edge_slices", std::to_string(1 + draw.below(4)));
-  set("back_faces", draw.of({"false", "false", "true"}));
+  set("backs", draw.of({"assumed", "bodies", "drawn"}));
   set("edge_denoise", std::to_string(draw.of({0, 1, 6, 6, 9, 32})));
 }
 

@@ -32,7 +32,7 @@ oracle::OcclusionSettings occlusionOf(const effect::Values& values) {
           .slices = whole(values, "slices"),
           .edgeSlices = whole(values, "edge_slices"),
           .thickness = single(values, "thickness"),
-          .backFaces = values.get("back_faces") != 0,
+          .backs = static_cast<oracle::OcclusionSettings::Backs>(whole(values, "backs")),
           .history = whole(values, "history"),
           .scale = 1 << whole(values, "resolution"),
           .edgeDenoise = whole(values, "edge_denoise"),

@@ -23,7 +23,8 @@ std::vector<std::string> attachmentsOf(const Case& one, const effect::Values& va
     return {"depth"};
   }
   std::vector<std::string> all = {"depth", "normal"};
-  if (values.get("back_faces") != 0) all.emplace_back("back_depth");
+  if (values.text("backs") == "drawn") all.emplace_back("back_depth");
+  if (values.text("backs") == "bodies") all.emplace_back("thickness");
   if (one.output == "tint") all.emplace_back("base_colour");
   return all;
 }
@@ -189,6 +190,7 @@ void Runner::render(Stage& stage, const Case& one, const scene::Scene& scene, Pi
     for (const std::string& name : names) {
       (name == "depth"         ? seen.depth
        : name == "back_depth"  ? seen.back
+       : name == "thickness"   ? seen.thickness
        : name == "base_colour" ? seen.colour
                                : seen.normal) = renderer.read(name);
     }

@@ -22,6 +22,10 @@ layout(location = 2) in vec3 from_camera;  // world axes, metres
 layout(location = NORMAL + BASE) out vec4 out_facet;
 #endif
 
+#if THICKNESS
+layout(location = 4) in float matter;
+layout(location = NORMAL + BASE + FACET) out float out_thickness;
+#endif
 #if BEHIND
 layout(TEXTURE(1)) uniform sampler2D front;  // clip depth
 #endif
@@ -60,6 +64,9 @@ void main() {
 #endif
 #if BASE
   out_base = vec4(texture(base_texture, uv).rgb * factor.rgb, 1.0);
+#endif
+#if THICKNESS
+  out_thickness = matter;
 #endif
 #if FACET
   const float area = dot(facet, facet);

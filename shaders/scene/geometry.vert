@@ -16,6 +16,10 @@ layout(location = 1) out vec2 uv;
 layout(location = 3) in vec4 vertex_colour;
 layout(location = 3) out vec4 colour;
 #endif
+#if THICKNESS
+layout(location = 4) in float thickness;  // units of the object; -1: unknown
+layout(location = 4) out float matter;    // metres; -1: unknown
+#endif
 #if FACET
 layout(location = 2) out vec3 from_camera;
 #endif
@@ -34,6 +38,9 @@ void main() {
 #endif
 #if COLOUR
   colour = vertex_colour;
+#endif
+#if THICKNESS
+  matter = thickness < 0.0 ? -1.0 : thickness * draw.scale;
 #endif
 #if FACET
   from_camera = (draw.camera_from_object * vec4(position, 1.0)).xyz;

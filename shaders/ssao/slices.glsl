@@ -23,13 +23,14 @@
 layout(constant_id = 0) const uint kSlices = 1u;
 layout(constant_id = 1) const uint kSteps = 8u;  // taps on each side of a slice
 layout(constant_id = 2) const uint kScale = 1u;  // pixels per texel, each way
-layout(constant_id = 3) const bool kBack = false;  // read back_depth
+// Where matter ends: 0 after `thickness`, 1 after the thickness in `known`, 2 at the depth in `known`.
+layout(constant_id = 3) const uint kBacks = 0u;
 layout(constant_id = 4) const uint kEdgeSlices = 1u;  // factor on the slices at edges
 
 layout(local_size_x = 8, local_size_y = 8) in;
 layout(UNIFORM(1), std140) uniform Settings {
   float radius;     // metres
-  float thickness;  // assumed behind a surface without a known back, metres
+  float thickness;  // assumed behind a surface whose back is unknown, metres
   float turn;       // rotation of the slice pattern, 0 to 1
   float tolerance;  // inverse of the plane tolerance, 1 / metres
   uvec2 exchange;   // offset of the texel in the 5x5 pattern, 0 to 4
@@ -37,7 +38,7 @@ layout(UNIFORM(1), std140) uniform Settings {
 } settings;
 layout(TEXTURE(0)) uniform sampler2D view_depth;  // nearest, clamped
 layout(TEXTURE(1)) uniform sampler2D world_normal;
-layout(TEXTURE(2)) uniform sampler2D back_depth;  // with kBack; nearest, clamped
+layout(TEXTURE(2)) uniform sampler2D known;  // with kBacks, metres; nearest, clamped
 layout(IMAGE(0), rg32f) writeonly uniform image2D target;  // visibility and view depth
 #if BENT
 layout(IMAGE(1), rgba16f) writeonly uniform image2D bent_target;  // in view space, any length
@@ -151,9 +152,11 @@ uint sectorsOfTap(Slice s, vec2 at, float side, float dither, inout Side before)
   const float d = b * b - beyond * a;
   const float root = sqrt(max(d, 0.0));
   float thick = settings.thickness;
-  if (kBack) {
-    const float back = textureLod(back_depth, place, 0.0).x;
-    if (back > 0.0) thick = max(back - depth, 0.0);
+  if (kBacks != 0u) {
+    const float back = textureLod(known, place, 0.0).x;
+    if (kBacks == 2u ? back > 0.0 : back >= 0.0) {
+      thick = kBacks == 2u ? max(back - depth, 0.0) : back;
+    }
   }
   const float near = max(0.0, -b - root), far = min(thick, root - b);
   // Two successive taps whose depths differ by less than the thickness belong to one surface: the
@@ -163,7 +166,7 @@ uint sectorsOfTap(Slice s, vec2 at, float side, float dither, inout Side before)
   const vec3 step = front - before.point;
   bool connected = seen && abs(depth - before.depth) < settings.thickness;
   vec3 wide = vec3(0.0);
-  if (kBack) {
+  if (kBacks != 0u) {
     const float along = dot(step, ray);
     const float across = sqrt(max(dot(step, step) - along * along * a, 0.0));
     connected = connected && abs(depth - before.depth) < kSteepest * across;

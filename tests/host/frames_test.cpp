@@ -8,6 +8,7 @@
 #include <filesystem>
 #include <fstream>
 #include <iomanip>
+#include <numeric>
 
 #include "core/image/image.h"
 #include "effects/sspm/shot.h"
@@ -47,7 +48,8 @@ class Frames : public ::testing::TestWithParam<TestDevice> {
                           viewOf(see(eye(), width, height)));
   }
   void record(host::Effect& effect, const host::Texture& depth,
-              const host::Texture* colour = nullptr, const host::Texture* back = nullptr) {
+              const host::Texture* colour = nullptr, const host::Texture* back = nullptr,
+              const host::Texture* thickness = nullptr) {
     host_->frame([&](void* commands, uint64_t number) {
       effect.record({.number = number,
                      .commandBuffer = commands,
@@ -55,7 +57,8 @@ class Frames : public ::testing::TestWithParam<TestDevice> {
                      .depth = depth,
                      .depthKind = GRISAILLE_HOST_DEPTH_VIEW,
                      .backDepth = back,
-                     .baseColour = colour});
+                     .baseColour = colour,
+                     .thickness = thickness});
     });
   }
   host::Effect ssao(uint32_t width, uint32_t height) {
@@ -145,7 +148,7 @@ TEST_P(Frames, EveryOutputIsThere) {
                                 .rows = GRISAILLE_HOST_ROWS_FROM_BOTTOM,
                                 .outputs = {"ao", "bent_normal", "tint"}});
   effect.set("bounce", "base_colour");
-  effect.set("back_faces", 1);
+  effect.set("backs", 2);
   std::vector<float> red;
   for (size_t i = 0; i < size_t{64} * 48; ++i) red.insert(red.end(), {0.8f, 0.2f, 0.2f, 1});
   const host::Texture colour = host_->texture(device_, Texels::kUnorm8x4, 64, 48, red);
@@ -171,6 +174,23 @@ TEST_P(Frames, EveryOutputIsThere) {
   const host::Texture back = host_->texture(device_, Texels::kFloat1, 64, 48, behind);
   record(effect, seen, &colour, &back);
   EXPECT_NE(host_->read(effect.output("ao")), open);
+}
+
+// Without a thickness, matter is as thick as assumed; sheets occlude less.
+TEST_P(Frames, AThicknessSaysWhatIsASheet) {
+  host::Effect effect = ssao(64, 48);
+  const host::Texture seen = depth(64, 48);
+  const auto mean = [&](double backs, const host::Texture* thickness) {
+    effect.set("backs", backs);
+    record(effect, seen, nullptr, nullptr, thickness);
+    const std::vector<float> open = host_->read(effect.output("ao"));
+    return std::accumulate(open.begin(), open.end(), 0.0) / static_cast<double>(open.size());
+  };
+  const host::Texture sheets =
+      host_->texture(device_, Texels::kFloat1, 64, 48, std::vector<float>(size_t{64} * 48, 0.0f));
+  const double assumed = mean(0, nullptr);
+  EXPECT_EQ(mean(1, nullptr), assumed);
+  EXPECT_GT(mean(1, &sheets), assumed + 0.002);
 }
 
 // Casts rays in the world and adds their number to `context`.

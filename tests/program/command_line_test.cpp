@@ -143,8 +143,8 @@ TEST_F(CommandLine, TimingsAreCsvOfEveryPassOfEveryFrame) {
   const Outcome outcome = render({"--frames", "3", "--timings", "-", "--write", "ao=a.exr"});
   ASSERT_EQ(outcome.status, 0) << outcome.err;
   EXPECT_EQ(outcome.out.rfind("frame,effect,pass,milliseconds,clock\n", 0), 0u) << outcome.out;
-  for (const char* row : {"\n0,scene,geometry,", "\n1,scene,view_depth,", "\n2,ssao,occlusion,",
-                          "\n2,ssao,upsample,"}) {
+  for (const char* row : {"\n0,scene,guarded geometry,", "\n1,scene,guarded view_depth,",
+                          "\n2,ssao,occlusion,", "\n2,ssao,upsample,"}) {
     EXPECT_NE(outcome.out.find(row), std::string::npos) << row << outcome.out;
   }
   EXPECT_TRUE(outcome.out.find(",wall\n") != std::string::npos ||
@@ -172,7 +172,7 @@ TEST_F(CommandLine, CompletionIsAScriptThatCompletes) {
   EXPECT_EQ(outcome.out,
             "ssao.kernel_size=\nrender\n--time --times --timings\n"
             "sspm=fast sspm=balanced sspm=fine sspm=reference\n"
-            "fast balanced fine reference\nfast\n"
+            "fast balanced fine reference classic\nfast\n"
             "sspm=\nsspm=\npaint= paint_coverage= paint_owner=\n")
       << outcome.err;
 }

@@ -457,6 +457,12 @@ typedef struct grisaille_host_frame {
    */
   const grisaille_host_texture* back_depth;
   const grisaille_host_texture* base_colour; /**< three channels, linear when sampled; or null */
+  /**
+   * One channel of floats: how thick the matter behind the visible surface is on average, metres: 0
+   * for sheets such as leaves, for bodies 4 times the volume over the surface; below 0: unknown.
+   * Null: unknown everywhere.
+   */
+  const grisaille_host_texture* thickness;
 } grisaille_host_frame;
 
 /**

@@ -259,6 +259,8 @@ struct Frame {
   /// see grisaille_host_frame::back_depth; null: unknown
   const Texture* backDepth = nullptr;
   const Texture* baseColour = nullptr;  ///< three channels, linear when sampled; or null
+  /// see grisaille_host_frame::thickness; null: unknown
+  const Texture* thickness = nullptr;
 };
 
 /// @}
@@ -358,7 +360,8 @@ class Effect {
         .depth = frame.depth.handle(),
         .normal = handleOf(frame.normal),
         .back_depth = handleOf(frame.backDepth),
-        .base_colour = handleOf(frame.baseColour)};
+        .base_colour = handleOf(frame.baseColour),
+        .thickness = handleOf(frame.thickness)};
     require(grisaille_host_effect_record(effect_.get(), &given));
   }
 

@@ -4,6 +4,7 @@
 #include <gtest/gtest.h>
 
 #include <algorithm>
+#include <glm/gtc/matrix_transform.hpp>
 #include <random>
 
 #include "core/frame/renderer.h"
@@ -91,6 +92,34 @@ Expected expectedOn(const scene::Scene& scene, const glm::dvec3& eye, const glm:
     if (c.back && c.depth >= front * (1 - 1e-7)) back = std::min(back, c.depth);
   }
   return {.front = front < kNone, .back = front < kNone && back < kNone ? back : 0};
+}
+
+// A box at half size, a banner and a wall.
+TEST_P(BackDepthTest, ThicknessIsThatOfTheBody) {
+  scene::Scene scene;
+  scene.materials.push_back({.name = "wall"});
+  scene.materials.push_back({.name = "banner", .doubleSided = true});
+  tests::addBox(scene, glm::scale(glm::dmat4(1), glm::dvec3(0.5)));
+  const auto quad = [&](float x, uint32_t material) {
+    tests::addQuad(scene, {glm::vec3(x, -1, 0), {x + 1, -1, 0}, {x + 1, 1, 0}, {x, 1, 0}},
+                   {0, 0, 1}, material);
+  };
+  quad(-2, 0);
+  quad(1, 1);
+  const scene::Camera camera = {.eye = glm::dvec3(0, 0, 4), .target = glm::dvec3(0)};
+  frame::Renderer renderer(device(), scene);
+  const std::vector<std::string> outputs = {"thickness", "base_colour", "facet_normal", "normal"};
+  renderer.render({.camera = camera, .width = 160, .height = 90, .outputs = outputs});
+  const image::Image drawn = renderer.read("thickness");
+  const auto at = [&](double x) {
+    const double slope = std::tan(glm::radians(camera.fovyDegrees) / 2);
+    return drawn.at(static_cast<uint32_t>(80 + x / (4 * slope) * 45), 45);
+  };
+  EXPECT_NEAR(at(0), 2.0 / 3, 1e-3);
+  EXPECT_EQ(at(-1.5), -1);
+  EXPECT_EQ(at(1.5), 0);
+  EXPECT_EQ(drawn.at(2, 2), 0);
+  EXPECT_EQ(renderer.read("normal").at(80, 45, 2), 1);
 }
 
 // A pixel's depth is the depth at its centre. Where the rasteriser snaps vertices coarsely, it may

@@ -197,7 +197,7 @@ TEST_F(PlanTest, HistoryOpenDirectionsAndTintCostNothingUnlessAskedFor) {
 // Drawing back faces, and the extra area of a guard band, count as cost of the effects.
 TEST_F(PlanTest, WhatIsDrawnForEffectsAloneIsTheirCost) {
   values_->set("guard_band", "0.25");
-  values_->set("back_faces", "true");
+  values_->set("backs", "drawn");
   const Recording recording = record({"ao"}, true);
   double sum = 0;
   for (const std::string& pass : recording.passes) sum += frame::shareForEffects(pass, 0.25);

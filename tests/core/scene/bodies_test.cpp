@@ -22,7 +22,7 @@ scene::Scene boxScene(bool doubleSided = false) {
 }
 
 auto bodiesOf(const scene::Scene& scene) {
-  return std::ranges::count(scene::bodyTriangles(scene), true);
+  return std::ranges::count(scene::matterOf(scene).bodies, true);
 }
 
 glm::dmat4 movedTo(double x) {
@@ -81,7 +81,7 @@ TEST(Bodies, AMaskedSideIsAHole) {
   scene::Scene scene = boxScene();
   scene.materials.push_back({.name = "grille", .masked = true});
   scene.primitives[3].material = 1;
-  const std::vector<bool> bodies = scene::bodyTriangles(scene);
+  const std::vector<bool> bodies = scene::matterOf(scene).bodies;
   EXPECT_EQ(std::ranges::count(bodies, true), 10);
   EXPECT_FALSE(bodies[6] || bodies[7]);
 }
@@ -110,7 +110,7 @@ TEST(Bodies, ACrackedBoxIsOneAtEverySize) {
     scene::Scene scene = boxScene(true);
     for (size_t i = 0; i < 4; ++i) scene.positions[i].x += 1e-3f;
     for (glm::vec3& p : scene.positions) p = size * (p + glm::vec3(30, 0, 5));
-    const std::vector<bool> bodies = scene::bodyTriangles(scene);
+    const std::vector<bool> bodies = scene::matterOf(scene).bodies;
     // The side beyond the crack is a part of its own.
     EXPECT_EQ(std::ranges::count(bodies, true), 10) << size;
   }
@@ -119,7 +119,7 @@ TEST(Bodies, ACrackedBoxIsOneAtEverySize) {
 TEST(Bodies, ASideWithAnotherTransformIsAnotherObject) {
   scene::Scene scene = boxScene();
   scene.instances[4].worldFromObject = movedTo(1e-9);
-  const std::vector<bool> bodies = scene::bodyTriangles(scene);
+  const std::vector<bool> bodies = scene::matterOf(scene).bodies;
   EXPECT_EQ(std::ranges::count(bodies, true), 10);
   EXPECT_FALSE(bodies[8] || bodies[9]);
 }
@@ -129,7 +129,7 @@ TEST(Bodies, PartsAreJudgedOneByOne) {
   // A sheet that touches the box in one corner, and one beside it.
   tests::addQuad(scene, {glm::vec3(1, 1, 1), {2, 1, 1}, {2, 2, 1}, {1, 2, 1}}, {0, 0, 1});
   tests::addQuad(scene, {glm::vec3(3, 0, 0), {4, 0, 0}, {4, 1, 0}, {3, 1, 0}}, {0, 0, 1});
-  const std::vector<bool> bodies = scene::bodyTriangles(scene);
+  const std::vector<bool> bodies = scene::matterOf(scene).bodies;
   ASSERT_EQ(bodies.size(), kBoxTriangles + 4);
   EXPECT_EQ(std::ranges::count(bodies, true), 12);
   EXPECT_EQ(std::count(bodies.begin() + kBoxTriangles, bodies.end(), true), 0);
@@ -150,7 +150,7 @@ TEST(Bodies, TrianglesWithoutAnAreaBelongToNone) {
       {.firstIndex = static_cast<uint32_t>(scene.indices.size()), .indexCount = 3});
   scene.instances.push_back({.primitive = 6});
   scene.indices.insert(scene.indices.end(), {0, 0, 1});
-  const std::vector<bool> bodies = scene::bodyTriangles(scene);
+  const std::vector<bool> bodies = scene::matterOf(scene).bodies;
   EXPECT_EQ(std::ranges::count(bodies, true), 12);
   EXPECT_FALSE(bodies.back());
 }
@@ -165,16 +165,54 @@ TEST(Bodies, EachInstanceMustBeClosed) {
   }
   EXPECT_EQ(bodiesOf(scene), 12);
   scene.instances.push_back({.primitive = 1, .worldFromObject = movedTo(9)});
-  const std::vector<bool> bodies = scene::bodyTriangles(scene);
+  const std::vector<bool> bodies = scene::matterOf(scene).bodies;
   EXPECT_EQ(std::ranges::count(bodies, true), 10);
   EXPECT_FALSE(bodies[2] || bodies[3]);
+}
+
+// A box of a x b x c has the mean chord 4 a b c / (2 (a b + b c + c a)).
+TEST(Bodies, AreAsThickAsTheirMeanChord) {
+  scene::Scene scene = boxScene();
+  for (const float t : scene::matterOf(scene).thickness) EXPECT_NEAR(t, 4.0 / 3, 1e-6);
+  for (const scene::Primitive& primitive : scene.primitives) {
+    for (uint32_t i = 0; i < primitive.indexCount; i += 3) {
+      std::swap(scene.indices[primitive.firstIndex + i],
+                scene.indices[primitive.firstIndex + i + 1]);
+    }
+  }
+  for (const float t : scene::matterOf(scene).thickness) EXPECT_NEAR(t, 4.0 / 3, 1e-6);
+  // Far from its own origin.
+  for (glm::vec3& p : scene.positions) p = glm::vec3(100) + p * glm::vec3(1, 0.01f, 1);
+  const double plate = 4 * (2 * 2 * 0.02) / (2 * (2 * 2 + 2 * 2 * 0.02));
+  for (const float t : scene::matterOf(scene).thickness) EXPECT_NEAR(t, plate, 1e-3);
+  // Without a lid: of the cones from its surface to its centroid.
+  scene::Scene open = boxScene();
+  open.instances.pop_back();
+  const scene::Matter matter = scene::matterOf(open);
+  for (size_t i = 0; i < 10; ++i) EXPECT_NEAR(matter.thickness[i], 4.0 / 3, 0.3);
+  EXPECT_EQ(matter.thickness[10], -1);  // without an instance
+}
+
+TEST(Bodies, SheetsHaveNoThicknessAndOtherSurfacesAnUnknownOne) {
+  scene::Scene scene;
+  scene.materials.push_back({.name = "wall"});
+  scene.materials.push_back({.name = "banner", .doubleSided = true});
+  scene.materials.push_back({.name = "leaf", .masked = true});
+  for (uint32_t m = 0; m < 3; ++m) {
+    const float z = static_cast<float>(m);
+    tests::addQuad(scene, {glm::vec3(0, 0, z), {1, 0, z}, {1, 1, z}, {0, 1, z}}, {0, 0, 1}, m);
+  }
+  const scene::Matter matter = scene::matterOf(scene);
+  EXPECT_EQ(matter.thickness, (std::vector<float>{-1, -1, 0, 0, 0, 0}));
+  const std::vector<float> vertices = scene::vertexThickness(scene, matter);
+  EXPECT_EQ(vertices, (std::vector<float>{-1, -1, -1, -1, 0, 0, 0, 0, 0, 0, 0, 0}));
 }
 
 TEST(Bodies, PrimitivesWithoutAnInstanceAndEmptyScenesHaveNone) {
   scene::Scene scene = boxScene();
   scene.instances.clear();
   EXPECT_EQ(bodiesOf(scene), 0);
-  EXPECT_TRUE(scene::bodyTriangles(scene::Scene()).empty());
+  EXPECT_TRUE(scene::matterOf(scene::Scene()).bodies.empty());
 }
 
 }  // namespace

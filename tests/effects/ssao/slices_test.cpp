@@ -44,7 +44,7 @@ TEST_P(SlicesTest, APlaneIsOpenAtEveryTiltAndDistance) {
         EXPECT_GT(least, 0.98f) << join(settings) << degrees << " degrees, " << distance;
       };
       for (const char* resolution : kResolutions) expectOpen({{"resolution", resolution}});
-      expectOpen({{"back_faces", "true"}, {"thickness", "1"}});
+      expectOpen({{"backs", "drawn"}, {"thickness", "1"}});
     }
   }
 }
@@ -117,8 +117,8 @@ TEST_P(SlicesTest, ExtremesStayVisibilitiesAtEverySize) {
                                                  {{"thickness", "0"}},
                                                  {{"thickness", "1e6"}},
                                                  {{"thickness", "1e6"}, {"radius", "1e6"}},
-                                                 {{"back_faces", "true"}, {"thickness", "0"}},
-                                                 {{"back_faces", "true"}, {"guard_band", "0.5"}},
+                                                 {{"backs", "drawn"}, {"thickness", "0"}},
+                                                 {{"backs", "drawn"}, {"guard_band", "0.5"}},
                                                  {{"blur_size", "0"}},
                                                  {{"blur_size", "3"}},
                                                  {{"blur_size", "20"}},
@@ -198,11 +198,11 @@ TEST_P(SlicesTest, BackFacesSayHowThickABoardIs) {
                    {0, 0, 1});
     tests::addQuad(scene, {glm::vec3(-3, 0.1f, rear), {3, 0.1f, rear}, {3, 0, rear}, {-3, 0, rear}},
                    {0, 0, -1});
-    const tests::Settings settings = {{"thickness", thickness}, {"back_faces", back}};
+    const tests::Settings settings = {{"thickness", thickness}, {"backs", back}};
     return tests::meanRows(tests::renderAo(device(), scene, camera, settings), 0, tests::kAoHeight);
   };
-  EXPECT_GT(mean(0.02f, "1", "true"), mean(0.02f, "1", "false") + 0.005);
-  EXPECT_LT(mean(0.4f, "0.05", "true"), mean(0.4f, "0.05", "false") - 0.005);
+  EXPECT_GT(mean(0.02f, "1", "drawn"), mean(0.02f, "1", "assumed") + 0.005);
+  EXPECT_LT(mean(0.4f, "0.05", "drawn"), mean(0.4f, "0.05", "assumed") - 0.005);
 }
 
 // A square sheet with the corners centre +- u +- v.
@@ -262,7 +262,7 @@ TEST_P(SlicesTest, LeavesDarkenAsMuchAsTheyShould) {
   constexpr double kRadius = 0.4;
   tests::AoFrames frames(device(), scene,
                          {{"radius", "0.4"},
-                          {"back_faces", "true"},
+                          {"backs", "drawn"},
                           {"thickness", "1"},
                           {"kernel_size", "24"},
                           {"resolution", "full"}});

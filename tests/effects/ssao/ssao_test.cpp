@@ -180,7 +180,7 @@ TEST_P(SsaoTest, WhatIsLowerThanTheBiasDoesNotOcclude) {
        std::vector<tests::Settings>{{{"resolution", "full"}, {"kernel_size", "24"}},
                                     {{"resolution", "half"}},
                                     {{"resolution", "quarter"}},
-                                    {{"back_faces", "true"}},
+                                    {{"backs", "drawn"}},
                                     {{"estimator", "classic"}, {"kernel_size", "64"}}}) {
     const auto darkest = [&](const char* bias) {
       tests::Settings all = setting;

@@ -38,7 +38,10 @@ View viewOf(const scene::Camera& camera, bool wall) {
       normal.pixels.insert(normal.pixels.end(), {n.x, n.y, n.z});
     }
   }
-  return {camera, kSize, 0, {.depth = depth, .normal = normal, .back = {}, .colour = {}}};
+  return {camera,
+          kSize,
+          0,
+          {.depth = depth, .normal = normal, .back = {}, .thickness = {}, .colour = {}}};
 }
 
 const scene::Camera kCamera = {.eye = glm::dvec3(0.3, 1.2, 2), .target = glm::dvec3(0, 0.1, 0)};
@@ -156,13 +159,14 @@ TEST(Oracle, MatterEndsAtItsBack) {
     }
   }
   const View thin(kCamera, kSize, 0,
-                  {.depth = depth, .normal = normal, .back = back, .colour = {}});
-  const auto sum = [](const View& view, bool backFaces) {
+                  {.depth = depth, .normal = normal, .back = back, .thickness = {}, .colour = {}});
+  const auto sum = [](const View& view, bool drawn) {
     const auto oracle = makeOcclusion(view, {.kernelSize = 96,
                                              .blurSize = 0,
                                              .slices = 8,
                                              .thickness = 0.7,
-                                             .backFaces = backFaces,
+                                             .backs = drawn ? OcclusionSettings::Backs::kDrawn
+                                                            : OcclusionSettings::Backs::kAssumed,
                                              .scale = 1});
     double all = 0;
     for (const glm::ivec2& pixel : pixelsToCompare(view.size())) all += oracle->visibility(pixel);

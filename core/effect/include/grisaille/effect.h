@@ -157,7 +157,15 @@ typedef enum grisaille_attachment {
    * A host without motion leaves the texture's id at 0, although the effect reads it.
    */
   GRISAILLE_MOTION = 6,
-  GRISAILLE_ATTACHMENT_COUNT = 7 /**< number of attachments */
+  /**
+   * r32f: how thick the matter behind the visible surface is on average, metres: the
+   * mean chord of a body, 4 times its volume over its surface; 0 for sheets and the sky; below 0
+   * where it is unknown. It takes no pass of its own: the host draws it with the normals.
+   *
+   * A host without it leaves the texture's id at 0, although the effect reads it.
+   */
+  GRISAILLE_THICKNESS = 7,
+  GRISAILLE_ATTACHMENT_COUNT = 8 /**< number of attachments */
 } grisaille_attachment;
 
 /** The bit for a grisaille_attachment in the result of grisaille_effect_desc::reads. */
