@@ -3,7 +3,6 @@
 
 #include <fmt/format.h>
 #include <algorithm>
-#include <ranges>
 #include <set>
 
 #include "app/settings/toml_values.h"
@@ -47,8 +46,10 @@ const Preset& Presets::find(const std::string& effect, const std::string& name) 
   const auto found = std::ranges::find(all, name, &Preset::name);
   if (found != all.end()) return *found;
   if (all.empty()) throw Error(ErrorId::kPresetUnknown, "effect '{}' has no presets", effect);
+  std::vector<std::string> names;
+  for (const Preset& preset : all) names.push_back(preset.name);
   throw Error(ErrorId::kPresetUnknown, "effect '{}' has no preset '{}', only {}", effect, name,
-              fmt::join(std::views::transform(all, &Preset::name), ", "));
+              fmt::join(names, ", "));
 }
 
 bool isPresetName(std::string_view name) {
