@@ -15,6 +15,7 @@
 #include "app/settings/load_effects.h"
 #include "app/study/choose.h"
 #include "app/study/flicker_run.h"
+#include "app/study/gallery.h"
 #include "app/study/report.h"
 #include "app/study/study.h"
 #include "app/truth/interruption.h"
@@ -29,7 +30,7 @@ namespace fs = std::filesystem;
 
 struct MeasureOptions {
   SubjectOptions subject;
-  std::string backend = "both", device, out, shard = "1/1", presets, path;
+  std::string backend = "both", device, out, shard = "1/1", presets, path, gallery, scenes;
   std::vector<std::string> also;
   std::vector<std::string> sweeps;
   uint32_t rounds = 5;
@@ -38,17 +39,35 @@ struct MeasureOptions {
 
 // The parsed command line, checked before any slow work starts.
 struct MeasureJob {
-  std::unique_ptr<LoadedSubject> subject;
+  std::vector<std::unique_ptr<LoadedSubject>> subjects;  // one per scene
   std::vector<study::Setting> settings;
   std::vector<std::string> backendNames;
   std::vector<scene::Camera> path;             // for the flicker; empty: flicker is not measured
   std::vector<trace::FlickerFrame> pathTruth;  // one per camera of the path
 
   explicit MeasureJob(const MeasureOptions& options);
+
+  // Everything that results depend on except setting and backend.
+  std::string key() const;
 };
 
+// The options of each scene: those of the command line, or of the gallery.
+std::vector<SubjectOptions> scenesOf(const MeasureOptions& options) {
+  if (options.gallery.empty()) return {options.subject};
+  std::vector<SubjectOptions> all;
+  for (study::GalleryScene& scene : study::loadGallery(options.gallery, options.scenes)) {
+    SubjectOptions& own = all.emplace_back(options.subject);
+    own.name = scene.name;
+    own.scene = std::move(scene.scene);
+    own.cameras = std::move(scene.cameras);
+    own.radius = scene.radius;
+    own.sets.insert(own.sets.begin(), scene.sets.begin(), scene.sets.end());
+  }
+  return all;
+}
+
 MeasureJob::MeasureJob(const MeasureOptions& options) {
-  auto registry = loadEffects(options.subject.pluginPaths);
+  const std::shared_ptr<const effect::Registry> registry = loadEffects(options.subject.pluginPaths);
   std::vector<study::Sweep> sweeps;
   std::vector<effect::ParameterName> swept;
   for (const std::string& text : options.sweeps) {
@@ -61,23 +80,28 @@ MeasureJob::MeasureJob(const MeasureOptions& options) {
     if (shard.holds(i)) settings.push_back(grid[i]);
   }
   backendNames = chosenBackends(options.backend);
-  subject = std::make_unique<LoadedSubject>(options.subject, std::move(registry), swept);
+  for (const SubjectOptions& scene : scenesOf(options)) {
+    subjects.push_back(std::make_unique<LoadedSubject>(scene, registry, swept));
+  }
   if (options.path.empty()) return;
   path = scene::camerasOf(scene::loadCameraPath(options.path));
-  study::checkPathSize(options.path, path.size(), subject->subject().size);
+  study::checkPathSize(options.path, path.size(), subjects.front()->subject().size);
 }
 
-// Traces the truth of the path. Returns the path's part of the study's key.
-std::string tracePath(const MeasureOptions& options, MeasureJob& job) {
+std::string MeasureJob::key() const {
   std::string key;
-  const study::Subject& subject = job.subject->subject();
-  for (const scene::Camera& camera : job.path) {
-    key += "path " + scene::cameraJson(camera) + "\n";
-    job.pathTruth.push_back(study::traceFrame(*subject.scene, camera, subject.size,
-                                              job.subject->radius(), options.subject.samples,
-                                              truth::usualProgress()));
-  }
+  for (const auto& subject : subjects) key += subject->key();
+  for (const scene::Camera& camera : path) key += "path " + scene::cameraJson(camera) + "\n";
   return key;
+}
+
+void tracePath(const MeasureOptions& options, MeasureJob& job) {
+  const study::Subject& subject = job.subjects.front()->subject();
+  for (const scene::Camera& camera : job.path) {
+    job.pathTruth.push_back(study::traceFrame(*subject.scene, camera, subject.size,
+                                              job.subjects.front()->radius(),
+                                              options.subject.samples, truth::usualProgress()));
+  }
 }
 
 // Returns false if a signal interrupted the study.
@@ -133,19 +157,23 @@ void measure(const MeasureOptions& options) {
   requireDevices(job.backendNames, options.device);
   requireWritableFolder(options.out);
   if (!options.presets.empty()) requireWritable(options.presets);
-  job.subject->loadScene();
+  for (const auto& subject : job.subjects) subject->loadScene();
   const truth::Interruption interruption;
-  job.subject->trace();
-  const std::string pathKey = tracePath(options, job);
-  const study::StudyDesc desc{.subject = job.subject->subject(),
+  std::vector<const study::Subject*> subjects;
+  for (const auto& subject : job.subjects) {
+    subject->trace();
+    subjects.push_back(&subject->subject());
+  }
+  tracePath(options, job);
+  const study::StudyDesc desc{.subjects = subjects,
                               .path = job.path.empty() ? nullptr : &job.pathTruth,
-                              .key = job.subject->key() + pathKey,
+                              .key = job.key(),
                               .machine = machineName(),
                               .commit = GRISAILLE_COMMIT,
                               .rounds = options.rounds,
                               .folder = options.out,
                               .commandOf = [&](const auto& setting, const std::string& backend) {
-                                return job.subject->renderCommand(setting, backend);
+                                return job.subjects.front()->renderCommand(setting, backend);
                               }};
   std::error_code failed;
   fs::create_directories(options.out, failed);  // for the report, if nothing is measured
@@ -161,6 +189,24 @@ void measure(const MeasureOptions& options) {
     throw truth::Interrupted();
   }
   if (options.check) messages.throwIfAny();
+}
+
+void addGallery(CLI::App& command, MeasureOptions& options) {
+  CLI::Option* gallery =
+      command
+          .add_option("--gallery", options.gallery,
+                      "Measure the scenes of this file, each with its cameras and radius; errors "
+                      "and costs are averaged over all scenes")
+          ->type_name("FILE.toml");
+  for (const char* other : {"scene", "--camera", "--radius", "--reference", "--load", "--path",
+                            "--animation", "--time"}) {
+    gallery->excludes(command.get_option(other));
+  }
+  command
+      .add_option("--scenes", options.scenes,
+                  "Folder of scenes that do not stand beside the gallery file")
+      ->type_name("DIR")
+      ->needs(gallery);
 }
 
 }  // namespace
@@ -211,6 +257,7 @@ void addMeasure(CLI::App& program) {
       ->type_name("NAME=EFFECT.KEY=VALUE");
   command->add_flag("--check", options->check,
                     "Validate every graphics call, in the rendering layer and in the driver");
+  addGallery(*command, *options);
   command->callback([options] { measure(*options); });
 }
 

@@ -101,7 +101,7 @@ void SubjectOptions::addTo(CLI::App& command) {
 }
 
 LoadedSubject::LoadedSubject(const SubjectOptions& options,
-                             std::unique_ptr<effect::Registry> registry,
+                             std::shared_ptr<const effect::Registry> registry,
                              const std::vector<effect::ParameterName>& swept)
     : options_(options), swept_(swept), registry_(std::move(registry)) {
   effect::Chain chain = chooseEffects();
@@ -178,12 +178,13 @@ void LoadedSubject::chooseLengths() {
   subject_.lengths = lengthsOf(selection);
   const bool given = options_.radius != 0;
   if (!given) options_.radius = radius;
-  printChosen(selection, given ? std::optional<double>() : radius, "the scene");
+  printChosen(selection, given ? std::optional<double>() : radius,
+              options_.name.empty() ? "the scene" : options_.name);
 }
 
 study::View LoadedSubject::viewOf(const std::string& name, const scene::Camera& camera,
                                   const std::string& bar) const {
-  study::View view{.name = name, .camera = camera, .truth = {}};
+  study::View view{.scene = options_.name, .name = name, .camera = camera, .truth = {}};
   view.camera.size = subject_.size;
   truth::OcclusionTruth traced =
       truth::traceOcclusion(scene_, view.camera, subject_.size, options_.radius, options_.samples,
@@ -195,7 +196,7 @@ study::View LoadedSubject::viewOf(const std::string& name, const scene::Camera& 
 }
 
 study::View LoadedSubject::referenceOf(const Place& place) const {
-  study::View view{.name = place.name, .camera = place.camera, .truth = {}};
+  study::View view{.scene = options_.name, .name = place.name, .camera = place.camera, .truth = {}};
   view.camera.size = subject_.size;
   view.truth = study::oneChannel(image::read(place.reference), place.reference);
   if (view.truth.width != subject_.size.x || view.truth.height != subject_.size.y) {
@@ -210,7 +211,8 @@ study::View LoadedSubject::referenceOf(const Place& place) const {
 void LoadedSubject::trace() {
   for (const Place& place : cameras_) {
     const std::string bar =
-        fmt::format("truth {} of {}", subject_.views.size() + 1, cameras_.size());
+        fmt::format("{}truth {} of {}", options_.name.empty() ? "" : options_.name + ": ",
+                    subject_.views.size() + 1, cameras_.size());
     subject_.views.push_back(place.reference.empty() ? viewOf(place.name, place.camera, bar)
                                                      : referenceOf(place));
   }

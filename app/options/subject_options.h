@@ -16,6 +16,7 @@ namespace grisaille::app {
 
 struct SubjectOptions {
   std::string scene, size = "640x360", output;
+  std::string name;  // of the scene in a gallery; "": the only scene
   // A settings file, and presets as EFFECT=NAME. No option of addTo() sets them; `sets` override
   // both, and the file the presets.
   std::string config;
@@ -36,7 +37,7 @@ class LoadedSubject {
   // `registry`: the effects of options.pluginPaths. `swept`: parameters whose effects run even if
   // no option names them. Throws kUsage, and the errors of cameras, objects, effects and their
   // parameters.
-  LoadedSubject(const SubjectOptions& options, std::unique_ptr<effect::Registry> registry,
+  LoadedSubject(const SubjectOptions& options, std::shared_ptr<const effect::Registry> registry,
                 const std::vector<effect::ParameterName>& swept);
 
   LoadedSubject(const LoadedSubject&) = delete;
@@ -77,7 +78,7 @@ class LoadedSubject {
   SubjectOptions options_;
   scene::Pose pose_;
   std::vector<effect::ParameterName> swept_;
-  std::unique_ptr<effect::Registry> registry_;
+  std::shared_ptr<const effect::Registry> registry_;
   scene::Scene scene_;
   study::Subject subject_;
   struct Place {

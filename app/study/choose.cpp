@@ -5,6 +5,7 @@
 
 #include <algorithm>
 #include <cmath>
+#include <limits>
 #include <map>
 #include <set>
 
@@ -67,8 +68,12 @@ std::vector<Choice> choicesOf(std::span<const Record> records) {
   for (const Record& r : records) {
     const auto own = settings.find(r.setting);
     if (own == settings.end() || own->second.size() != medians.size()) continue;
-    Choice choice{.setting = r.setting, .price = {.cost = 0, .error = 0}};
+    Choice choice{.setting = r.setting, .price = {.cost = 0, .error = 0}, .errors = {}};
+    choice.errors.resize(r.errors.size());
     for (const Record* one : own->second) {
+      for (size_t i = 0; i < one->errors.size() && i < choice.errors.size(); ++i) {
+        choice.errors[i] += one->errors[i].rmse / static_cast<double>(medians.size());
+      }
       choice.price.error += one->rmse() / static_cast<double>(medians.size());
       choice.price.cost += std::log(one->cost() / medians.at(one->backend));
     }
@@ -79,23 +84,44 @@ std::vector<Choice> choicesOf(std::span<const Record> records) {
   return choices;
 }
 
-std::vector<size_t> presetsOn(std::span<const Price> front) {
-  if (front.size() < std::size(kPresetNames)) {
+double worstLoss(std::span<const double> dearer, std::span<const double> cheaper) {
+  double worst = -std::numeric_limits<double>::infinity();
+  for (size_t i = 0; i < dearer.size(); ++i) worst = std::max(worst, dearer[i] - cheaper[i]);
+  return worst;
+}
+
+std::vector<size_t> presetsOn(std::span<const Price> front,
+                              std::span<const std::vector<double>> errors) {
+  constexpr size_t kCount = std::size(kPresetNames);
+  if (front.size() < kCount) {
     throw Error(ErrorId::kFrontSmall, "the front has {} settings; presets need at least {}",
-                front.size(), std::size(kPresetNames));
+                front.size(), kCount);
   }
   const size_t reference = front.size() - 1;
-  std::vector<size_t> chosen;
-  for (size_t k = 1; k < std::size(kPresetNames); ++k) {
-    const auto below = static_cast<double>(std::size(kPresetNames) - 1 - k);  // `fine`
+  std::vector<size_t> chosen = {reference};
+  // The most that any chosen preset loses against point i.
+  const auto loss = [&](size_t i) {
+    double most = -std::numeric_limits<double>::infinity();
+    for (const size_t dearer : chosen) {
+      if (!errors.empty()) most = std::max(most, worstLoss(errors[dearer], errors[i]));
+    }
+    return most;
+  };
+  for (size_t k = kCount - 1; k-- > 0;) {
+    const auto below = static_cast<double>(kCount - 2 - k);  // presets between this and `reference`
     const double most = front[reference].cost / kReferenceRatio / std::pow(kPresetRatio, below);
-    size_t i = 0;
-    while (i + 1 < reference && front[i + 1].cost <= most) ++i;
-    if (front[0].cost > most) i = ((k - 1) * reference + 1) / (std::size(kPresetNames) - 1);
-    const size_t least = chosen.empty() ? 0 : chosen.back() + 1;
-    chosen.push_back(std::clamp(i, least, reference - std::size(kPresetNames) + k));
+    size_t dearest = 0;
+    while (dearest + 1 < reference && front[dearest + 1].cost <= most) ++dearest;
+    if (front[0].cost > most) dearest = (k * reference + 1) / (kCount - 1);
+    // Cheaper presets need k points below.
+    dearest = std::clamp(dearest, k, chosen.back() - 1);
+    size_t best = dearest;
+    for (size_t i = dearest; i + 1 > k && loss(best) > kMostLoss; --i) {
+      if (loss(i) < loss(best)) best = i;
+    }
+    chosen.push_back(best);
   }
-  chosen.push_back(reference);
+  std::ranges::reverse(chosen);
   return chosen;
 }
 
@@ -134,8 +160,12 @@ void writePresets(std::span<const Record> records, std::span<const NamedPreset> 
   std::vector<Price> prices, front;
   for (const Choice& choice : choices) prices.push_back(choice.price);
   const std::vector<size_t> order = thinned(prices, frontOf(prices));
-  for (const size_t i : order) front.push_back(prices[i]);
-  const std::vector<size_t> chosen = presetsOn(front);
+  std::vector<std::vector<double>> errors;
+  for (const size_t i : order) {
+    front.push_back(prices[i]);
+    errors.push_back(choices[i].errors);
+  }
+  const std::vector<size_t> chosen = presetsOn(front, errors);
   Presets presets{.study = sentenceOf(records), .all = {}};
   const auto add = [&](const std::string& name, const Choice& choice) {
     Preset preset{.name = name,

@@ -14,10 +14,11 @@ namespace grisaille::app::study {
 
 // One setting over all backends. `price.error`: mean of the backends' errors. `price.cost`:
 // geometric mean of the backends' costs, each as a multiple of the median cost on its backend,
-// since milliseconds of different drivers do not add up.
+// since milliseconds of different drivers do not add up. `errors`: means of the backends' too.
 struct Choice {
   SettingText setting;
   Price price;
+  std::vector<double> errors;  // of each camera
 };
 
 // The settings that every backend of the records has measured, in the order of the records.
@@ -34,6 +35,10 @@ std::vector<Choice> choicesOf(std::span<const Record> records);
 constexpr double kWorth = 0.99, kDistinct = 1.08;
 std::vector<size_t> thinned(std::span<const Price> prices, std::span<const size_t> front);
 
+// How much more `dearer` errs than `cheaper` where it does worst: the largest difference of a
+// camera's errors. 0 or less: nowhere. `errors`: of each camera, in the same order.
+double worstLoss(std::span<const double> dearer, std::span<const double> cheaper);
+
 // Chooses a point of a front (ascending cost) for each of kPresetNames, and returns its index.
 //
 // - `reference`: the least error, at any cost.
@@ -41,12 +46,18 @@ std::vector<size_t> thinned(std::span<const Price> prices, std::span<const size_
 // - `balanced`, then `fast`: the dearest point within 1 / kPresetRatio of the limit of the preset
 //   above.
 //
+// Where a point would make a dearer preset err more than kMostLoss above it at a camera, so that
+// who pays more would get less there, the next cheaper point takes its place. If all points within
+// the limit would, the one with the least such loss does. `errors`: see worstLoss(); one per point,
+// or none.
+//
 // A preset with no point below its limit takes its place in an even spread over the front. (Knees
 // of the front would be the natural choice, but a front is nearly straight in error and logarithm
 // of cost. Its knees jump from one end to the other with the noise of the clock.) Throws
 // kFrontSmall for fewer than four points.
-constexpr double kReferenceRatio = 3, kPresetRatio = 2;
-std::vector<size_t> presetsOn(std::span<const Price> front);
+constexpr double kReferenceRatio = 3, kPresetRatio = 2, kMostLoss = 0.002;
+std::vector<size_t> presetsOn(std::span<const Price> front,
+                              std::span<const std::vector<double>> errors = {});
 
 // A preset beside those of kPresetNames: of the settings with this value, the one with the least
 // error.

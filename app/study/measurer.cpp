@@ -3,6 +3,7 @@
 
 #include <algorithm>
 #include <cmath>
+#include <numeric>
 
 #include "core/base/error.h"
 
@@ -65,16 +66,20 @@ Measurer::Measurer(const Subject& subject, gpu::Device& device)
       renderer_(device, *subject.scene) {}
 
 std::unique_ptr<effect::Chain> Measurer::start(const Setting& setting) {
-  auto chain =
-      std::make_unique<effect::Chain>(effect::Selection(*subject_.registry, subject_.effects));
-  fit(chain->selection, subject_.lengths);
-  for (const effect::Assignment& set : subject_.sets) chain->selection.set(set);
-  for (const effect::ParameterValue& one : setting) chain->selection.set(one);
-  for (const auto& [effect, objects] : subject_.objects) {
-    chain->objects(effect)->assign(objects.view());
-  }
+  auto chain = std::make_unique<effect::Chain>();
+  apply(setting, *chain);
   chain->start(device_);
   return chain;
+}
+
+void Measurer::apply(const Setting& setting, effect::Chain& chain) {
+  chain.selection = effect::Selection(*subject_.registry, subject_.effects);
+  fit(chain.selection, subject_.lengths);
+  for (const effect::Assignment& set : subject_.sets) chain.selection.set(set);
+  for (const effect::ParameterValue& one : setting) chain.selection.set(one);
+  for (const auto& [effect, objects] : subject_.objects) {
+    chain.objects(effect)->assign(objects.view());
+  }
 }
 
 void Measurer::render(effect::Chain& chain, const scene::Camera& camera) {
@@ -100,20 +105,29 @@ std::vector<CameraErrors> Measurer::errors(effect::Chain& chain, const Seen& see
     const double square = d.rmse * d.rmse - view.noise * view.noise;
     const image::Similarity similarity =
         image::ssim(onSurfaces(shown, view.truth, 1), onSurfaces(view.truth, view.truth, 1));
-    errors.push_back({view.name, std::sqrt(std::max(square, 0.0)), d.meanAbsolute, d.bias,
-                      d.percentile99, similarity.mean});
+    errors.push_back({view.scene, view.name, std::sqrt(std::max(square, 0.0)), d.meanAbsolute,
+                      d.bias, d.percentile99, similarity.mean});
     if (seen) seen(view, shown);
   }
   return errors;
 }
 
-double Measurer::cost(effect::Chain& chain) {
-  device_.wait();
-  device_.takeTimes();
-  for (const View& view : subject_.views) render(chain, view.camera);
-  device_.wait();
+std::vector<double> Measurer::costs(effect::Chain& chain) {
   const double share = frame::guardShare(chain.selection, subject_.size.x, subject_.size.y);
-  return costOf(device_.takeTimes(), subject_.effects, share);
+  std::vector<double> costs;
+  for (const View& view : subject_.views) {
+    device_.wait();
+    device_.takeTimes();
+    render(chain, view.camera);
+    device_.wait();
+    costs.push_back(costOf(device_.takeTimes(), subject_.effects, share));
+  }
+  return costs;
+}
+
+double Measurer::cost(effect::Chain& chain) {
+  const std::vector<double> all = costs(chain);
+  return std::accumulate(all.begin(), all.end(), 0.0) / static_cast<double>(all.size());
 }
 
 }  // namespace grisaille::app::study

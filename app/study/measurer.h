@@ -19,7 +19,8 @@ namespace grisaille::app::study {
 
 // One camera with its truth.
 struct View {
-  std::string name;  // for reports
+  std::string scene;  // name of the scene in a gallery, for reports; "": the only one
+  std::string name;   // for reports
   scene::Camera camera;
   image::Image truth;  // one channel; NaN at pixels without a surface
   double noise = 0;    // rms standard error of the truth
@@ -60,6 +61,10 @@ class Measurer {
   // Selection::set() and Chain::start() do.
   std::unique_ptr<effect::Chain> start(const Setting& setting);
 
+  // Gives a chain that a measurer of the same effects has started the values of a setting, with the
+  // lengths and objects of this subject.
+  void apply(const Setting& setting, effect::Chain& chain);
+
   // Renders the output from a camera. Returns its oneChannel().
   image::Image show(effect::Chain& chain, const scene::Camera& camera);
 
@@ -71,7 +76,9 @@ class Measurer {
   // as show() does.
   std::vector<CameraErrors> errors(effect::Chain& chain, const Seen& seen = {});
 
-  // Cost of the effects, mean over the views, milliseconds; see costOf().
+  // Cost of the effects for each view, milliseconds; see costOf().
+  std::vector<double> costs(effect::Chain& chain);
+  // Their mean.
   double cost(effect::Chain& chain);
 
  private:

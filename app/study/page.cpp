@@ -26,8 +26,13 @@ std::string pictureUrl(const fs::path& file) {
 json jsonOf(const Record& r) {
   json setting = json::object(), errors = json::array();
   for (const auto& [name, value] : r.setting) setting[name.text()] = value;
-  for (const CameraErrors& e : r.errors) {
-    errors.push_back({{"camera", e.camera},
+  const std::vector<double> shares = r.shares();
+  for (size_t i = 0; i < r.errors.size(); ++i) {
+    const CameraErrors& e = r.errors[i];
+    errors.push_back({{"scene", e.scene},
+                      {"camera", e.camera},
+                      {"share", shares[i]},
+                      {"cost", r.costOf(i)},
                       {"rmse", e.rmse},
                       {"mean_absolute", e.meanAbsolute},
                       {"bias", e.bias},

@@ -5,7 +5,9 @@
 
 #include <algorithm>
 #include <fstream>
+#include <map>
 #include <nlohmann/json.hpp>
+#include <numeric>
 
 #include "app/truth/content_hash.h"
 #include "core/base/atomic_file.h"
@@ -17,7 +19,7 @@ namespace fs = std::filesystem;
 using nlohmann::json;
 namespace {
 
-constexpr int kVersion = 1;
+constexpr int kVersion = 2;
 
 double quantile(std::vector<double> values, double share) {
   if (values.empty()) return 0;
@@ -28,18 +30,26 @@ double quantile(std::vector<double> values, double share) {
   return values[below] + (at - static_cast<double>(below)) * (values[above] - values[below]);
 }
 
+// The mean cost of each round.
+std::vector<double> roundsOf(const Record& r) {
+  const std::vector<double> share = r.shares();
+  std::vector<double> means;
+  for (const std::vector<double>& round : r.milliseconds) {
+    means.push_back(std::inner_product(share.begin(), share.end(), round.begin(), 0.0));
+  }
+  return means;
+}
+
 json toJson(const CameraErrors& e) {
-  return {{"camera", e.camera},
-          {"rmse", e.rmse},
-          {"mean_absolute", e.meanAbsolute},
-          {"bias", e.bias},
-          {"percentile_99", e.percentile99},
+  return {{"scene", e.scene}, {"camera", e.camera},
+          {"rmse", e.rmse},   {"mean_absolute", e.meanAbsolute},
+          {"bias", e.bias},   {"percentile_99", e.percentile99},
           {"ssim", e.ssim}};
 }
 
 CameraErrors errorsFrom(const json& j) {
-  return {j.at("camera"), j.at("rmse"),          j.at("mean_absolute"),
-          j.at("bias"),   j.at("percentile_99"), j.at("ssim")};
+  return {j.at("scene"), j.at("camera"),        j.at("rmse"), j.at("mean_absolute"),
+          j.at("bias"),  j.at("percentile_99"), j.at("ssim")};
 }
 
 }  // namespace
@@ -48,18 +58,36 @@ double medianOf(const std::vector<double>& values) {
   return quantile(values, 0.5);
 }
 
+std::vector<double> Record::shares() const {
+  std::map<std::string, double> cameras;
+  for (const CameraErrors& one : errors) ++cameras[one.scene];
+  std::vector<double> shares;
+  for (const CameraErrors& one : errors) {
+    shares.push_back(1 / (cameras[one.scene] * static_cast<double>(cameras.size())));
+  }
+  return shares;
+}
+
 double Record::rmse() const {
+  const std::vector<double> share = shares();
   double sum = 0;
-  for (const CameraErrors& one : errors) sum += one.rmse;
-  return errors.empty() ? 0 : sum / static_cast<double>(errors.size());
+  for (size_t i = 0; i < errors.size(); ++i) sum += share[i] * errors[i].rmse;
+  return sum;
 }
 
 double Record::cost() const {
-  return medianOf(milliseconds);
+  return medianOf(roundsOf(*this));
 }
 
 double Record::spread() const {
-  return quantile(milliseconds, 0.75) - quantile(milliseconds, 0.25);
+  const std::vector<double> rounds = roundsOf(*this);
+  return quantile(rounds, 0.75) - quantile(rounds, 0.25);
+}
+
+double Record::costOf(size_t camera) const {
+  std::vector<double> values;
+  for (const std::vector<double>& round : milliseconds) values.push_back(round[camera]);
+  return medianOf(values);
 }
 
 fs::path fileOf(const fs::path& folder, const Record& record) {
@@ -109,7 +137,12 @@ std::optional<Record> load(const fs::path& file) {
     r.commit = j.at("commit");
     r.command = j.at("command");
     for (const json& one : j.at("errors")) r.errors.push_back(errorsFrom(one));
-    r.milliseconds = j.at("milliseconds").get<std::vector<double>>();
+    r.milliseconds = j.at("milliseconds").get<std::vector<std::vector<double>>>();
+    for (const std::vector<double>& round : r.milliseconds) {
+      if (round.size() == r.errors.size()) continue;
+      throw Error(ErrorId::kStudyRecord, "{} has a round of {} costs for {} cameras", file.string(),
+                  round.size(), r.errors.size());
+    }
     if (j.contains("flicker")) r.flicker = j["flicker"].get<double>();
     if (j.contains("path_rmse")) r.pathRmse = j["path_rmse"].get<double>();
     return r;

@@ -15,6 +15,7 @@ namespace grisaille::app::study {
 
 // Errors against the truth of one camera, over the pixels that see a surface.
 struct CameraErrors {
+  std::string scene;   // name of the view's scene; "": the study's only one
   std::string camera;  // name of the view
   double rmse = 0, meanAbsolute = 0, bias = 0, percentile99 = 0, ssim = 0;
 
@@ -31,16 +32,23 @@ struct Record {
   std::string machine, commit;
   std::string command;               // command line that renders the picture of the first camera
   std::vector<CameraErrors> errors;  // one per camera; empty: not measured yet
-  std::vector<double> milliseconds;  // cost of the effects, mean of the cameras; one per round
+  // Cost of the effects: for each round, one value per camera.
+  std::vector<std::vector<double>> milliseconds;
   // trace::Flicker's rms and error along the study's camera path; none: no path, or not measured
   // yet.
   std::optional<double> flicker, pathRmse;
 
   bool operator==(const Record&) const = default;
 
-  double rmse() const;    // mean of the cameras
-  double cost() const;    // median, milliseconds; 0: not measured yet
-  double spread() const;  // distance of the first and third quartile, milliseconds
+  // The share of each camera in a mean, one per element of `errors`: every scene has the same
+  // share, and every camera of a scene. The sum is 1.
+  std::vector<double> shares() const;
+
+  double rmse() const;  // mean by shares()
+  double cost()
+      const;  // median of the rounds' means by shares(), milliseconds; 0: not measured yet
+  double spread() const;  // distance of those means' first and third quartile, milliseconds
+  double costOf(size_t camera) const;  // median of the rounds, milliseconds; 0: not measured yet
 };
 
 // DIR/records/<hash of study, setting, backend>.json

@@ -73,11 +73,13 @@ std::string plotScript(const fs::path& folder, std::span<const Record> records) 
   return script;
 }
 
-// The mean errors over a record's cameras.
+// The mean errors over a record's cameras, by Record::shares().
 CameraErrors meanOf(const Record& r) {
   CameraErrors mean;
-  for (const CameraErrors& e : r.errors) {
-    const double share = 1 / static_cast<double>(r.errors.size());
+  const std::vector<double> shares = r.shares();
+  for (size_t i = 0; i < r.errors.size(); ++i) {
+    const CameraErrors& e = r.errors[i];
+    const double share = shares[i];
     mean.rmse += share * e.rmse;
     mean.meanAbsolute += share * e.meanAbsolute;
     mean.bias += share * e.bias;
@@ -99,11 +101,16 @@ std::vector<std::string> parametersOf(std::span<const Record> records) {
   return names;
 }
 
+// "SCENE/CAMERA"; "CAMERA" in a study of one scene.
+std::string placeOf(const CameraErrors& e) {
+  return e.scene.empty() ? e.camera : e.scene + "/" + e.camera;
+}
+
 std::vector<std::string> camerasOf(std::span<const Record> records) {
   std::vector<std::string> names;
   for (const Record& r : records) {
     for (const CameraErrors& e : r.errors) {
-      if (std::ranges::find(names, e.camera) == names.end()) names.push_back(e.camera);
+      if (std::ranges::find(names, placeOf(e)) == names.end()) names.push_back(placeOf(e));
     }
   }
   return names;
@@ -120,6 +127,7 @@ std::string csvOf(std::span<const Record> records) {
   csv += ",milliseconds,spread,rounds,rmse,mean_absolute,bias,percentile_99,ssim,flicker,path_rmse";
   const std::vector<std::string> cameras = camerasOf(records);
   for (const std::string& camera : cameras) csv += ",rmse of " + camera;
+  for (const std::string& camera : cameras) csv += ",milliseconds of " + camera;
   csv += ",commit\n";
   for (const Record& r : records) {
     csv += fmt::format("{},\"{}\",{}", r.backend, r.device, r.clock);
@@ -132,10 +140,15 @@ std::string csvOf(std::span<const Record> records) {
     csv += fmt::format(",{:.4f},{:.4f},{},{},{},{},{},{},{},{}", r.cost(), r.spread(),
                        r.milliseconds.size(), mean.rmse, mean.meanAbsolute, mean.bias,
                        mean.percentile99, mean.ssim, textOf(r.flicker), textOf(r.pathRmse));
-    for (const std::string& camera : cameras) {
-      const auto own = std::ranges::find(r.errors, camera, &CameraErrors::camera);
-      csv += "," + (own == r.errors.end() ? std::string() : fmt::format("{}", own->rmse));
-    }
+    const auto addCameras = [&](const auto& valueOf) {
+      for (const std::string& camera : cameras) {
+        const auto own = std::ranges::find(r.errors, camera, placeOf);
+        csv += ",";
+        if (own != r.errors.end()) csv += valueOf(static_cast<size_t>(own - r.errors.begin()));
+      }
+    };
+    addCameras([&](size_t i) { return fmt::format("{}", r.errors[i].rmse); });
+    addCameras([&](size_t i) { return fmt::format("{:.4f}", r.costOf(i)); });
     csv += "," + r.commit + "\n";
   }
   return csv;

@@ -1,7 +1,9 @@
 // SPDX-License-Identifier: MIT
 #include "app/study/study.h"
 
+#include <algorithm>
 #include <cmath>
+#include <iterator>
 
 #include "app/study/flicker_run.h"
 #include "app/truth/error_map.h"
@@ -23,13 +25,16 @@ fs::path truthPictureOf(const fs::path& folder) {
 }
 
 Study::Study(const StudyDesc& desc, gpu::Device& device, std::vector<Setting> settings)
-    : desc_(desc), measurer_(desc.subject, device) {
+    : desc_(desc) {
+  for (const Subject* subject : desc.subjects) {
+    measurers_.push_back(std::make_unique<Measurer>(*subject, device));
+  }
   const gpu::DeviceInfo& info = device.info();
   for (Setting& setting : settings) {
     Job job;
     Record& r = job.record;
     r.study = desc.key;
-    r.setting = textOf(*desc.subject.registry, setting);
+    r.setting = textOf(*desc.subjects.front()->registry, setting);
     job.setting = std::move(setting);
     r.backend = info.backend;
     if (auto known = load(fileOf(desc.folder, r)); known && known->study == desc.key) {
@@ -47,7 +52,7 @@ Study::Study(const StudyDesc& desc, gpu::Device& device, std::vector<Setting> se
 }
 
 void Study::writePictures(const Record& record, const View& view, const image::Image& shown) {
-  if (&view != &desc_.subject.views.front()) return;
+  if (&view != &desc_.subjects.front()->views.front()) return;
   std::error_code failed;
   fs::create_directories(desc_.folder / "pictures", failed);
   image::write(shown, pictureOf(desc_.folder, record).string());
@@ -59,13 +64,22 @@ void Study::writePictures(const Record& record, const View& view, const image::I
   image::write(truth, truthPictureOf(desc_.folder).string());
 }
 
+effect::Chain& Study::started(Job& job) {
+  if (!job.chain) job.chain = measurers_.front()->start(job.setting);
+  return *job.chain;
+}
+
 void Study::measureErrors(Job& job) {
-  job.chain = measurer_.start(job.setting);
+  const auto seen = [&](const View& view, const image::Image& shown) {
+    writePictures(job.record, view, shown);
+  };
   try {
-    job.record.errors =
-        measurer_.errors(*job.chain, [&](const View& view, const image::Image& shown) {
-          writePictures(job.record, view, shown);
-        });
+    std::vector<CameraErrors> all;
+    for (const auto& measurer : measurers_) {
+      measurer->apply(job.setting, started(job));
+      std::ranges::move(measurer->errors(*job.chain, seen), std::back_inserter(all));
+    }
+    job.record.errors = std::move(all);
   } catch (const Error& error) {
     throw Error(error.id(), "{}: {}", nameOf(job.record.setting), error.detail());
   }
@@ -73,20 +87,26 @@ void Study::measureErrors(Job& job) {
 }
 
 void Study::measureFlicker(Job& job) {
-  if (!job.chain) job.chain = measurer_.start(job.setting);
-  const trace::Flicker along = flickerAlong(
-      *desc_.path, [&](const scene::Camera& camera) { return measurer_.show(*job.chain, camera); });
+  measurers_.front()->apply(job.setting, started(job));
+  const trace::Flicker along = flickerAlong(*desc_.path, [&](const scene::Camera& camera) {
+    return measurers_.front()->show(*job.chain, camera);
+  });
   job.record.flicker = along.rms;
   job.record.pathRmse = along.error;
   save(desc_.folder, job.record);
 }
 
 void Study::measureCost(Job& job) {
-  if (!job.chain) {
-    job.chain = measurer_.start(job.setting);
-    measurer_.cost(*job.chain);  // creates the pipelines, outside the measurement
-  }
-  job.record.milliseconds.push_back(measurer_.cost(*job.chain));
+  const auto measured = [&] {
+    std::vector<double> round;
+    for (const auto& measurer : measurers_) {
+      measurer->apply(job.setting, started(job));
+      std::ranges::copy(measurer->costs(*job.chain), std::back_inserter(round));
+    }
+    return round;
+  };
+  if (!job.chain) measured();  // creates the pipelines, outside the measurement
+  job.record.milliseconds.push_back(measured());
   save(desc_.folder, job.record);
 }
 

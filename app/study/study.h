@@ -17,18 +17,22 @@
 namespace grisaille::app::study {
 
 struct StudyDesc {
-  Subject subject;
-  // The frames of a camera path; the study fills in their `ao`. Null: flicker is not measured.
+  // One per scene; all have the same registry, effects, output and size.
+  std::vector<const Subject*> subjects;
+  // The frames of a camera path through the first scene; the study fills in their `ao`. Null:
+  // flicker is not measured.
   std::vector<trace::FlickerFrame>* path = nullptr;
   std::string key;  // everything that results depend on except setting and backend
   std::string machine, commit;
   uint32_t rounds = 5;
   std::filesystem::path folder;
-  // Returns the command line that renders a setting's picture from the first camera.
+  // Returns the command line that renders a setting's picture from the first camera of the first
+  // scene.
   std::function<std::string(const SettingText&, const std::string& backend)> commandOf;
 };
 
-// Receives the progress: steps done, of all steps. A step renders all views, or the camera path.
+// Receives the progress: steps done, of all steps. A step renders all views of all scenes, or the
+// camera path.
 using Told = std::function<void(size_t done, size_t all)>;
 
 class Study {
@@ -53,8 +57,11 @@ class Study {
   void measureCost(Job& job);
   void writePictures(const Record& record, const View& view, const image::Image& shown);
 
+  // Starts the job's chain, unless it is started.
+  effect::Chain& started(Job& job);
+
   const StudyDesc& desc_;
-  Measurer measurer_;
+  std::vector<std::unique_ptr<Measurer>> measurers_;  // one per scene
   std::vector<Job> jobs_;
 };
 

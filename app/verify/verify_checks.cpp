@@ -28,7 +28,7 @@ constexpr glm::uvec2 kSize(96, 54);
 constexpr glm::uvec2 kSizes[] = {{1, 1}, {33, 17}, {7, 129}, {257, 3}, {64, 64}, {96, 54}};
 
 // Number of random settings, and the picture size to render them at.
-constexpr uint32_t kRandomVectors = 20;
+constexpr uint32_t kRandomVectors = 12;
 constexpr glm::uvec2 kRandomSize(33, 21);
 
 // A random value of a parameter: half the time from its soft range, else from its hard range on a

@@ -4,20 +4,22 @@
 #include <filesystem>
 #include <sstream>
 
+#include "app/settings/toml_table.h"
 #include "app/settings/toml_values.h"
 #include "app/study/flicker_run.h"
+#include "app/study/gallery.h"
 #include "core/base/error.h"
 #include "core/frame/renderer.h"
 #include "core/objects/object_file.h"
 #include "core/scene/camera_path.h"
 #include "lab/claims/claims.h"
 #include "lab/claims/metrics.h"
-#include "lab/claims/toml_table.h"
 
 namespace grisaille::lab::claims {
 namespace {
 
 namespace fs = std::filesystem;
+using app::TomlTable;
 
 constexpr uint32_t kMostShots = 65536;
 constexpr uint32_t kLargestSide = 4096;  // pixels
@@ -223,15 +225,6 @@ void addExpectations(TomlTable& table, Claim& claim, bool alongPath) {
   }
 }
 
-// The scene file beside the claims file or, if there is none, in the folder `scenes`.
-std::string sceneFile(const std::string& claims, const std::string& scene,
-                      const std::string& scenes) {
-  const fs::path beside = fs::path(claims).parent_path() / scene;
-  std::error_code failed;
-  if (scenes.empty() || fs::exists(beside, failed)) return beside.string();
-  return (fs::path(scenes) / scene).string();
-}
-
 Claim claimOf(TomlTable& table, const effect::Registry& registry, const std::string& scenes) {
   Claim claim;
   claim.place = table.place();
@@ -241,7 +234,7 @@ Claim claimOf(TomlTable& table, const effect::Registry& registry, const std::str
   claim.source = table.text("source");
   claim.note = table.text("note", "");
   const std::string scene = table.text("scene", "");
-  if (!scene.empty()) claim.scene = sceneFile(table.file(), scene, scenes);
+  if (!scene.empty()) claim.scene = app::study::sceneFile(table.file(), scene, scenes);
   claim.optional = table.flag("optional", false);
   claim.floor = table.flag("floor", false);
   if (const std::vector<double> size = table.numbers("size", 2); !size.empty()) {

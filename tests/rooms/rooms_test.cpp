@@ -193,6 +193,7 @@ constexpr Example kExamples[] = {
     {"core/effect/include/grisaille/effect.hpp", "a key: \"ssao\""},
     {"app/report/timings.h", "A pass labelled \"ssao/blur\" has the"},
     {"app/report/timings.h", "effect \"ssao\" and the pass"},
+    {"app/study/gallery.h", "//   set = [\"ssao.radius=0.3\"]"},
     {"app/study/sweep.h", "Parses \"ssao.kernel_size=4,8,16\""},
     {"app/viewer/history.h", "`what` names the step: \"ssao.radius\""},
     {"app/settings/settings.h", "//   effects = [\"ssao\"]"},

@@ -18,8 +18,8 @@ Record record(const std::string& backend, double cost, double error, const std::
   r.study = "scene 1\nsize 8x8\n";
   r.backend = backend;
   r.setting = {{{"ssao", "kernel_size"}, value}};
-  r.errors = {{"one", error, 0, 0, 0, 1}};
-  r.milliseconds = {cost};
+  r.errors = {{"", "one", error, 0, 0, 0, 1}};
+  r.milliseconds = {{cost}};
   return r;
 }
 
@@ -50,6 +50,26 @@ TEST(Presets, EachCostsAtMostItsShareOfTheNext) {
   // Without cheap settings, the presets are spread evenly.
   front = {{40, 0.9}, {45, 0.8}, {50, 0.7}, {60, 0.6}, {100, 0.5}};
   EXPECT_EQ(presetsOn(front), (std::vector<size_t>{0, 1, 3, 4}));
+}
+
+TEST(Presets, NoCameraPaysMoreForLess) {
+  std::vector<Price> front;
+  std::vector<std::vector<double>> errors;
+  for (int i = 0; i <= 10; ++i) {
+    front.push_back({std::exp2(i), 1 - 0.05 * i});
+    errors.push_back({front.back().error, front.back().error});
+  }
+  EXPECT_EQ(presetsOn(front, errors), (std::vector<size_t>{6, 7, 8, 10}));
+  // Point 8 errs far less at one camera than the dearest: another takes its place as `fine`.
+  errors[8][1] = 0.1;
+  EXPECT_EQ(presetsOn(front, errors), (std::vector<size_t>{5, 6, 7, 10}));
+  // Within the margin it may.
+  errors[8][1] = 0.5 - 0.9 * kMostLoss;
+  EXPECT_EQ(presetsOn(front, errors), (std::vector<size_t>{6, 7, 8, 10}));
+  // If every point does, the one with the least loss is chosen.
+  for (size_t i = 0; i < 10; ++i)
+    errors[i][0] = i == 5 ? 0.4 : 0.3 + 0.001 * static_cast<double>(i);
+  EXPECT_EQ(presetsOn(front, errors)[2], 5u);
 }
 
 TEST(Presets, WhatErrsHardlyLessIsNotWorthItsPrice) {

@@ -27,6 +27,18 @@ struct Row {
   double ofFirst = 0;  // RMSE with the first camera
 };
 
+// The errors of a camera from a column "rmse of SCENE/CAMERA" or "rmse of CAMERA".
+CameraErrors errorsOf(const std::string& column, const std::string& value) {
+  const std::string place = column.substr(std::string("rmse of ").size());
+  const size_t slash = place.find('/');
+  CameraErrors errors = {.scene = {}, .camera = place, .rmse = std::stod(value)};
+  if (slash != std::string::npos) {
+    errors.scene = place.substr(0, slash);
+    errors.camera = place.substr(slash + 1);
+  }
+  return errors;
+}
+
 // Reads the results.csv of a study.
 std::vector<Row> readStudy(const fs::path& file) {
   std::istringstream text(readFile(file));
@@ -58,13 +70,16 @@ std::vector<Row> readStudy(const fs::path& file) {
       if (names[i].find('.') != std::string::npos && !values[i].empty()) {
         row.record.setting.push_back({effect::parseParameterName(names[i]), values[i]});
       }
-      if (row.ofFirst == 0 && names[i].rfind("rmse of ", 0) == 0)
-        row.ofFirst = std::stod(values[i]);
+      if (names[i].starts_with("rmse of ")) {
+        row.record.errors.push_back(errorsOf(names[i], values[i]));
+      }
     }
-    row.record.study = "size 640x360\n";
+    row.record.study = "size 1x1\n";
     row.record.backend = all.at("backend");
-    row.record.milliseconds = {std::stod(all.at("milliseconds"))};
-    row.record.errors = {{"mean", std::stod(all.at("rmse")), 0, 0, 0, 1}};
+    row.record.milliseconds = {
+        std::vector<double>(row.record.errors.size(), std::stod(all.at("milliseconds")))};
+    row.ofFirst = row.record.errors.front().rmse;
+    EXPECT_NEAR(row.record.rmse(), std::stod(all.at("rmse")), 1e-9);
     rows.push_back(row);
   }
   return rows;
@@ -148,25 +163,27 @@ class Study : public testing::Test {
   }
 
   const TemporaryFolder folder_;
-  const std::string view_ =
-      " --size 640x360 --camera " + (kSource / "studies/cameras/atrium.json").string();
+  std::string view_ =
+      " --camera " + (kSource / "studies/cameras/atrium.json").string() + " --size ";
 };
 
 // Fails if the effect has changed since the study.
 TEST_F(Study, OfSsaoIsStillTrue) {
+  view_ += "640x360";
   const image::Image right = truth("ao", " --samples 128 --write ao_error=e.exr");
   const image::Image noise = image::read(folder_ / "e.exr");
   expectErrors("ssao", "ao", 10, "", right, &noise);
 }
 
 TEST_F(Study, OfSspmIsStillTrue) {
+  view_ += "640x360";
   const std::string shots = (kSource / "studies/shots/atrium.json").string();
   truth("ao", " --samples 16");  // writes the depth
   const tests::Outcome mask = tests::runShell(
       "grisaille-lab paint-mask --load " + shots + " --write m.exr" + view_, folder_.path());
   ASSERT_EQ(mask.status, 0) << mask.err;
   const image::Image right = image::read(folder_ / "m.exr");
-  expectErrors("sspm", "paint", 3, " --effects sspm --set sspm.edge_fade=0 --load sspm=" + shots,
+  expectErrors("sspm", "paint", 2, " --effects sspm --set sspm.edge_fade=0 --load sspm=" + shots,
                right, nullptr);
 }
 

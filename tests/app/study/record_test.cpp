@@ -18,8 +18,8 @@ Record record(double cost, double error, const std::string& value = "1") {
   r.study = "study";
   r.backend = "null";
   r.setting = {{{"ssao", "radius"}, value}};
-  r.errors = {{"one", error, 0.25, -0.125, 1.0 / 3, 0.9}};
-  r.milliseconds = {cost};
+  r.errors = {{"", "one", error, 0.25, -0.125, 1.0 / 3, 0.9}};
+  r.milliseconds = {{cost}};
   return r;
 }
 
@@ -28,7 +28,7 @@ TEST(RecordTest, ComesBackBitForBit) {
   Record r = record(0.1, 1.0 / 3, "0.3");
   r.device = "a \"device\"";
   r.command = "grisaille render 'x'";
-  r.milliseconds = {0.1, 1e-300, 3};
+  r.milliseconds = {{0.1}, {1e-300}, {3}};
   r.flicker = 1.0 / 7;
   r.pathRmse = 1.0 / 11;
   save(folder.path(), r);
@@ -42,14 +42,39 @@ TEST(RecordTest, ComesBackBitForBit) {
 
 TEST(RecordTest, CostIsTheMedianAndItsSpreadTheQuartiles) {
   Record r = record(0, 0.5);
-  r.milliseconds = {5, 1, 100, 2, 3};
+  r.milliseconds = {{5}, {1}, {100}, {2}, {3}};
   EXPECT_EQ(r.cost(), 3);
   EXPECT_EQ(r.spread(), 3);
-  r.milliseconds = {1, 2};
+  r.milliseconds = {{1}, {2}};
   EXPECT_EQ(r.cost(), 1.5);
   r.errors.push_back(r.errors[0]);
   r.errors[1].rmse = 0.25;
   EXPECT_EQ(r.rmse(), 0.375);
+}
+
+// A scene with many cameras weighs no more than one with few.
+TEST(RecordTest, EveryScenesShareIsTheSame) {
+  Record r = record(0, 0.6);
+  r.errors[0].scene = "a";
+  r.errors.push_back(r.errors[0]);
+  r.errors[0].scene = "b";
+  r.errors.push_back(r.errors[1]);
+  r.errors[1].rmse = 0.1;
+  r.errors[2].rmse = 0.3;
+  EXPECT_EQ(r.shares(), (std::vector<double>{0.5, 0.25, 0.25}));
+  EXPECT_DOUBLE_EQ(r.rmse(), 0.4);
+  r.milliseconds = {{8, 4, 4}, {2, 8, 16}, {10, 12, 14}};
+  EXPECT_DOUBLE_EQ(r.cost(), 7);
+  EXPECT_DOUBLE_EQ(r.costOf(0), 8);
+  EXPECT_DOUBLE_EQ(r.costOf(2), 14);
+}
+
+TEST(RecordTest, ARoundOfOtherCamerasIsDamage) {
+  const tests::TemporaryFolder folder;
+  Record r = record(1, 0.5);
+  r.milliseconds.push_back({1, 2});
+  save(folder.path(), r);
+  EXPECT_ERROR(ErrorId::kStudyRecord, load(fileOf(folder.path(), r)));
 }
 
 TEST(ParetoFront, HoldsAllThatNothingBeats) {

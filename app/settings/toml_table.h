@@ -9,7 +9,7 @@
 #include <string_view>
 #include <vector>
 
-namespace grisaille::lab::claims {
+namespace grisaille::app {
 
 class TomlTable {
  public:
@@ -50,4 +50,4 @@ class TomlTable {
   std::vector<std::string> known_;
 };
 
-}  // namespace grisaille::lab::claims
+}  // namespace grisaille::app

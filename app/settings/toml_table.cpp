@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: MIT
-#include "lab/claims/toml_table.h"
+#include "app/settings/toml_table.h"
 
 #include <fmt/format.h>
 
@@ -9,7 +9,7 @@
 #include "core/base/error.h"
 #include "core/base/nearest.h"
 
-namespace grisaille::lab::claims {
+namespace grisaille::app {
 namespace {
 
 // The node's number; NaN if it is not a number.
@@ -128,4 +128,4 @@ void TomlTable::finish() const {
   }
 }
 
-}  // namespace grisaille::lab::claims
+}  // namespace grisaille::app
