@@ -85,7 +85,7 @@ TEST_F(Numbers, MeasureTakesItsSceneAsOthersDo) {
   for (const std::string command : {"render", "truth", "tune", "measure", "scene", "view"}) {
     const std::string help = runProgram({command, "--help"}, folder_.path()).out;
     EXPECT_NE(help.find("[scene]"), std::string::npos) << help;
-    EXPECT_EQ(help.find("--scene"), std::string::npos) << help;
+    EXPECT_EQ(help.find("--scene "), std::string::npos) << help;
   }
   const Outcome scene = runShell("grisaille scene --write a.glb", folder_.path());
   ASSERT_EQ(scene.status, 0) << scene.err;

@@ -9,19 +9,21 @@
 namespace grisaille::tests {
 namespace {
 
+constexpr const char* kRays = "16";  // a pixel; the least
+
 class TruthTest : public WindowTest {
  protected:
   std::vector<std::string> arguments() const {
     return {"--backend",       GetParam(),     "--size", kWindow,
             "--effects",       "ssao",         "--set",  "ssao.kernel_size=6",
-            "--compare-truth", "--truth-rays", "24"};
+            "--compare-truth", "--truth-rays", kRays};
   }
   std::vector<std::string> environment() const { return {"XDG_CACHE_HOME=" + (folder_ / "cache")}; }
 
   // RMS error of the displayed view, computed from files.
   double expectedRmse(const DrivenViewer& viewer, const image::Image& shown) {
     std::vector<std::string> command = {"truth",         "--radius", viewer.value("truth radius"),
-                                        "--samples",     "24",       "--no-cache",
+                                        "--samples",     kRays,      "--no-cache",
                                         "--write",       "ao=t.exr", "--write",
                                         "ao_error=e.exr"};
     const auto more = view(viewer);
