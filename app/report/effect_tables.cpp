@@ -123,11 +123,8 @@ nlohmann::ordered_json jsonOf(const effect::Effect& effect, const grisaille_para
     json["scale"] = (param.flags & GRISAILLE_PARAM_LOG) != 0 ? "log" : "linear";
     json["scene_length"] = (param.flags & GRISAILLE_PARAM_SCENE_LENGTH) != 0;
   }
-  if (param.used_when_key != nullptr) {
-    const auto other = std::ranges::find(effect.params(), std::string_view(param.used_when_key),
-                                         &grisaille_param_desc::key);
-    json["used_when"] = {{"parameter", other->key},
-                         {"value", effect::textOf(*other, param.used_when_value)}};
+  if (const auto condition = effect::usedWhen(effect, param)) {
+    json["used_when"] = {{"parameter", condition->first}, {"value", condition->second}};
   }
   return json;
 }

@@ -7,6 +7,7 @@
 
 #include "app/settings/toml_values.h"
 #include "core/base/error.h"
+#include "core/effect/parameter_name.h"
 
 namespace grisaille::app {
 namespace {
@@ -53,10 +54,7 @@ const Preset& Presets::find(const std::string& effect, const std::string& name) 
 }
 
 bool isPresetName(std::string_view name) {
-  const auto small = [](char c) { return c >= 'a' && c <= 'z'; };
-  return !name.empty() && small(name.front()) && name != "study" &&
-         std::ranges::all_of(
-             name, [&](char c) { return small(c) || (c >= '0' && c <= '9') || c == '_'; });
+  return effect::isKey(name) && name != "study";
 }
 
 std::filesystem::path presetsFile(const effect::Effect& effect) {

@@ -2,6 +2,7 @@
 // The name of a parameter on the command line, in files and in reports: "ssao.radius".
 #pragma once
 
+#include <algorithm>
 #include <compare>
 #include <string>
 #include <string_view>
@@ -9,6 +10,16 @@
 #include "core/base/error.h"
 
 namespace grisaille::effect {
+
+inline bool isKeyLetter(char c) {
+  return (c >= 'a' && c <= 'z') || (c >= '0' && c <= '9') || c == '_';
+}
+
+// Whether the text is a key: a-z, 0-9, _, beginning with a-z.
+inline bool isKey(std::string_view text) {
+  return !text.empty() && text.front() >= 'a' && text.front() <= 'z' &&
+         std::ranges::all_of(text, isKeyLetter);
+}
 
 struct ParameterName {
   std::string effect, key;

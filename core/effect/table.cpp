@@ -7,6 +7,7 @@
 #include <string_view>
 
 #include "core/base/utf8.h"
+#include "core/effect/parameter_name.h"
 #include "core/effect/registry.h"
 #include "core/effect/struct_version.h"
 #include "core/objects/object.h"
@@ -71,18 +72,10 @@ void checkLine(const std::string& field, const char* text) {
   }
 }
 
-bool isSmallLetter(char c) {
-  return c >= 'a' && c <= 'z';
-}
-bool isKeyLetter(char c) {
-  return isSmallLetter(c) || (c >= '0' && c <= '9') || c == '_';
-}
-
 void checkKey(const std::string& field, const char* key) {
   checkLine(field, key);
-  const std::string_view text = key;
-  if (!isSmallLetter(text.front()) || !std::ranges::all_of(text, isKeyLetter)) {
-    refuse(field, "is \"{}\", must be of a-z, 0-9, _ and begin with a letter", oneLine(text));
+  if (!isKey(key)) {
+    refuse(field, "is \"{}\", must be of a-z, 0-9, _ and begin with a letter", oneLine(key));
   }
 }
 

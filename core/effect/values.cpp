@@ -100,12 +100,18 @@ std::string textOf(const grisaille_param_desc& param, double value) {
   }
 }
 
-std::string usedWhenText(const Effect& effect, const grisaille_param_desc& param) {
-  if (param.used_when_key == nullptr) return "";
+std::optional<std::pair<std::string, std::string>> usedWhen(const Effect& effect,
+                                                            const grisaille_param_desc& param) {
+  if (param.used_when_key == nullptr) return std::nullopt;
   const auto params = effect.params();
   const auto other =
       std::ranges::find(params, std::string_view(param.used_when_key), &grisaille_param_desc::key);
-  return fmt::format("{} = {}", other->key, textOf(*other, param.used_when_value));
+  return std::pair(other->key, textOf(*other, param.used_when_value));
+}
+
+std::string usedWhenText(const Effect& effect, const grisaille_param_desc& param) {
+  const auto condition = usedWhen(effect, param);
+  return condition ? condition->first + " = " + condition->second : "";
 }
 
 Values::Values(const Effect& effect) : effect_(effect) {

@@ -3,9 +3,11 @@
 // parameter that nobody has set has its default: the table's, or the one that fit() chose.
 #pragma once
 
+#include <optional>
 #include <span>
 #include <string>
 #include <string_view>
+#include <utility>
 #include <vector>
 
 #include "core/effect/registry.h"
@@ -15,7 +17,11 @@ namespace grisaille::effect {
 // A valid value of the parameter, in the form that Values::set() reads back without loss.
 std::string textOf(const grisaille_param_desc& param, double value);
 
-// "estimator = classic" for a parameter of `effect` that is used only then; "": it is always used.
+// Another parameter of the effect, and the only value of it (see textOf()) with which `param` is
+// used; none: it is always used.
+std::optional<std::pair<std::string, std::string>> usedWhen(const Effect& effect,
+                                                            const grisaille_param_desc& param);
+// "estimator = classic", or "".
 std::string usedWhenText(const Effect& effect, const grisaille_param_desc& param);
 
 class Values {

@@ -25,7 +25,7 @@ GRISAILLE_CHECK_BLOCK_tutorial_inputs_Inputs(InputsBlock);
 struct TutorialBlock {
   glm::mat4 projection;
   std::array<glm::vec4, 64> kernel;
-  glm::vec4 repeats;
+  glm::vec4 repeats_lengths;
 };
 GRISAILLE_CHECK_BLOCK_tutorial_occlusion_Tutorial(TutorialBlock);
 
@@ -139,13 +139,14 @@ TutorialSsao::Inputs TutorialSsao::makeInputs(gpu::Commands& commands, gpu::Text
 
 gpu::Texture TutorialSsao::record(gpu::Commands& commands, gpu::Texture position,
                                   gpu::Texture normal, const glm::mat4& projection, uint32_t width,
-                                  uint32_t height) {
+                                  uint32_t height, double radius) {
   glm::mat4 downwards = projection;
   for (int column = 0; column < 4; ++column) downwards[column][1] = -projection[column][1];
   const TutorialBlock block = {
       .projection = downwards,
       .kernel = kernel_,
-      .repeats = glm::vec4(glm::vec2(width, height) / static_cast<float>(kNoiseSize), 0, 0)};
+      .repeats_lengths = glm::vec4(glm::vec2(width, height) / static_cast<float>(kNoiseSize),
+                                   radius, radius / 20)};
   const std::array bindings = {gpu::uniformBinding(0, uniformOf(commands, block)),
                                gpu::textureBinding(0, {.texture = position}, clamped_),
                                gpu::textureBinding(1, {.texture = normal}, clamped_),

@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: MIT
 // The benchmarks' baseline: ambient occlusion as tutorials teach it, on the project's GPU layer. A
-// fragment pass takes 64 taps over view-space positions and normals in 16-bit floats, with radius
-// 0.5 m and bias 0.025 m. A 4 x 4 box blur follows.
+// fragment pass takes 64 taps over view-space positions and normals in 16-bit floats, with a bias
+// of a twentieth of the radius. A 4 x 4 box blur follows.
 #pragma once
 
 #include <array>
@@ -35,9 +35,10 @@ class TutorialSsao {
                     uint32_t height);
 
   // Passes "tutorial_occlusion" and "tutorial_blur". Returns an r8 texture (1: open), which stays
-  // valid until a later frame records another size. Record one size per frame.
+  // valid until a later frame records another size. Record one size per frame. `radius`: metres.
   gpu::Texture record(gpu::Commands& commands, gpu::Texture position, gpu::Texture normal,
-                      const glm::mat4& projection, uint32_t width, uint32_t height);
+                      const glm::mat4& projection, uint32_t width, uint32_t height,
+                      double radius = 0.5);
 
  private:
   gpu::GraphicsPipeline pipeline(std::string_view label, const gpu::Shader& fragment,
