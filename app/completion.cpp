@@ -10,14 +10,19 @@
 #include "app/settings/load_effects.h"
 #include "app/settings/presets.h"
 #include "core/base/error.h"
+#include "core/scene/built_in.h"
 
 namespace grisaille::app {
 namespace {
 
+// The names of its options and, if it takes a scene, of the built-in scenes.
 std::string optionNames(const CLI::App& command) {
   std::string names;
   for (const CLI::Option* option : command.get_options()) {
     if (option->nonpositional()) names += fmt::format(" {}", option->get_name());
+  }
+  if (command.get_option_no_throw("scene") != nullptr) {
+    for (const scene::BuiltIn& one : scene::builtIns()) names += fmt::format(" {}", one.name);
   }
   return names;
 }

@@ -9,6 +9,7 @@
 #include "app/options/driver_messages.h"
 #include "app/options/option_checks.h"
 #include "app/options/output_file.h"
+#include "app/options/scene_options.h"
 #include "app/options/start_device.h"
 #include "app/options/subject_options.h"
 #include "app/report/machine.h"
@@ -215,8 +216,7 @@ void addMeasure(CLI::App& program) {
   auto options = std::make_shared<MeasureOptions>();
   CLI::App* command = program.add_subcommand(
       "measure", "Measure the cost of settings and their error against ray-traced truth");
-  command->add_option("scene", options->subject.scene,
-                      "A .gltf or .glb file; default: the built-in atrium");
+  command->add_option("scene", options->subject.scene, sceneHelp());
   command
       ->add_option("--sweep", options->sweeps,
                    "A parameter and the values to measure; several --sweep span a grid")

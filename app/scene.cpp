@@ -58,8 +58,7 @@ void addScene(CLI::App& program) {
   auto options = std::make_shared<SceneCommand>();
   CLI::App* command =
       program.add_subcommand("scene", "Print the contents of a scene; write the scene or a camera");
-  command->add_option("scene", options->scene,
-                      "A .gltf or .glb file; default: the built-in atrium");
+  command->add_option("scene", options->scene, sceneHelp());
   options->pose.addTo(*command);
   command
       ->add_option("--write", options->write,

@@ -11,6 +11,7 @@
 #include "app/options/camera_option.h"
 #include "app/options/driver_messages.h"
 #include "app/options/option_checks.h"
+#include "app/options/scene_options.h"
 #include "app/options/subject_options.h"
 #include "app/settings/load_effects.h"
 #include "app/settings/presets.h"
@@ -329,8 +330,7 @@ void addTune(CLI::App& program) {
   auto options = std::make_shared<TuneOptions>();
   CLI::App* command = program.add_subcommand(
       "tune", "Find the cheapest setting within an error, or the best setting within a budget");
-  command->add_option("scene", options->subject.scene,
-                      "A .gltf or .glb file; default: the built-in atrium");
+  command->add_option("scene", options->subject.scene, sceneHelp());
   command
       ->add_option("--max-error", options->maxError,
                    "Find the cheapest setting with at most this RMSE against the truth")

@@ -7,6 +7,7 @@
 #include "app/options/driver_messages.h"
 #include "app/options/option_checks.h"
 #include "app/options/output_file.h"
+#include "app/options/scene_options.h"
 #include "app/options/size.h"
 #include "app/viewer/viewer.h"
 #include "core/image/image.h"
@@ -25,7 +26,7 @@ void addView(CLI::App& program) {
   viewer::SessionOptions& session = options->session;
   CLI::App* command =
       program.add_subcommand("view", "View a scene in a window: move, tune effects, place objects");
-  command->add_option("scene", session.scene, "A .gltf or .glb file; default: the built-in atrium");
+  command->add_option("scene", session.scene, sceneHelp());
   command->add_option("--camera", session.camera,
                       "A camera file or its JSON; default: a view of the scene");
   session.pose.addTo(*command);

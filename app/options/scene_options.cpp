@@ -5,11 +5,17 @@
 
 #include "app/options/camera_option.h"
 #include "app/options/size.h"
+#include "core/scene/built_in.h"
 
 namespace grisaille::app {
 
+std::string sceneHelp() {
+  return "A .gltf or .glb file, or a built-in scene: " + scene::builtInNames() +
+         "; default: " + scene::builtIns().front().name;
+}
+
 void SceneOptions::addTo(CLI::App& command) {
-  command.add_option("scene", scene, "A .gltf or .glb file; default: the built-in atrium");
+  command.add_option("scene", scene, sceneHelp());
   command
       .add_option("--camera", camera,
                   "A camera file (JSON with eye, target and fovy_degrees) or its JSON; default: "

@@ -14,6 +14,9 @@ namespace grisaille::app {
 
 constexpr glm::uvec2 kDefaultSize = glm::uvec2(1280, 720);  // of a picture, pixels
 
+// The help of an argument that names a scene.
+std::string sceneHelp();
+
 struct SceneOptions {
   std::string scene, camera, size;  // empty: not given
   PoseOptions pose;

@@ -10,6 +10,7 @@
 #include "app/settings/toml_table.h"
 #include "app/settings/toml_values.h"
 #include "core/base/error.h"
+#include "core/scene/built_in.h"
 
 namespace grisaille::app::study {
 namespace {
@@ -20,10 +21,9 @@ namespace fs = std::filesystem;
 std::optional<std::string> fileOf(TomlTable& table, const std::string& scenes) {
   const std::string file = table.text("file", "");
   const bool optional = table.flag("optional", false);
-  if (file.empty()) return file;
   const std::string path = sceneFile(table.file(), file, scenes);
   std::error_code failed;
-  if (fs::exists(path, failed)) return path;
+  if (scene::findBuiltIn(path) != nullptr || fs::exists(path, failed)) return path;
   if (optional) return std::nullopt;
   table.refuse(table.require("file"), fmt::format("there is no file '{}'", path));
 }
@@ -60,6 +60,7 @@ void requireDistinctNames(const std::string& path, const std::vector<GalleryScen
 
 std::string sceneFile(const std::string& beside, const std::string& scene,
                       const std::string& scenes) {
+  if (scene::findBuiltIn(scene) != nullptr) return scene;
   const fs::path own = fs::path(beside).parent_path() / scene;
   std::error_code failed;
   if (scenes.empty() || fs::exists(own, failed)) return own.string();

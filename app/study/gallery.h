@@ -3,8 +3,8 @@
 //
 //   [[scene]]
 //   name = "room"                    letters, digits, - and _; for reports
-//   file = "room.glb"                relative to the gallery file, or to --scenes; default: the
-//                                    built-in atrium
+//   file = "room.glb"                relative to the gallery file, or to --scenes; or the name of a
+//                                    built-in scene; default: the atrium
 //   optional = true                  leaves the scene out if there is no such file
 //   radius = 0.3                     metres: length of the truth's rays
 //   set = ["ssao.radius=0.3"]        values in all settings, same form as --set
@@ -18,14 +18,14 @@ namespace grisaille::app::study {
 
 struct GalleryScene {
   std::string name;
-  std::string scene;                 // a file; "": the built-in atrium
+  std::string scene;                 // as of scene::loadScene()
   double radius = 0.5;               // length of the truth's rays, metres
   std::vector<std::string> sets;     // "EFFECT.KEY=VALUE"
   std::vector<std::string> cameras;  // paths of camera files
 };
 
-// The scene file `scene` beside the file `beside` or, if there is none, in the folder `scenes` ("":
-// no such folder).
+// The built-in scene of the name `scene`, or else the file `scene` beside the file `beside` or, if
+// there is none, in the folder `scenes` ("": no such folder).
 std::string sceneFile(const std::string& beside, const std::string& scene,
                       const std::string& scenes);
 

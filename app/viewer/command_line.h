@@ -14,7 +14,7 @@
 namespace grisaille::app::viewer {
 
 struct RenderCommand {
-  std::string scene = {};              // path; "": the built-in scene
+  std::string scene = {};              // as of loadScene(); "": the default
   std::vector<std::string> pose = {};  // --animation and --time; empty: at rest
   scene::Camera camera = {};
   glm::uvec2 size = glm::uvec2(1280, 720);     // pixels

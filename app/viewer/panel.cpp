@@ -6,6 +6,10 @@
 
 #include <algorithm>
 #include <filesystem>
+#include <string>
+
+#include "app/viewer/scene_loading.h"
+#include "core/scene/built_in.h"
 
 namespace grisaille::app::viewer {
 namespace {
@@ -227,15 +231,18 @@ void Panel::drawCamera() {
 }
 
 void Panel::drawScene(const Status& status, Requests& requests) {
-  ImGui::TextWrapped("%s",
-                     session_.scenePath.empty() ? "built-in atrium" : session_.scenePath.c_str());
+  ImGui::TextWrapped("%s", sceneLabel(session_.scenePath).c_str());
   ImGui::BeginDisabled(status.loading.has_value());
   bool open = path("##scene", "scene path", scenePath_);
   ImGui::SameLine();
-  open |= button("Open", "open scene", "A .glb or .gltf file; or drop the file on the window");
+  open |= button("Open", "open scene",
+                 "A .glb or .gltf file, or a built-in scene; or drop a file on the window");
   if (open && !scenePath_.empty()) requests.scene = scenePath_;
-  if (ImGui::Selectable("built-in atrium")) requests.scene = "";
-  layout.note("scene.builtin");
+  for (const scene::BuiltIn& one : scene::builtIns()) {
+    if (ImGui::Selectable(sceneLabel(one.name).c_str())) requests.scene = one.name;
+    if (ImGui::IsItemHovered()) ImGui::SetTooltip("%s", one.about);
+    layout.note(std::string("scene.") + one.name);
+  }
   for (const std::string& recent : state_.recent) {
     if (ImGui::Selectable(recent.c_str())) requests.scene = recent;
     layout.note("recent." + recent);

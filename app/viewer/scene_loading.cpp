@@ -1,9 +1,18 @@
 // SPDX-License-Identifier: MIT
 #include "app/viewer/scene_loading.h"
 
+#include <fmt/format.h>
+
 #include <chrono>
 
+#include "core/scene/built_in.h"
+
 namespace grisaille::app::viewer {
+
+std::string sceneLabel(const std::string& path) {
+  const scene::BuiltIn* builtIn = scene::findBuiltIn(path);
+  return builtIn != nullptr ? fmt::format("built-in {}", builtIn->name) : path;
+}
 
 SceneLoading::~SceneLoading() {
   if (result_.valid()) result_.wait();

@@ -12,6 +12,9 @@
 
 namespace grisaille::app::viewer {
 
+// What the viewer calls the scene of a path: "built-in leaves", or the path itself.
+std::string sceneLabel(const std::string& path);
+
 class SceneLoading {
  public:
   ~SceneLoading();  // waits until the scene is read
@@ -20,11 +23,11 @@ class SceneLoading {
   double progress() const { return *progress_; }  // 0 ... 1
   const std::string& path() const { return path_; }
 
-  // Starts to read a scene; "": the built-in scene. Do not call while running().
+  // Starts to read a scene; "" and the name of a built-in scene stand for that. Do not call while running().
   void start(const std::string& path);
 
   // The scene, once; null while it is still being read or nothing was started. Throws the errors of
-  // scene::loadGltf().
+  // scene::loadScene().
   std::shared_ptr<scene::Scene> take();
 
  private:

@@ -15,6 +15,7 @@
 #include "core/base/atomic_file.h"
 #include "core/base/error.h"
 #include "core/base/regular_file.h"
+#include "core/scene/built_in.h"
 
 namespace grisaille::app::viewer {
 namespace {
@@ -109,7 +110,7 @@ std::string timeStamp() {
 }
 
 void ViewerState::noteRecent(const std::string& path) {
-  if (path.empty()) return;
+  if (scene::findBuiltIn(path) != nullptr) return;
   std::error_code failed;
   const std::string whole = fs::absolute(path, failed).lexically_normal().string();
   if (failed) return;  // the current folder does not exist

@@ -22,7 +22,7 @@ struct ViewerState {
   uint32_t width = 1600, height = 900;  // of the window, in screen units, 1 ... 16384
   double textScale = 1;                 // 0.5 ... 4
 
-  // Makes `path` the newest scene. Ignores "", the built-in scene.
+  // Makes `path` the newest scene. Ignores built-in scenes, "" among them.
   void noteRecent(const std::string& path);
 
   bool operator==(const ViewerState&) const = default;

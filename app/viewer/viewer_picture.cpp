@@ -157,7 +157,7 @@ Status Viewer::status() {
   status.waiting = stage_ ? stage_->waiting() : 0;
   if (loading_.running()) {
     status.loading = loading_.progress();
-    status.loadingPath = loading_.path().empty() ? "built-in atrium" : loading_.path();
+    status.loadingPath = sceneLabel(loading_.path());
   }
   status.truth = truthStatus();
   status.tune = tuning_;

@@ -3,10 +3,13 @@
 
 #include <fmt/format.h>
 
+#include <filesystem>
 #include <limits>
 
 #include "core/base/error.h"
+#include "core/base/nearest.h"
 #include "core/base/note.h"
+#include "core/scene/built_in.h"
 #include "core/scene/framing.h"
 
 namespace grisaille::scene {
@@ -88,8 +91,28 @@ uint64_t triangleCount(const Scene& scene) {
   return count;
 }
 
+namespace {
+
+// Suggests a built-in scene where a path without extension names no file: loadGltf() knows files
+// alone.
+void requireFileOrName(const std::string& path) {
+  std::error_code failed;
+  const std::filesystem::path file(path);
+  if (file.has_extension() || file.has_parent_path() || std::filesystem::exists(file, failed))
+    return;
+  std::vector<std::string> names;
+  for (const BuiltIn& one : builtIns()) names.emplace_back(one.name);
+  const std::string near = nearest(path, names);
+  throw Error(ErrorId::kSceneUnreadable,
+              "{}: no such file, and no built-in scene has this name{}; built-in are {}",
+              oneLine(path), near.empty() ? "" : ", nearest is " + near, builtInNames());
+}
+
+}  // namespace
+
 Scene loadScene(const std::string& path, const std::function<void(double)>& progress) {
-  if (path.empty()) return makeAtrium();
+  if (const BuiltIn* builtIn = findBuiltIn(path)) return builtIn->make();
+  requireFileOrName(path);
   Scene scene = loadGltf(path, progress);
   for (const std::string& line : scene.notes) note(fmt::format("{}: {}", path, line));
   return scene;

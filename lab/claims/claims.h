@@ -8,8 +8,8 @@
 //   text = "..."                       the statement
 //   source = "..."                     its author
 //   note = "..."                       optional: a remark on the measurement
-//   scene = "FILE.gltf"                relative to the claims file, or to --scenes; default: the
-//                                      built-in atrium
+//   scene = "FILE.gltf"                relative to the claims file, or to --scenes; or the name of a
+//                                      built-in scene; default: the atrium
 //   optional = true                    leaves the claim out if there is no such file
 //   floor = true                       puts a floor under the scene
 //   camera = {eye = [..], ...}         same keys as a camera file; for a path, an array of cameras
@@ -75,7 +75,7 @@ struct ClaimRun {
 struct Claim {
   std::string key, text, source, note;
   std::string place;      // file:line, for messages
-  std::string scene;      // a path; "": the built-in atrium
+  std::string scene;      // a path, or as of loadScene()
   bool optional = false;  // left out if there is no such file
   bool floor = false;     // addFloor()
   glm::uvec2 size = glm::uvec2(480, 270);

@@ -11,6 +11,7 @@
 #include "core/base/error.h"
 #include "core/frame/renderer.h"
 #include "core/objects/object_file.h"
+#include "core/scene/built_in.h"
 #include "core/scene/camera_path.h"
 #include "lab/claims/claims.h"
 #include "lab/claims/metrics.h"
@@ -234,8 +235,9 @@ Claim claimOf(TomlTable& table, const effect::Registry& registry, const std::str
   claim.source = table.text("source");
   claim.note = table.text("note", "");
   const std::string scene = table.text("scene", "");
-  if (!scene.empty()) claim.scene = app::study::sceneFile(table.file(), scene, scenes);
-  claim.optional = table.flag("optional", false);
+  claim.scene = app::study::sceneFile(table.file(), scene, scenes);
+  // A built-in scene is never missing.
+  claim.optional = table.flag("optional", false) && scene::findBuiltIn(claim.scene) == nullptr;
   claim.floor = table.flag("floor", false);
   if (const std::vector<double> size = table.numbers("size", 2); !size.empty()) {
     for (int i = 0; i < 2; ++i) {

@@ -185,6 +185,19 @@ TEST_F(CommandLine, SceneIsWrittenAndReadBack) {
   EXPECT_EQ(readFile(folder_ / "file.exr"), readFile(folder_ / "built_in.exr"));
 }
 
+TEST_F(CommandLine, ABuiltInSceneStandsForAFile) {
+  const Outcome outcome = grisaille({"scene", "carving"});
+  ASSERT_EQ(outcome.status, 0) << outcome.err;
+  EXPECT_TRUE(outcome.out.starts_with("carving: ")) << outcome.out;
+  for (const char* command : {"render", "truth", "tune", "measure", "scene", "view"}) {
+    const std::string help = grisaille({command, "--help"}).out;
+    for (const char* name : {"atrium", "leaves", "grating", "street", "table", "carving"}) {
+      EXPECT_NE(help.find(name), std::string::npos) << command;
+    }
+  }
+  expectError(grisaille({"scene", "carvings"}), 2101, "nearest is carving");
+}
+
 // On a machine without one backend's driver library, the other backend still runs.
 TEST_F(CommandLine, MissingLibraryOfOneBackendLeavesTheOther) {
   const auto without = [&](const std::string& library, const std::vector<std::string>& arguments) {

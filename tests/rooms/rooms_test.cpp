@@ -31,6 +31,7 @@ constexpr Room kRooms[] = {
     {"core/effect/include/grisaille", "grisaille"},
     {"core/image", ""},
     {"core/scene", "core/image"},
+    {"core/scene/built_in", "core/image core/scene"},
     {"core/trace", "core/image core/scene grisaille"},
     {"core/frame", "core/effect core/gpu core/image core/scene grisaille shaders"},
     {"backends", "backends/opengl/opengl.h backends/vulkan/vulkan.h core/gpu"},

@@ -58,6 +58,13 @@ TEST_F(SessionTest, OpensWhatAFileHolds) {
   EXPECT_EQ(session_.chain.selection.find("ssao")->values.get("radius"), 2);
 }
 
+TEST_F(SessionTest, ABuiltInSceneIsANameInCommands) {
+  const auto carving = std::make_shared<scene::Scene>(scene::loadScene("carving"));
+  session_.setScene(carving, "carving", {64, 64});
+  const std::string command = session_.commandLine({64, 64}, "", "");
+  EXPECT_TRUE(command.starts_with("grisaille render carving --camera ")) << command;
+}
+
 TEST_F(SessionTest, TakesACameraAsText) {
   SessionOptions text = options();
   text.camera = R"({"eye": [1, 2, 3], "target": [0, 0, 0], "fovy_degrees": 60})";

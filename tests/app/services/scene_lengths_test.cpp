@@ -11,6 +11,7 @@
 #include <string>
 
 #include "app/settings/settings.h"
+#include "core/scene/built_in.h"
 #include "core/scene/depth_sketch.h"
 #include "tests/support/scenes.h"
 
@@ -43,6 +44,13 @@ TEST(SceneLengths, TheRadiusGrowsWithTheScene) {
 
 TEST(SceneLengths, TheAtriumKeepsTheTablesDefaults) {
   EXPECT_EQ(suitableRadius(scene::makeAtrium()), kUsualRadius);
+}
+
+// What the scene shows gives nearly the radius that its author chose.
+TEST(SceneLengths, BuiltInScenesGetARadiusThatSuitsThem) {
+  for (const scene::BuiltIn& one : scene::builtIns()) {
+    EXPECT_NEAR(std::log(suitableRadius(one.make()) / one.radius), 0, std::log(2.5)) << one.name;
+  }
 }
 
 TEST(SceneLengths, TheRadiusIsReadable) {

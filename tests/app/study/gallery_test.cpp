@@ -30,9 +30,10 @@ TEST(GalleryTest, HoldsTheScenesThatAreThere) {
                     "cameras = [\"b.json\"]\n"
                     "[[scene]]\nname = \"near\"\nfile = \"near.glb\"\nradius = 0.25\n"
                     "set = [\"ssao.radius=0.25\"]\ncameras = [\"c.json\", \"d.json\"]\n"
-                    "[[scene]]\nname = \"far\"\nfile = \"far.glb\"\ncameras = [\"e.json\"]\n");
+                    "[[scene]]\nname = \"far\"\nfile = \"far.glb\"\ncameras = [\"e.json\"]\n"
+                    "[[scene]]\nname = \"built-in\"\nfile = \"leaves\"\ncameras = [\"f.json\"]\n");
   const std::vector<GalleryScene> gallery = loadGallery(file, folder / "scenes");
-  ASSERT_EQ(gallery.size(), 3u);
+  ASSERT_EQ(gallery.size(), 4u);
   EXPECT_EQ(gallery[0].scene, "");
   EXPECT_EQ(gallery[0].cameras, std::vector<std::string>{folder / "a.json"});
   EXPECT_EQ(gallery[1].scene, folder / "near.glb");
@@ -40,6 +41,7 @@ TEST(GalleryTest, HoldsTheScenesThatAreThere) {
   EXPECT_EQ(gallery[1].sets, std::vector<std::string>{"ssao.radius=0.25"});
   EXPECT_EQ(gallery[1].cameras.size(), 2u);
   EXPECT_EQ(gallery[2].scene, folder / "scenes/far.glb");
+  EXPECT_EQ(gallery[3].scene, "leaves");
 }
 
 TEST(GalleryTest, AMistakeIsNamedWithItsLine) {

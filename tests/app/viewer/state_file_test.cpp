@@ -99,7 +99,7 @@ TEST_F(StateFile, NewestComesFirstOnceAndTwelveStay) {
   EXPECT_EQ(state.recent.size(), 12u);
   EXPECT_EQ(state.recent.front(), "/scenes/12");
   EXPECT_EQ(std::ranges::count(state.recent, "/scenes/12"), 1);
-  state.noteRecent("");
+  for (const char* builtIn : {"", "atrium", "leaves"}) state.noteRecent(builtIn);
   EXPECT_EQ(state.recent.front(), "/scenes/12");
   state.noteRecent("a.glb");
   EXPECT_EQ(state.recent.front(), (fs::current_path() / "a.glb").string());

@@ -113,6 +113,18 @@ TEST_F(ClaimsFileTest, AnAnimationAndItsEnd) {
   EXPECT_EQ(claim.runs[1].seconds, std::vector<double>(5, 2));
 }
 
+// The name of a built-in scene is no file's, and the scene is never missing.
+TEST_F(ClaimsFileTest, TakesABuiltInScene) {
+  const std::string text = with("set =", "scene = \"leaves\"\noptional = true\nset =");
+  const std::string file = folder_.write("study.toml", text);
+  const tests::TemporaryFolder scenes;
+  for (const std::string& folder : {std::string(), std::string(scenes.path())}) {
+    const Claim claim = loadClaims(file, registry_, folder).claims[0];
+    EXPECT_EQ(claim.scene, "leaves");
+    EXPECT_FALSE(claim.optional);
+  }
+}
+
 // A scene stands beside the claims file or, if it is not there, in the folder of scenes.
 TEST_F(ClaimsFileTest, ScenesOfAnotherFolder) {
   const std::string text =

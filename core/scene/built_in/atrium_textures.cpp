@@ -2,7 +2,7 @@
 #include <algorithm>
 #include <cmath>
 
-#include "core/scene/atrium_parts.h"
+#include "core/scene/built_in/atrium_parts.h"
 
 namespace grisaille::scene {
 namespace {

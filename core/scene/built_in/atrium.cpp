@@ -2,7 +2,8 @@
 #include <algorithm>
 #include <array>
 
-#include "core/scene/atrium_parts.h"
+#include "core/scene/built_in/assembly.h"
+#include "core/scene/built_in/atrium_parts.h"
 #include "core/scene/camera.h"
 #include "core/scene/mesh_builder.h"
 #include "core/scene/scene.h"
@@ -21,9 +22,6 @@ constexpr double kGallery = 4.05;  // height of the gallery's floor
 constexpr double kPedestal = 5.04, kUpperSpring = 6.3, kUpperRadius = 0.99, kUpperThickness = 0.32;
 constexpr double kRoof = 7.45;  // height of the underside of the roof
 constexpr double kVaultSpring = 2.72, kVaultRise = 0.85;
-
-// Crease cosines of addPrimitive(): edges are sharp from 35 degrees, from 60 degrees, or never.
-constexpr double kCrease35 = 0.819, kCrease60 = 0.5, kSmooth = -1;
 
 enum MaterialId : uint32_t {
   kStone,
@@ -351,8 +349,8 @@ class Atrium {
         add(lathe(std::array{glm::dvec2(0.2, 0.3), glm::dvec2(0.245, 0.36), glm::dvec2(0.1, 0.385)},
                   20),
             kSoil, kCrease60);
-    const uint32_t plants[] = {add(plant(26, 0.95, 1), kLeaf, kSmooth),
-                               add(plant(22, 0.75, 2), kLeaf, kSmooth)};
+    const uint32_t plants[] = {add(plant(26, 0.95, 1), kLeaf, kNoCrease),
+                               add(plant(22, 0.75, 2), kLeaf, kNoCrease)};
     const glm::dvec3 spots[] = {{-3.9, 0.005, -2.2}, {-0.2, 0.005, -2.85},
                                 {2.6, 0.005, -2.6},  {6.2, 0.47, -1.3},
                                 {6.2, 0.47, 1.3},    {-0.6, 0.005, 2.85},
@@ -371,11 +369,11 @@ class Atrium {
   }
 
   void addCloths() {
-    const uint32_t red = add(drape(1.55, 2.3, 0.2), kRed, kSmooth);
+    const uint32_t red = add(drape(1.55, 2.3, 0.2), kRed, kNoCrease);
     place(red, moved({-1.2, 4.86, -kAxisZ}));
     place(red, moved({3.6, 4.86, -kAxisZ}));
     // The rods rest in the walls of the upper arcade.
-    const uint32_t blue = add(banner(1.7, 2.3), kBlue, kSmooth);
+    const uint32_t blue = add(banner(1.7, 2.3), kBlue, kNoCrease);
     Solid rods;
     const std::array rod{glm::dvec2(0.03, -kAxisZ), glm::dvec2(0.03, kAxisZ)};
     glm::dmat4 lay(1);  // turns +y to +z

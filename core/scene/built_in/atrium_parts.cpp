@@ -1,16 +1,12 @@
 // SPDX-License-Identifier: MIT
-#include "core/scene/atrium_parts.h"
+#include "core/scene/built_in/atrium_parts.h"
 
-#include <algorithm>
 #include <cmath>
+
+#include "core/scene/built_in/shapes.h"
 
 namespace grisaille::scene {
 namespace {
-
-double smooth(double t) {
-  t = std::clamp(t, 0.0, 1.0);
-  return t * t * (3 - 2 * t);
-}
 
 // Appends a quarter-round moulding to a lathe profile, from the last point to `to`.
 void addRound(std::vector<glm::dvec2>& profile, const glm::dvec2& to, bool convexOut) {
@@ -179,18 +175,19 @@ Solid drape(double width, double drop, double railRadius) {
     }
     // Folds deepen with the distance from the rail and narrow the cloth.
     const double below = along - kBehind - over;
-    const double depth = smooth(below / 1.2);
+    const double depth = smoothUnit(below / 1.2);
     const double fold =
         sinTurns(5.5 * u + 0.2 * sinTurns(1.3 * u)) + 0.35 * sinTurns(9 * u + 0.3 + 0.1 * below);
     return {x * (1 - 0.1 * depth) + 0.012 * depth * cosTurns(11 * u), -below,
-            railRadius + 0.26 * smooth(below / 0.6) + 0.055 * depth * fold};
+            railRadius + 0.26 * smoothUnit(below / 0.6) + 0.055 * depth * fold};
   });
 }
 
 Solid banner(double width, double drop) {
   return sheet(36, 24, [=](double u, double v) -> glm::dvec3 {
-    const double depth = 0.25 + 0.75 * smooth(v * 1.5);
-    const double fold = sinTurns(4 * u + 0.15 * v) + 0.3 * sinTurns(9 * u + 0.4) * smooth(2 * v);
+    const double depth = 0.25 + 0.75 * smoothUnit(v * 1.5);
+    const double fold =
+        sinTurns(4 * u + 0.15 * v) + 0.3 * sinTurns(9 * u + 0.4) * smoothUnit(2 * v);
     const double billow = 0.16 * sinTurns(v / 2) * sinTurns(u / 2);
     return {(u - 0.5) * width * (1 - 0.06 * v), -v * drop + 0.06 * v * sinTurns(u / 2),
             0.06 * depth * fold + billow};
