@@ -65,7 +65,7 @@ class Carving {
                              8);
     const glm::dvec2 half(kBoardX - 0.0315, kBoardZ - 0.0315);
     const auto row = [&](const glm::dvec2& from, const glm::dvec2& to) {
-      const int count = static_cast<int>(glm::length(to - from) / 0.0093 + 0.5);
+      const auto count = static_cast<int>(std::lround(glm::length(to - from) / 0.0093));
       for (int k = 0; k < count; ++k) {
         const glm::dvec2 at = from + (to - from) * (static_cast<double>(k) / count);
         append(beads, bead, moved({at.x, 0, at.y}) * turned(0.013 * k));

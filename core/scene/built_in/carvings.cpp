@@ -79,7 +79,7 @@ Solid chain(const Path& line, double wire) {
   for (size_t i = 0; i + 1 < line.size(); ++i) {
     const glm::dvec3 step = line[i + 1] - line[i];
     const double length = glm::length(step);
-    for (; wanted < gone + length; wanted += pitch, ++count) {
+    while (wanted < gone + length) {
       const glm::dvec3 x = step / length, up(0, 1, 0);
       const glm::dvec3 z = glm::normalize(glm::cross(x, up)), y = glm::cross(z, x);
       glm::dmat4 place(1);
@@ -91,6 +91,8 @@ Solid chain(const Path& line, double wire) {
       append(solid, one,
              place * turnedX((count % 2 == 0 ? 0.125 : -0.125) +
                              0.012 * hashUnit(static_cast<uint32_t>(count))));
+      wanted += pitch;
+      ++count;
     }
     gone += length;
   }

@@ -310,7 +310,9 @@ class Builder {
                                         {x, 0.1, 0.2}},
                                    0.12, 1),
                               0.045, 6));
-    for (double at = 1.2; at < y - 1.3; at += 2.6) {
+    const auto clips = static_cast<int>((y - 2.5) / 2.6) + 1;
+    for (int k = 0; k < clips; ++k) {
+      const double at = 1.2 + 2.6 * k;
       append(house_.metal,
              lathe(std::array{glm::dvec2(0.058, at), glm::dvec2(0.058, at + 0.06)}, 8),
              moved({x, 0, 0.1}));
