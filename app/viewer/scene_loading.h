@@ -23,7 +23,8 @@ class SceneLoading {
   double progress() const { return *progress_; }  // 0 ... 1
   const std::string& path() const { return path_; }
 
-  // Starts to read a scene; "" and the name of a built-in scene stand for that. Do not call while running().
+  // Starts to read a scene; "" and the name of a built-in scene stand for that. Do not call while
+  // running().
   void start(const std::string& path);
 
   // The scene, once; null while it is still being read or nothing was started. Throws the errors of

@@ -102,8 +102,8 @@ class Session {
   Session& operator=(const Session&) = delete;
 
   // --- The scene
-  // Shows a loaded scene. `path`: its file or name, as of loadScene(). The camera becomes --camera for
-  // the first scene if given, else defaultCamera() for a picture of `size` pixels. The first
+  // Shows a loaded scene. `path`: its file or name, as of loadScene(). The camera becomes --camera
+  // for the first scene if given, else defaultCamera() for a picture of `size` pixels. The first
   // scene takes the pose of the command line; others are at rest.
   void setScene(std::shared_ptr<scene::Scene> loaded, const std::string& path, glm::uvec2 size);
   std::string scenePath;  // a file, or a built-in scene's name; "": the default one

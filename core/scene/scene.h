@@ -106,8 +106,8 @@ void writeGlb(const Scene& scene, const std::string& path);
 // foliage cards; at least 50,000 triangles. Every machine builds it bit for bit the same.
 Scene makeAtrium();
 
-// The scene that a user names: a built-in one (see built_in.h), the atrium where `path` is empty, or
-// else the file at `path`, read as loadGltf() reads it. Hands Scene::notes to note().
+// The scene that a user names: a built-in one (see built_in.h), the atrium where `path` is empty,
+// or else the file at `path`, read as loadGltf() reads it. Hands Scene::notes to note().
 Scene loadScene(const std::string& path, const std::function<void(double)>& progress = {});
 
 // The camera of a user who names none: the scene's own, or else framingCamera() for a picture of

@@ -8,7 +8,8 @@
 //   text = "..."                       the statement
 //   source = "..."                     its author
 //   note = "..."                       optional: a remark on the measurement
-//   scene = "FILE.gltf"                relative to the claims file, or to --scenes; or the name of a
+//   scene = "FILE.gltf"                relative to the claims file, or to --scenes; or the name of
+//   a
 //                                      built-in scene; default: the atrium
 //   optional = true                    leaves the claim out if there is no such file
 //   floor = true                       puts a floor under the scene
