@@ -7,6 +7,7 @@
 #include <thread>
 
 #include "app/truth/interruption.h"
+#include "core/scene/built_in.h"
 
 namespace grisaille::app::viewer {
 namespace fs = std::filesystem;
@@ -260,7 +261,7 @@ void Viewer::openScene(const std::string& path) {
     return;
   }
   std::error_code failed;
-  loading_.start(path.empty() ? path : fs::absolute(path, failed).string());
+  loading_.start(scene::findBuiltIn(path) != nullptr ? path : fs::absolute(path, failed).string());
 }
 
 void Viewer::takeScene() {
