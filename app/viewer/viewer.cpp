@@ -265,7 +265,7 @@ void Viewer::openScene(const std::string& path) {
 }
 
 void Viewer::takeScene() {
-  session_.attempt([&] {
+  const auto take = [&] {
     const auto scene = loading_.take();
     if (!scene) return;
     const std::string path = loading_.path();
@@ -279,7 +279,10 @@ void Viewer::takeScene() {
     keepState();
     nameWindow();
     settle_ = kSettleFrames;
-  });
+  };
+  // A run of so many frames would wait for the scene forever.
+  if (options_.frames > 0) return take();
+  session_.attempt(take);
 }
 
 void Viewer::takeDropped() {

@@ -8,8 +8,7 @@
 #include <CLI/CLI.hpp>
 #include <cmath>
 #include <filesystem>
-#include <map>
-#include <optional>
+#include <memory>
 
 #include "app/options/subject_options.h"
 #include "app/settings/load_effects.h"
@@ -86,7 +85,7 @@ class Tutorial {
     double sum = 0;
     const std::vector<gpu::FrameTimes> frames = device_.takeTimes();
     for (const gpu::PassTime& pass : frames.back().passes) {
-      if (pass.label.starts_with("tutorial_") && pass.label != "tutorial_inputs") {
+      if (pass.label.starts_with("tutorial_")) {
         sum += pass.milliseconds;
       }
     }

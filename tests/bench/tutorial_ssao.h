@@ -27,7 +27,7 @@ class TutorialSsao {
     gpu::Texture normal;    // rgba16f, view space
   };
 
-  // Pass "tutorial_inputs", which does not count as cost of the baseline. Makes transient buffers
+  // Pass "inputs_of_tutorial", which does not count as cost of the baseline. Makes transient buffers
   // from the frame's attachments (grisaille_attachment: view depth, world normal). `projection` is
   // clip from view.
   Inputs makeInputs(gpu::Commands& commands, gpu::Texture viewDepth, gpu::Texture worldNormal,

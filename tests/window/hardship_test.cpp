@@ -143,6 +143,25 @@ TEST_P(HardshipTest, ABackendThatIsMissingIsNamedOrReplaced) {
   EXPECT_EQ(outcome.status, 0) << outcome.err;
 }
 
+// Any other name is a file of the present folder.
+TEST_P(HardshipTest, ABuiltInSceneOpensByItsName) {
+  const Outcome outcome =
+      runProgram({"view", "carving", "--backend", GetParam(), "--size", "640x700", "--effects",
+                  "ssao", "--set", "ssao.kernel_size=4", "--frames", "2", "--capture", "x.png"},
+                 folder_.path());
+  EXPECT_EQ(outcome.status, 0) << outcome.err;
+  EXPECT_EQ(image::read(folder_ / "x.png").width, 640u);
+}
+
+TEST_P(HardshipTest, ASceneThatIsNotThereEndsARunOfFrames) {
+  const Outcome outcome = runProgram({"view", "missing.glb", "--backend", GetParam(), "--size",
+                                      "640x700", "--frames", "2", "--capture", "x.png"},
+                                     folder_.path());
+  EXPECT_EQ(outcome.status, 1) << outcome.err;
+  EXPECT_NE(outcome.err.find("missing.glb"), std::string::npos) << outcome.err;
+  EXPECT_FALSE(std::filesystem::exists(folder_.path() / "x.png"));
+}
+
 // The viewer saves unsaved work to a folder, and its final messages give a command that shows it
 // again.
 class RescueTest : public WindowTest {
