@@ -27,9 +27,9 @@ class TutorialSsao {
     gpu::Texture normal;    // rgba16f, view space
   };
 
-  // Pass "inputs_of_tutorial", which does not count as cost of the baseline. Makes transient buffers
-  // from the frame's attachments (grisaille_attachment: view depth, world normal). `projection` is
-  // clip from view.
+  // Pass "inputs_of_tutorial", which does not count as cost of the baseline. Makes transient
+  // buffers from the frame's attachments (grisaille_attachment: view depth, world normal).
+  // `projection` is clip from view.
   Inputs makeInputs(gpu::Commands& commands, gpu::Texture viewDepth, gpu::Texture worldNormal,
                     const glm::mat4& projection, const glm::mat3& viewFromWorld, uint32_t width,
                     uint32_t height);
