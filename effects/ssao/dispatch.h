@@ -8,8 +8,8 @@
 
 namespace grisaille::ssao {
 
-// Bindings of one dispatch, at most eight. An array, so that recording a frame allocates no memory.
-// add() throws std::out_of_range beyond eight.
+// Bindings of one dispatch, at most twelve. An array, so that recording a frame allocates no
+// memory. add() throws std::out_of_range beyond twelve.
 class Bindings {
  public:
   Bindings(std::initializer_list<grisaille_binding> first) {
@@ -19,7 +19,7 @@ class Bindings {
   operator std::span<const grisaille_binding>() const { return {list_.data(), count_}; }
 
  private:
-  std::array<grisaille_binding, 8> list_ = {};
+  std::array<grisaille_binding, 12> list_ = {};
   size_t count_ = 0;
 };
 

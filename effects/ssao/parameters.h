@@ -15,6 +15,7 @@ enum Parameter {
   kThickness,
   kBacks,
   kResolution,
+  kRefine,
   kGuardBand,
   kHistory,
   kIntensity,
@@ -33,6 +34,7 @@ enum Parameter {
 
 enum class Estimator : uint32_t { kSlices = 0, kClassic = 1 };
 enum class Backs : uint32_t { kAssumed = 0, kBodies = 1, kDrawn = 2 };
+enum class Refine : uint32_t { kNothing = 0, kEdges = 1, kContrasts = 2 };
 enum class Bounce : uint32_t { kNone = 0, kAlbedo = 1, kBaseColour = 2 };
 
 enum Output { kAo, kBentNormal, kTint };
@@ -54,6 +56,8 @@ constexpr const char* kBounceKeys[] = {"none", "albedo", "base_colour"};
 constexpr const char* kBounceLabels[] = {"None", "Off the albedo", "Off base colours"};
 constexpr const char* kResolutionKeys[] = {"full", "half", "quarter"};
 constexpr const char* kResolutionLabels[] = {"Full", "Half", "Quarter"};
+constexpr const char* kRefineKeys[] = {"nothing", "edges", "contrasts"};
+constexpr const char* kRefineLabels[] = {"Nothing", "Edges", "Edges and contrasts"};
 
 // Parameters that only one estimator uses. `slices` also computes the open directions.
 constexpr plugin::UsedWhen kSlicesOnly = {"estimator", static_cast<uint32_t>(Estimator::kSlices)};
@@ -144,6 +148,16 @@ constexpr grisaille_param_desc kParams[] = {
                        .keys = kResolutionKeys,
                        .labels = kResolutionLabels,
                        .defaultValue = 1,
+                       .usedWhen = kSlicesOnly}),
+    plugin::enumParam({.key = "refine",
+                       .label = "Refine",
+                       .tooltip =
+                           "Which pixels are computed at full resolution although the rest is "
+                           "not: none, those between surfaces, or also those where occlusion "
+                           "changes within a few pixels. Full resolution ignores it",
+                       .keys = kRefineKeys,
+                       .labels = kRefineLabels,
+                       .defaultValue = 0,
                        .usedWhen = kSlicesOnly}),
     plugin::floatParam({.key = "guard_band",
                         .label = "Guard band",

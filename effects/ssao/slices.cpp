@@ -2,6 +2,7 @@
 #include "slices.h"
 
 #include <algorithm>
+#include <array>
 #include <cmath>
 
 #include "dispatch.h"
@@ -14,8 +15,12 @@
 #include "shaders/ssao_edges_bent.h"
 #include "shaders/ssao_edges_last.h"
 #include "shaders/ssao_edges_last_bent.h"
+#include "shaders/ssao_refined.h"
+#include "shaders/ssao_refined_bent.h"
 #include "shaders/ssao_slices.h"
 #include "shaders/ssao_slices_bent.h"
+#include "shaders/ssao_slices_listed.h"
+#include "shaders/ssao_slices_listed_bent.h"
 #include "shaders/ssao_upsample.h"
 #include "shaders/ssao_upsample_bent.h"
 
@@ -33,8 +38,10 @@ struct SlicesBlock {
 };
 GRISAILLE_CHECK_BLOCK_ssao_slices_Settings(SlicesBlock);
 GRISAILLE_CHECK_BLOCK_ssao_slices_bent_Settings(SlicesBlock);
+GRISAILLE_CHECK_BLOCK_ssao_slices_listed_Settings(SlicesBlock);
+GRISAILLE_CHECK_BLOCK_ssao_slices_listed_bent_Settings(SlicesBlock);
 
-// shaders/ssao/denoise.glsl, edges.glsl and upsample.glsl, std140.
+// shaders/ssao/filter.glsl and upsample.glsl, std140.
 struct FilterBlock {
   glm::vec4 finish;
   float tolerance;
@@ -47,11 +54,19 @@ GRISAILLE_CHECK_BLOCK_ssao_edges_Settings(FilterBlock);
 GRISAILLE_CHECK_BLOCK_ssao_edges_bent_Settings(FilterBlock);
 GRISAILLE_CHECK_BLOCK_ssao_edges_last_Settings(FilterBlock);
 GRISAILLE_CHECK_BLOCK_ssao_edges_last_bent_Settings(FilterBlock);
+GRISAILLE_CHECK_BLOCK_ssao_refined_Settings(FilterBlock);
+GRISAILLE_CHECK_BLOCK_ssao_refined_bent_Settings(FilterBlock);
 GRISAILLE_CHECK_BLOCK_ssao_upsample_Settings(FilterBlock);
 GRISAILLE_CHECK_BLOCK_ssao_upsample_bent_Settings(FilterBlock);
 
 // Plane tolerance of the denoiser and the upsampling, in radii.
 constexpr float kTolerance = 0.05f;
+
+// The list of shaders/ssao/listed.glsl: pixels of the picture per invocation of a pass that
+// processes it, since on a software driver an idle invocation costs as much as a busy one; and most
+// pixels that it holds (64 MiB of the 128 that every device binds).
+constexpr uint64_t kListShare = 64, kListMost = 1u << 24;
+constexpr uint32_t kGroup = 64;  // invocations
 
 float toleranceOf(const plugin::Frame& frame) {
   return 1 / (kTolerance * frame.value<float>(kRadius));
@@ -60,6 +75,10 @@ float toleranceOf(const plugin::Frame& frame) {
 // Taps on each side of a slice.
 uint32_t stepsOf(const plugin::Frame& frame) {
   return plugin::groupsFor(frame.value<uint32_t>(kKernelSize), 2 * frame.value<uint32_t>(kSlices));
+}
+
+uint64_t pixelsOf(const plugin::Frame& frame) {
+  return uint64_t{frame.width()} * frame.height();
 }
 
 FilterBlock filterBlock(const plugin::Frame& frame) {
@@ -74,7 +93,9 @@ Slices::Kernels::Kernels(plugin::Host host)
       denoiseLast(host, "denoise", grisaille_shader_ssao_denoise_last),
       edges(host, "edges", grisaille_shader_ssao_edges),
       edgesLast(host, "edges", grisaille_shader_ssao_edges_last),
-      upsample(host, "upsample", grisaille_shader_ssao_upsample) {}
+      upsample(host, "upsample", grisaille_shader_ssao_upsample),
+      listed(host, "slices, listed", grisaille_shader_ssao_slices_listed),
+      refined(host, "denoise, listed", grisaille_shader_ssao_refined) {}
 
 Slices::Kernels Slices::Kernels::withBent(plugin::Host host) {
   Kernels kernels(host);
@@ -84,11 +105,14 @@ Slices::Kernels Slices::Kernels::withBent(plugin::Host host) {
   kernels.edges = {host, "edges, bent", grisaille_shader_ssao_edges_bent};
   kernels.edgesLast = {host, "edges, bent", grisaille_shader_ssao_edges_last_bent};
   kernels.upsample = {host, "upsample, bent", grisaille_shader_ssao_upsample_bent};
+  kernels.listed = {host, "slices, listed, bent", grisaille_shader_ssao_slices_listed_bent};
+  kernels.refined = {host, "denoise, listed, bent", grisaille_shader_ssao_refined_bent};
   return kernels;
 }
 
 Slices::Slices(plugin::Host host)
-    : open_(host),
+    : host_(host),
+      open_(host),
       openAndBent_(Kernels::withBent(host)),
       clamped_(host.sampler({.label = "clamped"})),
       history_(host) {}
@@ -126,7 +150,7 @@ void Slices::record(const plugin::Frame& frame, Pair outputs) {
 
   Kernels& kernels = bent ? openAndBent_ : open_;
   const Pair raw = pair("raw visibility", "raw open direction");
-  frame.pass("occlusion", [&] { occlude(frame, kernels, size, raw); });
+  frame.pass("occlusion", [&] { occlude(frame, kernels.occlusion, size, raw, nullptr); });
   Pair from = raw, spare = raw;
   if (blur > 0) {
     spare = pair("visibility denoised", "open direction denoised");
@@ -159,16 +183,63 @@ void Slices::record(const plugin::Frame& frame, Pair outputs) {
                [&] { denoise(frame, kernels.denoiseLast, size, true, 0, from, outputs); });
     return;
   }
-  frame.pass("upsample", [&] { upsample(frame, kernels, size, from, outputs); });
+  enlarge(frame, kernels, size, from, outputs);
 }
 
-void Slices::occlude(const plugin::Frame& frame, Kernels& kernels, Size size, Pair target) {
+// From the effect's resolution to the picture's.
+void Slices::enlarge(const plugin::Frame& frame, Kernels& kernels, Size size, Pair coarse,
+                     Pair outputs) {
+  const bool refines = frame.value<Refine>(kRefine) != Refine::kNothing;
+  const Size full = {.scale = 1, .width = frame.width(), .height = frame.height()};
+  const bool bent = outputs.bent.id != 0;
+  // Without refinement, as small as can be bound.
+  const auto texture = [&](const char* label, grisaille_format format, uint32_t pixels) {
+    return frame.transient({.label = label,
+                            .format = format,
+                            .width = refines ? plugin::groupsFor(full.width, pixels) : 1,
+                            .height = refines ? plugin::groupsFor(full.height, pixels) : 1});
+  };
+  const Listed listed = {
+      .list = listFor(frame, refines),
+      .blocks = texture("visibility upsampled", GRISAILLE_FORMAT_RGBA16F, 2),
+      .kept = texture("visibility kept", GRISAILLE_FORMAT_RG32F, 1),
+      .bent = bent ? texture("open direction upsampled", GRISAILLE_FORMAT_RGBA16F, 1)
+                   : grisaille_texture{0}};
+  frame.pass("upsample", [&] { upsample(frame, kernels, size, coarse, listed, outputs); });
+  if (!refines) return;
+  const Pair raw = {.open = texture("refined visibility", GRISAILLE_FORMAT_R32F, 1),
+                    .bent = bent ? texture("refined open direction", GRISAILLE_FORMAT_RGBA16F, 1)
+                                 : grisaille_texture{0}};
+  frame.pass("refine", [&] { occlude(frame, kernels.listed, full, raw, &listed); });
+  frame.pass("denoise refined", [&] { denoiseListed(frame, kernels, listed, raw, outputs); });
+}
+
+// An empty list for the pixels of the picture; without refinement, as short as can be bound.
+grisaille_binding Slices::listFor(const plugin::Frame& frame, bool refines) {
+  const uint64_t words = 1 + (refines ? std::min(pixelsOf(frame), kListMost) : 1);
+  const bool grows = words > listWords_;
+  if (grows) {
+    list_ = host_.buffer("listed", words * sizeof(uint32_t));
+    listWords_ = words;
+  }
+  if (grows || refines) frame.uploadBuffer(list_, 0, std::array<uint32_t, 1>{0});
+  return plugin::storage(0, plugin::whole(list_));
+}
+
+uint32_t Slices::listGroups(const plugin::Frame& frame) {
+  return static_cast<uint32_t>(pixelsOf(frame) / kListShare / kGroup) + 1;
+}
+
+void Slices::occlude(const plugin::Frame& frame, plugin::PipelineCache& pipelines, Size size,
+                     Pair target, const Listed* listed) {
   const float radius = frame.value<float>(kRadius);
   // In 25 frames a texel draws each of the pattern's 25 points; successive points lie far apart.
   // Each seed, and each further 25 frames, rotates the pattern by the golden ratio. The start of
-  // 3/8 keeps the first slice off the axes, where rounding errors would decide.
-  const auto drawn = static_cast<uint32_t>(history_.frames() % 25);
-  const double turns = frame.value<double>(kSeed) + static_cast<double>(history_.frames() / 25);
+  // 3/8 keeps the first slice off the axes, where rounding errors would decide. The pixels of the
+  // list are not averaged over frames, and always draw the same points.
+  const uint64_t frames = listed != nullptr ? 0 : history_.frames();
+  const auto drawn = static_cast<uint32_t>(frames % 25);
+  const double turns = frame.value<double>(kSeed) + static_cast<double>(frames / 25);
   const float turn = static_cast<float>(std::fmod(0.375 + turns * 0.6180339887498949, 1.0));
   const SlicesBlock settings = {.radius = radius,
                                 .thickness = radius * frame.value<float>(kThickness),
@@ -200,7 +271,14 @@ void Slices::occlude(const plugin::Frame& frame, Kernels& kernels, Size size, Pa
                        plugin::texture(2, known, clamped_),
                        plugin::image(0, target.open)};
   if (target.bent.id != 0) bindings.add(plugin::image(1, target.bent));
-  dispatch(frame, kernels.occlusion.get(constants), bindings, size.width, size.height);
+  if (listed == nullptr) {
+    dispatch(frame, pipelines.get(constants), bindings, size.width, size.height);
+    return;
+  }
+  bindings.add(listed->list);
+  bindings.add(plugin::texture(3, listed->kept, clamped_));
+  if (target.bent.id != 0) bindings.add(plugin::texture(4, listed->bent, clamped_));
+  frame.dispatch(pipelines.get(constants), bindings, listGroups(frame), 1);
 }
 
 // Bindings of shaders/ssao/filter.glsl.
@@ -241,21 +319,46 @@ void Slices::alongEdges(const plugin::Frame& frame, plugin::PipelineCache& pipel
 }
 
 void Slices::upsample(const plugin::Frame& frame, Kernels& kernels, Size size, Pair coarse,
-                      Pair target) {
-  // Constant 0 of shaders/ssao/upsample.glsl.
-  const grisaille_constant constants[] = {plugin::specialize(0, size.scale)};
+                      const Listed& listed, Pair target) {
+  // Constants 0 and 1 of shaders/ssao/upsample.glsl.
+  const grisaille_constant constants[] = {plugin::specialize(0, size.scale),
+                                          plugin::specialize(1, frame.value<uint32_t>(kRefine))};
   Bindings bindings = {plugin::uniform(0, frame.viewBlock()),
                        plugin::uniform(1, frame.uniform(filterBlock(frame))),
                        plugin::texture(0, coarse.open, clamped_),
                        plugin::texture(1, frame.attachment(GRISAILLE_VIEW_DEPTH), clamped_),
                        plugin::texture(2, frame.attachment(GRISAILLE_NORMAL), clamped_),
-                       plugin::image(0, target.open)};
+                       plugin::image(0, target.open),
+                       plugin::image(2, listed.blocks),
+                       plugin::image(4, listed.kept),
+                       listed.list};
   if (target.bent.id != 0) {
     bindings.add(plugin::texture(3, coarse.bent, clamped_));
     bindings.add(plugin::image(1, target.bent));
+    bindings.add(plugin::image(3, listed.bent));
   }
   dispatch(frame, kernels.upsample.get(constants), bindings, plugin::groupsFor(frame.width(), 2),
            plugin::groupsFor(frame.height(), 2));
+}
+
+// Bindings of shaders/ssao/refined.glsl.
+void Slices::denoiseListed(const plugin::Frame& frame, Kernels& kernels, const Listed& listed,
+                           Pair raw, Pair target) {
+  Bindings bindings = {plugin::uniform(0, frame.viewBlock()),
+                       plugin::uniform(1, frame.uniform(filterBlock(frame))),
+                       plugin::texture(0, listed.blocks, clamped_),
+                       plugin::texture(1, raw.open, clamped_),
+                       plugin::texture(2, frame.attachment(GRISAILLE_VIEW_DEPTH), clamped_),
+                       plugin::texture(3, frame.attachment(GRISAILLE_NORMAL), clamped_),
+                       plugin::texture(6, listed.kept, clamped_),
+                       plugin::image(0, target.open),
+                       listed.list};
+  if (target.bent.id != 0) {
+    bindings.add(plugin::texture(4, listed.bent, clamped_));
+    bindings.add(plugin::texture(5, raw.bent, clamped_));
+    bindings.add(plugin::image(1, target.bent));
+  }
+  frame.dispatch(kernels.refined.get({}), bindings, listGroups(frame), 1);
 }
 
 }  // namespace grisaille::ssao

@@ -1,7 +1,8 @@
 // SPDX-License-Identifier: MIT
-// The estimator `slices`: visibility by slices and a bitmask of sectors. Passes: occlusion,
-// accumulate (with `history` above 1), denoise and edges, at the effect's resolution; then
-// upsample, unless that is the picture's.
+// The estimator `slices`: visibility by slices and a bitmask of sectors. Passes, at the effect's
+// resolution: occlusion, accumulate (with `history` above 1), denoise and edges. Unless that is the
+// picture's, upsample follows, which lists the pixels that it serves badly; then occlusion and
+// denoiser of these.
 #pragma once
 
 #include "dispatch.h"
@@ -31,23 +32,40 @@ class Slices {
     uint32_t scale;          // pixels per texel, each way
     uint32_t width, height;  // texels
   };
+  // Pixels that are computed at full resolution, see shaders/ssao/upsample.glsl.
+  struct Listed {
+    grisaille_binding list;
+    grisaille_texture blocks, kept, bent;
+  };
   struct Kernels {
     explicit Kernels(plugin::Host host);
     static Kernels withBent(plugin::Host host);
-    plugin::PipelineCache occlusion, denoise, denoiseLast, edges, edgesLast, upsample;
+    plugin::PipelineCache occlusion, denoise, denoiseLast, edges, edgesLast, upsample, listed,
+        refined;
   };
 
-  void occlude(const plugin::Frame& frame, Kernels& kernels, Size size, Pair target);
+  // `listed`: the pixels to compute, at the picture's resolution; nullptr: all texels.
+  void occlude(const plugin::Frame& frame, plugin::PipelineCache& pipelines, Size size, Pair target,
+               const Listed* listed);
   Bindings filterBindings(const plugin::Frame& frame, Pair from, Pair target) const;
   void denoise(const plugin::Frame& frame, plugin::PipelineCache& pipelines, Size size,
                bool columns, uint32_t blur, Pair raw, Pair target);
   void alongEdges(const plugin::Frame& frame, plugin::PipelineCache& pipelines, Size size,
                   Pair denoised, Pair target);
-  void upsample(const plugin::Frame& frame, Kernels& kernels, Size size, Pair coarse, Pair target);
+  void enlarge(const plugin::Frame& frame, Kernels& kernels, Size size, Pair coarse, Pair outputs);
+  void upsample(const plugin::Frame& frame, Kernels& kernels, Size size, Pair coarse,
+                const Listed& listed, Pair target);
+  void denoiseListed(const plugin::Frame& frame, Kernels& kernels, const Listed& listed, Pair raw,
+                     Pair target);
+  grisaille_binding listFor(const plugin::Frame& frame, bool refines);
+  static uint32_t listGroups(const plugin::Frame& frame);
 
+  plugin::Host host_;
   Kernels open_, openAndBent_;
   plugin::Sampler clamped_;
   History history_;
+  plugin::Buffer list_;
+  uint64_t listWords_ = 0;
 };
 
 }  // namespace grisaille::ssao

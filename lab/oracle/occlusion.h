@@ -27,6 +27,8 @@ struct OcclusionSettings {
   enum class Backs { kAssumed, kBodies, kDrawn } backs = Backs::kAssumed;
   int history = 1;  // frames; over 1 needs a Past from the second frame on
   int scale = 2;    // pixels per texel: 1, 2 or 4
+  // Pixels that are computed at full resolution below it.
+  enum class Refine { kNothing, kEdges, kContrasts } refine = Refine::kNothing;
   int edgeDenoise = 6;
   double intensity = 1, power = 1;
   double albedo = 0;        // albedo of the bounce; 0: no bounce

@@ -20,6 +20,9 @@ constexpr double kPlanePixels = 4;        // upper limit of the tolerance, pixel
 constexpr double kMostBent = 0.5;         // largest angle between facet and normal, tangent
 constexpr double kSteepest = 8;           // slope of a surface that taps share, if backs are known
 constexpr double kLone = 2.5;             // reach of a surface of one tap, distances between taps
+// Where pixels begin to be refined, and where they are refined entirely: share of texels on the
+// pixel's plane, and difference of visibility between texels.
+constexpr double kServed[] = {0.6, 0.4}, kContrast[] = {0.08, 0.12};
 
 // A slice of the hemisphere over a surface. Angles start at the view vector, and are positive on
 // the side of `across`.
@@ -78,6 +81,17 @@ struct Walk {
 using Texel = glm::dvec4;
 const Texel kSky(0, 0, 0, 1);
 
+// A pixel's value between the texels, and the share of it that one at full resolution replaces.
+struct Upsampled {
+  Texel texel = kSky;
+  double share = 0;
+};
+
+// 0 at the first value of `range`, 1 at the second.
+double linearStep(const double (&range)[2], double value) {
+  return std::clamp((value - range[0]) / (range[1] - range[0]), 0.0, 1.0);
+}
+
 class Slices : public Occlusion {
  public:
   Slices(const View& view, const OcclusionSettings& settings, std::shared_ptr<const PastFrame> past)
@@ -88,7 +102,8 @@ class Slices : public Occlusion {
         texels_((view.size() + settings.scale - 1) / settings.scale),
         past_(std::move(past)),
         frames_(past_ ? past_->frames : 0),
-        raw_(texels_, [this](const glm::ivec2& t) { return estimate(t); }),
+        raw_(texels_,
+             [this](const glm::ivec2& t) { return estimate(t, settings_.scale, frames_, false); }),
         rows_(texels_,
               [this](const glm::ivec2& t) {
                 return denoised([this](const glm::ivec2& at) { return raw_(at); }, t, {1, 0});
@@ -98,7 +113,9 @@ class Slices : public Occlusion {
                    return denoised([this](const glm::ivec2& at) { return rows_(at); }, t, {0, 1});
                  }),
         edges_(texels_, [this](const glm::ivec2& t) { return alongEdge(t); }),
-        means_(texels_, [this](const glm::ivec2& t) { return mean(t); }) {}
+        means_(texels_, [this](const glm::ivec2& t) { return mean(t); }),
+        upsampled_(view.size(), [this](const glm::ivec2& p) { return upsampled(p); }),
+        refined_(view.size(), [this](const glm::ivec2& p) { return estimate(p, 1, 0, true); }) {}
 
   double visibility(const glm::ivec2& pixel) override { return finished(at(pixel).w, settings_); }
   glm::dvec3 bentNormal(const glm::ivec2& pixel) override {
@@ -113,7 +130,8 @@ class Slices : public Occlusion {
  private:
   Texel at(const glm::ivec2& pixel) {
     if (view_.depth(pixel) <= 0) return kSky;
-    return settings_.scale == 1 ? averaged(pixel) : upsampled(pixel);
+    if (settings_.scale == 1) return averaged(pixel);
+    return upsampled_(pixel).share > 0 ? refined(pixel) : upsampled_(pixel).texel;
   }
   // The history holds only visibility.
   Texel averaged(const glm::ivec2& texel) {
@@ -124,7 +142,9 @@ class Slices : public Occlusion {
     if (settings_.blurSize <= settings_.scale) return raw_(texel);
     return settings_.edgeDenoise > 0 ? edges_(texel) : columns_(texel);
   }
-  Texel estimate(const glm::ivec2& texel) const;
+  // Of the texel `at` of a grid with `scale` pixels per texel, after a number of frames. `listed`:
+  // it counts as an edge, as the pixels do that are computed at full resolution.
+  Texel estimate(const glm::ivec2& at, int scale, int frames, bool listed) const;
   Mean mean(const glm::ivec2& texel);
   bool isEdge(const glm::ivec2& pixel) const;
   Texel sliceOf(const glm::dvec3& position, const glm::dvec3& normal, const glm::dvec3& direction,
@@ -135,7 +155,8 @@ class Slices : public Occlusion {
   Texel denoised(const std::function<Texel(const glm::ivec2&)>& from, const glm::ivec2& texel,
                  const glm::ivec2& along) const;
   Texel alongEdge(const glm::ivec2& texel);
-  Texel upsampled(const glm::ivec2& pixel);
+  Upsampled upsampled(const glm::ivec2& pixel);
+  Texel refined(const glm::ivec2& pixel);
 
   // Distance of a point from the plane of a surface, in tolerances. The point lies at the centre of
   // `pixel`, at view depth `depth`.
@@ -159,6 +180,8 @@ class Slices : public Occlusion {
   Lazy<Texel> raw_;
   Lazy<Texel> rows_, columns_, edges_;
   Lazy<Mean> means_;
+  Lazy<Upsampled> upsampled_;
+  Lazy<Texel> refined_;  // before their denoiser
 };
 
 Mean Slices::mean(const glm::ivec2& texel) {
@@ -192,8 +215,8 @@ bool Slices::isEdge(const glm::ivec2& pixel) const {
   return same < 7;
 }
 
-Texel Slices::estimate(const glm::ivec2& texel) const {
-  const glm::ivec2 pixel = texel * settings_.scale;
+Texel Slices::estimate(const glm::ivec2& texel, int scale, int frames, bool listed) const {
+  const glm::ivec2 pixel = texel * scale;
   if (view_.depth(pixel) <= 0) return kSky;
   glm::dvec3 normal = view_.normal(pixel);
   const std::optional<Raised> raised = raisedBy(view_, pixel, normal, settings_.bias);
@@ -204,12 +227,12 @@ Texel Slices::estimate(const glm::ivec2& texel) const {
   normal = glm::normalize(normal + toward * std::max((facing < -1e-3 ? 1e-2 : 1e-3) - facing, 0.0));
   // A block of 5x5 texels holds the 25 points of a Hammersley set. Each frame of a history takes
   // another of the points.
-  const int drawn = static_cast<int>(frames_ % 25);
+  const int drawn = static_cast<int>(frames % 25);
   const int first = (2 * texel.x + texel.y + 2 * drawn) % 5;
   const int second = (texel.x + 2 * texel.y + drawn + 2 * (drawn / 5)) % 5;
-  const double turn = std::fmod(0.375 + (settings_.seed + frames_ / 25) * 0.6180339887498949, 1.0);
+  const double turn = std::fmod(0.375 + (settings_.seed + frames / 25) * 0.6180339887498949, 1.0);
   const glm::dmat3 axes = axesAbout(normal);
-  const bool edge = settings_.edgeSlices > 1 && isEdge(pixel);
+  const bool edge = settings_.edgeSlices > 1 && (listed || isEdge(pixel));
   const int slices = settings_.slices * (edge ? settings_.edgeSlices : 1);
   Texel sum(0);
   for (int k = 0; k < slices; ++k) {
@@ -419,13 +442,14 @@ Texel Slices::alongEdge(const glm::ivec2& texel) {
   return glm::mix(own, sum / weights, clear);
 }
 
-Texel Slices::upsampled(const glm::ivec2& pixel) {
+Upsampled Slices::upsampled(const glm::ivec2& pixel) {
+  if (view_.depth(pixel) <= 0) return {};
   const int scale = settings_.scale;
   // The four pixels of a 2x2 block blend the same four texels.
   const glm::ivec2 first = pixel / 2 * 2 / scale;
   const glm::dvec2 part = glm::dvec2(pixel - first * scale) / static_cast<double>(scale);
   Texel sum(0);
-  double weights = 0;
+  double weights = 0, served = 0, least = 1, most = 0;
   for (int i = 0; i < 4; ++i) {
     const glm::ivec2 corner(i & 1, i >> 1), texel = first + corner;
     const double depth = view_.depth(glm::clamp(texel, glm::ivec2(0), texels_ - 1) * scale);
@@ -433,11 +457,41 @@ Texel Slices::upsampled(const glm::ivec2& pixel) {
     const double off = offPlane(pixel, texel * scale, depth);
     const double share =
         (corner.x != 0 ? part.x : 1 - part.x) * (corner.y != 0 ? part.y : 1 - part.y);
-    const double weight = share * std::max(0.0, 1 - off) + 1e-4 / (1 + off * off * off);
-    sum += weight * averaged(texel);
+    const double onPlane = share * std::max(0.0, 1 - off);
+    const double weight = onPlane + 1e-4 / (1 + off * off * off);
+    const Texel value = averaged(texel);
+    sum += weight * value;
+    weights += weight;
+    served += onPlane;
+    least = std::min(least, value.w);
+    most = std::max(most, value.w);
+  }
+  using Refine = OcclusionSettings::Refine;
+  Upsampled result = {.texel = weights > 0 ? sum / weights : kSky};
+  if (settings_.refine != Refine::kNothing) result.share = linearStep(kServed, served);
+  if (settings_.refine == Refine::kContrasts)
+    result.share = std::max(result.share, linearStep(kContrast, most - least));
+  return result;
+}
+
+// The mean of the 5x5 pixels around, listed or not.
+Texel Slices::refined(const glm::ivec2& pixel) {
+  Texel sum(0);
+  double weights = 0;
+  for (int i = 0; i < 25; ++i) {
+    const glm::ivec2 across(i % 5 - 2, i / 5 - 2);
+    const glm::ivec2 other = glm::clamp(pixel + across, glm::ivec2(0), view_.size() - 1);
+    if (view_.depth(other) <= 0) continue;
+    const double off = offPlane(pixel, pixel + across, view_.depth(other));
+    const double weight = std::max(1 - off, 0.0);
+    if (weight <= 0) continue;
+    const Upsampled from = upsampled_(other);
+    sum +=
+        weight * (from.share > 0 ? glm::mix(from.texel, refined_(other), from.share) : from.texel);
     weights += weight;
   }
-  return weights > 0 ? sum / weights : kSky;
+  const Upsampled own = upsampled_(pixel);
+  return glm::mix(own.texel, sum / weights, own.share);
 }
 
 }  // namespace

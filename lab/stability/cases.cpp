@@ -69,16 +69,16 @@ std::string number(double value) {
 void addCameras(Cases& cases) {
   for (const double near : {1e-4, 1e-3, 1e-2, 0.1, 1.0, 2.5, 10.0}) {
     cases.add("near plane", number(near) + " m",
-              {"slices", "slices, backs", "slices, bodies", "history", "open directions", "tint",
-               "classic", "paint"},
+              {"slices", "slices, backs", "slices, bodies", "slices, refined", "history",
+               "open directions", "tint", "classic", "paint"},
               [&](Case& one) {
                 one.camera.nearPlane = near;
                 one.quick = near == 1e-4;
               });
   }
   for (const double fov : {0.01, 0.1, 1.0, 10.0, 120.0, 170.0}) {
-    cases.add("field of view", number(fov) + " degrees", {"slices", "classic", "paint"},
-              [&](Case& one) {
+    cases.add("field of view", number(fov) + " degrees",
+              {"slices", "slices, refined", "classic", "paint"}, [&](Case& one) {
                 one.camera.fovyDegrees = fov;
                 // A guard band's camera would see more than a camera may.
                 if (fov == 170 && one.effect == "ssao") {
@@ -88,18 +88,18 @@ void addCameras(Cases& cases) {
               });
   }
   for (const double height : {0.3, 2.5, 20.0}) {
-    cases.add(
-        "orthographic", number(height) + " m high", {"slices", "classic", "paint"}, [&](Case& one) {
-          one.camera =
-              scene::orthographicCamera(one.camera, height, height * one.size.x / one.size.y, 8);
-          one.quick = height == 2.5;
-        });
+    cases.add("orthographic", number(height) + " m high",
+              {"slices", "slices, refined", "classic", "paint"}, [&](Case& one) {
+                one.camera = scene::orthographicCamera(one.camera, height,
+                                                       height * one.size.x / one.size.y, 8);
+                one.quick = height == 2.5;
+              });
   }
   for (const double away : {1e3, 1e5, 1e6, 1e7}) {
     const Scenery scenery{.origin = {away, -0.3 * away, 0.7 * away}};
     cases.add("camera far from the world's origin", number(away) + " m", scenery,
-              {"slices", "slices, backs", "slices, bodies", "history", "open directions", "tint",
-               "classic", "paint"},
+              {"slices", "slices, backs", "slices, bodies", "slices, refined", "history",
+               "open directions", "tint", "classic", "paint"},
               [&](Case& one) { one.quick = away == 1e7; });
     const Scenery corner{.kind = Kind::kCorner, .origin = scenery.origin};
     cases.add("camera far from the world's origin", number(away) + " m", corner,
@@ -107,7 +107,8 @@ void addCameras(Cases& cases) {
   }
   for (const double distance : {1e-2, 1e-3, 1e-4}) {
     cases.add("near a wall", number(1000 * distance) + " mm", {.kind = Kind::kCorner},
-              {"slices", "slices, raw", "classic", "paint", "paint on surfaces"}, [&](Case& one) {
+              {"slices", "slices, raw", "slices, refined", "classic", "paint", "paint on surfaces"},
+              [&](Case& one) {
                 one.camera.eye = {0.1, 0.5, distance};
                 one.camera.target = {0.1 + distance, 0.5, 0};
                 one.camera.nearPlane = distance / 10;
@@ -119,8 +120,8 @@ void addCameras(Cases& cases) {
 void addScales(Cases& cases) {
   for (const double scale : kScales) {
     cases.add("scene's scale", number(scale), {.scale = scale},
-              {"slices", "slices, raw", "slices, backs", "slices, bodies", "history",
-               "open directions", "tint", "classic", "paint"},
+              {"slices", "slices, raw", "slices, backs", "slices, bodies", "slices, refined",
+               "history", "open directions", "tint", "classic", "paint"},
               [&](Case& one) { one.quick = scale == 1e-4 || scale == 1e6; });
     cases.add("scene's scale", number(scale), {.kind = Kind::kCorner, .scale = scale},
               {"paint on surfaces"}, [&](Case& one) { one.quick = scale == 1e6; });
@@ -158,8 +159,10 @@ void addSizes(Cases& cases) {
       one.quick = size.x < 257 && size.y < 257;
     };
     const std::string name = fmt::format("{}x{}", size.x, size.y);
-    cases.add("size", name, {"slices", "slices, quarter", "open directions", "classic", "paint"},
-              change);
+    cases.add(
+        "size", name,
+        {"slices", "slices, quarter", "slices, refined", "open directions", "classic", "paint"},
+        change);
     if (size.x < 1000 && size.y < 1000) cases.add("size", name, {"history"}, change);
     cases.add("size", name, {.kind = Kind::kCorner}, {"paint on surfaces"}, change);
   }
@@ -188,7 +191,8 @@ void addValues(Cases& cases) {
   sweep("kernel", "kernel_size", {"slices", "slices, raw"}, {"128", "1", "4"});
   sweep("slices", "slices", {"slices", "slices, raw"}, {"64", "2", "7"});
   sweep("edge slices", "edge_slices", {"slices", "slices, raw"}, {"16", "1", "3"});
-  sweep("radius, m", "radius", {"slices", "slices, raw", "slices, quarter", "classic", "sphere"},
+  sweep("radius, m", "radius",
+        {"slices", "slices, raw", "slices, quarter", "slices, refined", "classic", "sphere"},
         {"1e-06", "0.001", "10", "1000", "1000000"});
   sweep("bias, m", "bias",
         {"slices", "slices, raw", "slices, backs", "classic", "classic, raw", "sphere"},
@@ -206,8 +210,9 @@ void addValues(Cases& cases) {
       });
     }
   };
-  filter("blur along edges", "edge_denoise", {"slices", "slices, quarter"});
-  filter("blur", "blur_size", {"slices", "slices, quarter", "classic", "edge-aware"});
+  filter("blur along edges", "edge_denoise", {"slices", "slices, quarter", "slices, refined"});
+  filter("blur", "blur_size",
+         {"slices", "slices, quarter", "slices, refined", "classic", "edge-aware"});
   sweep("range check", "range_check", {"classic", "sphere"}, {"raw_depth", "none"});
   sweep("intensity", "intensity", {"slices", "classic"}, {"0", "10"});
   sweep("power", "power", {"slices", "classic"}, {"0.1", "10"});
@@ -216,14 +221,14 @@ void addValues(Cases& cases) {
 void addOddScenes(Cases& cases) {
   for (const Kind kind : {Kind::kSky, Kind::kTriangle, Kind::kWires, Kind::kPair}) {
     cases.add("odd scene", nameOf(kind), {.kind = kind},
-              {"slices", "slices, raw", "slices, backs", "slices, bodies", "history",
-               "open directions", "classic", "paint", "paint on surfaces"},
+              {"slices", "slices, raw", "slices, backs", "slices, bodies", "slices, refined",
+               "history", "open directions", "classic", "paint", "paint on surfaces"},
               [&](Case& one) { one.quick = true; });
   }
   for (const Kind kind : {Kind::kNoNormals, Kind::kBackNormals}) {
     cases.add("odd scene", nameOf(kind), {.kind = kind},
-              {"slices", "slices, raw", "slices, backs", "slices, bodies", "history",
-               "open directions", "classic"},
+              {"slices", "slices, raw", "slices, backs", "slices, bodies", "slices, refined",
+               "history", "open directions", "classic"},
               [&](Case& one) { one.quick = true; });
   }
   for (const Kind kind : {Kind::kAtNear, Kind::kAtFar, Kind::kMixed, Kind::kNormless}) {

@@ -26,6 +26,7 @@ const std::vector<Variant>& variants() {
       {"slices", "ssao", "ao", {}},
       {"slices, raw", "ssao", "ao", {{"resolution", "full"}, {"blur_size", "0"}}},
       {"slices, quarter", "ssao", "ao", {{"resolution", "quarter"}}},
+      {"slices, refined", "ssao", "ao", {{"resolution", "quarter"}, {"refine", "contrasts"}}},
       {"slices, exact",
        "ssao",
        "ao",
@@ -101,6 +102,7 @@ void drawOcclusion(Draws& draw, Case& one) {
   set("slices", std::to_string(1 + draw.below(4)));
   set("thickness", fmt::format("{}", draw.decades(-2, 1)));
   set("resolution", draw.of({"full", "half", "quarter"}));
+  set("refine", draw.of({"nothing", "edges", "contrasts"}));
   set("blur_size", std::to_string(draw.of({0, 2, 4, 7, 8, 10, 20})));
   set("intensity", fmt::format("{}", 2 * draw.unit()));
   set("power", fmt::format("{}", 0.5 + draw.unit()));

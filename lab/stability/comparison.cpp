@@ -35,6 +35,7 @@ oracle::OcclusionSettings occlusionOf(const effect::Values& values) {
           .backs = static_cast<oracle::OcclusionSettings::Backs>(whole(values, "backs")),
           .history = whole(values, "history"),
           .scale = 1 << whole(values, "resolution"),
+          .refine = static_cast<oracle::OcclusionSettings::Refine>(whole(values, "refine")),
           .edgeDenoise = whole(values, "edge_denoise"),
           .intensity = single(values, "intensity"),
           .power = single(values, "power"),

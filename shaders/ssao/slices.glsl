@@ -16,9 +16,13 @@
 //
 // A texel of the target samples one of kScale x kScale pixels, the top left one. At edges, where
 // the denoiser finds few texels of one surface, the texel takes kEdgeSlices times as many slices.
-// BENT is 0 or 1; 1 also computes the mean open direction.
+// BENT is 0 or 1; 1 also computes the mean open direction. LISTED is 0 or 1; 1 computes only the
+// pixels of a list, at the picture's resolution, as edges.
 #include "common/view.glsl"
 #include "plane.glsl"
+#if LISTED
+#include "listed.glsl"
+#endif
 
 layout(constant_id = 0) const uint kSlices = 1u;
 layout(constant_id = 1) const uint kSteps = 8u;  // taps on each side of a slice
@@ -39,7 +43,15 @@ layout(UNIFORM(1), std140) uniform Settings {
 layout(TEXTURE(0)) uniform sampler2D view_depth;  // nearest, clamped
 layout(TEXTURE(1)) uniform sampler2D world_normal;
 layout(TEXTURE(2)) uniform sampler2D known;  // with kBacks, metres; nearest, clamped
+#if LISTED
+layout(TEXTURE(3)) uniform sampler2D kept;  // see upsample.glsl
+#if BENT
+layout(TEXTURE(4)) uniform sampler2D upsampled_bent;
+#endif
+layout(IMAGE(0), r32f) writeonly uniform image2D target;
+#else
 layout(IMAGE(0), rg32f) writeonly uniform image2D target;  // visibility and view depth
+#endif
 #if BENT
 layout(IMAGE(1), rgba16f) writeonly uniform image2D bent_target;  // in view space, any length
 #endif
@@ -298,7 +310,7 @@ float openAt(uvec2 texel, vec2 pixel, float depth, out vec3 bent) {
   const vec3 view_vec = position * -inversesqrt(dot(position, position));
   uint count = kSlices;
   if (kEdgeSlices > 1u) {
-    if (isEdge(pixel, depth, normal)) count = kSlices * kEdgeSlices;
+    if (LISTED == 1 || isEdge(pixel, depth, normal)) count = kSlices * kEdgeSlices;
   }
   // Interpolated normals may face away from the camera. Turns them to the silhouette, or a little
   // past it towards the camera if they face away by more than their rounding: at exactly edge-on,
@@ -325,16 +337,31 @@ float openAt(uvec2 texel, vec2 pixel, float depth, out vec3 bent) {
   return open / float(count);
 }
 
-void main() {
-  const ivec2 texel = ivec2(gl_GlobalInvocationID.xy);
-  if (any(greaterThanEqual(texel, imageSize(target)))) return;
+void shade(ivec2 texel) {
   const vec2 pixel = vec2(texel) * float(kScale) + 0.5;
   const float depth = textureLod(view_depth, attachmentAt(pixel), 0.0).x;
   float open = 1.0;
   vec3 bent = vec3(0.0);
   if (depth > 0.0) open = openAt(uvec2(texel), pixel, depth, bent);
+#if LISTED
+  const vec2 at = pixel * view.size.zw, old = textureLod(kept, at, 0.0).xy;
+  open = mix(old.x, open, old.y);
+#if BENT
+  bent = mix(textureLod(upsampled_bent, at, 0.0).xyz, bent, old.y);
+#endif
+#endif
   imageStore(target, texel, vec4(open, depth, 0.0, 0.0));
 #if BENT
   imageStore(bent_target, texel, vec4(bent, 0.0));
+#endif
+}
+
+void main() {
+#if LISTED
+  const uint end = listedEnd();
+  for (uint i = listedFirst(); i < end; i += listedStride()) shade(listedPixel(i));
+#else
+  const ivec2 texel = ivec2(gl_GlobalInvocationID.xy);
+  if (all(lessThan(texel, imageSize(target)))) shade(texel);
 #endif
 }

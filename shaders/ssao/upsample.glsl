@@ -7,11 +7,16 @@
 //
 // One invocation computes 2x2 pixels between the same four texels: software drivers take as long to
 // start an invocation as for ten fetches.
+//
+// Pixels that the parameter `refine` selects go on a list, for the passes `refine` and `denoise
+// refined`. The latter reads the upsampled pixels around them from the image `blocks`.
 #include "common/view.glsl"
 #include "finish.glsl"
+#include "listed.glsl"
 #include "plane.glsl"
 
-layout(constant_id = 0) const uint kScale = 2u;  // pixels per texel, each way: 2 or 4
+layout(constant_id = 0) const uint kScale = 2u;   // pixels per texel, each way: 2 or 4
+layout(constant_id = 1) const uint kRefine = 0u;  // the parameter: nothing, edges, contrasts
 
 layout(local_size_x = 8, local_size_y = 8) in;
 layout(UNIFORM(1), std140) uniform Settings {
@@ -22,23 +27,41 @@ layout(TEXTURE(0)) uniform sampler2D coarse;  // visibility and view depth; near
 layout(TEXTURE(1)) uniform sampler2D view_depth;
 layout(TEXTURE(2)) uniform sampler2D world_normal;
 layout(IMAGE(0), r16f) writeonly uniform image2D visibility;
+// With kRefine, a texel for each 2x2 pixels: -1 for a listed pixel, else its visibility before
+// finished().
+layout(IMAGE(2), rgba16f) writeonly uniform image2D blocks;
+// Of a listed pixel: that visibility, and the share of it that the refined one replaces.
+layout(IMAGE(4), rg32f) writeonly uniform image2D kept;
 #if BENT
 layout(TEXTURE(3)) uniform sampler2D coarse_bent;
 layout(IMAGE(1), rgba16f) writeonly uniform image2D bent_normal;
+layout(IMAGE(3), rgba16f) writeonly uniform image2D upsampled_bent;  // with kRefine; in view space
 #endif
 
-// Weights of the four texels around a pixel, with a sum of 1: `first`, then its neighbours in x, in
-// y and in both. `depths` holds their view depths. Without a surface, at the pixel or at all
-// texels, all weights are 0.
-vec4 bilateralWeights(ivec2 place, ivec2 first, vec4 depths) {
+// Ranges over which a pixel becomes an edge and a contrast: bilinear share of the texels on its
+// plane, and difference of visibility between the four texels. At a limit instead, pixels would
+// change at once when the camera moves, and rounding would decide.
+const vec2 kServed = vec2(0.6, 0.4);
+const vec2 kContrast = vec2(0.08, 0.12);
+
+// How a pixel blends the four texels around it: `first`, then its neighbours in x, in y and in
+// both.
+struct Blend {
+  vec4 weights;  // sum 1; without a surface, at the pixel or at all texels, all 0
+  float served;  // bilinear share of the texels on its plane, 0 to 1
+  float depth;   // of the pixel, metres
+};
+
+// `depths`: view depths of the four texels.
+Blend blendOf(ivec2 place, ivec2 first, vec4 depths) {
   const vec2 pixel = vec2(place) + 0.5;
   const float depth = textureLod(view_depth, attachmentAt(pixel), 0.0).x;
   const vec3 normal = viewNormal(textureLod(world_normal, attachmentAt(pixel), 0.0).xyz);
   const Plane plane = planeOf(pixel, normal);
   // Texel t is the sample of pixel t * kScale.
   const vec2 fraction = vec2(place - first * int(kScale)) / float(kScale);
-  vec4 weights = vec4(0.0);
-  if (depth <= 0.0) return weights;
+  Blend blend = Blend(vec4(0.0), 0.0, depth);
+  if (depth <= 0.0) return blend;
   const float tolerance = toleranceAt(depth, settings.tolerance);
   vec4 plane_distance;  // in tolerances
   [[unroll]] for (uint i = 0u; i < 4u; ++i) {
@@ -54,13 +77,46 @@ vec4 bilateralWeights(ivec2 place, ivec2 first, vec4 depths) {
   const float tail = 1e-4 * (1.0 + least * least * least);
   [[unroll]] for (uint i = 0u; i < 4u; ++i) {
     const vec2 bilinear = mix(1.0 - fraction, fraction, vec2(i & 1u, i >> 1u));
-    weights[i] =
+    const float on_plane = bilinear.x * bilinear.y * max(0.0, 1.0 - plane_distance[i]);
+    blend.served += on_plane;
+    blend.weights[i] =
         depths[i] > 0.0
-            ? bilinear.x * bilinear.y * max(0.0, 1.0 - plane_distance[i]) +
-                  tail / (1.0 + plane_distance[i] * plane_distance[i] * plane_distance[i])
+            ? on_plane + tail / (1.0 + plane_distance[i] * plane_distance[i] * plane_distance[i])
             : 0.0;
   }
-  return weights / max(dot(weights, vec4(1.0)), 1e-30);
+  blend.weights /= max(dot(blend.weights, vec4(1.0)), 1e-30);
+  return blend;
+}
+
+// 0 at the first value of `range`, 1 at the second.
+vec4 linearStep(vec2 range, vec4 value) {
+  return clamp((value - range.x) / (range.y - range.x), 0.0, 1.0);
+}
+
+// Difference between the largest and the smallest visibility of the texels that have a surface.
+float contrastOf(vec4 open, vec4 depths) {
+  const vec4 high = mix(vec4(0.0), open, greaterThan(depths, vec4(0.0)));
+  const vec4 low = mix(vec4(1.0), open, greaterThan(depths, vec4(0.0)));
+  return max(max(high.x, high.y), max(high.z, high.w)) - min(min(low.x, low.y), min(low.z, low.w));
+}
+
+// Appends those pixels of the 2x2 block at `place` to the list whose `share` is not 0. Returns the
+// block's texel.
+vec4 appended(ivec2 place, vec4 share, vec4 open) {
+  const bvec4 which = greaterThan(share, vec4(0.0));
+  const uvec4 one = uvec4(which);
+  uint slot = atomicAdd(listed_count, one.x + one.y + one.z + one.w);
+  [[unroll]] for (uint i = 0u; i < 4u; ++i) {
+    if (!which[i]) continue;
+    const uvec2 at = uvec2(place) + uvec2(i & 1u, i >> 1u);
+    if (slot < uint(listed.length())) {
+      listed[slot] = at.x | at.y << 16;
+      imageStore(kept, ivec2(at), vec4(open[i], share[i], 0.0, 0.0));
+      open[i] = -1.0;
+    }
+    ++slot;
+  }
+  return open;
 }
 
 void main() {
@@ -86,20 +142,34 @@ void main() {
   // sampled and takes its value.
   mat4 weights = mat4(0.0);
   weights[0].x = depths.x > 0.0 ? 1.0 : 0.0;
+  vec4 served = vec4(1.0), depth = depths;
   [[unroll]] for (uint i = kScale == 2u ? 1u : 0u; i < 4u; ++i) {
-    weights[i] = bilateralWeights(place + ivec2(i & 1u, i >> 1u), first, depths);
+    const Blend blend = blendOf(place + ivec2(i & 1u, i >> 1u), first, depths);
+    weights[i] = blend.weights;
+    served[i] = blend.served;
+    depth[i] = blend.depth;
   }
   // A pixel without a surface has no weights: its visibility is 1.
   const vec4 none = vec4(equal(vec4(1.0) * weights, vec4(0.0)));
-  const vec4 value = finished(open * weights + none, settings.finish);
+  const vec4 blended = open * weights + none;
+  const vec4 value = finished(blended, settings.finish);
+  vec4 share = linearStep(kServed, served);
+  if (kRefine >= 2u) share = max(share, linearStep(kContrast, vec4(contrastOf(open, depths))));
   [[unroll]] for (uint i = 0u; i < 4u; ++i) {
     const ivec2 at = place + ivec2(i & 1u, i >> 1u);
-    if (all(lessThan(at, size))) {
+    const bool inside = all(lessThan(at, size));
+    if (!inside || depth[i] <= 0.0) share[i] = 0.0;
+    if (inside) {
       imageStore(visibility, at, vec4(value[i]));
 #if BENT
+      const vec3 mean = bent * weights[i];
       const vec3 normal = textureLod(world_normal, attachmentAt(vec2(at) + 0.5), 0.0).xyz;
-      imageStore(bent_normal, at, vec4(bentNormal(bent * weights[i], normal), 0.0));
+      imageStore(bent_normal, at, vec4(bentNormal(mean, normal), 0.0));
+      if (kRefine >= 1u) imageStore(upsampled_bent, at, vec4(mean, 0.0));
 #endif
     }
   }
+  if (kRefine == 0u) return;
+  const bool any_share = any(greaterThan(share, vec4(0.0)));
+  imageStore(blocks, place / 2, any_share ? appended(place, share, blended) : blended);
 }

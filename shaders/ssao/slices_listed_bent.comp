@@ -1,0 +1,6 @@
+#version 460
+// SPDX-License-Identifier: MIT
+#extension GL_GOOGLE_include_directive : require
+#define BENT 1
+#define LISTED 1
+#include "slices.glsl"
