@@ -26,6 +26,7 @@ enum Parameter {
   kSlices,
   kEdgeSlices,
   kEdgeDenoise,
+  kContrast,
   kSampling,
   kRotation,
   kRangeCheck,
@@ -61,6 +62,7 @@ constexpr const char* kRefineLabels[] = {"Nothing", "Edges", "Edges and contrast
 
 // Parameters that only one estimator uses. `slices` also computes the open directions.
 constexpr plugin::UsedWhen kSlicesOnly = {"estimator", static_cast<uint32_t>(Estimator::kSlices)};
+constexpr plugin::UsedWhen kContrastsOnly = {"refine", static_cast<uint32_t>(Refine::kContrasts)};
 constexpr plugin::UsedWhen kClassicOnly = {"estimator", static_cast<uint32_t>(Estimator::kClassic)};
 
 constexpr grisaille_param_desc kParams[] = {
@@ -268,6 +270,18 @@ constexpr grisaille_param_desc kParams[] = {
          .defaultValue = 6,
          .advanced = true,
          .usedWhen = kSlicesOnly}),
+    plugin::floatParam({.key = "contrast",
+                        .label = "Contrast",
+                        .tooltip = "Difference of visibility between neighbouring computed pixels "
+                                   "from which the pixels between them are refined",
+                        .hardMin = 0.01,
+                        .hardMax = 1,
+                        .softMin = 0.05,
+                        .softMax = 0.5,
+                        .defaultValue = 0.1,
+                        .step = 0.01,
+                        .advanced = true,
+                        .usedWhen = kContrastsOnly}),
     plugin::enumParam({.key = "sampling",
                        .label = "Sampling",
                        .tooltip =

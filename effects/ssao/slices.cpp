@@ -41,7 +41,7 @@ GRISAILLE_CHECK_BLOCK_ssao_slices_bent_Settings(SlicesBlock);
 GRISAILLE_CHECK_BLOCK_ssao_slices_listed_Settings(SlicesBlock);
 GRISAILLE_CHECK_BLOCK_ssao_slices_listed_bent_Settings(SlicesBlock);
 
-// shaders/ssao/filter.glsl and upsample.glsl, std140.
+// shaders/ssao/filter.glsl and refined.glsl, std140.
 struct FilterBlock {
   glm::vec4 finish;
   float tolerance;
@@ -56,8 +56,15 @@ GRISAILLE_CHECK_BLOCK_ssao_edges_last_Settings(FilterBlock);
 GRISAILLE_CHECK_BLOCK_ssao_edges_last_bent_Settings(FilterBlock);
 GRISAILLE_CHECK_BLOCK_ssao_refined_Settings(FilterBlock);
 GRISAILLE_CHECK_BLOCK_ssao_refined_bent_Settings(FilterBlock);
-GRISAILLE_CHECK_BLOCK_ssao_upsample_Settings(FilterBlock);
-GRISAILLE_CHECK_BLOCK_ssao_upsample_bent_Settings(FilterBlock);
+
+// shaders/ssao/upsample.glsl, std140.
+struct UpsampleBlock {
+  glm::vec4 finish;
+  float tolerance;
+  float contrast;
+};
+GRISAILLE_CHECK_BLOCK_ssao_upsample_Settings(UpsampleBlock);
+GRISAILLE_CHECK_BLOCK_ssao_upsample_bent_Settings(UpsampleBlock);
 
 // Plane tolerance of the denoiser and the upsampling, in radii.
 constexpr float kTolerance = 0.05f;
@@ -201,7 +208,7 @@ void Slices::enlarge(const plugin::Frame& frame, Kernels& kernels, Size size, Pa
   };
   const Listed listed = {
       .list = listFor(frame, refines),
-      .blocks = texture("visibility upsampled", GRISAILLE_FORMAT_RGBA16F, 2),
+      .blocks = texture("visibility upsampled", GRISAILLE_FORMAT_R32UI, 2),
       .kept = texture("visibility kept", GRISAILLE_FORMAT_RG32F, 1),
       .bent = bent ? texture("open direction upsampled", GRISAILLE_FORMAT_RGBA16F, 1)
                    : grisaille_texture{0}};
@@ -259,7 +266,7 @@ void Slices::occlude(const plugin::Frame& frame, plugin::PipelineCache& pipeline
       backs = Backs::kAssumed;
     }
   }
-  // Constants 0 ... 4 of shaders/ssao/slices.glsl.
+  // Constants 0 ... 4 of shaders/ssao/slices.glsl; of the list's, 0 ... 3.
   const grisaille_constant constants[] = {
       plugin::specialize(0, frame.value<uint32_t>(kSlices)), plugin::specialize(1, stepsOf(frame)),
       plugin::specialize(2, size.scale), plugin::specialize(3, static_cast<uint32_t>(backs)),
@@ -278,7 +285,7 @@ void Slices::occlude(const plugin::Frame& frame, plugin::PipelineCache& pipeline
   bindings.add(listed->list);
   bindings.add(plugin::texture(3, listed->kept, clamped_));
   if (target.bent.id != 0) bindings.add(plugin::texture(4, listed->bent, clamped_));
-  frame.dispatch(pipelines.get(constants), bindings, listGroups(frame), 1);
+  frame.dispatch(pipelines.get(std::span(constants).first(4)), bindings, listGroups(frame), 1);
 }
 
 // Bindings of shaders/ssao/filter.glsl.
@@ -323,8 +330,11 @@ void Slices::upsample(const plugin::Frame& frame, Kernels& kernels, Size size, P
   // Constants 0 and 1 of shaders/ssao/upsample.glsl.
   const grisaille_constant constants[] = {plugin::specialize(0, size.scale),
                                           plugin::specialize(1, frame.value<uint32_t>(kRefine))};
+  const UpsampleBlock settings = {.finish = finishOf(frame),
+                                  .tolerance = toleranceOf(frame),
+                                  .contrast = frame.value<float>(kContrast)};
   Bindings bindings = {plugin::uniform(0, frame.viewBlock()),
-                       plugin::uniform(1, frame.uniform(filterBlock(frame))),
+                       plugin::uniform(1, frame.uniform(settings)),
                        plugin::texture(0, coarse.open, clamped_),
                        plugin::texture(1, frame.attachment(GRISAILLE_VIEW_DEPTH), clamped_),
                        plugin::texture(2, frame.attachment(GRISAILLE_NORMAL), clamped_),

@@ -29,6 +29,7 @@ struct OcclusionSettings {
   int scale = 2;    // pixels per texel: 1, 2 or 4
   // Pixels that are computed at full resolution below it.
   enum class Refine { kNothing, kEdges, kContrasts } refine = Refine::kNothing;
+  double contrast = 0.1;  // with kContrasts
   int edgeDenoise = 6;
   double intensity = 1, power = 1;
   double albedo = 0;        // albedo of the bounce; 0: no bounce

@@ -21,8 +21,8 @@ constexpr double kMostBent = 0.5;         // largest angle between facet and nor
 constexpr double kSteepest = 8;           // slope of a surface that taps share, if backs are known
 constexpr double kLone = 2.5;             // reach of a surface of one tap, distances between taps
 // Where pixels begin to be refined, and where they are refined entirely: share of texels on the
-// pixel's plane, and difference of visibility between texels.
-constexpr double kServed[] = {0.6, 0.4}, kContrast[] = {0.08, 0.12};
+// pixel's plane, and difference of visibility between texels over the parameter `contrast`.
+constexpr double kServed[] = {0.6, 0.4}, kContrast[] = {0.8, 1.2};
 
 // A slice of the hemisphere over a surface. Angles start at the view vector, and are positive on
 // the side of `across`.
@@ -73,6 +73,8 @@ struct Walk {
   double share;                   // share of the slice below the previous tap
   glm::dvec3 point{0}, step{0};   // the previous tap, and the step that led to it
   std::optional<double> depth{};  // of the previous tap, if the next may be joined to it
+  double beyond = 0;              // of the previous tap: squared distance - squared radius
+  double farther = 1;             // how much larger than that of the tap before it
   int seen = 0;                   // number of taps inside the attachments
   glm::ivec2 at{0};               // pixel of the previous tap
 };
@@ -151,7 +153,6 @@ class Slices : public Occlusion {
                 const glm::dvec2& pixel, double dither) const;
   uint32_t tap(const Slice& slice, const glm::dvec3& position, const glm::ivec2& at, double dither,
                Walk& walk) const;
-  glm::dvec3 leavesAt(const Walk& walk, const glm::dvec3& step) const;
   Texel denoised(const std::function<Texel(const glm::ivec2&)>& from, const glm::ivec2& texel,
                  const glm::ivec2& along) const;
   Texel alongEdge(const glm::ivec2& texel);
@@ -232,7 +233,7 @@ Texel Slices::estimate(const glm::ivec2& texel, int scale, int frames, bool list
   const int second = (texel.x + 2 * texel.y + drawn + 2 * (drawn / 5)) % 5;
   const double turn = std::fmod(0.375 + (settings_.seed + frames / 25) * 0.6180339887498949, 1.0);
   const glm::dmat3 axes = axesAbout(normal);
-  const bool edge = settings_.edgeSlices > 1 && (listed || isEdge(pixel));
+  const bool edge = settings_.edgeSlices > 1 && !listed && isEdge(pixel);
   const int slices = settings_.slices * (edge ? settings_.edgeSlices : 1);
   Texel sum(0);
   for (int k = 0; k < slices; ++k) {
@@ -281,7 +282,9 @@ Texel Slices::sliceOf(const glm::dvec3& position, const glm::dvec3& normal,
   }
   for (const Walk* walk : {&ahead, &behind}) {
     if (!walk->depth) continue;
-    const double share = slice.below(leavesAt(*walk, walk->step), walk->side);
+    // The surface of the last tap continues until it leaves the sphere, at most one step further.
+    const double more = std::min(-walk->beyond / std::max(walk->farther, 1e-30), 1.0);
+    const double share = slice.below(walk->point + more * walk->step, walk->side);
     shut |= sectors(std::min(walk->share, share), std::max(walk->share, share), dither);
   }
   const glm::dvec3 bent = slice.meanOpen(across, toward, shut);
@@ -297,16 +300,6 @@ Texel Slices::sliceOf(const glm::dvec3& position, const glm::dvec3& normal,
   return {bent, 1 - shutAll};
 }
 
-// The point at which a surface that continues from the previous tap by `step` leaves the sphere; at
-// most one step away.
-glm::dvec3 Slices::leavesAt(const Walk& walk, const glm::dvec3& step) const {
-  const double square = std::max(glm::dot(step, step), 1e-20);
-  const double b = glm::dot(walk.point, step) / square;
-  const double c =
-      (glm::dot(walk.point, walk.point) - settings_.radius * settings_.radius) / square;
-  return walk.point + std::clamp(std::sqrt(std::max(b * b - c, 0.0)) - b, 0.0, 1.0) * step;
-}
-
 uint32_t Slices::tap(const Slice& slice, const glm::dvec3& position, const glm::ivec2& at,
                      double dither, Walk& walk) const {
   const bool seen = view_.holds(at);
@@ -319,10 +312,10 @@ uint32_t Slices::tap(const Slice& slice, const glm::dvec3& position, const glm::
   glm::dvec3 wide(0);
   using Backs = OcclusionSettings::Backs;
   if (settings_.backs != Backs::kAssumed) {
-    const double across = glm::length(step - ray * (glm::dot(step, ray) / glm::dot(ray, ray)));
-    joined = joined && std::abs(depth - *walk.depth) < kSteepest * across;
+    const glm::dvec2 across = depth * glm::dvec2(at - walk.at) / view_.focal();
+    joined = joined && std::abs(depth - *walk.depth) < kSteepest * glm::length(across);
     if (inside && !joined && walk.seen > 0) {
-      wide = kLone * depth * glm::dvec3(glm::dvec2(at - walk.at) / view_.focal(), 0);
+      wide = kLone * glm::dvec3(across, 0);
       wide -= slice.up * (glm::dot(wide, slice.up) / glm::dot(slice.up, slice.up));
     }
   }
@@ -332,7 +325,9 @@ uint32_t Slices::tap(const Slice& slice, const glm::dvec3& position, const glm::
   double from = first;
   if (joined && !inside) {
     present = seen && depth > 0;
-    const double last = slice.below(leavesAt(walk, step), walk.side);
+    // Where the squared distance, taken as linear between the taps, is the squared radius.
+    const double inner = walk.beyond / (walk.beyond - beyond);
+    const double last = slice.below(walk.point + inner * step, walk.side);
     bits = sectors(std::min(walk.share, last), std::max(walk.share, last), dither);
   } else {
     // The part of front + k ray, k in [0, matter], inside the sphere.
@@ -353,6 +348,8 @@ uint32_t Slices::tap(const Slice& slice, const glm::dvec3& position, const glm::
   }
   walk.step = joined ? step : glm::dvec3(0);
   walk.point = front;
+  walk.farther = beyond - walk.beyond;
+  walk.beyond = beyond;
   walk.share = from;
   walk.depth = present && inside ? std::optional(depth) : std::nullopt;
   walk.seen += seen ? 1 : 0;
@@ -470,7 +467,8 @@ Upsampled Slices::upsampled(const glm::ivec2& pixel) {
   Upsampled result = {.texel = weights > 0 ? sum / weights : kSky};
   if (settings_.refine != Refine::kNothing) result.share = linearStep(kServed, served);
   if (settings_.refine == Refine::kContrasts)
-    result.share = std::max(result.share, linearStep(kContrast, most - least));
+    result.share =
+        std::max(result.share, linearStep(kContrast, (most - least) / settings_.contrast));
   return result;
 }
 

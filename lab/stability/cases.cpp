@@ -190,6 +190,7 @@ void addValues(Cases& cases) {
   sweep("kernel", "kernel_size", {"classic", "classic, raw"}, {"1", "2", "16", "300"});
   sweep("kernel", "kernel_size", {"slices", "slices, raw"}, {"128", "1", "4"});
   sweep("slices", "slices", {"slices", "slices, raw"}, {"64", "2", "7"});
+  sweep("contrast", "contrast", {"slices, refined"}, {"0.01", "0.24", "1"});
   sweep("edge slices", "edge_slices", {"slices", "slices, raw"}, {"16", "1", "3"});
   sweep("radius, m", "radius",
         {"slices", "slices, raw", "slices, quarter", "slices, refined", "classic", "sphere"},

@@ -117,6 +117,7 @@ void drawOcclusion(Draws& draw, Case& one) {
   set("edge_slices", std::to_string(1 + draw.below(4)));
   set("backs", draw.of({"assumed", "bodies", "drawn"}));
   set("edge_denoise", std::to_string(draw.of({0, 1, 6, 6, 9, 32})));
+  set("contrast", fmt::format("{}", draw.decades(-2, 0)));
 }
 
 void drawPaint(Draws& draw, Case& one, uint32_t seed) {

@@ -36,6 +36,7 @@ oracle::OcclusionSettings occlusionOf(const effect::Values& values) {
           .history = whole(values, "history"),
           .scale = 1 << whole(values, "resolution"),
           .refine = static_cast<oracle::OcclusionSettings::Refine>(whole(values, "refine")),
+          .contrast = single(values, "contrast"),
           .edgeDenoise = whole(values, "edge_denoise"),
           .intensity = single(values, "intensity"),
           .power = single(values, "power"),

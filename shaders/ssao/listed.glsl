@@ -7,6 +7,9 @@ layout(STORAGE(0), std430) buffer List {
   uint listed[];      // x | y << 16
 };
 
+// Byte of a listed pixel in the image `blocks`, see upsample.glsl.
+const uint kIsListed = 255u;
+
 ivec2 listedPixel(uint i) {
   return ivec2(listed[i] & 0xffffu, listed[i] >> 16);
 }

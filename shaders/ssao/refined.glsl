@@ -17,7 +17,7 @@ layout(UNIFORM(1), std140) uniform Settings {
 } settings;
 // All nearest and clamped. blocks, upsampled_bent, kept: see upsample.glsl. raw, raw_bent: valid at
 // listed pixels.
-layout(TEXTURE(0)) uniform sampler2D blocks;
+layout(TEXTURE(0)) uniform usampler2D blocks;
 layout(TEXTURE(1)) uniform sampler2D raw;
 layout(TEXTURE(2)) uniform sampler2D view_depth;
 layout(TEXTURE(3)) uniform sampler2D world_normal;
@@ -44,12 +44,11 @@ void denoise(ivec2 place) {
     const float other_depth = textureLod(view_depth, attachmentAt(vec2(other) + 0.5), 0.0).x;
     const float off = planeDistance(plane, depth, other_depth, vec2(across)) * tolerance;
     const float weight = other_depth > 0.0 ? max(1.0 - off, 0.0) : 0.0;
-    const vec4 block = textureLod(blocks, (vec2(other / 2) + 0.5) * block_size, 0.0);
-    const vec2 row = (other.y & 1) == 0 ? block.xy : block.zw;
-    const float upsampled = (other.x & 1) == 0 ? row.x : row.y;
+    const uint block = textureLod(blocks, (vec2(other / 2) + 0.5) * block_size, 0.0).x;
+    const uint upsampled = block >> uint((other.x & 1) * 8 + (other.y & 1) * 16) & 0xffu;
     const vec2 at = (vec2(other) + 0.5) * view.size.zw;
-    const bool is_listed = upsampled < 0.0;
-    sum.w += weight * (is_listed ? textureLod(raw, at, 0.0).x : upsampled);
+    const bool is_listed = upsampled == kIsListed;
+    sum.w += weight * (is_listed ? textureLod(raw, at, 0.0).x : float(upsampled) / 254.0);
 #if BENT
     sum.xyz += weight * (is_listed ? textureLod(raw_bent, at, 0.0).xyz
                                    : textureLod(upsampled_bent, at, 0.0).xyz);

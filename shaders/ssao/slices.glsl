@@ -17,7 +17,7 @@
 // A texel of the target samples one of kScale x kScale pixels, the top left one. At edges, where
 // the denoiser finds few texels of one surface, the texel takes kEdgeSlices times as many slices.
 // BENT is 0 or 1; 1 also computes the mean open direction. LISTED is 0 or 1; 1 computes only the
-// pixels of a list, at the picture's resolution, as edges.
+// pixels of a list, at the picture's resolution, none of them as an edge.
 #include "common/view.glsl"
 #include "plane.glsl"
 #if LISTED
@@ -29,7 +29,9 @@ layout(constant_id = 1) const uint kSteps = 8u;  // taps on each side of a slice
 layout(constant_id = 2) const uint kScale = 1u;  // pixels per texel, each way
 // Where matter ends: 0 after `thickness`, 1 after the thickness in `known`, 2 at the depth in `known`.
 layout(constant_id = 3) const uint kBacks = 0u;
+#if !LISTED
 layout(constant_id = 4) const uint kEdgeSlices = 1u;  // factor on the slices at edges
+#endif
 
 layout(local_size_x = 8, local_size_y = 8) in;
 layout(UNIFORM(1), std140) uniform Settings {
@@ -77,17 +79,20 @@ struct Slice {
   float offset, scale; // share = offset + integral * scale
 };
 
-// Share of the slice's cosine-weighted solid angle below the horizon of `point`, on one `side` of
-// the view vector (1 or -1). With h the horizon angle and n the projected normal's, the integral of
-// |sin h| cos(h - n) from 0 to h is (cos n - cos(2 h - n)) / 4 + h sin(n) / 2
-// (Jimenez 2016, line 28).
-//
-// A tap is the centre of a pixel and lies beside the slice. The function moves it into the slice at
-// its own height over the tangent plane, which keeps planes open at any distance of the tap.
-float shareOf(Slice s, vec3 point, float side) {
+// A point in the frame of a slice, on one `side` of the view vector (1 or -1): how far it lies along
+// the slice, and its height over the tangent plane over the length of the projected normal. A tap is
+// the centre of a pixel and lies beside the slice. The frame moves it into the slice at its own
+// height, which keeps planes open at any distance of the tap.
+vec2 inSlice(Slice s, vec3 point, float side) {
+  return vec2(side * dot(point, s.along), dot(point, s.up));
+}
+
+// Share of the slice's cosine-weighted solid angle below the horizon of a point of inSlice(). With h
+// the horizon angle and n the projected normal's, the integral of |sin h| cos(h - n) from 0 to h is
+// (cos n - cos(2 h - n)) / 4 + h sin(n) / 2 (Jimenez 2016, line 28).
+float shareOf(Slice s, vec2 local, float side) {
   const float sin_n = side * s.sin_n;
-  vec2 local = vec2(side * dot(point, s.along), dot(point, s.up));
-  // The move may take a near tap across the view vector. This moves it back.
+  // The move into the slice may take a near tap across the view vector. This moves it back.
   if (local.x * s.cos_n + local.y * sin_n < 0.0) local.x = abs(local.x);
   vec2 at = vec2(max(local.x * s.cos_n + local.y * sin_n, 0.0),
                  local.y * s.cos_n - local.x * sin_n);
@@ -131,9 +136,11 @@ uint sectorRange(uint from, uint to) {
 
 // State of one side of a slice between its taps, from the pixel outwards.
 struct Side {
-  vec3 point, step;  // previous tap, from the pixel's surface; its offset from the tap before it
+  vec2 point, step;  // previous tap, see inSlice(); its offset from the tap before it
   float share;       // see shareOf(); of the previous tap
   float depth;       // of the previous tap, metres; -1e30: the next tap does not connect to it
+  float beyond;      // of the previous tap: squared distance - squared radius
+  float farther;     // how much larger that is than for the tap before it
   float seen;        // number of taps inside the picture
   vec2 at;           // of the previous tap, pixels
 };
@@ -141,14 +148,6 @@ struct Side {
 uint sectorsBetween(float low, float high, float dither) {
   return sectorRange(uint(clamp(low * 32.0 + dither, 0.0, 32.0)),
                 uint(clamp(high * 32.0 + dither, 0.0, 32.0)));
-}
-
-// The point at which a surface that continues from the previous tap by `step` leaves the sphere; at
-// most one step further.
-vec3 leavesAt(Side before, vec3 step) {
-  const float a = 1.0 / max(dot(step, step), 1e-20), b = dot(before.point, step) * a;
-  const float c = (dot(before.point, before.point) - settings.radius * settings.radius) * a;
-  return before.point + clamp(sqrt(max(b * b - c, 0.0)) - b, 0.0, 1.0) * step;
 }
 
 // Occluded sectors of one tap: those between the front and the back of its surface.
@@ -171,44 +170,46 @@ uint sectorsOfTap(Slice s, vec2 at, float side, float dither, inout Side before)
     }
   }
   const float near = max(0.0, -b - root), far = min(thick, root - b);
+  const vec2 point = inSlice(s, front, side), way = inSlice(s, ray, side);
   // Two successive taps whose depths differ by less than the thickness belong to one surface: the
   // sectors between them are occluded too, up to the sphere. With few taps this has a smaller error
   // than gaps between the taps, even if the back is known.
   const bool inside = beyond <= 0.0;
-  const vec3 step = front - before.point;
-  bool connected = seen && abs(depth - before.depth) < settings.thickness;
-  vec3 wide = vec3(0.0);
+  const float deeper = abs(depth - before.depth);
+  bool connected = seen && deeper < settings.thickness;
+  vec2 wide = vec2(0.0);
   if (kBacks != 0u) {
-    const float along = dot(step, ray);
-    const float across = sqrt(max(dot(step, step) - along * along * a, 0.0));
-    connected = connected && abs(depth - before.depth) < kSteepest * across;
+    const vec2 across = depth * (at - before.at) * view.view_from_pixel.xy;
+    connected = connected && deeper * deeper < kSteepest * kSteepest * dot(across, across);
     // A surface of one tap, such as a leaf or a bar, stands for what lies between taps: it reaches
     // to both sides, parallel to the pixel's tangent plane.
-    if (inside && !connected && before.seen > 0.0) {
-      wide = vec3(kLone * depth * (at - before.at) * view.view_from_pixel.xy, 0.0);
-      wide -= s.up * (dot(wide, s.up) / dot(s.up, s.up));
-    }
+    if (inside && !connected && before.seen > 0.0) wide.x = side * kLone * dot(across, s.along.xy);
   }
   const bool leaves = connected && !inside;
-  const vec3 from = front + near * ray - wide;
-  const vec3 to = leaves ? leavesAt(before, step) : front + far * ray + wide;
-  const float first = shareOf(s, from, side), last = shareOf(s, to, side);
+  // A surface that leaves the sphere between two taps does so where the squared distance, taken as
+  // linear between them, is the squared radius.
+  const float inner = before.beyond / min(before.beyond - beyond, -1e-30);
+  const vec2 to = leaves ? mix(before.point, point, inner) : point + far * way + wide;
+  const float first = shareOf(s, point + near * way - wide, side), last = shareOf(s, to, side);
   const float low = min(leaves ? before.share : min(first, connected ? before.share : 1.0), last);
   const float high = max(leaves ? before.share : max(first, connected ? before.share : 0.0), last);
   const bool present = seen && depth > 0.0 && (leaves || (d > 0.0 && near <= far));
-  before.step = connected ? step : vec3(0.0);
-  before.point = front;
+  before.step = connected ? point - before.point : vec2(0.0);
+  before.farther = max(beyond - before.beyond, 1e-30);
+  before.point = point;
   before.share = first;
   before.depth = present && inside ? depth : -1e30;
+  before.beyond = beyond;
   before.seen += seen ? 1.0 : 0.0;
   before.at = at;
   return present ? sectorsBetween(low, high, dither) : 0u;
 }
 
 // Occluded sectors beyond the last tap: its surface continues in its direction until it leaves the
-// sphere.
+// sphere, at most one step further.
 uint sectorsBeyond(Slice s, Side last, float side, float dither) {
-  const float share = shareOf(s, leavesAt(last, last.step), side);
+  const float more = min(-last.beyond / last.farther, 1.0);
+  const float share = shareOf(s, last.point + more * last.step, side);
   return last.depth > 0.0 ? sectorsBetween(min(last.share, share), max(last.share, share), dither) : 0u;
 }
 
@@ -254,8 +255,8 @@ float sliceOf(vec3 position, vec3 view_vec, vec3 normal, vec3 direction, vec2 pi
   const float near = settings.radius * settings.radius / dot(position, position);
   const float reach = settings.radius / (depth * depth) * sqrt(stretch / max(1.0 - near, 0.0625));
   uint occluded = 0u;
-  Side ahead = Side(vec3(0.0), vec3(0.0), 1.0, -1e30, 0.0, pixel);
-  Side behind = Side(vec3(0.0), vec3(0.0), 0.0, -1e30, 0.0, pixel);
+  Side ahead = Side(vec2(0.0), vec2(0.0), 1.0, -1e30, 0.0, 1.0, 0.0, pixel);
+  Side behind = Side(vec2(0.0), vec2(0.0), 0.0, -1e30, 0.0, 1.0, 0.0, pixel);
   // Not unrolled: unrolling costs a third more on lavapipe and gains nothing elsewhere.
   for (uint i = 0u; i < kSteps; ++i) {
     // Taps are denser near the pixel. Tap i is at least i + 1 pixels away.
@@ -309,9 +310,11 @@ float openAt(uvec2 texel, vec2 pixel, float depth, out vec3 bent) {
   const vec3 position = at.position;
   const vec3 view_vec = position * -inversesqrt(dot(position, position));
   uint count = kSlices;
+#if !LISTED
   if (kEdgeSlices > 1u) {
-    if (LISTED == 1 || isEdge(pixel, depth, normal)) count = kSlices * kEdgeSlices;
+    if (isEdge(pixel, depth, normal)) count = kSlices * kEdgeSlices;
   }
+#endif
   // Interpolated normals may face away from the camera. Turns them to the silhouette, or a little
   // past it towards the camera if they face away by more than their rounding: at exactly edge-on,
   // rounding errors would decide.

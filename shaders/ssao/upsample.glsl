@@ -22,14 +22,15 @@ layout(local_size_x = 8, local_size_y = 8) in;
 layout(UNIFORM(1), std140) uniform Settings {
   vec4 finish;      // see finished() in finish.glsl
   float tolerance;  // inverse of the plane tolerance, 1 / metres
+  float contrast;   // the parameter
 } settings;
 layout(TEXTURE(0)) uniform sampler2D coarse;  // visibility and view depth; nearest, clamped
 layout(TEXTURE(1)) uniform sampler2D view_depth;
 layout(TEXTURE(2)) uniform sampler2D world_normal;
 layout(IMAGE(0), r16f) writeonly uniform image2D visibility;
-// With kRefine, a texel for each 2x2 pixels: -1 for a listed pixel, else its visibility before
-// finished().
-layout(IMAGE(2), rgba16f) writeonly uniform image2D blocks;
+// With kRefine, a texel for each 2x2 pixels, a byte for each pixel from the lowest bits on: 255 for a
+// listed one, else 254 times its visibility before finished().
+layout(IMAGE(2), r32ui) writeonly uniform uimage2D blocks;
 // Of a listed pixel: that visibility, and the share of it that the refined one replaces.
 layout(IMAGE(4), rg32f) writeonly uniform image2D kept;
 #if BENT
@@ -39,10 +40,10 @@ layout(IMAGE(3), rgba16f) writeonly uniform image2D upsampled_bent;  // with kRe
 #endif
 
 // Ranges over which a pixel becomes an edge and a contrast: bilinear share of the texels on its
-// plane, and difference of visibility between the four texels. At a limit instead, pixels would
-// change at once when the camera moves, and rounding would decide.
+// plane, and difference of visibility between the four texels over the parameter `contrast`. At a
+// limit instead, pixels would change at once when the camera moves, and rounding would decide.
 const vec2 kServed = vec2(0.6, 0.4);
-const vec2 kContrast = vec2(0.08, 0.12);
+const vec2 kContrast = vec2(0.8, 1.2);
 
 // How a pixel blends the four texels around it: `first`, then its neighbours in x, in y and in
 // both.
@@ -100,9 +101,15 @@ float contrastOf(vec4 open, vec4 depths) {
   return max(max(high.x, high.y), max(high.z, high.w)) - min(min(low.x, low.y), min(low.z, low.w));
 }
 
+// Four visibilities as `blocks` holds them.
+uvec4 bytesOf(vec4 open) {
+  return uvec4(clamp(open, 0.0, 1.0) * 254.0 + 0.5);
+}
+
 // Appends those pixels of the 2x2 block at `place` to the list whose `share` is not 0. Returns the
-// block's texel.
-vec4 appended(ivec2 place, vec4 share, vec4 open) {
+// bytes of the block's texel.
+uvec4 appended(ivec2 place, vec4 share, vec4 open) {
+  uvec4 bytes = bytesOf(open);
   const bvec4 which = greaterThan(share, vec4(0.0));
   const uvec4 one = uvec4(which);
   uint slot = atomicAdd(listed_count, one.x + one.y + one.z + one.w);
@@ -112,11 +119,11 @@ vec4 appended(ivec2 place, vec4 share, vec4 open) {
     if (slot < uint(listed.length())) {
       listed[slot] = at.x | at.y << 16;
       imageStore(kept, ivec2(at), vec4(open[i], share[i], 0.0, 0.0));
-      open[i] = -1.0;
+      bytes[i] = kIsListed;
     }
     ++slot;
   }
-  return open;
+  return bytes;
 }
 
 void main() {
@@ -154,7 +161,7 @@ void main() {
   const vec4 blended = open * weights + none;
   const vec4 value = finished(blended, settings.finish);
   vec4 share = linearStep(kServed, served);
-  if (kRefine >= 2u) share = max(share, linearStep(kContrast, vec4(contrastOf(open, depths))));
+  if (kRefine >= 2u) share = max(share, linearStep(settings.contrast * kContrast, vec4(contrastOf(open, depths))));
   [[unroll]] for (uint i = 0u; i < 4u; ++i) {
     const ivec2 at = place + ivec2(i & 1u, i >> 1u);
     const bool inside = all(lessThan(at, size));
@@ -171,5 +178,6 @@ void main() {
   }
   if (kRefine == 0u) return;
   const bool any_share = any(greaterThan(share, vec4(0.0)));
-  imageStore(blocks, place / 2, any_share ? appended(place, share, blended) : blended);
+  const uvec4 bytes = any_share ? appended(place, share, blended) : bytesOf(blended);
+  imageStore(blocks, place / 2, uvec4(bytes.x | bytes.y << 8 | bytes.z << 16 | bytes.w << 24));
 }
