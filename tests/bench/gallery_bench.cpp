@@ -18,7 +18,6 @@
 #include "app/truth/error_map.h"
 #include "backends/backends.h"
 #include "core/base/atomic_file.h"
-#include "core/frame/texture_image.h"
 #include "tests/bench/command.h"
 #include "tests/bench/subject.h"
 #include "tests/bench/tutorial_ssao.h"
@@ -85,34 +84,22 @@ class Tutorial {
     double sum = 0;
     const std::vector<gpu::FrameTimes> frames = device_.takeTimes();
     for (const gpu::PassTime& pass : frames.back().passes) {
-      if (pass.label.starts_with("tutorial_")) {
-        sum += pass.milliseconds;
-      }
+      if (TutorialSsao::counts(pass.label)) sum += pass.milliseconds;
     }
     return sum;
   }
 
   image::Image ao(const scene::Camera& camera) {
-    const gpu::Texture target = draw(camera);
-    return frame::toImage(device_.read(target), gpu::Format::kR8Unorm, subject_.size.x,
-                          subject_.size.y);
+    draw(camera);
+    return tutorial_.read();
   }
 
  private:
-  gpu::Texture draw(const scene::Camera& camera) {
+  void draw(const scene::Camera& camera) {
     const glm::uvec2 size = subject_.size;
     const std::vector<std::string> outputs = {"depth", "normal"};
     renderer_.render({.camera = camera, .width = size.x, .height = size.y, .outputs = outputs});
-    const glm::mat4 projection(scene::clipFromView(camera, double{1} * size.x / size.y));
-    const glm::mat3 viewFromWorld(glm::transpose(scene::worldFromView(camera)));
-    gpu::Commands& commands = device_.begin();
-    const TutorialSsao::Inputs inputs =
-        tutorial_.makeInputs(commands, renderer_.texture("depth"), renderer_.texture("normal"),
-                             projection, viewFromWorld, size.x, size.y);
-    const gpu::Texture target = tutorial_.record(commands, inputs.position, inputs.normal,
-                                                 projection, size.x, size.y, radius_);
-    device_.submit();
-    return target;
+    tutorial_.draw(renderer_, camera, size, radius_);
   }
 
   const study::Subject& subject_;

@@ -20,7 +20,6 @@
 #include "core/effect/registry.h"
 #include "core/effect/values.h"
 #include "core/frame/renderer.h"
-#include "core/frame/texture_image.h"
 #include "core/scene/camera.h"
 #include "core/scene/scene.h"
 #include "core/trace/ray_tracer.h"
@@ -154,7 +153,7 @@ class Bench {
   }
   double timeTutorial() {
     drawTutorial(subject_.cameras[0]);
-    return taken([](const std::string& pass) { return pass.starts_with("tutorial_") ? 1 : 0; });
+    return taken([](const std::string& pass) { return TutorialSsao::counts(pass) ? 1 : 0; });
   }
 
   image::Image ao(size_t setting, const scene::Camera& camera) {
@@ -164,8 +163,7 @@ class Bench {
   image::Image tutorialAo(const scene::Camera& camera) {
     render(settings_[0], camera);
     drawTutorial(camera);
-    return frame::toImage(device_->read(target_), gpu::Format::kR8Unorm, options_.width,
-                          options_.height);
+    return tutorial_->read();
   }
 
  private:
@@ -180,16 +178,7 @@ class Bench {
 
   // Draws from the attachments of the last render().
   void drawTutorial(const scene::Camera& camera) {
-    const double aspect = double{1} * options_.width / options_.height;
-    const glm::mat4 projection(scene::clipFromView(camera, aspect));
-    const glm::mat3 viewFromWorld(glm::transpose(scene::worldFromView(camera)));
-    gpu::Commands& commands = device_->begin();
-    const TutorialSsao::Inputs inputs =
-        tutorial_->makeInputs(commands, renderer_->texture("depth"), renderer_->texture("normal"),
-                              projection, viewFromWorld, options_.width, options_.height);
-    target_ = tutorial_->record(commands, inputs.position, inputs.normal, projection,
-                                options_.width, options_.height);
-    device_->submit();
+    tutorial_->draw(*renderer_, camera, {options_.width, options_.height});
   }
 
   // Milliseconds of the last frame's passes, each weighted by `shareOf` its label.
@@ -210,7 +199,6 @@ class Bench {
   std::optional<TutorialSsao> tutorial_;
   effect::Chain chain_;
   std::optional<frame::Renderer> renderer_;
-  gpu::Texture target_;  // the tutorial's result; this object owns it
   std::vector<effect::Selection> settings_;
   std::vector<std::string> outputs_ = {"ao", "depth", "normal"};
   double firstFrameSeconds_ = 0;

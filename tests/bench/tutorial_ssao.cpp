@@ -4,6 +4,7 @@
 #include <random>
 #include <vector>
 
+#include "core/frame/texture_image.h"
 #include "shaders/tutorial_blur.h"
 #include "shaders/tutorial_inputs.h"
 #include "shaders/tutorial_occlusion.h"
@@ -119,6 +120,21 @@ void TutorialSsao::pass(gpu::Commands& commands, std::string_view label,
   commands.endPass();
 }
 
+void TutorialSsao::draw(frame::Renderer& renderer, const scene::Camera& camera, glm::uvec2 size,
+                        double radius) {
+  const glm::mat4 projection(scene::clipFromView(camera, double{1} * size.x / size.y));
+  const glm::mat3 viewFromWorld(glm::transpose(scene::worldFromView(camera)));
+  gpu::Commands& commands = device_.begin();
+  const Inputs inputs = makeInputs(commands, renderer.texture("depth"), renderer.texture("normal"),
+                                   projection, viewFromWorld, size.x, size.y);
+  record(commands, inputs.position, inputs.normal, projection, size.x, size.y, radius);
+  device_.submit();
+}
+
+image::Image TutorialSsao::read() {
+  return frame::toImage(device_.read(output_), gpu::Format::kR8Unorm, outputSize_.x, outputSize_.y);
+}
+
 TutorialSsao::Inputs TutorialSsao::makeInputs(gpu::Commands& commands, gpu::Texture viewDepth,
                                               gpu::Texture worldNormal, const glm::mat4& projection,
                                               const glm::mat3& viewFromWorld, uint32_t width,
@@ -137,9 +153,9 @@ TutorialSsao::Inputs TutorialSsao::makeInputs(gpu::Commands& commands, gpu::Text
   return inputs;
 }
 
-gpu::Texture TutorialSsao::record(gpu::Commands& commands, gpu::Texture position,
-                                  gpu::Texture normal, const glm::mat4& projection, uint32_t width,
-                                  uint32_t height, double radius) {
+void TutorialSsao::record(gpu::Commands& commands, gpu::Texture position, gpu::Texture normal,
+                          const glm::mat4& projection, uint32_t width, uint32_t height,
+                          double radius) {
   glm::mat4 downwards = projection;
   for (int column = 0; column < 4; ++column) downwards[column][1] = -projection[column][1];
   const TutorialBlock block = {
@@ -162,7 +178,6 @@ gpu::Texture TutorialSsao::record(gpu::Commands& commands, gpu::Texture position
   }
   const std::array blurBindings = {gpu::textureBinding(0, {.texture = raw}, clamped_)};
   pass(commands, "tutorial_blur", blur_, blurBindings, std::span(&output_, 1));
-  return output_;
 }
 
 }  // namespace grisaille::bench

@@ -10,7 +10,10 @@
 #include <span>
 #include <string_view>
 
+#include "core/frame/renderer.h"
 #include "core/gpu/device.h"
+#include "core/image/image.h"
+#include "core/scene/camera.h"
 
 namespace grisaille::bench {
 
@@ -22,6 +25,18 @@ class TutorialSsao {
   TutorialSsao(const TutorialSsao&) = delete;
   TutorialSsao& operator=(const TutorialSsao&) = delete;
 
+  // Draws a frame from the outputs `depth` and `normal` that `renderer` drew last, of `camera` and
+  // `size`, and submits it. `radius`: metres.
+  void draw(frame::Renderer& renderer, const scene::Camera& camera, glm::uvec2 size,
+            double radius = 0.5);
+
+  // Visibility of the last draw().
+  image::Image read();
+
+  // Whether a pass of a frame counts as cost of the baseline.
+  static bool counts(std::string_view pass) { return pass.starts_with("tutorial_"); }
+
+ private:
   struct Inputs {
     gpu::Texture position;  // rgba16f, view space, metres
     gpu::Texture normal;    // rgba16f, view space
@@ -34,13 +49,10 @@ class TutorialSsao {
                     const glm::mat4& projection, const glm::mat3& viewFromWorld, uint32_t width,
                     uint32_t height);
 
-  // Passes "tutorial_occlusion" and "tutorial_blur". Returns an r8 texture (1: open), which stays
-  // valid until a later frame records another size. Record one size per frame. `radius`: metres.
-  gpu::Texture record(gpu::Commands& commands, gpu::Texture position, gpu::Texture normal,
-                      const glm::mat4& projection, uint32_t width, uint32_t height,
-                      double radius = 0.5);
+  // Passes "tutorial_occlusion" and "tutorial_blur" into `output_`.
+  void record(gpu::Commands& commands, gpu::Texture position, gpu::Texture normal,
+              const glm::mat4& projection, uint32_t width, uint32_t height, double radius);
 
- private:
   gpu::GraphicsPipeline pipeline(std::string_view label, const gpu::Shader& fragment,
                                  std::span<const gpu::Format> formats);
   void pass(gpu::Commands& commands, std::string_view label, gpu::GraphicsPipeline pipeline,
@@ -49,7 +61,7 @@ class TutorialSsao {
   gpu::Device& device_;
   std::array<glm::vec4, 64> kernel_ = {};
   gpu::Texture noise_;
-  gpu::Texture output_;
+  gpu::Texture output_;  // r8, 1: open
   glm::uvec2 outputSize_ = glm::uvec2(0);
   gpu::Sampler clamped_;
   gpu::Sampler repeated_;
