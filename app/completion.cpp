@@ -60,7 +60,7 @@ _grisaille() {{
       words=$("${{COMP_WORDS[0]}}" completion --objects 2>/dev/null) ;;
     --write)
       compopt -o nospace
-      words="color= depth= back_depth= thickness= motion= normal= facet_normal= base_colour= ao= ao_error= ceiling= ceiling_error="
+      words="color= depth= back_depth= next_depth= thickness= motion= normal= facet_normal= base_colour= ao= ao_error= ceiling= ceiling_error="
       words+=" "$("${{COMP_WORDS[0]}}" completion --outputs 2>/dev/null) ;;
     --camera|--config|--reference|--capture|--timings|--coverage|--write-camera) COMPREPLY=($(compgen -f -- "$current")); return ;;
     --plugin-path|--out|--bookmarks) COMPREPLY=($(compgen -d -- "$current")); return ;;

@@ -235,12 +235,11 @@ void addRender(CLI::App& program) {
   auto options = std::make_shared<RenderOptions>();
   CLI::App* command = program.add_subcommand("render", "Render a scene to files");
   options->view.addTo(*command);
-  options->addTo(
-      *command,
-      "Output and its .exr or .png file. Outputs: color, depth and back_depth (metres, 0 = sky), "
-      "thickness (metres, below 0 = unknown), normal and facet_normal (world space), base_colour, "
-      "motion (pixels since the previous frame), and those of the effects; default: "
-      "color=grisaille.png");
+  options->addTo(*command,
+                 "Output and its .exr or .png file. Outputs: color; depth, back_depth and "
+                 "next_depth (metres, 0 = sky or none), thickness (metres, below 0 = unknown), "
+                 "normal and facet_normal (world space), base_colour, motion (pixels since the "
+                 "previous frame), and those of the effects; default: color=grisaille.png");
   CLI::Option* times =
       command
           ->add_option("--times", options->times,

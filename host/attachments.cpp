@@ -31,10 +31,10 @@ constexpr KernelRow kRows[Kernels::kKernels] = {
 constexpr gpu::Format kFormats[GRISAILLE_ATTACHMENT_COUNT] = {
     gpu::Format::kR32Float,    gpu::Format::kR32Float,    gpu::Format::kRgba16Float,
     gpu::Format::kRgba16Float, gpu::Format::kRgba16Float, gpu::Format::kR32Float,
-    gpu::Format::kRgba16Float, gpu::Format::kR32Float};
+    gpu::Format::kRgba16Float, gpu::Format::kR32Float,    gpu::Format::kR32Float};
 constexpr const char* kLabels[GRISAILLE_ATTACHMENT_COUNT] = {
-    "clip depth",   "depth",      "normal", "base_colour",
-    "facet_normal", "back_depth", "motion", "thickness"};
+    "clip depth", "depth",  "normal",    "base_colour", "facet_normal",
+    "back_depth", "motion", "thickness", "next_depth"};
 
 // Not a grisaille_host_depth: the shader writes sky everywhere.
 constexpr int kNothing = -1;
@@ -107,6 +107,7 @@ void Attachments::prepare(uint32_t reads, const Textures& textures) {
   reads |= GRISAILLE_READS(GRISAILLE_VIEW_DEPTH);  // all other attachments are computed with it
   reads &= ~GRISAILLE_READS(GRISAILLE_MOTION);     // hosts give none
   if (!textures.thickness) reads &= ~GRISAILLE_READS(GRISAILLE_THICKNESS);
+  if (!textures.nextDepth) reads &= ~GRISAILLE_READS(GRISAILLE_NEXT_DEPTH);
   for (size_t i = 0; i < targets_.size(); ++i) {
     const bool read = (reads & GRISAILLE_READS(i)) != 0;
     if (read && !targets_[i]) {
@@ -162,6 +163,10 @@ void Attachments::record(gpu::Commands& commands, const SourceBlock& source,
     dispatch(commands, "host/back depth", kernels_.get(Kernels::kDepth),
              commands.uniform(std::as_bytes(std::span(&behind, 1))),
              {textures.backDepth ? textures.backDepth : textures.depth, {}}, back);
+  }
+  if (const gpu::Texture next = targets_[GRISAILLE_NEXT_DEPTH]) {
+    dispatch(commands, "host/next depth", kernels_.get(Kernels::kDepth), block,
+             {textures.nextDepth, {}}, next);
   }
   if (const gpu::Texture clip = targets_[GRISAILLE_DEPTH]) {
     dispatch(commands, "host/clip depth", kernels_.get(Kernels::kClipDepth), block, {depth, {}},

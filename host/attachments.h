@@ -14,7 +14,7 @@ namespace grisaille::host {
 
 // The host's textures; all but depth may be null.
 struct Textures {
-  gpu::Texture depth, normal, backDepth, baseColour, thickness;
+  gpu::Texture depth, normal, backDepth, nextDepth, baseColour, thickness;
 };
 
 // The pipelines that convert them, one set per device; each is created on first use.

@@ -156,11 +156,13 @@ host::Textures grisaille_host_effect::texturesOf(const grisaille_host_frame& fra
       host::checked(&host::present(frame.depth, "frame.depth"), *this, 1, "frame.depth");
   textures.normal = host::checked(frame.normal, *this, 3, "frame.normal");
   textures.backDepth = host::checked(frame.back_depth, *this, 1, "frame.back_depth");
+  textures.nextDepth = host::checked(frame.next_depth, *this, 1, "frame.next_depth");
   textures.thickness = host::checked(frame.thickness, *this, 1, "frame.thickness");
   textures.baseColour = host::checked(frame.base_colour, *this, 3, "frame.base_colour");
   const auto read = [&](grisaille_attachment a) { return (reads & GRISAILLE_READS(a)) != 0; };
   if (!read(GRISAILLE_NORMAL)) textures.normal = {};
   if (!read(GRISAILLE_BACK_DEPTH)) textures.backDepth = {};
+  if (!read(GRISAILLE_NEXT_DEPTH)) textures.nextDepth = {};
   if (!read(GRISAILLE_THICKNESS)) textures.thickness = {};
   if (!read(GRISAILLE_BASE_COLOUR)) {
     textures.baseColour = {};
@@ -177,10 +179,10 @@ void grisaille_host_effect::record(const grisaille_host_frame& frame) {
   const host::View view = host::viewOf(frame, width, height, rows_);
   const host::Textures textures = texturesOf(frame, reads);
   attachments_.prepare(reads, textures);
-  std::array<gpu::Texture, 5> read;
+  std::array<gpu::Texture, 6> read;
   size_t count = 0;
   for (const gpu::Texture texture : {textures.depth, textures.normal, textures.backDepth,
-                                     textures.baseColour, textures.thickness}) {
+                                     textures.nextDepth, textures.baseColour, textures.thickness}) {
     if (texture) read[count++] = texture;
   }
   gpu::Commands& commands =

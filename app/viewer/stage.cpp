@@ -62,6 +62,7 @@ std::vector<Viewable> viewables(const effect::Selection& effects) {
   all.push_back({"facet_normal", "Facet normals", Kind::kSigned});
   all.push_back({"depth", "Depth", Kind::kDepth});
   all.push_back({"back_depth", "Back depth", Kind::kDepth});
+  all.push_back({"next_depth", "Next depth", Kind::kDepth});
   all.push_back({"thickness", "Thickness", Kind::kDepth});
   all.push_back({"base_colour", "Base colour", Kind::kLight});
   return all;

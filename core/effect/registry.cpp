@@ -29,8 +29,9 @@ void checkAbi(const grisaille_plugin_desc& plugin) {
 }
 
 // Indexed by grisaille_attachment.
-constexpr std::array kAttachmentNames = {"depth",        "view_depth", "normal", "base_colour",
-                                         "facet_normal", "back_depth", "motion", "thickness"};
+constexpr std::array kAttachmentNames = {"depth",       "view_depth",   "normal",
+                                         "base_colour", "facet_normal", "back_depth",
+                                         "motion",      "thickness",    "next_depth"};
 static_assert(kAttachmentNames.size() == GRISAILLE_ATTACHMENT_COUNT);
 
 }  // namespace

@@ -28,6 +28,7 @@ struct AttachmentTargets {
   gpu::Texture baseColour;   // kRgba8Srgb
   gpu::Texture facetNormal;  // kRgba16Float
   gpu::Texture backDepth;    // kR32Float
+  gpu::Texture nextDepth;    // kR32Float
   gpu::Texture thickness;    // kR32Float; only with a normal
   MotionTarget motion;
 };

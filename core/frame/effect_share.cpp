@@ -22,6 +22,7 @@ double shareForEffects(std::string_view pass, double guardShare) {
   if (!scene) return 0;
   pass.remove_prefix(guarded ? kGuardedPasses.size() : kScenePasses.size());
   if (pass.starts_with(SceneAttachments::kBackPasses)) return 1;
+  if (pass.starts_with(SceneAttachments::kNextPasses)) return 1;
   return guarded ? guardShare : 0;
 }
 

@@ -118,9 +118,9 @@ void PictureAttachments::record(gpu::Commands& commands, const scene::Camera& ca
   commands.beginPass("pictures/upload");
   upload(commands, targets.depth, clipDepth(depth, camera.nearPlane));
   if (viewDepth) upload(commands, viewDepth, depth.pixels);
-  if (targets.backDepth) {
-    // Pictures have no back depth: 0 stands for no surface.
-    upload(commands, targets.backDepth, std::vector<float>(depth.pixels.size(), 0.0f));
+  for (const gpu::Texture to : {targets.backDepth, targets.nextDepth}) {
+    // Pictures have neither: 0 stands for no surface.
+    if (to) upload(commands, to, std::vector<float>(depth.pixels.size(), 0.0f));
   }
   if (targets.baseColour) {
     upload(commands, targets.baseColour, colourTexels(pictures_.baseColour, depth));

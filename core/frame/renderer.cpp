@@ -19,9 +19,10 @@ constexpr const char* kBaseColour = "base_colour";
 constexpr const char* kFacetNormal = "facet_normal";
 constexpr const char* kBackDepth = "back_depth";
 constexpr const char* kThickness = "thickness";
+constexpr const char* kNextDepth = "next_depth";
 constexpr const char* kMotion = "motion";
-constexpr const char* kFrameOutputs[] = {kColor,       kDepth,     kNormal, kBaseColour,
-                                         kFacetNormal, kBackDepth, kMotion, kThickness};
+constexpr const char* kFrameOutputs[] = {kColor,     kDepth,  kNormal,    kBaseColour, kFacetNormal,
+                                         kBackDepth, kMotion, kThickness, kNextDepth};
 // Target of clip depth, which is not an output.
 constexpr const char* kClipDepth = "clip depth";
 // Prefix of the targets with a guard band.
@@ -121,6 +122,7 @@ struct Renderer::Plan {
     if (wants(desc, kBackDepth)) attachments |= GRISAILLE_READS(GRISAILLE_BACK_DEPTH);
     if (wants(desc, kMotion)) attachments |= GRISAILLE_READS(GRISAILLE_MOTION);
     if (wants(desc, kThickness)) attachments |= GRISAILLE_READS(GRISAILLE_THICKNESS);
+    if (wants(desc, kNextDepth)) attachments |= GRISAILLE_READS(GRISAILLE_NEXT_DEPTH);
     if (wants(desc, kBaseColour) || (color && desc.surface == Surface::kBaseColour)) {
       attachments |= GRISAILLE_READS(GRISAILLE_BASE_COLOUR);
     }
@@ -269,6 +271,9 @@ void Renderer::recordAttachments(gpu::Commands& commands, const FrameDesc& desc,
   if (view.reads(GRISAILLE_BACK_DEPTH)) {
     targets.backDepth = attachment(kBackDepth, gpu::Format::kR32Float, kComputed);
   }
+  if (view.reads(GRISAILLE_NEXT_DEPTH)) {
+    targets.nextDepth = attachment(kNextDepth, gpu::Format::kR32Float, kComputed);
+  }
   if (thickness) targets.thickness = attachment(kThickness, gpu::Format::kR32Float, kDrawn);
   if (view.reads(GRISAILLE_MOTION) && source_.hasMotion()) {
     targets.motion.texture = attachment(kMotion, gpu::Format::kRgba16Float, kDrawn);
@@ -293,7 +298,8 @@ void Renderer::recordEffects(gpu::Commands& commands, const FrameDesc& desc, con
     inputs.guard = active.guarded ? plan.guard : 0;
     inputs.viewBlock = seen.block;
     constexpr const char* kAttachments[GRISAILLE_ATTACHMENT_COUNT] = {
-        kClipDepth, kDepth, kNormal, kBaseColour, kFacetNormal, kBackDepth, kMotion, kThickness};
+        kClipDepth, kDepth,  kNormal,    kBaseColour, kFacetNormal,
+        kBackDepth, kMotion, kThickness, kNextDepth};
     for (size_t a = 0; a < GRISAILLE_ATTACHMENT_COUNT; ++a) {
       if ((active.reads & GRISAILLE_READS(a)) != 0)
         inputs.attachments[a] = find(seen.prefix + kAttachments[a]);

@@ -49,8 +49,8 @@ struct FrameDesc {
 };
 
 // Every frame has color (composed, linear light), depth (linear view depth in metres, 0 = sky),
-// normal and facet_normal (world), base_colour, back_depth (same units as depth) and motion (as
-// GRISAILLE_MOTION); an active effect adds its own outputs.
+// normal and facet_normal (world), base_colour, back_depth and next_depth (same units as depth) and
+// motion (as GRISAILLE_MOTION); an active effect adds its own outputs.
 std::vector<std::string> outputNames(std::span<const effect::Effect* const> effects);
 
 // Throws kOutputUnknown with the nearest name unless outputNames() lists `name`.

@@ -31,18 +31,28 @@ void SceneAttachments::record(gpu::Commands& commands, const scene::Camera& came
     motion_.record(commands, camera, {width, height}, viewBlock, targets.depth, targets.motion,
                    passes);
   }
-  if (targets.backDepth) {
-    const gpu::Texture back =
-        commands.transient({.label = "back",
+  // Draws the surfaces behind the depth `front`, and returns their clip depth.
+  const auto drawBehind = [&](const char* label, gpu::Texture front, SceneSides sides,
+                              std::string_view prefix, gpu::Texture metres) {
+    const gpu::Texture depth =
+        commands.transient({.label = label,
                             .format = gpu::Format::kD32Float,
                             .width = width,
                             .height = height,
                             .usage = gpu::TextureUsage::kTarget | gpu::TextureUsage::kSampled});
-    const std::string backs = std::string(passes) + std::string(kBackPasses);
-    commands.beginPass(backs + "geometry");
-    scene_.draw(commands, camera, width, height, {.depth = back, .front = targets.depth});
+    const std::string behind = std::string(passes) + std::string(prefix);
+    commands.beginPass(behind + "geometry");
+    scene_.draw(commands, camera, width, height, {.depth = depth, .front = front, .sides = sides});
     commands.endPass();
-    viewDepth(commands, back, viewBlock, targets.backDepth, {width, height}, backs);
+    if (metres) viewDepth(commands, depth, viewBlock, metres, {width, height}, behind);
+    return depth;
+  };
+  if (targets.backDepth || targets.nextDepth) {
+    const gpu::Texture back =
+        drawBehind("back", targets.depth, SceneSides::kFar, kBackPasses, targets.backDepth);
+    if (targets.nextDepth) {
+      drawBehind("next", back, SceneSides::kNear, kNextPasses, targets.nextDepth);
+    }
   }
 }
 

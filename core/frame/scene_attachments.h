@@ -10,8 +10,9 @@ namespace grisaille::frame {
 
 class SceneAttachments : public AttachmentSource {
  public:
-  // Label prefix of the passes that draw back faces; it follows record()'s `passes`.
-  static constexpr std::string_view kBackPasses = "back ";
+  // Label prefixes of the passes that draw back faces, and what lies behind them; they follow
+  // record()'s `passes`.
+  static constexpr std::string_view kBackPasses = "back ", kNextPasses = "next ";
 
   // Device and scene must outlive this. The scene may change only between calls, by scene::pose().
   SceneAttachments(gpu::Device& device, const scene::Scene& scene)

@@ -273,6 +273,7 @@ void SceneResources::draw(gpu::Commands& commands, const scene::Camera& camera, 
   const bool normal{targets.normal}, base{targets.baseColour}, facet{targets.facetNormal};
   const bool thick{targets.thickness};
   const bool behind{targets.front};
+  const bool next = behind && targets.sides == SceneSides::kNear;
   if (behind && !nearest_) nearest_ = device_.createSampler({.label = "nearest"});
   const auto bytes = [](const auto& values) { return std::as_bytes(std::span(values)); };
   const auto vertex = gpu::BufferUsage::kVertex;
@@ -317,7 +318,8 @@ void SceneResources::draw(gpu::Commands& commands, const scene::Camera& camera, 
                           .mask = material.masked,
                           .colour = primitive.coloured && (base || material.masked),
                           .thickness = thick,
-                          .behind = behind};
+                          .behind = behind,
+                          .next = next};
 
     auto& stream = streams.emplace_back();
     size_t streamCount = 0;
@@ -349,9 +351,9 @@ void SceneResources::draw(gpu::Commands& commands, const scene::Camera& camera, 
                        .indices = {.buffer = far && far->indices ? far->indices : indices_},
                        .count = count,
                        .first = first,
-                       .cull = bothSides           ? gpu::Cull::kNone
-                               : mirrors != behind ? gpu::Cull::kFront
-                                                   : gpu::Cull::kBack});
+                       .cull = bothSides                      ? gpu::Cull::kNone
+                               : mirrors != (behind && !next) ? gpu::Cull::kFront
+                                                              : gpu::Cull::kBack});
     };
     const uint32_t bodyCount = far ? far->bodyCounts[instance.primitive] : 0;
     add(primitive.firstIndex, bodyCount, false);

@@ -15,6 +15,16 @@
 
 namespace grisaille::frame {
 
+// The sides of surfaces that a draw behind an earlier depth writes.
+enum class SceneSides {
+  // At or behind that depth, where matter may end: the far sides of closed bodies
+  // (core/scene/bodies.h), both sides of other double-sided triangles, and all that face away.
+  kFar,
+  // Behind that depth, where matter may begin: the near sides of closed bodies, both sides of other
+  // double-sided triangles, and all that face the camera.
+  kNear
+};
+
 // The targets of one draw; all but depth may be null.
 struct SceneTargets {
   gpu::Texture depth;             // kD32Float
@@ -22,10 +32,10 @@ struct SceneTargets {
   gpu::Texture baseColour = {};   // kRgba8Srgb
   gpu::Texture facetNormal = {};  // kRgba16Float
   gpu::Texture thickness = {};    // kR32Float; only with a normal
-  // kD32Float: the depth of an earlier draw. If not null, the draw writes only depth: of surfaces
-  // at or behind that depth at which matter may end. These are the far sides of closed bodies
-  // (core/scene/bodies.h), both sides of other double-sided triangles, and all that face away.
+  // kD32Float: the depth of an earlier draw. If not null, the draw writes only depth: of the
+  // `sides` behind that depth.
   gpu::Texture front = {};
+  SceneSides sides = SceneSides::kFar;
 };
 
 class SceneResources {
@@ -53,6 +63,7 @@ class SceneResources {
     bool colour = false;     // of vertices; only with a base or a mask
     bool thickness = false;  // only with a normal
     bool behind = false;
+    bool next = false;  // behind, and near sides
 
     bool uv() const { return base || mask; }
     // Indices into the lists of shaders/geometry_variants.h.
@@ -61,8 +72,11 @@ class SceneResources {
              (colour ? 1u : 0u);
     }
     size_t fragment() const {
-      return (behind ? 64u : 0u) + (thickness ? 32u : 0u) + (facet ? 16u : 0u) +
-             (normal ? 8u : 0u) + (base ? 4u : 0u) + (mask ? 2u : 0u) + (colour ? 1u : 0u);
+      return (next     ? 68u
+              : behind ? 64u
+                       : 0u) +
+             (thickness ? 32u : 0u) + (facet ? 16u : 0u) + (normal ? 8u : 0u) + (base ? 4u : 0u) +
+             (mask ? 2u : 0u) + (colour ? 1u : 0u);
     }
   };
   // A scene texture on the device: only its alpha, or its colour with mip levels.
@@ -100,7 +114,7 @@ class SceneResources {
   gpu::Buffer texCoords_, colours_, thickness_, indices_;
   std::optional<scene::Matter> matter_;              // of the pose in which it was first needed
   std::optional<FarSides> farSides_;                 // of the first draw with SceneTargets::front
-  std::array<gpu::GraphicsPipeline, 68> pipelines_;  // by Variant::fragment()
+  std::array<gpu::GraphicsPipeline, 72> pipelines_;  // by Variant::fragment()
   std::vector<DeviceTexture> textures_;
   std::array<gpu::Sampler, 27> samplers_;       // wrap u, wrap v, one level | mips | anisotropic
   gpu::Sampler nearest_;                        // for SceneTargets::front

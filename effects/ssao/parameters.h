@@ -34,7 +34,7 @@ enum Parameter {
 };
 
 enum class Estimator : uint32_t { kSlices = 0, kClassic = 1 };
-enum class Backs : uint32_t { kAssumed = 0, kBodies = 1, kDrawn = 2 };
+enum class Backs : uint32_t { kAssumed = 0, kBodies = 1, kDrawn = 2, kPeeled = 3 };
 enum class Refine : uint32_t { kNothing = 0, kEdges = 1, kContrasts = 2 };
 enum class Bounce : uint32_t { kNone = 0, kAlbedo = 1, kBaseColour = 2 };
 
@@ -51,8 +51,9 @@ constexpr const char* kBlurLabels[] = {"Box", "Edge-aware"};
 
 constexpr const char* kEstimatorKeys[] = {"slices", "classic"};
 constexpr const char* kEstimatorLabels[] = {"Slices", "Classic"};
-constexpr const char* kBacksKeys[] = {"assumed", "bodies", "drawn"};
-constexpr const char* kBacksLabels[] = {"Assumed", "Mean of the body", "Drawn"};
+constexpr const char* kBacksKeys[] = {"assumed", "bodies", "drawn", "peeled"};
+constexpr const char* kBacksLabels[] = {"Assumed", "Mean of the body", "Drawn",
+                                        "Drawn, and what lies behind"};
 constexpr const char* kBounceKeys[] = {"none", "albedo", "base_colour"};
 constexpr const char* kBounceLabels[] = {"None", "Off the albedo", "Off base colours"};
 constexpr const char* kResolutionKeys[] = {"full", "half", "quarter"};
@@ -139,7 +140,8 @@ constexpr grisaille_param_desc kParams[] = {
                        .tooltip =
                            "Where the matter behind a visible surface ends: after the thickness, "
                            "after the mean thickness of its body, or at its back faces, which are "
-                           "drawn for it",
+                           "drawn for it. Peeled draws these, and the next surface behind them, "
+                           "which occludes too",
                        .keys = kBacksKeys,
                        .labels = kBacksLabels,
                        .defaultValue = 0,

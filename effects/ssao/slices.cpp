@@ -126,7 +126,9 @@ Slices::Slices(plugin::Host host)
 
 uint32_t Slices::reads(plugin::Values values) noexcept {
   return GRISAILLE_READS(GRISAILLE_VIEW_DEPTH) | GRISAILLE_READS(GRISAILLE_NORMAL) |
-         (values.get<Backs>(kBacks) == Backs::kDrawn ? GRISAILLE_READS(GRISAILLE_BACK_DEPTH) : 0u) |
+         (values.get<Backs>(kBacks) >= Backs::kDrawn ? GRISAILLE_READS(GRISAILLE_BACK_DEPTH) : 0u) |
+         (values.get<Backs>(kBacks) == Backs::kPeeled ? GRISAILLE_READS(GRISAILLE_NEXT_DEPTH)
+                                                      : 0u) |
          (values.get<Backs>(kBacks) == Backs::kBodies ? GRISAILLE_READS(GRISAILLE_THICKNESS) : 0u) |
          (values.get<uint32_t>(kHistory) > 1 ? GRISAILLE_READS(GRISAILLE_MOTION) : 0u);
 }
@@ -257,7 +259,7 @@ void Slices::occlude(const plugin::Frame& frame, plugin::PipelineCache& pipeline
   // A host may not know how thick bodies are.
   auto backs = frame.value<Backs>(kBacks);
   grisaille_texture known = frame.attachment(GRISAILLE_VIEW_DEPTH);
-  if (backs == Backs::kDrawn) known = frame.attachment(GRISAILLE_BACK_DEPTH);
+  if (backs >= Backs::kDrawn) known = frame.attachment(GRISAILLE_BACK_DEPTH);
   if (backs == Backs::kBodies) {
     const grisaille_texture thickness = frame.attachment(GRISAILLE_THICKNESS);
     if (thickness.id != 0) {
@@ -265,6 +267,13 @@ void Slices::occlude(const plugin::Frame& frame, plugin::PipelineCache& pipeline
     } else {
       backs = Backs::kAssumed;
     }
+  }
+  // Nor what lies behind their backs.
+  grisaille_texture next = {0};
+  if (backs == Backs::kPeeled) next = frame.attachment(GRISAILLE_NEXT_DEPTH);
+  if (next.id == 0) {
+    next = known;
+    backs = std::min(backs, Backs::kDrawn);
   }
   // Constants 0 ... 4 of shaders/ssao/slices.glsl; of the list's, 0 ... 3.
   const grisaille_constant constants[] = {
@@ -276,6 +285,7 @@ void Slices::occlude(const plugin::Frame& frame, plugin::PipelineCache& pipeline
                        plugin::texture(0, frame.attachment(GRISAILLE_VIEW_DEPTH), clamped_),
                        plugin::texture(1, frame.attachment(GRISAILLE_NORMAL), clamped_),
                        plugin::texture(2, known, clamped_),
+                       plugin::texture(5, next, clamped_),
                        plugin::image(0, target.open)};
   if (target.bent.id != 0) bindings.add(plugin::image(1, target.bent));
   if (listed == nullptr) {

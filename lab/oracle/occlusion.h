@@ -24,7 +24,8 @@ struct OcclusionSettings {
   int slices = 1, edgeSlices = 1;
   double thickness = 0.7;  // radii
   // Where matter ends: after `thickness`, or by the view's thickness or back depth if it is known.
-  enum class Backs { kAssumed, kBodies, kDrawn } backs = Backs::kAssumed;
+  // kPeeled also knows the next surface.
+  enum class Backs { kAssumed, kBodies, kDrawn, kPeeled } backs = Backs::kAssumed;
   int history = 1;  // frames; over 1 needs a Past from the second frame on
   int scale = 2;    // pixels per texel: 1, 2 or 4
   // Pixels that are computed at full resolution below it.

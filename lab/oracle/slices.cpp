@@ -20,6 +20,8 @@ constexpr double kPlanePixels = 4;        // upper limit of the tolerance, pixel
 constexpr double kMostBent = 0.5;         // largest angle between facet and normal, tangent
 constexpr double kSteepest = 8;           // slope of a surface that taps share, if backs are known
 constexpr double kLone = 2.5;             // reach of a surface of one tap, distances between taps
+constexpr double kLoneAboveNext = 1.5;    // if the surface behind is known
+constexpr double kNextThickness = 0.1;    // of the solid behind the back, in thicknesses
 // Where pixels begin to be refined, and where they are refined entirely: share of texels on the
 // pixel's plane, and difference of visibility between texels over the parameter `contrast`.
 constexpr double kServed[] = {0.6, 0.4}, kContrast[] = {0.8, 1.2};
@@ -152,7 +154,7 @@ class Slices : public Occlusion {
   Texel sliceOf(const glm::dvec3& position, const glm::dvec3& normal, const glm::dvec3& direction,
                 const glm::dvec2& pixel, double dither) const;
   uint32_t tap(const Slice& slice, const glm::dvec3& position, const glm::ivec2& at, double dither,
-               Walk& walk) const;
+               bool next, Walk& walk) const;
   Texel denoised(const std::function<Texel(const glm::ivec2&)>& from, const glm::ivec2& texel,
                  const glm::ivec2& along) const;
   Texel alongEdge(const glm::ivec2& texel);
@@ -268,6 +270,7 @@ Texel Slices::sliceOf(const glm::dvec3& position, const glm::dvec3& normal,
   const double cut = std::max(1 - square / glm::dot(position, position), 0.0625);
   const double reach = settings_.radius / (depth * depth) * std::sqrt(stretch / cut);
   Walk ahead{.side = 1, .share = 1}, behind{.side = -1, .share = 0};
+  Walk nextAhead = ahead, nextBehind = behind;
   uint32_t shut = 0;
   const uint32_t finer = std::max(8u, std::bit_ceil(static_cast<uint32_t>(steps_)) / 2);
   for (int i = 0; i < steps_; ++i) {
@@ -277,7 +280,11 @@ Texel Slices::sliceOf(const glm::dvec3& position, const glm::dvec3& normal,
       const double grid = std::max(std::exp2(std::floor(std::log2(pixels))) / finer, 1.0);
       const glm::dvec2 place = glm::clamp(
           glm::floor((pixel + walk->side * pixels * way) / grid + 0.5) * grid, -1e6, 1e6);
-      shut |= tap(slice, position, glm::ivec2(place), dither, *walk);
+      shut |= tap(slice, position, glm::ivec2(place), dither, false, *walk);
+      if (settings_.backs == OcclusionSettings::Backs::kPeeled) {
+        Walk& next = walk == &ahead ? nextAhead : nextBehind;
+        shut |= tap(slice, position, glm::ivec2(place), dither, true, next);
+      }
     }
   }
   for (const Walk* walk : {&ahead, &behind}) {
@@ -301,9 +308,9 @@ Texel Slices::sliceOf(const glm::dvec3& position, const glm::dvec3& normal,
 }
 
 uint32_t Slices::tap(const Slice& slice, const glm::dvec3& position, const glm::ivec2& at,
-                     double dither, Walk& walk) const {
+                     double dither, bool next, Walk& walk) const {
   const bool seen = view_.holds(at);
-  const double depth = view_.depth(at);
+  const double depth = next ? view_.next(at) : view_.depth(at);
   const glm::dvec3 ray = view_.ray(glm::dvec2(at) + 0.5);
   const glm::dvec3 front = ray * depth - position, step = front - walk.point;
   bool joined = seen && walk.depth && std::abs(depth - *walk.depth) < thickness_;
@@ -314,8 +321,8 @@ uint32_t Slices::tap(const Slice& slice, const glm::dvec3& position, const glm::
   if (settings_.backs != Backs::kAssumed) {
     const glm::dvec2 across = depth * glm::dvec2(at - walk.at) / view_.focal();
     joined = joined && std::abs(depth - *walk.depth) < kSteepest * glm::length(across);
-    if (inside && !joined && walk.seen > 0) {
-      wide = kLone * glm::dvec3(across, 0);
+    if (inside && !joined && !next && walk.seen > 0) {
+      wide = (settings_.backs == Backs::kPeeled ? kLoneAboveNext : kLone) * glm::dvec3(across, 0);
       wide -= slice.up * (glm::dot(wide, slice.up) / glm::dot(slice.up, slice.up));
     }
   }
@@ -331,8 +338,8 @@ uint32_t Slices::tap(const Slice& slice, const glm::dvec3& position, const glm::
     bits = sectors(std::min(walk.share, last), std::max(walk.share, last), dither);
   } else {
     // The part of front + k ray, k in [0, matter], inside the sphere.
-    double matter = thickness_;
-    if (settings_.backs == Backs::kDrawn && view_.back(at) > 0)
+    double matter = next ? kNextThickness * thickness_ : thickness_;
+    if (!next && settings_.backs >= Backs::kDrawn && view_.back(at) > 0)
       matter = std::max(view_.back(at) - depth, 0.0);
     if (settings_.backs == Backs::kBodies && view_.thickness(at) >= 0) matter = view_.thickness(at);
     const double length = glm::dot(ray, ray), b = glm::dot(ray, front) / length;

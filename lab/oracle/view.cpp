@@ -52,6 +52,11 @@ double View::back(const glm::ivec2& pixel) const {
   return attachments_.back.at(at.x, at.y);
 }
 
+double View::next(const glm::ivec2& pixel) const {
+  const glm::uvec2 at(nearest(pixel));
+  return attachments_.next.at(at.x, at.y);
+}
+
 glm::dvec3 View::colour(const glm::ivec2& pixel) const {
   return colourOf(attachments_.colour, glm::uvec2(nearest(pixel)));
 }

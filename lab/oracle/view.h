@@ -19,6 +19,7 @@ struct Attachments {
   image::Image depth;      // view depth, metres; 0: sky
   image::Image normal;     // three channels, world
   image::Image back;       // view depth of the visible surface's back, metres; 0: none
+  image::Image next;       // view depth of the nearest surface behind that back, metres; 0: none
   image::Image thickness;  // of the matter behind, metres; below 0: unknown
   image::Image colour;     // base colour
 };
@@ -46,6 +47,8 @@ class View {
   glm::dvec3 worldNormal(const glm::ivec2& pixel) const;
   // View depth of the surface's back, as with depth(); 0: none.
   double back(const glm::ivec2& pixel) const;
+  // View depth of the next surface, as with depth(); 0: none.
+  double next(const glm::ivec2& pixel) const;
   // Thickness of the matter behind the surface, as with depth(); below 0: unknown.
   double thickness(const glm::ivec2& pixel) const;
   glm::dvec3 colour(const glm::ivec2& pixel) const;

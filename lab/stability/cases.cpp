@@ -120,8 +120,8 @@ void addCameras(Cases& cases) {
 void addScales(Cases& cases) {
   for (const double scale : kScales) {
     cases.add("scene's scale", number(scale), {.scale = scale},
-              {"slices", "slices, raw", "slices, backs", "slices, bodies", "slices, refined",
-               "history", "open directions", "tint", "classic", "paint"},
+              {"slices", "slices, raw", "slices, backs", "slices, next", "slices, bodies",
+               "slices, refined", "history", "open directions", "tint", "classic", "paint"},
               [&](Case& one) { one.quick = scale == 1e-4 || scale == 1e6; });
     cases.add("scene's scale", number(scale), {.kind = Kind::kCorner, .scale = scale},
               {"paint on surfaces"}, [&](Case& one) { one.quick = scale == 1e6; });
@@ -221,15 +221,16 @@ void addValues(Cases& cases) {
 
 void addOddScenes(Cases& cases) {
   for (const Kind kind : {Kind::kSky, Kind::kTriangle, Kind::kWires, Kind::kPair}) {
-    cases.add("odd scene", nameOf(kind), {.kind = kind},
-              {"slices", "slices, raw", "slices, backs", "slices, bodies", "slices, refined",
-               "history", "open directions", "classic", "paint", "paint on surfaces"},
-              [&](Case& one) { one.quick = true; });
+    cases.add(
+        "odd scene", nameOf(kind), {.kind = kind},
+        {"slices", "slices, raw", "slices, backs", "slices, next", "slices, bodies",
+         "slices, refined", "history", "open directions", "classic", "paint", "paint on surfaces"},
+        [&](Case& one) { one.quick = true; });
   }
   for (const Kind kind : {Kind::kNoNormals, Kind::kBackNormals}) {
     cases.add("odd scene", nameOf(kind), {.kind = kind},
-              {"slices", "slices, raw", "slices, backs", "slices, bodies", "slices, refined",
-               "history", "open directions", "classic"},
+              {"slices", "slices, raw", "slices, backs", "slices, next", "slices, bodies",
+               "slices, refined", "history", "open directions", "classic"},
               [&](Case& one) { one.quick = true; });
   }
   for (const Kind kind : {Kind::kAtNear, Kind::kAtFar, Kind::kMixed, Kind::kNormless}) {

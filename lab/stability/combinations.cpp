@@ -40,6 +40,10 @@ const std::vector<Variant>& variants() {
        "ssao",
        "ao",
        {{"resolution", "full"}, {"blur_size", "0"}, {"backs", "drawn"}}},
+      {"slices, next",
+       "ssao",
+       "ao",
+       {{"resolution", "full"}, {"blur_size", "0"}, {"backs", "peeled"}, {"thickness", "1"}}},
       {"slices, bodies", "ssao", "ao", {{"backs", "bodies"}, {"thickness", "1"}}},
       {"history", "ssao", "ao", {{"history", "4"}}},
       {"open directions", "ssao", "bent_normal", {}},
@@ -115,7 +119,7 @@ void drawOcclusion(Draws& draw, Case& one) {
   set("range_check", draw.of({"linear", "linear", "raw_depth", "none"}));
   set("blur", draw.of({"box", "edge_aware"}));
   set("edge_slices", std::to_string(1 + draw.below(4)));
-  set("backs", draw.of({"assumed", "bodies", "drawn"}));
+  set("backs", draw.of({"assumed", "bodies", "drawn", "peeled"}));
   set("edge_denoise", std::to_string(draw.of({0, 1, 6, 6, 9, 32})));
   set("contrast", fmt::format("{}", draw.decades(-2, 0)));
 }

@@ -23,8 +23,10 @@ std::vector<std::string> attachmentsOf(const Case& one, const effect::Values& va
     return {"depth"};
   }
   std::vector<std::string> all = {"depth", "normal"};
-  if (values.text("backs") == "drawn") all.emplace_back("back_depth");
-  if (values.text("backs") == "bodies") all.emplace_back("thickness");
+  const std::string backs = values.text("backs");
+  if (backs == "drawn" || backs == "peeled") all.emplace_back("back_depth");
+  if (backs == "peeled") all.emplace_back("next_depth");
+  if (backs == "bodies") all.emplace_back("thickness");
   if (one.output == "tint") all.emplace_back("base_colour");
   return all;
 }
@@ -190,6 +192,7 @@ void Runner::render(Stage& stage, const Case& one, const scene::Scene& scene, Pi
     for (const std::string& name : names) {
       (name == "depth"         ? seen.depth
        : name == "back_depth"  ? seen.back
+       : name == "next_depth"  ? seen.next
        : name == "thickness"   ? seen.thickness
        : name == "base_colour" ? seen.colour
                                : seen.normal) = renderer.read(name);

@@ -37,10 +37,14 @@ void main() {
   factor *= colour;
 #endif
 #endif
-#if BEHIND
+#if BEHIND == 1
   // Discards fragments nearer than the front surface. The factor keeps two-sided surfaces, whose back
   // has the front's depth up to rounding.
   if (gl_FragCoord.z > texelFetch(front, ivec2(gl_FragCoord.xy), 0).x * 1.000001) discard;
+#elif BEHIND == 2
+  // Discards fragments that are not behind the back. The factor discards the two-sided surface that
+  // is this back.
+  if (gl_FragCoord.z >= texelFetch(front, ivec2(gl_FragCoord.xy), 0).x * 0.999999) discard;
 #endif
 #if FACET
   // Before any discard: screen-space derivatives need all four pixels of the quad.

@@ -28,6 +28,7 @@ layout(constant_id = 0) const uint kSlices = 1u;
 layout(constant_id = 1) const uint kSteps = 8u;  // taps on each side of a slice
 layout(constant_id = 2) const uint kScale = 1u;  // pixels per texel, each way
 // Where matter ends: 0 after `thickness`, 1 after the thickness in `known`, 2 at the depth in `known`.
+// 3 is 2 with a second solid, which begins at `next_depth`.
 layout(constant_id = 3) const uint kBacks = 0u;
 #if !LISTED
 layout(constant_id = 4) const uint kEdgeSlices = 1u;  // factor on the slices at edges
@@ -45,6 +46,7 @@ layout(UNIFORM(1), std140) uniform Settings {
 layout(TEXTURE(0)) uniform sampler2D view_depth;  // nearest, clamped
 layout(TEXTURE(1)) uniform sampler2D world_normal;
 layout(TEXTURE(2)) uniform sampler2D known;  // with kBacks, metres; nearest, clamped
+layout(TEXTURE(5)) uniform sampler2D next_depth;  // with kBacks = 3, metres; nearest, clamped
 #if LISTED
 layout(TEXTURE(3)) uniform sampler2D kept;  // see upsample.glsl
 #if BENT
@@ -65,6 +67,9 @@ const float kSteepest = 8.0;
 // With known backs: how far a tap of its own surface reaches to both sides, in distances from the
 // tap before it.
 const float kLone = 2.5;
+const float kLoneAboveNext = 1.5;  // if the surface behind is known
+// Depth of the solid behind the back, in thicknesses.
+const float kNextThickness = 0.1;
 
 // Error at most 7e-5 radians: Hastings 1955, "Approximations for Digital Computers", sheet 38; x in
 // [0, 1].
@@ -150,11 +155,13 @@ uint sectorsBetween(float low, float high, float dither) {
                 uint(clamp(high * 32.0 + dither, 0.0, 32.0)));
 }
 
-// Occluded sectors of one tap: those between the front and the back of its surface.
-uint sectorsOfTap(Slice s, vec2 at, float side, float dither, inout Side before) {
+// Occluded sectors of one tap: those between the front and the back of its surface, or of the `next`
+// surface behind that back.
+uint sectorsOfTap(Slice s, vec2 at, float side, float dither, bool next, inout Side before) {
   const vec2 place = attachmentAt(at);
   const bool seen = all(equal(clamp(place, vec2(0.0), vec2(1.0)), place));
-  const float depth = textureLod(view_depth, place, 0.0).x;
+  const float depth =
+      next ? textureLod(next_depth, place, 0.0).x : textureLod(view_depth, place, 0.0).x;
   const vec3 ray = vec3(at * view.view_from_pixel.xy + view.view_from_pixel.zw, -1.0);
   const vec3 front = ray * depth - s.position;
   // Clips the solid, front + k ray with k in [0, thickness], to the sphere.
@@ -162,11 +169,11 @@ uint sectorsOfTap(Slice s, vec2 at, float side, float dither, inout Side before)
   const float beyond = dot(front, front) - settings.radius * settings.radius;
   const float d = b * b - beyond * a;
   const float root = sqrt(max(d, 0.0));
-  float thick = settings.thickness;
-  if (kBacks != 0u) {
+  float thick = next ? kNextThickness * settings.thickness : settings.thickness;
+  if (kBacks != 0u && !next) {
     const float back = textureLod(known, place, 0.0).x;
-    if (kBacks == 2u ? back > 0.0 : back >= 0.0) {
-      thick = kBacks == 2u ? max(back - depth, 0.0) : back;
+    if (kBacks >= 2u ? back > 0.0 : back >= 0.0) {
+      thick = kBacks >= 2u ? max(back - depth, 0.0) : back;
     }
   }
   const float near = max(0.0, -b - root), far = min(thick, root - b);
@@ -183,7 +190,9 @@ uint sectorsOfTap(Slice s, vec2 at, float side, float dither, inout Side before)
     connected = connected && deeper * deeper < kSteepest * kSteepest * dot(across, across);
     // A surface of one tap, such as a leaf or a bar, stands for what lies between taps: it reaches
     // to both sides, parallel to the pixel's tangent plane.
-    if (inside && !connected && before.seen > 0.0) wide.x = side * kLone * dot(across, s.along.xy);
+    if (inside && !connected && !next && before.seen > 0.0) {
+      wide.x = side * (kBacks == 3u ? kLoneAboveNext : kLone) * dot(across, s.along.xy);
+    }
   }
   const bool leaves = connected && !inside;
   // A surface that leaves the sphere between two taps does so where the squared distance, taken as
@@ -257,6 +266,7 @@ float sliceOf(vec3 position, vec3 view_vec, vec3 normal, vec3 direction, vec2 pi
   uint occluded = 0u;
   Side ahead = Side(vec2(0.0), vec2(0.0), 1.0, -1e30, 0.0, 1.0, 0.0, pixel);
   Side behind = Side(vec2(0.0), vec2(0.0), 0.0, -1e30, 0.0, 1.0, 0.0, pixel);
+  Side next_ahead = ahead, next_behind = behind;
   // Not unrolled: unrolling costs a third more on lavapipe and gains nothing elsewhere.
   for (uint i = 0u; i < kSteps; ++i) {
     // Taps are denser near the pixel. Tap i is at least i + 1 pixels away.
@@ -265,8 +275,13 @@ float sliceOf(vec3 position, vec3 view_vec, vec3 normal, vec3 direction, vec2 pi
     const float least = float(i) + 1.0;
     const float to = max(one * sqrt(sqrt(one)) * reach, least);
     const float back = max(two * sqrt(sqrt(two)) * reach, least);
-    occluded |= sectorsOfTap(s, tapAt(pixel, way, to), 1.0, jitter, ahead);
-    occluded |= sectorsOfTap(s, tapAt(pixel, -way, back), -1.0, jitter, behind);
+    const vec2 tap_ahead = tapAt(pixel, way, to), tap_behind = tapAt(pixel, -way, back);
+    occluded |= sectorsOfTap(s, tap_ahead, 1.0, jitter, false, ahead);
+    occluded |= sectorsOfTap(s, tap_behind, -1.0, jitter, false, behind);
+    if (kBacks == 3u) {
+      occluded |= sectorsOfTap(s, tap_ahead, 1.0, jitter, true, next_ahead);
+      occluded |= sectorsOfTap(s, tap_behind, -1.0, jitter, true, next_behind);
+    }
   }
   occluded |= sectorsBeyond(s, ahead, 1.0, jitter) | sectorsBeyond(s, behind, -1.0, jitter);
 #if BENT

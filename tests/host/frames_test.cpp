@@ -49,7 +49,7 @@ class Frames : public ::testing::TestWithParam<TestDevice> {
   }
   void record(host::Effect& effect, const host::Texture& depth,
               const host::Texture* colour = nullptr, const host::Texture* back = nullptr,
-              const host::Texture* thickness = nullptr) {
+              const host::Texture* thickness = nullptr, const host::Texture* next = nullptr) {
     host_->frame([&](void* commands, uint64_t number) {
       effect.record({.number = number,
                      .commandBuffer = commands,
@@ -58,7 +58,8 @@ class Frames : public ::testing::TestWithParam<TestDevice> {
                      .depthKind = GRISAILLE_HOST_DEPTH_VIEW,
                      .backDepth = back,
                      .baseColour = colour,
-                     .thickness = thickness});
+                     .thickness = thickness,
+                     .nextDepth = next});
     });
   }
   host::Effect ssao(uint32_t width, uint32_t height) {
@@ -174,6 +175,27 @@ TEST_P(Frames, EveryOutputIsThere) {
   const host::Texture back = host_->texture(device_, Texels::kFloat1, 64, 48, behind);
   record(effect, seen, &colour, &back);
   EXPECT_NE(host_->read(effect.output("ao")), open);
+}
+
+// Without the surface behind the back, matter ends at the back; with it, more is occluded.
+TEST_P(Frames, TheSurfaceBehindTheBackOccludesIfItIsKnown) {
+  host::Effect effect = ssao(64, 48);
+  const host::Texture seen = depth(64, 48);
+  const auto moved = [&](float by) {
+    std::vector<float> all = viewOf(see(eye(), 64, 48));
+    std::reverse(all.begin(), all.end());  // rows from the bottom; columns may be mirrored
+    for (float& metres : all) metres = metres > 0 ? metres + by : 0;
+    return host_->texture(device_, Texels::kFloat1, 64, 48, all);
+  };
+  const host::Texture back = moved(0.01f), behind = moved(0.05f);
+  const auto open = [&](double backs, const host::Texture* next) {
+    effect.set("backs", backs);
+    record(effect, seen, nullptr, &back, nullptr, next);
+    return host_->read(effect.output("ao"));
+  };
+  const std::vector<float> drawn = open(2, nullptr);
+  EXPECT_EQ(open(3, nullptr), drawn);
+  EXPECT_NE(open(3, &behind), drawn);
 }
 
 // Without a thickness, matter is as thick as assumed; sheets occlude less.

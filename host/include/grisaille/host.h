@@ -463,6 +463,11 @@ typedef struct grisaille_host_frame {
    * Null: unknown everywhere.
    */
   const grisaille_host_texture* thickness;
+  /**
+   * Depth of the nearest surface behind that of `back_depth` that faces the camera, in the units of
+   * `depth`; null: unknown.
+   */
+  const grisaille_host_texture* next_depth;
 } grisaille_host_frame;
 
 /**

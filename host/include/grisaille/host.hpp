@@ -261,6 +261,8 @@ struct Frame {
   const Texture* baseColour = nullptr;  ///< three channels, linear when sampled; or null
   /// see grisaille_host_frame::thickness; null: unknown
   const Texture* thickness = nullptr;
+  /// see grisaille_host_frame::next_depth; null: unknown
+  const Texture* nextDepth = nullptr;
 };
 
 /// @}
@@ -361,7 +363,8 @@ class Effect {
         .normal = handleOf(frame.normal),
         .back_depth = handleOf(frame.backDepth),
         .base_colour = handleOf(frame.baseColour),
-        .thickness = handleOf(frame.thickness)};
+        .thickness = handleOf(frame.thickness),
+        .next_depth = handleOf(frame.nextDepth)};
     require(grisaille_host_effect_record(effect_.get(), &given));
   }
 

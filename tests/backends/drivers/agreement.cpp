@@ -19,11 +19,11 @@ constexpr uint32_t kTruthStride = 2;  // pixels
 constexpr uint32_t kTruthRays = 64;   // per pixel
 constexpr double kTruthRadius = 0.5;  // metres, the effect's default
 
-// Pictures with a depth of back faces.
+// Pictures with a depth of back faces, and of the next surfaces behind them.
 class SharedSource : public frame::AttachmentSource {
  public:
   SharedSource(gpu::Device& device, const SharedAttachments& shared)
-      : pictures_(&device), back_(shared.backDepth) {
+      : pictures_(&device), back_(shared.backDepth), next_(shared.nextDepth) {
     pictures_.show(shared.pictures);
   }
   bool goesBeyond() const override { return false; }
@@ -32,16 +32,20 @@ class SharedSource : public frame::AttachmentSource {
               std::string_view passes) override {
     frame::AttachmentTargets others = targets;
     others.backDepth = {};
+    others.nextDepth = {};
     pictures_.record(commands, camera, width, height, viewBlock, others, passes);
-    if (!targets.backDepth) return;
-    commands.beginPass("pictures/back depth");
-    commands.upload(targets.backDepth, 0, 0, std::as_bytes(std::span(back_.pixels)));
+    commands.beginPass("pictures/depths behind");
+    const auto upload = [&](gpu::Texture to, const image::Image& from) {
+      if (to) commands.upload(to, 0, 0, std::as_bytes(std::span(from.pixels)));
+    };
+    upload(targets.backDepth, back_);
+    upload(targets.nextDepth, next_);
     commands.endPass();
   }
 
  private:
   frame::PictureAttachments pictures_;
-  const image::Image& back_;
+  const image::Image &back_, &next_;
 };
 
 std::vector<lab::Shot> shotsInto(const DriverSubject& subject) {
@@ -156,11 +160,12 @@ DriverSubject::Errors DriverSubject::errors(const image::Image& ao, const image:
 SharedAttachments drawShared(gpu::Device& device, const DriverSubject& subject) {
   frame::Renderer renderer(device, subject.scene);
   std::vector<image::Image> images =
-      drawOn(renderer, subject, nullptr, {"depth", "normal", "back_depth"});
+      drawOn(renderer, subject, nullptr, {"depth", "normal", "back_depth", "next_depth"});
   return {.pictures = {.viewDepth = std::move(images[0]),
                        .normal = std::move(images[1]),
                        .baseColour = {}},
-          .backDepth = std::move(images[2])};
+          .backDepth = std::move(images[2]),
+          .nextDepth = std::move(images[3])};
 }
 
 effect::Selection selectionOf(const effect::Registry& registry, const PresetOf& preset) {

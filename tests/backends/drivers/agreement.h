@@ -57,7 +57,7 @@ class DriverSubject {
 // The attachments of one view, drawn by one driver.
 struct SharedAttachments {
   frame::Pictures pictures;  // without base colours
-  image::Image backDepth;
+  image::Image backDepth, nextDepth;
 };
 SharedAttachments drawShared(gpu::Device& device, const DriverSubject& subject);
 

@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: MIT
-// The depth at which the visible matter ends, compared with ray casts through every triangle, on
-// every backend.
+// The depth at which the visible matter ends, and that at which the next begins, compared with ray
+// casts through every triangle, on every backend.
 #include <gtest/gtest.h>
 
 #include <algorithm>
@@ -79,10 +79,10 @@ std::vector<Crossing> crossings(const scene::Scene& scene, glm::dvec3 eye, glm::
 }
 
 // Expected result for a ray with view depth 1 at its end: whether it hits a surface, and the depth
-// of the next surface that faces away, or 0.
+// of the next surface that faces away, or 0, and of the next behind it that faces the camera, or 0.
 struct Expected {
   bool front = false;
-  double back = 0;
+  double back = 0, next = 0;
 };
 Expected expectedOn(const scene::Scene& scene, const glm::dvec3& eye, const glm::dvec3& ray) {
   const std::vector<Crossing> all = crossings(scene, eye, ray);
@@ -91,7 +91,13 @@ Expected expectedOn(const scene::Scene& scene, const glm::dvec3& eye, const glm:
   for (const Crossing& c : all) {
     if (c.back && c.depth >= front * (1 - 1e-7)) back = std::min(back, c.depth);
   }
-  return {.front = front < kNone, .back = front < kNone && back < kNone ? back : 0};
+  if (front == kNone) return {};
+  if (back == kNone) return {.front = true};
+  double next = kNone;
+  for (const Crossing& c : all) {
+    if (c.front && c.depth > back * (1 + 1e-6)) next = std::min(next, c.depth);
+  }
+  return {.front = true, .back = back, .next = next < kNone ? next : 0};
 }
 
 // A box at half size, a banner and a wall.
@@ -122,20 +128,61 @@ TEST_P(BackDepthTest, ThicknessIsThatOfTheBody) {
   EXPECT_EQ(renderer.read("normal").at(80, 45, 2), 1);
 }
 
+// Rows of surfaces, seen from the front: boxes, sheets, and walls of one side.
+TEST_P(BackDepthTest, NextDepthIsThatOfTheSurfaceBehindTheBack) {
+  scene::Scene scene;
+  scene.materials.push_back({.name = "one side"});
+  scene.materials.push_back({.name = "two sides", .doubleSided = true});
+  const auto quad = [&](float x, float z, uint32_t material) {
+    tests::addQuad(
+        scene, {glm::vec3(x - 0.4f, -1, z), {x + 0.4f, -1, z}, {x + 0.4f, 1, z}, {x - 0.4f, 1, z}},
+        {0, 0, 1}, material);
+  };
+  const auto box = [&](double x, double z) {
+    const glm::dmat4 place = glm::translate(glm::dmat4(1), glm::dvec3(x, 0, z));
+    tests::addBox(scene, glm::scale(place, glm::dvec3(0.3, 0.3, 0.25)));
+  };
+  box(-2, 1);  // before a box
+  box(-2, 0);
+  quad(-1, 1, 1);  // a sheet before a sheet
+  quad(-1, 0.5f, 1);
+  box(0, 1);      // before nothing
+  quad(1, 1, 1);  // a sheet before a wall
+  quad(1, 0, 0);
+  quad(2, 1, 0);  // walls: no back
+  quad(2, 0, 0);
+  scene::computeBounds(scene);
+  const scene::Camera camera = {
+      .eye = glm::dvec3(0, 0, 1000), .target = glm::dvec3(0), .fovyDegrees = 0.2};
+  frame::Renderer renderer(device(), scene);
+  const std::vector<std::string> outputs = {"next_depth"};
+  renderer.render({.camera = camera, .width = 160, .height = 90, .outputs = outputs});
+  const image::Image drawn = renderer.read("next_depth");
+  const auto at = [&](double x) {
+    const double slope = std::tan(glm::radians(camera.fovyDegrees) / 2);
+    return drawn.at(static_cast<uint32_t>(80 + x / (1000 * slope) * 45), 45);
+  };
+  EXPECT_NEAR(at(-2), 999.75, 1e-3);
+  EXPECT_NEAR(at(-1), 999.5, 1e-3);
+  EXPECT_EQ(at(0), 0);
+  EXPECT_NEAR(at(1), 1000, 1e-3);
+  EXPECT_EQ(at(2), 0);
+}
+
 // A pixel's depth is the depth at its centre. Where the rasteriser snaps vertices coarsely, it may
 // be that of a ray close to the centre.
-TEST_P(BackDepthTest, IsTheNextSurfaceThatFacesAway) {
+TEST_P(BackDepthTest, IsTheNextSurfaceThatFacesAwayAndNextDepthTheOneBehindIt) {
   const scene::Scene scene = mixedScene();
   const scene::Camera camera = {.eye = glm::dvec3(0.7, 0.4, 4), .target = glm::dvec3(0)};
   frame::Renderer renderer(device(), scene);
-  const std::vector<std::string> outputs = {"back_depth", "depth"};
+  const std::vector<std::string> outputs = {"back_depth", "next_depth", "depth"};
   renderer.render({.camera = camera, .width = kWidth, .height = kHeight, .outputs = outputs});
-  const image::Image drawn = renderer.read("back_depth");
+  const image::Image drawn = renderer.read("back_depth"), next = renderer.read("next_depth");
   const glm::dmat3 axes = scene::worldFromView(camera);
   const double slope = std::tan(glm::radians(camera.fovyDegrees) / 2);
   std::vector<double> shifts;
   if (snapping().isCoarse()) shifts = {-snapping().halfStep(), snapping().halfStep()};
-  size_t with = 0, without = 0, wrong = 0;
+  size_t with = 0, without = 0, wrong = 0, followed = 0, wrongNext = 0;
   for (uint32_t y = 0; y < kHeight; ++y) {
     for (uint32_t x = 0; x < kWidth; ++x) {
       const auto expectedAt = [&](double right, double down) {
@@ -146,20 +193,27 @@ TEST_P(BackDepthTest, IsTheNextSurfaceThatFacesAway) {
       };
       const Expected expected = expectedAt(0, 0);
       (expected.back > 0 ? with : without) += expected.front ? 1 : 0;
+      followed += expected.next > 0 ? 1 : 0;
       double least = expected.back, most = expected.back;
+      double leastNext = expected.next, mostNext = expected.next;
       for (const double right : shifts) {
         for (const double down : shifts) {
-          const double other = expectedAt(right, down).back;
-          least = std::min(least, other);
-          most = std::max(most, other);
+          const Expected other = expectedAt(right, down);
+          least = std::min(least, other.back);
+          most = std::max(most, other.back);
+          leastNext = std::min(leastNext, other.next);
+          mostNext = std::max(mostNext, other.next);
         }
       }
       wrong += drawn.at(x, y) < least - 1e-4 || drawn.at(x, y) > most + 1e-4 ? 1 : 0;
+      wrongNext += next.at(x, y) < leastNext - 1e-4 || next.at(x, y) > mostNext + 1e-4 ? 1 : 0;
     }
   }
   EXPECT_GT(with, 1000u);
   EXPECT_GT(without, 100u);
+  EXPECT_GT(followed, 200u);
   EXPECT_LE(wrong, kWidth * kHeight / 200u);  // pixels on edges
+  EXPECT_LE(wrongNext, kWidth * kHeight / 100u);
 }
 
 }  // namespace

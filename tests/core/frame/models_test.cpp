@@ -156,8 +156,15 @@ TEST_P(ModelsTest, AlphaOfVertexColoursMakesHoles) {
   scene.materials[0].doubleSided = true;
   const scene::Camera camera = {.eye = {0, 0, 6}, .target = {0, 0, 0}};
   const trace::RayTracer tracer(scene, camera.eye);
-  for (const char* output : {"depth", "normal", "base_colour", "facet_normal", "back_depth"}) {
-    const image::Image drawn = render(scene, camera, output);
+  // The next surface lies behind a sheet.
+  scene::Scene covered = scene;
+  covered.materials.push_back({.name = "sheet", .doubleSided = true});
+  tests::addQuad(covered, {glm::vec3(-4, -4, 1), {4, -4, 1}, {4, 4, 1}, {-4, 4, 1}}, {0, 0, 1}, 1);
+  covered.colours.resize(covered.positions.size(), glm::vec4(1));
+  for (const std::string output :
+       {"depth", "normal", "base_colour", "facet_normal", "back_depth", "next_depth"}) {
+    const image::Image drawn =
+        render(output == "next_depth" ? covered : scene, camera, output.c_str());
     size_t surface = 0, holes = 0;
     for (uint32_t y = 0; y < kHeight; ++y) {
       for (uint32_t x = 60; x < 100; ++x) {

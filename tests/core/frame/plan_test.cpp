@@ -206,6 +206,12 @@ TEST_F(PlanTest, WhatIsDrawnForEffectsAloneIsTheirCost) {
     EXPECT_EQ(frame::shareForEffects(pass, 0.25), 0) << pass;
   }
   EXPECT_EQ(recording.renders.at(1).targets, (Labels{"back"}));
+  values_->set("backs", "peeled");
+  sum = 0;
+  for (const std::string& pass : record({"ao"}, true).passes) {
+    sum += frame::shareForEffects(pass, 0.25);
+  }
+  EXPECT_EQ(sum, 4.5);  // next geometry and next view depth as well
 }
 
 // Attachments of an effect with a guard band are larger. Other effects read attachments of the
@@ -251,6 +257,16 @@ TEST_F(PlanTest, BackFacesAreDrawnWhenAskedForAlone) {
   ASSERT_EQ(recording.renders.size(), 2u);
   EXPECT_EQ(recording.renders[0].targets, (Labels{"clip depth"}));
   EXPECT_EQ(recording.renders[1].targets, (Labels{"back"}));
+}
+
+// The next surface needs the back's clip depth, but not its view depth.
+TEST_F(PlanTest, WhatLiesBehindBacksIsDrawnWhenAskedForAlone) {
+  const Recording recording = record({"next_depth"}, false);
+  EXPECT_EQ(recording.passes, (Labels{"scene/geometry", "scene/back geometry",
+                                      "scene/next geometry", "scene/next view_depth"}));
+  ASSERT_EQ(recording.renders.size(), 3u);
+  EXPECT_EQ(recording.renders[1].targets, (Labels{"back"}));
+  EXPECT_EQ(recording.renders[2].targets, (Labels{"next"}));
 }
 
 // A scene that rests takes one triangle for its motion; only instances that moved are drawn again.

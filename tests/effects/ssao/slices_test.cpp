@@ -45,6 +45,7 @@ TEST_P(SlicesTest, APlaneIsOpenAtEveryTiltAndDistance) {
       };
       for (const char* resolution : kResolutions) expectOpen({{"resolution", resolution}});
       expectOpen({{"backs", "drawn"}, {"thickness", "1"}});
+      expectOpen({{"backs", "peeled"}, {"thickness", "1"}});
     }
   }
 }
@@ -119,6 +120,8 @@ TEST_P(SlicesTest, ExtremesStayVisibilitiesAtEverySize) {
                                                  {{"thickness", "1e6"}, {"radius", "1e6"}},
                                                  {{"backs", "drawn"}, {"thickness", "0"}},
                                                  {{"backs", "drawn"}, {"guard_band", "0.5"}},
+                                                 {{"backs", "peeled"}, {"thickness", "0"}},
+                                                 {{"backs", "peeled"}, {"guard_band", "0.5"}},
                                                  {{"blur_size", "0"}},
                                                  {{"blur_size", "3"}},
                                                  {{"blur_size", "20"}},
@@ -203,6 +206,33 @@ TEST_P(SlicesTest, BackFacesSayHowThickABoardIs) {
   };
   EXPECT_GT(mean(0.02f, "1", "drawn"), mean(0.02f, "1", "assumed") + 0.005);
   EXPECT_LT(mean(0.4f, "0.05", "drawn"), mean(0.4f, "0.05", "assumed") - 0.005);
+}
+
+// A board hides the wall of a corner above its foot. It hangs farther than the radius from the
+// floor by the wall, whose visibility thus stays that of the corner.
+TEST_P(SlicesTest, AWallBehindABoardDarkensTheFloorBeforeIt) {
+  scene::Scene scene = tests::cornerScene();
+  glm::dmat4 place(1);
+  place[0].x = 5;
+  place[1].y = 0.22;
+  place[2].z = 0.02;
+  place[3] = {0, 0.98, 0.9, 1};
+  tests::addBox(scene, place);
+  const auto floorError = [&](const char* backs) {
+    tests::AoFrames frames(device(), scene,
+                           {{"backs", backs},
+                            {"thickness", "1"},
+                            {"resolution", "full"},
+                            {"slices", "4"},
+                            {"kernel_size", "128"}});
+    const auto shown = frames.showAll(kCorner, 320, 240, {"ao", "depth"});
+    double sum = 0;
+    for (const double error : cornerErrors(shown[0], shown[1])[0]) sum += std::abs(error) / 5;
+    return sum;
+  };
+  const double drawn = floorError("drawn"), peeled = floorError("peeled");
+  EXPECT_GT(drawn, 0.05);
+  EXPECT_LT(peeled, 0.03);
 }
 
 // A square sheet with the corners centre +- u +- v.

@@ -38,10 +38,11 @@ View viewOf(const scene::Camera& camera, bool wall) {
       normal.pixels.insert(normal.pixels.end(), {n.x, n.y, n.z});
     }
   }
-  return {camera,
-          kSize,
-          0,
-          {.depth = depth, .normal = normal, .back = {}, .thickness = {}, .colour = {}}};
+  return {
+      camera,
+      kSize,
+      0,
+      {.depth = depth, .normal = normal, .back = {}, .next = {}, .thickness = {}, .colour = {}}};
 }
 
 const scene::Camera kCamera = {.eye = glm::dvec3(0.3, 1.2, 2), .target = glm::dvec3(0, 0.1, 0)};
@@ -158,8 +159,9 @@ TEST(Oracle, MatterEndsAtItsBack) {
       normal.pixels.insert(normal.pixels.end(), {n.x, n.y, n.z});
     }
   }
-  const View thin(kCamera, kSize, 0,
-                  {.depth = depth, .normal = normal, .back = back, .thickness = {}, .colour = {}});
+  const View thin(
+      kCamera, kSize, 0,
+      {.depth = depth, .normal = normal, .back = back, .next = {}, .thickness = {}, .colour = {}});
   const auto sum = [](const View& view, bool drawn) {
     const auto oracle = makeOcclusion(view, {.kernelSize = 96,
                                              .blurSize = 0,

@@ -165,7 +165,14 @@ typedef enum grisaille_attachment {
    * A host without it leaves the texture's id at 0, although the effect reads it.
    */
   GRISAILLE_THICKNESS = 7,
-  GRISAILLE_ATTACHMENT_COUNT = 8 /**< number of attachments */
+  /**
+   * r32f: view depth, metres, of the nearest surface behind the one of GRISAILLE_BACK_DEPTH that
+   * faces the camera or is two-sided. 0 where no such surface exists, and where that depth is 0.
+   *
+   * A host without it leaves the texture's id at 0, although the effect reads it.
+   */
+  GRISAILLE_NEXT_DEPTH = 8,
+  GRISAILLE_ATTACHMENT_COUNT = 9 /**< number of attachments */
 } grisaille_attachment;
 
 /** The bit for a grisaille_attachment in the result of grisaille_effect_desc::reads. */
