@@ -1,7 +1,7 @@
 #!/bin/sh
 # SPDX-License-Identifier: MIT
-# Settings of `ssao` on the gallery: writes ssao_gallery.csv. Measurements that the folder ssao/ holds are not repeated. Takes half an hour on two
-# cores.
+# Measures settings of `ssao` on the gallery, and writes ssao_gallery.csv. Measurements that the
+# folder ssao/ holds are not repeated. Takes half an hour on two cores.
 #
 # usage: studies/ssao.sh [FOLDER_OF_SCENES]
 set -eu

@@ -273,7 +273,7 @@ void SceneResources::draw(gpu::Commands& commands, const scene::Camera& camera, 
   const bool normal{targets.normal}, base{targets.baseColour}, facet{targets.facetNormal};
   const bool thick{targets.thickness};
   const bool behind{targets.front};
-  const bool next = behind && targets.sides == SceneSides::kNear;
+  const bool farSidesOnly = behind && targets.sides == SceneSides::kFar;
   if (behind && !nearest_) nearest_ = device_.createSampler({.label = "nearest"});
   const auto bytes = [](const auto& values) { return std::as_bytes(std::span(values)); };
   const auto vertex = gpu::BufferUsage::kVertex;
@@ -318,8 +318,7 @@ void SceneResources::draw(gpu::Commands& commands, const scene::Camera& camera, 
                           .mask = material.masked,
                           .colour = primitive.coloured && (base || material.masked),
                           .thickness = thick,
-                          .behind = behind,
-                          .next = next};
+                          .behind = behind ? 1 + static_cast<uint32_t>(targets.sides) : 0};
 
     auto& stream = streams.emplace_back();
     size_t streamCount = 0;
@@ -351,9 +350,9 @@ void SceneResources::draw(gpu::Commands& commands, const scene::Camera& camera, 
                        .indices = {.buffer = far && far->indices ? far->indices : indices_},
                        .count = count,
                        .first = first,
-                       .cull = bothSides                      ? gpu::Cull::kNone
-                               : mirrors != (behind && !next) ? gpu::Cull::kFront
-                                                              : gpu::Cull::kBack});
+                       .cull = bothSides                 ? gpu::Cull::kNone
+                               : mirrors != farSidesOnly ? gpu::Cull::kFront
+                                                         : gpu::Cull::kBack});
     };
     const uint32_t bodyCount = far ? far->bodyCounts[instance.primitive] : 0;
     add(primitive.firstIndex, bodyCount, false);

@@ -62,8 +62,7 @@ class SceneResources {
     bool facet = false, normal = false, base = false, mask = false;
     bool colour = false;     // of vertices; only with a base or a mask
     bool thickness = false;  // only with a normal
-    bool behind = false;
-    bool next = false;  // behind, and near sides
+    uint32_t behind = 0;     // BEHIND of shaders/scene/geometry.frag: 0, or 1 + SceneSides
 
     bool uv() const { return base || mask; }
     // Indices into the lists of shaders/geometry_variants.h.
@@ -72,11 +71,8 @@ class SceneResources {
              (colour ? 1u : 0u);
     }
     size_t fragment() const {
-      return (next     ? 68u
-              : behind ? 64u
-                       : 0u) +
-             (thickness ? 32u : 0u) + (facet ? 16u : 0u) + (normal ? 8u : 0u) + (base ? 4u : 0u) +
-             (mask ? 2u : 0u) + (colour ? 1u : 0u);
+      return (behind > 0 ? 60u + 4u * behind : 0u) + (thickness ? 32u : 0u) + (facet ? 16u : 0u) +
+             (normal ? 8u : 0u) + (base ? 4u : 0u) + (mask ? 2u : 0u) + (colour ? 1u : 0u);
     }
   };
   // A scene texture on the device: only its alpha, or its colour with mip levels.

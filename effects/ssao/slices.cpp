@@ -125,11 +125,11 @@ Slices::Slices(plugin::Host host)
       history_(host) {}
 
 uint32_t Slices::reads(plugin::Values values) noexcept {
+  const auto backs = values.get<Backs>(kBacks);
   return GRISAILLE_READS(GRISAILLE_VIEW_DEPTH) | GRISAILLE_READS(GRISAILLE_NORMAL) |
-         (values.get<Backs>(kBacks) >= Backs::kDrawn ? GRISAILLE_READS(GRISAILLE_BACK_DEPTH) : 0u) |
-         (values.get<Backs>(kBacks) == Backs::kPeeled ? GRISAILLE_READS(GRISAILLE_NEXT_DEPTH)
-                                                      : 0u) |
-         (values.get<Backs>(kBacks) == Backs::kBodies ? GRISAILLE_READS(GRISAILLE_THICKNESS) : 0u) |
+         (backs >= Backs::kDrawn ? GRISAILLE_READS(GRISAILLE_BACK_DEPTH) : 0u) |
+         (backs == Backs::kPeeled ? GRISAILLE_READS(GRISAILLE_NEXT_DEPTH) : 0u) |
+         (backs == Backs::kBodies ? GRISAILLE_READS(GRISAILLE_THICKNESS) : 0u) |
          (values.get<uint32_t>(kHistory) > 1 ? GRISAILLE_READS(GRISAILLE_MOTION) : 0u);
 }
 

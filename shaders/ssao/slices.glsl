@@ -300,6 +300,7 @@ float sliceOf(vec3 position, vec3 view_vec, vec3 normal, vec3 direction, vec2 pi
                    max(occluded_behind, lacks_behind * (1.0 - lacks_ahead) * occluded_ahead), share);
 }
 
+#if !LISTED
 // A pixel counts as an edge if fewer than 7 of the 8 texels at distance 2 lie within half the plane
 // tolerance of its tangent plane.
 bool isEdge(vec2 pixel, float depth, vec3 normal) {
@@ -314,6 +315,7 @@ bool isEdge(vec2 pixel, float depth, vec3 normal) {
   }
   return same < 7u;
 }
+#endif
 
 // Visibility of a pixel: the mean over its slices. Sets `bent` to the mean open direction in view
 // space.

@@ -161,7 +161,10 @@ void main() {
   const vec4 blended = open * weights + none;
   const vec4 value = finished(blended, settings.finish);
   vec4 share = linearStep(kServed, served);
-  if (kRefine >= 2u) share = max(share, linearStep(settings.contrast * kContrast, vec4(contrastOf(open, depths))));
+  if (kRefine >= 2u) {
+    const vec4 contrast = vec4(contrastOf(open, depths));
+    share = max(share, linearStep(settings.contrast * kContrast, contrast));
+  }
   [[unroll]] for (uint i = 0u; i < 4u; ++i) {
     const ivec2 at = place + ivec2(i & 1u, i >> 1u);
     const bool inside = all(lessThan(at, size));

@@ -464,8 +464,8 @@ typedef struct grisaille_host_frame {
    */
   const grisaille_host_texture* thickness;
   /**
-   * Depth of the nearest surface behind that of `back_depth` that faces the camera, in the units of
-   * `depth`; null: unknown.
+   * Depth of the nearest surface behind that of `back_depth` that faces the camera or is two-sided,
+   * in the units of `depth`; null: unknown.
    */
   const grisaille_host_texture* next_depth;
 } grisaille_host_frame;

@@ -5,6 +5,7 @@
 
 #include <functional>
 #include <numbers>
+#include <span>
 
 #include "tests/effects/ssao/render_ao.h"
 #include "tests/support/scenes.h"
@@ -26,47 +27,9 @@ struct Object {
   // Whether a ray from a point of the floor hits it at most kReach away.
   std::function<bool(const glm::dvec3& from, const glm::dvec3& unit)> hit;
   // The RMSE that may be left: with the mean thickness of bodies and 24 taps, and with drawn backs
-  // and
-  // 48. A third above what was measured.
+  // and 48 taps. A third above what was measured.
   double bodies = 0, drawn = 0;
 };
-
-// One primitive of its own. Corners are shared, as in files.
-void addMesh(scene::Scene& scene, const std::vector<glm::vec3>& positions,
-             const std::vector<glm::vec3>& normals, const std::vector<uint32_t>& corners,
-             uint32_t material = 0) {
-  const auto first = static_cast<uint32_t>(scene.positions.size());
-  scene.positions.insert(scene.positions.end(), positions.begin(), positions.end());
-  scene.normals.insert(scene.normals.end(), normals.begin(), normals.end());
-  scene.texCoords.resize(scene.positions.size());
-  scene.primitives.push_back({.firstIndex = static_cast<uint32_t>(scene.indices.size()),
-                              .indexCount = static_cast<uint32_t>(corners.size()),
-                              .material = material});
-  for (const uint32_t corner : corners) scene.indices.push_back(first + corner);
-  scene.instances.push_back({.primitive = static_cast<uint32_t>(scene.primitives.size() - 1),
-                             .worldFromObject = glm::dmat4(1)});
-  scene::computeBounds(scene);
-}
-
-void addAabb(scene::Scene& scene, const Aabb& box) {
-  std::vector<glm::vec3> positions, normals;
-  std::vector<uint32_t> corners;
-  const glm::dvec3 centre = (box.least + box.most) / 2.0, half = (box.most - box.least) / 2.0;
-  for (int side = 0; side < 6; ++side) {
-    const int axis = side / 2;
-    glm::dvec3 normal(0), u(0), v(0);
-    normal[axis] = side % 2 == 0 ? -1 : 1;
-    u[(axis + 1) % 3] = 1;
-    v[(axis + 2) % 3] = normal[axis];
-    const auto first = static_cast<uint32_t>(positions.size());
-    for (const glm::dvec3& corner : {-u - v, u - v, u + v, -u + v}) {
-      positions.emplace_back(centre + half * (normal + corner));
-      normals.emplace_back(normal);
-    }
-    for (const uint32_t k : {0u, 1u, 2u, 0u, 2u, 3u}) corners.push_back(first + k);
-  }
-  addMesh(scene, positions, normals, corners);
-}
 
 bool hitsAabb(const Aabb& box, const glm::dvec3& from, const glm::dvec3& unit) {
   double enter = 0, leave = kReach;
@@ -81,7 +44,15 @@ bool hitsAabb(const Aabb& box, const glm::dvec3& from, const glm::dvec3& unit) {
 
 Object boxes(const char* name, const std::vector<Aabb>& all) {
   Object object = {.name = name, .scene = tests::floorScene(), .hit = {}};
-  for (const Aabb& one : all) addAabb(object.scene, one);
+  for (const Aabb& one : all) {
+    // Without a transform: a body's mean thickness counts before its instance's.
+    const size_t first = object.scene.positions.size();
+    tests::addBox(object.scene, glm::dmat4(1));
+    for (glm::vec3& corner : std::span(object.scene.positions).subspan(first)) {
+      corner = glm::vec3(glm::mix(one.least, one.most, (glm::dvec3(corner) + 1.0) / 2.0));
+    }
+  }
+  scene::computeBounds(object.scene);
   object.hit = [all](const glm::dvec3& from, const glm::dvec3& unit) {
     return std::ranges::any_of(all, [&](const Aabb& one) { return hitsAabb(one, from, unit); });
   };
@@ -93,22 +64,24 @@ Object sphere() {
   constexpr glm::dvec3 kCentre(0, 0.27, 0);
   constexpr uint32_t kAround = 64, kRings = 32;
   Object object = {.name = "sphere", .scene = tests::floorScene(), .hit = {}};
-  std::vector<glm::vec3> positions, normals;
-  std::vector<uint32_t> corners;
-  for (uint32_t ring = 0; ring <= kRings; ++ring) {
-    for (uint32_t step = 0; step <= kAround; ++step) {
-      const double down = std::numbers::pi * ring / kRings;
-      const double turn = 2 * std::numbers::pi * (step % kAround) / kAround;
-      const glm::dvec3 out(std::sin(down) * std::sin(turn), std::cos(down),
-                           std::sin(down) * std::cos(turn));
-      positions.emplace_back(kCentre + kSize * out);
-      normals.emplace_back(out);
-      if (ring == kRings || step == kAround) continue;
-      const uint32_t a = ring * (kAround + 1) + step, b = a + kAround + 1;
-      for (const uint32_t k : {a, b, b + 1, a, b + 1, a + 1}) corners.push_back(k);
+  const auto out = [](uint32_t ring, uint32_t step) {
+    const double down = std::numbers::pi * ring / kRings;
+    const double turn = 2 * std::numbers::pi * (step % kAround) / kAround;
+    return glm::dvec3(std::sin(down) * std::sin(turn), std::cos(down),
+                      std::sin(down) * std::cos(turn));
+  };
+  for (uint32_t ring = 0; ring < kRings; ++ring) {
+    for (uint32_t step = 0; step < kAround; ++step) {
+      std::array<glm::vec3, 4> corners;
+      size_t k = 0;
+      for (const glm::dvec3& unit :
+           {out(ring + 1, step), out(ring + 1, step + 1), out(ring, step + 1), out(ring, step)}) {
+        corners[k++] = glm::vec3(kCentre + kSize * unit);
+      }
+      tests::addQuad(object.scene, corners,
+                     glm::vec3(glm::normalize(out(ring, step) + out(ring + 1, step + 1))));
     }
   }
-  addMesh(object.scene, positions, normals, corners);
   object.hit = [=](const glm::dvec3& from, const glm::dvec3& unit) {
     const double along = glm::dot(kCentre - from, unit);
     const double off = glm::dot(kCentre - from, kCentre - from) - along * along;
@@ -123,8 +96,8 @@ Object sheet() {
   Object object = {.name = "sheet", .scene = tests::floorScene(), .hit = {}};
   object.scene.materials.push_back({.name = "sheet", .doubleSided = true});
   const auto s = static_cast<float>(kSize), h = static_cast<float>(kHeight);
-  addMesh(object.scene, {{-s, h, s}, {s, h, s}, {s, h, -s}, {-s, h, -s}},
-          std::vector<glm::vec3>(4, glm::vec3(0, 1, 0)), {0, 1, 2, 0, 2, 3}, 1);
+  tests::addQuad(object.scene, {glm::vec3(-s, h, s), {s, h, s}, {s, h, -s}, {-s, h, -s}}, {0, 1, 0},
+                 1);
   object.hit = [](const glm::dvec3& from, const glm::dvec3& unit) {
     const double t = (kHeight - from.y) / unit.y;
     const glm::dvec3 at = from + t * unit;
@@ -151,18 +124,6 @@ std::vector<Object> objects() {
   return all;
 }
 
-double exactVisibility(const Object& object, const glm::dvec3& point) {
-  constexpr int kRays = 2000;
-  int open = 0;
-  for (int i = 0; i < kRays; ++i) {
-    const double u = (i + 0.5) / kRays, turn = i * 2.399963229728653;  // a spiral
-    const glm::dvec3 unit(std::sqrt(u) * std::cos(turn), std::sqrt(1 - u),
-                          std::sqrt(u) * std::sin(turn));
-    open += object.hit(point, unit) ? 0 : 1;
-  }
-  return static_cast<double>(open) / kRays;
-}
-
 struct Errors {
   double rmse = 0, mean = 0;
 };
@@ -175,8 +136,6 @@ class ExactTest : public tests::BackendTest {
   std::vector<Errors> errorsOf(const Object& object, const std::vector<tests::Settings>& settings) {
     const scene::Camera camera = {.eye = glm::dvec3(0.5, 0.9, 1.5),
                                   .target = glm::dvec3(0, 0.1, 0)};
-    const glm::dmat3 axes = scene::worldFromView(camera);
-    const double slope = std::tan(glm::radians(camera.fovyDegrees) / 2) * 2 / kTall;
     std::vector<image::Image> shown;
     image::Image depth;
     for (const tests::Settings& one : settings) {
@@ -189,11 +148,12 @@ class ExactTest : public tests::BackendTest {
     int count = 0;
     for (uint32_t y = 3; y < kTall; y += kEvery) {
       for (uint32_t x = 3; x < kWide; x += kEvery) {
-        const glm::dvec3 ray((x + 0.5 - kWide / 2.0) * slope, (kTall / 2.0 - y - 0.5) * slope, -1);
-        const glm::dvec3 point = camera.eye + axes * ray * double{depth.at(x, y)};
+        const glm::dvec3 point = tests::surfaceAt(camera, depth, x, y);
         if (depth.at(x, y) == 0 || std::abs(point.y) > 1e-3) continue;
         if (std::max(std::abs(point.x), std::abs(point.z)) > 0.8) continue;
-        const double right = exactVisibility(object, {point.x, 0, point.z});
+        const double right = tests::tracedVisibility({0, 1, 0}, 2000, [&](const glm::dvec3& ray) {
+          return object.hit({point.x, 0, point.z}, ray);
+        });
         for (size_t i = 0; i < settings.size(); ++i) {
           const double off = shown[i].at(x, y) - right;
           errors[i].rmse += off * off;

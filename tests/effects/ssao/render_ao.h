@@ -74,6 +74,32 @@ inline image::Image renderAo(gpu::Device& device, const scene::Scene& scene,
   return AoFrames(device, scene, settings).show(camera, width, height);
 }
 
+// World position of the surface at a pixel of a picture. `depth`: the output of that name.
+inline glm::dvec3 surfaceAt(const scene::Camera& camera, const image::Image& depth, uint32_t x,
+                            uint32_t y) {
+  const double slope = std::tan(glm::radians(camera.fovyDegrees) / 2) * 2 / depth.height;
+  const glm::dvec3 ray((x + 0.5 - depth.width / 2.0) * slope,
+                       (depth.height / 2.0 - y - 0.5) * slope, -1);
+  return camera.eye + scene::worldFromView(camera) * ray * double{depth.at(x, y)};
+}
+
+// Share of the cosine-weighted directions about a unit normal that hit nothing. hits(direction).
+template <typename Hits>
+double tracedVisibility(const glm::dvec3& normal, int rays, Hits&& hits) {
+  const glm::dvec3 along = glm::normalize(
+      glm::cross(normal, std::abs(normal.x) < 0.5 ? glm::dvec3(1, 0, 0) : glm::dvec3(0, 1, 0)));
+  const glm::dvec3 across = glm::cross(normal, along);
+  int open = 0;
+  for (int i = 0; i < rays; ++i) {
+    const double u = (i + 0.5) / rays, phi = i * 2.399963;  // a spiral
+    open += hits(std::sqrt(u) * (std::cos(phi) * along + std::sin(phi) * across) +
+                 std::sqrt(1 - u) * normal)
+                ? 0
+                : 1;
+  }
+  return static_cast<double>(open) / rays;
+}
+
 inline double meanRows(const image::Image& image, uint32_t fromRow, uint32_t toRow) {
   double sum = 0;
   for (uint32_t y = fromRow; y < toRow; ++y) {
