@@ -52,8 +52,7 @@ constexpr const char* kBlurLabels[] = {"Box", "Edge-aware"};
 constexpr const char* kEstimatorKeys[] = {"slices", "classic"};
 constexpr const char* kEstimatorLabels[] = {"Slices", "Classic"};
 constexpr const char* kBacksKeys[] = {"assumed", "bodies", "drawn", "peeled"};
-constexpr const char* kBacksLabels[] = {"Assumed", "Mean of the body", "Drawn",
-                                        "Drawn, and what lies behind"};
+constexpr const char* kBacksLabels[] = {"Assumed", "Mean of the body", "Drawn", "Peeled"};
 constexpr const char* kBounceKeys[] = {"none", "albedo", "base_colour"};
 constexpr const char* kBounceLabels[] = {"None", "Off the albedo", "Off base colours"};
 constexpr const char* kResolutionKeys[] = {"full", "half", "quarter"};
