@@ -21,7 +21,7 @@ struct DrawBlock {
   glm::vec4 base_color;
   float alpha_cutoff = 0;
   float front_sign = 1;
-  float scale = 1;
+  float chord_scale = 1;
   float padding = 0;
   glm::mat4 camera_from_object;
 };
@@ -115,6 +115,10 @@ gpu::Buffer SceneResources::thickness(gpu::Commands& commands) {
                  gpu::BufferUsage::kVertex);
   }
   return thickness_;
+}
+
+float SceneResources::chordScale(uint32_t primitive, const glm::dmat3& linear) {
+  return static_cast<float>(scene::chordScale(matter().areas[primitive], linear));
 }
 
 const SceneResources::FarSides& SceneResources::farSides(gpu::Commands& commands) {
@@ -303,14 +307,13 @@ void SceneResources::draw(gpu::Commands& commands, const scene::Camera& camera, 
 
     const glm::dmat3 linear(cameraFromObject);
     const bool mirrors = glm::determinant(linear) < 0;
-    const DrawBlock block{
-        .clip_from_object = glm::mat4(clipFromObject),
-        .normal_from_object = glm::mat4(normalTransform(linear)),
-        .base_color = material.baseColor,
-        .alpha_cutoff = material.alphaCutoff,
-        .front_sign = mirrors ? -1.0f : 1.0f,
-        .scale = static_cast<float>(std::cbrt(std::abs(glm::determinant(linear)))),
-        .camera_from_object = glm::mat4(cameraFromObject)};
+    const DrawBlock block{.clip_from_object = glm::mat4(clipFromObject),
+                          .normal_from_object = glm::mat4(normalTransform(linear)),
+                          .base_color = material.baseColor,
+                          .alpha_cutoff = material.alphaCutoff,
+                          .front_sign = mirrors ? -1.0f : 1.0f,
+                          .chord_scale = thick ? chordScale(instance.primitive, linear) : 0,
+                          .camera_from_object = glm::mat4(cameraFromObject)};
     const auto blockBytes = std::as_bytes(std::span(&block, 1));
     const Variant variant{.facet = facet,
                           .normal = normal,

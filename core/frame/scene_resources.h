@@ -99,6 +99,8 @@ class SceneResources {
                     const std::vector<glm::vec3>& values);
   const scene::Matter& matter();
   gpu::Buffer thickness(gpu::Commands& commands);
+  // The factor on that thickness for an instance of a primitive.
+  float chordScale(uint32_t primitive, const glm::dmat3& linear);
   const FarSides& farSides(gpu::Commands& commands);
   gpu::GraphicsPipeline pipeline(Variant variant);
   gpu::Texture texture(gpu::Commands& commands, const scene::Material& material, bool base);

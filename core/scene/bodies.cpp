@@ -12,6 +12,7 @@
 #include <optional>
 #include <set>
 #include <span>
+#include <utility>
 
 namespace grisaille::scene {
 namespace {
@@ -28,7 +29,8 @@ struct Edge {
 
 // The triangles of an object that count, and their edges, in the order of their vertices.
 struct Mesh {
-  std::vector<uint32_t> triangles;  // numbers in the scene
+  std::vector<uint32_t> triangles;   // numbers in the scene
+  std::vector<uint32_t> primitives;  // that of each
   std::vector<Edge> edges;
 };
 
@@ -80,6 +82,7 @@ Mesh meshOf(const Scene& scene, const Object& object, const std::vector<uint32_t
         continue;
       const auto triangle = static_cast<uint32_t>(mesh.triangles.size());
       mesh.triangles.push_back(first / 3);
+      mesh.primitives.push_back(number);
       for (uint32_t k = 0; k < 3; ++k) {
         const uint32_t from = corners[k], to = corners[(k + 1) % 3];
         mesh.edges.push_back({std::min(from, to), std::max(from, to), triangle, from < to});
@@ -114,6 +117,7 @@ std::vector<Corners> cornersOf(const Scene& scene, const std::vector<uint32_t>& 
 struct Bulk {
   std::optional<glm::dvec3> origin;
   double area = 0, volume = 0;
+  glm::dvec3 areas{0};                 // see Matter::areas
   glm::dvec3 centre{0}, direction{0};  // sums of centroids by area, and of directed areas
 
   void add(const Corners& t) {
@@ -122,6 +126,7 @@ struct Bulk {
     const glm::dvec3 directed = glm::cross(b - a, c - a) / 2.0;
     const double own = glm::length(directed);
     area += own;
+    if (own > 0) areas += directed * directed / own;
     centre += own * (a + b + c) / 3.0;
     volume += glm::dot(a, directed) / 3;
     direction += directed;
@@ -209,6 +214,7 @@ Matter matterOf(const Scene& scene) {
   const std::vector<uint32_t> welded = weld(scene.positions);
   std::vector<bool> inPart(triangles), open(triangles);
   std::vector<float> chords(triangles, std::numeric_limits<float>::infinity());
+  std::vector<glm::dvec3> areas(scene.primitives.size(), glm::dvec3(0));
   for (const Object& object : objectsOf(scene)) {
     const Mesh mesh = meshOf(scene, object, welded);
     Parts parts(mesh.triangles.size());
@@ -229,16 +235,24 @@ Matter matterOf(const Scene& scene) {
       bulks[part].add(cornersOf(scene, mesh.triangles[i]));
       if (openPart[part]) openParts[part].push_back(mesh.triangles[i]);
     }
+    constexpr uint32_t kNone = std::numeric_limits<uint32_t>::max();
+    std::vector<uint32_t> counted(mesh.triangles.size(), kNone);  // by part: last primitive with it
     for (uint32_t i = 0; i < mesh.triangles.size(); ++i) {
+      const uint32_t part = parts.of(i), primitive = mesh.primitives[i];
       float& chord = chords[mesh.triangles[i]];
-      chord = std::min(chord, static_cast<float>(bulks[parts.of(i)].meanChord()));
+      chord = std::min(chord, static_cast<float>(bulks[part].meanChord()));
+      if (std::exchange(counted[part], primitive) != primitive) {
+        areas[primitive] += bulks[part].areas;
+      }
     }
     for (const auto& [part, all] : openParts) {
       if (enclosesMatter(cornersOf(scene, all))) continue;
       for (const uint32_t triangle : all) open[triangle] = true;
     }
   }
-  Matter matter{.bodies = std::vector<bool>(triangles), .thickness = std::move(chords)};
+  Matter matter{.bodies = std::vector<bool>(triangles),
+                .thickness = std::move(chords),
+                .areas = std::move(areas)};
   for (const Primitive& primitive : scene.primitives) {
     const Material& material = scene.materials[primitive.material];
     const float other = material.doubleSided || material.masked ? 0.0f : -1.0f;
@@ -249,6 +263,15 @@ Matter matterOf(const Scene& scene) {
     }
   }
   return matter;
+}
+
+double chordScale(const glm::dvec3& areas, const glm::dmat3& linear) {
+  // An area across an axis becomes the parallelogram of the other two axes' images.
+  const glm::dvec3 factors(glm::length(glm::cross(linear[1], linear[2])),
+                           glm::length(glm::cross(linear[2], linear[0])),
+                           glm::length(glm::cross(linear[0], linear[1])));
+  const double before = areas.x + areas.y + areas.z, after = glm::dot(areas, factors);
+  return after > 0 ? std::abs(glm::determinant(linear)) * before / after : 0;
 }
 
 std::vector<float> vertexThickness(const Scene& scene, const Matter& matter) {

@@ -20,6 +20,9 @@ struct Matter {
   // and Geometric Probability", 1976); 0 for other triangles with a double-sided or masked
   // material, which are sheets; unknown for the rest, such as the walls of a room.
   std::vector<float> thickness;
+  // For each primitive, the area of the parts that it belongs to, in square units of the object.
+  // The three axes share it by the squares of the normals' components.
+  std::vector<glm::dvec3> areas;
 };
 
 // Vertices at equal positions count as one. Triangles that share an edge belong to one part; a part
@@ -38,6 +41,11 @@ struct Matter {
 // its present pose. Time: that of sorting the scene's edges, and of 16 solid angles for each
 // triangle of a part that is not closed.
 Matter matterOf(const Scene& scene);
+
+// The factor on the mean chord of a body whose surface has these Matter::areas, if `linear`
+// transforms it: that of its volume over that of its surface. Exact for boxes along the axes, and
+// for any body if `linear` stretches all directions alike; 0 for a surface without an area.
+double chordScale(const glm::dvec3& areas, const glm::dmat3& linear);
 
 // The thickness at each vertex of the scene: that of a triangle with this vertex.
 std::vector<float> vertexThickness(const Scene& scene, const Matter& matter);

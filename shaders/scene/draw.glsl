@@ -9,7 +9,7 @@ layout(UNIFORM(0), std140) uniform DrawBlock {
   vec4 base_color;          // linear
   float alpha_cutoff;
   float front_sign;         // -1 if the transform mirrors, which swaps front and back; else 1
-  float scale;              // of lengths: cube root of the determinant
+  float chord_scale;        // on the thickness of matter
 #if FACET
   mat4 camera_from_object;  // world axes, metres from the camera
 #endif

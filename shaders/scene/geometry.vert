@@ -40,7 +40,7 @@ void main() {
   colour = vertex_colour;
 #endif
 #if THICKNESS
-  matter = thickness < 0.0 ? -1.0 : thickness * draw.scale;
+  matter = thickness < 0.0 ? -1.0 : thickness * draw.chord_scale;
 #endif
 #if FACET
   from_camera = (draw.camera_from_object * vec4(position, 1.0)).xyz;

@@ -94,7 +94,8 @@ vec2 inSlice(Slice s, vec3 point, float side) {
 
 // Share of the slice's cosine-weighted solid angle below the horizon of a point of inSlice(). With h
 // the horizon angle and n the projected normal's, the integral of |sin h| cos(h - n) from 0 to h is
-// (cos n - cos(2 h - n)) / 4 + h sin(n) / 2 (Jimenez 2016, line 28).
+// (cos n - cos(2 h - n)) / 4 + h sin(n) / 2 (Jimenez 2016, line 28). This equals
+// (sin(h)^2 cos(n) + (h - sin h cos h) sin n) / 2.
 float shareOf(Slice s, vec2 local, float side) {
   const float sin_n = side * s.sin_n;
   // The move into the slice may take a near tap across the view vector. This moves it back.
@@ -102,10 +103,13 @@ float shareOf(Slice s, vec2 local, float side) {
   vec2 at = vec2(max(local.x * s.cos_n + local.y * sin_n, 0.0),
                  local.y * s.cos_n - local.x * sin_n);
   at *= inversesqrt(max(dot(at, at), 1e-30));
-  const float low = arcCosine(abs(at.y));
-  const float angle = at.y < 0.0 ? kPi - low : low;
-  const float twice = (2.0 * at.y * at.y - 1.0) * s.cos_n + 2.0 * at.x * at.y * sin_n;
-  const float part = 0.25 * (s.cos_n - twice) + 0.5 * angle * sin_n;
+  // h - sin h cos h, twice the area of a segment of the unit circle. Its quotient by sin h (1 - cos h)
+  // is smooth from h = 0 to pi/2; this least-squares fit of it errs by at most 1.2e-4 in the area.
+  const float y = abs(at.y);
+  const float fit = 1.5706786 + y * (-0.4222147 + y * (0.2931351 - 0.1144276 * y));
+  const float lens = at.x * (1.0 - y) * fit;
+  const float segment = at.y < 0.0 ? kPi - lens : lens;
+  const float part = 0.5 * (at.x * at.x * s.cos_n + segment * sin_n);
   // A point below the tangent plane is at the end of the hemisphere.
   return local.y <= 0.0 ? 0.5 + 0.5 * side : s.offset + side * part * s.scale;
 }
@@ -227,10 +231,11 @@ uint sectorsBeyond(Slice s, Side last, float side, float dither) {
 // which stay in the cache, and their results differ less. With more than 16 steps the grid is
 // finer, so that no two taps fall on one pixel.
 vec2 tapAt(vec2 pixel, vec2 way, float pixels) {
-  const float below = uintBitsToFloat(floatBitsToUint(pixels) & 0x7f800000u);  // a power of two
-  const uint finer = max(8u, (1u << uint(findMSB(kSteps - 1u) + 1)) / 2u);
-  const float grid = max(below / float(finer), 1.0);
-  return floor((pixel + way * pixels - 0.5) / grid + 0.5) * grid + 0.5;
+  const float finer = float(max(8u, (1u << uint(findMSB(kSteps - 1u) + 1)) / 2u));
+  const uint below = floatBitsToUint(pixels) & 0x7f800000u;  // a power of two
+  const float inverse = min(finer * uintBitsToFloat(0x7f000000u - below), 1.0);
+  const float grid = max(uintBitsToFloat(below) * (1.0 / finer), 1.0);
+  return floor((pixel + way * pixels - 0.5) * inverse + 0.5) * grid + 0.5;
 }
 
 // Visibility of one slice. Adds the slice's mean open direction to `bent`.
@@ -273,8 +278,8 @@ float sliceOf(vec3 position, vec3 view_vec, vec3 normal, vec3 direction, vec2 pi
     const float one = (float(i) + jitter) / float(kSteps);
     const float two = (float(i) + 1.0 - jitter) / float(kSteps);
     const float least = float(i) + 1.0;
-    const float to = max(one * sqrt(sqrt(one)) * reach, least);
-    const float back = max(two * sqrt(sqrt(two)) * reach, least);
+    const float to = max(one * (0.6 + 0.4 * one) * reach, least);
+    const float back = max(two * (0.6 + 0.4 * two) * reach, least);
     const vec2 tap_ahead = tapAt(pixel, way, to), tap_behind = tapAt(pixel, -way, back);
     occluded |= sectorsOfTap(s, tap_ahead, 1.0, jitter, false, ahead);
     occluded |= sectorsOfTap(s, tap_behind, -1.0, jitter, false, behind);

@@ -128,6 +128,20 @@ TEST_P(BackDepthTest, ThicknessIsThatOfTheBody) {
   EXPECT_EQ(renderer.read("normal").at(80, 45, 2), 1);
 }
 
+// A cube that becomes a bar of 2 x 0.2 x 0.4: the mean chord is that of the bar.
+TEST_P(BackDepthTest, ThicknessIsThatOfTheStretchedBody) {
+  scene::Scene scene;
+  scene.materials.push_back({.name = "bar"});
+  const glm::dmat4 turned = glm::rotate(glm::dmat4(1), 0.5, glm::dvec3(1, 0, 0));
+  tests::addBox(scene, glm::scale(turned, glm::dvec3(1, 0.1, 0.2)));
+  const scene::Camera camera = {.eye = glm::dvec3(0, 0, 4), .target = glm::dvec3(0)};
+  frame::Renderer renderer(device(), scene);
+  const std::vector<std::string> outputs = {"thickness"};
+  renderer.render({.camera = camera, .width = 160, .height = 90, .outputs = outputs});
+  const double volume = 2 * 0.2 * 0.4, surface = 2 * (2 * 0.2 + 0.2 * 0.4 + 0.4 * 2);
+  EXPECT_NEAR(renderer.read("thickness").at(80, 45), 4 * volume / surface, 1e-4);
+}
+
 // Rows of surfaces, seen from the front: boxes, sheets, and walls of one side.
 TEST_P(BackDepthTest, NextDepthIsThatOfTheSurfaceBehindTheBack) {
   scene::Scene scene;

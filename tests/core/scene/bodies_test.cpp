@@ -6,6 +6,7 @@
 
 #include <algorithm>
 #include <cmath>
+#include <glm/gtc/matrix_transform.hpp>
 
 #include "tests/support/scenes.h"
 
@@ -191,6 +192,19 @@ TEST(Bodies, AreAsThickAsTheirMeanChord) {
   const scene::Matter matter = scene::matterOf(open);
   for (size_t i = 0; i < 10; ++i) EXPECT_NEAR(matter.thickness[i], 4.0 / 3, 0.3);
   EXPECT_EQ(matter.thickness[10], -1);  // without an instance
+}
+
+TEST(Bodies, AStretchedBoxHasTheMeanChordOfItsNewSides) {
+  scene::Scene scene = boxScene();
+  const glm::dvec3 sides(0.1, 2, 30);  // of a box with sides of 2
+  for (const glm::dvec3& areas : scene::matterOf(scene).areas) {
+    const glm::dmat3 stretch(glm::scale(glm::dmat4(1), sides));
+    const double surface = sides.x * sides.y + sides.y * sides.z + sides.z * sides.x;
+    const double chord = 4 * sides.x * sides.y * sides.z / surface;
+    EXPECT_NEAR(scene::chordScale(areas, stretch) * 4 / 3, chord, 1e-9);
+    EXPECT_NEAR(scene::chordScale(areas, -3.0 * glm::dmat3(1)), 3, 1e-9);
+    EXPECT_EQ(scene::chordScale(areas, glm::dmat3(0)), 0);
+  }
 }
 
 TEST(Bodies, SheetsHaveNoThicknessAndOtherSurfacesAnUnknownOne) {
