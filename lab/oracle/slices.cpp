@@ -276,7 +276,7 @@ Texel Slices::sliceOf(const glm::dvec3& position, const glm::dvec3& normal,
   for (int i = 0; i < steps_; ++i) {
     for (Walk* walk : {&ahead, &behind}) {
       const double at = (i + (walk->side > 0 ? dither : 1 - dither)) / steps_;
-      const double pixels = std::max(at * (0.6 + 0.4 * at) * reach, i + 1.0);
+      const double pixels = std::max(std::pow(at, 1.25) * reach, i + 1.0);
       const double grid = std::max(std::exp2(std::floor(std::log2(pixels))) / finer, 1.0);
       const glm::dvec2 place = glm::clamp(
           glm::floor((pixel + walk->side * pixels * way) / grid + 0.5) * grid, -1e6, 1e6);

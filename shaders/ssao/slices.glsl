@@ -279,8 +279,8 @@ float sliceOf(vec3 position, vec3 view_vec, vec3 normal, vec3 direction, vec2 pi
     const float one = (float(i) + jitter) / float(kSteps);
     const float two = (float(i) + 1.0 - jitter) / float(kSteps);
     const float least = float(i) + 1.0;
-    const float to = max(one * (0.6 + 0.4 * one) * reach, least);
-    const float back = max(two * (0.6 + 0.4 * two) * reach, least);
+    const float to = max(one * sqrt(sqrt(one)) * reach, least);
+    const float back = max(two * sqrt(sqrt(two)) * reach, least);
     const vec2 tap_ahead = tapAt(pixel, way, to), tap_behind = tapAt(pixel, -way, back);
     occluded |= sectorsOfTap(s, tap_ahead, 1.0, jitter, false, ahead);
     occluded |= sectorsOfTap(s, tap_behind, -1.0, jitter, false, behind);
