@@ -41,6 +41,15 @@ Preset presetFrom(const effect::Effect& effect, const std::string& name, const t
   return preset;
 }
 
+// The keys of all parameters that a preset names.
+std::set<std::string, std::less<>> namedIn(const Presets& presets) {
+  std::set<std::string, std::less<>> named;
+  for (const Preset& preset : presets.all) {
+    for (const auto& [key, text] : preset.values) named.insert(key);
+  }
+  return named;
+}
+
 }  // namespace
 
 const Preset& Presets::find(const std::string& effect, const std::string& name) const {
@@ -119,10 +128,7 @@ void applyPreset(effect::Values& values, const Presets& presets, const std::stri
 
 std::vector<const grisaille_param_desc*> tunable(const effect::Effect& effect,
                                                  const Presets& presets) {
-  std::set<std::string, std::less<>> named;
-  for (const Preset& preset : presets.all) {
-    for (const auto& [key, text] : preset.values) named.insert(key);
-  }
+  const std::set<std::string, std::less<>> named = namedIn(presets);
   std::vector<const grisaille_param_desc*> params;
   for (const grisaille_param_desc& param : effect.params()) {
     const bool folded = (param.flags & GRISAILLE_PARAM_ADVANCED) != 0;
@@ -133,6 +139,11 @@ std::vector<const grisaille_param_desc*> tunable(const effect::Effect& effect,
 }
 
 const Preset* presetOf(const effect::Values& values, const Presets& presets) {
+  const std::set<std::string, std::less<>> named = namedIn(presets);
+  for (const grisaille_param_desc& param : values.effect().params()) {
+    const bool free = named.contains(param.key) || (param.flags & GRISAILLE_PARAM_LOOK) != 0;
+    if (!free && values.get(param.key) != values.defaultOf(param.key)) return nullptr;
+  }
   for (const Preset& preset : presets.all) {
     effect::Values applied = values;
     applyPreset(applied, presets, preset.name);

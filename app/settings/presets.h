@@ -61,7 +61,9 @@ void applyPreset(effect::Values& values, const Presets& presets, const std::stri
 std::vector<const grisaille_param_desc*> tunable(const effect::Effect& effect,
                                                  const Presets& presets);
 
-// The first preset that matches the values; null: none does.
+// The first preset that matches the values; null: none does, or a parameter that no preset names
+// has another value than its default, with which errors and costs were measured (those of look may
+// have any).
 const Preset* presetOf(const effect::Values& values, const Presets& presets);
 
 // "error 0.106, cost 0.54 x balanced"

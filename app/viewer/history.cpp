@@ -15,6 +15,12 @@ constexpr const char* kOff = "off";
 History::History(const effect::Selection::State& now, Restore restore, ListOf listOf)
     : restore_(std::move(restore)), listOf_(std::move(listOf)), now_(linesOf(now)) {}
 
+void History::begin(const effect::Selection::State& now) {
+  steps_.clear();
+  done_ = 0;
+  now_ = linesOf(now);
+}
+
 std::vector<History::Line> History::linesOf(const effect::Selection::State& state) {
   std::vector<Line> lines;
   for (const effect::Selection::State::One& one : state.effects) {

@@ -25,6 +25,9 @@ class History {
   // must return a list for every effect passed to noteObjects().
   History(const effect::Selection::State& now, Restore restore, ListOf listOf);
 
+  // Forgets all steps: `now` is the state before the first one.
+  void begin(const effect::Selection::State& now);
+
   // Call when a change is complete (the user releases a slider): adds a step if `now` differs from
   // the state at the last step. `what` names the step: "ssao.radius". Drops undone steps.
   void noteSettings(const effect::Selection::State& now, std::string what);

@@ -55,7 +55,7 @@ Session::Session(SessionOptions options)
       options_(std::move(options)) {
   const Settings settings = options_.config.empty() ? Settings{} : readSettings(options_.config);
   apply(asked(options_, settings), options_.presets);
-  history.noteSettings(chain.selection.state(), "command line");
+  history.begin(chain.selection.state());  // what the command line asks for is no step of undo
   loadAllPresets();
   surface =
       surfaceOf(!options_.surface.empty() ? options_.surface : settings.surface.value_or("white"));

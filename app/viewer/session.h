@@ -173,8 +173,9 @@ class Session {
 
   // --- Comparison with truth
   TruthSettings comparing;
-  // Switches the comparison. On: the left side shows the error. Off: it shows its earlier view
-  // again. Without a comparable output, adds a message and stays off.
+  // Switches the comparison. On: the left side shows the error, and the right one, unless the
+  // picture is split already, the truth. Off: both show their earlier views again. Without a
+  // comparable output, adds a message and stays off.
   void compareWithTruth(bool on);
   std::vector<std::string> comparable() const;  // visibility outputs with one channel
   std::string comparedOutput() const;           // "": no comparison, or no comparable output
@@ -252,9 +253,9 @@ class Session {
   std::shared_ptr<scene::Scene> posed_;           // the same as `scene`
   std::map<std::string, EffectPresets> presets_;  // by effect
   std::string lastChange_;
-  std::string placer_;                                        // effect chosen last
-  std::map<std::string, objects::Object, std::less<>> next_;  // by effect
-  std::string leftBefore_ = "color";                          // left view before the comparison
+  std::string placer_;                                         // effect chosen last
+  std::map<std::string, objects::Object, std::less<>> next_;   // by effect
+  std::string leftBefore_ = "color", rightBefore_ = "normal";  // views before the comparison
   bool firstScene_ = true;
   bool homeGiven_ = false;                // by --camera
   double aspect_ = 1;                     // of the picture when the scene was loaded

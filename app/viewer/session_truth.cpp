@@ -73,8 +73,13 @@ void Session::compareWithTruth(bool on) {
   if (on) {
     if (!isTruthView(left)) leftBefore_ = left;
     left = kErrorView;
-  } else if (isTruthView(left)) {
-    left = leftBefore_;
+    if (!split) {  // else the user has chosen what the right side shows
+      if (!isTruthView(right)) rightBefore_ = right;
+      right = kTruthView;
+    }
+  } else {
+    if (isTruthView(left)) left = leftBefore_;
+    if (isTruthView(right)) right = rightBefore_;
   }
   checkViews();
 }

@@ -93,6 +93,17 @@ TEST_P(TruthTest, WhatIsShownIsTheError) {
   expectQuits(viewer);
 }
 
+TEST_P(TruthTest, TheOtherSideIsTheTruth) {
+  DrivenViewer viewer(folder_, arguments(), environment());
+  viewer.untilValue("truth", "done");
+  viewer.key("x");
+  viewer.untilValue("view right", "truth");
+  viewer.key("t");
+  viewer.untilValue("view right", "normal");
+  EXPECT_EQ(viewer.value("view"), "color");
+  expectQuits(viewer);
+}
+
 TEST_P(TruthTest, AMovedCameraIsTracedAnewAndASettingIsNot) {
   DrivenViewer viewer(folder_, arguments(), environment());
   viewer.untilValue("truth", "done");

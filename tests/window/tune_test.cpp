@@ -43,7 +43,7 @@ GRISAILLE_IN_A_WINDOW(TuneTest, "opengl");
 
 TEST_P(TuneTest, APresetIsOneStep) {
   const toml::table file = toml::parse_file(EFFECTS_FOLDER "/ssao.presets.toml");
-  DrivenViewer viewer(folder_, narrow({"--preset", "ssao=fine", "--set", "ssao.radius=0.75"}));
+  DrivenViewer viewer(folder_, narrow({"--preset", "ssao=fine", "--set", "ssao.power=1.5"}));
   EXPECT_EQ(viewer.value("ssao.preset.fine"), "true");
   viewer.click(viewer.at("ssao.advanced", 0.2, 0.5));
   viewer.untilThere("ssao.slices");
@@ -64,7 +64,7 @@ TEST_P(TuneTest, APresetIsOneStep) {
         EXPECT_EQ(std::stod(shown), value.value_or(-1.0));
       }
     }
-    EXPECT_EQ(viewer.value("ssao.radius"), "0.75");  // no preset names it
+    EXPECT_EQ(viewer.value("ssao.power"), "1.5");  // no preset names it
     viewer.key("ctrl+z");
     viewer.untilValue("ssao.presets", was);
     EXPECT_EQ(values(viewer), before);
@@ -76,6 +76,11 @@ TEST_P(TuneTest, APresetIsOneStep) {
   for (const std::string name : {"fast", "balanced", "fine", "reference"}) {
     EXPECT_EQ(viewer.value("ssao.preset." + name), "false");
   }
+  // Nor does anybody know the error and the cost of a preset at another radius.
+  viewer.key("ctrl+z");
+  viewer.untilValue("ssao.presets", "reference");
+  viewer.drag(viewer.at("ssao.radius", 0.5, 0.5), viewer.at("ssao.radius", 0.7, 0.5));
+  viewer.untilValue("ssao.presets", "custom");
   expectQuits(viewer);
 }
 
