@@ -2,6 +2,7 @@
 // grisaille measure: measures the cost and the error of settings.
 #include <fmt/format.h>
 
+#include <algorithm>
 #include <filesystem>
 #include <memory>
 
@@ -31,7 +32,7 @@ namespace fs = std::filesystem;
 
 struct MeasureOptions {
   SubjectOptions subject;
-  std::string backend = "both", device, out, shard = "1/1", presets, path, gallery, scenes;
+  std::string backend = "both", device, out, shard = "1/1", presets, path, gallery, scenes, grids;
   std::vector<std::string> also;
   std::vector<std::string> sweeps;
   uint32_t rounds = 5;
@@ -70,13 +71,18 @@ std::vector<SubjectOptions> scenesOf(const MeasureOptions& options) {
 MeasureJob::MeasureJob(const MeasureOptions& options) {
   const std::shared_ptr<const effect::Registry> registry = loadEffects(options.subject.pluginPaths);
   std::vector<study::Sweep> sweeps;
-  std::vector<effect::ParameterName> swept;
   for (const std::string& text : options.sweeps) {
     sweeps.push_back(study::parseSweep(*registry, text));
-    swept.push_back(sweeps.back().name);
   }
   const study::Shard shard = study::parseShard(options.shard);
-  const std::vector<study::Setting> grid = study::gridOf(sweeps);
+  const std::vector<study::Setting> grid =
+      options.grids.empty() ? study::gridOf(sweeps) : study::loadGrids(*registry, options.grids);
+  std::vector<effect::ParameterName> swept;
+  for (const study::Setting& setting : grid) {
+    for (const effect::ParameterValue& one : setting) {
+      if (std::ranges::find(swept, one.name) == swept.end()) swept.push_back(one.name);
+    }
+  }
   for (size_t i = 0; i < grid.size(); ++i) {
     if (shard.holds(i)) settings.push_back(grid[i]);
   }
@@ -222,6 +228,13 @@ void addMeasure(CLI::App& program) {
                    "A parameter and the values to measure; several --sweep span a grid")
       ->type_name("EFFECT.PARAMETER=VALUE,...")
       ->allow_extra_args(false);
+  command
+      ->add_option(
+          "--grids", options->grids,
+          "Settings to measure side by side, instead of --sweep: each line of the file has "
+          "sweeps that span a grid of their own")
+      ->type_name("FILE")
+      ->excludes("--sweep");
   options->subject.addTo(*command);
   command->add_option("--rounds", options->rounds, "Number of times that each cost is measured")
       ->check(wholeNumberFrom(1, 1000))

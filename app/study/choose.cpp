@@ -49,11 +49,14 @@ std::string sentenceOf(std::span<const Record> records) {
     backends.push_back(fmt::format("{} on {}, {} clock", backend, own->device, own->clock));
   }
   for (const CameraErrors& e : r.errors) cameras.push_back(e.camera);
+  constexpr size_t kMostNames = 8;
+  const std::string seen = cameras.size() > kMostNames
+                               ? fmt::format("{} cameras", cameras.size())
+                               : fmt::format("cameras {}", fmt::join(cameras, ", "));
   const size_t from = r.study.find("size ") + 5;
-  return fmt::format(
-      "{}; {} pixels; cameras {}; {} settings; {}; commit {}", fmt::join(backends, "; "),
-      r.study.substr(from, r.study.find('\n', from) - from), fmt::join(cameras, ", "),
-      records.size() / backends.size(), r.machine, r.commit);
+  return fmt::format("{}; {} pixels; {}; {} settings; {}; commit {}", fmt::join(backends, "; "),
+                     r.study.substr(from, r.study.find('\n', from) - from), seen,
+                     records.size() / backends.size(), r.machine, r.commit);
 }
 
 }  // namespace
@@ -108,8 +111,7 @@ std::vector<size_t> presetsOn(std::span<const Price> front,
     return most;
   };
   for (size_t k = kCount - 1; k-- > 0;) {
-    const auto below = static_cast<double>(kCount - 2 - k);  // presets between this and `reference`
-    const double most = front[reference].cost / kReferenceRatio / std::pow(kPresetRatio, below);
+    const double most = kMostShare[k] * front[reference].cost;
     size_t dearest = 0;
     while (dearest + 1 < reference && front[dearest + 1].cost <= most) ++dearest;
     if (front[0].cost > most) dearest = (k * reference + 1) / (kCount - 1);

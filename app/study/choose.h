@@ -42,9 +42,8 @@ double worstLoss(std::span<const double> dearer, std::span<const double> cheaper
 // Chooses a point of a front (ascending cost) for each of kPresetNames, and returns its index.
 //
 // - `reference`: the least error, at any cost.
-// - `fine`: the dearest point that costs at most 1 / kReferenceRatio of `reference`.
-// - `balanced`, then `fast`: the dearest point within 1 / kPresetRatio of the limit of the preset
-//   above.
+// - `fine`, then `balanced`, then `fast`: the dearest point that costs at most its share of
+//   `reference`, see kMostShare.
 //
 // Where a point would make a dearer preset err more than kMostLoss above it at a camera, so that
 // who pays more would get less there, the next cheaper point takes its place. If all points within
@@ -55,7 +54,8 @@ double worstLoss(std::span<const double> dearer, std::span<const double> cheaper
 // of the front would be the natural choice, but a front is nearly straight in error and logarithm
 // of cost. Its knees jump from one end to the other with the noise of the clock.) Throws
 // kFrontSmall for fewer than four points.
-constexpr double kReferenceRatio = 3, kPresetRatio = 2, kMostLoss = 0.002;
+constexpr double kMostShare[] = {0.07, 0.14, 0.36};  // of `fast`, `balanced` and `fine`
+constexpr double kMostLoss = 0.002;
 std::vector<size_t> presetsOn(std::span<const Price> front,
                               std::span<const std::vector<double>> errors = {});
 

@@ -3,6 +3,8 @@
 
 #include <algorithm>
 #include <charconv>
+#include <fstream>
+#include <sstream>
 
 #include "core/base/error.h"
 #include "core/effect/values.h"
@@ -61,6 +63,39 @@ std::vector<Setting> gridOf(const std::vector<Sweep>& sweeps) {
     grid = std::move(wider);
   }
   return grid;
+}
+
+std::vector<Setting> loadGrids(const effect::Registry& registry, const std::string& file) {
+  std::ifstream in(file);
+  if (!in) {
+    throw Error(ErrorId::kSettingsUnreadable, "{} cannot be opened; check its name", file);
+  }
+  std::vector<Setting> all;
+  std::string line;
+  for (size_t number = 1; std::getline(in, line); ++number) {
+    std::istringstream words(line);
+    std::vector<Sweep> sweeps;
+    std::string word;
+    try {
+      while (words >> word && word[0] != '#') sweeps.push_back(parseSweep(registry, word));
+      if (sweeps.empty()) continue;
+      for (Setting& setting : gridOf(sweeps)) {
+        if (std::ranges::find(all, setting) != all.end()) {
+          throw Error(ErrorId::kSettingsInvalid, "{} is in a grid above too; leave it out of one",
+                      nameOf(textOf(registry, setting)));
+        }
+        all.push_back(std::move(setting));
+      }
+    } catch (const Error& error) {
+      throw Error(error.id(), "{}:{}: {}", file, number, error.detail());
+    }
+  }
+  if (all.empty()) {
+    throw Error(
+        ErrorId::kSettingsInvalid,
+        "{} has no settings; write EFFECT.PARAMETER=VALUE,... between spaces, a grid a line", file);
+  }
+  return all;
 }
 
 std::string nameOf(const SettingText& setting) {

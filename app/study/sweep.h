@@ -33,6 +33,12 @@ SettingText textOf(const effect::Registry& registry, const Setting& setting);
 constexpr size_t kMostSettings = 100000;
 std::vector<Setting> gridOf(const std::vector<Sweep>& sweeps);
 
+// The settings of a file: each line is a grid of its own, the sweeps of which stand between spaces.
+// A line that begins with # is a comment. Throws kSettingsUnreadable, kSettingsInvalid for a file
+// without settings or with one twice, and as parseSweep() and gridOf() do, with FILE:LINE before
+// the message.
+std::vector<Setting> loadGrids(const effect::Registry& registry, const std::string& file);
+
 // "kernel_size=8 radius=0.5"; "defaults" for a setting without values.
 std::string nameOf(const SettingText& setting);
 

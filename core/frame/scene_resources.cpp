@@ -104,8 +104,12 @@ gpu::Buffer SceneResources::indices(gpu::Commands& commands) {
 }
 
 const scene::Matter& SceneResources::matter() {
-  if (!matter_) matter_ = scene::matterOf(scene_);
-  return *matter_;
+  if (matter_) return *matter_;
+  if (scene_.rig == nullptr) return matter_.emplace(scene::matterOf(scene_));
+  // At rest: a picture of a pose must not depend on the poses that were drawn before it.
+  scene::Scene rest = scene_;
+  scene::pose(rest, {});
+  return matter_.emplace(scene::matterOf(rest));
 }
 
 gpu::Buffer SceneResources::thickness(gpu::Commands& commands) {

@@ -110,7 +110,7 @@ class SceneResources {
   const scene::Scene& scene_;
   PosedVertices positions_, normals_;
   gpu::Buffer texCoords_, colours_, thickness_, indices_;
-  std::optional<scene::Matter> matter_;              // of the pose in which it was first needed
+  std::optional<scene::Matter> matter_;              // of the scene at rest
   std::optional<FarSides> farSides_;                 // of the first draw with SceneTargets::front
   std::array<gpu::GraphicsPipeline, 72> pipelines_;  // by Variant::fragment()
   std::vector<DeviceTexture> textures_;

@@ -27,9 +27,11 @@
 //   shots = [{origin = [..], ...}]     shots of paint, same keys as a file of sspm's objects; or
 //                                      the name of such a file
 //   runs = [
-//     {name = "few", set = [..]},      also: camera; against = "NAME", a run that replaces the
-//   ]                                  truth; shots = 8, the number of shots, which repeat those of
-//                                      the claim; noise = "screen", splats fixed to the screen
+//     {name = "few", set = [..]},      also: presets = ["ssao=fast"], under the run's values and
+//   ]                                  over the claim's; camera; against = "NAME", a run that
+//                                      replaces the truth; shots = 8, the number of shots, which
+//                                      repeat those of the claim; noise = "screen", splats fixed to
+//                                      the screen
 //   expect = ["few.noise > 2 * many.noise"]    see expectation.h
 //   picture = {show = "output", crop = [x, y, width, height], zoom = 2, low = 0, high = 1}
 //
@@ -64,7 +66,8 @@ struct PictureDesc {
 
 struct ClaimRun {
   std::string name;
-  std::vector<std::string> sets;       // override the claim's values
+  std::vector<std::string> presets;    // "EFFECT=NAME", over the claim's values
+  std::vector<std::string> sets;       // over both
   std::vector<scene::Camera> cameras;  // one per frame
   std::vector<double> seconds;         // one per frame; empty: the scene is at rest
   bool still = false;                  // all frames are the last one
@@ -104,8 +107,8 @@ struct ClaimsFile {
 ClaimsFile loadClaims(const std::string& path, const effect::Registry& registry,
                       const std::string& scenes = "");
 
-// The claim's effects with the claim's values and, unless `run` is null, the run's values. Throws
-// kUsage, and what Selection throws.
+// The claim's effects with the claim's values and, unless `run` is null, the run's presets and
+// values. Throws kUsage, and what Selection and applyPresets() throw.
 effect::Selection selectionOf(const effect::Registry& registry, const Claim& claim,
                               const ClaimRun* run);
 

@@ -4,6 +4,7 @@
 #include <filesystem>
 #include <sstream>
 
+#include "app/settings/presets.h"
 #include "app/settings/toml_table.h"
 #include "app/settings/toml_values.h"
 #include "app/study/flicker_run.h"
@@ -145,6 +146,7 @@ ClaimRun runOf(TomlTable& table, const Claim& claim, const std::vector<scene::Ca
   ClaimRun run;
   run.name = table.text("name");
   requireName(table, "name", run.name);
+  run.presets = table.texts("presets");
   run.sets = table.texts("set");
   run.cameras = cameras;
   if (table.find("camera") != nullptr) {
@@ -278,6 +280,7 @@ effect::Selection selectionOf(const effect::Registry& registry, const Claim& cla
   effect::Selection selection(registry, claim.effects);
   for (const std::string& set : claim.sets) selection.set(effect::parseAssignment(set));
   if (run == nullptr) return selection;
+  app::applyPresets(run->presets, selection);
   for (const std::string& set : run->sets) selection.set(effect::parseAssignment(set));
   return selection;
 }

@@ -50,10 +50,12 @@ Rows numbersOf(const ClaimsReport& report, size_t claim) {
   Rows rows = {{"run", "settings"}};
   for (const auto& [quantity, value] : first.values.begin()->second) rows[0].push_back(quantity);
   for (const ClaimRun& run : report.file.claims[claim].runs) {
-    std::string settings = fmt::format("{}", fmt::join(run.sets, ", "));
+    std::string settings;
     const auto add = [&](const std::string& text) {
       settings += (settings.empty() ? "" : ", ") + text;
     };
+    for (const std::string& preset : run.presets) add("preset " + preset);
+    for (const std::string& set : run.sets) add(set);
     if (run.shots != report.file.claims[claim].shots.size())
       add(fmt::format("{} shots", run.shots));
     if (run.screenNoise) add("splats fixed to the screen");

@@ -69,7 +69,7 @@ std::string number(double value) {
 void addCameras(Cases& cases) {
   for (const double near : {1e-4, 1e-3, 1e-2, 0.1, 1.0, 2.5, 10.0}) {
     cases.add("near plane", number(near) + " m",
-              {"slices", "slices, backs", "slices, bodies", "slices, refined", "history",
+              {"slices", "slices, backs", "slices, assumed", "slices, refined", "history",
                "open directions", "tint", "classic", "paint"},
               [&](Case& one) {
                 one.camera.nearPlane = near;
@@ -98,7 +98,7 @@ void addCameras(Cases& cases) {
   for (const double away : {1e3, 1e5, 1e6, 1e7}) {
     const Scenery scenery{.origin = {away, -0.3 * away, 0.7 * away}};
     cases.add("camera far from the world's origin", number(away) + " m", scenery,
-              {"slices", "slices, backs", "slices, bodies", "slices, refined", "history",
+              {"slices", "slices, backs", "slices, assumed", "slices, refined", "history",
                "open directions", "tint", "classic", "paint"},
               [&](Case& one) { one.quick = away == 1e7; });
     const Scenery corner{.kind = Kind::kCorner, .origin = scenery.origin};
@@ -120,7 +120,7 @@ void addCameras(Cases& cases) {
 void addScales(Cases& cases) {
   for (const double scale : kScales) {
     cases.add("scene's scale", number(scale), {.scale = scale},
-              {"slices", "slices, raw", "slices, backs", "slices, next", "slices, bodies",
+              {"slices", "slices, raw", "slices, backs", "slices, next", "slices, assumed",
                "slices, refined", "history", "open directions", "tint", "classic", "paint"},
               [&](Case& one) { one.quick = scale == 1e-4 || scale == 1e6; });
     cases.add("scene's scale", number(scale), {.kind = Kind::kCorner, .scale = scale},
@@ -198,7 +198,7 @@ void addValues(Cases& cases) {
   sweep("bias, m", "bias",
         {"slices", "slices, raw", "slices, backs", "classic", "classic, raw", "sphere"},
         {"0", "1e-06", "0.1", "1", "1000000"});
-  sweep("thickness, radii", "thickness", {"slices", "slices, raw"},
+  sweep("thickness, radii", "thickness", {"slices", "slices, assumed"},
         {"0", "0.001", "10", "1000000"});
   const auto filter = [&](const std::string& group, const char* key,
                           std::initializer_list<const char*> variants) {
@@ -223,13 +223,13 @@ void addOddScenes(Cases& cases) {
   for (const Kind kind : {Kind::kSky, Kind::kTriangle, Kind::kWires, Kind::kPair}) {
     cases.add(
         "odd scene", nameOf(kind), {.kind = kind},
-        {"slices", "slices, raw", "slices, backs", "slices, next", "slices, bodies",
+        {"slices", "slices, raw", "slices, backs", "slices, next", "slices, assumed",
          "slices, refined", "history", "open directions", "classic", "paint", "paint on surfaces"},
         [&](Case& one) { one.quick = true; });
   }
   for (const Kind kind : {Kind::kNoNormals, Kind::kBackNormals}) {
     cases.add("odd scene", nameOf(kind), {.kind = kind},
-              {"slices", "slices, raw", "slices, backs", "slices, next", "slices, bodies",
+              {"slices", "slices, raw", "slices, backs", "slices, next", "slices, assumed",
                "slices, refined", "history", "open directions", "classic"},
               [&](Case& one) { one.quick = true; });
   }

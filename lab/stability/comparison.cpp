@@ -176,7 +176,10 @@ std::vector<glm::ivec2> pixelsToCompare(const glm::ivec2& size) {
 image::Image compareOcclusion(const Case& one, const effect::Values& values,
                               std::span<const oracle::View> views, const image::Image& picture,
                               BackendResult& result) {
-  const oracle::OcclusionSettings settings = occlusionOf(values);
+  oracle::OcclusionSettings settings = occlusionOf(values);
+  using Backs = oracle::OcclusionSettings::Backs;
+  // As the effect does without a thickness.
+  if (settings.backs == Backs::kBodies && one.scenery.isPicture()) settings.backs = Backs::kAssumed;
   std::shared_ptr<const oracle::Past> past;
   for (const oracle::View& view : views.first(views.size() - 1)) {
     past = oracle::makeOcclusion(view, settings, past)->past();

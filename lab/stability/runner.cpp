@@ -23,10 +23,11 @@ std::vector<std::string> attachmentsOf(const Case& one, const effect::Values& va
     return {"depth"};
   }
   std::vector<std::string> all = {"depth", "normal"};
-  const std::string backs = values.text("backs");
+  const std::string backs = values.text("estimator") == "slices" ? values.text("backs") : "";
   if (backs == "drawn" || backs == "peeled") all.emplace_back("back_depth");
   if (backs == "peeled") all.emplace_back("next_depth");
-  if (backs == "bodies") all.emplace_back("thickness");
+  // Pictures have no thickness.
+  if (backs == "bodies" && !one.scenery.isPicture()) all.emplace_back("thickness");
   if (one.output == "tint") all.emplace_back("base_colour");
   return all;
 }

@@ -23,9 +23,13 @@ class ApplyOnce : public ::testing::Test {
     std::istringstream words(line);
     std::vector<std::string> arguments;
     for (std::string word; words >> word;) arguments.push_back(word == "@" ? kCamera : word);
-    // Pictures hold nothing beyond their border.
-    arguments.insert(arguments.end(), {"--set", line.starts_with("apply ") ? "ssao.radius=0.5"
-                                                                           : "ssao.guard_band=0"});
+    // Pictures hold nothing beyond their border, nor how thick bodies are.
+    if (line.starts_with("apply ")) {
+      arguments.insert(arguments.end(), {"--set", "ssao.radius=0.5"});
+    } else {
+      arguments.insert(arguments.end(),
+                       {"--set", "ssao.guard_band=0", "--set", "ssao.backs=assumed"});
+    }
     return runProgram(arguments, folder_.path(), environment_);
   }
   void run(const std::string& line) {

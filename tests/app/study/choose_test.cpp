@@ -42,10 +42,10 @@ TEST(Presets, AreOnTheFrontAndInOrder) {
   EXPECT_ERROR(ErrorId::kFrontSmall, presetsOn(std::vector<Price>(3, {1, 1})));
 }
 
-TEST(Presets, EachCostsAtMostItsShareOfTheNext) {
+TEST(Presets, EachCostsAtMostItsShareOfTheDearest) {
   std::vector<Price> front;
   for (int i = 0; i <= 10; ++i) front.push_back({std::exp2(i), 1 - 0.05 * i});
-  // With 1024 as the highest cost, the others may cost at most 85.3, 170.7 and 341.3.
+  // With 1024 as the highest cost, the others may cost at most 72, 143 and 369.
   EXPECT_EQ(presetsOn(front), (std::vector<size_t>{6, 7, 8, 10}));
   // Without cheap settings, the presets are spread evenly.
   front = {{40, 0.9}, {45, 0.8}, {50, 0.7}, {60, 0.6}, {100, 0.5}};

@@ -169,7 +169,7 @@ class Study : public testing::Test {
 
 // Fails if the effect has changed since the study.
 TEST_F(Study, OfSsaoIsStillTrue) {
-  view_ += "640x360";
+  view_ += "1280x720";
   const image::Image right = truth("ao", " --samples 128 --write ao_error=e.exr");
   const image::Image noise = image::read(folder_ / "e.exr");
   expectErrors("ssao", "ao", 10, "", right, &noise);

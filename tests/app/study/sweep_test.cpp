@@ -5,6 +5,7 @@
 
 #include <set>
 
+#include "tests/program/run.h"
 #include "tests/support/expect_error.h"
 
 namespace grisaille::app::study {
@@ -49,6 +50,32 @@ TEST_F(SweepTest, TheGridHasEveryCombinationOnce) {
   EXPECT_EQ(nameOf(textOf(registry, grid[1])), "kernel_size=4 radius=0.5");
   EXPECT_EQ(gridOf({}).size(), 1u);
   EXPECT_EQ(nameOf({}), "defaults");
+}
+
+TEST_F(SweepTest, EachLineOfAFileIsAGrid) {
+  const tests::TemporaryFolder folder;
+  const auto load = [&](const std::string& text) {
+    return loadGrids(registry, folder.write("grids", text));
+  };
+  const std::vector<Setting> all =
+      load("# of slices\nssao.kernel_size=4,8  ssao.radius=1 # both\n\nssao.bias=0.5\n");
+  std::vector<std::string> names;
+  for (const Setting& setting : all) names.push_back(nameOf(textOf(registry, setting)));
+  EXPECT_EQ(names, (std::vector<std::string>{"kernel_size=4 radius=1", "kernel_size=8 radius=1",
+                                             "bias=0.5"}));
+  for (const char* none : {"", "\n", "# ssao.bias=0\n"}) {
+    EXPECT_ERROR(ErrorId::kSettingsInvalid, load(none));
+  }
+  EXPECT_ERROR(ErrorId::kSettingsInvalid, load("ssao.bias=0,1\nssao.bias=1\n"));
+  EXPECT_ERROR(ErrorId::kParameterRange, load("ssao.bias=-1"));
+  EXPECT_ERROR(ErrorId::kUsage, load("ssao.bias=1 ssao.bias=2"));
+  EXPECT_ERROR(ErrorId::kSettingsUnreadable, loadGrids(registry, folder / "none"));
+  try {
+    load("ssao.bias=1\nssao.bais=1\n");
+    ADD_FAILURE();
+  } catch (const Error& error) {
+    EXPECT_NE(error.detail().find("grids:2: "), std::string::npos) << error.what();
+  }
 }
 
 TEST(ShardTest, PartsMakeTheWhole) {

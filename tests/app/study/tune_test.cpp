@@ -67,12 +67,12 @@ TEST_P(TuneTest, SaysWhatCannotBeHad) {
 // The setting that the user has is the first start, and the result costs at most as much.
 TEST_P(TuneTest, NeverEndsDearerThanItStarted) {
   folder_.write("own.toml",
-                "effects = [\"ssao\"]\n[ssao]\nslices = 3\nkernel_size = 18\npower = 1.2\n");
+                "effects = [\"ssao\"]\n[ssao]\nedge_slices = 3\nkernel_size = 18\npower = 1.2\n");
   const Outcome one = tune({"--max-error", "0.9", "--evaluations", "1", "--random", "0", "--config",
                             "own.toml", "--set", "ssao.kernel_size=14", "--json"});
   ASSERT_EQ(one.status, 0) << one.err;
   const json kept = json::parse(one.out.substr(one.out.rfind("{\"evaluations\"")));
-  EXPECT_EQ(kept.at("setting").at("ssao.slices"), 3);
+  EXPECT_EQ(kept.at("setting").at("ssao.edge_slices"), 3);
   EXPECT_EQ(kept.at("setting").at("ssao.kernel_size"), 14);
   EXPECT_EQ(kept.at("milliseconds"), kept.at("start_milliseconds"));
   const Outcome more = tune({"--max-error", "0.9", "--evaluations", "12", "--random", "0",

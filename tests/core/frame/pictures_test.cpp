@@ -197,6 +197,7 @@ class PictureFrames : public tests::BackendTest {
     effect::Chain chain{effect::Selection(registry_, effects)};
     chain.selection.values("ssao").set("estimator", estimator);
     chain.selection.values("ssao").set("guard_band", guardBand);
+    chain.selection.values("ssao").set("backs", "assumed");  // pictures know no thickness
     const effect::StartedChain started(chain, device());
     renderer.render({.camera = camera_,
                      .width = width,

@@ -34,6 +34,8 @@ class PlanTest : public ::testing::Test {
     chain_.selection = effect::Selection(registry_, Labels{"ssao"});
     values_ = &chain_.selection.values("ssao");
     values_->set("guard_band", "0");
+    values_->set("backs", "assumed");
+    values_->set("edge_denoise", "6");
     chain_.start(*device_);
     renderer_.emplace(*device_, scene_);
   }

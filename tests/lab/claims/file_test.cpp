@@ -4,6 +4,7 @@
 
 #include <algorithm>
 
+#include "app/settings/presets.h"
 #include "core/base/error.h"
 #include "lab/claims/claims.h"
 #include "tests/program/run.h"
@@ -83,6 +84,26 @@ TEST_F(ClaimsFileTest, ReadsAllFields) {
   const Claim small = scaled(claim, 0.5);
   EXPECT_EQ(small.size, claim.size / 2u);
   EXPECT_EQ(small.picture.crop, glm::uvec4(5, 10, 15, 20));
+}
+
+TEST_F(ClaimsFileTest, ValuesOfARunAreOverItsPresetAndTheClaims) {
+  std::string text = with("name = \"b\"", "name = \"b\", presets = [\"ssao=fast\"]");
+  text.replace(text.find("ssao.radius=1"), 13, "ssao.kernel_size=99\", \"ssao.radius=1");
+  text.replace(text.find("ssao.bias=0\"]"), 13,
+               "ssao.kernel_size=7\"], presets = [\"ssao=reference\"]");
+  const Claim claim = load(text).claims[0];
+  const effect::Effect& ssao = registry_.find("ssao");
+  const auto inPreset = [&](const char* preset, const char* key) {
+    effect::Values values(ssao);
+    app::applyPreset(values, app::loadPresets(ssao), preset);
+    return values.get(key);
+  };
+  effect::Selection of[] = {selectionOf(registry_, claim, &claim.runs[0]),
+                            selectionOf(registry_, claim, &claim.runs[1])};
+  EXPECT_EQ(of[0].values("ssao").get("kernel_size"), 7);
+  EXPECT_EQ(of[0].values("ssao").get("resolution"), inPreset("reference", "resolution"));
+  EXPECT_EQ(of[1].values("ssao").get("kernel_size"), inPreset("fast", "kernel_size"));
+  EXPECT_EQ(of[1].values("ssao").get("radius"), 1);
 }
 
 TEST_F(ClaimsFileTest, APathAndShots) {
@@ -167,6 +188,10 @@ TEST_F(ClaimsFileTest, MistakesAreNamedWithTheirPlace) {
   refused(with("set =", "animation = 1\nset ="), bad, "6", "seconds");
   refused(with("name = \"b\"", "name = \"b\", still = true"), bad, "9", "still");
   refused(with("name = \"b\"", "name = \"b\", still = 1"), bad, "9", "true or false");
+  refused(with("name = \"b\"", "name = \"b\", presets = [\"ssao=none\"]"), ErrorId::kPresetUnknown,
+          "9", "none");
+  refused(with("name = \"b\"", "name = \"b\", presets = [\"none=fast\"]"), ErrorId::kEffectUnknown,
+          "9", "none");
   refused(with("a.mean@flat", "a.last_rmse"), bad, "13", "path");
   refused(with("against = \"b\"", "against = \"c\""), bad, "7", "'c'");
   refused(with("name = \"b\"", "name = \"a\""), bad, "9", "two runs");
