@@ -198,7 +198,7 @@ void addValues(Cases& cases) {
   sweep("bias, m", "bias",
         {"slices", "slices, raw", "slices, backs", "classic", "classic, raw", "sphere"},
         {"0", "1e-06", "0.1", "1", "1000000"});
-  sweep("thickness, radii", "thickness", {"slices", "slices, assumed"},
+  sweep("thickness, radii", "thickness", {"slices", "slices, raw", "slices, assumed"},
         {"0", "0.001", "10", "1000000"});
   const auto filter = [&](const std::string& group, const char* key,
                           std::initializer_list<const char*> variants) {

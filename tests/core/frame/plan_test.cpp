@@ -160,6 +160,13 @@ TEST_F(PlanTest, SlicesRecordWhatTheirResolutionAndBlurNeed) {
                                          "ssao/denoise columns", "ssao/upsample"}));
 }
 
+TEST_F(PlanTest, TheThicknessOfBodiesIsDrawnWithTheRest) {
+  values_->set("backs", "bodies");
+  const Recording recording = record({"ao"}, true);
+  ASSERT_EQ(recording.renders.size(), 1u);
+  EXPECT_EQ(recording.renders[0].targets, (Labels{"normal", "thickness", "clip depth"}));
+}
+
 TEST_F(PlanTest, HistoryOpenDirectionsAndTintCostNothingUnlessAskedFor) {
   const Labels scene = {"scene/geometry", "scene/view_depth"};
   const auto passes = [&](const Labels& outputs, frame::Surface surface = frame::Surface::kWhite) {
