@@ -67,7 +67,9 @@ std::string number(double value) {
 }
 
 void addCameras(Cases& cases) {
-  for (const double near : {1e-4, 1e-3, 1e-2, 0.1, 1.0, 2.5, 10.0}) {
+  // Cut at 2.5 m, the room ends exactly at a row of pixels in one frame of the history. Rounding in
+  // the driver then decides whether it draws the row: two scenes, which no effect can make alike.
+  for (const double near : {1e-4, 1e-3, 1e-2, 0.1, 1.0, 2.51, 10.0}) {
     cases.add("near plane", number(near) + " m",
               {"slices", "slices, backs", "slices, assumed", "slices, refined", "history",
                "open directions", "tint", "classic", "paint"},

@@ -229,9 +229,6 @@ const std::vector<Edge>& edges() {
        "The bent normal looks directions up in 32 sectors, each occluded or open. If an occluded "
        "sector ends at a direction, rounding decides whether that direction counts. Bent normals "
        "around it then turn by half a degree."},
-      {"a row on the near plane", 0.05,
-       "The near plane cuts the surface exactly at a row of pixels, up to rounding. One driver "
-       "draws the row and the other does not, so that the effect sees different scenes."},
       {"edges without normals", 0.005,
        "Without normals, the effect assumes that every surface faces the camera. All slopes are "
        "then close to the edge criterion, and rounding decides whether a texel is an edge."},
@@ -251,7 +248,6 @@ std::string edgeOf(const Case& one) {
   if (one.variant == "open directions" &&
       (one.scenery.kind == Kind::kNoNormals || one.scenery.kind == Kind::kBackNormals))
     return "a direction between two sectors";
-  if (one.variant == "history" && one.camera.nearPlane == 2.5) return "a row on the near plane";
   if (one.variant != "paint on surfaces") return "";
   if (one.scenery.kind == Kind::kWires) return "thin things before a muzzle";
   if (one.group == "at random") return "beside a muzzle's map";
