@@ -232,6 +232,8 @@ class Bench {
     painted_.back()->values().set("shot_limit", "65536");
     painted_.back()->render(options_.width, options_.height);
     const double idle = painted_.back()->render(64, 36);
+    // The textures of a large frame are in the figure before as well as in the one after.
+    painted_.back()->render(options_.width, options_.height);
     painted_.back()->add(std::span(place_.shots).first(count));
     malloc_trim(0);  // otherwise memory freed by earlier runs would be reused unseen
     const double memory = residentMemory();  // includes the host's list of shots
