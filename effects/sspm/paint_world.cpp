@@ -237,7 +237,7 @@ CellGrid PaintWorld::gridFor(const ShotFrame& frame) {
   const glm::dvec3 far = glm::abs(frame.origin) + 2.0 * double{frame.range} / double{frame.slope};
   const double least = std::max({far.x, far.y, far.z}) * 0x1p-28;
   const int exponent = std::max(
-      static_cast<int>(std::lround(std::log2(std::max(frame.range * 1.0f, 8 * frame.bias)))),
+      static_cast<int>(std::lround(std::log2(std::max(frame.range * 0.5f, 8 * frame.bias)))),
       static_cast<int>(std::ceil(std::log2(least))));
   const int32_t code = levelCode(std::clamp(exponent, -40, 40));
   if (std::ranges::find(levels_, code) != levels_.end()) return {frame.origin, code};

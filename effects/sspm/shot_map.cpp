@@ -4,8 +4,6 @@
 #include <algorithm>
 #include <bit>
 #include <cmath>
-#include <limits>
-#include <span>
 
 namespace grisaille::sspm {
 namespace {
@@ -17,19 +15,6 @@ constexpr float kSlant = 8;  // largest depth behind the plane along the ray, in
 constexpr float kOther = -0.5f, kSame = 0.3f, kLeastBias = 0.05f;
 constexpr float kBiasUnits = 0.02f;  // of the range
 constexpr float kBiasShare = 2e-5f;  // of the distance
-
-// Whether a point is in front of a leaf's plane, with a depth bias. A point of the same surface may
-// lie a little behind the plane of a neighbouring facet; a point of another surface may not. At
-// grazing angles a small distance from the plane is a long one along the ray, which kSlant limits.
-bool isInFront(const ShotFrame& frame, const uint32_t* plane, const glm::vec3& q,
-               const glm::vec3& facing) {
-  const glm::vec3 normal(std::bit_cast<float>(plane[0]), std::bit_cast<float>(plane[1]),
-                         std::bit_cast<float>(plane[2]));
-  const float behind = std::bit_cast<float>(plane[3]) - glm::dot(normal, q);
-  const float bias = frame.bias * glm::clamp((glm::dot(normal, facing) - kOther) / (kSame - kOther),
-                                             kLeastBias, 1.0f);
-  return behind <= bias && behind * glm::length(q) <= kSlant * bias * std::abs(glm::dot(normal, q));
-}
 
 }  // namespace
 
@@ -58,21 +43,6 @@ glm::vec2 ShotFrame::placeOf(const glm::vec3& q) const {
   return place * (std::min(1.0f + std::log(radius), 0.999f * kMapReach) / radius);
 }
 
-glm::vec2 slopeOf(const ShotFrame& frame, glm::vec2 place) {
-  const float radius = glm::length(place);
-  if (radius <= 1) return place * frame.slope;
-  return place * (frame.slope * std::exp(radius - 1) / radius);
-}
-
-glm::vec3 alongSlope(const ShotFrame& frame, glm::vec2 slope) {
-  return slope.x * frame.right + slope.y * frame.up + frame.direction;
-}
-
-float exitOf(const ShotFrame& frame, glm::vec2 slope) {
-  const float length = glm::length(slope);
-  return length > 0 ? kBeyond * frame.range / length : std::numeric_limits<float>::infinity();
-}
-
 bool inSight(const ShotFrame& frame, uint32_t root, const uint32_t* blocks, const glm::vec3& q,
              const glm::vec3& facing) {
   uint32_t word = root;
@@ -87,11 +57,16 @@ bool inSight(const ShotFrame& frame, uint32_t root, const uint32_t* blocks, cons
     }
   }
   if (word == kOpen) return true;
-  if ((word & kTag) != 0) return isInFront(frame, blocks + size_t{word & ~kTag} * 4, q, facing);
-  const std::span<const uint32_t> several(blocks + size_t{word - kSeveral} * 4, kMostPlanes);
-  return std::ranges::any_of(several, [&](uint32_t plane) {
-    return plane != 0 && isInFront(frame, blocks + size_t{plane & ~kTag} * 4, q, facing);
-  });
+  const uint32_t* plane = blocks + size_t{word & ~kTag} * 4;
+  const glm::vec3 normal(std::bit_cast<float>(plane[0]), std::bit_cast<float>(plane[1]),
+                         std::bit_cast<float>(plane[2]));
+  const float behind = std::bit_cast<float>(plane[3]) - glm::dot(normal, q);
+  // Depth bias. A point of the same surface may lie a little behind the plane of a neighbouring
+  // facet; a point of another surface may not. At grazing angles a small distance from the plane is
+  // a long one along the ray, which kSlant limits.
+  const float bias = frame.bias * glm::clamp((glm::dot(normal, facing) - kOther) / (kSame - kOther),
+                                             kLeastBias, 1.0f);
+  return behind <= bias && behind * glm::length(q) <= kSlant * bias * std::abs(glm::dot(normal, q));
 }
 
 }  // namespace grisaille::sspm

@@ -8,9 +8,7 @@
 //   hit, a slope of length s <= s0 lies at s / s0 from the map's centre, a longer one at 1 + ln(s /
 //   s0). One unit of the map is one range wide wherever the shot's cylinder ends in that slope.
 // - The map is a tree of squares. A leaf holds the plane of the surface that its rays hit, with the
-//   normal towards the muzzle. The muzzle sees points in front of that plane. Where surfaces meet
-//   at ridges, a leaf holds up to four planes, and the muzzle sees points in front of any of them:
-//   a ridge hides nothing, and needs no finer squares.
+//   normal towards the muzzle. The muzzle sees points in front of that plane.
 #pragma once
 
 #include <cstdint>
@@ -26,13 +24,11 @@ constexpr float kMapReach = 8;  // the map spans [-8, 8] on both axes
 
 // Word of a square of the map: a tag, and an offset in blocks of four 32-bit words from the map's
 // start. Same as in shaders/sspm/walk.glsl.
-constexpr uint32_t kOpen = 0;     // no surface in the cylinder
-constexpr uint32_t kSeveral = 1;  // leaf, plus a block: words of up to four planes that meet
+constexpr uint32_t kOpen = 0;             // no surface in the cylinder
 constexpr uint32_t kPlane = 0x40000000u;  // leaf; one block: xyz: normal, w: dot(normal, q)
 constexpr uint32_t kNode = 0x80000000u;   // four blocks: words of 4x4 squares, by rows
 constexpr uint32_t kSplit = 0xC0000000u;  // one block: a bit per 4x4 square, word for 0, word for 1
 constexpr uint32_t kTag = 0xC0000000u;
-constexpr size_t kMostPlanes = 4;  // of a leaf
 
 // Position and axes of a shot, and scale of its map.
 struct ShotFrame {
@@ -56,15 +52,6 @@ struct ShotFrame {
   float slope = 0;  // s0
   float bias = 0;   // largest distance of a visible point behind a leaf's plane, metres
 };
-
-// Hits beyond the range times this are outside the cylinder.
-constexpr float kBeyond = 1.02f;
-
-// The slope of a place on the map; the direction that it stands for, 1 long along the shot's; and
-// the distance along the shot's direction at which it leaves the cylinder, metres.
-glm::vec2 slopeOf(const ShotFrame& frame, glm::vec2 place);
-glm::vec3 alongSlope(const ShotFrame& frame, glm::vec2 slope);
-float exitOf(const ShotFrame& frame, glm::vec2 slope);
 
 struct ShotMap {
   uint32_t root = kOpen;

@@ -13,12 +13,30 @@ namespace {
 
 constexpr float kFinestMetres = 0.004f;  // squares that are wider on the surface are split
 constexpr float kFinestUnits = 1.0f / 256;
+constexpr float kInnerUnits = 1.0f / 16;
 constexpr float kOpenUnits = 1.0f / 63;
+constexpr float kPatchUnits = 1.0f / 4;  // width of the largest patch
 constexpr int kMostProbes = 6;
-constexpr glm::ivec2 kAround[] = {{1, 0}, {-1, 0}, {0, 1},  {0, -1},
-                                  {1, 1}, {-1, 1}, {1, -1}, {-1, -1}};
+constexpr glm::ivec2 kAround[] = {{1, 0}, {-1, 0}, {0, 1}, {0, -1}};
 constexpr int kFinestAcross = static_cast<int>(2 * kMapReach / kFinestUnits);
 constexpr int kFinestShift = std::countr_zero(static_cast<unsigned>(kFinestAcross));
+constexpr float kBeyond = 1.02f;  // times the range: hits beyond it are outside the cylinder
+
+glm::vec2 slopeOf(const ShotFrame& frame, glm::vec2 place) {
+  const float radius = glm::length(place);
+  if (radius <= 1) return place * frame.slope;
+  return place * (frame.slope * std::exp(radius - 1) / radius);
+}
+
+glm::vec3 alongSlope(const ShotFrame& frame, glm::vec2 slope) {
+  return slope.x * frame.right + slope.y * frame.up + frame.direction;
+}
+
+// Distance along the shot's direction at which a slope leaves the cylinder, metres.
+float exitOf(const ShotFrame& frame, glm::vec2 slope) {
+  const float length = glm::length(slope);
+  return length > 0 ? kBeyond * frame.range / length : std::numeric_limits<float>::infinity();
+}
 
 }  // namespace
 
@@ -86,12 +104,9 @@ void Survey::refine() {
   for (Square& square : squares_) {
     square.edge = square.ragged = false;
     square.beside = square.rim = -1;
-    square.creases = {-1, -1, -1};
-    square.ridges = 0;
-    square.valley = false;
   }
   const auto before = static_cast<int32_t>(squares_.size());
-  lay(0, {.inner = kInnerUnits, .middle = 1.0f / 4, .outer = 2});
+  lay(0, {.inner = kInnerUnits, .middle = 1.0f / 4, .outer = 1});
   asked_.clear();
   gatherLeaves(0, asked_);
   std::erase_if(asked_, [&](int32_t index) { return index < before; });
@@ -141,7 +156,7 @@ bool Survey::take(std::span<const grisaille_hit> hits) {
     asked_.clear();
     for (const int32_t edge : edges) {
       addChildren(edge);
-      for (int32_t i = 0; i < 4; ++i) asked_.push_back(at(edge).children + i);
+      for (int32_t i = 0; i < 16; ++i) asked_.push_back(at(edge).children + i);
     }
     ask();
   }
@@ -154,12 +169,12 @@ bool Survey::inRange(const Sample& sample) const {
 
 void Survey::addChildren(int32_t parent) {
   const glm::vec2 centre = at(parent).centre;
-  const float size = at(parent).size / 2;
+  const float size = at(parent).size / 4;
   const int fine = static_cast<int>(std::lround(size / kFinestUnits));
   at(parent).children = static_cast<int32_t>(squares_.size());
-  for (int i = 0; i < 4; ++i) {
-    const glm::vec2 step(static_cast<float>(i % 2) - 0.5f, static_cast<float>(i / 2) - 0.5f);
-    const glm::ivec2 place = at(parent).corner + glm::ivec2(i % 2, i / 2) * fine;
+  for (int i = 0; i < 16; ++i) {
+    const glm::vec2 step(static_cast<float>(i % 4) - 1.5f, static_cast<float>(i / 4) - 1.5f);
+    const glm::ivec2 place = at(parent).corner + glm::ivec2(i % 4, i / 4) * fine;
     squares_.push_back({.centre = centre + size * step, .size = size, .corner = place});
   }
 }
@@ -169,11 +184,11 @@ void Survey::lay(int32_t index, const Grain& grain) {
   const glm::vec2 centre = at(index).centre;
   const float size = at(index).size;
   const float nearest = glm::length(glm::max(glm::abs(centre) - size / 2, 0.0f));
-  const float wanted = nearest < 1 ? grain.inner : nearest < 3.5f ? grain.middle : grain.outer;
+  const float wanted = nearest < 1 ? grain.inner : nearest < 3 ? grain.middle : grain.outer;
   if (size <= wanted * 1.01f) return;
   if (at(index).children < 0) addChildren(index);
   const int32_t first = at(index).children;
-  for (int32_t i = 0; i < 4; ++i) lay(first + i, grain);
+  for (int32_t i = 0; i < 16; ++i) lay(first + i, grain);
 }
 
 void Survey::gatherLeaves(int32_t index, std::vector<int32_t>& leaves) const {
@@ -181,13 +196,13 @@ void Survey::gatherLeaves(int32_t index, std::vector<int32_t>& leaves) const {
     leaves.push_back(index);
     return;
   }
-  for (int32_t i = 0; i < 4; ++i) gatherLeaves(at(index).children + i, leaves);
+  for (int32_t i = 0; i < 16; ++i) gatherLeaves(at(index).children + i, leaves);
 }
 
 int32_t Survey::leafAt(glm::ivec2 place) const {
   int32_t index = 0;
-  for (int shift = kFinestShift - 1; at(index).children >= 0; --shift) {
-    index = at(index).children + (place.y >> shift & 1) * 2 + (place.x >> shift & 1);
+  for (int shift = kFinestShift - 2; at(index).children >= 0; shift -= 2) {
+    index = at(index).children + (place.y >> shift & 3) * 4 + (place.x >> shift & 3);
   }
   return index;
 }
@@ -213,32 +228,11 @@ bool Survey::agree(const Square& a, const Square& b) const {
 }
 
 // Whether the surfaces of two neighbouring squares meet at a crease between them, convex or
-// concave: each hit lies in front of the other's plane, or each behind it, and no farther from it
-// than the squares are wide.
-bool Survey::meet(const Square& one, const Square& other) const {
-  const Sample &a = one.sample, &b = other.sample;
+// concave: each hit lies in front of the other's plane, or each behind it, and within two biases.
+bool Survey::meet(const Sample& a, const Sample& b) const {
   const float over = glm::dot(glm::vec3(a.plane), b.at) - a.plane.w;
   const float under = glm::dot(glm::vec3(b.plane), a.at) - b.plane.w;
-  const float wide = std::min(std::max(one.size, other.size), kInnerUnits) * frame_.range;
-  return over * under >= 0 &&
-         std::max(std::abs(over), std::abs(under)) <= 0.5f * wide + 2 * frame_.bias;
-}
-
-// Notes that the surface of the square `other` meets that of `index`, at a ridge or in a valley.
-void Survey::addCrease(int32_t index, int32_t other, bool ridge) {
-  Square& square = at(index);
-  square.edge = true;
-  square.valley = square.valley || !ridge;
-  for (size_t i = 0; i < square.creases.size(); ++i) {
-    if (square.creases[i] >= 0) {
-      const Sample &known = at(square.creases[i]).sample, &seen = at(other).sample;
-      if (sspm::serves(known.plane, seen.at, seen.plane, frame_.bias)) return;
-      continue;
-    }
-    square.creases[i] = other;
-    square.ridges |= static_cast<uint8_t>(ridge ? 1u << i : 0u);
-    return;
-  }
+  return over * under >= 0 && std::max(std::abs(over), std::abs(under)) <= 2 * frame_.bias;
 }
 
 // Finds edges between the squares `among`, whose rays were just cast, and their neighbours. Marks
@@ -251,15 +245,6 @@ std::vector<int32_t> Survey::findEdges(const std::vector<int32_t>& among) {
     Square& square = at(index);
     if (!square.edge && !isFine(square)) edges.push_back(index);
     square.edge = true;
-  };
-  // A crease hides nothing: below the grain it needs no finer squares.
-  const auto crease = [&](int32_t index, int32_t other) {
-    if (at(index).size > kInnerUnits) {
-      tell(index);
-      return;
-    }
-    const Sample &own = at(index).sample, &seen = at(other).sample;
-    addCrease(index, other, glm::dot(glm::vec3(own.plane), seen.at) <= own.plane.w);
   };
   for (const int32_t index : among) {
     const int size = static_cast<int>(std::lround(at(index).size / kFinestUnits));
@@ -277,12 +262,9 @@ std::vector<int32_t> Survey::findEdges(const std::vector<int32_t>& among) {
           at(index).sample.hit ? std::pair(other, index) : std::pair(index, other);
       if (at(open).sample.hit == at(hit).sample.hit) {
         if (same) continue;
-        if (meet(at(index), at(other))) {
-          crease(index, other);
-          crease(other, index);
-        } else {
-          tell(index);
-          tell(other);
+        tell(index);
+        tell(other);
+        if (!meet(at(index).sample, at(other).sample)) {
           at(index).ragged = at(other).ragged = true;
         }
       } else if (same) {
@@ -306,6 +288,170 @@ const Survey::Square& Survey::seenBy(const Square& square) const {
 bool Survey::isFine(const Square& square) const {
   return square.size <= kFinestUnits || square.size * frame_.range <= kFinestMetres ||
          (square.size <= kInnerUnits && glm::length(square.centre) > 4);
+}
+
+std::vector<Patch> Survey::patches() const {
+  std::vector<Patch> result;
+  gatherPatches(0, result);
+  return result;
+}
+
+void Survey::gatherPatches(int32_t index, std::vector<Patch>& patches) const {
+  const Square& square = at(index);
+  if (square.children < 0 && !square.edge) {
+    const Sample& sample = seenBy(square).sample;
+    if (inRange(sample)) patches.push_back(patchOf(square, sample.plane));
+    return;
+  }
+  const Square* leaf = nullptr;
+  if (square.size <= kPatchUnits * 1.01f && uniform(index, leaf, true)) {
+    if (leaf == nullptr || leaf->sample.unknown) return;
+    const Patch patch = patchOf(square, leaf->sample.plane);
+    if (patch.whole) {
+      patches.push_back(patch);
+      return;
+    }
+  }
+  if (square.children >= 0 && square.size > kInnerUnits * 1.01f) {
+    for (int32_t i = 0; i < 16; ++i) gatherPatches(square.children + i, patches);
+    return;
+  }
+  // A finely split square: one patch for each of its planes, over the whole square.
+  std::vector<SeenPlane> planes;
+  const bool ragged = gatherPlanes(index, planes);
+  for (SeenPlane& plane : planes) {
+    Patch& patch = patches.emplace_back(patchOf(square, plane.sample->plane));
+    patch.centre = plane.sample->at;
+    patch.ragged = ragged;
+    patch.seen = std::move(plane.seen);
+  }
+}
+
+// Collects the planes that the leaves below a square see, with their hits. Returns whether a leaf
+// is ragged.
+bool Survey::gatherPlanes(int32_t index, std::vector<SeenPlane>& planes) const {
+  const Square& square = at(index);
+  if (square.children >= 0) {
+    bool ragged = false;
+    for (int32_t i = 0; i < 16; ++i) ragged |= gatherPlanes(square.children + i, planes);
+    return ragged;
+  }
+  const Sample& seen = seenBy(square).sample;
+  if (!inRange(seen)) return square.ragged;
+  auto known = std::ranges::find_if(planes, [&](const SeenPlane& plane) {
+    return sspm::serves(plane.sample->plane, seen.at, seen.plane, frame_.bias);
+  });
+  if (known == planes.end()) known = planes.insert(planes.end(), {&seen, {}});
+  known->seen.push_back(seen.at);
+  return square.ragged;
+}
+
+Patch Survey::patchOf(const Square& square, const glm::vec4& plane) const {
+  Patch patch;
+  patch.plane = plane;
+  // Largest distance at which a slope of the square leaves the cylinder.
+  const glm::vec2 nearest = glm::max(glm::abs(square.centre) - square.size / 2, 0.0f);
+  const float farthest =
+      std::min(exitOf(frame_, slopeOf(frame_, nearest)), 2 * frame_.range / frame_.slope);
+  const auto put = [&](glm::vec2 offset) {
+    const glm::vec2 slope = slopeOf(frame_, square.centre + square.size * offset);
+    const glm::vec3 along = alongSlope(frame_, slope);
+    const float facing = glm::dot(glm::vec3(plane), along);
+    const float t = facing < 0 ? plane.w / facing : 2 * farthest;
+    patch.whole = patch.whole && t <= std::min(exitOf(frame_, slope), farthest);
+    return glm::clamp(t, 0.0f, farthest) * along;
+  };
+  for (int i = 0; i < 4; ++i) {
+    patch.corners[i] = put({(i & 1) != 0 ? 0.5f : -0.5f, (i & 2) != 0 ? 0.5f : -0.5f});
+  }
+  patch.centre = put(glm::vec2(0));
+  return patch;
+}
+
+uint32_t Survey::planeWord(const glm::vec4& plane, ShotMap& map) {
+  const std::array<uint32_t, 4> bits = {
+      std::bit_cast<uint32_t>(plane.x), std::bit_cast<uint32_t>(plane.y),
+      std::bit_cast<uint32_t>(plane.z), std::bit_cast<uint32_t>(plane.w)};
+  const uint64_t hash = (bits[0] * 0x9E3779B97F4A7C15ull) ^ (bits[1] * 0xC2B2AE3D27D4EB4Full) ^
+                        (bits[2] * 0x165667B19E3779F9ull) ^ bits[3];
+  const auto [place, added] = planes_.try_emplace(hash, 0);
+  if (added) {
+    place->second = kPlane | static_cast<uint32_t>(map.blocks.size() / 4);
+    map.blocks.insert(map.blocks.end(), bits.begin(), bits.end());
+  }
+  return place->second;
+}
+
+// Whether one plane serves all leaves below a square: that of `leaf`, or if null, of the first leaf
+// with a hit, to which it sets `leaf`. smooth: also requires that no leaf is at an edge.
+bool Survey::serves(int32_t index, const Square*& leaf, bool smooth) const {
+  const Square& square = at(index);
+  if (square.children < 0) {
+    if (smooth && (square.edge || square.beside >= 0)) return false;
+    if (!square.sample.hit) return leaf == nullptr || planePastExit(square, leaf->sample.plane);
+    if (leaf == nullptr) leaf = &square;
+    return sspm::serves(leaf->sample.plane, square.sample.at, square.sample.plane, frame_.bias);
+  }
+  for (int32_t i = 0; i < 16; ++i) {
+    if (!serves(square.children + i, leaf, smooth)) return false;
+  }
+  return true;
+}
+
+// Two passes: the first does not compare the open squares before the first hit with its plane.
+bool Survey::uniform(int32_t index, const Square*& leaf, bool smooth) const {
+  leaf = nullptr;
+  return serves(index, leaf, smooth) && serves(index, leaf, smooth);
+}
+
+ShotMap Survey::map() {
+  ShotMap map;
+  planes_.clear();
+  map.root = write(0, map);
+  return map;
+}
+
+uint32_t Survey::write(int32_t index, ShotMap& map) {
+  const Square* leaf = nullptr;
+  const auto wordOf = [&](const Square* known) {
+    return known == nullptr ? kOpen : planeWord(known->sample.plane, map);
+  };
+  if (uniform(index, leaf, false)) return wordOf(leaf);
+  std::array<uint32_t, 16> words{};
+  bool leaves = true;
+  std::vector<const Square*> planes;  // planes of the children written so far
+  for (int32_t i = 0; i < 16; ++i) {
+    uint32_t& word = words[static_cast<size_t>(i)];
+    const int32_t child = at(index).children + i;
+    if (!uniform(child, leaf, false)) {
+      word = write(child, map);
+      leaves = false;
+      continue;
+    }
+    const auto known = std::ranges::find_if(
+        planes, [&](const Square* plane) { return serves(child, plane, false); });
+    if (known != planes.end()) {
+      leaf = *known;
+    } else if (leaf != nullptr) {
+      planes.push_back(leaf);
+    }
+    word = wordOf(leaf);
+  }
+  const uint32_t first = words[0];
+  const auto other = std::ranges::find_if(words, [&](uint32_t word) { return word != first; });
+  const bool two = leaves && std::ranges::all_of(words, [&](uint32_t word) {
+                     return word == first || (other != words.end() && word == *other);
+                   });
+  if (two && other != words.end()) {
+    uint32_t bits = 0;
+    for (uint32_t i = 0; i < 16; ++i) bits |= words[i] == *other ? 1u << i : 0u;
+    const auto block = static_cast<uint32_t>(map.blocks.size() / 4);
+    map.blocks.insert(map.blocks.end(), {bits, first, *other, 0u});
+    return kSplit | block;
+  }
+  const auto node = static_cast<uint32_t>(map.blocks.size() / 4);
+  map.blocks.insert(map.blocks.end(), words.begin(), words.end());
+  return kNode | node;
 }
 
 }  // namespace grisaille::sspm

@@ -4,7 +4,6 @@
 // After refine() it continues to the map. `./dev bench sspm` prints the number of rays per shot.
 #pragma once
 
-#include <array>
 #include <cmath>
 #include <span>
 #include <unordered_map>
@@ -13,8 +12,6 @@
 #include "shot_map.h"
 
 namespace grisaille::sspm {
-
-constexpr float kInnerUnits = 1.0f / 16;  // width of an undivided square where paint lands
 
 // A quad of a visible surface. Corners and centre are offsets from the muzzle, clipped to the
 // cylinder.
@@ -76,7 +73,7 @@ class Survey {
   struct Square {
     glm::vec2 centre = glm::vec2(0);
     float size = 0;
-    int32_t children = -1;  // index of the first of 2x2
+    int32_t children = -1;  // index of the first of 16
     // For an open square, the index of a neighbour with a surface, or -1. `beside`: the surface
     // ends between the two; `rim`: it leaves the cylinder there.
     int32_t beside = -1, rim = -1;
@@ -84,15 +81,8 @@ class Survey {
     Sample sample = {};
     bool edge = false;    // a neighbour sees another surface
     bool ragged = false;  // and the two surfaces do not meet: a depth discontinuity
-    // Neighbours whose surfaces meet this one's at a crease, and may reach into the square; or -1.
-    std::array<int32_t, kMostPlanes - 1> creases = {-1, -1, -1};
-    // Which of them lie behind this one's plane, a bit each; and whether one lies in front of it.
-    uint8_t ridges = 0;
-    bool valley = false;
   };
-  // Planes of the surfaces in a square, of which a visible point lies on one: see kSeveral.
-  using Planes = std::vector<glm::vec4>;
-  // Sizes of undivided squares: within one unit of the centre, within 3.5, and beyond.
+  // Sizes of undivided squares: within one unit of the centre, within three, and beyond.
   struct Grain {
     float inner, middle, outer;
   };
@@ -111,8 +101,7 @@ class Survey {
   int32_t leafAt(glm::ivec2 place) const;
   bool planePastExit(const Square& open, const glm::vec4& plane) const;
   bool agree(const Square& a, const Square& b) const;
-  bool meet(const Square& a, const Square& b) const;
-  void addCrease(int32_t index, int32_t other, bool ridge);
+  bool meet(const Sample& a, const Sample& b) const;
   std::vector<int32_t> findEdges(const std::vector<int32_t>& among);
   const Square& seenBy(const Square& square) const;
   bool isFine(const Square& square) const;
@@ -126,11 +115,8 @@ class Survey {
   Patch patchOf(const Square& square, const glm::vec4& plane) const;
   bool serves(int32_t index, const Square*& leaf, bool smooth) const;
   bool uniform(int32_t index, const Square*& leaf, bool smooth) const;
-  bool gatherSurfaces(int32_t index, Planes& planes) const;
-  bool fitsOneWord(int32_t index, Planes& planes) const;
   uint32_t write(int32_t index, ShotMap& map);
-  uint32_t wordOf(const Planes& planes, ShotMap& map);
-  uint32_t blockWord(const std::array<uint32_t, 4>& block, ShotMap& map);
+  uint32_t planeWord(const glm::vec4& plane, ShotMap& map);
 
   ShotFrame frame_;
   Stage stage_ = Stage::kProbing;
@@ -140,7 +126,7 @@ class Survey {
   std::vector<Square> squares_;
   std::vector<int32_t> asked_;  // squares of rays_, in order
   std::vector<grisaille_ray> rays_;
-  std::unordered_map<uint64_t, uint32_t> words_;  // blocks of planes, by their hash
+  std::unordered_map<uint64_t, uint32_t> planes_;
 };
 
 }  // namespace grisaille::sspm

@@ -49,22 +49,10 @@ const float kMapReach = 8.0;
 const float kBiasUnits = 0.02, kBiasShare = 2e-5;
 const float kSlant = 8.0, kOther = -0.5, kSame = 0.3, kLeastBias = 0.05;
 const uint kPlane = 0x40000000u, kNode = 0x80000000u, kTag = 0xC0000000u;
-const uint kSeveral = 1u, kMostPlanes = 4u;
-
-// Whether the point at offset q on a facet with normal `facing` is in front of a leaf's plane. Same as
-// isInFront() of effects/sspm/shot_map.cpp, which explains the bias.
-bool isInFront(Shot shot, uint word, vec3 q, vec3 facing) {
-  const uint block = (shot.base + (word & ~kTag)) * 4u;
-  const vec4 plane = uintBitsToFloat(uvec4(blocks[block], blocks[block + 1u], blocks[block + 2u], blocks[block + 3u]));
-  const float behind = plane.w - dot(plane.xyz, q);
-  const float least = kBiasUnits * shot.range + kBiasShare * shot.range / shot.slope;
-  const float bias = least * clamp((dot(plane.xyz, facing) - kOther) / (kSame - kOther), kLeastBias, 1.0);
-  return behind <= bias && behind * length(q) <= kSlant * bias * abs(dot(plane.xyz, q));
-}
 
 // Visibility test of a shadow map: whether the muzzle sees the point at offset q on a facet with
-// normal `facing`. Descends the map's tree to a leaf: the point must be in front of one of its planes.
-// Same as inSight() of effects/sspm/shot_map.cpp.
+// normal `facing`. Descends the map's tree to a leaf, and compares q with the leaf's plane, with a
+// bias. Same as inSight() of effects/sspm/shot_map.cpp, which explains the bias.
 // word: of the map, where the descent starts. along: dot(q, direction).
 bool inSight(Shot shot, uint word, vec3 q, float along, vec3 facing) {
   if ((word & kNode) != 0u) {
@@ -89,14 +77,12 @@ bool inSight(Shot shot, uint word, vec3 q, float along, vec3 facing) {
     }
   }
   if (word == 0u) return true;
-  if ((word & kTag) != 0u) return isInFront(shot, word, q, facing);
-  const uint several = (shot.base + word - kSeveral) * 4u;
-  bool seen = false;
-  for (uint i = 0u; i < kMostPlanes && !seen; ++i) {
-    const uint plane = blocks[several + i];
-    seen = plane != 0u && isInFront(shot, plane, q, facing);
-  }
-  return seen;
+  const uint block = (shot.base + (word & ~kTag)) * 4u;
+  const vec4 plane = uintBitsToFloat(uvec4(blocks[block], blocks[block + 1u], blocks[block + 2u], blocks[block + 3u]));
+  const float behind = plane.w - dot(plane.xyz, q);
+  const float least = kBiasUnits * shot.range + kBiasShare * shot.range / shot.slope;
+  const float bias = least * clamp((dot(plane.xyz, facing) - kOther) / (kSame - kOther), kLeastBias, 1.0);
+  return behind <= bias && behind * length(q) <= kSlant * bias * abs(dot(plane.xyz, q));
 }
 
 // Spatial hash: xor of the coordinates times primes (Teschner et al. 2003), then mixed. Same as
