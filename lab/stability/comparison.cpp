@@ -70,14 +70,16 @@ image::Image likeOf(const image::Image& picture) {
   return like;
 }
 
-// The largest difference of a pixel's first `channels` from `value`. Stores `value` in `expected`.
+// The largest difference of a pixel's first `channels` from `value`. Stores `value` in `expected`,
+// and the picture's own value in the channels that no oracle knows.
 float compareAt(const image::Image& picture, const glm::ivec2& pixel, const glm::dvec4& value,
                 uint32_t channels, image::Image& expected) {
   const glm::uvec2 at(pixel);
   float worst = 0;
-  for (uint32_t c = 0; c < channels; ++c) {
-    const double one = value[static_cast<int>(c)];
-    worst = std::max(worst, difference(picture.at(at.x, at.y, c), one));
+  for (uint32_t c = 0; c < picture.channels; ++c) {
+    const float own = picture.at(at.x, at.y, c);
+    const double one = c < channels ? value[static_cast<int>(c)] : own;
+    worst = c < channels ? std::max(worst, difference(own, one)) : worst;
     expected.pixels[(size_t{at.y} * picture.width + at.x) * picture.channels + c] =
         static_cast<float>(one);
   }

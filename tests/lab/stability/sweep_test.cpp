@@ -6,6 +6,7 @@
 #include <algorithm>
 #include <set>
 
+#include "lab/stability/comparison.h"
 #include "lab/stability/movement.h"
 #include "lab/stability/runner.h"
 #include "tests/support/devices.h"
@@ -151,6 +152,24 @@ TEST_P(SweepTest, AWrongPictureIsAFault) {
   const Result result = runner.run(*found);
   ASSERT_EQ(faultsOf(*found, result).size(), 1u);
   EXPECT_NE(faultsOf(*found, result)[0].find("a plane has a visibility"), std::string::npos);
+}
+
+// The pictures of the edges mark the pixels that differ: as many as the result counts, also if an
+// output has channels that no oracle knows.
+TEST_P(SweepTest, TheMapOfDifferencesAgreesWithTheirShare) {
+  gpu::Device* const devices[] = {&device()};
+  Runner runner(registry_, devices);
+  for (const char* variant : {"slices", "open directions"}) {
+    const std::vector<Case> cases = sweepCases(0, 1);
+    const auto one = std::ranges::find_if(cases, [&](const Case& found) {
+      return found.scenery.kind == Scenery::Kind::kNoNormals && found.variant == variant;
+    });
+    ASSERT_NE(one, cases.end()) << variant;
+    const double share = runner.run(*one).backends.at(0).oracle.shareOver;
+    const Compared compared = runner.compare(*one);
+    EXPECT_DOUBLE_EQ(apartOf(differences(compared.picture, compared.expected)).shareOver, share)
+        << one->title();
+  }
 }
 
 }  // namespace
