@@ -65,12 +65,12 @@ bool paints(const ShotFrame& frame, uint32_t word, const uint32_t* blocks,
          inSight(frame, word, blocks, point.at, point.normal);
 }
 
-// Word of a plane in a map; the map's root if the plane is not in it.
-uint32_t wordOf(const glm::vec4& plane, const ShotMap& map) {
-  const auto words = std::bit_cast<std::array<uint32_t, 4>>(plane);
-  for (size_t at = 0; at < map.blocks.size(); at += 4) {
-    if (std::equal(words.begin(), words.end(), map.blocks.begin() + static_cast<ptrdiff_t>(at))) {
-      return kPlane | static_cast<uint32_t>(at / 4);
+// Reference to a plane in a map; to the map's root if the plane is not in it.
+uint32_t referenceTo(const glm::vec4& plane, const ShotMap& map) {
+  const MapBlock block = packPlane(plane);
+  for (size_t at = 0; at < map.words.size(); at += 2) {
+    if (map.words[at] == block[0] && map.words[at + 1] == block[1]) {
+      return static_cast<uint32_t>(at / 2 + 1);
     }
   }
   return map.root;
@@ -116,12 +116,12 @@ bool PaintWorld::join(uint32_t id, const ShotFrame& frame, const CellGrid& grid,
               .word = map.root,
               .touched = share.touched,
               .ragged = share.ragged};
-  if (share.plain && share.ragged == 0 && (map.root & kNode) != 0) {
-    entry.word = wordOf(share.plane, map);
+  if (share.plain && share.ragged == 0 && map.root >= kLine) {
+    entry.word = referenceTo(share.plane, map);
   }
   const glm::vec3 corner = grid.corner(cell.key);
   const auto reaches = [&](size_t known) {
-    return paints(frame, entry.word, map.blocks.data(),
+    return paints(frame, entry.word, map.words.data(),
                   pointOf(cell.known[known], corner, grid.edge));
   };
   for (const SurfacePoint& point : share.points) {
@@ -171,7 +171,7 @@ bool PaintWorld::paintsPoint(const Entry& entry, const glm::dvec3& origin,
   const ShotFrame frame = frameOf(entry.shot);
   SurfacePoint own = point;
   own.at += glm::vec3(origin - frame.origin);
-  return paints(frame, entry.word, blocks_.data() + size_t{placed_[entry.record].base} * 4, own);
+  return paints(frame, entry.word, blocks_.data() + size_t{placed_[entry.record].base} * 2, own);
 }
 
 // Finds the sealed pieces, and removes hidden shots from the list.

@@ -270,12 +270,12 @@ void PaintWorld::place(uint32_t id, Survey& survey) {
     freeRecords_.pop_back();
     Placed& placed = placed_[state.record];
     placed = {.shot = id,
-              .blocks = static_cast<uint32_t>(map.blocks.size() / 4),
+              .blocks = static_cast<uint32_t>(map.words.size() / 2),
               .cells = static_cast<uint32_t>(shares.size())};
     if (placed.blocks > 0) {
       placed.base = runs_.take(placed.blocks);
-      std::ranges::copy(map.blocks,
-                        blocks_.change(size_t{placed.base} * 4, map.blocks.size()).begin());
+      std::ranges::copy(map.words,
+                        blocks_.change(size_t{placed.base} * 2, map.words.size()).begin());
     }
     writeRecord(id, survey.frame(), map);
     for (const Share& share : shares) {

@@ -33,7 +33,7 @@ struct PaintRules {
 
 class PaintWorld {
  public:
-  PaintWorld() : records_("shots"), blocks_("maps"), runs_(blocks_, 4) {}
+  PaintWorld() : records_("shots"), blocks_("maps"), runs_(blocks_, 2) {}
 
   // Places the shots of a list, newest first, and forgets shots that have left it.
   // shots: the list, oldest first. kept: number of leading shots unchanged since the previous call.

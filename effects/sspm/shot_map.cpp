@@ -1,6 +1,8 @@
 // SPDX-License-Identifier: MIT
 #include "shot_map.h"
 
+#include <glm/gtc/packing.hpp>
+
 #include <algorithm>
 #include <bit>
 #include <cmath>
@@ -15,8 +17,72 @@ constexpr float kSlant = 8;  // largest depth behind the plane along the ray, in
 constexpr float kOther = -0.5f, kSame = 0.3f, kLeastBias = 0.05f;
 constexpr float kBiasUnits = 0.02f;  // of the range
 constexpr float kBiasShare = 2e-5f;  // of the distance
+constexpr float kLineReach = 12;     // largest offset of a line on the map
+
+// A normal with |x| + |y| = 1 as a turn, 0 to 4, and back.
+float turnOf(const glm::vec2& normal) {
+  return normal.y >= 0 ? 1 - normal.x : 3 + normal.x;
+}
+
+glm::vec2 normalAt(float turn) {
+  const float x = turn < 2 ? 1 - turn : turn - 3;
+  return {x, (turn < 2 ? 1.0f : -1.0f) * (1 - std::abs(x))};
+}
+
+uint32_t packNormal(const glm::vec3& normal) {
+  const glm::vec3 size = glm::abs(normal);
+  glm::vec2 flat = glm::vec2(normal) / (size.x + size.y + size.z);
+  if (normal.z < 0) {
+    const glm::vec2 folded = 1.0f - glm::abs(glm::vec2(flat.y, flat.x));
+    flat = {flat.x >= 0 ? folded.x : -folded.x, flat.y >= 0 ? folded.y : -folded.y};
+  }
+  return glm::packSnorm2x16(flat);
+}
+
+glm::vec3 unpackNormal(uint32_t packed) {
+  const glm::vec2 flat = glm::unpackSnorm2x16(packed);
+  glm::vec3 normal(flat, 1 - std::abs(flat.x) - std::abs(flat.y));
+  const float under = std::max(-normal.z, 0.0f);
+  normal.x += normal.x >= 0 ? -under : under;
+  normal.y += normal.y >= 0 ? -under : under;
+  return glm::normalize(normal);
+}
 
 }  // namespace
+
+MapBlock packPlane(const glm::vec4& plane) {
+  return {packNormal(glm::vec3(plane)), std::bit_cast<uint32_t>(plane.w)};
+}
+
+glm::vec4 unpackPlane(const uint32_t* block) {
+  return {unpackNormal(block[0]), std::bit_cast<float>(block[1])};
+}
+
+glm::vec3 roundedNormal(const glm::vec3& normal) {
+  return unpackNormal(packNormal(normal));
+}
+
+MapLine lineThrough(const glm::vec2& a, const glm::vec2& b, const glm::vec2& second) {
+  glm::vec2 normal(a.y - b.y, b.x - a.x);
+  normal /= std::max(std::abs(normal.x) + std::abs(normal.y), 1e-20f);
+  const glm::vec2 middle = (a + b) / 2.0f;
+  if (glm::dot(normal, second - middle) < 0) normal = -normal;
+  normal = normalAt(static_cast<float>(std::lround(turnOf(normal) * 16384) & 0xFFFF) / 16384);
+  return {.normal = normal, .offset = glm::dot(normal, middle)};
+}
+
+MapBlock packLine(const MapLine& line, uint32_t first, uint32_t second) {
+  const auto turn = static_cast<uint32_t>(std::lround(turnOf(line.normal) * 16384)) & 0xFFFFu;
+  const float offset = glm::clamp(line.offset / kLineReach, -1.0f, 1.0f) * 32767;
+  const auto packed = static_cast<uint32_t>(std::lround(offset)) & 0xFFFFu;
+  return {first | second << 16, turn | packed << 16};
+}
+
+MapLine unpackLine(const uint32_t* block) {
+  const float turn = static_cast<float>(block[1] & 0xFFFFu) / 16384;
+  const auto offset = static_cast<float>(static_cast<int16_t>(block[1] >> 16));
+  return {.normal = normalAt(turn), .offset = offset * (kLineReach / 32767)};
+}
 
 ShotFrame::ShotFrame(const Shot& shot, float theRange)
     : origin(shot.origin[0], shot.origin[1], shot.origin[2]),
@@ -43,30 +109,45 @@ glm::vec2 ShotFrame::placeOf(const glm::vec3& q) const {
   return place * (std::min(1.0f + std::log(radius), 0.999f * kMapReach) / radius);
 }
 
-bool inSight(const ShotFrame& frame, uint32_t root, const uint32_t* blocks, const glm::vec3& q,
-             const glm::vec3& facing) {
-  uint32_t word = root;
-  if ((word & kNode) != 0) {
-    glm::vec2 at = (frame.placeOf(q) + kMapReach) * (2.0f / kMapReach);  // in squares of the root
-    while ((word & kNode) != 0) {
-      const glm::vec2 square = glm::clamp(glm::floor(at), 0.0f, 3.0f);
-      const uint32_t bit = static_cast<uint32_t>(square.y) * 4 + static_cast<uint32_t>(square.x);
-      const uint32_t* block = blocks + size_t{word & ~kTag} * 4;
-      word = (word & kTag) == kNode ? block[bit] : block[1 + (block[0] >> bit & 1u)];
-      at = (at - square) * 4.0f;
-    }
-  }
-  if (word == kOpen) return true;
-  const uint32_t* plane = blocks + size_t{word & ~kTag} * 4;
-  const glm::vec3 normal(std::bit_cast<float>(plane[0]), std::bit_cast<float>(plane[1]),
-                         std::bit_cast<float>(plane[2]));
-  const float behind = std::bit_cast<float>(plane[3]) - glm::dot(normal, q);
-  // Depth bias. A point of the same surface may lie a little behind the plane of a neighbouring
-  // facet; a point of another surface may not. At grazing angles a small distance from the plane is
-  // a long one along the ray, which kSlant limits.
+// A point of the same surface may lie a little behind the plane of a neighbouring facet; a point of
+// another surface may not. At grazing angles a small distance from the plane is a long one along
+// the ray, which kSlant limits.
+float depthBehind(const ShotFrame& frame, const glm::vec4& plane, const glm::vec3& q,
+                  const glm::vec3& facing) {
+  const glm::vec3 normal(plane);
+  const float behind = plane.w - glm::dot(normal, q);
   const float bias = frame.bias * glm::clamp((glm::dot(normal, facing) - kOther) / (kSame - kOther),
                                              kLeastBias, 1.0f);
-  return behind <= bias && behind * glm::length(q) <= kSlant * bias * std::abs(glm::dot(normal, q));
+  if (behind <= 0) return behind / bias;
+  const float along = kSlant * std::max(std::abs(glm::dot(normal, q)), 1e-20f) / glm::length(q);
+  return behind / (bias * std::min(along, 1.0f));
+}
+
+bool inSight(const ShotFrame& frame, uint32_t root, const uint32_t* words, const glm::vec3& q,
+             const glm::vec3& facing) {
+  uint32_t at = root;
+  if (at >= kLine) {
+    const glm::vec2 place = frame.placeOf(q);
+    glm::vec2 inSquare = (place + kMapReach) * (2.0f / kMapReach);  // in squares of the root
+    while (at >= kLine) {
+      const uint32_t* block = words + size_t{at & ~kTag} * 2;
+      if ((at & kTag) == kLine) {
+        const MapLine line = unpackLine(block);
+        at = glm::dot(line.normal, place) > line.offset ? block[0] >> 16 : block[0] & 0xFFFFu;
+        continue;
+      }
+      const glm::vec2 square = glm::clamp(glm::floor(inSquare), 0.0f, 3.0f);
+      const uint32_t bit = static_cast<uint32_t>(square.y) * 4 + static_cast<uint32_t>(square.x);
+      if ((at & kTag) == kNode) {
+        at = block[bit / 2] >> (16 * (bit & 1)) & 0xFFFFu;
+      } else {
+        at = (block[0] >> bit & 1u) != 0 ? block[1] & 0xFFFFu : block[0] >> 16;
+      }
+      inSquare = (inSquare - square) * 4.0f;
+    }
+  }
+  return at == kOpen ||
+         depthBehind(frame, unpackPlane(words + size_t{at - 1} * 2), q, facing) <= 1;
 }
 
 }  // namespace grisaille::sspm

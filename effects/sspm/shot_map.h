@@ -8,9 +8,11 @@
 //   hit, a slope of length s <= s0 lies at s / s0 from the map's centre, a longer one at 1 + ln(s /
 //   s0). One unit of the map is one range wide wherever the shot's cylinder ends in that slope.
 // - The map is a tree of squares. A leaf holds the plane of the surface that its rays hit, with the
-//   normal towards the muzzle. The muzzle sees points in front of that plane.
+//   normal towards the muzzle. The muzzle sees points in front of that plane. A line may divide a
+//   leaf between two planes: a silhouette, or a crease.
 #pragma once
 
+#include <array>
 #include <cstdint>
 #include <glm/glm.hpp>
 #include <vector>
@@ -22,13 +24,35 @@ namespace grisaille::sspm {
 
 constexpr float kMapReach = 8;  // the map spans [-8, 8] on both axes
 
-// Word of a square of the map: a tag, and an offset in blocks of four 32-bit words from the map's
-// start. Same as in shaders/sspm/walk.glsl.
-constexpr uint32_t kOpen = 0;             // no surface in the cylinder
-constexpr uint32_t kPlane = 0x40000000u;  // leaf; one block: xyz: normal, w: dot(normal, q)
-constexpr uint32_t kNode = 0x80000000u;   // four blocks: words of 4x4 squares, by rows
-constexpr uint32_t kSplit = 0xC0000000u;  // one block: a bit per 4x4 square, word for 0, word for 1
-constexpr uint32_t kTag = 0xC0000000u;
+// A reference within the map, 16 bits: a tag, and an offset in blocks of two 32-bit words from the
+// map's start; for a plane, the offset + 1. Same as in shaders/sspm/walk.glsl.
+constexpr uint32_t kOpen = 0;        // no surface in the cylinder; 1 and more: a plane, one block
+constexpr uint32_t kLine = 0x4000;   // one block: see packLine()
+constexpr uint32_t kNode = 0x8000;   // four blocks: references of 4x4 squares, by rows
+constexpr uint32_t kSplit = 0xC000;  // one block: a bit per 4x4 square, reference for 0, and for 1
+constexpr uint32_t kTag = 0xC000;
+constexpr size_t kMostBlocks = 0x3FFF;
+
+using MapBlock = std::array<uint32_t, 2>;
+
+// Plane: xyz: unit normal, octahedral in two 16-bit snorms (Cigolla et al. 2014, "A Survey of
+// Efficient Representations for Independent Unit Vectors"); w: dot(normal, q), a float.
+MapBlock packPlane(const glm::vec4& plane);
+glm::vec4 unpackPlane(const uint32_t* block);
+// The normal that the map will hold for a normal.
+glm::vec3 roundedNormal(const glm::vec3& normal);
+
+// A line on the map: points with dot(normal, place) > offset are on its second side. The normal has
+// |x| + |y| = 1.
+struct MapLine {
+  glm::vec2 normal = glm::vec2(0);
+  float offset = 0;
+};
+// The line through two places, with `second` on its second side.
+MapLine lineThrough(const glm::vec2& a, const glm::vec2& b, const glm::vec2& second);
+// first, second: references to what lies on its sides.
+MapBlock packLine(const MapLine& line, uint32_t first, uint32_t second);
+MapLine unpackLine(const uint32_t* block);
 
 // Position and axes of a shot, and scale of its map.
 struct ShotFrame {
@@ -55,13 +79,18 @@ struct ShotFrame {
 
 struct ShotMap {
   uint32_t root = kOpen;
-  std::vector<uint32_t> blocks;  // four words each
+  std::vector<uint32_t> words;  // two a block
 };
+
+// How far behind a plane a point is, in shares of what a map allows: at most 1 is in sight.
+// plane: of a leaf. q: the point's offset. facing: the unit normal of its facet.
+float depthBehind(const ShotFrame& frame, const glm::vec4& plane, const glm::vec3& q,
+                  const glm::vec3& facing);
 
 // Whether the muzzle sees the point at offset q. The point lies in the cylinder, on a facet that
 // faces the muzzle.
-// root, blocks: of the map. facing: the facet's unit normal.
-bool inSight(const ShotFrame& frame, uint32_t root, const uint32_t* blocks, const glm::vec3& q,
+// root, words: of the map. facing: the facet's unit normal.
+bool inSight(const ShotFrame& frame, uint32_t root, const uint32_t* words, const glm::vec3& q,
              const glm::vec3& facing);
 
 }  // namespace grisaille::sspm

@@ -2,11 +2,20 @@
 // Surveys by ray casts what a shot's muzzle sees. The caller casts rays() and passes the hits to
 // take(), until rays() is empty. The survey first finds the farthest surface and a rough picture.
 // After refine() it continues to the map. `./dev bench sspm` prints the number of rays per shot.
+//
+// Rays go through corners of the map's squares, so that neighbours share them. What a square's four
+// corners see decides:
+// - one plane serves all: a leaf with that plane;
+// - two planes that meet there: a leaf divided by the line where they meet;
+// - two planes, one in front of the other: rays by bisection find where the silhouette crosses two
+//   of its sides, and the line through both places divides the leaf;
+// - more: four squares of half the width.
+// A ray through the centre must confirm a line; otherwise the square is divided too.
 #pragma once
 
+#include <array>
 #include <cmath>
 #include <span>
-#include <unordered_map>
 #include <vector>
 
 #include "shot_map.h"
@@ -48,8 +57,8 @@ class Survey {
   void refine();
   bool isRough() const { return stage_ != Stage::kFine; }
 
-  // Number of squares of which the host could not tell: of all, and of those within one range of
-  // the axis. The map has no paint in them.
+  // Number of rays of which the host could not tell: of all, and of those within one range of the
+  // axis. The map has no paint in their squares.
   size_t unknown() const { return countUnknown(1e30f); }
   size_t unknownInside() const { return countUnknown(1); }
   // Casts their rays again, after the map is complete.
@@ -59,74 +68,101 @@ class Survey {
   std::vector<Patch> patches() const;
   const ShotFrame& frame() const { return frame_; }
   // The map. Call it after refine(), when rays() is empty.
-  ShotMap map();
+  ShotMap map() const;
 
  private:
   enum class Stage : uint8_t { kProbing, kRough, kFine };
+  // What a ray saw.
   struct Sample {
+    bool told = false;     // the ray was cast
     bool hit = false;
-    bool unknown = false;  // the host cannot tell: `hit` is set, with a plane behind the muzzle
-    glm::vec4 plane = glm::vec4(0);  // as in Patch
-    glm::vec3 at = glm::vec3(0);     // offset of the hit
+    bool unknown = false;  // the host cannot tell
+    glm::ivec2 place = glm::ivec2(0);  // on the map, in finest squares from its lower corner
+    glm::vec4 plane = glm::vec4(0);    // as in Patch, with the map's rounded normal
+    glm::vec3 at = glm::vec3(0);       // offset of the hit
   };
-  // A square of the map under construction.
+  enum class Kind : uint8_t { kUndecided, kDivided, kNothing, kUntold, kOnePlane, kTwoPlanes, kSeveral };
+  // A square of the map under construction. Sizes and corners count finest squares.
   struct Square {
-    glm::vec2 centre = glm::vec2(0);
-    float size = 0;
-    int32_t children = -1;  // index of the first of 16
-    // For an open square, the index of a neighbour with a surface, or -1. `beside`: the surface
-    // ends between the two; `rim`: it leaves the cylinder there.
-    int32_t beside = -1, rim = -1;
-    glm::ivec2 corner = glm::ivec2(0);  // lower corner, in finest squares from the map's
-    Sample sample = {};
-    bool edge = false;    // a neighbour sees another surface
-    bool ragged = false;  // and the two surfaces do not meet: a depth discontinuity
+    glm::ivec2 corner = glm::ivec2(0);
+    int32_t size = 0;
+    Kind kind = Kind::kUndecided;
+    bool ragged = false;    // contains a depth discontinuity
+    bool told = false;      // of which doubt() has told its neighbours
+    bool doubtful = false;  // lies beside one
+    bool blocked = false;   // something is in front of the plane that its corners see
+    int32_t children = -1;  // index of the first of four, by rows
+    int32_t first = -1, second = -1;  // samples of its planes; of a line, -1 is no surface
+    std::array<int32_t, 4> corners = {-1, -1, -1, -1};  // samples, by rows
+    MapLine line = {};
+    float shift = 0;  // of the first plane towards what lies behind it, metres
   };
-  // Sizes of undivided squares: within one unit of the centre, within three, and beyond.
-  struct Grain {
-    float inner, middle, outer;
+  // Two planes that may divide a square, as samples. `far` lies behind.
+  struct Pair {
+    int32_t far = -1, near = -1;
   };
-
-  Square& at(int32_t index) { return squares_[static_cast<size_t>(index)]; }
-  const Square& at(int32_t index) const { return squares_[static_cast<size_t>(index)]; }
-
-  void probe(float farthest);
-  bool probed();
-  size_t countUnknown(float within) const;
-  void ask();
-  void lay(int32_t index, const Grain& grain);
-  void addChildren(int32_t parent);
-  void gatherLeaves(int32_t index, std::vector<int32_t>& leaves) const;
-  bool inRange(const Sample& sample) const;
-  int32_t leafAt(glm::ivec2 place) const;
-  bool planePastExit(const Square& open, const glm::vec4& plane) const;
-  bool agree(const Square& a, const Square& b) const;
-  bool meet(const Sample& a, const Sample& b) const;
-  std::vector<int32_t> findEdges(const std::vector<int32_t>& among);
-  const Square& seenBy(const Square& square) const;
-  bool isFine(const Square& square) const;
-
+  enum class Side : uint8_t { kFar, kNear, kNeither };
+  enum class Found : uint8_t { kYes, kNo, kWait };  // kWait: rays were asked for
   struct SeenPlane {
     const Sample* sample;
     std::vector<glm::vec3> seen;
   };
+
+  Square& at(int32_t index) { return squares_[static_cast<size_t>(index)]; }
+  const Square& at(int32_t index) const { return squares_[static_cast<size_t>(index)]; }
+  const Sample& sample(int32_t index) const { return samples_[static_cast<size_t>(index)]; }
+
+  // survey.cpp: which rays to cast
+  void probe(float farthest);
+  bool probed();
+  size_t countUnknown(float within) const;
+  int32_t ask(const glm::ivec2& place);
+  void writeRays();
+  void start();
+  void advance();
+  void doubt();
+  int32_t leafAt(const glm::ivec2& place) const;
+  int32_t grainAt(const Square& square) const;
+  void growSlots();
+  void divide(int32_t index);
+  bool inRange(const Sample& sample) const;
+  int32_t finestAt(const Square& square) const;
+  float sizeOf(const Square& square) const;      // in units of the map
+  glm::vec2 centreOf(const Square& square) const;
+
+  // survey_squares.cpp: what a square sees
+  bool decide(int32_t index);
+  Found findLine(Square& square);
+  float misfit(int32_t plane, int32_t other) const;
+  Found findPlane(Square& square, bool within);
+  bool findPair(const Square& square, Pair& pair) const;
+  Side sideOf(const Pair& pair, int32_t index) const;
+  bool findCrease(const Square& square, const Pair& pair, MapLine& line) const;
+  Found findSilhouette(const Square& square, const Pair& pair, MapLine& line);
+  Found findCrossing(const Pair& pair, glm::ivec2 from, glm::ivec2 to, Side start,
+                     glm::vec2& crossing);
+  Found confirm(const Square& square, const Pair& pair, const MapLine& line);
+  void settle(Square& square);
+
+  // survey_results.cpp: patches and the map
   void gatherPatches(int32_t index, std::vector<Patch>& patches) const;
-  bool gatherPlanes(int32_t index, std::vector<SeenPlane>& planes) const;
+  void gatherPlanes(int32_t index, std::vector<SeenPlane>& planes, bool& ragged) const;
   Patch patchOf(const Square& square, const glm::vec4& plane) const;
-  bool serves(int32_t index, const Square*& leaf, bool smooth) const;
-  bool uniform(int32_t index, const Square*& leaf, bool smooth) const;
-  uint32_t write(int32_t index, ShotMap& map);
-  uint32_t planeWord(const glm::vec4& plane, ShotMap& map);
+  bool serves(int32_t index, const Sample*& plane) const;
+  bool uniform(int32_t index, const Sample*& plane) const;
+  class Writer;
 
   ShotFrame frame_;
   Stage stage_ = Stage::kProbing;
   float farthest_ = 0;
-  int probes_ = 0;     // rounds of probing
-  bool anew_ = false;  // the next take() finds all edges again
+  int probes_ = 0;  // rounds of probing
+  int32_t finest_ = 1;  // width of a bisection's last interval; squares are twice as wide
+  std::vector<Sample> samples_;
+  std::vector<int32_t> slots_;  // hash table of samples_ by place, with linear probing; -1: free
   std::vector<Square> squares_;
-  std::vector<int32_t> asked_;  // squares of rays_, in order
+  std::vector<int32_t> undecided_;
+  std::vector<int32_t> asked_;  // samples of rays_, in order
   std::vector<grisaille_ray> rays_;
-  std::unordered_map<uint64_t, uint32_t> planes_;
 };
 
 }  // namespace grisaille::sspm

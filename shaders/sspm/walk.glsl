@@ -34,28 +34,44 @@ struct Shot {
   uint color_rg;       // half floats
   uint color_b_times;  // half floats: blue; number of times that the alpha counts
   uint base;           // first block of the map
-  uint root;           // word of the map's root
+  uint root;           // reference to the map's root
 };
 // Hash table with linear probing. Six words per slot: cell (3), code (-1: free), first entry,
 // count.
 layout(STORAGE(0), std430) readonly buffer Slots { int slots[]; };
-// Four words per entry: index into shots[], word of the map, mask of the cell's parts (2).
+// Four words per entry: index into shots[], reference within its map, mask of the parts (2).
 layout(STORAGE(1), std430) readonly buffer Entries { uint entries[]; };
 layout(STORAGE(2), std430) readonly buffer Shots { Shot shots[]; };
-layout(STORAGE(3), std430) readonly buffer Blocks { uint blocks[]; };  // four words per block
+layout(STORAGE(3), std430) readonly buffer Maps { uint blocks[]; };  // two words per block
 
 // Same as in effects/sspm/shot_map.h and shot_map.cpp.
 const float kMapReach = 8.0;
 const float kBiasUnits = 0.02, kBiasShare = 2e-5;
 const float kSlant = 8.0, kOther = -0.5, kSame = 0.3, kLeastBias = 0.05;
-const uint kPlane = 0x40000000u, kNode = 0x80000000u, kTag = 0xC0000000u;
+const float kLineReach = 12.0;
+const uint kLine = 0x4000u, kNode = 0x8000u, kSplit = 0xC000u, kTag = 0xC000u;
+
+// A line's normal, with |x| + |y| = 1, from a turn of 0 to 4.
+vec2 lineNormal(float turn) {
+  const float x = turn < 2.0 ? 1.0 - turn : turn - 3.0;
+  return vec2(x, (turn < 2.0 ? 1.0 : -1.0) * (1.0 - abs(x)));
+}
+
+vec3 planeNormal(uint packed) {
+  const vec2 flat_normal = unpackSnorm2x16(packed);
+  vec3 normal = vec3(flat_normal, 1.0 - abs(flat_normal.x) - abs(flat_normal.y));
+  const float under = max(-normal.z, 0.0);
+  normal.x += normal.x >= 0.0 ? -under : under;
+  normal.y += normal.y >= 0.0 ? -under : under;
+  return normalize(normal);
+}
 
 // Visibility test of a shadow map: whether the muzzle sees the point at offset q on a facet with
 // normal `facing`. Descends the map's tree to a leaf, and compares q with the leaf's plane, with a
 // bias. Same as inSight() of effects/sspm/shot_map.cpp, which explains the bias.
-// word: of the map, where the descent starts. along: dot(q, direction).
-bool inSight(Shot shot, uint word, vec3 q, float along, vec3 facing) {
-  if ((word & kNode) != 0u) {
+// at: reference within the map, where the descent starts. along: dot(q, direction).
+bool inSight(Shot shot, uint at, vec3 q, float along, vec3 facing) {
+  if (at >= kLine) {
     const vec3 w = shot.direction;
     const float s = w.z >= 0.0 ? 1.0 : -1.0;
     const float a = -1.0 / (s + w.z);
@@ -65,24 +81,31 @@ bool inSight(Shot shot, uint word, vec3 q, float along, vec3 facing) {
     vec2 place = vec2(dot(q, right), dot(q, up)) / (max(along, 1e-20) * shot.slope);
     const float radius = length(place);
     if (radius > 1.0) place *= min(1.0 + log(radius), 0.999 * kMapReach) / radius;
-    vec2 at = (place + kMapReach) * (2.0 / kMapReach);
-    while ((word & kNode) != 0u) {
-      const vec2 square = clamp(floor(at), 0.0, 3.0);
+    vec2 in_square = (place + kMapReach) * (2.0 / kMapReach);
+    while (at >= kLine) {
+      const uint block = (shot.base + (at & ~kTag)) * 2u;
+      const vec2 square = clamp(floor(in_square), 0.0, 3.0);
       const uint bit = uint(square.y) * 4u + uint(square.x);
-      const uint block = (shot.base + (word & ~kTag)) * 4u;
-      const bool node = (word & kTag) == kNode;
-      word = blocks[block + (node ? bit : 0u)];
-      if (!node) word = blocks[block + 1u + (word >> bit & 1u)];
-      at = (at - square) * 4.0;
+      const uint tag = at & kTag;
+      const uint first = blocks[block + (tag == kNode ? bit / 2u : 0u)];
+      const uint second = blocks[block + 1u];
+      if (tag == kLine) {
+        const float turn = float(second & 0xFFFFu) / 16384.0;
+        const float offset = float(int(second) >> 16) * (kLineReach / 32767.0);
+        at = dot(lineNormal(turn), place) > offset ? first >> 16 : first & 0xFFFFu;
+      } else {
+        at = tag == kNode ? first >> (16u * (bit & 1u)) & 0xFFFFu : (first >> bit & 1u) != 0u ? second & 0xFFFFu : first >> 16;
+        in_square = (in_square - square) * 4.0;
+      }
     }
   }
-  if (word == 0u) return true;
-  const uint block = (shot.base + (word & ~kTag)) * 4u;
-  const vec4 plane = uintBitsToFloat(uvec4(blocks[block], blocks[block + 1u], blocks[block + 2u], blocks[block + 3u]));
-  const float behind = plane.w - dot(plane.xyz, q);
+  if (at == 0u) return true;
+  const uint block = (shot.base + at - 1u) * 2u;
+  const vec3 normal = planeNormal(blocks[block]);
+  const float behind = uintBitsToFloat(blocks[block + 1u]) - dot(normal, q);
   const float least = kBiasUnits * shot.range + kBiasShare * shot.range / shot.slope;
-  const float bias = least * clamp((dot(plane.xyz, facing) - kOther) / (kSame - kOther), kLeastBias, 1.0);
-  return behind <= bias && behind * length(q) <= kSlant * bias * abs(dot(plane.xyz, q));
+  const float bias = least * clamp((dot(normal, facing) - kOther) / (kSame - kOther), kLeastBias, 1.0);
+  return behind <= bias && behind * length(q) <= kSlant * bias * abs(dot(normal, q));
 }
 
 // Spatial hash: xor of the coordinates times primes (Teschner et al. 2003), then mixed. Same as

@@ -1,0 +1,274 @@
+// SPDX-License-Identifier: MIT
+// What a square of the map sees, by the rays through its corners.
+#include <algorithm>
+#include <array>
+#include <cmath>
+#include <limits>
+
+#include "survey.h"
+#include "survey_slopes.h"
+
+namespace grisaille::sspm {
+namespace {
+
+constexpr float kSafety = 0.75f;  // share of the map's bias that planes may be off at corners
+// Corners of a square around it, of those by rows.
+constexpr std::array<size_t, 4> kAround = {0, 1, 3, 2};
+
+// Reciprocal of the distance, along the shot's direction, of a plane at a place of the map. It
+// changes linearly across the map where slopes do.
+float nearness(const ShotFrame& frame, const glm::vec4& plane, const glm::vec2& place) {
+  const glm::vec3 along = alongSlope(frame, slopeOf(frame, place));
+  return glm::dot(glm::vec3(plane), along) / plane.w;
+}
+
+}  // namespace
+
+// Decides what a square sees, or divides it. Returns false if it asked for rays.
+bool Survey::decide(int32_t index) {
+  Square square = at(index);
+  bool told = true, unknown = false, hit = false, within = false;
+  if (square.size <= grainAt(square)) {
+    for (int32_t i = 0; i < 4; ++i) {
+      int32_t& corner = square.corners[static_cast<size_t>(i)];
+      if (corner < 0) corner = ask(square.corner + square.size * glm::ivec2(i & 1, i >> 1));
+      told = told && sample(corner).told;
+      unknown = unknown || sample(corner).unknown;
+      hit = hit || sample(corner).hit;
+      within = within || inRange(sample(corner));
+    }
+    at(index).corners = square.corners;
+    if (!told) return false;
+  }
+  if (square.size > grainAt(square)) {
+    divide(index);
+    return true;
+  }
+  Found found = Found::kYes;
+  if (unknown || !hit) {
+    square.kind = unknown ? Kind::kUntold : Kind::kNothing;
+  } else {
+    found = findPlane(square, within);
+    if (found == Found::kNo && stage_ == Stage::kFine && !square.blocked) found = findLine(square);
+  }
+  if (found == Found::kWait) return false;
+  if (found == Found::kNo) {
+    if (stage_ == Stage::kFine && square.size > finestAt(square)) {
+      divide(index);
+      return true;
+    }
+    settle(square);
+  }
+  at(index) = square;
+  return true;
+}
+
+// How far the hit of a sample is from the plane of another, in shares of what a leaf may have. Both
+// have hits.
+float Survey::misfit(int32_t plane, int32_t other) const {
+  const Sample& seen = sample(other);
+  return std::abs(depthBehind(frame_, sample(plane).plane, seen.at, glm::vec3(seen.plane))) /
+         kSafety;
+}
+
+// Finds one plane for the whole square: that of the corner which serves all others best. A corner
+// without a hit agrees with every plane, since there is no surface to paint. Bent surfaces lie
+// partly behind the plane; it is moved back to the farthest corner.
+// within: the square has surfaces in range. Otherwise any plane does.
+Survey::Found Survey::findPlane(Square& square, bool within) {
+  float least = within ? 1 : std::numeric_limits<float>::infinity();
+  square.first = -1;
+  for (const int32_t plane : square.corners) {
+    if (!sample(plane).hit) continue;
+    float worst = 0, behind = 0;
+    for (const int32_t other : square.corners) {
+      if (!sample(other).hit) continue;
+      worst = std::max(worst, misfit(plane, other));
+      const glm::vec4& it = sample(plane).plane;
+      behind = std::max(behind, it.w - glm::dot(glm::vec3(it), sample(other).at));
+    }
+    if (worst > least) continue;
+    least = worst;
+    square.first = plane;
+    square.shift = within ? behind : 0;
+  }
+  if (square.first < 0) return Found::kNo;
+  square.kind = Kind::kOnePlane;
+  if (!square.doubtful) return Found::kYes;
+  const int32_t centre = ask(square.corner + square.size / 2);
+  if (!sample(centre).told) return Found::kWait;
+  square.blocked = sample(centre).hit && misfit(square.first, centre) > 1;
+  return square.blocked ? Found::kNo : Found::kYes;
+}
+
+// Two planes that together serve all corners.
+bool Survey::findPair(const Square& square, Pair& pair) const {
+  float least = 1;
+  bool found = false;
+  for (size_t i = 0; i < 4; ++i) {
+    for (size_t j = i + 1; j < 4; ++j) {
+      const int32_t a = square.corners[i], b = square.corners[j];
+      if (!sample(a).hit || !sample(b).hit) continue;
+      float worst = 0;
+      for (const int32_t other : square.corners) {
+        if (!sample(other).hit) continue;
+        worst = std::max(worst, std::min(misfit(a, other), misfit(b, other)));
+      }
+      if (worst > least) continue;
+      least = worst;
+      found = true;
+      const bool behind =
+          glm::dot(sample(a).at, frame_.direction) > glm::dot(sample(b).at, frame_.direction);
+      pair = behind ? Pair{.far = a, .near = b} : Pair{.far = b, .near = a};
+    }
+  }
+  return found;
+}
+
+// Which plane of a pair a ray saw. Where there is no surface, nothing hides the far one.
+Survey::Side Survey::sideOf(const Pair& pair, int32_t index) const {
+  if (sample(index).unknown) return Side::kNeither;
+  if (!sample(index).hit) return Side::kFar;
+  const float far = misfit(pair.far, index), near = misfit(pair.near, index);
+  if (std::min(far, near) > 1) return Side::kNeither;
+  return far <= near ? Side::kFar : Side::kNear;
+}
+
+// Divides the square between two planes by a line.
+Survey::Found Survey::findLine(Square& square) {
+  Pair pair;
+  if (!findPair(square, pair)) return Found::kNo;
+  square.kind = Kind::kTwoPlanes;
+  square.first = pair.far;
+  square.second = pair.near;
+  square.ragged = false;
+  if (findCrease(square, pair, square.line)) {
+    const Found found = confirm(square, pair, square.line);
+    if (found != Found::kNo) return found;
+  }
+  square.ragged = true;
+  const Found found = findSilhouette(square, pair, square.line);
+  return found == Found::kYes ? confirm(square, pair, square.line) : found;
+}
+
+// Whether the ray through the square's centre sees what a line predicts.
+Survey::Found Survey::confirm(const Square& square, const Pair& pair, const MapLine& line) {
+  if (square.size <= 4 * finest_) return Found::kYes;
+  const int32_t centre = ask(square.corner + square.size / 2);
+  if (!sample(centre).told) return Found::kWait;
+  if (sample(centre).unknown) return Found::kNo;
+  if (!sample(centre).hit) return Found::kYes;
+  const float off = glm::dot(line.normal, centreOf(square)) - line.offset;
+  const bool close = std::abs(off) <= sizeOf(square) / 16;
+  const float far = misfit(pair.far, centre), near = misfit(pair.near, centre);
+  return (close ? std::min(far, near) : off > 0 ? near : far) <= 1 ? Found::kYes : Found::kNo;
+}
+
+// The line where two planes meet, if that is what the corners see: a ridge, where the farther plane
+// is the visible one, or a valley, where the nearer is. It takes no rays.
+bool Survey::findCrease(const Square& square, const Pair& pair, MapLine& line) const {
+  const glm::vec4 &far = sample(pair.far).plane, &near = sample(pair.near).plane;
+  const float reach = sizeOf(square) * frame_.range;
+  if (std::abs(glm::dot(glm::vec3(far), sample(pair.near).at) - far.w) > reach ||
+      std::abs(glm::dot(glm::vec3(near), sample(pair.far).at) - near.w) > reach) {
+    return false;
+  }
+  std::array<glm::vec2, 4> places;
+  std::array<float, 4> before;  // by how much the near plane is nearer
+  bool ridge = true, valley = true;
+  glm::vec2 second(0);
+  float most = 0;
+  for (size_t i = 0; i < 4; ++i) {
+    const Sample& corner = sample(square.corners[i]);
+    places[i] = unitsOf(corner.place);
+    before[i] = nearness(frame_, near, places[i]) - nearness(frame_, far, places[i]);
+    if (!corner.hit) continue;
+    const bool isNear = sideOf(pair, square.corners[i]) == Side::kNear;
+    ridge = ridge && isNear == (before[i] < 0);
+    valley = valley && isNear == (before[i] > 0);
+    if (!isNear || std::abs(before[i]) <= most) continue;
+    most = std::abs(before[i]);
+    second = places[i];
+  }
+  if (!ridge && !valley) return false;
+  std::array<glm::vec2, 4> crossings;
+  size_t count = 0;
+  for (size_t i = 0; i < 4; ++i) {
+    const size_t a = kAround[i], b = kAround[(i + 1) % 4];
+    if ((before[a] > 0) == (before[b] > 0)) continue;
+    crossings[count++] = glm::mix(places[a], places[b], before[a] / (before[a] - before[b]));
+  }
+  if (count != 2 || glm::distance(crossings[0], crossings[1]) < 1e-4f) return false;
+  line = lineThrough(crossings[0], crossings[1], second);
+  return true;
+}
+
+// The line along which the near surface ends before the far one.
+Survey::Found Survey::findSilhouette(const Square& square, const Pair& pair, MapLine& line) {
+  std::array<Side, 4> sides;
+  std::array<glm::vec2, 2> sum = {glm::vec2(0), glm::vec2(0)};  // of the far and near corners
+  std::array<float, 2> corners = {0, 0};
+  for (size_t i = 0; i < 4; ++i) {
+    sides[i] = sideOf(pair, square.corners[i]);
+    if (sides[i] == Side::kNeither) return Found::kNo;
+    const size_t side = sides[i] == Side::kNear ? 1 : 0;
+    sum[side] += unitsOf(sample(square.corners[i]).place);
+    corners[side] += 1;
+  }
+  std::array<glm::vec2, 4> crossings;
+  size_t count = 0;
+  bool wait = false;
+  for (size_t i = 0; i < 4; ++i) {
+    const size_t a = kAround[i], b = kAround[(i + 1) % 4];
+    if (sides[a] == sides[b]) continue;
+    const Found found =
+        findCrossing(pair, sample(square.corners[a]).place, sample(square.corners[b]).place,
+                     sides[a], crossings[count++]);
+    if (found == Found::kNo) return found;
+    wait = wait || found == Found::kWait;
+  }
+  if (count != 2) return Found::kNo;
+  if (wait) return Found::kWait;
+  if (glm::distance(crossings[0], crossings[1]) < 1e-4f) return Found::kNo;
+  const glm::vec2 towards = sum[1] / corners[1] - sum[0] / corners[0];
+  const glm::vec2 middle = (crossings[0] + crossings[1]) / 2.0f;
+  line = lineThrough(crossings[0], crossings[1], middle + towards);
+  return Found::kYes;
+}
+
+// Where a silhouette crosses the side of a square, by bisection. start: what `from` sees.
+Survey::Found Survey::findCrossing(const Pair& pair, glm::ivec2 from, glm::ivec2 to, Side start,
+                                   glm::vec2& crossing) {
+  const bool outside = glm::length(unitsOf(from)) > 4;
+  const int32_t last = outside ? std::max(finest_, kFinestAUnit / 64) : finest_;
+  while (std::abs(to.x - from.x) + std::abs(to.y - from.y) > last) {
+    const glm::ivec2 middle = (from + to) / 2;
+    const int32_t index = ask(middle);
+    if (!sample(index).told) return Found::kWait;
+    const Side side = sideOf(pair, index);
+    if (side == Side::kNeither) return Found::kNo;
+    (side == start ? from : to) = middle;
+  }
+  crossing = (unitsOf(from) + unitsOf(to)) / 2.0f;
+  return Found::kYes;
+}
+
+// For a square that cannot be divided further: the plane behind which the fewest corners lie.
+void Survey::settle(Square& square) {
+  std::ptrdiff_t most = 0;
+  for (const int32_t plane : square.corners) {
+    if (!sample(plane).hit) continue;
+    const auto served = std::ranges::count_if(square.corners, [&](int32_t other) {
+      const Sample& seen = sample(other);
+      return seen.hit &&
+             depthBehind(frame_, sample(plane).plane, seen.at, glm::vec3(seen.plane)) <= 1;
+    });
+    if (served <= most) continue;
+    most = served;
+    square.first = plane;
+  }
+  square.kind = Kind::kSeveral;
+  square.ragged = true;
+}
+
+}  // namespace grisaille::sspm
