@@ -231,13 +231,13 @@ void PaintWorld::askAgain(const CastRays& cast) {
   }
 }
 
-// Level for a shot: cells about half a range wide, so that a shot lies in some twenty cells. They
+// Level for a shot: cells about a range wide. They
 // are wider if their numbers would not fit at the shot's position.
 CellGrid PaintWorld::gridFor(const ShotFrame& frame) {
   const glm::dvec3 far = glm::abs(frame.origin) + 2.0 * double{frame.range} / double{frame.slope};
   const double least = std::max({far.x, far.y, far.z}) * 0x1p-28;
   const int exponent = std::max(
-      static_cast<int>(std::lround(std::log2(std::max(frame.range * 0.5f, 8 * frame.bias)))),
+      static_cast<int>(std::lround(std::log2(std::max(frame.range, 8 * frame.bias)))),
       static_cast<int>(std::ceil(std::log2(least))));
   const int32_t code = levelCode(std::clamp(exponent, -40, 40));
   if (std::ranges::find(levels_, code) != levels_.end()) return {frame.origin, code};

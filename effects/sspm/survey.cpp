@@ -192,9 +192,7 @@ bool Survey::take(std::span<const grisaille_hit> hits) {
     if (!sample.hit) continue;
     const auto& way = rays_[i].direction;
     sample.at = hits[i].distance * glm::vec3(way[0], way[1], way[2]);
-    const glm::vec3 normal =
-        roundedNormal({hits[i].normal[0], hits[i].normal[1], hits[i].normal[2]});
-    sample.plane = glm::vec4(normal, glm::dot(normal, sample.at));
+    sample.plane = planeOf({hits[i].normal[0], hits[i].normal[1], hits[i].normal[2]}, sample.at);
   }
   rays_.clear();
   asked_.clear();
@@ -202,6 +200,14 @@ bool Survey::take(std::span<const grisaille_hit> hits) {
   advance();
   writeRays();
   return true;
+}
+
+// The plane through a hit, rounded: to the normals that a map holds, and to a 16th of the bias. All
+// hits of a facet have the same plane then.
+glm::vec4 Survey::planeOf(const glm::vec3& normal, const glm::vec3& at) const {
+  const glm::vec3 rounded = roundedNormal(normal);
+  const float step = frame_.bias / 16;
+  return glm::vec4(rounded, std::round(glm::dot(rounded, at) / step) * step);
 }
 
 bool Survey::inRange(const Sample& sample) const {

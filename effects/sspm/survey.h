@@ -78,7 +78,7 @@ class Survey {
     bool hit = false;
     bool unknown = false;  // the host cannot tell
     glm::ivec2 place = glm::ivec2(0);  // on the map, in finest squares from its lower corner
-    glm::vec4 plane = glm::vec4(0);    // as in Patch, with the map's rounded normal
+    glm::vec4 plane = glm::vec4(0);    // as in Patch, rounded: see planeOf()
     glm::vec3 at = glm::vec3(0);       // offset of the hit
   };
   enum class Kind : uint8_t { kUndecided, kDivided, kNothing, kUntold, kOnePlane, kTwoPlanes, kSeveral };
@@ -91,6 +91,7 @@ class Survey {
     bool told = false;      // of which doubt() has told its neighbours
     bool doubtful = false;  // lies beside one
     bool blocked = false;   // something is in front of the plane that its corners see
+    enum class Step : uint8_t { kPlane, kCrease, kSilhouette } step = Step::kPlane;
     int32_t children = -1;  // index of the first of four, by rows
     int32_t first = -1, second = -1;  // samples of its planes; of a line, -1 is no surface
     std::array<int32_t, 4> corners = {-1, -1, -1, -1};  // samples, by rows
@@ -117,6 +118,7 @@ class Survey {
   bool probed();
   size_t countUnknown(float within) const;
   int32_t ask(const glm::ivec2& place);
+  glm::vec4 planeOf(const glm::vec3& normal, const glm::vec3& at) const;
   void writeRays();
   void start();
   void advance();

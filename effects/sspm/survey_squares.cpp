@@ -45,13 +45,19 @@ bool Survey::decide(int32_t index) {
     return true;
   }
   Found found = Found::kYes;
-  if (unknown || !hit) {
+  if (square.step != Square::Step::kPlane) {
+    found = findLine(square);
+  } else if (unknown || !hit) {
     square.kind = unknown ? Kind::kUntold : Kind::kNothing;
   } else {
     found = findPlane(square, within);
     if (found == Found::kNo && stage_ == Stage::kFine && !square.blocked) found = findLine(square);
   }
-  if (found == Found::kWait) return false;
+  if (found == Found::kWait) {
+    at(index) = square;
+    at(index).kind = Kind::kUndecided;
+    return false;
+  }
   if (found == Found::kNo) {
     if (stage_ == Stage::kFine && square.size > finestAt(square)) {
       divide(index);
@@ -67,6 +73,7 @@ bool Survey::decide(int32_t index) {
 // have hits.
 float Survey::misfit(int32_t plane, int32_t other) const {
   const Sample& seen = sample(other);
+  if (sample(plane).plane == seen.plane) return 0;
   return std::abs(depthBehind(frame_, sample(plane).plane, seen.at, glm::vec3(seen.plane))) /
          kSafety;
 }
@@ -134,17 +141,24 @@ Survey::Side Survey::sideOf(const Pair& pair, int32_t index) const {
   return far <= near ? Side::kFar : Side::kNear;
 }
 
-// Divides the square between two planes by a line.
+// Divides the square between two planes by a line. If it waits for rays, it goes on from the
+// square's step.
 Survey::Found Survey::findLine(Square& square) {
-  Pair pair;
-  if (!findPair(square, pair)) return Found::kNo;
+  using Step = Square::Step;
+  Pair pair = {.far = square.first, .near = square.second};
+  if (square.step == Step::kPlane) {
+    if (!findPair(square, pair)) return Found::kNo;
+    square.first = pair.far;
+    square.second = pair.near;
+    square.step = findCrease(square, pair, square.line) ? Step::kCrease : Step::kSilhouette;
+  }
   square.kind = Kind::kTwoPlanes;
-  square.first = pair.far;
-  square.second = pair.near;
+  square.shift = 0;
   square.ragged = false;
-  if (findCrease(square, pair, square.line)) {
+  if (square.step == Step::kCrease) {
     const Found found = confirm(square, pair, square.line);
     if (found != Found::kNo) return found;
+    square.step = Step::kSilhouette;
   }
   square.ragged = true;
   const Found found = findSilhouette(square, pair, square.line);
