@@ -4,9 +4,11 @@
 #include <glm/gtc/packing.hpp>
 
 #include <algorithm>
+#include <atomic>
 #include <bit>
 #include <chrono>
 #include <cmath>
+#include <thread>
 #include <utility>
 
 namespace grisaille::sspm {
@@ -40,6 +42,18 @@ size_t layersOf(float full, float range) {
   const float least = std::min(1.0f, full / range);
   if (least >= 1 - kThrough) return 1;
   return static_cast<size_t>(std::ceil(std::log(kThrough) / std::log1p(-least)));
+}
+
+// Calls work(0) to work(count - 1), on all hardware threads if there is more than one call.
+void onAllThreads(size_t count, const std::function<void(size_t)>& work) {
+  std::atomic<size_t> next = 0;
+  const auto run = [&] {
+    for (size_t i = next++; i < count; i = next++) work(i);
+  };
+  std::vector<std::jthread> threads;
+  const size_t most = std::min<size_t>(std::thread::hardware_concurrency(), count);
+  while (threads.size() + 1 < most) threads.emplace_back(run);
+  run();
 }
 
 }  // namespace
@@ -157,19 +171,21 @@ bool PaintWorld::step(const CastRays& cast, std::vector<uint32_t>& unknown) {
     rays += work.survey.rays().size();
     if (rays >= kMostRays) break;
   }
-  std::vector<bool> told;
-  if (!castFor(now, cast, told)) return false;
-  for (size_t i = 0; i < now.size(); ++i) {
-    Work& work = *now[i];
-    if (!told[i]) {
+  if (!castFor(now, cast)) return false;
+  for (Work* each : now) {
+    Work& work = *each;
+    if (!work.told) {
       unknown.push_back(work.id);
     } else if (!work.survey.rays().empty()) {
       continue;
     } else if (!work.survey.isRough()) {
-      place(work.id, work.survey);
-    } else if (!isHidden(work.id, work.survey, gridFor(work.survey.frame()))) {
-      work.survey.refine();
-      continue;
+      place(work);
+    } else {
+      work.grid = gridFor(work.survey.frame());
+      if (!isHidden(work.id, work.survey, *work.grid)) {
+        work.survey.refine();
+        continue;
+      }
     }
     work.id = kNone;
   }
@@ -184,26 +200,30 @@ void PaintWorld::refill() {
     // Places its twin first.
     if (std::ranges::any_of(work_, [&](const Work& w) { return alike(list_[w.id], shot); })) return;
     pending_.pop_back();
-    if (!countTwin(id)) work_.push_back({id, Survey(shot, rangeOf(id)), {}});
+    if (!countTwin(id)) work_.push_back({.id = id, .survey = Survey(shot, rangeOf(id))});
   }
 }
 
-// Casts the rays of several surveys in one batch. Returns false if the host casts no rays.
-// told: gets the result of each survey's take().
-bool PaintWorld::castFor(std::span<Work*> works, const CastRays& cast, std::vector<bool>& told) {
+// Casts the rays of several surveys in one batch, then takes the hits of each survey and, once it is
+// complete, its map and shares. Returns false if the host casts no rays.
+bool PaintWorld::castFor(std::span<Work* const> works, const CastRays& cast) {
   std::vector<grisaille_ray> rays;
+  std::vector<size_t> first;
   for (const Work* work : works) {
     const auto asked = work->survey.rays();
+    first.push_back(rays.size());
     rays.insert(rays.end(), asked.begin(), asked.end());
   }
   std::vector<grisaille_hit> hits(rays.size());
   if (!cast(rays, hits)) return false;
-  std::span<const grisaille_hit> left = hits;
-  for (Work* work : works) {
-    const size_t count = work->survey.rays().size();
-    told.push_back(work->survey.take(left.first(count)));
-    left = left.subspan(count);
-  }
+  onAllThreads(works.size(), [&](size_t i) {
+    Work& work = *works[i];
+    Survey& survey = work.survey;
+    work.told = survey.take(std::span(hits).subspan(first[i], survey.rays().size()));
+    if (!work.told || !survey.rays().empty() || survey.isRough()) return;
+    work.map = survey.map();
+    work.shares = sharesOf(survey.frame(), *work.grid, survey.patches());
+  });
   return true;
 }
 
@@ -217,14 +237,13 @@ void PaintWorld::askAgain(const CastRays& cast) {
     bool can = true, first = true, learned = false;
     while (can && !work.survey.rays().empty()) {
       Work* one = &work;
-      std::vector<bool> told;
-      can = castFor(std::span(&one, 1), cast, told);
+      can = castFor(std::span(&one, 1), cast);
       learned = can && (learned || !first || work.survey.unknown() < before);
       first = false;
     }
     if (learned) {
       remove(work.id, work.cells);
-      place(work.id, work.survey);
+      place(work);
     } else {
       partly_.push_back(std::move(work));
     }
@@ -254,10 +273,12 @@ CellGrid PaintWorld::gridFor(const ShotFrame& frame) {
   return {frame.origin, best};
 }
 
-void PaintWorld::place(uint32_t id, Survey& survey) {
-  const ShotMap map = survey.map();
-  const CellGrid grid = gridFor(survey.frame());
-  const std::vector<Share> shares = sharesOf(survey.frame(), grid, survey.patches());
+void PaintWorld::place(Work& work) {
+  const uint32_t id = work.id;
+  const Survey& survey = work.survey;
+  const ShotMap& map = work.map;
+  const CellGrid& grid = *work.grid;
+  const std::vector<Share>& shares = work.shares;
   const bool partly = survey.unknownInside() > 0;
   if (!shares.empty()) {
     State& state = states_[id];
@@ -282,10 +303,10 @@ void PaintWorld::place(uint32_t id, Survey& survey) {
       if (!join(id, survey.frame(), grid, map, share)) unlist(id, 0);
     }
   }
-  std::vector<CellKey> cells(shares.size());
-  std::ranges::transform(shares, cells.begin(), &Share::key);
-  joinTwins(id, cells);
-  if (partly) partly_.push_back({id, std::move(survey), std::move(cells)});
+  work.cells.resize(shares.size());
+  std::ranges::transform(shares, work.cells.begin(), &Share::key);
+  joinTwins(id, work.cells);
+  if (partly) partly_.push_back(std::move(work));
 }
 
 // Removes a shot from all lists. cells: those in which it was placed.

@@ -6,6 +6,7 @@
 #include <cstdint>
 #include <deque>
 #include <functional>
+#include <optional>
 #include <span>
 #include <unordered_map>
 #include <vector>
@@ -65,7 +66,12 @@ class PaintWorld {
   struct Work {
     uint32_t id;
     Survey survey;
-    std::vector<CellKey> cells;  // in which it was placed
+    std::vector<CellKey> cells = {};   // in which it was placed
+    std::optional<CellGrid> grid = {}; // once the rough picture is complete
+    // What the survey found, once it is complete.
+    ShotMap map = {};
+    std::vector<Share> shares = {};
+    bool told = true;  // by the host, as far as it could
   };
   // Shots with the same origin, direction and range. Once enough of them hide everything older, the
   // effect does not place further older ones: it only counts their alphas.
@@ -82,12 +88,12 @@ class PaintWorld {
   std::vector<uint64_t> forgetTwins(const std::vector<bool>& gone);
   bool step(const CastRays& cast, std::vector<uint32_t>& unknown);
   void refill();
-  bool castFor(std::span<Work*> works, const CastRays& cast, std::vector<bool>& told);
+  bool castFor(std::span<Work* const> works, const CastRays& cast);
   void askAgain(const CastRays& cast);
   bool countTwin(uint32_t id);
   void joinTwins(uint32_t id, std::span<const CellKey> cells);
   CellGrid gridFor(const ShotFrame& frame);
-  void place(uint32_t id, Survey& survey);
+  void place(Work& work);
   void remove(uint32_t id, std::span<const CellKey> cells);
   void writeRecord(uint32_t id, const ShotFrame& frame, const ShotMap& map);
   void writeCount(uint32_t id, uint32_t counted);
