@@ -52,20 +52,6 @@ double residentMemory() {
   return 0;
 }
 
-// Casts rays and counts them.
-class Rays : public tests::TracedRays {
- public:
-  using TracedRays::TracedRays;
-  void cast(std::span<const grisaille_ray> rays, std::span<grisaille_hit> hits) override {
-    TracedRays::cast(rays, hits);
-    count_ += rays.size();
-  }
-  size_t count() const { return count_; }
-
- private:
-  size_t count_ = 0;
-};
-
 // Shots from anywhere around the cameras at any surface that they see, as in a game.
 Shots randomShots(const Subject& subject, const trace::RayTracer& tracer, size_t count) {
   std::mt19937 random(1);
@@ -101,7 +87,7 @@ struct Place {
       : subject(std::move(theSubject)),
         counts(std::move(theCounts)),
         perShotCounts(std::move(thePerShotCounts)),
-        rays(std::make_unique<Rays>(subject.scene)) {
+        rays(std::make_unique<tests::TracedRays>(subject.scene)) {
     size_t most = 0;
     for (const size_t count : counts) most = std::max(most, count);
     for (const size_t count : perShotCounts) most = std::max(most, count);
@@ -110,14 +96,14 @@ struct Place {
 
   Subject subject;
   std::vector<size_t> counts, perShotCounts;  // for `surface` and `per_shot` mode
-  std::unique_ptr<Rays> rays;
+  std::unique_ptr<tests::TracedRays> rays;
   Shots shots;
 };
 
 // A renderer with the paint of some shots.
 class Painted {
  public:
-  Painted(gpu::Device& device, const Subject& subject, const effect::Registry& registry, Rays& rays)
+  Painted(gpu::Device& device, const Subject& subject, const effect::Registry& registry, tests::TracedRays& rays)
       : device_(device),
         subject_(subject),
         rays_(rays),
@@ -160,7 +146,7 @@ class Painted {
  private:
   gpu::Device& device_;
   const Subject& subject_;
-  Rays& rays_;
+  tests::TracedRays& rays_;
   effect::Chain chain_;
   effect::StartedChain started_;
   frame::Renderer renderer_;
@@ -335,7 +321,8 @@ void measure(const std::string& backend, const Place& place, const effect::Regis
   std::fflush(stdout);
 }
 
-void run(const Options& options) {
+void run(Options options) {
+  for (auto* counts : {&options.counts, &options.wallCounts}) std::erase(*counts, 0);
   std::deque<Place> places;  // a deque, since rays refer to their scene by address
   places.emplace_back(loadSubject(), options.counts, options.perShotCounts);
   places.emplace_back(wallSubject(), options.wallCounts, std::vector<size_t>{});
