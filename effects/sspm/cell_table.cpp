@@ -77,7 +77,7 @@ void CellTable::grow() {
   for (uint32_t i = 0; i < cells_.size(); ++i) place(i);
 }
 
-void CellTable::publish(Cell& cell) {
+std::span<uint32_t> CellTable::reserve(Cell& cell) {
   const uint32_t count = static_cast<uint32_t>(cell.entries.size());
   const uint32_t wanted = count == 0 ? 0 : Runs::capacityFor(count);
   if (wanted != cell.capacity) {
@@ -85,19 +85,11 @@ void CellTable::publish(Cell& cell) {
     cell.first = count > 0 ? runs_.take(count) : 0;
     cell.capacity = wanted;
   }
-  if (count > 0) {
-    const auto words = words_.change(size_t{cell.first} * 4, size_t{count} * 4);
-    for (size_t i = 0; i < count; ++i) {
-      const Entry& entry = cell.entries[i];
-      words[4 * i] = entry.record;
-      words[4 * i + 1] = entry.word;
-      words[4 * i + 2] = static_cast<uint32_t>(entry.touched);
-      words[4 * i + 3] = static_cast<uint32_t>(entry.touched >> 32);
-    }
-  }
   const auto slot = slots_.change(cell.slot * kSlotWords + 4, 2);
   slot[0] = cell.first;
   slot[1] = count;
+  return count > 0 ? words_.change(size_t{cell.first} * 4, size_t{count} * 4)
+                   : std::span<uint32_t>();
 }
 
 }  // namespace grisaille::sspm

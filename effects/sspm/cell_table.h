@@ -46,12 +46,12 @@ using KnownSet = std::bitset<kMostKnown>;
 
 // A shot in a cell's list.
 struct Entry {
-  uint32_t shot = 0;
-  uint32_t record = 0;    // index of its record on the device
-  uint32_t word = 0;      // of its map: the root, or a plane if that plane serves the whole cell
   uint64_t touched = 0;   // parts of the cell that it may paint
   uint64_t ragged = 0;    // those of `touched` in which its paint may have gaps
   KnownSet painted = {};  // known pieces that it paints; in ragged parts, perhaps with gaps
+  uint32_t shot = 0;
+  // Reference within its map: the root, or a plane if that plane serves the whole cell.
+  uint16_t reference = 0;
 };
 
 struct Cell {
@@ -82,7 +82,18 @@ class CellTable {
   Cell* find(const CellKey& key);
 
   // Copies a cell's entries to the mirrors. Call it after each change of the entries.
-  void publish(Cell& cell);
+  // recordOf(shot): index of its record on the device.
+  template <typename RecordOf>
+  void publish(Cell& cell, const RecordOf& recordOf) {
+    const std::span<uint32_t> words = reserve(cell);
+    for (size_t i = 0; i < cell.entries.size(); ++i) {
+      const Entry& entry = cell.entries[i];
+      words[4 * i] = recordOf(entry.shot);
+      words[4 * i + 1] = entry.reference;
+      words[4 * i + 2] = static_cast<uint32_t>(entry.touched);
+      words[4 * i + 3] = static_cast<uint32_t>(entry.touched >> 32);
+    }
+  }
 
   std::deque<Cell>& cells() { return cells_; }
   uint32_t slotMask() const { return static_cast<uint32_t>(slotCells_.size() - 1); }
@@ -93,6 +104,8 @@ class CellTable {
  private:
   void place(uint32_t cell);
   void grow();
+  // The cell's run on the device, as long as its list.
+  std::span<uint32_t> reserve(Cell& cell);
 
   std::deque<Cell> cells_;           // a deque: references stay valid
   std::vector<uint32_t> slotCells_;  // index into cells_; ~0: free

@@ -111,17 +111,12 @@ bool PaintWorld::isHidden(uint32_t id, const Survey& survey, const CellGrid& gri
 bool PaintWorld::join(uint32_t id, const ShotFrame& frame, const CellGrid& grid, const ShotMap& map,
                       const Share& share) {
   Cell& cell = cells_.at(share.key);
-  Entry entry{.shot = id,
-              .record = states_[id].record,
-              .word = map.root,
-              .touched = share.touched,
-              .ragged = share.ragged};
-  if (share.plain && share.ragged == 0 && map.root >= kLine) {
-    entry.word = referenceTo(share.plane, map);
-  }
+  Entry entry{.touched = share.touched, .ragged = share.ragged, .shot = id};
+  const bool plain = share.plain && share.ragged == 0 && map.root >= kLine;
+  entry.reference = static_cast<uint16_t>(plain ? referenceTo(share.plane, map) : map.root);
   const glm::vec3 corner = grid.corner(cell.key);
   const auto reaches = [&](size_t known) {
-    return paints(frame, entry.word, map.words.data(),
+    return paints(frame, entry.reference, map.words.data(),
                   pointOf(cell.known[known], corner, grid.edge));
   };
   for (const SurfacePoint& point : share.points) {
@@ -137,9 +132,14 @@ bool PaintWorld::join(uint32_t id, const ShotFrame& frame, const CellGrid& grid,
     return false;
   }
   const auto position = std::ranges::lower_bound(cell.entries, id, std::greater<>(), &Entry::shot);
-  cell.entries.insert(position, entry);
+  const auto index = position - cell.entries.begin();
+  // Grows by a quarter: doubling would leave a third of all entries unused.
+  if (cell.entries.size() == cell.entries.capacity()) {
+    cell.entries.reserve(cell.entries.size() * 5 / 4 + 1);
+  }
+  cell.entries.insert(cell.entries.begin() + index, entry);
   if (cell.entries.size() >= cell.pruneAt) prune(cell);
-  cells_.publish(cell);
+  publish(cell);
   return true;
 }
 
@@ -171,7 +171,7 @@ bool PaintWorld::paintsPoint(const Entry& entry, const glm::dvec3& origin,
   const ShotFrame frame = frameOf(entry.shot);
   SurfacePoint own = point;
   own.at += glm::vec3(origin - frame.origin);
-  return paints(frame, entry.word, blocks_.data() + size_t{placed_[entry.record].base} * 2, own);
+  return paints(frame, entry.reference, blocks_.data() + size_t{placed_[states_[entry.shot].record].base} * 2, own);
 }
 
 // Finds the sealed pieces, and removes hidden shots from the list.

@@ -125,7 +125,7 @@ void PaintWorld::forget(size_t count, bool allLost) {
     if (erased == 0 && !allLost) continue;
     cell.sealed.reset();
     cell.pruneAt = 0;
-    if (erased > 0) cells_.publish(cell);
+    if (erased > 0) publish(cell);
   }
   const auto isGone = [&](const Work& work) { return static_cast<bool>(gone[work.id]); };
   std::erase_if(work_, isGone);
@@ -318,7 +318,7 @@ void PaintWorld::remove(uint32_t id, std::span<const CellKey> cells) {
     if (std::erase_if(cell->entries, listed) == 0) continue;
     cell->sealed.reset();
     cell->pruneAt = 0;
-    cells_.publish(*cell);
+    publish(*cell);
     unlist(id, 0);
   }
 }

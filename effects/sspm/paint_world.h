@@ -94,6 +94,9 @@ class PaintWorld {
   void joinTwins(uint32_t id, std::span<const CellKey> cells);
   CellGrid gridFor(const ShotFrame& frame);
   void place(Work& work);
+  void publish(Cell& cell) {
+    cells_.publish(cell, [&](uint32_t shot) { return states_[shot].record; });
+  }
   void remove(uint32_t id, std::span<const CellKey> cells);
   void writeRecord(uint32_t id, const ShotFrame& frame, const ShotMap& map);
   void writeCount(uint32_t id, uint32_t counted);

@@ -66,7 +66,7 @@ bool Survey::probed() {
   }
   stage_ = Stage::kRough;
   samples_.clear();
-  slots_.assign(1024, -1);
+  slots_.assign(2048, {});
   start();
   return true;
 }
@@ -137,25 +137,26 @@ int32_t Survey::leafAt(const glm::ivec2& place) const {
 // Index of the sample at a place. Asks for its ray if there is none.
 int32_t Survey::ask(const glm::ivec2& place) {
   if (samples_.size() * 2 >= slots_.size()) growSlots();
-  const size_t mask = slots_.size() - 1;
-  for (size_t slot = hashOf(place) & mask;; slot = (slot + 1) & mask) {
-    if (slots_[slot] < 0) {
-      slots_[slot] = static_cast<int32_t>(samples_.size());
-      asked_.push_back(slots_[slot]);
-      samples_.push_back({.place = place});
-      return slots_[slot];
-    }
-    if (sample(slots_[slot]).place == place) return slots_[slot];
+  Slot& slot = slotOf(place);
+  if (slot.sample < 0) {
+    slot = {place, static_cast<int32_t>(samples_.size())};
+    asked_.push_back(slot.sample);
+    samples_.push_back({.place = place});
   }
+  return slot.sample;
+}
+
+Survey::Slot& Survey::slotOf(const glm::ivec2& place) {
+  const size_t mask = slots_.size() - 1;
+  size_t at = hashOf(place) & mask;
+  while (slots_[at].sample >= 0 && slots_[at].place != place) at = (at + 1) & mask;
+  return slots_[at];
 }
 
 void Survey::growSlots() {
-  slots_.assign(2 * slots_.size(), -1);
-  const size_t mask = slots_.size() - 1;
+  slots_.assign(2 * slots_.size(), {});
   for (size_t i = 0; i < samples_.size(); ++i) {
-    size_t slot = hashOf(samples_[i].place) & mask;
-    while (slots_[slot] >= 0) slot = (slot + 1) & mask;
-    slots_[slot] = static_cast<int32_t>(i);
+    slotOf(samples_[i].place) = {samples_[i].place, static_cast<int32_t>(i)};
   }
 }
 

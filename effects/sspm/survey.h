@@ -125,6 +125,8 @@ class Survey {
   void doubt();
   int32_t leafAt(const glm::ivec2& place) const;
   int32_t grainAt(const Square& square) const;
+  struct Slot;
+  Slot& slotOf(const glm::ivec2& place);
   void growSlots();
   void divide(int32_t index);
   bool inRange(const Sample& sample) const;
@@ -160,7 +162,12 @@ class Survey {
   int probes_ = 0;  // rounds of probing
   int32_t finest_ = 1;  // width of a bisection's last interval; squares are twice as wide
   std::vector<Sample> samples_;
-  std::vector<int32_t> slots_;  // hash table of samples_ by place, with linear probing; -1: free
+  // Hash table of samples_ by place, with linear probing.
+  struct Slot {
+    glm::ivec2 place = glm::ivec2(0);
+    int32_t sample = -1;  // -1: free
+  };
+  std::vector<Slot> slots_;
   std::vector<Square> squares_;
   std::vector<int32_t> undecided_;
   std::vector<int32_t> asked_;  // samples of rays_, in order
