@@ -108,13 +108,8 @@ void Survey::doubt() {
     const Square square = squares_[i];
     if (!square.ragged || square.told) continue;
     squares_[i].told = true;
-    for (const glm::ivec2 side : {glm::ivec2(1, 0), {-1, 0}, {0, 1}, {0, -1}}) {
-      const glm::ivec2 place = square.corner + square.size / 2 + side * (square.size / 2 + 1);
-      if (glm::any(glm::lessThan(place, glm::ivec2(0))) ||
-          glm::any(glm::greaterThanEqual(place, glm::ivec2(kAcross)))) {
-        continue;
-      }
-      const int32_t index = leafAt(place);
+    for (const int32_t index : neighboursOf(square)) {
+      if (index < 0) continue;
       Square& other = at(index);
       if (other.kind != Kind::kOnePlane || other.doubtful || other.size < 8 * finest_) continue;
       other.doubtful = true;
@@ -124,7 +119,21 @@ void Survey::doubt() {
   }
 }
 
+// The leaves beyond the middles of a square's four sides; -1 outside the map.
+std::array<int32_t, 4> Survey::neighboursOf(const Square& square) const {
+  constexpr std::array<glm::ivec2, 4> kSides = {{{1, 0}, {-1, 0}, {0, 1}, {0, -1}}};
+  std::array<int32_t, 4> leaves;
+  std::ranges::transform(kSides, leaves.begin(), [&](const glm::ivec2& side) {
+    return leafAt(square.corner + square.size / 2 + side * (square.size / 2 + 1));
+  });
+  return leaves;
+}
+
 int32_t Survey::leafAt(const glm::ivec2& place) const {
+  if (glm::any(glm::lessThan(place, glm::ivec2(0))) ||
+      glm::any(glm::greaterThanEqual(place, glm::ivec2(kAcross)))) {
+    return -1;
+  }
   int32_t index = 0;
   while (at(index).children >= 0) {
     const glm::ivec2 inside = place - at(index).corner;
@@ -204,11 +213,13 @@ bool Survey::take(std::span<const grisaille_hit> hits) {
 }
 
 // The plane through a hit, rounded: to the normals that a map holds, and to a 16th of the bias. All
-// hits of a facet have the same plane then.
+// hits of a facet have the same plane then. A plane close to the muzzle keeps its distance, which
+// decides what it hides.
 glm::vec4 Survey::planeOf(const glm::vec3& normal, const glm::vec3& at) const {
   const glm::vec3 rounded = roundedNormal(normal);
-  const float step = frame_.bias / 16;
-  return glm::vec4(rounded, std::round(glm::dot(rounded, at) / step) * step);
+  const float distance = glm::dot(rounded, at);
+  const float step = std::abs(distance) > frame_.bias ? frame_.bias / 16 : 0;
+  return glm::vec4(rounded, step > 0 ? std::round(distance / step) * step : distance);
 }
 
 bool Survey::inRange(const Sample& sample) const {

@@ -123,6 +123,7 @@ class Survey {
   void start();
   void advance();
   void doubt();
+  std::array<int32_t, 4> neighboursOf(const Square& square) const;
   int32_t leafAt(const glm::ivec2& place) const;
   int32_t grainAt(const Square& square) const;
   struct Slot;

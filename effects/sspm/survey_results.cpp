@@ -96,12 +96,13 @@ void Survey::gatherPlanes(int32_t index, std::vector<SeenPlane>& planes, bool& r
 Patch Survey::patchOf(const Square& square, const glm::vec4& plane) const {
   Patch patch;
   patch.plane = plane;
-  // Largest distance at which a slope of the square leaves the cylinder.
+  // Largest distance at which a slope of the square leaves the cylinder; near the axis, several times
+  // that of the farthest hit, since rays miss where grazed surfaces end.
   const glm::vec2 centre = centreOf(square);
   const float size = sizeOf(square);
   const glm::vec2 nearest = glm::max(glm::abs(centre) - size / 2, 0.0f);
   const float farthest =
-      std::min(exitOf(frame_, slopeOf(frame_, nearest)), 2 * frame_.range / frame_.slope);
+      std::min(exitOf(frame_, slopeOf(frame_, nearest)), 8 * frame_.range / frame_.slope);
   const auto put = [&](const glm::vec2& offset) {
     const glm::vec2 slope = slopeOf(frame_, centre + size * offset);
     const glm::vec3 along = alongSlope(frame_, slope);

@@ -218,9 +218,6 @@ const std::vector<Edge>& edges() {
       {"thin things before a muzzle", 0.02,
        "A shot's map has squares no finer than 4 mm or a 256th of the range. Beside a thinner "
        "object, the border of the paint is off by up to one square."},
-      {"beside a muzzle's map", 0.04,
-       "A shot's map is fine where most paint lands and coarse beside the muzzle. If the shot's "
-       "rim grazes a wall far from the ray, its thin paint ends early."},
       {"far muzzle", 0.08,
        "In `surface` mode the shader computes positions as offsets from the muzzle, in single "
        "precision. From 10^5 m on they are centimetres off, which moves rims. `per_shot` mode "
@@ -250,7 +247,6 @@ std::string edgeOf(const Case& one) {
     return "a direction between two sectors";
   if (one.variant != "paint on surfaces") return "";
   if (one.scenery.kind == Kind::kWires) return "thin things before a muzzle";
-  if (one.group == "at random") return "beside a muzzle's map";
   const bool far = std::ranges::any_of(one.shots, [&](const Shot& shot) {
     const glm::dvec3 origin(shot.origin[0], shot.origin[1], shot.origin[2]);
     return glm::distance(origin, one.camera.eye) > 5e4 * one.scenery.scale;
