@@ -187,7 +187,8 @@ void Controls::updateKeys(const Place& place, Requests& requests) {
   if (io.WantCaptureKeyboard) return;  // the panel takes the keys
   if (isKeyPressed(GLFW_KEY_TAB) && panel_.shown) ImGui::SetWindowFocus("Grisaille");
   if (isKeyPressed(GLFW_KEY_SPACE)) {
-    session_.attempt([&] { session_.place(0.5 * glm::dvec2(place.size), place.size, false); });
+    session_.attempt("object",
+                     [&] { session_.place(0.5 * glm::dvec2(place.size), place.size, false); });
   }
   const double x =
       (isKeyPressed(GLFW_KEY_RIGHT, true) ? 1 : 0) - (isKeyPressed(GLFW_KEY_LEFT, true) ? 1 : 0);
@@ -206,7 +207,7 @@ void Controls::updateViewKeys() {
   if (isKeyPressed(GLFW_KEY_P)) session_.paused = !session_.paused;
   if (isKeyPressed(GLFW_KEY_N)) session_.step = true;
   if (isKeyPressed(GLFW_KEY_K))
-    session_.attempt([&] { session_.play(!session_.playback.playing); });
+    session_.attempt("pose", [&] { session_.play(!session_.playback.playing); });
   if (isKeyPressed(GLFW_KEY_COMMA, true)) session_.stepFrames(-1);
   if (isKeyPressed(GLFW_KEY_PERIOD, true)) session_.stepFrames(1);
   if (isKeyPressed(GLFW_KEY_HOME)) session_.camera = session_.homeCamera;
@@ -230,7 +231,7 @@ void Controls::updateBookmarkKeys() {
   for (int digit = 1; digit <= 9; ++digit) {
     if (!isKeyPressed(GLFW_KEY_0 + digit)) continue;
     const std::string name = std::to_string(digit);
-    session_.attempt([&] {
+    session_.attempt("bookmark", [&] {
       if (ImGui::GetIO().KeyCtrl) {
         bookmarks_.save(name, session_.camera);
         panel_.refreshLists();
@@ -247,7 +248,7 @@ void Controls::updateBookmarkKeys() {
 void Controls::placeObject(const Place& place, glm::dvec2 offset, bool joins) {
   const glm::dvec2 point = pointAt(place, cursor_ + offset);
   if (point.x < 0 || point.y < 0 || point.x >= place.size.x || point.y >= place.size.y) return;
-  session_.attempt([&] { session_.place(point, place.size, joins); });
+  session_.attempt("object", [&] { session_.place(point, place.size, joins); });
 }
 
 }  // namespace grisaille::app::viewer

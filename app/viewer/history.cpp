@@ -81,8 +81,8 @@ void History::undo() {
   if (step.objectSteps == 0) {
     change(step.at, step.after, step.before);
   } else {
-    objects::ObjectList& list = listOf_(step.effect);
-    for (size_t i = 0; i < step.objectSteps; ++i) list.undo();
+    objects::ObjectList* list = listOf_(step.effect);
+    for (size_t i = 0; list != nullptr && i < step.objectSteps; ++i) list->undo();
   }
   --done_;
 }
@@ -93,8 +93,8 @@ void History::redo() {
   if (step.objectSteps == 0) {
     change(step.at, step.before, step.after);
   } else {
-    objects::ObjectList& list = listOf_(step.effect);
-    for (size_t i = 0; i < step.objectSteps; ++i) list.redo();
+    objects::ObjectList* list = listOf_(step.effect);
+    for (size_t i = 0; list != nullptr && i < step.objectSteps; ++i) list->redo();
   }
   ++done_;
 }

@@ -18,11 +18,11 @@ namespace grisaille::app::viewer {
 class History {
  public:
   using Restore = std::function<void(const effect::Selection::State&)>;
-  using ListOf = std::function<objects::ObjectList&(std::string_view effect)>;
+  using ListOf = std::function<objects::ObjectList*(std::string_view effect)>;
 
   // `now`: the state before the first step. undo() and redo() pass the whole state to `restore` for
-  // a settings step, and undo or redo the list that `listOf` returns for an object step. `listOf`
-  // must return a list for every effect passed to noteObjects().
+  // a settings step, and undo or redo the list that `listOf` returns for an object step. Null: the
+  // effect has no list any more, and the step does nothing.
   History(const effect::Selection::State& now, Restore restore, ListOf listOf);
 
   // Forgets all steps: `now` is the state before the first one.

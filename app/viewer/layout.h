@@ -18,13 +18,15 @@ class Layout {
   void note(const std::string& name, float left, float top, float right, float bottom,
             const std::string& value = "");
 
-  // {"name": {"rect": [left, top, right, bottom], "value": "..."}, ...}
+  // {"name": {"rect": [left, top, right, bottom], "value": "...", "id": 1}, ...}. `id`: ImGui's id
+  // of the control, different for each; missing: it takes no input.
   std::string json() const;
 
  private:
   struct Control {
-    float rect[4];
+    float rect[4] = {};
     std::string value;
+    unsigned id = 0;  // 0: none
   };
   std::map<std::string, Control> controls_;
 };

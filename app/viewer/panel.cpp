@@ -144,6 +144,9 @@ void Panel::drawMessages() {
   if (messagesSeen_ != session_.messages.size()) ImGui::SetScrollHereY(1);
   messagesSeen_ = session_.messages.size();
   if (!session_.messages.empty()) layout.note("message", session_.messages.back().text);
+  const auto error = std::ranges::find(session_.messages.rbegin(), session_.messages.rend(), true,
+                                       &Message::error);
+  if (error != session_.messages.rend()) layout.note("error", 0, 0, 0, 0, error->text);
   ImGui::EndChild();
 }
 
@@ -158,20 +161,20 @@ void Panel::drawSettings(Requests& requests) {
   path("##settings", "settings path", settingsPath_);
   ImGui::SameLine();
   if (button("Load", "load settings")) {
-    session_.attempt([&] { session_.loadSettings(settingsPath_); });
+    session_.attempt("settings to load", [&] { session_.loadSettings(settingsPath_); });
   }
   ImGui::SameLine();
   if (button("Save", "save settings", "(Ctrl+S)")) saveSettings();
   for (const SavedSettings& saved : savedList_) {
     if (ImGui::Selectable(saved.name.c_str())) {
-      session_.attempt([&] { session_.loadSettings(saved.path.string()); });
+      session_.attempt("settings to load", [&] { session_.loadSettings(saved.path.string()); });
     }
     layout.note("saved." + saved.name);
   }
   path("##saved", "saved name", savedName_);
   ImGui::SameLine();
   if (button("Save under this name", "save named", "Lists the settings here, in every session")) {
-    session_.attempt([&] {
+    session_.attempt("settings to save", [&] {
       Bookmarks::checkName(savedName_);
       std::filesystem::create_directories(configFolder() / "settings");
       session_.saveSettings((configFolder() / "settings" / (savedName_ + ".toml")).string());
@@ -201,7 +204,7 @@ void Panel::drawCamera() {
                                  &most, "%.1f degrees");
   layout.note("camera.fov", fmt::format("{}", edited.fovyDegrees));
   if (changed) {
-    session_.attempt([&] {
+    session_.attempt("camera", [&] {
       scene::validate(edited);
       session_.camera = edited;
     });
@@ -210,7 +213,7 @@ void Panel::drawCamera() {
   for (const Bookmarks::Entry& entry : bookmarkList_) {
     ImGui::PushID(entry.name.c_str());
     if (ImGui::SmallButton("x")) {
-      session_.attempt([&] { bookmarks_.remove(entry.name); });
+      session_.attempt("bookmark", [&] { bookmarks_.remove(entry.name); });
       listsFresh_ = false;
     }
     ImGui::SameLine();
@@ -225,7 +228,7 @@ void Panel::drawCamera() {
   path("##bookmark", "bookmark name", bookmarkName_);
   ImGui::SameLine();
   if (button("Bookmark", "save bookmark")) {
-    session_.attempt([&] { bookmarks_.save(bookmarkName_, session_.camera); });
+    session_.attempt("bookmark", [&] { bookmarks_.save(bookmarkName_, session_.camera); });
     listsFresh_ = false;
   }
 }

@@ -79,7 +79,7 @@ class Panel {
 
   void refreshLists() { listsFresh_ = false; }
   void saveSettings() {
-    session_.attempt([&] { session_.saveSettings(settingsPath_); });
+    session_.attempt("settings to save", [&] { session_.saveSettings(settingsPath_); });
   }
 
   bool shown = true, help = false, wantsCoverage = false;

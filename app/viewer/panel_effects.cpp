@@ -189,7 +189,7 @@ void Panel::drawParameter(effect::Selection::Entry& entry, const grisaille_param
     }
   }
   if (edited && value != entry.values.get(param.key)) {
-    session_.attempt([&] {
+    session_.attempt(name, [&] {
       entry.values.set(param.key, value);
       session_.changed(name);
     });

@@ -110,11 +110,11 @@ void Panel::drawObjectFile(const std::string& effect) {
   path("##objects", (effect + ".path").c_str(), file);
   ImGui::SameLine();
   if (button("Load", (effect + ".load").c_str())) {
-    session_.attempt([&] { session_.loadObjects(effect, file); });
+    session_.attempt(effect + " to load", [&] { session_.loadObjects(effect, file); });
   }
   ImGui::SameLine();
   if (button("Save", (effect + ".save").c_str())) {
-    session_.attempt([&] { session_.saveObjects(effect, file); });
+    session_.attempt(effect + " to save", [&] { session_.saveObjects(effect, file); });
   }
 }
 
@@ -164,7 +164,7 @@ void Panel::drawSelected(const std::string& effect, size_t index) {
     const bool edited = editField(field, id, object.values[i]);
     const std::string name = fmt::format("{}{}.{}", id, index, field.key);
     if (edited) {
-      session_.attempt([&] {
+      session_.attempt(name, [&] {
         session_.changeObjects(effect, fmt::format("{}[{}].{}", table.key, index, field.key),
                                editing_ == name,
                                [&](objects::ObjectList& list) { list.set(index, object); });
@@ -206,7 +206,7 @@ void Panel::draftText(const objects::Field& field, const std::string& id, Draft 
 
 void Panel::takeDraft() {
   const Draft draft = *std::exchange(draft_, std::nullopt);
-  session_.attempt([&] {
+  session_.attempt(draft.effect + " text", [&] {
     const objects::Table& table = session_.listOf(draft.effect).table();
     const std::string what =
         fmt::format("{}[{}].{}", table.key, draft.index, table.fields[draft.field].key);

@@ -13,13 +13,13 @@ void Panel::drawAnimationChoice() {
   if (ImGui::BeginCombo("Animation", pose.animation ? label(*pose.animation).c_str() : "At rest")) {
     if (ImGui::Selectable("At rest", !pose.animation)) {
       session_.playback.playing = false;
-      session_.attempt([&] { session_.choose({}); });
+      session_.attempt("pose", [&] { session_.choose({}); });
     }
     layout.note("animation.rest");
     for (size_t i = 0; i < animationsOf(*session_.scene).size(); ++i) {
       ImGui::PushID(static_cast<int>(i));
       if (ImGui::Selectable(label(i).c_str(), pose.animation == i)) {
-        session_.attempt([&] { session_.choose(i); });
+        session_.attempt("pose", [&] { session_.choose(i); });
       }
       layout.note(fmt::format("animation.{}", i));
       ImGui::PopID();
@@ -37,11 +37,11 @@ void Panel::drawTime() {
   ImGui::SetNextItemWidth(ImGui::GetContentRegionAvail().x * 0.58f);
   if (ImGui::SliderScalar("Time##line", ImGuiDataType_Double, &seconds, &start, &duration,
                           "%.3f s")) {
-    session_.attempt([&] { session_.seek(seconds); });
+    session_.attempt("pose", [&] { session_.seek(seconds); });
   }
   layout.note("time", fmt::format("{}", playback.pose.seconds));
   if (button(playback.playing ? "Pause##time" : "Play##time", "play", "(K)")) {
-    session_.attempt([&] { session_.play(!playback.playing); });
+    session_.attempt("pose", [&] { session_.play(!playback.playing); });
   }
   layout.note("playing", playback.playing ? "true" : "false");
   ImGui::SameLine();

@@ -68,7 +68,7 @@ void Panel::drawTruthSettings() {
   ImGui::SetNextItemWidth(width);
   if (ImGui::InputDouble("Truth's radius, m", &radius, 0, 0, "%.6g",
                          ImGuiInputTextFlags_EnterReturnsTrue)) {
-    session_.attempt([&] { session_.setTruthRadius(radius); });
+    session_.attempt("truth's radius", [&] { session_.setTruthRadius(radius); });
   }
   if (ImGui::IsItemHovered()) {
     ImGui::SetTooltip("Length of the rays. Right click: the effect's radius");

@@ -59,7 +59,7 @@ void Panel::drawPresets(effect::Selection::Entry& entry) {
     if (ImGui::IsItemHovered()) ImGui::SetTooltip("%s", tooltipOf(preset, own.presets).c_str());
     layout.note(key + ".preset." + preset.name, is ? "true" : "false");
   }
-  if (!chosen.empty()) session_.attempt([&] { session_.choosePreset(entry, chosen); });
+  if (!chosen.empty()) session_.attempt("preset", [&] { session_.choosePreset(entry, chosen); });
 }
 
 // The effect's last request; at first, the error bound is that of the preset "balanced".

@@ -14,7 +14,8 @@ void Panel::drawViewChoice(const char* label, const char* id, std::string& outpu
                            const std::vector<Viewable>& all) {
   const auto now = std::ranges::find(all, output, &Viewable::output);
   ImGui::SetNextItemWidth(ImGui::GetContentRegionAvail().x * 0.58f);
-  if (ImGui::BeginCombo(label, now != all.end() ? now->label.c_str() : output.c_str())) {
+  const std::string unique = fmt::format("{}##{}", label, id);
+  if (ImGui::BeginCombo(unique.c_str(), now != all.end() ? now->label.c_str() : output.c_str())) {
     for (const Viewable& one : all) {
       if (ImGui::Selectable(one.label.c_str(), one.output == output)) output = one.output;
       layout.note(std::string(id) + "." + one.output);

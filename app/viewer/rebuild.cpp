@@ -87,6 +87,10 @@ void Rebuild::watch(const effect::Registry& registry) {
   for (const effect::Effect& effect : registry.effects()) {
     descriptions.insert(fs::path(effect.path).replace_extension(".build.json"));
   }
+  // A refused plugin's next edit may mend it.
+  for (const effect::Refused& refused : registry.refused()) {
+    descriptions.insert(fs::path(refused.path).replace_extension(".build.json"));
+  }
   const std::vector<Plugin> before = std::exchange(plugins_, {});
   for (const fs::path& description : descriptions) {
     std::error_code failed;

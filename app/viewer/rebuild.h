@@ -26,7 +26,7 @@ class Rebuild {
   Rebuild() = default;
   ~Rebuild();  // waits for a running build
 
-  // Watches the sources of these plugins, and of no others.
+  // Watches the sources of these plugins, refused ones included, and of no others.
   void watch(const effect::Registry& registry);
 
   // Starts a build if a watched file has changed since the last call. One build at a time.

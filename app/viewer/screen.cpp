@@ -103,7 +103,8 @@ gpu::Texture Screen::draw(const ScreenDesc& desc, const ImDrawData& interfaceDat
   gpu::Commands& commands = device_.begin();
   try {
     prepare(commands, desc);
-    const Shown now = wanted(desc);
+    const bool empty = !desc.sides[0].texture || !desc.sides[1].texture;
+    const Shown now = shown_ && empty && desc.keeps ? *shown_ : wanted(desc);
     if (!shown_ || !(*shown_ == now)) {
       shown_.reset();
       show(commands, now);

@@ -27,6 +27,7 @@ struct ScreenDesc {
   glm::uvec2 pixels = glm::uvec2(0);  // of the window, over 0
   Place place;
   std::array<Side, 2> sides = {};     // without a texture: the picture stays empty
+  bool keeps = false;                 // without a texture: shows the last picture instead
   glm::uvec2 texels = glm::uvec2(0);  // of the sides
   uint64_t revision = 0;              // changes with the content of the sides
   bool split = false;

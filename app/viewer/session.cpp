@@ -44,18 +44,16 @@ Session::Session(SessionOptions options)
     : registry_(loadEffects(options.pluginPaths)),
       chain(effect::Selection(*registry_)),
       history(
-          chain.selection.state(),
+          chain.state(),
           [this](const effect::Selection::State& state) {
-            for (const std::string& dropped : chain.selection.restore(state)) say(dropped);
+            for (const std::string& dropped : chain.restore(state)) say(dropped);
             ++revision;
           },
-          [this](std::string_view effect) -> objects::ObjectList& {
-            return *chain.objects(effect);
-          }),
+          [this](std::string_view effect) { return chain.objectsEvenIfAbsent(effect); }),
       options_(std::move(options)) {
   const Settings settings = options_.config.empty() ? Settings{} : readSettings(options_.config);
   apply(asked(options_, settings), options_.presets);
-  history.begin(chain.selection.state());  // what the command line asks for is no step of undo
+  history.begin(chain.state());  // what the command line asks for is no step of undo
   loadAllPresets();
   surface =
       surfaceOf(!options_.surface.empty() ? options_.surface : settings.surface.value_or("white"));
@@ -128,7 +126,7 @@ void Session::setScene(std::shared_ptr<scene::Scene> loaded, const std::string& 
   zoom = 1;
   centre = glm::vec2(0.5f);
   if (!first) return;
-  attempt([&] {
+  attempt("pose", [&] {
     const scene::Pose pose = options_.pose.poseOf(*scene);
     choose(pose.animation);
     takePose(pose);
@@ -137,7 +135,7 @@ void Session::setScene(std::shared_ptr<scene::Scene> loaded, const std::string& 
 
 void Session::noteChanges() {
   if (lastChange_.empty()) return;
-  history.noteSettings(chain.selection.state(), std::exchange(lastChange_, {}));
+  history.noteSettings(chain.state(), std::exchange(lastChange_, {}));
 }
 
 void Session::undo() {
@@ -167,7 +165,7 @@ void Session::rescan(const std::function<void()>& before) {
   loadAllPresets();
   checkViews();
   for (const std::string& one : dropped) say(one);
-  history.noteSettings(chain.selection.state(), "rescan");
+  history.noteSettings(chain.state(), "rescan");
 }
 
 void Session::hold() {
@@ -283,20 +281,24 @@ std::string Session::commandLine(glm::uvec2 size, const std::string& backend,
   return renderCommand(command);
 }
 
-void Session::say(std::string text, bool error) {
-  messages.push_back({std::move(text), error});
+void Session::add(Message message) {
+  messages.push_back(std::move(message));
   if (messages.size() > kMessagesKept) messages.pop_front();
 }
 
-void Session::attempt(const std::function<void()>& action) {
+bool Session::attempt(const std::string& about, const std::function<void()>& action) {
+  std::string failure;
   try {
     action();
   } catch (const Error& error) {
     if (error.id() == ErrorId::kDeviceLost) throw;  // no further frame is possible
-    say(error.what(), true);
+    failure = error.what();
   } catch (const fs::filesystem_error& error) {
-    say(Error(ErrorId::kFileUnwritable, "{}", error.what()).what(), true);
+    failure = Error(ErrorId::kFileUnwritable, "{}", error.what()).what();
   }
+  std::erase_if(messages, [&](const Message& one) { return one.error && one.about == about; });
+  if (!failure.empty()) add({failure, true, about});
+  return failure.empty();
 }
 
 }  // namespace grisaille::app::viewer

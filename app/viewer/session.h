@@ -88,6 +88,7 @@ inline bool isTruthView(std::string_view output) {
 struct Message {
   std::string text;
   bool error = false;
+  std::string about = {};  // of an error: what attempt() tried; "": it stays
 };
 
 class Session {
@@ -235,12 +236,14 @@ class Session {
 
   // --- Messages
   std::deque<Message> messages;  // oldest first
-  void say(std::string text, bool error = false);
-  // Calls `action` and adds a message if it throws Error or a file system error. Rethrows only
-  // kDeviceLost.
-  void attempt(const std::function<void()>& action);
+  void say(std::string text, bool error = false) { add({std::move(text), error}); }
+  // Calls `action`, and adds a message if it throws Error or a file system error. Rethrows only
+  // kDeviceLost. `about` names what is tried, "settings": each call removes the error of the last
+  // one about the same. True if the action succeeded.
+  bool attempt(const std::string& about, const std::function<void()>& action);
 
  private:
+  void add(Message message);
   void apply(const Settings& settings, const std::vector<std::string>& presets);
   // The effect whose objects a file holds; "": none.
   std::string ownerOf(const std::string& path);

@@ -51,7 +51,7 @@ void Session::advance(double seconds) {
   if (!isPlaying()) return;
   const double length = duration();
   const double next = playback.pose.seconds + seconds * playback.speed;
-  attempt([&] { seek(length > 0 ? std::fmod(next, length) : 0); });
+  attempt("pose", [&] { seek(length > 0 ? std::fmod(next, length) : 0); });
 }
 
 // Beyond either end, the time goes on at the other.
@@ -60,7 +60,7 @@ void Session::stepFrames(int frames) {
   play(false);
   const double next = frameNumber() + frames;
   const double frame = next < 0 ? lastFrame() : next > lastFrame() ? 0 : next;
-  attempt([&] { seek(frame / Playback::kFrames); });
+  attempt("pose", [&] { seek(frame / Playback::kFrames); });
 }
 
 double Session::frameNumber() const {

@@ -166,12 +166,12 @@ void Stage::updateHeld(const StageDesc& desc) {
 void Stage::update(const StageDesc& desc) {
   if (!isStale(desc)) return;
   const bool held = desc.held != nullptr && !desc.right.empty();
+  done_ = wanted(desc, false);
+  // The held frame overwrites the live side's render targets.
   if (held && (heldWaiting_ > 0 || !heldDone_ || !(*heldDone_ == wanted(desc, true)))) {
     updateHeld(desc);
-    done_.reset();  // the held frame has overwritten the live side's render targets
   }
   if (!held) heldWaiting_ = 0;
-  done_ = wanted(desc, false);
   waiting_ = 0;
   ++revision_;
   std::vector<std::string> outputs = {desc.left};

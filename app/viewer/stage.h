@@ -71,8 +71,12 @@ class Stage {
   // for the device.
   std::vector<float> valueAt(bool right, glm::uvec2 texel);
 
-  // Makes the next update() render even if no input changes.
+  // Makes the next update() render even if no input changes. retry() also renders the held side.
   void touch() { done_.reset(); }
+  void retry() {
+    done_.reset();
+    heldDone_.reset();
+  }
 
   // Reads an output of the last update(): left, right unless it shows held settings, or an extra
   // one.

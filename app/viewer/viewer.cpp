@@ -136,6 +136,7 @@ void Viewer::showFrames() {
     // Frames drawn before the truth is traced do not count as complete.
     const bool hurry = options_.frames > 0 && !truth_->running();
     if (lookAround() || hurry) settle_ = std::max(settle_, 1);
+    if (stage_ && retry_.wait > 0 && Clock::now() >= retry_.at) stage_->retry();
     const bool stale = stage_ && !session_.paused && stage_->isStale(stageDesc());
     const bool due = settle_ > 0 || moving_ || stale || session_.continuous || session_.step ||
                      session_.isPlaying();
@@ -176,7 +177,7 @@ bool Viewer::lookAround() {
   const std::string before = rebuild_.building();
   if (std::chrono::duration<double>(now - lastLook_).count() >= kLookInterval) {
     lastLook_ = now;
-    session_.attempt([&] { rebuild_.look(); });
+    session_.attempt("build", [&] { rebuild_.look(); });
   }
   if (const auto outcome = rebuild_.take()) {
     buildMessage_ = outcome->message;
@@ -184,12 +185,12 @@ bool Viewer::lookAround() {
     if (outcome->good) perform({.scene = {}, .tune = {}, .rescan = true});
   }
   news |= lookAtTune();
-  session_.attempt([&] { news |= truth_->look(); });
+  session_.attempt("truth", [&] { news |= truth_->look(); });
   return news || before != rebuild_.building();
 }
 
 void Viewer::startTune(const TuneWish& wish) {
-  session_.attempt([&] {
+  session_.attempt("search", [&] {
     tune_.start(session_.tuneCommand(wish, place().size, backend_, options_.device));
     tuning_ = {.effect = wish.effect, .running = true, .state = tune_.state(), .outcome = {}};
   });
@@ -205,7 +206,7 @@ bool Viewer::lookAtTune() {
   }
   tuning_.running = false;
   tuning_.outcome = *outcome;
-  session_.attempt([&] {
+  session_.attempt("search", [&] {
     if (outcome->values) session_.takeTuned(tuning_.effect, *outcome->values);
   });
   return true;
@@ -234,7 +235,7 @@ void Viewer::frame(double seconds) {
 
 void Viewer::perform(const Requests& requests) {
   if (requests.rescan) {
-    session_.attempt([&] {
+    session_.attempt("plugins", [&] {
       session_.rescan([&] { device_->wait(); });
       rebuild_.watch(session_.registry());
     });
@@ -245,7 +246,7 @@ void Viewer::perform(const Requests& requests) {
   if (requests.scene) openScene(*requests.scene);
   if (requests.picture) savePicture();
   if (requests.copyCommand) {
-    session_.attempt([&] {
+    session_.attempt("command", [&] {
       const std::string command = session_.commandLine(place().size, backend_, options_.device);
       window_->setClipboard(command);
       session_.say(command);
@@ -273,6 +274,7 @@ void Viewer::takeScene() {
     truth_->stop();
     stage_.reset();
     session_.setScene(scene, path, place().size);
+    retry_ = {};
     stage_ = std::make_unique<Stage>(*device_, *session_.scene, *session_.services, session_.chain);
     times_.clear();
     state_.noteRecent(path);
@@ -282,7 +284,7 @@ void Viewer::takeScene() {
   };
   // A run of so many frames would wait for the scene forever.
   if (options_.frames > 0) return take();
-  session_.attempt(take);
+  session_.attempt("scene", take);
 }
 
 void Viewer::takeDropped() {
@@ -291,7 +293,7 @@ void Viewer::takeDropped() {
     if (ending == ".glb" || ending == ".gltf") {
       openScene(path);
     } else {
-      session_.attempt([&] { session_.openFile(path); });
+      session_.attempt("file", [&] { session_.openFile(path); });
     }
   }
 }

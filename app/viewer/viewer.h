@@ -104,9 +104,14 @@ class Viewer {
   int settle_ = 0;            // further frames to draw, for hover and for late updates
   bool moving_ = false;       // a held key or button moves the camera or sprays
   double updateSeconds_ = 0;  // duration of the stage's last update
-  uint64_t drawn_ = 0;        // frames
-  uint32_t complete_ = 0;     // complete frames; see ViewerOptions::frames
-  gpu::Texture shown_;        // the window's content in the last frame
+  // When a frame that failed is tried again. `wait`: seconds from the failure; 0: none has failed.
+  struct Retry {
+    double wait = 0;
+    Clock::time_point at = {};
+  } retry_;
+  uint64_t drawn_ = 0;     // frames
+  uint32_t complete_ = 0;  // complete frames; see ViewerOptions::frames
+  gpu::Texture shown_;     // the window's content in the last frame
   Clock::time_point lastFrame_ = Clock::now(), lastLook_ = Clock::now();
 };
 

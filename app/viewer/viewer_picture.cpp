@@ -14,6 +14,9 @@
 namespace grisaille::app::viewer {
 namespace {
 
+// Seconds until a frame that failed is tried again; each failure doubles them.
+constexpr double kLeastRetry = 0.5, kMostRetry = 16;
+
 constexpr const char* kPictureEndings[] = {".png", ".exr"};
 
 // A file name without ending. Adds a number if it is taken, since the user may save two pictures in
@@ -80,7 +83,7 @@ void Viewer::updateStage() {
   if (desc.size.x == 0 || desc.size.y == 0) return;
   if (session_.continuous) stage_->touch();
   if (!stage_->isStale(desc)) return;
-  session_.attempt([&] {
+  const auto draw = [&] {
     const Clock::time_point start = Clock::now();
     stage_->update(desc);
     updateSeconds_ = std::chrono::duration<double>(Clock::now() - start).count();
@@ -94,7 +97,16 @@ void Viewer::updateStage() {
                   .radius = session_.truthRadius(),
                   .samples = session_.comparing.rays},
                  stage_->read(compared));
-  });
+  };
+  if (options_.frames > 0) {
+    draw();  // a run of so many frames ends by the error of one
+  } else if (session_.attempt("frame", draw)) {
+    retry_ = {};
+  } else {
+    retry_.wait = std::clamp(2 * retry_.wait, kLeastRetry, kMostRetry);
+    retry_.at = Clock::now() + std::chrono::duration_cast<Clock::duration>(
+                                   std::chrono::duration<double>(retry_.wait));
+  }
   settle_ = std::max(settle_, 1);  // the panel shows the new values
 }
 
@@ -165,7 +177,7 @@ Status Viewer::status() {
   status.buildMessage = buildMessage_;
   const auto texel = controls_.texel(place());
   if (session_.inspecting && stage_ && texel) {
-    session_.attempt([&] {
+    session_.attempt("value", [&] {
       status.cursorTexel = *texel;
       status.cursorValue = cursorValue(controls_.rightSide(place()), glm::uvec2(*texel));
     });
@@ -178,7 +190,8 @@ void Viewer::drawWindow() {
   desc.pixels = window_->pixels();
   if (desc.pixels.x == 0 || desc.pixels.y == 0) return;
   desc.place = place();
-  session_.attempt([&] { desc.sides = {side(false), side(session_.split)}; });
+  desc.keeps = retry_.wait > 0;
+  session_.attempt("sides", [&] { desc.sides = {side(false), side(session_.split)}; });
   if (stage_) {
     desc.texels = stage_->size();
     desc.revision = stage_->revision() + truth_->revision();  // for one scene, both only grow
@@ -208,7 +221,7 @@ image::Image Viewer::pictureOf(const std::string& view) {
 
 void Viewer::savePicture() {
   if (!stage_) return;
-  session_.attempt([&] {
+  session_.attempt("picture", [&] {
     const std::string name = fileName(session_.left);
     const image::Image picture = pictureOf(session_.left);
     for (const std::string ending : kPictureEndings) {
@@ -233,10 +246,12 @@ void Viewer::writeLayout() {
   if (options_.layoutFile.empty()) return;
   const Place where = place();
   const auto corner = glm::vec2(where.corner), end = corner + glm::vec2(where.size);
-  panel_.layout.note(
-      "picture", corner.x, corner.y, end.x, end.y,
-      settle_ == 0 && !session_.isPlaying() && stage_ && !stage_->isStale(stageDesc()) ? "done"
-                                                                                       : "stale");
+  const bool done =
+      settle_ == 0 && !session_.isPlaying() && stage_ && !stage_->isStale(stageDesc());
+  panel_.layout.note("picture", corner.x, corner.y, end.x, end.y,
+                     retry_.wait > 0 ? "failed"
+                     : done          ? "done"
+                                     : "stale");
   panel_.layout.note("camera", 0, 0, 0, 0, scene::cameraJson(session_.camera));
   panel_.layout.note("drawn", 0, 0, 0, 0, fmt::format("{}", drawn_));
   panel_.layout.note("typing", 0, 0, 0, 0, ImGui::GetIO().WantTextInput ? "true" : "false");
@@ -250,7 +265,7 @@ void Viewer::writeLayout() {
   }
   std::string text = panel_.layout.json();
   if (text == layoutWritten_) return;
-  session_.attempt([&] { writeFileAtomically(options_.layoutFile, text); });
+  session_.attempt("layout", [&] { writeFileAtomically(options_.layoutFile, text); });
   layoutWritten_ = std::move(text);
 }
 

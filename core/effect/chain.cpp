@@ -115,25 +115,101 @@ uint64_t Chain::record(const Selection::Entry& entry, FrameInputs inputs) {
   return one.instance->waiting();
 }
 
+objects::ObjectList* Chain::objectsEvenIfAbsent(std::string_view effect) {
+  Absent* absent = findAbsent(effect);
+  if (absent == nullptr) return objects(effect);
+  return absent->list ? &*absent->list : nullptr;
+}
+
+Chain::Absent* Chain::findAbsent(std::string_view effect) {
+  const auto found =
+      std::ranges::find_if(absent_, [&](const Absent& one) { return one.settings.key == effect; });
+  return found == absent_.end() ? nullptr : &*found;
+}
+
+Selection::State Chain::state() const {
+  Selection::State whole = selection.state();
+  for (const Absent& one : absent_) {
+    const auto before = std::ranges::find(whole.effects, one.before, &Selection::State::One::key);
+    const bool first = one.before.empty() || before == whole.effects.end();
+    whole.effects.insert(first ? whole.effects.begin() : before + 1, one.settings);
+  }
+  return whole;
+}
+
+std::vector<std::string> Chain::restore(const Selection::State& state) {
+  Selection::State present;
+  std::string before;
+  for (const Selection::State::One& one : state.effects) {
+    if (Absent* absent = findAbsent(one.key)) {
+      absent->settings = one;
+      absent->before = before;
+    } else {
+      present.effects.push_back(one);
+    }
+    before = one.key;
+  }
+  return selection.restore(present);
+}
+
+// Moves a list to another table.
+objects::ObjectList Chain::moved(objects::ObjectList list, const objects::Table& table,
+                                 std::vector<std::string>& dropped) {
+  if (list.adopt(table)) return list;
+  endedRevisions_ += list.revision() + 1;
+  return converted(list, table, dropped);
+}
+
+// Keeps the list of an effect that is absent, or drops one whose effect takes no objects any more.
+void Chain::loseList(const std::string& effect, objects::ObjectList list,
+                     std::vector<std::string>& dropped) {
+  endedRevisions_ += list.revision() + 1;
+  if (list.size() > 0) dropped.push_back(fmt::format("{} of {}", list.table().key, effect));
+  Absent* absent = findAbsent(effect);
+  if (absent == nullptr) return;
+  absent->table = std::make_unique<objects::OwnTable>(list.table());
+  list.adopt(absent->table->table());
+  absent->list = std::move(list);
+}
+
 std::vector<std::string> Chain::rebind(const Registry& fresh) {
   stop();
+  const Selection::State whole = state();
   Selection chosen(fresh);
-  std::vector<std::string> dropped = chosen.restore(selection.state());
+  Selection::State present;
+  std::vector<std::string> dropped;
+  std::vector<Absent> earlier = std::exchange(absent_, {});
+  const auto earlierOf = [&](std::string_view key) {
+    return std::ranges::find_if(earlier, [&](const Absent& a) { return a.settings.key == key; });
+  };
+  std::string before;
+  for (const Selection::State::One& one : whole.effects) {
+    const auto was = earlierOf(one.key);
+    if (chosen.find(one.key) != nullptr) {
+      present.effects.push_back(one);
+    } else {
+      if (was == earlier.end()) dropped.push_back(fmt::format("effect {} is unknown", one.key));
+      absent_.push_back(was != earlier.end() ? std::move(*was)
+                                             : Absent{.settings = one, .before = {}});
+      absent_.back().before = before;
+    }
+    before = one.key;
+  }
+  const std::vector<std::string> unfit = chosen.restore(present);
+  dropped.insert(dropped.end(), unfit.begin(), unfit.end());
+
   std::map<std::string, objects::ObjectList, std::less<>> lists;
-  for (auto& [effect, list] : lists_) {
+  const auto take = [&](const std::string& effect, objects::ObjectList& list) {
     const Selection::Entry* entry = chosen.find(effect);
     if (entry == nullptr || entry->effect().objects() == nullptr) {
-      endedRevisions_ += list.revision() + 1;
-      if (list.size() > 0) dropped.push_back(fmt::format("{} of {}", list.table().key, effect));
-      continue;
-    }
-    const objects::Table& table = *entry->effect().objects();
-    if (list.adopt(table)) {
-      lists.emplace(effect, std::move(list));
+      loseList(effect, std::move(list), dropped);
     } else {
-      endedRevisions_ += list.revision() + 1;
-      lists.emplace(effect, converted(list, table, dropped));
+      lists.emplace(effect, moved(std::move(list), *entry->effect().objects(), dropped));
     }
+  };
+  for (auto& [effect, list] : lists_) take(effect, list);
+  for (Absent& back : earlier) {
+    if (back.list && findAbsent(back.settings.key) == nullptr) take(back.settings.key, *back.list);
   }
   selection = std::move(chosen);
   lists_ = std::move(lists);

@@ -5,6 +5,7 @@
 
 #include <map>
 #include <memory>
+#include <optional>
 #include <string>
 #include <string_view>
 #include <vector>
@@ -12,6 +13,7 @@
 #include "core/effect/instance.h"
 #include "core/effect/selection.h"
 #include "core/objects/object_list.h"
+#include "core/objects/own_table.h"
 
 namespace grisaille::effect {
 
@@ -31,6 +33,8 @@ class Chain {
 
   // Null if the selection has no effect with this key or its table declares no objects.
   objects::ObjectList* objects(std::string_view effect);
+  // The same, but also the list of an absent effect.
+  objects::ObjectList* objectsEvenIfAbsent(std::string_view effect);
   // All lists that objects() has created.
   const std::map<std::string, objects::ObjectList, std::less<>>& objectLists() const {
     return lists_;
@@ -57,21 +61,43 @@ class Chain {
   // --- Plugins
 
   // Moves the chain to a fresh registry; call it while the old registry lives. All instances end.
-  // Effects that still exist keep their place, values and objects. If an effect's table of objects
-  // has changed, each object keeps the fields of the same key and type, and the list starts without
-  // steps to undo. Returns one line per effect, value, field and object that is dropped.
+  // Effects that still exist keep their place, values and objects. Effects that no longer exist are
+  // absent: if a later registry has them again, they come back with what they had. If an effect's
+  // table of objects has changed, each object keeps the fields of the same key and type, and the
+  // list starts without steps to undo. Returns one line per effect that has become absent, and per
+  // value, field and object that is dropped.
   std::vector<std::string> rebind(const Registry& fresh);
+
+  // The selection's state, with the absent effects in their places.
+  Selection::State state() const;
+  // Restores a state of state(), also what it says of absent effects. Returns the lines of
+  // Selection::restore().
+  std::vector<std::string> restore(const Selection::State& state);
 
  private:
   struct Running {
     std::unique_ptr<Instance> instance;
     uint64_t seen = 0;  // revision of the objects in the last frame recorded without error
   };
+  // An effect that the registry does not have at present.
+  struct Absent {
+    Selection::State::One settings;
+    std::string before;  // key of the effect that ran before it; "": it was the first
+    std::unique_ptr<objects::OwnTable> table = {};  // of `list`
+    std::optional<objects::ObjectList> list = {};   // its objects, if there are any
+  };
+
+  Absent* findAbsent(std::string_view effect);
+  void loseList(const std::string& effect, objects::ObjectList list,
+                std::vector<std::string>& dropped);
+  objects::ObjectList moved(objects::ObjectList list, const objects::Table& table,
+                            std::vector<std::string>& dropped);
 
   gpu::Maker* device_ = nullptr;
   uint64_t endedRevisions_ = 0;                                    // sum over dropped lists
   std::map<std::string, objects::ObjectList, std::less<>> lists_;  // by effect
   std::map<std::string, Running, std::less<>> running_;            // by effect
+  std::vector<Absent> absent_;                                     // in their order
 };
 
 // Starts a chain on a device for its own lifetime: the instances end before the device.

@@ -56,6 +56,14 @@ TEST_P(PluginTest, AnEditedSourceIsBuiltAndLoaded) {
   viewer.untilThere("alpha.soft");
   EXPECT_EQ(viewer.value("build message"), "");
   EXPECT_EQ(viewer.value("alpha.hard"), "");
+  // The next edit makes a plugin that is refused, and the one after it mends that.
+  folder_.write("source/make.sh", "echo none > '" + plugin.string() + ".new' && mv '" +
+                                      plugin.string() + ".new' '" + plugin.string() + "'\n");
+  viewer.untilThere("refused");
+  EXPECT_EQ(viewer.value("alpha.soft"), "");
+  folder_.write("source/make.sh", good);
+  viewer.untilThere("alpha.on");
+  EXPECT_EQ(viewer.value("refused"), "");
   expectQuits(viewer);
 }
 

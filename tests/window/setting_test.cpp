@@ -39,16 +39,6 @@ TEST_P(SettingTest, ADraggedSliderIsTheRenderedSetting) {
   expectQuits(viewer);
 }
 
-TEST_P(SettingTest, AtTheStartThereIsNothingToUndo) {
-  DrivenViewer viewer(folder_, arguments({"--effects", "ssao,sspm", "--set", "ssao.radius=0.25"}));
-  viewer.key("ctrl+z");
-  viewer.untilDrawn();
-  EXPECT_EQ(viewer.value("ssao.on"), "true");
-  EXPECT_EQ(viewer.value("sspm.on"), "true");
-  EXPECT_EQ(viewer.value("ssao.radius"), "0.25");
-  expectQuits(viewer);
-}
-
 // Even within one second: file names contain the second.
 TEST_P(SettingTest, APictureSavedReplacesNone) {
   DrivenViewer viewer(folder_, arguments({"--effects", "ssao", "--view", "ssao.ao"}));

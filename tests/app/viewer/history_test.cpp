@@ -28,9 +28,7 @@ struct Studio {
             [this](const effect::Selection::State& state) {
               EXPECT_TRUE(list.restore(state).empty());
             },
-            [this](std::string_view effect) -> objects::ObjectList& {
-              return lists.find(effect)->second;
-            }) {
+            [this](std::string_view effect) { return &lists.find(effect)->second; }) {
     for (const char* key : kOwners) lists.try_emplace(key, objects::kPlainDecals);
   }
 
@@ -233,7 +231,7 @@ TEST(History, ARescanIsAStepLikeAnyOther) {
   std::vector<std::string> dropped;
   History history(
       list.state(), [&](const effect::Selection::State& state) { dropped = list.restore(state); },
-      [](std::string_view) -> objects::ObjectList& { throw std::logic_error("no objects here"); });
+      [](std::string_view) -> objects::ObjectList* { throw std::logic_error("no objects here"); });
   list.find("beta")->values.set("count", 4.0);
   history.noteSettings(list.state(), "count");
   effect::Selection rebound(later.registry);

@@ -220,6 +220,49 @@ TEST_F(ChainTest, WhatThereIsNoMoreIsNamed) {
   ASSERT_EQ(chain.selection.effects().size(), 1u);
 }
 
+// A plugin that is broken for a while, twice over.
+TEST_F(ChainTest, WhatWasAbsentComesBackAsItWas) {
+  Chain chain{Selection(registry)};
+  std::ranges::reverse(chain.selection.entries());
+  for (const char* key : {"copy", "teller"}) chain.selection.find(key)->on = true;
+  chain.selection.set(Assignment{{"copy", "entry"}, "7"});
+  chain.objects("teller")->add(mark(1));
+  chain.objects("teller")->add(mark(2));
+  chain.objects("teller")->undo();
+  const Selection::State before = chain.state();
+  EXPECT_EQ(before, chain.selection.state());
+  uint64_t revision = chain.objectsRevision();
+  for (int round = 0; round < 2; ++round) {
+    Registry without;
+    without.scan(PLUGIN_DIR "/sound");
+    EXPECT_EQ(chain.rebind(without).back(), "marks of teller");
+    EXPECT_EQ(chain.rebind(without), Lines());  // told once
+    EXPECT_EQ(chain.objects("teller"), nullptr);
+    EXPECT_TRUE(chain.objectLists().empty());
+    EXPECT_EQ(chain.state(), before);
+    EXPECT_EQ(chain.restore(before), Lines());
+    EXPECT_EQ(chain.state(), before);
+    // The steps of an absent list.
+    ASSERT_NE(chain.objectsEvenIfAbsent("teller"), nullptr);
+    chain.objectsEvenIfAbsent("teller")->redo();
+    EXPECT_EQ(chain.objectsEvenIfAbsent("teller")->size(), 2u);
+    chain.objectsEvenIfAbsent("teller")->undo();
+    EXPECT_EQ(chain.rebind(registry), Lines());
+    EXPECT_EQ(chain.state(), before);
+    EXPECT_EQ(chain.selection.state(), before);
+    ASSERT_NE(chain.objects("teller"), nullptr);
+    EXPECT_EQ(chain.objectsEvenIfAbsent("teller"), chain.objects("teller"));
+    EXPECT_EQ(&chain.objects("teller")->table(), registry.find("teller").objects());
+    ASSERT_EQ(chain.objects("teller")->size(), 1u);
+    EXPECT_EQ(chain.objects("teller")->object(0), mark(1));
+    chain.objects("teller")->redo();
+    EXPECT_EQ(chain.objects("teller")->size(), 2u);
+    chain.objects("teller")->undo();
+    EXPECT_GT(chain.objectsRevision(), revision);
+    revision = chain.objectsRevision();
+  }
+}
+
 TEST_F(ChainTest, AnEmptyListGoesWithoutAWord) {
   Chain chain{Selection(registry)};
   chain.objects("teller");

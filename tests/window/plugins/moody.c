@@ -1,0 +1,69 @@
+/* SPDX-License-Identifier: MIT
+ *
+ * An effect that cannot record a frame while the file that $MOODY names exists. Otherwise it says
+ * that all is visible. */
+#include <stdlib.h>
+#include <unistd.h>
+
+#include "grisaille/effect.h"
+
+static uint32_t reads(const double* values, uint32_t wanted) {
+  (void)wanted;
+  (void)values;
+  return 0;
+}
+
+static grisaille_result create(const grisaille_host* host, void** out) {
+  (void)host;
+  *out = NULL;
+  return GRISAILLE_OK;
+}
+
+static grisaille_result record(void* instance, const grisaille_frame* frame) {
+  const uint64_t count = (uint64_t)frame->width * frame->height;
+  const char* file = getenv("MOODY");
+  grisaille_result result = GRISAILLE_OK;
+  float* texels = NULL;
+  uint64_t i = 0;
+  (void)instance;
+  if (file != NULL && access(file, F_OK) == 0) return GRISAILLE_FAILED;
+  if ((frame->wanted & 1) == 0) return GRISAILLE_OK;
+  texels = malloc(count * sizeof(float));
+  if (texels == NULL) return GRISAILLE_FAILED;
+  for (i = 0; i < count; ++i) texels[i] = 1;
+  result = frame->upload_texture(frame, frame->outputs[0], 0, 0, texels, count * sizeof(float));
+  free(texels);
+  return result;
+}
+
+static void destroy(void* instance) {
+  (void)instance;
+}
+
+static const grisaille_output_desc kOutputs[] = {{
+    .struct_size = sizeof(grisaille_output_desc),
+    .format = GRISAILLE_FORMAT_R32F,
+    .role = GRISAILLE_ROLE_VISIBILITY,
+    .key = "all",
+    .tooltip = "One everywhere",
+}};
+
+static const grisaille_effect_desc kEffect = {
+    .struct_size = sizeof(grisaille_effect_desc),
+    .output_count = 1,
+    .key = "moody",
+    .label = "Moody",
+    .version = "1.0.0",
+    .tooltip = "Fails on request",
+    .outputs = kOutputs,
+    .reads = reads,
+    .create = create,
+    .record = record,
+    .destroy = destroy,
+};
+
+static const grisaille_effect_desc* const kEffects[] = {&kEffect};
+
+GRISAILLE_EXPORT const grisaille_plugin_desc grisaille_plugin = {
+    GRISAILLE_MAGIC, GRISAILLE_ABI_MAJOR, GRISAILLE_ABI_MINOR, sizeof(grisaille_plugin_desc), 1, 0,
+    kEffects};
