@@ -1,12 +1,47 @@
 // SPDX-License-Identifier: MIT
 #include "app/services/scene_services.h"
 
+#include <chrono>
+
 #include "core/base/regular_file.h"
+#include "core/trace/background.h"
 
 namespace grisaille::app {
 
 void printWarning(const std::string& text) {
   fmt::print(stderr, "warning: {}\n", text);
+}
+
+SceneRays::Tracer SceneRays::build() const {
+  return std::make_unique<trace::RayTracer>(scene_, (scene_.bounds.min + scene_.bounds.max) / 2.0);
+}
+
+void SceneRays::prepare() {
+  if (tracer_ || building_.valid() || failed_) return;
+  building_ = std::async(std::launch::async, [this] {
+    Tracer built;
+    trace::leavingACore([&] { built = build(); });
+    return built;
+  });
+}
+
+bool SceneRays::isReady() {
+  if (building_.valid() &&
+      building_.wait_for(std::chrono::seconds(0)) == std::future_status::ready) {
+    try {
+      tracer_ = building_.get();
+    } catch (const Error&) {
+      failed_ = true;
+    }
+  }
+  return tracer_ != nullptr;
+}
+
+void SceneRays::cast(std::span<const grisaille_ray> rays, std::span<grisaille_hit> hits) {
+  wait();
+  if (!isReady()) tracer_ = build();
+  tracer_->follow();
+  tracer_->castRays(rays, hits);
 }
 
 void PictureFiles::read(const char* path, grisaille_picture& out) {

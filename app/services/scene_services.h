@@ -3,7 +3,8 @@
 #pragma once
 
 #include <functional>
-#include <optional>
+#include <future>
+#include <memory>
 #include <set>
 #include <string>
 #include <utility>
@@ -14,21 +15,33 @@
 
 namespace grisaille::app {
 
-// Casts rays with Embree. The first cast() builds Embree's scene.
+// Casts rays with Embree. The first cast() builds Embree's scene, unless prepare() has.
 class SceneRays : public effect::RayService {
  public:
-  // `scene` must outlive this and change only by scene::pose(), between two casts.
+  // `scene` must outlive this and change only by scene::pose(), between two casts. Call wait()
+  // before scene::pose().
   explicit SceneRays(const scene::Scene& scene) : scene_(scene) {}
 
-  void cast(std::span<const grisaille_ray> rays, std::span<grisaille_hit> hits) override {
-    if (!tracer_) tracer_.emplace(scene_, (scene_.bounds.min + scene_.bounds.max) / 2.0);
-    tracer_->follow();
-    tracer_->castRays(rays, hits);
+  // Starts building Embree's scene on a thread of its own, at the first call. Never throws.
+  void prepare();
+  // False while it is being built, and if that failed: a cast() then throws.
+  bool isReady();
+  // Waits until it is built.
+  void wait() {
+    if (building_.valid()) building_.wait();
   }
 
+  void cast(std::span<const grisaille_ray> rays, std::span<grisaille_hit> hits) override;
+
  private:
+  using Tracer = std::unique_ptr<trace::RayTracer>;
+
+  Tracer build() const;
+
   const scene::Scene& scene_;
-  std::optional<trace::RayTracer> tracer_;
+  Tracer tracer_;
+  bool failed_ = false;
+  std::future<Tracer> building_;  // last: its thread reads the members above
 };
 
 // Receives a warning. printWarning() prints it to standard error.
@@ -54,7 +67,7 @@ class SceneServices {
       : rays_(scene), pictures_(std::move(warn)) {}
 
   effect::Services all() { return {.rays = &rays_, .pictures = &pictures_}; }
-  effect::RayService& rays() { return rays_; }
+  SceneRays& rays() { return rays_; }
 
  private:
   SceneRays rays_;

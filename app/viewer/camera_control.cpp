@@ -15,6 +15,8 @@ constexpr double kPoleMargin = 0.01;  // radians; the least angle between a drag
 // 1e-9 their rounding would turn the view. Functions that move the target keep at least this
 // distance.
 constexpr double kLeastDistance = 1e-6;
+// The eye stops at this multiple of the near plane before a surface that it moves to.
+constexpr double kClearance = 2;
 
 // Moves the camera to `next` if that is a valid camera.
 void take(scene::Camera& camera, const scene::Camera& next) {
@@ -34,6 +36,13 @@ double leastDistance(const glm::dvec3& place) {
   return kLeastDistance * (1 + glm::length(place));
 }
 
+// The axes of a view in this unit direction: right, up, backward.
+glm::dmat3 axesOf(scene::Camera camera, const glm::dvec3& direction) {
+  camera.eye = glm::dvec3(0);
+  camera.target = direction;
+  return scene::worldFromView(camera);
+}
+
 // Turns a unit direction about the unit axis `up` by `yaw`, and towards `up` by `rise`, radians.
 // Stops at kPoleMargin before the poles; a direction inside the margin may stay there.
 glm::dvec3 turned(const glm::dvec3& direction, const glm::dvec3& up, double yaw, double rise) {
@@ -50,14 +59,25 @@ glm::dvec3 turned(const glm::dvec3& direction, const glm::dvec3& up, double yaw,
 
 }  // namespace
 
-void orbit(scene::Camera& camera, glm::dvec2 dragPixels, double heightPixels) {
+void setTargetDistance(scene::Camera& camera, double metres) {
+  scene::Camera next = camera;
+  const double distance = std::max(metres, leastDistance(camera.eye));
+  next.target = camera.eye + distance * ((camera.target - camera.eye) / distanceOf(camera));
+  take(camera, next);
+}
+
+void orbit(scene::Camera& camera, const glm::dvec3& pivot, glm::dvec2 dragPixels,
+           double heightPixels) {
   const glm::dvec2 angles = dragPixels / heightPixels * glm::pi<double>();
   const double distance = distanceOf(camera);
   const glm::dvec3 outward = (camera.eye - camera.target) / distance;
-  scene::Camera next = camera;
-  next.eye =
-      camera.target + distance * turned(outward, glm::normalize(camera.up), -angles.x, angles.y);
-  take(camera, next);
+  const glm::dvec3 next = turned(outward, glm::normalize(camera.up), -angles.x, angles.y);
+  // Rows times columns: from the world to the old view, and from the new view to the world.
+  const glm::dmat3 turn = axesOf(camera, -next) * glm::transpose(axesOf(camera, -outward));
+  scene::Camera moved = camera;
+  moved.eye = pivot + turn * (camera.eye - pivot);
+  moved.target = moved.eye - std::max(distance, leastDistance(moved.eye)) * next;
+  take(camera, moved);
 }
 
 void pan(scene::Camera& camera, glm::dvec2 dragPixels, double heightPixels) {
@@ -72,13 +92,51 @@ void pan(scene::Camera& camera, glm::dvec2 dragPixels, double heightPixels) {
   take(camera, next);
 }
 
-void dolly(scene::Camera& camera, double notches) {
-  const double distance = distanceOf(camera);
-  const double least = std::min(leastDistance(camera.target), distance);
-  const glm::dvec3 outward = (camera.eye - camera.target) / distance;
+void zoom(scene::Camera& camera, const glm::dvec3& point, double notches) {
+  const glm::dvec3 way = camera.eye - point;
+  const double away = glm::length(way);
+  if (!(away > 0)) return;
+  const glm::dvec3 forward = (camera.target - camera.eye) / distanceOf(camera);
+  const double depth = -glm::dot(way, forward);
+  double least = leastDistance(point) / away;
+  if (depth > 0) least = std::max(least, kClearance * camera.nearPlane / depth);
+  const double factor = std::max(std::pow(0.9, notches), std::min(least, 1.0));
   scene::Camera next = camera;
-  next.eye = camera.target + std::max(distance * std::pow(0.9, notches), least) * outward;
+  next.eye = point + factor * way;
+  next.target = next.eye + std::max(factor * distanceOf(camera), leastDistance(next.eye)) * forward;
   take(camera, next);
+}
+
+void focus(scene::Camera& camera, const glm::dvec3& point) {
+  scene::Camera next = camera;
+  next.target = point;
+  const double away = glm::length(point - camera.eye);
+  if (away > 2 * kClearance * camera.nearPlane) next.eye = (camera.eye + point) / 2.0;
+  take(camera, next);
+}
+
+void frameBall(scene::Camera& camera, const glm::dvec3& centre, double radius, double aspect) {
+  const double half = std::tan(glm::radians(camera.fovyDegrees) / 2) * std::min(aspect, 1.0);
+  const double distance =
+      std::max(radius / std::sin(std::atan(half)), radius + kClearance * camera.nearPlane);
+  const glm::dvec3 forward = (camera.target - camera.eye) / distanceOf(camera);
+  scene::Camera next = camera;
+  next.target = centre;
+  next.eye = centre - std::max(distance, leastDistance(centre)) * forward;
+  take(camera, next);
+}
+
+void lookFrom(scene::Camera& camera, const glm::dvec3& from) {
+  const glm::dvec3 up = glm::normalize(camera.up);
+  const glm::dvec3 outward = (camera.eye - camera.target) / distanceOf(camera);
+  glm::dvec3 next = from;
+  // From a pole, the margin keeps the present side: the picture does not turn.
+  if (std::abs(glm::dot(from, up)) > std::cos(kPoleMargin)) {
+    next = turned(outward, up, 0, std::copysign(glm::pi<double>(), glm::dot(from, up)));
+  }
+  scene::Camera moved = camera;
+  moved.eye = camera.target + distanceOf(camera) * next;
+  take(camera, moved);
 }
 
 void look(scene::Camera& camera, glm::dvec2 dragPixels, double heightPixels) {
@@ -106,13 +164,14 @@ void fly(scene::Camera& camera, glm::dvec3 axesRightUpForward, double seconds,
   take(camera, next);
 }
 
-double flySpeed(const scene::Bounds& bounds) {
-  const double speed = glm::length(bounds.max - bounds.min) / 10;
-  return std::isfinite(speed) && speed > 0 ? steppedSpeed(speed, 0) : 1;
+double flySpeed(double ahead, double extent) {
+  constexpr double kLeastShare = 1e-3, kShareASecond = 0.5;
+  const double largest = std::isfinite(extent) && extent > 0 ? extent : 1;
+  return kShareASecond * std::clamp(ahead, kLeastShare * largest, largest);
 }
 
-double steppedSpeed(double metresPerSecond, double notches) {
-  return std::clamp(metresPerSecond * std::pow(1.25, notches), 1e-4, 1e6);
+double steppedSpeed(double factor, double notches) {
+  return std::clamp(factor * std::pow(1.25, notches), 1.0 / 64, 64.0);
 }
 
 }  // namespace grisaille::app::viewer

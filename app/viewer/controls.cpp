@@ -3,10 +3,14 @@
 
 #define GLFW_INCLUDE_NONE
 #include <GLFW/glfw3.h>
+#include <fmt/format.h>
 
 #include <algorithm>
 #include <cmath>
+#include <limits>
+#include <utility>
 
+#include "app/viewer/axis_widget.h"
 #include "app/viewer/camera_control.h"
 #include "app/viewer/input.h"
 
@@ -18,6 +22,13 @@ constexpr int kMostSprayed = 8;              // per frame
 constexpr double kSprayRadius = 12;          // pixels
 constexpr double kLineReach = 6;             // pixels on either side where a click grabs the line
 constexpr double kArrowStep = 24;            // pixels; an arrow key acts like this drag
+constexpr double kPanStep = 32;              // pixels; a notch of the wheel pans by this drag
+constexpr double kDoubleClick = 0.5;         // seconds between the presses, at most
+constexpr double kDoubleReach = 6;           // pixels between the presses, at most
+constexpr double kRest = 0.5;                // seconds without motion end a move of the camera
+constexpr double kLeastShare = 1.0 / 16;     // of a step of the orbit, over
+constexpr double kObjectRadii = 4;           // radius shown around an object, suitable radii
+constexpr float kAxesShare = 4;              // least size of a picture with axes, their sizes
 
 }  // namespace
 
@@ -43,16 +54,27 @@ bool Controls::rightSide(const Place& place) const {
   return session_.split && cursor_.x - place.corner.x + 0.5 > double{session_.line} * place.size.x;
 }
 
-bool Controls::update(const Place& place, double seconds, float pixelsAUnit, Requests& requests) {
+bool Controls::update(const Place& place, Stage* stage, double seconds, float pixelsAUnit,
+                      Requests& requests) {
   const ImGuiIO& io = ImGui::GetIO();
   const glm::dvec2 now = glm::dvec2(io.MousePos.x, io.MousePos.y) * double{pixelsAUnit};
   moved_ = cursor_.x < 0 ? glm::dvec2(0) : now - cursor_;
   cursor_ = now;
+  stage_ = stage;
+  sincePress_ += seconds;
+  sinceMoved_ += seconds;
+  const glm::dvec3 eye = session_.camera.eye;
+  // A burst of the wheel, or a drag in the panel, is one place of the history.
+  if (drag_ == Drag::kNone && sinceMoved_ > kRest && !ImGui::IsAnyItemActive()) {
+    session_.cameraHistory.note(session_.camera);
+  }
   updateKeysAnywhere(requests);
   if (!io.WantTextInput) updateKeys(place, requests);
   if (place.size.x == 0 || place.size.y == 0) return false;
+  drawAxes(place, pixelsAUnit);
   bool moves = updateMouse(place, seconds);
-  if (!io.WantTextInput && !io.KeyCtrl && updateFlight(seconds)) moves = true;
+  if (!io.WantTextInput && !io.KeyCtrl && updateFlight(place, seconds)) moves = true;
+  if (session_.camera.eye != eye) sinceMoved_ = 0;
   return moves;
 }
 
@@ -63,7 +85,7 @@ bool Controls::updateMouse(const Place& place, double seconds) {
   } else {
     drag(place, seconds);
   }
-  if (!io.WantCaptureMouse && io.MouseWheel != 0) scroll(place);
+  if (!io.WantCaptureMouse && (io.MouseWheel != 0 || io.MouseWheelH != 0)) scroll(place);
   return drag_ == Drag::kPlace && session_.sprays();
 }
 
@@ -84,22 +106,28 @@ void Controls::beginDrag(const Place& place) {
   } else if (ImGui::IsMouseClicked(ImGuiMouseButton_Right)) {
     drag_ = Drag::kLook;
   }
+  if (drag_ != Drag::kOrbit && drag_ != Drag::kPan) return;
+  pressed_ = pick(place);
+  aimed_ = false;
+  if (drag_ == Drag::kPan) return;
+  session_.findSurfaces();
+  const bool again = sincePress_ < kDoubleClick && glm::length(cursor_ - pressedAt_) < kDoubleReach;
+  sincePress_ = again ? 1e9 : 0;  // a third press is no double click
+  pressedAt_ = cursor_;
+  if (!again || !pressed_.surface) return;
+  scene::Camera next = session_.camera;
+  focus(next, pressed_.point);
+  session_.goTo(next);
 }
 
 void Controls::drag(const Place& place, double seconds) {
   constexpr ImGuiMouseButton kButtons[] = {0, 0, ImGuiMouseButton_Middle, ImGuiMouseButton_Right,
                                            0, 0};
-  const double height = place.size.y;
-  const glm::dvec2 moved = moved_ / static_cast<double>(session_.zoom);
   switch (drag_) {
     case Drag::kOrbit:
-      if (moved_ != glm::dvec2(0)) orbit(session_.camera, moved, height);
-      break;
     case Drag::kPan:
-      if (moved_ != glm::dvec2(0)) pan(session_.camera, moved, height);
-      break;
     case Drag::kLook:
-      if (moved_ != glm::dvec2(0)) look(session_.camera, moved, height);
+      if (moved_ != glm::dvec2(0)) dragCamera(place, moved_ / static_cast<double>(session_.zoom));
       break;
     case Drag::kLine:
       session_.line = std::clamp(
@@ -121,35 +149,141 @@ void Controls::drag(const Place& place, double seconds) {
   if (!ImGui::IsMouseDown(kButtons[static_cast<size_t>(drag_)])) drag_ = Drag::kNone;
 }
 
-void Controls::scroll(const Place& place) {
-  const ImGuiIO& io = ImGui::GetIO();
-  const double notches = io.MouseWheel;
-  if (io.KeyCtrl) {
-    const glm::dvec2 point = pointAt(place, cursor_);
-    session_.zoom =
-        std::clamp(session_.zoom * static_cast<float>(std::pow(1.25, notches)), 1.0f, 64.0f);
-    const glm::dvec2 size(place.size);
-    const glm::dvec2 centre = point - (cursor_ - glm::dvec2(place.corner) + 0.5 - 0.5 * size) /
-                                          static_cast<double>(session_.zoom);
-    session_.centre = glm::clamp(glm::vec2(centre / size), 0.0f, 1.0f);
-    if (session_.zoom == 1) session_.centre = glm::vec2(0.5f);
-  } else if (drag_ == Drag::kLook) {
-    session_.speed = steppedSpeed(session_.speed, notches);
-  } else {
-    dolly(session_.camera, notches);
+void Controls::dragCamera(const Place& place, glm::dvec2 moved) {
+  scene::Camera& camera = session_.camera;
+  const double height = place.size.y;
+  if (drag_ == Drag::kLook) return look(camera, moved, height);
+  // Not at the press: a click alone leaves the camera as it is.
+  if (!std::exchange(aimed_, true) && pressed_.surface) {
+    const glm::dvec3 forward = glm::normalize(camera.target - camera.eye);
+    setTargetDistance(camera, glm::dot(pressed_.point - camera.eye, forward));
+  }
+  if (drag_ == Drag::kPan) return pan(camera, moved, height);
+  orbitClear(pressed_.surface ? pressed_.point : camera.target, moved, height);
+}
+
+// Orbits as far as no surface is in the eye's way: else only to the side, or only up and down, or a
+// part of the way. With Shift, through surfaces.
+void Controls::orbitClear(const glm::dvec3& pivot, glm::dvec2 moved, double height) {
+  const scene::Camera before = session_.camera;
+  const bool through = ImGui::GetIO().KeyShift;
+  for (double share = 1; share > kLeastShare; share /= 2) {
+    for (const glm::dvec2 part : {glm::dvec2(1, 1), glm::dvec2(1, 0), glm::dvec2(0, 1)}) {
+      scene::Camera next = before;
+      orbit(next, pivot, share * part * moved, height);
+      if (!through && !session_.isFree(before.eye, next.eye, 2 * before.nearPlane)) continue;
+      session_.camera = next;
+      return;
+    }
   }
 }
 
-bool Controls::updateFlight(double seconds) {
+Controls::Pick Controls::pick(const Place& place) {
+  const scene::Camera& camera = session_.camera;
+  const glm::dvec2 at = pointAt(place, cursor_);
+  if (stage_ != nullptr && stage_->camera() != nullptr && stage_->size() == place.size) {
+    const glm::ivec2 texel(glm::floor(at));
+    std::vector<double> depths;
+    session_.attempt("pick", [&] { depths = stage_->depthsAt(std::span(&texel, 1)); });
+    if (!depths.empty() && std::isfinite(depths[0])) {
+      const scene::Camera& seen = *stage_->camera();
+      return {seen.eye + depths[0] * pixelDirection(seen, place.size.x, place.size.y, at), true};
+    }
+  }
+  return {camera.eye + glm::length(camera.target - camera.eye) *
+                           pixelDirection(camera, place.size.x, place.size.y, at),
+          false};
+}
+
+// The least distance of what is in the middle fifth of the picture, metres; infinite: sky.
+double Controls::distanceAhead(const Place& place) {
+  if (stage_ == nullptr || stage_->camera() == nullptr || stage_->size() != place.size) {
+    return glm::length(session_.camera.target - session_.camera.eye);
+  }
+  std::vector<glm::ivec2> texels;
+  for (const double y : {-0.1, 0.0, 0.1}) {
+    for (const double x : {-0.1, 0.0, 0.1}) {
+      texels.emplace_back((0.5 + glm::dvec2(x, y)) * glm::dvec2(place.size));
+    }
+  }
+  double nearest = std::numeric_limits<double>::infinity();
+  session_.attempt("pick", [&] {
+    for (const double depth : stage_->depthsAt(texels)) nearest = std::min(nearest, depth);
+  });
+  return nearest;
+}
+
+void Controls::scroll(const Place& place) {
+  const ImGuiIO& io = ImGui::GetIO();
+  const glm::dvec2 notches(io.MouseWheelH, io.MouseWheel);
+  // Wheels turn by whole or half notches; fingers on a touchpad move by any amount, to any side.
+  const bool fingers = notches.x != 0 || 2 * notches.y != std::round(2 * notches.y);
+  if (io.KeyCtrl) return magnify(place, notches.y);
+  if (drag_ == Drag::kLook) {
+    session_.speed = steppedSpeed(session_.speed, notches.y);
+    return;
+  }
+  const Pick under = pick(place);
+  scene::Camera& camera = session_.camera;
+  if (!fingers && !io.KeyShift) return zoom(camera, under.point, notches.y);
+  // Without a surface, the target's distance stays.
+  const glm::dvec3 forward = glm::normalize(camera.target - camera.eye);
+  if (under.surface) setTargetDistance(camera, glm::dot(under.point - camera.eye, forward));
+  const bool sideways = io.KeyShift && notches.x == 0 && !fingers;
+  pan(camera, kPanStep * (sideways ? glm::dvec2(0, notches.y) : notches), place.size.y);
+}
+
+void Controls::magnify(const Place& place, double notches) {
+  const glm::dvec2 point = pointAt(place, cursor_);
+  session_.zoom =
+      std::clamp(session_.zoom * static_cast<float>(std::pow(1.25, notches)), 1.0f, 64.0f);
+  const glm::dvec2 size(place.size);
+  const glm::dvec2 centre = point - (cursor_ - glm::dvec2(place.corner) + 0.5 - 0.5 * size) /
+                                        static_cast<double>(session_.zoom);
+  session_.centre = glm::clamp(glm::vec2(centre / size), 0.0f, 1.0f);
+  if (session_.zoom == 1) session_.centre = glm::vec2(0.5f);
+}
+
+bool Controls::updateFlight(const Place& place, double seconds) {
   const auto axis = [](int plus, int minus) {
     return (isKeyDown(plus) ? 1.0 : 0.0) - (isKeyDown(minus) ? 1.0 : 0.0);
   };
   const glm::dvec3 axes(axis(GLFW_KEY_D, GLFW_KEY_A), axis(GLFW_KEY_E, GLFW_KEY_Q),
                         axis(GLFW_KEY_W, GLFW_KEY_S));
   if (axes == glm::dvec3(0)) return false;
-  fly(session_.camera, axes, std::min(seconds, 0.1),
-      session_.speed * (ImGui::GetIO().KeyShift ? 4 : 1));
+  const double speed = session_.speed * flySpeed(distanceAhead(place), session_.extent);
+  panel_.layout.note("flying speed", 0, 0, 0, 0, fmt::format("{:.6g}", speed));
+  fly(session_.camera, axes, std::min(seconds, 0.1), speed * (ImGui::GetIO().KeyShift ? 4 : 1));
   return true;
+}
+
+// The selected object, unless it is framed already, else the scene.
+void Controls::frameScene(const Place& place) {
+  if (!session_.scene || place.size.y == 0) return;
+  const double aspect = double{1} * place.size.x / place.size.y;
+  scene::Camera next = session_.camera;
+  const auto selected = panel_.selectedPoint();
+  if (selected && next.target != *selected) {
+    frameBall(next, *selected, kObjectRadii * session_.sceneRadius(), aspect);
+  } else {
+    const scene::Bounds& bounds = session_.scene->bounds;
+    frameBall(next, (bounds.min + bounds.max) / 2.0,
+              std::max(glm::length(bounds.max - bounds.min) / 2, next.nearPlane), aspect);
+  }
+  session_.goTo(next);
+}
+
+// Small pictures have no room for the axes.
+void Controls::drawAxes(const Place& place, float pixelsAUnit) {
+  const glm::vec2 size = glm::vec2(place.size) / pixelsAUnit;
+  if (std::min(size.x, size.y) < kAxesShare * axisWidgetSize()) return;
+  const float gap = ImGui::GetStyle().WindowPadding.x;
+  const glm::vec2 corner = glm::vec2(place.corner) / pixelsAUnit + glm::vec2(size.x - gap, gap);
+  const auto from = drawAxisWidget(session_.camera, corner, panel_.layout);
+  if (!from) return;
+  scene::Camera next = session_.camera;
+  lookFrom(next, *from);
+  session_.goTo(next);
 }
 
 // Keys that also work while the user types in a text field.
@@ -184,6 +318,7 @@ void Controls::updateKeys(const Place& place, Requests& requests) {
     return;
   }
   updateViewKeys();
+  if (isKeyPressed(GLFW_KEY_F)) frameScene(place);
   if (io.WantCaptureKeyboard) return;  // the panel takes the keys
   if (isKeyPressed(GLFW_KEY_TAB) && panel_.shown) ImGui::SetWindowFocus("Grisaille");
   if (isKeyPressed(GLFW_KEY_SPACE)) {
@@ -194,7 +329,9 @@ void Controls::updateKeys(const Place& place, Requests& requests) {
       (isKeyPressed(GLFW_KEY_RIGHT, true) ? 1 : 0) - (isKeyPressed(GLFW_KEY_LEFT, true) ? 1 : 0);
   const double y =
       (isKeyPressed(GLFW_KEY_DOWN, true) ? 1 : 0) - (isKeyPressed(GLFW_KEY_UP, true) ? 1 : 0);
-  if (x != 0 || y != 0) orbit(session_.camera, kArrowStep * glm::dvec2(x, y), place.size.y);
+  if ((x == 0 && y == 0) || io.KeyAlt) return;
+  session_.findSurfaces();
+  orbitClear(session_.camera.target, kArrowStep * glm::dvec2(x, y), place.size.y);
 }
 
 void Controls::updateViewKeys() {
@@ -210,7 +347,16 @@ void Controls::updateViewKeys() {
     session_.attempt("pose", [&] { session_.play(!session_.playback.playing); });
   if (isKeyPressed(GLFW_KEY_COMMA, true)) session_.stepFrames(-1);
   if (isKeyPressed(GLFW_KEY_PERIOD, true)) session_.stepFrames(1);
-  if (isKeyPressed(GLFW_KEY_HOME)) session_.camera = session_.homeCamera;
+  if (isKeyPressed(GLFW_KEY_HOME)) session_.goTo(session_.homeCamera);
+  if (ImGui::GetIO().KeyAlt) {
+    CameraHistory& history = session_.cameraHistory;
+    if (isKeyPressed(GLFW_KEY_LEFT, true)) {
+      session_.camera = history.back(session_.camera).value_or(session_.camera);
+    }
+    if (isKeyPressed(GLFW_KEY_RIGHT, true)) {
+      session_.camera = history.forward(session_.camera).value_or(session_.camera);
+    }
+  }
   if (isKeyPressed(GLFW_KEY_KP_ADD, true) || isKeyPressed(GLFW_KEY_EQUAL, true)) {
     session_.zoom = std::min(session_.zoom * 1.25f, 64.0f);
   }
@@ -239,7 +385,7 @@ void Controls::updateBookmarkKeys() {
         return;
       }
       for (const Bookmarks::Entry& entry : bookmarks_.list()) {
-        if (entry.name == name && entry.camera) session_.camera = *entry.camera;
+        if (entry.name == name && entry.camera) session_.goTo(*entry.camera);
       }
     });
   }

@@ -7,6 +7,7 @@
 
 #include "app/viewer/panel.h"
 #include "app/viewer/session.h"
+#include "app/viewer/stage.h"
 
 namespace grisaille::app::viewer {
 
@@ -21,10 +22,12 @@ class Controls {
   Controls(Session& session, Panel& panel, Bookmarks& bookmarks, ViewerState& state)
       : session_(session), panel_(panel), bookmarks_(bookmarks), state_(state) {}
 
-  // Call between ImGui::NewFrame() and ImGui::Render(), after the panel. `seconds`: since the last
-  // frame. `pixelsAUnit`: pixels per unit of the window. Adds to `requests`. True while a held key
-  // or button moves the camera or sprays objects: the next frame must be drawn.
-  bool update(const Place& place, double seconds, float pixelsAUnit, Requests& requests);
+  // Call between ImGui::NewFrame() and ImGui::Render(), after the panel. `stage`: the picture that
+  // the user sees; may be null. `seconds`: since the last frame. `pixelsAUnit`: pixels per unit of
+  // the window. Adds to `requests`. True while a held key or button moves the camera or sprays
+  // objects: the next frame must be drawn.
+  bool update(const Place& place, Stage* stage, double seconds, float pixelsAUnit,
+              Requests& requests);
 
   // The texel under the cursor, none while the cursor is outside the picture or over the panel; and
   // whether the cursor is right of the split line.
@@ -36,11 +39,24 @@ class Controls {
  private:
   enum class Drag : uint8_t { kNone, kOrbit, kPan, kLook, kLine, kPlace };
 
+  // A point under the cursor. Where there is no surface: at the target's distance.
+  struct Pick {
+    glm::dvec3 point = glm::dvec3(0);
+    bool surface = false;
+  };
+
   bool updateMouse(const Place& place, double seconds);
   void beginDrag(const Place& place);
   void drag(const Place& place, double seconds);
+  void dragCamera(const Place& place, glm::dvec2 moved);
+  void orbitClear(const glm::dvec3& pivot, glm::dvec2 moved, double height);
   void scroll(const Place& place);
-  bool updateFlight(double seconds);
+  void magnify(const Place& place, double notches);
+  Pick pick(const Place& place);
+  double distanceAhead(const Place& place);
+  void frameScene(const Place& place);
+  void drawAxes(const Place& place, float pixelsAUnit);
+  bool updateFlight(const Place& place, double seconds);
   void updateKeysAnywhere(Requests& requests);
   void updateKeys(const Place& place, Requests& requests);
   void updateViewKeys();
@@ -56,6 +72,12 @@ class Controls {
   Drag drag_ = Drag::kNone;
   glm::dvec2 cursor_ = glm::dvec2(-1), moved_ = glm::dvec2(0);  // pixels of the window
   double sincePlaced_ = 0;                                      // seconds
+  Stage* stage_ = nullptr;                                      // of the present update()
+  Pick pressed_;                                                // where the drag began
+  bool aimed_ = false;  // the target has the distance of pressed_
+  // Seconds since the last press of the left button, and since the camera last moved.
+  double sincePress_ = 1e9, sinceMoved_ = 1e9;
+  glm::dvec2 pressedAt_ = glm::dvec2(-1);  // cursor at that press
   std::mt19937 random_{1};
 };
 

@@ -24,13 +24,15 @@ constexpr struct {
     {"Tab, arrows, Space, Enter", "move in the panel and use it; Esc leaves it"},
     {"Ctrl + + / - / 0", "larger, smaller, default text"},
     {"", ""},
-    {"left drag", "orbit"},
-    {"middle drag", "pan"},
+    {"left drag, arrows", "orbit the surface under the pointer; Shift: through walls"},
+    {"middle drag, Shift + scroll", "pan; on a touchpad: two fingers"},
     {"right drag", "look around"},
-    {"scroll", "move nearer or farther; with the right button: fly faster or slower"},
+    {"scroll", "nearer to the pointer, or farther; with the right button: fly faster, slower"},
+    {"double click", "turn to a surface and move to half its distance"},
     {"W A S D, E Q", "fly forward, left, back, right, up, down; Shift: four times as fast"},
-    {"arrows", "orbit"},
+    {"F", "the selected object in the middle; again: the whole scene"},
     {"Home", "the scene's own camera"},
+    {"Alt + Left, Alt + Right", "previous, next place of the camera"},
     {"1 ... 9", "go to a bookmark; with Ctrl: set it"},
     {"", ""},
     {"B", "left button places an object, or orbits again"},
@@ -209,7 +211,7 @@ void Panel::drawCamera() {
       session_.camera = edited;
     });
   }
-  ImGui::Text("Speed %.3g m/s", session_.speed);
+  ImGui::Text("Flying speed x %.3g", session_.speed);
   for (const Bookmarks::Entry& entry : bookmarkList_) {
     ImGui::PushID(entry.name.c_str());
     if (ImGui::SmallButton("x")) {
@@ -220,7 +222,7 @@ void Panel::drawCamera() {
     if (!entry.camera) {
       ImGui::TextColored(kErrorColour, "%s: %s", entry.name.c_str(), entry.error.c_str());
     } else if (ImGui::Selectable(entry.name.c_str())) {
-      session_.camera = *entry.camera;
+      session_.goTo(*entry.camera);
     }
     layout.note("bookmark." + entry.name);
     ImGui::PopID();

@@ -74,6 +74,9 @@ class Panel {
   // Call between ImGui::NewFrame() and ImGui::Render(). `window`: size, in the window's units.
   Requests draw(const Status& status, glm::vec2 window);
 
+  // The point of the object that the user selected last; none: there is no such object.
+  std::optional<glm::dvec3> selectedPoint() const;
+
   // Width at the left of the window, in the window's units; 0 if hidden.
   float width(glm::vec2 window) const;
 
@@ -155,6 +158,7 @@ class Panel {
   std::map<std::string, TuneWish> wishes_;          // by effect
   std::map<std::string, std::string> objectPaths_;  // by effect
   std::map<std::string, size_t> selected_;          // by effect: index of an object
+  std::string selectedLast_;                        // the effect of the object selected last
   std::map<std::string, size_t> sizes_;             // by effect: number of objects last frame
   std::optional<Draft> draft_;
   bool drafting_ = false;                                // the draft's control still has the focus

@@ -75,7 +75,10 @@ void Panel::drawObjectsOf(const std::string& effect, const Status& status) {
   const objects::ObjectList& list = session_.listOf(effect);
   const objects::Table& table = list.table();
   const size_t before = std::exchange(sizes_[effect], list.size());
-  if (session_.placing && list.size() == before + 1) selected_[effect] = before;  // just placed
+  if (session_.placing && list.size() == before + 1) {  // just placed
+    selected_[effect] = before;
+    selectedLast_ = effect;
+  }
   ImGui::Text("%s: %zu", table.label, list.size());
   if (ImGui::IsItemHovered()) ImGui::SetTooltip("%s", table.tooltip);
   layout.note(effect + ".objects", fmt::format("{}", list.size()));
@@ -103,6 +106,13 @@ void Panel::drawObjectsOf(const std::string& effect, const Status& status) {
   ImGui::Unindent();
   drawObjectList(effect);
   drawObjectFile(effect);
+}
+
+std::optional<glm::dvec3> Panel::selectedPoint() const {
+  const objects::ObjectList* list = session_.chain.objects(selectedLast_);
+  const auto found = selected_.find(selectedLast_);
+  if (list == nullptr || found == selected_.end() || found->second >= list->size()) return {};
+  return session_.pointOf(*list, found->second);
 }
 
 void Panel::drawObjectFile(const std::string& effect) {
@@ -137,6 +147,7 @@ void Panel::drawObjectList(const std::string& effect) {
       if (ImGui::Selectable("##row", chosen == index)) {
         chosen = index;
         selected_[effect] = index;
+        selectedLast_ = effect;
       }
       layout.note(fmt::format("{}.object.{}", effect, index), chosen == index ? "true" : "false");
       const std::string name = nameOf(list, index);

@@ -9,7 +9,6 @@
 #include "app/settings/background.h"
 #include "app/settings/chosen_effects.h"
 #include "app/settings/load_effects.h"
-#include "app/viewer/camera_control.h"
 #include "app/viewer/command_line.h"
 #include "app/viewer/state_file.h"
 #include "core/base/atomic_file.h"
@@ -116,7 +115,7 @@ void Session::setScene(std::shared_ptr<scene::Scene> loaded, const std::string& 
   homeGiven_ = first && !options_.camera.empty();
   homeCamera = homeGiven_ ? camera : scene::defaultCamera(*scene, aspect_);
   camera = homeCamera;
-  speed = flySpeed(scene->bounds);
+  cameraHistory.begin(camera);
   extent = glm::length(scene->bounds.max - scene->bounds.min);
   suitableRadius_ = suitableRadius(*scene);
   fitToScene();
@@ -131,6 +130,27 @@ void Session::setScene(std::shared_ptr<scene::Scene> loaded, const std::string& 
     choose(pose.animation);
     takePose(pose);
   });
+}
+
+void Session::goTo(const scene::Camera& next) {
+  cameraHistory.note(camera);
+  camera = next;
+}
+
+void Session::findSurfaces() {
+  if (scene && scene::triangleCount(*scene) <= kMostTriangles) services->rays().prepare();
+}
+
+bool Session::isFree(const glm::dvec3& from, const glm::dvec3& to, double clearance) {
+  const double length = glm::length(to - from);
+  if (!services || !services->rays().isReady() || !(length > 0)) return true;
+  const glm::vec3 unit((to - from) / length);
+  const grisaille_ray ray = {.origin = {from.x, from.y, from.z},
+                             .direction = {unit.x, unit.y, unit.z},
+                             .reach = static_cast<float>(length + clearance)};
+  grisaille_hit hit = {};
+  services->rays().cast(std::span(&ray, 1), std::span(&hit, 1));
+  return hit.kind != GRISAILLE_HIT_SURFACE;
 }
 
 void Session::noteChanges() {

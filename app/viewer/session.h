@@ -17,6 +17,7 @@
 #include "app/services/scene_services.h"
 #include "app/settings/presets.h"
 #include "app/settings/settings.h"
+#include "app/viewer/camera_history.h"
 #include "app/viewer/history.h"
 #include "app/viewer/stage.h"
 #include "app/viewer/tune_run.h"
@@ -111,7 +112,18 @@ class Session {
   std::shared_ptr<const scene::Scene> scene;
   std::unique_ptr<SceneServices> services;  // of the scene
   scene::Camera camera, homeCamera;
-  double speed = 1;   // of flying, metres per second
+  CameraHistory cameraHistory;
+  // Sets the camera; cameraHistory keeps where it was.
+  void goTo(const scene::Camera& next);
+  // False if a surface is less than `clearance` metres beyond, or on, the way of the eye from
+  // `from` to `to`. Knows no surfaces before findSurfaces(), nor in builds without rays.
+  bool isFree(const glm::dvec3& from, const glm::dvec3& to, double clearance);
+  // Makes isFree() know the surfaces, a moment later: builds a structure for rays in the
+  // background. Does nothing for scenes of more than kMostTriangles, where that would take too much
+  // memory.
+  static constexpr uint64_t kMostTriangles = 4'000'000;
+  void findSurfaces();
+  double speed = 1;   // of flying, a factor
   double extent = 0;  // of the scene at rest, metres
 
   // --- Time; session_time.cpp
@@ -182,7 +194,8 @@ class Session {
   std::string comparedOutput() const;           // "": no comparison, or no comparable output
   double truthRadius() const { return truthRadius(comparedOutput()); }  // metres
   double truthRadius(const std::string& output) const;
-  void setTruthRadius(double metres);  // throws kUsage
+  double sceneRadius() const { return suitableRadius_; }  // that suits the scene, metres
+  void setTruthRadius(double metres);                     // throws kUsage
 
   // --- Presets and tuned settings: each is one step of undo
   const EffectPresets& presetsOf(const std::string& effect) const;
@@ -216,6 +229,8 @@ class Session {
   // Places the next object at a point of a picture of this size, both in texels, from the top left
   // corner. False: no surface to place it on.
   bool place(glm::dvec2 point, glm::uvec2 size, bool joins);
+  // Where an object is seen, world: its point or, if it was placed by a ray, what its ray meets.
+  glm::dvec3 pointOf(const objects::ObjectList& list, size_t index);
   void clearObjects(const std::string& effect);
   void loadObjects(const std::string& effect, const std::string& path);
   void saveObjects(const std::string& effect, const std::string& path);

@@ -2,6 +2,9 @@
 // The session's objects: lists of objects that users place, as the effects' tables describe them.
 #include <fmt/format.h>
 
+#include <limits>
+#include <span>
+
 #include "app/services/placement.h"
 #include "app/viewer/session.h"
 #include "core/objects/object_file.h"
@@ -63,6 +66,24 @@ bool Session::place(glm::dvec2 point, glm::uvec2 size, bool joins) {
   changeObjects(effect, fmt::format("{}, {}", table.key, joins ? "spray" : "one"), joins,
                 [&](objects::ObjectList& list) { list.add(*object); });
   return true;
+}
+
+glm::dvec3 Session::pointOf(const objects::ObjectList& list, size_t index) {
+  const objects::Table& table = list.table();
+  const auto numbers = [&](uint32_t field) {
+    const auto of = list.view().value(index, table.fields[field]).numbers;
+    return glm::dvec3(of[0], of[1], of[2]);
+  };
+  const glm::dvec3 point = numbers(table.point_field);
+  if (table.placement != GRISAILLE_PLACE_RAY || !services) return point;
+  const glm::vec3 unit(glm::normalize(numbers(table.direction_field)));
+  const grisaille_ray ray = {.origin = {point.x, point.y, point.z},
+                             .direction = {unit.x, unit.y, unit.z},
+                             .reach = std::numeric_limits<float>::infinity()};
+  grisaille_hit hit = {};
+  attempt("selection", [&] { services->rays().cast(std::span(&ray, 1), std::span(&hit, 1)); });
+  const bool meets = hit.kind == GRISAILLE_HIT_SURFACE;
+  return meets ? point + double{hit.distance} * glm::dvec3(unit) : point;
 }
 
 void Session::clearObjects(const std::string& effect) {

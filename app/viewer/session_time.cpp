@@ -15,6 +15,7 @@ double Session::duration() const {
 
 void Session::takePose(const scene::Pose& pose) {
   if (playback.pose == pose) return;
+  services->rays().wait();  // they read the scene
   try {
     scene::pose(*posed_, pose);
     playback.pose = pose;
@@ -36,6 +37,7 @@ void Session::choose(std::optional<size_t> animation) {
   if (playback.pose.animation == animation) return;
   const bool home = camera.eye == homeCamera.eye && camera.target == homeCamera.target;
   takePose({});
+  services->rays().wait();
   if (!homeGiven_) homeCamera = defaultCamera(*posed_, {.animation = animation}, aspect_);
   if (home) camera = homeCamera;
   takePose({.animation = animation, .seconds = 0});

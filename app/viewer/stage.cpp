@@ -2,16 +2,25 @@
 #include "app/viewer/stage.h"
 
 #include <algorithm>
+#include <cstring>
+#include <limits>
 #include <utility>
 
 #include "core/base/error.h"
 #include "core/frame/texture_image.h"
+#include "shaders/depths.h"
 #include "shaders/keep_output.h"
 
 namespace grisaille::app::viewer {
 namespace {
 
 constexpr uint32_t kGroup = 8;
+
+// Same layout as in shaders/viewer/depths.comp.
+struct DepthsBlock {
+  glm::ivec4 texels[Stage::kMostDepths];
+};
+GRISAILLE_CHECK_BLOCK_depths_Places(DepthsBlock);
 
 Kind kindOf(const grisaille_output_desc& output) {
   if (output.role == GRISAILLE_ROLE_OVERLAY) return Kind::kOverlay;
@@ -83,6 +92,8 @@ Stage::Stage(gpu::Device& device, const scene::Scene& scene, SceneServices& serv
 Stage::~Stage() {
   device_.destroy(held_);
   device_.destroy(keep_);
+  device_.destroy(depths_);
+  device_.destroy(depthsRead_);
   device_.destroy(nearest_);
 }
 
@@ -118,6 +129,18 @@ void Stage::render(const StageDesc& desc, glm::uvec2 size, std::span<const std::
                     .services = services_.all()});
 }
 
+void Stage::makePipelines() {
+  if (keep_) return;
+  nearest_ = device_.createSampler({.label = "nearest"});
+  depths_ = device_.createComputePipeline(
+      {.label = "depths", .shader = &grisaille_shader_depths, .constants = {}});
+  depthsRead_ = device_.createBuffer({.label = "depths",
+                                      .size = kMostDepths * sizeof(float),
+                                      .usage = gpu::BufferUsage::kStorage});
+  keep_ = device_.createComputePipeline(
+      {.label = "keep", .shader = &grisaille_shader_keep_output, .constants = {}});
+}
+
 // Renders with the held settings and copies the output: the next frame reuses its render targets.
 void Stage::updateHeld(const StageDesc& desc) {
   heldDone_ = wanted(desc, true);
@@ -139,11 +162,7 @@ void Stage::updateHeld(const StageDesc& desc) {
                                .usage = gpu::TextureUsage::kSampled | gpu::TextureUsage::kStorage});
     heldSize_ = desc.size;
   }
-  if (!keep_) {
-    keep_ = device_.createComputePipeline(
-        {.label = "keep", .shader = &grisaille_shader_keep_output, .constants = {}});
-    nearest_ = device_.createSampler({.label = "nearest"});
-  }
+  makePipelines();
   gpu::Commands& commands = device_.begin();
   try {
     const std::array bindings = {
@@ -208,6 +227,41 @@ std::vector<float> Stage::valueAt(bool right, glm::uvec2 texel) {
   const image::Image& image = *side.values;
   const float* first = &image.pixels[(size_t{texel.y} * image.width + texel.x) * image.channels];
   return {first, first + image.channels};
+}
+
+std::vector<double> Stage::depthsAt(std::span<const glm::ivec2> texels) {
+  const frame::Renderer::Depth depth = renderer_.depth();
+  if (!done_ || !depth.texture || !left_.texture) return {};
+  makePipelines();
+  DepthsBlock block{};
+  std::vector<bool> inside(texels.size());
+  for (size_t i = 0; i < texels.size(); ++i) {
+    inside[i] = glm::all(glm::greaterThanEqual(texels[i], glm::ivec2(0))) &&
+                glm::all(glm::lessThan(texels[i], glm::ivec2(size_)));
+    if (inside[i]) block.texels[i] = {texels[i] + glm::ivec2(depth.guard), 0, 0};
+  }
+  gpu::Commands& commands = device_.begin();
+  try {
+    const std::array bindings = {
+        gpu::uniformBinding(0, commands.uniform(std::as_bytes(std::span(&block, 1)))),
+        gpu::textureBinding(0, {.texture = depth.texture}, nearest_),
+        gpu::storageBinding(0, {depthsRead_})};
+    commands.beginPass("viewer/depths");
+    commands.dispatch({.pipeline = depths_, .bindings = bindings, .groups = {1, 1, 1}});
+    commands.endPass();
+  } catch (...) {
+    device_.abandon();
+    throw;
+  }
+  device_.submit();
+  const std::vector<std::byte> bytes = device_.read(gpu::BufferRange{depthsRead_});
+  std::vector<double> depths(texels.size(), std::numeric_limits<double>::infinity());
+  for (size_t i = 0; i < texels.size(); ++i) {
+    float value = 0;
+    std::memcpy(&value, &bytes[i * sizeof(float)], sizeof(value));
+    if (inside[i] && value > 0) depths[i] = done_->camera.nearPlane / double{value};
+  }
+  return depths;
 }
 
 image::Image Stage::picture(const StageDesc& desc, const std::string& output) {

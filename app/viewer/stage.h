@@ -6,6 +6,7 @@
 #include <array>
 #include <memory>
 #include <optional>
+#include <span>
 #include <string>
 #include <vector>
 
@@ -71,6 +72,13 @@ class Stage {
   // for the device.
   std::vector<float> valueAt(bool right, glm::uvec2 texel);
 
+  // The view depth in metres at texels of the last update's picture; infinite: sky, or a texel
+  // outside. Empty if nothing was rendered. At most kMostDepths texels. Waits for the device.
+  static constexpr size_t kMostDepths = 16;
+  std::vector<double> depthsAt(std::span<const glm::ivec2> texels);
+  // The camera of the last update; null: nothing was rendered.
+  const scene::Camera* camera() const { return done_ ? &done_->camera : nullptr; }
+
   // Makes the next update() render even if no input changes. retry() also renders the held side.
   void touch() { done_.reset(); }
   void retry() {
@@ -112,6 +120,7 @@ class Stage {
   static Wanted wanted(const StageDesc& desc, bool held);
   void render(const StageDesc& desc, glm::uvec2 size, std::span<const std::string> outputs);
   void updateHeld(const StageDesc& desc);
+  void makePipelines();
 
   gpu::Device& device_;
   SceneServices& services_;
@@ -123,8 +132,9 @@ class Stage {
   uint64_t waiting_ = 0, heldWaiting_ = 0, revision_ = 0;
   gpu::Texture held_;  // a copy of the held settings' output
   glm::uvec2 heldSize_ = glm::uvec2(0);
-  gpu::ComputePipeline keep_;
+  gpu::ComputePipeline keep_, depths_;
   gpu::Sampler nearest_;
+  gpu::Buffer depthsRead_;
 };
 
 }  // namespace grisaille::app::viewer

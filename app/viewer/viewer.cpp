@@ -222,7 +222,8 @@ void Viewer::frame(double seconds) {
   if (drawn_ <= 1) ImGui::SetWindowFocus(nullptr);  // at first, the keys belong to the picture
   const ImGuiIO& io = ImGui::GetIO();
   Requests requests = panel_.draw(status(), {io.DisplaySize.x, io.DisplaySize.y});
-  moving_ = controls_.update(place(), seconds, io.DisplayFramebufferScale.x, requests);
+  moving_ =
+      controls_.update(place(), stage_.get(), seconds, io.DisplayFramebufferScale.x, requests);
   if (!ImGui::IsAnyItemActive()) session_.noteChanges();
   ImGui::Render();
   if (window_->hasMoreEvents()) settle_ = kSettleFrames;

@@ -210,6 +210,7 @@ void Renderer::render(const FrameDesc& desc) {
   for (auto& [name, slot] : targets_) slot.used = false;
   outputs_.clear();
   waiting_ = 0;
+  depth_ = {};
   opaque_ = desc.background.a == 1;
   gpu::Commands& commands = device_.begin();
   try {
@@ -219,6 +220,9 @@ void Renderer::render(const FrameDesc& desc) {
     throw;
   }
   device_.submit();
+  const bool guarded = plan.attachments == 0;
+  depth_ = {find((guarded ? kGuardedPrefix : "") + std::string(kClipDepth)),
+            guarded ? plan.guard : 0};
   before_.add(desc.camera, plan.motionReaders, source_);
   source_.finish(plan.readsMotion());
   std::erase_if(targets_, [&](const auto& entry) {

@@ -84,6 +84,13 @@ class Renderer {
   // frame rendered the output.
   image::Image read(std::string_view output);
 
+  // The depth buffer of the last frame; valid until the next render().
+  struct Depth {
+    gpu::Texture texture;  // near plane / view depth; 0: sky. Null: nothing read any depth
+    uint32_t guard = 0;    // width of the band around the picture, pixels
+  };
+  Depth depth() const { return depth_; }
+
   // The texture of an output of the last frame, to present it; valid until the next render().
   // Throws the same error.
   gpu::Texture texture(std::string_view output) const;
@@ -118,6 +125,7 @@ class Renderer {
   uint64_t waiting_ = 0;
   FramesBefore before_;
   bool opaque_ = true;  // the background of the last frame
+  Depth depth_;
 };
 
 }  // namespace grisaille::frame

@@ -47,12 +47,12 @@ TEST_P(InputTest, AnyInput) {
     return std::to_string(std::uniform_int_distribution<int>(0, count - 1)(random));
   };
   const std::vector<std::string> keys = {
-      "a",         "b",       "d",      "e",      "i",         "n",          "p",
-      "q",         "s",       "v",      "w",      "x",         "1",          "ctrl+1",
-      "Home",      "Tab",     "space",  "Return", "Escape",    "Up",         "Down",
-      "Left",      "Right",   "F1",     "F2",     "F5",        "F11",        "ctrl+z",
-      "ctrl+y",    "t",       "ctrl+c", "ctrl+s", "ctrl+plus", "ctrl+minus", "ctrl+0",
-      "BackSpace", "shift+v", "plus",   "minus",  "7",         "period",     "Delete"};
+      "a",         "b",          "d",      "e",         "i",        "n",        "p",      "q",
+      "s",         "v",          "w",      "x",         "1",        "ctrl+1",   "Home",   "Tab",
+      "space",     "Return",     "Escape", "Up",        "Down",     "Left",     "Right",  "F1",
+      "F2",        "F5",         "F11",    "ctrl+z",    "ctrl+y",   "t",        "ctrl+c", "ctrl+s",
+      "ctrl+plus", "ctrl+minus", "ctrl+0", "BackSpace", "shift+v",  "plus",     "minus",  "7",
+      "period",    "Delete",     "f",      "shift+w",   "alt+Left", "alt+Right"};
   for (int batch = 0; batch < 6; ++batch) {
     std::string words;
     for (int i = 0; i < 50; ++i) {
@@ -60,7 +60,7 @@ TEST_P(InputTest, AnyInput) {
       if (kind < 2) {
         words += "mousemove " + below(500) + " " + below(560) + " ";
       } else if (kind == 2) {
-        words += "click " + std::to_string(1 + std::stoi(below(5))) + " ";
+        words += "click " + std::to_string(1 + std::stoi(below(7))) + " ";
       } else if (kind == 3) {
         words += (random() % 2 == 0 ? "mousedown " : "mouseup ") +
                  std::to_string(1 + std::stoi(below(3))) + " ";

@@ -69,13 +69,13 @@ TEST(CameraControl, DraggingTurnsTheSceneWithTheCursor) {
   const glm::dvec2 before = pixelOf(camera, front);
   for (const glm::dvec2 drag : {glm::dvec2(30, 0), {-30, 0}, {0, 30}, {0, -30}, {20, -10}}) {
     Camera turned = camera;
-    orbit(turned, drag, kHeight);
+    orbit(turned, turned.target, drag, kHeight);
     const glm::dvec2 moved = pixelOf(turned, front) - before;
     EXPECT_GT(glm::dot(glm::normalize(moved), glm::normalize(drag)), 0.98);
     EXPECT_EQ(turned.target, camera.target);
   }
   Camera half = camera;
-  orbit(half, {kHeight, 0}, kHeight);
+  orbit(half, half.target, {kHeight, 0}, kHeight);
   EXPECT_LT(glm::length(half.eye - glm::dvec3(0, 0, -5)), 1e-12);
 }
 
@@ -85,10 +85,10 @@ TEST(CameraControl, OrbitKeepsTheDistanceAndGoesBack) {
     const Camera camera = randomCamera(random, 100, -2, 3);
     Camera turned = camera;
     const glm::dvec2 drag(randomIn(random, -500, 500), 0);
-    orbit(turned, drag, kHeight);
+    orbit(turned, turned.target, drag, kHeight);
     EXPECT_NEAR(distanceOf(turned) / distanceOf(camera), 1, 1e-9);
     EXPECT_NEAR(elevationOf(turned), elevationOf(camera), 1e-7);
-    orbit(turned, -drag, kHeight);
+    orbit(turned, turned.target, -drag, kHeight);
     EXPECT_LT(glm::length(turned.eye - camera.eye), 1e-9 * (distanceOf(camera) + 100));
   }
 }
@@ -100,7 +100,7 @@ TEST(CameraControl, PolesAreReachedAndNeverPassed) {
       Camera orbiting = randomCamera(random, 10, -1, 2), looking = orbiting;
       const glm::dvec3 right = scene::worldFromView(orbiting)[0];
       for (int step = 0; step < 50; ++step) {
-        orbit(orbiting, {0, way * 100}, kHeight);
+        orbit(orbiting, orbiting.target, {0, way * 100}, kHeight);
         look(looking, {0, way * 3000 / looking.fovyDegrees}, kHeight);
         ASSERT_GT(glm::dot(scene::worldFromView(orbiting)[0], right), 0.99);
         ASSERT_GT(glm::dot(scene::worldFromView(looking)[0], right), 0.99);
@@ -129,20 +129,140 @@ TEST(CameraControl, PanKeepsThePointUnderTheCursor) {
   }
 }
 
-TEST(CameraControl, DollyScalesTheDistanceAndNeverArrives) {
-  Camera camera{.eye = {3, 4, 12}, .target = {0, 0, 0}};
-  const glm::dvec3 direction = glm::normalize(camera.eye);
-  dolly(camera, 1);
-  EXPECT_NEAR(distanceOf(camera), 13 * 0.9, 1e-12);
-  dolly(camera, -3);
-  EXPECT_NEAR(distanceOf(camera), 13 / 0.81, 1e-12);
-  for (int i = 0; i < 1000; ++i) dolly(camera, 1);
-  dolly(camera, 1e9);
-  EXPECT_GT(distanceOf(camera), 0);
-  EXPECT_LT(distanceOf(camera), 1e-5);
-  EXPECT_GT(glm::dot(glm::normalize(camera.eye - camera.target), direction), 1 - 1e-12);
-  dolly(camera, -100);
-  EXPECT_GT(distanceOf(camera), 1e-3);
+// A surface point in front of a camera, at a random pixel and distance.
+glm::dvec3 randomPoint(std::mt19937_64& random, const Camera& camera) {
+  const glm::dvec2 pixel(randomIn(random, 0, kWidth), randomIn(random, 0, kHeight));
+  return camera.eye + distanceOf(camera) * std::pow(10, randomIn(random, -1, 1)) *
+                          scene::pixelDirection(camera, static_cast<uint32_t>(kWidth),
+                                                static_cast<uint32_t>(kHeight), pixel);
+}
+
+TEST(CameraControl, ThePivotKeepsItsPixelAndItsDistance) {
+  std::mt19937_64 random(5);
+  for (int i = 0; i < 2000; ++i) {
+    const Camera camera = randomCamera(random, 100, -1, 2);
+    const glm::dvec3 pivot = randomPoint(random, camera);
+    const glm::dvec2 pixel = pixelOf(camera, pivot);
+    const glm::dvec3 right = scene::worldFromView(camera)[0];
+    Camera turned = camera;
+    orbit(turned, pivot, {randomIn(random, -500, 500), randomIn(random, -500, 500)}, kHeight);
+    EXPECT_LT(glm::length(pixelOf(turned, pivot) - pixel), 1e-4);
+    EXPECT_NEAR(glm::length(turned.eye - pivot) / glm::length(camera.eye - pivot), 1, 1e-9);
+    EXPECT_NEAR(distanceOf(turned) / distanceOf(camera), 1, 1e-7);
+    // No roll: the picture's horizon stays level.
+    EXPECT_NEAR(glm::dot(scene::worldFromView(turned)[0], glm::normalize(camera.up)), 0, 1e-9);
+    EXPECT_NEAR(glm::dot(right, glm::normalize(camera.up)), 0, 1e-9);
+  }
+}
+
+TEST(CameraControl, ZoomKeepsThePointUnderThePointerAndNeverArrives) {
+  std::mt19937_64 random(6);
+  for (int i = 0; i < 2000; ++i) {
+    const Camera camera = randomCamera(random, 100, -1, 2);
+    const glm::dvec3 point = randomPoint(random, camera);
+    const glm::dvec2 pixel = pixelOf(camera, point);
+    const double away = glm::length(camera.eye - point);
+    const auto depthIn = [&](const Camera& of) {
+      return glm::dot(point - of.eye, -scene::worldFromView(of)[2]);
+    };
+    if (depthIn(camera) < 2 * camera.nearPlane) continue;
+    Camera moved = camera;
+    zoom(moved, point, -3);
+    EXPECT_NEAR(glm::length(moved.eye - point), away / std::pow(0.9, 3), 1e-9 * away);
+    EXPECT_LT(glm::length(pixelOf(moved, point) - pixel), 1e-4);
+    zoom(moved, point, 3);
+    EXPECT_LT(glm::length(moved.eye - camera.eye), 1e-9 * (away + 100));
+    for (int notch = 0; notch < 300; ++notch) zoom(moved, point, 1);
+    zoom(moved, point, 1e9);
+    // The near plane does not cut the point off.
+    EXPECT_NEAR(depthIn(moved), 2 * camera.nearPlane, 1e-5);
+    zoom(moved, point, -100);
+    EXPECT_GT(depthIn(moved), 100 * camera.nearPlane);
+  }
+}
+
+TEST(CameraControl, TheTargetsDistanceDoesNotChangeThePicture) {
+  std::mt19937_64 random(7);
+  for (int i = 0; i < 500; ++i) {
+    const Camera camera = randomCamera(random, 10, -1, 2);
+    Camera next = camera;
+    const double metres = std::pow(10, randomIn(random, -1, 3));
+    setTargetDistance(next, metres);
+    EXPECT_NEAR(distanceOf(next), metres, 1e-9 * (metres + 10));
+    EXPECT_EQ(next.eye, camera.eye);
+    const glm::dvec3 before = scene::worldFromView(camera)[2],
+                     after = scene::worldFromView(next)[2];
+    EXPECT_GT(glm::dot(before, after), 1 - 1e-12);
+    for (const double bad : {0.0, -1.0, std::nan(""), 1e300}) {
+      Camera same = camera;
+      setTargetDistance(same, bad);
+      EXPECT_NO_THROW(scene::validate(same));
+    }
+  }
+}
+
+TEST(CameraControl, AFocusedPointIsInTheMiddleAtHalfTheDistance) {
+  std::mt19937_64 random(8);
+  for (int i = 0; i < 500; ++i) {
+    const Camera camera = randomCamera(random, 10, -1, 2);
+    const glm::dvec3 point = randomPoint(random, camera);
+    const double away = glm::length(point - camera.eye);
+    if (away < 0.1 ||
+        std::abs(glm::dot(glm::normalize(point - camera.eye), glm::normalize(camera.up))) > 0.99) {
+      continue;  // above or below the eye
+    }
+    Camera next = camera;
+    focus(next, point);
+    EXPECT_EQ(next.target, point);
+    EXPECT_NEAR(distanceOf(next), away / 2, 1e-9 * away);
+    EXPECT_LT(glm::length(pixelOf(next, point) - glm::dvec2(kWidth, kHeight) / 2.0), 1e-6);
+    // The eye stays on the ray to the point, where nothing is in its way.
+    EXPECT_LT(glm::length(glm::cross(glm::normalize(next.eye - camera.eye),
+                                     glm::normalize(point - camera.eye))),
+              1e-7);
+  }
+}
+
+TEST(CameraControl, AFramedBallTouchesTheBordersOfThePicture) {
+  std::mt19937_64 random(9);
+  for (const double aspect : {kWidth / kHeight, 1.0, 0.4}) {
+    for (int i = 0; i < 200; ++i) {
+      Camera camera = randomCamera(random, 10, -1, 2);
+      camera.fovyDegrees = randomIn(random, 20, 100);
+      const glm::dvec3 before = scene::worldFromView(camera)[2];
+      const glm::dvec3 centre = 100 * randomIn(random, 0, 1) * randomDirection(random);
+      const double radius = std::pow(10, randomIn(random, -0.5, 2));
+      frameBall(camera, centre, radius, aspect);
+      EXPECT_EQ(camera.target, centre);
+      EXPECT_GT(glm::dot(scene::worldFromView(camera)[2], before), 1 - 1e-9);
+      // The ball's silhouette is as wide as the narrower side.
+      const double half = std::tan(glm::radians(camera.fovyDegrees) / 2) * std::min(aspect, 1.0);
+      EXPECT_NEAR(std::asin(radius / distanceOf(camera)), std::atan(half), 1e-6);
+    }
+  }
+}
+
+TEST(CameraControl, LooksAlongEveryAxisWithoutRoll) {
+  std::mt19937_64 random(10);
+  for (int i = 0; i < 200; ++i) {
+    Camera camera = randomCamera(random, 10, -1, 2);
+    camera.up = {0, 1, 0};
+    if (std::abs(elevationOf(camera)) > 1.5) continue;
+    for (int axis = 0; axis < 3; ++axis) {
+      for (const double sign : {1.0, -1.0}) {
+        glm::dvec3 from(0);
+        from[axis] = sign;
+        Camera next = camera;
+        lookFrom(next, from);
+        EXPECT_EQ(next.target, camera.target);
+        EXPECT_NEAR(distanceOf(next) / distanceOf(camera), 1, 1e-9);
+        EXPECT_GT(glm::dot(glm::normalize(next.eye - next.target), from), std::cos(0.011));
+        if (axis != 1) continue;
+        const glm::dmat3 now = scene::worldFromView(next), then = scene::worldFromView(camera);
+        EXPECT_GT(glm::dot(now[0], then[0]), 0.999);
+      }
+    }
+  }
 }
 
 TEST(CameraControl, LookingTurnsTheViewWithTheDrag) {
@@ -185,14 +305,19 @@ TEST(CameraControl, FlyingFarAwayIsNotStoppedByANearTarget) {
   EXPECT_GT(camera.eye.z, -1e12);
 }
 
-TEST(CameraControl, SpeedFitsTheSceneAndSteps) {
-  EXPECT_NEAR(flySpeed({.min = {0, 0, 0}, .max = {30, 40, 0}}), 5, 1e-12);
-  EXPECT_EQ(flySpeed({}), 1);
-  EXPECT_EQ(flySpeed({.min = {0, 0, 0}, .max = glm::dvec3(1e300)}), 1);
+TEST(CameraControl, SpeedFollowsTheDistanceAheadAndSteps) {
+  EXPECT_EQ(flySpeed(8, 100), 4);
+  EXPECT_LT(flySpeed(1, 100), flySpeed(2, 100));
+  EXPECT_EQ(flySpeed(1e9, 100), 50);
+  EXPECT_EQ(flySpeed(std::numeric_limits<double>::infinity(), 100), 50);  // sky
+  EXPECT_EQ(flySpeed(0, 100), 0.05);                                      // a surface can be passed
+  for (const double odd : {0.0, std::nan(""), std::numeric_limits<double>::infinity()}) {
+    EXPECT_EQ(flySpeed(1, odd), 0.5);
+  }
   EXPECT_NEAR(steppedSpeed(4, 1), 5, 1e-12);
   EXPECT_NEAR(steppedSpeed(steppedSpeed(4, 7), -7), 4, 1e-12);
-  EXPECT_EQ(steppedSpeed(4, 1e6), 1e6);
-  EXPECT_EQ(steppedSpeed(4, -1e6), 1e-4);
+  EXPECT_EQ(steppedSpeed(4, 1e6), 64);
+  EXPECT_EQ(steppedSpeed(4, -1e6), 1.0 / 64);
 }
 
 // Mostly a usual number, now and then one that no caller should pass.
@@ -210,15 +335,24 @@ double wild(std::mt19937_64& random, double usual) {
 void actByChance(std::mt19937_64& random, Camera& camera) {
   const glm::dvec2 drag(wild(random, 600), wild(random, 600));
   const double height = random() % 200 == 0 ? wild(random, 1) : kHeight;
-  switch (random() % 5) {
+  const glm::dvec3 point(wild(random, 10), wild(random, 10), wild(random, 10));
+  switch (random() % 9) {
     case 0:
-      return orbit(camera, drag, height);
+      return orbit(camera, random() % 2 == 0 ? camera.target : point, drag, height);
     case 1:
       return pan(camera, drag, height);
     case 2:
-      return dolly(camera, wild(random, 20));
+      return zoom(camera, random() % 2 == 0 ? camera.target : point, wild(random, 20));
     case 3:
       return look(camera, drag, height);
+    case 4:
+      return setTargetDistance(camera, wild(random, 10));
+    case 5:
+      return focus(camera, point);
+    case 6:
+      return frameBall(camera, point, wild(random, 10), std::abs(wild(random, 2)));
+    case 7:
+      return lookFrom(camera, randomDirection(random));
     default:
       return fly(camera, {wild(random, 1), wild(random, 1), wild(random, 1)}, wild(random, 0.1),
                  std::pow(10, randomIn(random, -4, 9)));
