@@ -14,7 +14,7 @@
 namespace grisaille::app::viewer {
 namespace {
 
-constexpr float kWidth = 26;  // of the panel, in font heights
+constexpr double kLeastWidth = 12;  // of the panel, in font heights
 
 constexpr struct {
   const char *keys, *what;
@@ -58,31 +58,40 @@ constexpr struct {
 
 }  // namespace
 
-bool Panel::button(const char* label, const char* id, const char* tooltip) {
-  const bool pressed = ImGui::Button(label);
-  if (*tooltip != '\0' && ImGui::IsItemHovered()) ImGui::SetTooltip("%s", tooltip);
-  layout.note(id);
-  return pressed;
-}
-
-bool Panel::toggle(const char* label, const char* id, bool& value, const char* tooltip) {
-  const bool changed = ImGui::Checkbox(label, &value);
-  if (*tooltip != '\0' && ImGui::IsItemHovered()) ImGui::SetTooltip("%s", tooltip);
-  layout.note(id, value ? "true" : "false");
-  return changed;
-}
-
-// Draws a text field for a path or a name. True if the user pressed Enter.
-bool Panel::path(const char* label, const char* id, std::string& text) {
-  ImGui::SetNextItemWidth(ImGui::GetContentRegionAvail().x * 0.58f);
-  const bool entered = ImGui::InputText(label, &text, ImGuiInputTextFlags_EnterReturnsTrue);
-  layout.note(id, text);
-  return entered;
-}
-
 float Panel::width(glm::vec2 window) const {
   if (!shown) return 0;
-  return std::min(kWidth * ImGui::GetFontSize(), window.x);
+  return std::min(static_cast<float>(state_.panelWidth) * ImGui::GetFontSize(), window.x);
+}
+
+// The panel's right border, which the user can drag.
+void Panel::drawBorder(glm::vec2 window) {
+  const float grip = ImGui::GetStyle().WindowPadding.x;
+  ImGui::SetCursorScreenPos(ImVec2(width(window) - grip, grip));
+  // The border is outside the part of the window that content may use.
+  ImGui::PushClipRect(ImVec2(0, 0), ImVec2(width(window), window.y), false);
+  ImGui::InvisibleButton("border", ImVec2(grip, std::max(window.y - 2 * grip, 1.0f)));
+  layout.note("panel border");
+  if (ImGui::IsItemHovered() || ImGui::IsItemActive()) {
+    ImGui::SetMouseCursor(ImGuiMouseCursor_ResizeEW);
+    ImGui::GetWindowDrawList()->AddRectFilled(ImGui::GetItemRectMin(), ImGui::GetItemRectMax(),
+                                              ImGui::GetColorU32(ImGuiCol_SeparatorHovered));
+  }
+  ImGui::PopClipRect();
+  if (!ImGui::IsItemActive()) return;
+  const double font = ImGui::GetFontSize();
+  const double most = std::max(double{window.x} / font, kLeastWidth);
+  const double wanted = (double{ImGui::GetIO().MousePos.x} + double{grip} / 2) / font;
+  state_.panelWidth = std::clamp(wanted, kLeastWidth, std::min(most, ViewerState::kWidestPanel));
+}
+
+// A section of the panel. It stays as the user left it, also in the next run.
+bool Panel::section(const char* label, bool open) {
+  const auto known = state_.sections.find(label);
+  ImGui::SetNextItemOpen(known != state_.sections.end() ? known->second : open, ImGuiCond_Once);
+  const bool is = ImGui::CollapsingHeader(label);
+  if (ImGui::IsItemToggledOpen()) state_.sections[label] = is;
+  layout.note(std::string("section ") + label, is ? "open" : "closed");
+  return is;
 }
 
 Requests Panel::draw(const Status& status, glm::vec2 window) {
@@ -103,11 +112,6 @@ Requests Panel::draw(const Status& status, glm::vec2 window) {
                        status.device.software ? ", software" : "");
     const float messages = 5 * ImGui::GetTextLineHeightWithSpacing();
     ImGui::BeginChild("controls", ImVec2(0, -messages));
-    const auto section = [&](const char* label, bool open) {
-      const bool is = ImGui::CollapsingHeader(label, open ? ImGuiTreeNodeFlags_DefaultOpen : 0);
-      layout.note(std::string("section ") + label, is ? "open" : "closed");
-      return is;
-    };
     if (session_.hasAnimations() && section("Time", true)) drawTime();
     if (section("Effects", true)) drawEffects(status, requests);
     if (section("View", true)) drawViews(status, requests);
@@ -119,6 +123,7 @@ Requests Panel::draw(const Status& status, glm::vec2 window) {
     if (section("Scene", false)) drawScene(status, requests);
     ImGui::EndChild();
     drawMessages();
+    drawBorder(window);
     ImGui::End();
   }
   if (status.loading) {
@@ -193,17 +198,16 @@ void Panel::drawCamera() {
   scene::Camera edited = session_.camera;
   bool changed = false;
   const auto field = [&](const char* label, glm::dvec3& value) {
-    ImGui::SetNextItemWidth(ImGui::GetContentRegionAvail().x * 0.75f);
-    changed |= ImGui::InputScalarN(label, ImGuiDataType_Double, &value.x, 3, nullptr, nullptr,
-                                   "%.4f", ImGuiInputTextFlags_EnterReturnsTrue);
+    changed |=
+        ImGui::InputScalarN(fit(label, label, 0.75f).c_str(), ImGuiDataType_Double, &value.x, 3,
+                            nullptr, nullptr, "%.4f", ImGuiInputTextFlags_EnterReturnsTrue);
     layout.note(std::string("camera.") + label);
   };
   field("Eye", edited.eye);
   field("Target", edited.target);
   const double least = 5, most = 120;
-  ImGui::SetNextItemWidth(ImGui::GetContentRegionAvail().x * 0.58f);
-  changed |= ImGui::SliderScalar("Field of view", ImGuiDataType_Double, &edited.fovyDegrees, &least,
-                                 &most, "%.1f degrees");
+  changed |= ImGui::SliderScalar(fit("Field of view", "fov").c_str(), ImGuiDataType_Double,
+                                 &edited.fovyDegrees, &least, &most, "%.1f degrees");
   layout.note("camera.fov", fmt::format("{}", edited.fovyDegrees));
   if (changed) {
     session_.attempt("camera", [&] {
@@ -245,12 +249,13 @@ void Panel::drawScene(const Status& status, Requests& requests) {
   if (open && !scenePath_.empty()) requests.scene = scenePath_;
   for (const scene::BuiltIn& one : scene::builtIns()) {
     if (ImGui::Selectable(sceneLabel(one.name).c_str())) requests.scene = one.name;
-    if (ImGui::IsItemHovered()) ImGui::SetTooltip("%s", one.about);
+    tip(one.about);
     layout.note(std::string("scene.") + one.name);
   }
   for (const std::string& recent : state_.recent) {
-    if (ImGui::Selectable(recent.c_str())) requests.scene = recent;
+    if (ImGui::Selectable(fitted(recent).c_str())) requests.scene = recent;
     layout.note("recent." + recent);
+    tip(recent);
   }
   ImGui::EndDisabled();
 }

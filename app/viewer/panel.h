@@ -93,6 +93,8 @@ class Panel {
  private:
   // panel.cpp
   void drawMessages();
+  void drawBorder(glm::vec2 window);
+  bool section(const char* label, bool open);
   void drawScene(const Status& status, Requests& requests);
   void drawCamera();
   void drawSettings(Requests& requests);
@@ -102,6 +104,7 @@ class Panel {
   void drawEffect(effect::Selection::Entry& entry, size_t index, const Status& status,
                   Requests& requests);
   void drawParameters(effect::Selection::Entry& entry);
+  void drawUnused(effect::Selection::Entry& entry);
   void drawParameter(effect::Selection::Entry& entry, const grisaille_param_desc& param);
   void drawSceneLength(effect::Selection::Entry& entry, const grisaille_param_desc& param);
   bool editParameter(const effect::Selection::Entry& entry, const grisaille_param_desc& param,
@@ -142,9 +145,19 @@ class Panel {
   void drawTruth(const TruthStatus& status);
   void drawTruthSettings();
 
+  // panel_items.cpp
+  static constexpr float kItem = 0.58f;  // width of a control beside its name, of the panel's width
   bool button(const char* label, const char* id, const char* tooltip = "");
   bool toggle(const char* label, const char* id, bool& value, const char* tooltip = "");
+  // A text field for a path or a name. True if the user pressed Enter.
   bool path(const char* label, const char* id, std::string& text);
+  // Shows a tooltip while the last item is hovered; wraps it to fit into the window.
+  void tip(const std::string& text);
+  // The label of a control with this id, and its width: `share` of the panel's, less for a long
+  // name. A name for which even that is too little is drawn above the control.
+  std::string fit(const std::string& name, const std::string& id, float share = kItem);
+  // The end of a path that is too long for the panel, after an ellipsis.
+  static std::string fitted(const std::string& path);
 
   Session& session_;
   ViewerState& state_;

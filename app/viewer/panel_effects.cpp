@@ -111,20 +111,18 @@ void Panel::drawEffect(effect::Selection::Entry& entry, size_t index, const Stat
                         ImGuiTreeNodeFlags_AllowItemOverlap | ImGuiTreeNodeFlags_SpanAvailWidth |
                             ImGuiTreeNodeFlags_NoTreePushOnOpen,
                         "%s (%s)", desc.label, desc.key);
-  if (ImGui::IsItemHovered()) {
-    ImGui::SetTooltip("%s\nversion %s, %s\nreads %s\nwrites %s", desc.tooltip, desc.version,
-                      entry.effect().path.c_str(), readsOf(entry).c_str(), writesOf(entry).c_str());
-  }
+  tip(fmt::format("{}\nversion {}, {}\nreads {}\nwrites {}", desc.tooltip, desc.version,
+                  entry.effect().path, readsOf(entry), writesOf(entry)));
   layout.note(key + ".tree", open ? "open" : "closed");
   ImGui::SameLine(ImGui::GetContentRegionMax().x - arrows);
   std::optional<size_t> target;
   if (ImGui::ArrowButton("##up", ImGuiDir_Up) && index > 0) target = index - 1;
   layout.note(key + ".up");
-  if (ImGui::IsItemHovered()) ImGui::SetTooltip("Runs earlier");
+  tip("Runs earlier");
   ImGui::SameLine();
   if (ImGui::ArrowButton("##down", ImGuiDir_Down)) target = index + 1;
   layout.note(key + ".down");
-  if (ImGui::IsItemHovered()) ImGui::SetTooltip("Runs later");
+  tip("Runs later");
   if (open) {
     ImGui::Indent();
     drawParameters(entry);
@@ -143,35 +141,54 @@ void Panel::drawParameters(effect::Selection::Entry& entry) {
   ImGui::TextWrapped("reads %s; writes %s", readsOf(entry).c_str(), writesOf(entry).c_str());
   ImGui::PopStyleColor();
   drawPresets(entry);
-  bool anyAdvanced = false;
-  for (const grisaille_param_desc& param : entry.effect().params()) {
-    if ((param.flags & GRISAILLE_PARAM_ADVANCED) != 0) {
-      anyAdvanced = true;
-    } else {
-      drawParameter(entry, param);
+  const auto draw = [&](bool advanced) {
+    for (const grisaille_param_desc& param : entry.effect().params()) {
+      const bool is = (param.flags & GRISAILLE_PARAM_ADVANCED) != 0;
+      if (is == advanced && entry.values.isUsed(param)) drawParameter(entry, param);
     }
-  }
+  };
+  draw(false);
+  const bool anyAdvanced =
+      std::ranges::any_of(entry.effect().params(), [](const grisaille_param_desc& param) {
+        return (param.flags & GRISAILLE_PARAM_ADVANCED) != 0;
+      });
   if (anyAdvanced) {
     const bool open =
         ImGui::TreeNodeEx("advanced", ImGuiTreeNodeFlags_NoTreePushOnOpen, "Advanced");
     layout.note(std::string(entry.key()) + ".advanced", open ? "open" : "closed");
-    if (open) {
-      for (const grisaille_param_desc& param : entry.effect().params()) {
-        if ((param.flags & GRISAILLE_PARAM_ADVANCED) != 0) drawParameter(entry, param);
-      }
-    }
+    if (open) draw(true);
+  }
+  drawUnused(entry);
+}
+
+// The parameters that do nothing with the present values, folded, each under the reason. They can
+// be set all the same.
+void Panel::drawUnused(effect::Selection::Entry& entry) {
+  std::vector<const grisaille_param_desc*> unused;
+  for (const grisaille_param_desc& param : entry.effect().params()) {
+    if (!entry.values.isUsed(param)) unused.push_back(&param);
+  }
+  if (unused.empty()) return;
+  const std::string key = entry.key();
+  const bool open = ImGui::TreeNodeEx("unused", ImGuiTreeNodeFlags_NoTreePushOnOpen,
+                                      "Not in use now: %zu", unused.size());
+  tip("Parameters that do nothing with the present values");
+  layout.note(key + ".unused", open ? "open" : "closed");
+  if (!open) return;
+  std::string last;
+  for (const grisaille_param_desc* param : unused) {
+    const std::string reason = "used when " + effect::usedWhenText(entry.effect(), *param);
+    if (reason != last) ImGui::TextDisabled("%s", reason.c_str());
+    layout.note(key + "." + param->key + ".reason", 0, 0, 0, 0, reason);
+    last = reason;
+    drawParameter(entry, *param);
   }
 }
 
 void Panel::drawParameter(effect::Selection::Entry& entry, const grisaille_param_desc& param) {
   const std::string name = std::string(entry.key()) + "." + param.key;
   double value = entry.values.get(param.key);
-  ImGui::SetNextItemWidth(ImGui::GetContentRegionAvail().x * 0.58f);
-  // Fainter if it does nothing now; it can still be set.
-  const bool used = entry.values.isUsed(param);
-  if (!used) ImGui::PushStyleVar(ImGuiStyleVar_Alpha, ImGui::GetStyle().DisabledAlpha);
   bool edited = editParameter(entry, param, value);
-  if (!used) ImGui::PopStyleVar();
   // A typed value is applied when the user leaves the text field; Esc drops it.
   if (ImGui::TempInputIsActive(ImGui::GetItemID())) {
     if (edited) typed_ = {name, value};
@@ -182,7 +199,7 @@ void Panel::drawParameter(effect::Selection::Entry& entry, const grisaille_param
     typed_.reset();
   }
   if (ImGui::IsItemHovered()) {
-    ImGui::SetTooltip("%s", tooltipOf(entry, param).c_str());
+    tip(tooltipOf(entry, param));
     if (ImGui::IsMouseClicked(ImGuiMouseButton_Right)) {
       session_.resetParameter(entry, param.key);
       value = entry.values.get(param.key);
@@ -226,7 +243,7 @@ void Panel::drawSceneLength(effect::Selection::Entry& entry, const grisaille_par
 // Draws the control; true if the user changed `value`.
 bool Panel::editParameter(const effect::Selection::Entry& entry, const grisaille_param_desc& param,
                           double& value) {
-  const std::string label = fmt::format("{}##{}.{}", param.label, entry.key(), param.key);
+  const std::string label = fit(param.label, fmt::format("{}.{}", entry.key(), param.key));
   const ImGuiSliderFlags scale =
       (param.flags & GRISAILLE_PARAM_LOG) != 0 ? ImGuiSliderFlags_Logarithmic : 0;
   switch (param.type) {

@@ -80,7 +80,7 @@ void Panel::drawObjectsOf(const std::string& effect, const Status& status) {
     selectedLast_ = effect;
   }
   ImGui::Text("%s: %zu", table.label, list.size());
-  if (ImGui::IsItemHovered()) ImGui::SetTooltip("%s", table.tooltip);
+  tip(table.tooltip);
   layout.note(effect + ".objects", fmt::format("{}", list.size()));
   if (status.waiting > 0) {
     ImGui::SameLine();
@@ -88,7 +88,7 @@ void Panel::drawObjectsOf(const std::string& effect, const Status& status) {
   }
   ImGui::SameLine();
   if (ImGui::SmallButton("Clear")) session_.clearObjects(effect);
-  if (ImGui::IsItemHovered()) ImGui::SetTooltip("Deletes all objects; Ctrl+Z restores them");
+  tip("Deletes all objects; Ctrl+Z restores them");
   layout.note(effect + ".clear");
   bool placing = session_.placing && session_.placer() == effect;
   const char* tip = table.placement == GRISAILLE_PLACE_RAY
@@ -151,7 +151,7 @@ void Panel::drawObjectList(const std::string& effect) {
       }
       layout.note(fmt::format("{}.object.{}", effect, index), chosen == index ? "true" : "false");
       const std::string name = nameOf(list, index);
-      if (ImGui::IsItemHovered()) ImGui::SetTooltip("%s", name.c_str());
+      tip(name);
       ImGui::SameLine(0, 0);
       ImGui::TextUnformatted(name.c_str());
       ImGui::PopID();
@@ -232,8 +232,7 @@ void Panel::takeDraft() {
 
 // Draws the control of one field; true if the user changed `value`.
 bool Panel::editField(const objects::Field& field, const std::string& id, objects::Value& value) {
-  const std::string label = fmt::format("{}##{}{}", field.label, id, field.key);
-  ImGui::SetNextItemWidth(ImGui::GetContentRegionAvail().x * 0.58f);
+  const std::string label = fit(field.label, id + field.key);
   bool edited = false;
   switch (field.type) {
     case GRISAILLE_FIELD_COLOUR:
@@ -260,7 +259,7 @@ bool Panel::editField(const objects::Field& field, const std::string& id, object
                                   static_cast<float>(step), nullptr, nullptr, "%.3f");
     }
   }
-  if (ImGui::IsItemHovered()) ImGui::SetTooltip("%s", tooltipOf(field).c_str());
+  tip(tooltipOf(field));
   layout.note(id + field.key, objects::textOf(field, value));
   return edited;
 }

@@ -9,8 +9,8 @@ namespace grisaille::app::viewer {
 void Panel::drawAnimationChoice() {
   const scene::Pose& pose = session_.playback.pose;
   const auto label = [&](size_t index) { return labelOf(*session_.scene, index); };
-  ImGui::SetNextItemWidth(ImGui::GetContentRegionAvail().x * 0.58f);
-  if (ImGui::BeginCombo("Animation", pose.animation ? label(*pose.animation).c_str() : "At rest")) {
+  if (ImGui::BeginCombo(fit("Animation", "animation").c_str(),
+                        pose.animation ? label(*pose.animation).c_str() : "At rest")) {
     if (ImGui::Selectable("At rest", !pose.animation)) {
       session_.playback.playing = false;
       session_.attempt("pose", [&] { session_.choose({}); });
@@ -34,9 +34,8 @@ void Panel::drawTime() {
   Playback& playback = session_.playback;
   const double duration = session_.duration(), start = 0;
   double seconds = playback.pose.seconds;
-  ImGui::SetNextItemWidth(ImGui::GetContentRegionAvail().x * 0.58f);
-  if (ImGui::SliderScalar("Time##line", ImGuiDataType_Double, &seconds, &start, &duration,
-                          "%.3f s")) {
+  if (ImGui::SliderScalar(fit("Time", "time").c_str(), ImGuiDataType_Double, &seconds, &start,
+                          &duration, "%.3f s")) {
     session_.attempt("pose", [&] { session_.seek(seconds); });
   }
   layout.note("time", fmt::format("{}", playback.pose.seconds));
@@ -52,8 +51,8 @@ void Panel::drawTime() {
   ImGui::Text("Frame %.0f of %.0f, %.0f a second", session_.frameNumber(), session_.lastFrame(),
               Playback::kFrames);
   const double least = 0.05, most = 4;
-  ImGui::SetNextItemWidth(ImGui::GetContentRegionAvail().x * 0.58f);
-  ImGui::SliderScalar("Speed", ImGuiDataType_Double, &playback.speed, &least, &most, "%.3g x",
+  ImGui::SliderScalar(fit("Speed", "play speed").c_str(), ImGuiDataType_Double, &playback.speed,
+                      &least, &most, "%.3g x",
                       ImGuiSliderFlags_Logarithmic | ImGuiSliderFlags_AlwaysClamp);
   layout.note("play speed", fmt::format("{}", playback.speed));
 }

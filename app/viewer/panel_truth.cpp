@@ -50,10 +50,8 @@ void drawNumbers(const TruthStatus& status) {
 void Panel::drawTruthSettings() {
   const std::vector<std::string> outputs = session_.comparable();
   const std::string compared = session_.comparedOutput();
-  const float width = ImGui::GetContentRegionAvail().x * 0.58f;
   if (outputs.size() > 1) {
-    ImGui::SetNextItemWidth(width);
-    if (ImGui::BeginCombo("Compared", compared.c_str())) {
+    if (ImGui::BeginCombo(fit("Compared", "compared").c_str(), compared.c_str())) {
       for (const std::string& output : outputs) {
         if (ImGui::Selectable(output.c_str(), output == compared)) {
           session_.comparing.output = output;
@@ -65,20 +63,16 @@ void Panel::drawTruthSettings() {
     layout.note("compared", compared);
   }
   double radius = session_.truthRadius();
-  ImGui::SetNextItemWidth(width);
-  if (ImGui::InputDouble("Truth's radius, m", &radius, 0, 0, "%.6g",
+  if (ImGui::InputDouble(fit("Truth's radius, m", "truth radius").c_str(), &radius, 0, 0, "%.6g",
                          ImGuiInputTextFlags_EnterReturnsTrue)) {
     session_.attempt("truth's radius", [&] { session_.setTruthRadius(radius); });
   }
-  if (ImGui::IsItemHovered()) {
-    ImGui::SetTooltip("Length of the rays. Right click: the effect's radius");
-  }
+  tip("Length of the rays. Right click: the effect's radius");
   if (ImGui::IsItemClicked(ImGuiMouseButton_Right)) session_.comparing.radius.reset();
   layout.note("truth radius", fmt::format("{}", session_.truthRadius()));
   int rays = static_cast<int>(session_.comparing.rays);
-  ImGui::SetNextItemWidth(width);
-  ImGui::SliderInt("Truth's rays per pixel", &rays, TruthSettings::kLeastRays,
-                   TruthSettings::kMostRays, "%d",
+  ImGui::SliderInt(fit("Truth's rays per pixel", "truth rays").c_str(), &rays,
+                   TruthSettings::kLeastRays, TruthSettings::kMostRays, "%d",
                    ImGuiSliderFlags_Logarithmic | ImGuiSliderFlags_AlwaysClamp);
   session_.comparing.rays = static_cast<uint32_t>(rays);
   layout.note("truth rays", fmt::format("{}", rays));

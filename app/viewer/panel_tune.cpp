@@ -43,22 +43,35 @@ void Panel::drawPresets(effect::Selection::Entry& entry) {
   drawQuiet("Preset: " + (now != nullptr ? now->name + ", " + priceOf(*now)
                                          : "custom; error and cost of the others:"));
   layout.note(key + ".presets", now != nullptr ? now->name : "custom");
-  const auto count = static_cast<float>(own.presets.all.size());
-  const float gap = ImGui::GetStyle().ItemInnerSpacing.x;
-  const float width = (ImGui::GetContentRegionAvail().x - (count - 1) * gap) / count;
+  // Tight, so that one row holds the usual five.
+  const ImVec2 padding(ImGui::GetStyle().FramePadding.x / 4, ImGui::GetStyle().FramePadding.y);
+  const float gap = ImGui::GetStyle().ItemInnerSpacing.x / 2;
+  const float room = ImGui::GetContentRegionAvail().x;
+  float widest = 0;
+  for (const Preset& preset : own.presets.all) {
+    widest = std::max(widest, ImGui::CalcTextSize(preset.name.c_str()).x + 2 * padding.x);
+  }
+  // As many in a row as the longest name allows.
+  const size_t columns = std::clamp(static_cast<size_t>((room + gap) / (widest + gap)), size_t{1},
+                                    own.presets.all.size());
+  ImGui::PushStyleVar(ImGuiStyleVar_FramePadding, padding);
+  const auto count = static_cast<float>(columns);
+  const float width = (room - (count - 1) * gap) / count;
   const float height = 3 * ImGui::GetTextLineHeight() + 2 * ImGui::GetStyle().FramePadding.y;
   std::string chosen;
   for (const Preset& preset : own.presets.all) {
-    if (&preset != &own.presets.all.front()) ImGui::SameLine(0, gap);
+    const auto index = static_cast<size_t>(&preset - own.presets.all.data());
+    if (index % columns != 0) ImGui::SameLine(0, gap);
     const bool is = &preset == now;
     if (is) ImGui::PushStyleColor(ImGuiCol_Button, ImGui::GetStyleColorVec4(ImGuiCol_ButtonActive));
     const std::string label =
         fmt::format("{}\n{:.3f}\n{:.2f} x", preset.name, preset.error, preset.cost);
     if (ImGui::Button(label.c_str(), ImVec2(width, height))) chosen = preset.name;
     if (is) ImGui::PopStyleColor();
-    if (ImGui::IsItemHovered()) ImGui::SetTooltip("%s", tooltipOf(preset, own.presets).c_str());
+    tip(tooltipOf(preset, own.presets));
     layout.note(key + ".preset." + preset.name, is ? "true" : "false");
   }
+  ImGui::PopStyleVar();
   if (!chosen.empty()) session_.attempt("preset", [&] { session_.choosePreset(entry, chosen); });
 }
 
@@ -144,11 +157,8 @@ void Panel::drawTune(const effect::Selection::Entry& entry, const TuneStatus& st
   if (session_.outputToTune(key).empty() && !(own && status.running)) return;
   const bool open =
       ImGui::TreeNodeEx("tune", ImGuiTreeNodeFlags_NoTreePushOnOpen, "Tune for this view");
-  if (ImGui::IsItemHovered()) {
-    ImGui::SetTooltip(
-        "Runs `grisaille tune` in the background: finds the cheapest setting under\n"
-        "an error, or the best setting within a budget");
-  }
+  tip("Runs `grisaille tune` in the background: finds the cheapest setting under an error, or the "
+      "best setting within a budget");
   layout.note(key + ".tune", open ? "open" : "closed");
   if (!open && !own) return;
   TuneWish& wish = wishOf(key);

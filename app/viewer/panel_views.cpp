@@ -13,9 +13,8 @@ namespace grisaille::app::viewer {
 void Panel::drawViewChoice(const char* label, const char* id, std::string& output,
                            const std::vector<Viewable>& all) {
   const auto now = std::ranges::find(all, output, &Viewable::output);
-  ImGui::SetNextItemWidth(ImGui::GetContentRegionAvail().x * 0.58f);
-  const std::string unique = fmt::format("{}##{}", label, id);
-  if (ImGui::BeginCombo(unique.c_str(), now != all.end() ? now->label.c_str() : output.c_str())) {
+  if (ImGui::BeginCombo(fit(label, id).c_str(),
+                        now != all.end() ? now->label.c_str() : output.c_str())) {
     for (const Viewable& one : all) {
       if (ImGui::Selectable(one.label.c_str(), one.output == output)) output = one.output;
       layout.note(std::string(id) + "." + one.output);
@@ -66,8 +65,7 @@ void Panel::drawViews(const Status& status, Requests& requests) {
     session_.surface = base ? frame::Surface::kBaseColour : frame::Surface::kWhite;
   }
   drawBackground();
-  ImGui::SetNextItemWidth(ImGui::GetContentRegionAvail().x * 0.58f);
-  ImGui::SliderFloat("Zoom", &session_.zoom, 1, 64, "%.3g px per texel",
+  ImGui::SliderFloat(fit("Zoom", "zoom").c_str(), &session_.zoom, 1, 64, "%.3g px per texel",
                      ImGuiSliderFlags_Logarithmic);
   layout.note("zoom", fmt::format("{}", session_.zoom));
   toggle("Value under the cursor", "inspect", session_.inspecting, "(I)");
@@ -85,8 +83,7 @@ void Panel::drawViews(const Status& status, Requests& requests) {
   toggle("Picture as large as on the screen", "as shown", pictureAsShown);
   if (!pictureAsShown) {
     int size[2] = {static_cast<int>(pictureSize.x), static_cast<int>(pictureSize.y)};
-    ImGui::SetNextItemWidth(ImGui::GetContentRegionAvail().x * 0.58f);
-    if (ImGui::InputInt2("Size, px", size)) {
+    if (ImGui::InputInt2(fit("Size, px", "picture size").c_str(), size)) {
       pictureSize = glm::uvec2(glm::clamp(glm::ivec2(size[0], size[1]), 1, 16384));
     }
     layout.note("picture size");

@@ -23,7 +23,7 @@ namespace {
 namespace fs = std::filesystem;
 using nlohmann::json;
 
-constexpr size_t kMostRecent = 12;
+constexpr size_t kMostRecent = 12, kMostSections = 64;
 constexpr uint32_t kLargestSide = 16384;
 constexpr uintmax_t kLargestFile = 1 << 20;
 
@@ -77,6 +77,11 @@ ViewerState parse(const std::string& text) {
       state.height = static_cast<uint32_t>(numberOf(value, "height", 1, kLargestSide));
     } else if (key == "text_scale") {
       state.textScale = numberOf(value, "text_scale", 0.5, 4);
+    } else if (key == "panel_width") {
+      state.panelWidth = numberOf(value, "panel_width", 5, ViewerState::kWidestPanel);
+    } else if (key == "sections") {
+      state.sections = value.get<decltype(state.sections)>();
+      if (state.sections.size() > kMostSections) refuse("'sections' has too many members");
     }
   }
   return state;
@@ -148,6 +153,8 @@ void saveState(const ViewerState& state, const fs::path& file) {
   document["width"] = state.width;
   document["height"] = state.height;
   document["text_scale"] = state.textScale;
+  document["panel_width"] = state.panelWidth;
+  document["sections"] = state.sections;
   std::error_code failed;
   fs::create_directories(file.parent_path(), failed);  // on failure, writing throws
   writeFileAtomically(file.string(), document.dump(2) + "\n");

@@ -125,6 +125,8 @@ TEST_P(SettingTest, WhatIsSavedComesBack) {
     viewer.until("shots", [](const nlohmann::json& now) {
       return now["message"]["value"].get<std::string>().starts_with("1 shots to");
     });
+    viewer.click("section View");
+    viewer.untilValue("section View", "open");
     expectQuits(viewer);
   }
   DrivenViewer viewer(folder_,

@@ -21,6 +21,8 @@ ViewerState some() {
   state.width = 1920;
   state.height = 1080;
   state.textScale = 1.0 / 3 + 1;
+  state.panelWidth = 31.25;
+  state.sections = {{"Cost", true}, {"View", false}};
   return state;
 }
 
@@ -56,6 +58,9 @@ TEST_F(StateFile, ADamagedFileIsKeptAndTold) {
                                   R"({"text_scale": 1e999})",
                                   R"({"recent": "one"})",
                                   R"({"recent": [1]})",
+                                  R"({"panel_width": 0})",
+                                  R"({"sections": ["Cost"]})",
+                                  R"({"sections": {"Cost": 1}})",
                                   std::string(100000, '['),
                                   std::string(2 << 20, ' ')};
   for (const std::string& content : contents) {

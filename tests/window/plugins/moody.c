@@ -40,6 +40,25 @@ static void destroy(void* instance) {
   (void)instance;
 }
 
+/* Names and tooltips that are longer than the panel is wide. */
+static const grisaille_param_desc kParams[] = {{
+    .struct_size = sizeof(grisaille_param_desc),
+    .type = GRISAILLE_PARAM_FLOAT,
+    .key = "patience",
+    .label = "Patience with the people who use this program all day long and into the night",
+    .unit = "",
+    .tooltip =
+        "How long it takes until this effect loses its patience, which it does without a warning: "
+        "a tooltip that no window of a few hundred pixels can show on one line of text, however "
+        "small that text may be",
+    .hard_min = 0,
+    .hard_max = 1,
+    .soft_min = 0,
+    .soft_max = 1,
+    .default_value = 0.5,
+    .step = 0.1,
+}};
+
 static const grisaille_output_desc kOutputs[] = {{
     .struct_size = sizeof(grisaille_output_desc),
     .format = GRISAILLE_FORMAT_R32F,
@@ -50,11 +69,13 @@ static const grisaille_output_desc kOutputs[] = {{
 
 static const grisaille_effect_desc kEffect = {
     .struct_size = sizeof(grisaille_effect_desc),
+    .param_count = 1,
     .output_count = 1,
     .key = "moody",
     .label = "Moody",
     .version = "1.0.0",
     .tooltip = "Fails on request",
+    .params = kParams,
     .outputs = kOutputs,
     .reads = reads,
     .create = create,
