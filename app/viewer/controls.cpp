@@ -3,14 +3,10 @@
 
 #define GLFW_INCLUDE_NONE
 #include <GLFW/glfw3.h>
-#include <fmt/format.h>
 
 #include <algorithm>
 #include <cmath>
-#include <limits>
-#include <utility>
 
-#include "app/viewer/axis_widget.h"
 #include "app/viewer/camera_control.h"
 #include "app/viewer/input.h"
 
@@ -21,14 +17,9 @@ constexpr double kSprayInterval = 1.0 / 20;  // seconds
 constexpr int kMostSprayed = 8;              // per frame
 constexpr double kSprayRadius = 12;          // pixels
 constexpr double kLineReach = 6;             // pixels on either side where a click grabs the line
-constexpr double kArrowStep = 24;            // pixels; an arrow key acts like this drag
-constexpr double kPanStep = 32;              // pixels; a notch of the wheel pans by this drag
 constexpr double kDoubleClick = 0.5;         // seconds between the presses, at most
 constexpr double kDoubleReach = 6;           // pixels between the presses, at most
 constexpr double kRest = 0.5;                // seconds without motion end a move of the camera
-constexpr double kLeastShare = 1.0 / 16;     // of a step of the orbit, over
-constexpr double kObjectRadii = 4;           // radius shown around an object, suitable radii
-constexpr float kAxesShare = 4;              // least size of a picture with axes, their sizes
 
 }  // namespace
 
@@ -107,7 +98,7 @@ void Controls::beginDrag(const Place& place) {
     drag_ = Drag::kLook;
   }
   if (drag_ != Drag::kOrbit && drag_ != Drag::kPan) return;
-  pressed_ = pick(place);
+  pressed_ = pick(place, pointAt(place, cursor_));
   aimed_ = false;
   if (drag_ == Drag::kPan) return;
   session_.findSurfaces();
@@ -149,143 +140,6 @@ void Controls::drag(const Place& place, double seconds) {
   if (!ImGui::IsMouseDown(kButtons[static_cast<size_t>(drag_)])) drag_ = Drag::kNone;
 }
 
-void Controls::dragCamera(const Place& place, glm::dvec2 moved) {
-  scene::Camera& camera = session_.camera;
-  const double height = place.size.y;
-  if (drag_ == Drag::kLook) return look(camera, moved, height);
-  // Not at the press: a click alone leaves the camera as it is.
-  if (!std::exchange(aimed_, true) && pressed_.surface) {
-    const glm::dvec3 forward = glm::normalize(camera.target - camera.eye);
-    setTargetDistance(camera, glm::dot(pressed_.point - camera.eye, forward));
-  }
-  if (drag_ == Drag::kPan) return pan(camera, moved, height);
-  orbitClear(pressed_.surface ? pressed_.point : camera.target, moved, height);
-}
-
-// Orbits as far as no surface is in the eye's way: else only to the side, or only up and down, or a
-// part of the way. With Shift, through surfaces.
-void Controls::orbitClear(const glm::dvec3& pivot, glm::dvec2 moved, double height) {
-  const scene::Camera before = session_.camera;
-  const bool through = ImGui::GetIO().KeyShift;
-  for (double share = 1; share > kLeastShare; share /= 2) {
-    for (const glm::dvec2 part : {glm::dvec2(1, 1), glm::dvec2(1, 0), glm::dvec2(0, 1)}) {
-      scene::Camera next = before;
-      orbit(next, pivot, share * part * moved, height);
-      if (!through && !session_.isFree(before.eye, next.eye, 2 * before.nearPlane)) continue;
-      session_.camera = next;
-      return;
-    }
-  }
-}
-
-Controls::Pick Controls::pick(const Place& place) {
-  const scene::Camera& camera = session_.camera;
-  const glm::dvec2 at = pointAt(place, cursor_);
-  if (stage_ != nullptr && stage_->camera() != nullptr && stage_->size() == place.size) {
-    const glm::ivec2 texel(glm::floor(at));
-    std::vector<double> depths;
-    session_.attempt("pick", [&] { depths = stage_->depthsAt(std::span(&texel, 1)); });
-    if (!depths.empty() && std::isfinite(depths[0])) {
-      const scene::Camera& seen = *stage_->camera();
-      return {seen.eye + depths[0] * pixelDirection(seen, place.size.x, place.size.y, at), true};
-    }
-  }
-  return {camera.eye + glm::length(camera.target - camera.eye) *
-                           pixelDirection(camera, place.size.x, place.size.y, at),
-          false};
-}
-
-// The least distance of what is in the middle fifth of the picture, metres; infinite: sky.
-double Controls::distanceAhead(const Place& place) {
-  if (stage_ == nullptr || stage_->camera() == nullptr || stage_->size() != place.size) {
-    return glm::length(session_.camera.target - session_.camera.eye);
-  }
-  std::vector<glm::ivec2> texels;
-  for (const double y : {-0.1, 0.0, 0.1}) {
-    for (const double x : {-0.1, 0.0, 0.1}) {
-      texels.emplace_back((0.5 + glm::dvec2(x, y)) * glm::dvec2(place.size));
-    }
-  }
-  double nearest = std::numeric_limits<double>::infinity();
-  session_.attempt("pick", [&] {
-    for (const double depth : stage_->depthsAt(texels)) nearest = std::min(nearest, depth);
-  });
-  return nearest;
-}
-
-void Controls::scroll(const Place& place) {
-  const ImGuiIO& io = ImGui::GetIO();
-  const glm::dvec2 notches(io.MouseWheelH, io.MouseWheel);
-  // Wheels turn by whole or half notches; fingers on a touchpad move by any amount, to any side.
-  const bool fingers = notches.x != 0 || 2 * notches.y != std::round(2 * notches.y);
-  if (io.KeyCtrl) return magnify(place, notches.y);
-  if (drag_ == Drag::kLook) {
-    session_.speed = steppedSpeed(session_.speed, notches.y);
-    return;
-  }
-  const Pick under = pick(place);
-  scene::Camera& camera = session_.camera;
-  if (!fingers && !io.KeyShift) return zoom(camera, under.point, notches.y);
-  // Without a surface, the target's distance stays.
-  const glm::dvec3 forward = glm::normalize(camera.target - camera.eye);
-  if (under.surface) setTargetDistance(camera, glm::dot(under.point - camera.eye, forward));
-  const bool sideways = io.KeyShift && notches.x == 0 && !fingers;
-  pan(camera, kPanStep * (sideways ? glm::dvec2(0, notches.y) : notches), place.size.y);
-}
-
-void Controls::magnify(const Place& place, double notches) {
-  const glm::dvec2 point = pointAt(place, cursor_);
-  session_.zoom =
-      std::clamp(session_.zoom * static_cast<float>(std::pow(1.25, notches)), 1.0f, 64.0f);
-  const glm::dvec2 size(place.size);
-  const glm::dvec2 centre = point - (cursor_ - glm::dvec2(place.corner) + 0.5 - 0.5 * size) /
-                                        static_cast<double>(session_.zoom);
-  session_.centre = glm::clamp(glm::vec2(centre / size), 0.0f, 1.0f);
-  if (session_.zoom == 1) session_.centre = glm::vec2(0.5f);
-}
-
-bool Controls::updateFlight(const Place& place, double seconds) {
-  const auto axis = [](int plus, int minus) {
-    return (isKeyDown(plus) ? 1.0 : 0.0) - (isKeyDown(minus) ? 1.0 : 0.0);
-  };
-  const glm::dvec3 axes(axis(GLFW_KEY_D, GLFW_KEY_A), axis(GLFW_KEY_E, GLFW_KEY_Q),
-                        axis(GLFW_KEY_W, GLFW_KEY_S));
-  if (axes == glm::dvec3(0)) return false;
-  const double speed = session_.speed * flySpeed(distanceAhead(place), session_.extent);
-  panel_.layout.note("flying speed", 0, 0, 0, 0, fmt::format("{:.6g}", speed));
-  fly(session_.camera, axes, std::min(seconds, 0.1), speed * (ImGui::GetIO().KeyShift ? 4 : 1));
-  return true;
-}
-
-// The selected object, unless it is framed already, else the scene.
-void Controls::frameScene(const Place& place) {
-  if (!session_.scene || place.size.y == 0) return;
-  const double aspect = double{1} * place.size.x / place.size.y;
-  scene::Camera next = session_.camera;
-  const auto selected = panel_.selectedPoint();
-  if (selected && next.target != *selected) {
-    frameBall(next, *selected, kObjectRadii * session_.sceneRadius(), aspect);
-  } else {
-    const scene::Bounds& bounds = session_.scene->bounds;
-    frameBall(next, (bounds.min + bounds.max) / 2.0,
-              std::max(glm::length(bounds.max - bounds.min) / 2, next.nearPlane), aspect);
-  }
-  session_.goTo(next);
-}
-
-// Small pictures have no room for the axes.
-void Controls::drawAxes(const Place& place, float pixelsAUnit) {
-  const glm::vec2 size = glm::vec2(place.size) / pixelsAUnit;
-  if (std::min(size.x, size.y) < kAxesShare * axisWidgetSize()) return;
-  const float gap = ImGui::GetStyle().WindowPadding.x;
-  const glm::vec2 corner = glm::vec2(place.corner) / pixelsAUnit + glm::vec2(size.x - gap, gap);
-  const auto from = drawAxisWidget(session_.camera, corner, panel_.layout);
-  if (!from) return;
-  scene::Camera next = session_.camera;
-  lookFrom(next, *from);
-  session_.goTo(next);
-}
-
 // Keys that also work while the user types in a text field.
 void Controls::updateKeysAnywhere(Requests& requests) {
   const bool ctrl = ImGui::GetIO().KeyCtrl;
@@ -320,18 +174,12 @@ void Controls::updateKeys(const Place& place, Requests& requests) {
   updateViewKeys();
   if (isKeyPressed(GLFW_KEY_F)) frameScene(place);
   if (io.WantCaptureKeyboard) return;  // the panel takes the keys
-  if (isKeyPressed(GLFW_KEY_TAB) && panel_.shown) ImGui::SetWindowFocus("Grisaille");
+  if (isKeyPressed(GLFW_KEY_TAB)) panel_.takeFocus();
   if (isKeyPressed(GLFW_KEY_SPACE)) {
     session_.attempt("object",
                      [&] { session_.place(0.5 * glm::dvec2(place.size), place.size, false); });
   }
-  const double x =
-      (isKeyPressed(GLFW_KEY_RIGHT, true) ? 1 : 0) - (isKeyPressed(GLFW_KEY_LEFT, true) ? 1 : 0);
-  const double y =
-      (isKeyPressed(GLFW_KEY_DOWN, true) ? 1 : 0) - (isKeyPressed(GLFW_KEY_UP, true) ? 1 : 0);
-  if ((x == 0 && y == 0) || io.KeyAlt) return;
-  session_.findSurfaces();
-  orbitClear(session_.camera.target, kArrowStep * glm::dvec2(x, y), place.size.y);
+  steer(place);
 }
 
 void Controls::updateViewKeys() {

@@ -39,7 +39,7 @@ class Controls {
  private:
   enum class Drag : uint8_t { kNone, kOrbit, kPan, kLook, kLine, kPlace };
 
-  // A point under the cursor. Where there is no surface: at the target's distance.
+  // A point that the user sees. Where there is no surface: at the target's distance.
   struct Pick {
     glm::dvec3 point = glm::dvec3(0);
     bool surface = false;
@@ -48,11 +48,14 @@ class Controls {
   bool updateMouse(const Place& place, double seconds);
   void beginDrag(const Place& place);
   void drag(const Place& place, double seconds);
+  // controls_camera.cpp
   void dragCamera(const Place& place, glm::dvec2 moved);
   void orbitClear(const glm::dvec3& pivot, glm::dvec2 moved, double height);
   void scroll(const Place& place);
   void magnify(const Place& place, double notches);
-  Pick pick(const Place& place);
+  void steer(const Place& place);
+  Pick pick(const Place& place, glm::dvec2 at);  // `at`: texels, from the top left corner
+  void aim(const Pick& at);
   double distanceAhead(const Place& place);
   void frameScene(const Place& place);
   void drawAxes(const Place& place, float pixelsAUnit);

@@ -11,6 +11,7 @@ void Layout::note(const std::string& name, const std::string& value) {
   const ImVec2 from = ImGui::GetItemRectMin(), to = ImGui::GetItemRectMax();
   note(name, from.x, from.y, to.x, to.y, value);
   controls_[name].id = ImGui::GetItemID();
+  if (ImGui::IsItemFocused()) note("focus", from.x, from.y, to.x, to.y, name);
 }
 
 void Layout::note(const std::string& name, float left, float top, float right, float bottom,

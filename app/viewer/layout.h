@@ -12,7 +12,8 @@ class Layout {
  public:
   void begin() { controls_.clear(); }
 
-  // Records the last item that ImGui drew, if it is visible. `value`: as the control shows it.
+  // Records the last item that ImGui drew, if it is visible. `value`: as the control shows it. The
+  // item that has the keyboard's focus is also recorded as "focus", with its name as the value.
   void note(const std::string& name, const std::string& value = "");
   // Records a rectangle in pixels of the window.
   void note(const std::string& name, float left, float top, float right, float bottom,

@@ -24,10 +24,11 @@ constexpr struct {
     {"Tab, arrows, Space, Enter", "move in the panel and use it; Esc leaves it"},
     {"Ctrl + + / - / 0", "larger, smaller, default text"},
     {"", ""},
-    {"left drag, arrows", "orbit the surface under the pointer; Shift: through walls"},
-    {"middle drag, Shift + scroll", "pan; on a touchpad: two fingers"},
+    {"left drag, arrows", "orbit the surface under the pointer; Shift and drag: through walls"},
+    {"middle drag, Shift + scroll / arrows", "pan; on a touchpad: two fingers"},
     {"right drag", "look around"},
-    {"scroll", "nearer to the pointer, or farther; with the right button: fly faster, slower"},
+    {"scroll, Page Up and Down",
+     "nearer to the pointer, or farther; with the right button: fly faster, slower"},
     {"double click", "turn to a surface and move to half its distance"},
     {"W A S D, E Q", "fly forward, left, back, right, up, down; Shift: four times as fast"},
     {"F", "the selected object in the middle; again: the whole scene"},
@@ -111,6 +112,7 @@ Requests Panel::draw(const Status& status, glm::vec2 window) {
     ImGui::TextWrapped("%s: %s%s", status.device.backend.c_str(), status.device.name.c_str(),
                        status.device.software ? ", software" : "");
     const float messages = 5 * ImGui::GetTextLineHeightWithSpacing();
+    if (std::exchange(wantsFocus_, false)) ImGui::SetNextWindowFocus();
     ImGui::BeginChild("controls", ImVec2(0, -messages));
     if (session_.hasAnimations() && section("Time", true)) drawTime();
     if (section("Effects", true)) drawEffects(status, requests);

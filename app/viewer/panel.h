@@ -80,6 +80,9 @@ class Panel {
   // Width at the left of the window, in the window's units; 0 if hidden.
   float width(glm::vec2 window) const;
 
+  // Gives the panel's controls the keyboard, if the panel is shown.
+  void takeFocus() { wantsFocus_ = shown; }
+
   void refreshLists() { listsFresh_ = false; }
   void saveSettings() {
     session_.attempt("settings to save", [&] { session_.saveSettings(settingsPath_); });
@@ -166,7 +169,7 @@ class Panel {
   std::string bookmarkName_;
   std::vector<Bookmarks::Entry> bookmarkList_;
   std::vector<SavedSettings> savedList_;
-  bool listsFresh_ = false;
+  bool listsFresh_ = false, wantsFocus_ = false;
   size_t messagesSeen_ = 0;
   std::map<std::string, TuneWish> wishes_;          // by effect
   std::map<std::string, std::string> objectPaths_;  // by effect

@@ -66,7 +66,7 @@ std::string Panel::fitted(const std::string& path) {
   const float room = ImGui::GetContentRegionAvail().x;
   for (size_t from = 0; from < path.size(); ++from) {
     if (from > 0 && (static_cast<unsigned char>(path[from]) & 0xc0u) == 0x80u) continue;  // UTF-8
-    const std::string text = from == 0 ? path : "\u2026" + path.substr(from);
+    std::string text = from == 0 ? path : "\u2026" + path.substr(from);
     if (ImGui::CalcTextSize(text.c_str()).x <= room) return text;
   }
   return path;

@@ -47,12 +47,13 @@ TEST_P(InputTest, AnyInput) {
     return std::to_string(std::uniform_int_distribution<int>(0, count - 1)(random));
   };
   const std::vector<std::string> keys = {
-      "a",         "b",          "d",      "e",         "i",        "n",        "p",      "q",
-      "s",         "v",          "w",      "x",         "1",        "ctrl+1",   "Home",   "Tab",
-      "space",     "Return",     "Escape", "Up",        "Down",     "Left",     "Right",  "F1",
-      "F2",        "F5",         "F11",    "ctrl+z",    "ctrl+y",   "t",        "ctrl+c", "ctrl+s",
-      "ctrl+plus", "ctrl+minus", "ctrl+0", "BackSpace", "shift+v",  "plus",     "minus",  "7",
-      "period",    "Delete",     "f",      "shift+w",   "alt+Left", "alt+Right"};
+      "a",         "b",       "d",        "e",         "i",         "n",          "p",
+      "q",         "s",       "v",        "w",         "x",         "1",          "ctrl+1",
+      "Home",      "Tab",     "space",    "Return",    "Escape",    "Up",         "Down",
+      "Left",      "Right",   "F1",       "F2",        "F5",        "F11",        "ctrl+z",
+      "ctrl+y",    "t",       "ctrl+c",   "ctrl+s",    "ctrl+plus", "ctrl+minus", "ctrl+0",
+      "BackSpace", "shift+v", "plus",     "minus",     "7",         "period",     "Delete",
+      "f",         "shift+w", "alt+Left", "alt+Right", "Prior",     "Next",       "shift+Left"};
   for (int batch = 0; batch < 6; ++batch) {
     std::string words;
     for (int i = 0; i < 50; ++i) {
