@@ -8,8 +8,8 @@
 
 namespace grisaille::app {
 
-void printWarning(const std::string& text) {
-  fmt::print(stderr, "warning: {}\n", text);
+void printWarning(const std::string& /*path*/, const std::string& text) {
+  if (!text.empty()) fmt::print(stderr, "warning: {}\n", text);
 }
 
 SceneRays::Tracer SceneRays::build() const {
@@ -49,9 +49,10 @@ void PictureFiles::read(const char* path, grisaille_picture& out) {
     const std::string bytes = readRegularFile(path, ErrorId::kImageUnreadable);
     picture_ = image::decode(std::as_bytes(std::span(bytes)), oneLine(path));
   } catch (const Error& error) {
-    if (warned_.insert(path).second) warn_(error.detail());
+    if (warned_.insert(path).second) warn_(path, error.detail());
     throw;
   }
+  if (warned_.erase(path) > 0) warn_(path, "");
   out.width = picture_.width;
   out.height = picture_.height;
   out.reserved = 0;

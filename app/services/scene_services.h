@@ -44,9 +44,10 @@ class SceneRays : public effect::RayService {
   std::future<Tracer> building_;  // last: its thread reads the members above
 };
 
-// Receives a warning. printWarning() prints it to standard error.
-using Warn = std::function<void(const std::string&)>;
-void printWarning(const std::string& text);
+// Receives a warning about a file; an empty text: the file that it was about can be read now.
+// printWarning() prints the text to standard error.
+using Warn = std::function<void(const std::string& path, const std::string& text)>;
+void printWarning(const std::string& path, const std::string& text);
 
 // Reads any format of OpenImageIO, up to 16384 pixels a side. A file that cannot be read causes one
 // warning; every later call tries to read it again.

@@ -108,7 +108,7 @@ void Session::setScene(std::shared_ptr<scene::Scene> loaded, const std::string& 
   scene = posed_;
   playback = {};
   services = std::make_unique<SceneServices>(
-      *scene, [this](const std::string& warning) { say("warning: " + warning, true); });
+      *scene, [this](const std::string& file, const std::string& warning) { warn(file, warning); });
   for (const std::string& note : scene->notes) say("note: " + note);
   aspect_ = double{1} * std::max(size.x, 1u) / std::max(size.y, 1u);
   const bool first = std::exchange(firstScene_, false);
@@ -306,6 +306,17 @@ void Session::add(Message message) {
   if (messages.size() > kMessagesKept) messages.pop_front();
 }
 
+// Removes the error about something that has been tried again.
+void Session::forget(const std::string& about) {
+  std::erase_if(messages, [&](const Message& one) { return one.error && one.about == about; });
+}
+
+void Session::warn(const std::string& file, const std::string& text) {
+  const std::string about = "file " + file;
+  forget(about);
+  if (!text.empty()) add({"warning: " + text, true, about});
+}
+
 bool Session::attempt(const std::string& about, const std::function<void()>& action) {
   std::string failure;
   try {
@@ -316,7 +327,7 @@ bool Session::attempt(const std::string& about, const std::function<void()>& act
   } catch (const fs::filesystem_error& error) {
     failure = Error(ErrorId::kFileUnwritable, "{}", error.what()).what();
   }
-  std::erase_if(messages, [&](const Message& one) { return one.error && one.about == about; });
+  forget(about);
   if (!failure.empty()) add({failure, true, about});
   return failure.empty();
 }

@@ -259,6 +259,8 @@ class Session {
 
  private:
   void add(Message message);
+  void forget(const std::string& about);
+  void warn(const std::string& file, const std::string& text);
   void apply(const Settings& settings, const std::vector<std::string>& presets);
   // The effect whose objects a file holds; "": none.
   std::string ownerOf(const std::string& path);

@@ -2,9 +2,11 @@
 // Files that are opened or dropped, valid or not: no work is lost.
 #include <gtest/gtest.h>
 
+#include <algorithm>
 #include <cmath>
 
 #include "app/viewer/session.h"
+#include "core/image/image.h"
 #include "core/objects/object_file.h"
 #include "tests/program/run.h"
 #include "tests/support/expect_error.h"
@@ -90,6 +92,32 @@ TEST_F(SessionTest, WhatIsBrokenChangesNothing) {
   refused("c.json", R"({"eye": [0, 0, 0], "target": [0, 0, 0]})", ErrorId::kCameraInvalid);
   refused("d.txt", "text", ErrorId::kFileUnknown);
   EXPECT_ERROR(ErrorId::kSettingsUnreadable, session_.openFile(folder_ / "missing.toml"));
+}
+
+TEST_F(SessionTest, AnErrorGoesOnceTheSameThingSucceeds) {
+  session_.setScene(std::make_shared<scene::Scene>(scene::loadScene("carving")), "carving",
+                    {64, 64});
+  const auto errors = [&] { return std::ranges::count(session_.messages, true, &Message::error); };
+  const auto fail = [] { throw Error(ErrorId::kUsage, "no"); };
+  EXPECT_FALSE(session_.attempt("one", fail));
+  EXPECT_FALSE(session_.attempt("another", fail));
+  EXPECT_FALSE(session_.attempt("one", fail));
+  EXPECT_EQ(errors(), 2);
+  EXPECT_TRUE(session_.attempt("one", [] {}));
+  EXPECT_EQ(errors(), 1);
+  EXPECT_EQ(session_.messages.back().about, "another");
+  EXPECT_TRUE(session_.attempt("another", [] {}));
+  EXPECT_EQ(errors(), 0);
+  // A picture that an effect reads.
+  grisaille_picture picture{};
+  picture.struct_size = sizeof(picture);
+  const std::string file = folder_ / "moss.png";
+  const auto read = [&] { session_.services->all().pictures->read(file.c_str(), picture); };
+  EXPECT_ERROR(ErrorId::kImageUnreadable, read());
+  EXPECT_EQ(errors(), 1);
+  image::write({.width = 1, .height = 1, .channels = 3, .pixels = {0, 0, 0}}, file);
+  read();
+  EXPECT_EQ(errors(), 0);
 }
 
 TEST_F(SessionTest, HeldSettingsStayWhatTheyWere) {
