@@ -14,6 +14,7 @@ using Clock = std::chrono::steady_clock;
 
 constexpr std::chrono::seconds kPatience(200);
 constexpr std::chrono::milliseconds kLook(10);
+constexpr std::chrono::seconds kQuits(20);  // longest time from the key to the viewer's end
 constexpr std::chrono::milliseconds kArrives(300);  // longest delay of input by xdotool
 
 }  // namespace
@@ -172,8 +173,12 @@ std::string DrivenViewer::savePicture() {
 }
 
 Outcome DrivenViewer::quit() {
-  send("search --name Grisaille windowfocus");
-  key("ctrl+q");
+  // After earlier input the window may be changing its size or its focus, and lose the key.
+  const auto end = Clock::now() + kPatience;
+  do {
+    send("search --name Grisaille windowfocus");
+    key("ctrl+q");
+  } while (outcome_.wait_for(kQuits) != std::future_status::ready && Clock::now() < end);
   return outcome_.get();
 }
 
