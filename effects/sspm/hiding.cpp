@@ -171,7 +171,8 @@ bool PaintWorld::paintsPoint(const Entry& entry, const glm::dvec3& origin,
   const ShotFrame frame = frameOf(entry.shot);
   SurfacePoint own = point;
   own.at += glm::vec3(origin - frame.origin);
-  return paints(frame, entry.reference, blocks_.data() + size_t{placed_[states_[entry.shot].record].base} * 2, own);
+  return paints(frame, entry.reference,
+                blocks_.data() + size_t{placed_[states_[entry.shot].record].base} * 2, own);
 }
 
 // Finds the sealed pieces, and removes hidden shots from the list.

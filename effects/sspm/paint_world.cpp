@@ -204,8 +204,8 @@ void PaintWorld::refill() {
   }
 }
 
-// Casts the rays of several surveys in one batch, then takes the hits of each survey and, once it is
-// complete, its map and shares. Returns false if the host casts no rays.
+// Casts the rays of several surveys in one batch, then takes the hits of each survey and, once it
+// is complete, its map and shares. Returns false if the host casts no rays.
 bool PaintWorld::castFor(std::span<Work* const> works, const CastRays& cast) {
   std::vector<grisaille_ray> rays;
   std::vector<size_t> first;
@@ -255,9 +255,9 @@ void PaintWorld::askAgain(const CastRays& cast) {
 CellGrid PaintWorld::gridFor(const ShotFrame& frame) {
   const glm::dvec3 far = glm::abs(frame.origin) + 2.0 * double{frame.range} / double{frame.slope};
   const double least = std::max({far.x, far.y, far.z}) * 0x1p-28;
-  const int exponent = std::max(
-      static_cast<int>(std::lround(std::log2(std::max(frame.range, 8 * frame.bias)))),
-      static_cast<int>(std::ceil(std::log2(least))));
+  const int exponent =
+      std::max(static_cast<int>(std::lround(std::log2(std::max(frame.range, 8 * frame.bias)))),
+               static_cast<int>(std::ceil(std::log2(least))));
   const int32_t code = levelCode(std::clamp(exponent, -40, 40));
   if (std::ranges::find(levels_, code) != levels_.end()) return {frame.origin, code};
   if (levels_.size() < kMostLevels) {

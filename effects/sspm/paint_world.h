@@ -66,8 +66,8 @@ class PaintWorld {
   struct Work {
     uint32_t id;
     Survey survey;
-    std::vector<CellKey> cells = {};   // in which it was placed
-    std::optional<CellGrid> grid = {}; // once the rough picture is complete
+    std::vector<CellKey> cells = {};    // in which it was placed
+    std::optional<CellGrid> grid = {};  // once the rough picture is complete
     // What the survey found, once it is complete.
     ShotMap map = {};
     std::vector<Share> shares = {};

@@ -146,8 +146,7 @@ bool inSight(const ShotFrame& frame, uint32_t root, const uint32_t* words, const
       inSquare = (inSquare - square) * 4.0f;
     }
   }
-  return at == kOpen ||
-         depthBehind(frame, unpackPlane(words + size_t{at - 1} * 2), q, facing) <= 1;
+  return at == kOpen || depthBehind(frame, unpackPlane(words + size_t{at - 1} * 2), q, facing) <= 1;
 }
 
 }  // namespace grisaille::sspm

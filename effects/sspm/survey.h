@@ -74,14 +74,22 @@ class Survey {
   enum class Stage : uint8_t { kProbing, kRough, kFine };
   // What a ray saw.
   struct Sample {
-    bool told = false;     // the ray was cast
+    bool told = false;  // the ray was cast
     bool hit = false;
-    bool unknown = false;  // the host cannot tell
+    bool unknown = false;              // the host cannot tell
     glm::ivec2 place = glm::ivec2(0);  // on the map, in finest squares from its lower corner
     glm::vec4 plane = glm::vec4(0);    // as in Patch, rounded: see planeOf()
     glm::vec3 at = glm::vec3(0);       // offset of the hit
   };
-  enum class Kind : uint8_t { kUndecided, kDivided, kNothing, kUntold, kOnePlane, kTwoPlanes, kSeveral };
+  enum class Kind : uint8_t {
+    kUndecided,
+    kDivided,
+    kNothing,
+    kUntold,
+    kOnePlane,
+    kTwoPlanes,
+    kSeveral
+  };
   // A square of the map under construction. Sizes and corners count finest squares.
   struct Square {
     glm::ivec2 corner = glm::ivec2(0);
@@ -92,7 +100,7 @@ class Survey {
     bool doubtful = false;  // lies beside one
     bool blocked = false;   // something is in front of the plane that its corners see
     enum class Step : uint8_t { kPlane, kCrease, kSilhouette } step = Step::kPlane;
-    int32_t children = -1;  // index of the first of four, by rows
+    int32_t children = -1;            // index of the first of four, by rows
     int32_t first = -1, second = -1;  // samples of its planes; of a line, -1 is no surface
     std::array<int32_t, 4> corners = {-1, -1, -1, -1};  // samples, by rows
     MapLine line = {};
@@ -132,7 +140,7 @@ class Survey {
   void divide(int32_t index);
   bool inRange(const Sample& sample) const;
   int32_t finestAt(const Square& square) const;
-  float sizeOf(const Square& square) const;      // in units of the map
+  float sizeOf(const Square& square) const;  // in units of the map
   glm::vec2 centreOf(const Square& square) const;
 
   // survey_squares.cpp: what a square sees
@@ -160,7 +168,7 @@ class Survey {
   ShotFrame frame_;
   Stage stage_ = Stage::kProbing;
   float farthest_ = 0;
-  int probes_ = 0;  // rounds of probing
+  int probes_ = 0;      // rounds of probing
   int32_t finest_ = 1;  // width of a bisection's last interval; squares are twice as wide
   std::vector<Sample> samples_;
   // Hash table of samples_ by place, with linear probing.

@@ -11,8 +11,8 @@
 namespace grisaille::sspm {
 namespace {
 
-constexpr int32_t kPatchSize = kFinestAUnit / 4;   // width of the largest patch
-constexpr int32_t kMixedSize = kFinestAUnit / 8;   // of a square with several planes
+constexpr int32_t kPatchSize = kFinestAUnit / 4;  // width of the largest patch
+constexpr int32_t kMixedSize = kFinestAUnit / 8;  // of a square with several planes
 
 // A plane far enough behind the muzzle that it hides everything.
 glm::vec4 hidingPlane(const ShotFrame& frame) {
@@ -96,8 +96,8 @@ void Survey::gatherPlanes(int32_t index, std::vector<SeenPlane>& planes, bool& r
 Patch Survey::patchOf(const Square& square, const glm::vec4& plane) const {
   Patch patch;
   patch.plane = plane;
-  // Largest distance at which a slope of the square leaves the cylinder; near the axis, several times
-  // that of the farthest hit, since rays miss where grazed surfaces end.
+  // Largest distance at which a slope of the square leaves the cylinder; near the axis, several
+  // times that of the farthest hit, since rays miss where grazed surfaces end.
   const glm::vec2 centre = centreOf(square);
   const float size = sizeOf(square);
   const glm::vec2 nearest = glm::max(glm::abs(centre) - size / 2, 0.0f);
@@ -123,7 +123,8 @@ Patch Survey::patchOf(const Square& square, const glm::vec4& plane) const {
 bool Survey::serves(int32_t index, const Sample*& plane) const {
   const Square& square = at(index);
   switch (square.kind) {
-    case Kind::kNothing: return true;
+    case Kind::kNothing:
+      return true;
     case Kind::kOnePlane:
       if (plane == nullptr) plane = &sample(square.first);
       return std::ranges::all_of(square.corners, [&](int32_t corner) {
@@ -135,7 +136,8 @@ bool Survey::serves(int32_t index, const Sample*& plane) const {
         if (!serves(square.children + i, plane)) return false;
       }
       return true;
-    default: return false;
+    default:
+      return false;
   }
 }
 
@@ -187,20 +189,26 @@ class Survey::Writer {
   bool isLeaf(int32_t index, uint32_t& reference) {
     const Square& square = survey_.at(index);
     const Sample* known = nullptr;
-    if (!(square.kind == Kind::kOnePlane && square.shift > 0.25f * survey_.frame_.bias) && survey_.uniform(index, known)) {
+    if (!(square.kind == Kind::kOnePlane && square.shift > 0.25f * survey_.frame_.bias) &&
+        survey_.uniform(index, known)) {
       reference = known == nullptr ? kOpen : planeFor(index, *known);
       return true;
     }
     switch (square.kind) {
-      case Kind::kDivided: return false;
+      case Kind::kDivided:
+        return false;
       case Kind::kTwoPlanes: {
         const uint32_t first = plane(survey_.sample(square.first).plane);
         const uint32_t second = plane(survey_.sample(square.second).plane);
         reference = first == second ? first : kLine | add(packLine(square.line, first, second));
         return true;
       }
-      case Kind::kUntold: reference = plane(hidingPlane(survey_.frame_)); return true;
-      default: reference = plane(survey_.sample(square.first).plane - glm::vec4(0, 0, 0, square.shift)); return true;
+      case Kind::kUntold:
+        reference = plane(hidingPlane(survey_.frame_));
+        return true;
+      default:
+        reference = plane(survey_.sample(square.first).plane - glm::vec4(0, 0, 0, square.shift));
+        return true;
     }
   }
 
@@ -236,8 +244,8 @@ class Survey::Writer {
 
   const Survey& survey_;
   ShotMap map_;
-  std::vector<uint32_t> planes_;        // references
-  std::vector<const Sample*> served_;   // planes of the last squares
+  std::vector<uint32_t> planes_;       // references
+  std::vector<const Sample*> served_;  // planes of the last squares
 };
 
 ShotMap Survey::map() const {

@@ -10,7 +10,7 @@
 namespace grisaille::sspm {
 
 constexpr int32_t kFinestAUnit = 256;  // finest squares in a unit of the map
-constexpr float kBeyond = 1.02f;         // times the range: hits beyond it are outside the cylinder
+constexpr float kBeyond = 1.02f;       // times the range: hits beyond it are outside the cylinder
 // Times the range: how far rays reach, so that squares across the cylinder's rim know all corners.
 constexpr float kReach = 1.4f;
 

@@ -235,9 +235,8 @@ Survey::Found Survey::findSilhouette(const Square& square, const Pair& pair, Map
   for (size_t i = 0; i < 4; ++i) {
     const size_t a = kAround[i], b = kAround[(i + 1) % 4];
     if (sides[a] == sides[b]) continue;
-    const Found found =
-        findCrossing(pair, sample(square.corners[a]).place, sample(square.corners[b]).place,
-                     sides[a], crossings[count++]);
+    const Found found = findCrossing(pair, sample(square.corners[a]).place,
+                                     sample(square.corners[b]).place, sides[a], crossings[count++]);
     if (found == Found::kNo) return found;
     wait = wait || found == Found::kWait;
   }

@@ -103,7 +103,8 @@ struct Place {
 // A renderer with the paint of some shots.
 class Painted {
  public:
-  Painted(gpu::Device& device, const Subject& subject, const effect::Registry& registry, tests::TracedRays& rays)
+  Painted(gpu::Device& device, const Subject& subject, const effect::Registry& registry,
+          tests::TracedRays& rays)
       : device_(device),
         subject_(subject),
         rays_(rays),

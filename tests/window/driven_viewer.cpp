@@ -14,7 +14,7 @@ using Clock = std::chrono::steady_clock;
 
 constexpr std::chrono::seconds kPatience(200);
 constexpr std::chrono::milliseconds kLook(10);
-constexpr std::chrono::seconds kQuits(20);  // longest time from the key to the viewer's end
+constexpr std::chrono::seconds kQuits(20);          // longest time from the key to the viewer's end
 constexpr std::chrono::milliseconds kArrives(300);  // longest delay of input by xdotool
 
 }  // namespace

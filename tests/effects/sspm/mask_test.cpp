@@ -98,8 +98,7 @@ TEST_P(MaskTest, PaintLandsWhereTheMuzzleSees) {
     }
   }
   std::printf("%s: %zu px, intersection over union %.4f, %zu px astray, %zu rays a shot\n",
-              GetParam().label.c_str(), sum.traced, sum.iou(), sum.stray,
-              rays.count() / shotCount);
+              GetParam().label.c_str(), sum.traced, sum.iou(), sum.stray, rays.count() / shotCount);
   EXPECT_GE(sum.iou(), 0.995);
   EXPECT_LE(rays.count(), 3000 * shotCount);
   // Paint may stray at edges thinner than the finest squares of a map.
