@@ -221,7 +221,7 @@ class Survey::Writer {
       const bool leaf = isLeaf(child, reference);
       for (int32_t j = 0; j < 4; ++j) {
         const int32_t x = 2 * (i & 1) + (j & 1), y = (i & 2) + (j >> 1);
-        squares[static_cast<size_t>(4 * y + x)] =
+        squares[4 * static_cast<size_t>(y) + static_cast<size_t>(x)] =
             leaf ? reference : write(survey_.at(child).children + j);
       }
     }
