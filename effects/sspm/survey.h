@@ -96,12 +96,12 @@ class Survey {
     int32_t size = 0;
     Kind kind = Kind::kUndecided;
     bool ragged = false;    // contains a depth discontinuity
-    bool told = false;      // of which doubt() has told its neighbours
+    bool told = false;      // doubt() has told its neighbours
     bool doubtful = false;  // lies beside one
     bool blocked = false;   // something is in front of the plane that its corners see
     enum class Step : uint8_t { kPlane, kCrease, kSilhouette } step = Step::kPlane;
     int32_t children = -1;            // index of the first of four, by rows
-    int32_t first = -1, second = -1;  // samples of its planes; of a line, -1 is no surface
+    int32_t first = -1, second = -1;  // samples of its planes
     std::array<int32_t, 4> corners = {-1, -1, -1, -1};  // samples, by rows
     MapLine line = {};
     float shift = 0;  // of the first plane towards what lies behind it, metres
