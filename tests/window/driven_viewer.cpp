@@ -173,12 +173,18 @@ std::string DrivenViewer::savePicture() {
 }
 
 Outcome DrivenViewer::quit() {
-  // After earlier input the window may be changing its size or its focus, and lose the key.
+  // After earlier input the window may be changing its size or its focus. It then refuses the
+  // focus, or loses the key.
   const auto end = Clock::now() + kPatience;
+  std::future_status status = std::future_status::timeout;
   do {
-    send("search --name Grisaille windowfocus");
-    key("ctrl+q");
-  } while (outcome_.wait_for(kQuits) != std::future_status::ready && Clock::now() < end);
+    try {
+      send("search --name Grisaille windowfocus key ctrl+q");
+      status = outcome_.wait_for(kQuits);
+    } catch (const std::runtime_error&) {
+      status = outcome_.wait_for(kArrives);
+    }
+  } while (status != std::future_status::ready && Clock::now() < end);
   return outcome_.get();
 }
 
