@@ -123,6 +123,23 @@ float depthBehind(const ShotFrame& frame, const glm::vec4& plane, const glm::vec
   return behind / (bias * std::min(along, 1.0f));
 }
 
+namespace {
+
+// Reference of square `square` of a node, 0 to 15 by rows.
+uint32_t squareOf(uint32_t tag, const uint32_t* block, uint32_t square) {
+  uint32_t half = square;
+  if (tag == kTwo) {
+    half = 1 + (block[0] >> square & 1u);
+  } else if (tag == kFour) {
+    half = 2 + (block[0] >> 2 * square & 3u);
+  } else if (tag == kEight) {
+    half = 4 + ((square < 10 ? block[0] >> 3 * square : block[1] >> 3 * (square - 10)) & 7u);
+  }
+  return block[half / 2] >> 16 * (half & 1) & 0xFFFFu;
+}
+
+}  // namespace
+
 bool inSight(const ShotFrame& frame, uint32_t root, const uint32_t* words, const glm::vec3& q,
              const glm::vec3& facing) {
   uint32_t at = root;
@@ -137,12 +154,8 @@ bool inSight(const ShotFrame& frame, uint32_t root, const uint32_t* words, const
         continue;
       }
       const glm::vec2 square = glm::clamp(glm::floor(inSquare), 0.0f, 3.0f);
-      const uint32_t bit = static_cast<uint32_t>(square.y) * 4 + static_cast<uint32_t>(square.x);
-      if ((at & kTag) == kNode) {
-        at = block[bit / 2] >> (16 * (bit & 1)) & 0xFFFFu;
-      } else {
-        at = (block[0] >> bit & 1u) != 0 ? block[1] & 0xFFFFu : block[0] >> 16;
-      }
+      at = squareOf(at & kTag, block,
+                    static_cast<uint32_t>(square.y) * 4 + static_cast<uint32_t>(square.x));
       inSquare = (inSquare - square) * 4.0f;
     }
   }

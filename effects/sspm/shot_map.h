@@ -26,12 +26,18 @@ constexpr float kMapReach = 8;  // the map spans [-8, 8] on both axes
 
 // A reference within the map, 16 bits: a tag, and an offset in blocks of two 32-bit words from the
 // map's start; for a plane, the offset + 1. Same as in shaders/sspm/walk.glsl.
-constexpr uint32_t kOpen = 0;        // no surface in the cylinder; 1 and more: a plane, one block
-constexpr uint32_t kLine = 0x4000;   // one block: see packLine()
-constexpr uint32_t kNode = 0x8000;   // four blocks: references of 4x4 squares, by rows
-constexpr uint32_t kSplit = 0xC000;  // one block: a bit per 4x4 square, reference for 0, and for 1
-constexpr uint32_t kTag = 0xC000;
-constexpr size_t kMostBlocks = 0x3FFF;
+//
+// A node has 4x4 squares, by rows. With few different references, it holds each once, after an
+// index for each square: of 1, 2 or 3 bits. Indices of 3 bits fill 30 bits of the first word, then
+// 18 of the second. References are halves of words, the lower half first.
+constexpr uint32_t kOpen = 0;          // no surface in the cylinder; 1 and more: a plane, one block
+constexpr uint32_t kLine = 0x2000;     // one block: see packLine()
+constexpr uint32_t kTwo = 0x4000;      // one block: 16 indices of 1 bit, 2 references
+constexpr uint32_t kFour = 0x6000;     // two blocks: 16 indices of 2 bits, 4 references
+constexpr uint32_t kEight = 0x8000;    // three blocks: 16 indices of 3 bits, 8 references
+constexpr uint32_t kSixteen = 0xA000;  // four blocks: 16 references
+constexpr uint32_t kTag = 0xE000;
+constexpr size_t kMostBlocks = 0x1FFE;
 
 using MapBlock = std::array<uint32_t, 2>;
 

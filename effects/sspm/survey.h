@@ -100,8 +100,8 @@ class Survey {
     bool doubtful = false;  // lies beside one
     bool blocked = false;   // something is in front of the plane that its corners see
     enum class Step : uint8_t { kPlane, kCrease, kSilhouette } step = Step::kPlane;
-    int32_t children = -1;            // index of the first of four, by rows
-    int32_t first = -1, second = -1;  // samples of its planes
+    int32_t children = -1;                              // index of the first of four, by rows
+    int32_t first = -1, second = -1;                    // samples of its planes
     std::array<int32_t, 4> corners = {-1, -1, -1, -1};  // samples, by rows
     MapLine line = {};
     float shift = 0;  // of the first plane towards what lies behind it, metres
@@ -161,8 +161,9 @@ class Survey {
   void gatherPatches(int32_t index, std::vector<Patch>& patches) const;
   void gatherPlanes(int32_t index, std::vector<SeenPlane>& planes, bool& ragged) const;
   Patch patchOf(const Square& square, const glm::vec4& plane) const;
-  bool serves(int32_t index, const Sample*& plane) const;
-  bool uniform(int32_t index, const Sample*& plane) const;
+  bool serves(int32_t index, const glm::vec4& plane) const;
+  const Sample* firstPlane(int32_t index) const;
+  bool uniform(int32_t index, const Sample*& first) const;
   class Writer;
 
   ShotFrame frame_;

@@ -49,7 +49,7 @@ const float kMapReach = 8.0;
 const float kBiasUnits = 0.02, kBiasShare = 2e-5;
 const float kSlant = 8.0, kOther = -0.5, kSame = 0.3, kLeastBias = 0.05;
 const float kLineReach = 12.0;
-const uint kLine = 0x4000u, kNode = 0x8000u, kSplit = 0xC000u, kTag = 0xC000u;
+const uint kLine = 0x2000u, kTwo = 0x4000u, kFour = 0x6000u, kEight = 0x8000u, kTag = 0xE000u;
 
 // A line's normal, with |x| + |y| = 1, from a turn of 0 to 4.
 vec2 lineNormal(float turn) {
@@ -64,6 +64,19 @@ vec3 planeNormal(uint packed) {
   normal.x += normal.x >= 0.0 ? -under : under;
   normal.y += normal.y >= 0.0 ? -under : under;
   return normalize(normal);
+}
+
+// Reference of square `square` of a node. first: the node's first word.
+uint squareOf(uint tag, uint block, uint first, uint square) {
+  uint part = square;
+  if (tag == kTwo) {
+    part = 1u + (first >> square & 1u);
+  } else if (tag == kFour) {
+    part = 2u + (first >> 2u * square & 3u);
+  } else if (tag == kEight) {
+    part = 4u + ((square < 10u ? first >> 3u * square : blocks[block + 1u] >> 3u * (square - 10u)) & 7u);
+  }
+  return blocks[block + part / 2u] >> 16u * (part & 1u) & 0xFFFFu;
 }
 
 // Visibility test of a shadow map: whether the muzzle sees the point at offset q on a facet with
@@ -84,17 +97,16 @@ bool inSight(Shot shot, uint at, vec3 q, float along, vec3 facing) {
     vec2 in_square = (place + kMapReach) * (2.0 / kMapReach);
     while (at >= kLine) {
       const uint block = (shot.base + (at & ~kTag)) * 2u;
-      const vec2 square = clamp(floor(in_square), 0.0, 3.0);
-      const uint bit = uint(square.y) * 4u + uint(square.x);
       const uint tag = at & kTag;
-      const uint first = blocks[block + (tag == kNode ? bit / 2u : 0u)];
-      const uint second = blocks[block + 1u];
+      const uint first = blocks[block];
       if (tag == kLine) {
+        const uint second = blocks[block + 1u];
         const float turn = float(second & 0xFFFFu) / 16384.0;
         const float offset = float(int(second) >> 16) * (kLineReach / 32767.0);
         at = dot(lineNormal(turn), place) > offset ? first >> 16 : first & 0xFFFFu;
       } else {
-        at = tag == kNode ? first >> (16u * (bit & 1u)) & 0xFFFFu : (first >> bit & 1u) != 0u ? second & 0xFFFFu : first >> 16;
+        const vec2 square = clamp(floor(in_square), 0.0, 3.0);
+        at = squareOf(tag, block, first, uint(square.y) * 4u + uint(square.x));
         in_square = (in_square - square) * 4.0;
       }
     }
