@@ -1,7 +1,8 @@
 // SPDX-License-Identifier: MIT
 #include "cell_table.h"
 
-#include <bit>
+#include <algorithm>
+#include <utility>
 
 namespace grisaille::sspm {
 namespace {
@@ -29,10 +30,18 @@ uint32_t hashOf(const CellKey& key) {
 
 void CellTable::clear() {
   cells_.clear();
-  slotCells_.assign(kFirstSlots, kFree);
-  slots_.resize(kFirstSlots * kSlotWords);
-  slots_.fill(kFree);
+  changed_.clear();
+  listBytes_ = 0;
+  words_.clear();
   runs_.clear();
+  slotCells_.assign(kFirstSlots, kFree);
+  rehash();
+}
+
+uint64_t CellTable::bytes() const {
+  // An allocation takes 16 bytes more than its contents, on average.
+  return listBytes_ + cells_.size() * (sizeof(Cell) + 2 * 16) +
+         slotCells_.size() * sizeof(uint32_t) + slots_.peakBytes() + words_.peakBytes();
 }
 
 Cell* CellTable::find(const CellKey& key) {
@@ -47,34 +56,50 @@ Cell& CellTable::at(const CellKey& key) {
   if (Cell* cell = find(key)) return *cell;
   cells_.emplace_back().key = key;
   if (cells_.size() * 3 > slotCells_.size() * 2) {
-    grow();
+    slotCells_.assign(slotCells_.size() * 2, kFree);
+    rehash();
   } else {
     place(static_cast<uint32_t>(cells_.size() - 1));
   }
+  // Searches on the device go past the slots of other cells, with or without entries.
+  change(cells_.back());
   return cells_.back();
+}
+
+void CellTable::change(Cell& cell) {
+  const size_t bytes =
+      cell.entries.capacity() * sizeof(Entry) + cell.known.capacity() * sizeof(KnownPoint);
+  listBytes_ = listBytes_ + bytes - cell.bytes;
+  cell.bytes = static_cast<uint32_t>(bytes);
+  if (!std::exchange(cell.changed, true)) changed_.push_back(slotCells_[cell.slot]);
 }
 
 void CellTable::place(uint32_t cell) {
   uint32_t i = hashOf(cells_[cell].key) & slotMask();
   while (slotCells_[i] != kFree) i = (i + 1) & slotMask();
   slotCells_[i] = cell;
-  Cell& placed = cells_[cell];
-  placed.slot = i;
-  const auto slot = slots_.change(i * kSlotWords, kSlotWords);
-  for (int axis = 0; axis < 3; ++axis) {
-    slot[static_cast<size_t>(axis)] = static_cast<uint32_t>(placed.key.cell[axis]);
-  }
-  slot[3] = static_cast<uint32_t>(placed.key.code);
-  slot[4] = placed.first;
-  slot[5] = static_cast<uint32_t>(placed.entries.size());
+  cells_[cell].slot = i;
 }
 
-void CellTable::grow() {
-  const size_t count = slotCells_.size() * 2;
-  slotCells_.assign(count, kFree);
-  slots_.resize(count * kSlotWords);
-  slots_.fill(kFree);
+// Places all cells anew; every slot is free.
+void CellTable::rehash() {
+  rehashed_ = true;
   for (uint32_t i = 0; i < cells_.size(); ++i) place(i);
+}
+
+void CellTable::removeEmpty() {
+  for (Cell& cell : cells_) {
+    if (!cell.entries.empty()) continue;
+    if (cell.capacity > 0) runs_.give(cell.first, cell.capacity);
+    listBytes_ -= cell.bytes;
+  }
+  std::erase_if(cells_, [](const Cell& cell) { return cell.entries.empty(); });
+  changed_.clear();
+  for (uint32_t i = 0; i < cells_.size(); ++i) {
+    if (cells_[i].changed) changed_.push_back(i);
+  }
+  std::ranges::fill(slotCells_, kFree);
+  rehash();
 }
 
 std::span<uint32_t> CellTable::reserve(Cell& cell) {
@@ -85,11 +110,33 @@ std::span<uint32_t> CellTable::reserve(Cell& cell) {
     cell.first = count > 0 ? runs_.take(count) : 0;
     cell.capacity = wanted;
   }
-  const auto slot = slots_.change(cell.slot * kSlotWords + 4, 2);
-  slot[0] = cell.first;
-  slot[1] = count;
-  return count > 0 ? words_.change(size_t{cell.first} * 4, size_t{count} * 4)
+  return count > 0 ? words_.write(size_t{cell.first} * 4, size_t{count} * 4)
                    : std::span<uint32_t>();
+}
+
+// Writes the slots of the changed cells, or all of them if their places have changed.
+void CellTable::writeSlots() {
+  const auto write = [](const Cell& cell, std::span<uint32_t> slot) {
+    for (int axis = 0; axis < 3; ++axis) {
+      slot[static_cast<size_t>(axis)] = static_cast<uint32_t>(cell.key.cell[axis]);
+    }
+    slot[3] = static_cast<uint32_t>(cell.key.code);
+    slot[4] = cell.first;
+    slot[5] = static_cast<uint32_t>(cell.entries.size());
+  };
+  if (rehashed_) {
+    slots_.clear();
+    slots_.resize(slotCells_.size() * kSlotWords);
+    const std::span<uint32_t> all = slots_.write(0, slots_.size());
+    std::ranges::fill(all, kFree);
+    for (const Cell& cell : cells_) write(cell, all.subspan(cell.slot * kSlotWords, kSlotWords));
+  } else {
+    for (const uint32_t index : changed_) {
+      write(cells_[index], slots_.write(cells_[index].slot * kSlotWords, kSlotWords));
+    }
+  }
+  rehashed_ = false;
+  changed_.clear();
 }
 
 }  // namespace grisaille::sspm

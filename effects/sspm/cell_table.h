@@ -3,13 +3,12 @@
 // A hash table with linear probing, which shaders/sspm/walk.glsl reads.
 #pragma once
 
-#include <bitset>
 #include <cstdint>
 #include <deque>
 #include <glm/glm.hpp>
 #include <vector>
 
-#include "mirror.h"
+#include "device_words.h"
 
 namespace grisaille::sspm {
 
@@ -41,17 +40,21 @@ struct KnownPoint {
   uint32_t normal = 0;  // glm::packSnorm3x10_1x2
 };
 
-constexpr size_t kMostKnown = 128;  // pieces in a cell
-using KnownSet = std::bitset<kMostKnown>;
+constexpr size_t kMostKnown = 64;  // pieces in a cell
 
 // A shot in a cell's list.
 struct Entry {
-  uint64_t touched = 0;   // parts of the cell that it may paint
-  uint64_t ragged = 0;    // those of `touched` in which its paint may have gaps
-  KnownSet painted = {};  // known pieces that it paints; in ragged parts, perhaps with gaps
+  uint64_t touched = 0;  // parts of the cell that it may paint
+  // Known pieces, one bit each: those that it may paint, and those of them that it paints without
+  // gaps.
+  uint64_t painted = 0;
+  uint64_t solid = 0;
   uint32_t shot = 0;
   // Reference within its map: the root, or a plane if that plane serves the whole cell.
   uint16_t reference = 0;
+  // Whether its surfaces pass through the cell. Otherwise they only come close, and the entry stays
+  // as long as the shot has entries in other cells.
+  bool core = false;
 };
 
 struct Cell {
@@ -61,13 +64,15 @@ struct Cell {
   uint64_t crowded = 0;           // parts with surfaces that did not fit into `known`
   // Sealed pieces: newer shots hide every shot older than `sealedBelow` on them. `sealer` is the
   // newest of these shots.
-  KnownSet sealed = {};
+  uint64_t sealed = 0;
   uint32_t sealedBelow = 0;
   uint32_t sealer = 0;
   uint32_t pruneAt = 0;   // number of entries at which the next prune() pays
   uint32_t slot = 0;      // in the hash table
   uint32_t first = 0;     // first entry of its run on the device
   uint32_t capacity = 0;  // entries of that run; 0: no run
+  uint32_t bytes = 0;     // of its lists, on the host
+  bool changed = false;   // since the last upload
 };
 
 class CellTable {
@@ -80,36 +85,51 @@ class CellTable {
   Cell& at(const CellKey& key);
   // Null if missing.
   Cell* find(const CellKey& key);
+  // Call it after each change of a cell's entries.
+  void change(Cell& cell);
+  // Removes the cells without entries.
+  void removeEmpty();
 
-  // Copies a cell's entries to the mirrors. Call it after each change of the entries.
+  // Writes the changed cells to the arrays.
   // recordOf(shot): index of its record on the device.
   template <typename RecordOf>
-  void publish(Cell& cell, const RecordOf& recordOf) {
-    const std::span<uint32_t> words = reserve(cell);
-    for (size_t i = 0; i < cell.entries.size(); ++i) {
-      const Entry& entry = cell.entries[i];
-      words[4 * i] = recordOf(entry.shot);
-      words[4 * i + 1] = entry.reference;
-      words[4 * i + 2] = static_cast<uint32_t>(entry.touched);
-      words[4 * i + 3] = static_cast<uint32_t>(entry.touched >> 32);
+  void write(const RecordOf& recordOf) {
+    for (const uint32_t index : changed_) {
+      Cell& cell = cells_[index];
+      cell.changed = false;
+      const std::span<uint32_t> words = reserve(cell);
+      for (size_t i = 0; i < cell.entries.size(); ++i) {
+        const Entry& entry = cell.entries[i];
+        words[4 * i] = recordOf(entry.shot);
+        words[4 * i + 1] = entry.reference;
+        words[4 * i + 2] = static_cast<uint32_t>(entry.touched);
+        words[4 * i + 3] = static_cast<uint32_t>(entry.touched >> 32);
+      }
     }
+    writeSlots();
   }
 
   std::deque<Cell>& cells() { return cells_; }
   uint32_t slotMask() const { return static_cast<uint32_t>(slotCells_.size() - 1); }
+  // Host and device together, also while arrays grow; bytes.
+  uint64_t bytes() const;
 
-  Mirror& slots() { return slots_; }
-  Mirror& words() { return words_; }
+  DeviceWords& slots() { return slots_; }
+  DeviceWords& words() { return words_; }
 
  private:
   void place(uint32_t cell);
-  void grow();
+  void rehash();
   // The cell's run on the device, as long as its list.
   std::span<uint32_t> reserve(Cell& cell);
+  void writeSlots();
 
   std::deque<Cell> cells_;           // a deque: references stay valid
   std::vector<uint32_t> slotCells_;  // index into cells_; ~0: free
-  Mirror slots_, words_;
+  std::vector<uint32_t> changed_;    // indices of changed cells
+  bool rehashed_ = false;            // since the last upload
+  uint64_t listBytes_ = 0;           // sum of Cell::bytes
+  DeviceWords slots_, words_;
   Runs runs_;
 };
 

@@ -9,6 +9,7 @@
 #include <array>
 #include <bit>
 #include <cmath>
+#include <utility>
 
 #include "paint_world.h"
 
@@ -55,7 +56,7 @@ bool has(uint64_t parts, int part) {
 
 bool isHiddenIn(const Cell& cell, const Entry& entry) {
   return entry.shot < cell.sealedBelow && (entry.touched & cell.crowded) == 0 &&
-         entry.painted.any() && (entry.painted & ~cell.sealed).none();
+         entry.painted != 0 && (entry.painted & ~cell.sealed) == 0;
 }
 
 // Whether the shot paints a point, whose offset is from the shot's muzzle. word: of its map.
@@ -88,12 +89,16 @@ bool PaintWorld::isHidden(uint32_t id, const Survey& survey, const CellGrid& gri
     const bool hidden =
         visitParts(survey.frame(), grid, patch, [&](const CellKey& key, const PartBits& bits) {
           const Cell* cell = cells_.find(key);
-          if (cell == nullptr || id >= cell->sealedBelow || (bits.touched & cell->crowded) != 0) {
-            return false;
-          }
+          if (cell == nullptr) return bits.core == 0;
+          if ((bits.touched & cell->crowded) != 0) return false;
+          bool touches = bits.core != 0;
           for (size_t i = 0; i < cell->known.size(); ++i) {
-            if (has(bits.touched, partOf(cell->known[i].place)) && !cell->sealed[i]) return false;
+            if (!has(bits.touched, partOf(cell->known[i].place))) continue;
+            if (!has(cell->sealed, static_cast<int>(i))) return false;
+            touches = true;
           }
+          if (!touches) return true;
+          if (id >= cell->sealedBelow) return false;
           sealer = std::max(sealer, cell->sealer);
           for (uint64_t left = bits.core; left != 0; left &= left - 1) {
             const SurfacePoint point = pointIn(grid, patch, key, std::countr_zero(left));
@@ -107,12 +112,16 @@ bool PaintWorld::isHidden(uint32_t id, const Survey& survey, const CellGrid& gri
   return true;
 }
 
-// Adds a shot to a cell's list. Returns false if newer paint hides it there.
-bool PaintWorld::join(uint32_t id, const ShotFrame& frame, const CellGrid& grid, const ShotMap& map,
-                      const Share& share) {
+// Adds a shot to a cell's list, unless newer paint hides it there.
+// thin: no share of the shot has points.
+void PaintWorld::join(uint32_t record, const ShotFrame& frame, const CellGrid& grid,
+                      const ShotMap& map, const Share& share, bool thin) {
+  Placed& placed = placed_[record];
+  const uint32_t id = placed.shot;
   Cell& cell = cells_.at(share.key);
-  Entry entry{.touched = share.touched, .ragged = share.ragged, .shot = id};
-  const bool plain = share.plain && share.ragged == 0 && map.root >= kLine;
+  Entry entry{.touched = share.touched, .shot = id, .core = thin || !share.points.empty()};
+  uint64_t ragged = share.ragged;  // parts in which its paint may have gaps
+  const bool plain = share.plain && ragged == 0 && map.root >= kLine;
   entry.reference = static_cast<uint16_t>(plain ? referenceTo(share.plane, map) : map.root);
   const glm::vec3 corner = grid.corner(cell.key);
   const auto reaches = [&](size_t known) {
@@ -120,17 +129,23 @@ bool PaintWorld::join(uint32_t id, const ShotFrame& frame, const CellGrid& grid,
                   pointOf(cell.known[known], corner, grid.edge));
   };
   for (const SurfacePoint& point : share.points) {
-    const size_t known = learn(cell, frame.origin, grid, point);
-    if (known != kUnknown && !reaches(known)) entry.ragged |= uint64_t{1} << point.part;
+    const size_t known = learn(cell, grid, point);
+    if (known != kUnknown && !reaches(known)) ragged |= uint64_t{1} << point.part;
   }
   for (size_t i = 0; i < cell.known.size(); ++i) {
     const int part = partOf(cell.known[i].place);
-    entry.painted[i] = has(entry.touched, part) && (has(entry.ragged, part) || reaches(i));
+    if (!has(entry.touched, part)) continue;
+    const bool solid = !has(ragged, part);
+    if (solid && !reaches(i)) continue;
+    entry.painted |= uint64_t{1} << i;
+    if (solid) entry.solid |= uint64_t{1} << i;
   }
+  entry.core = entry.core || entry.painted != 0;
   if (isHiddenIn(cell, entry)) {
     states_[id].lostTo = std::max(states_[id].lostTo, cell.sealer + 1);
-    return false;
+    return;
   }
+  if (!entry.core && placed.cores == 0) return;
   const auto position = std::ranges::lower_bound(cell.entries, id, std::greater<>(), &Entry::shot);
   const auto index = position - cell.entries.begin();
   // Grows by a quarter: doubling would leave a third of all entries unused.
@@ -138,15 +153,15 @@ bool PaintWorld::join(uint32_t id, const ShotFrame& frame, const CellGrid& grid,
     cell.entries.reserve(cell.entries.size() * 5 / 4 + 1);
   }
   cell.entries.insert(cell.entries.begin() + index, entry);
+  ++entries_;
+  ++(entry.core ? placed.cores : placed.others);
   if (cell.entries.size() >= cell.pruneAt) prune(cell);
-  publish(cell);
-  return true;
+  cells_.change(cell);
 }
 
 // Index of the known piece that a point belongs to. Adds a piece if the cell does not know one.
 // Returns kUnknown if the cell is full.
-size_t PaintWorld::learn(Cell& cell, const glm::dvec3& origin, const CellGrid& grid,
-                         const SurfacePoint& point) {
+size_t PaintWorld::learn(Cell& cell, const CellGrid& grid, const SurfacePoint& point) {
   const size_t index = findKnown(cell, grid, point);
   if (index != kUnknown) return index;
   if (cell.known.size() >= kMostKnown) {
@@ -157,22 +172,16 @@ size_t PaintWorld::learn(Cell& cell, const glm::dvec3& origin, const CellGrid& g
   const glm::vec3 low = middleOf(point.part) - 0.124f, high = middleOf(point.part) + 0.124f;
   cell.known.push_back({.place = packPlace(glm::clamp(inCell, low, high)),
                         .normal = glm::packSnorm3x10_1x2(glm::vec4(point.normal, 0))});
+  // The maps of the listed shots are on the device alone. They may paint the piece, with gaps.
   for (Entry& entry : cell.entries) {
-    entry.painted[cell.known.size() - 1] =
-        has(entry.touched, point.part) &&
-        (has(entry.ragged, point.part) || paintsPoint(entry, origin, point));
+    if (!has(entry.touched, point.part) || isGone(entry)) continue;
+    entry.painted |= uint64_t{1} << (cell.known.size() - 1);
+    if (std::exchange(entry.core, true)) continue;
+    Placed& placed = placed_[states_[entry.shot].record];
+    --placed.others;
+    ++placed.cores;
   }
   return cell.known.size() - 1;
-}
-
-// Whether a listed shot paints a point, whose offset is from `origin`.
-bool PaintWorld::paintsPoint(const Entry& entry, const glm::dvec3& origin,
-                             const SurfacePoint& point) const {
-  const ShotFrame frame = frameOf(entry.shot);
-  SurfacePoint own = point;
-  own.at += glm::vec3(origin - frame.origin);
-  return paints(frame, entry.reference,
-                blocks_.data() + size_t{placed_[states_[entry.shot].record].base} * 2, own);
 }
 
 // Finds the sealed pieces, and removes hidden shots from the list.
@@ -184,22 +193,23 @@ void PaintWorld::prune(Cell& cell) {
   through.fill(1);
   alphas.fill(0);
   newest.fill(kNone);
-  cell.sealed.reset();
+  cell.sealed = 0;
   cell.sealedBelow = kNone;
   cell.sealer = 0;
   std::erase_if(cell.entries, [&](const Entry& entry) {
-    if (isHiddenIn(cell, entry)) {
-      unlist(entry.shot, cell.sealer + 1);
+    if (isGone(entry) || isHiddenIn(cell, entry)) {
+      unlist(entry, isGone(entry) ? 0 : cell.sealer + 1);
       return true;
     }
+    if (entry.solid == 0) return false;
     const Shot& shot = list_[entry.shot];
     const float range = rangeOf(entry.shot);
     const glm::vec3 direction(shot.direction[0], shot.direction[1], shot.direction[2]);
     const glm::dvec3 origin(shot.origin[0], shot.origin[1], shot.origin[2]);
     const glm::vec3 corner(glm::dvec3(cell.key.cell) * edgeOf(cell.key.code) - origin);
     for (size_t i = 0; i < cell.known.size(); ++i) {
+      if (((entry.solid & ~cell.sealed) >> i & 1) == 0) continue;
       const int part = partOf(cell.known[i].place);
-      if (!entry.painted[i] || cell.sealed[i] || has(entry.ragged, part)) continue;
       const glm::vec3 middle = corner + edge * middleOf(part);
       const float across = glm::length(glm::cross(middle, direction)) + half;
       if (across >= range || glm::dot(middle, direction) < half) continue;
@@ -210,30 +220,15 @@ void PaintWorld::prune(Cell& cell) {
       alphas[i] += alpha * fade;
       // The factors allow for rounding on the device.
       if (through[i] < 0.99f * kThrough && alphas[i] >= 1.001f) {
-        cell.sealed.set(i);
+        cell.sealed |= uint64_t{1} << i;
         cell.sealer = std::max(cell.sealer, newest[i]);
         cell.sealedBelow = std::min(cell.sealedBelow, entry.shot);
       }
     }
     return false;
   });
-  if (cell.sealed.none()) cell.sealedBelow = 0;
+  if (cell.sealed == 0) cell.sealedBelow = 0;
   cell.pruneAt = static_cast<uint32_t>(cell.entries.size() * 5 / 4 + 1);
-}
-
-// A cell has removed a shot from its list, because shot `to` - 1 hides it (0: another reason).
-// After the last cell, frees the shot's map and record.
-void PaintWorld::unlist(uint32_t id, uint32_t to) {
-  State& state = states_[id];
-  state.lostTo = std::max(state.lostTo, to);
-  if (state.record == kNone) return;
-  Placed& placed = placed_[state.record];
-  if (placed.cells > 0) --placed.cells;
-  if (placed.cells > 0) return;
-  if (placed.blocks > 0) runs_.give(placed.base, placed.blocks);
-  placed.blocks = 0;
-  freeRecords_.push_back(state.record);
-  state.record = kNone;
 }
 
 }  // namespace grisaille::sspm

@@ -14,9 +14,6 @@
 namespace grisaille::sspm {
 namespace {
 
-constexpr size_t kRecordWords = 16;  // of a shot: Shot in shaders/sspm/walk.glsl
-constexpr size_t kNumberWord = 11;
-constexpr size_t kColorWord = 12;
 constexpr size_t kMostWork = 64;    // shots under survey at the same time
 constexpr size_t kMostRays = 4096;  // per step, except for a single shot
 
@@ -59,7 +56,7 @@ void onAllThreads(size_t count, const std::function<void(size_t)>& work) {
 }  // namespace
 
 size_t PaintWorld::update(std::span<const Shot> shots, size_t kept, const PaintRules& rules,
-                          double patience, const CastRays& cast) {
+                          double patience, uint64_t limit, const CastRays& cast) {
   const auto start = std::chrono::steady_clock::now();
   list_ = shots;
   const bool sameRange = rules.range == rules_.range;
@@ -67,14 +64,17 @@ size_t PaintWorld::update(std::span<const Shot> shots, size_t kept, const PaintR
   rules_ = rules;
   // Maps depend only on the range. Hiding depends on the other rules too.
   forget(sameRange ? std::min({kept, shots.size(), states_.size()}) : 0, !same);
+  if (std::exchange(limit_, limit) < limit) takeUp();
   for (size_t i = states_.size(); i < shots.size(); ++i) {
     pending_.push_back(static_cast<uint32_t>(i));
   }
   states_.resize(shots.size());
+  keepWithin(limit);
 
   std::vector<uint32_t> unknown;
   askAgain(cast);
   while (step(cast, unknown)) {
+    keepWithin(limit);
     const std::chrono::duration<double> spent = std::chrono::steady_clock::now() - start;
     if (spent.count() >= patience) break;
   }
@@ -82,12 +82,24 @@ size_t PaintWorld::update(std::span<const Shot> shots, size_t kept, const PaintR
     pending_.insert(pending_.end(), unknown.begin(), unknown.end());
     std::ranges::sort(pending_);
   }
+  sweep();
   return pending_.size() + work_.size() + partly_.size();
+}
+
+void PaintWorld::upload(const plugin::Frame& frame, Uploader& uploader) {
+  cells_.write([&](uint32_t shot) { return states_[shot].record; });
+  for (DeviceWords* words : {&cells_.slots(), &cells_.words(), &records_, &blocks_}) {
+    uploader.upload(frame, *words);
+  }
 }
 
 void PaintWorld::clear() {
   cells_.clear();
   runs_.clear();
+  blocks_.clear();
+  records_.clear();
+  entries_ = hidden_ = 0;
+  floor_ = 0;
   states_.clear();
   pending_.clear();
   work_.clear();
@@ -119,13 +131,31 @@ void PaintWorld::forget(size_t count, bool allLost) {
       }
     }
   }
+  if (allLost) {
+    for (Cell& cell : cells_.cells()) {
+      cell.sealed = 0;
+      cell.pruneAt = 0;
+    }
+  }
+  erase(gone);
+  for (uint32_t id = floor_; id < count; ++id) {
+    if (gone[id]) pending_.push_back(id);
+  }
+  std::ranges::sort(pending_);
+  states_.resize(count);
+  takeUp();
+}
+
+// Removes shots from everything.
+void PaintWorld::erase(const std::vector<bool>& gone) {
   for (Cell& cell : cells_.cells()) {
     const auto erased =
         std::erase_if(cell.entries, [&](const Entry& entry) { return gone[entry.shot]; });
-    if (erased == 0 && !allLost) continue;
-    cell.sealed.reset();
+    if (erased == 0) continue;
+    entries_ -= erased;
+    cell.sealed = 0;
     cell.pruneAt = 0;
-    if (erased > 0) publish(cell);
+    cells_.change(cell);
   }
   const auto isGone = [&](const Work& work) { return static_cast<bool>(gone[work.id]); };
   std::erase_if(work_, isGone);
@@ -134,14 +164,13 @@ void PaintWorld::forget(size_t count, bool allLost) {
   for (uint32_t id = 0; id < gone.size(); ++id) {
     if (!gone[id]) continue;
     if (states_[id].record != kNone) {
-      placed_[states_[id].record].cells = 0;
-      unlist(id, 0);
+      Placed& placed = placed_[states_[id].record];
+      if (placed.hidden) hidden_ -= placed.others;
+      placed.cores = placed.others = 0;
+      release(states_[id].record);
     }
     states_[id] = {};
-    if (id < count) pending_.push_back(id);
   }
-  std::ranges::sort(pending_);
-  states_.resize(count);
 }
 
 // Removes shots that are gone from their groups of twins. Returns the hashes of the groups that
@@ -277,31 +306,30 @@ void PaintWorld::place(Work& work) {
   const uint32_t id = work.id;
   const Survey& survey = work.survey;
   const ShotMap& map = work.map;
-  const CellGrid& grid = *work.grid;
-  const std::vector<Share>& shares = work.shares;
+  std::vector<Share>& shares = work.shares;
   const bool partly = survey.unknownInside() > 0;
   if (!shares.empty()) {
-    State& state = states_[id];
-    if (freeRecords_.empty()) {
-      freeRecords_.push_back(static_cast<uint32_t>(placed_.size()));
-      placed_.emplace_back();
-      records_.resize(std::max(records_.size(), placed_.size() * kRecordWords));
+    const uint32_t record = takeRecord(id);
+    placing_ = record;
+    // Cells that its surfaces only come close to matter as long as other cells show it.
+    const auto others =
+        std::ranges::partition(shares, [](const Share& share) { return !share.points.empty(); });
+    const bool thin = others.begin() == shares.begin();
+    for (const Share& share : shares) {
+      join(record, survey.frame(), *work.grid, map, share, thin);
     }
-    state.record = freeRecords_.back();
-    freeRecords_.pop_back();
-    Placed& placed = placed_[state.record];
-    placed = {.shot = id,
-              .blocks = static_cast<uint32_t>(map.words.size() / 2),
-              .cells = static_cast<uint32_t>(shares.size())};
-    if (placed.blocks > 0) {
+    placing_ = kNone;
+    Placed& placed = placed_[record];
+    if (placed.cores > 0 && !map.words.empty()) {
+      placed.blocks = static_cast<uint32_t>(map.words.size() / 2);
       placed.base = runs_.take(placed.blocks);
       std::ranges::copy(map.words,
-                        blocks_.change(size_t{placed.base} * 2, map.words.size()).begin());
+                        blocks_.write(size_t{placed.base} * 2, map.words.size()).begin());
     }
-    writeRecord(id, survey.frame(), map);
-    for (const Share& share : shares) {
-      if (!join(id, survey.frame(), grid, map, share)) unlist(id, 0);
-    }
+    placed.root = map.root;
+    placed.slope = survey.frame().slope;
+    writeRecord(record);
+    release(record);
   }
   work.cells.resize(shares.size());
   std::ranges::transform(shares, work.cells.begin(), &Share::key);
@@ -314,12 +342,14 @@ void PaintWorld::remove(uint32_t id, std::span<const CellKey> cells) {
   for (const CellKey& key : cells) {
     Cell* cell = cells_.find(key);
     if (cell == nullptr) continue;
-    const auto listed = [&](const Entry& entry) { return entry.shot == id; };
-    if (std::erase_if(cell->entries, listed) == 0) continue;
-    cell->sealed.reset();
+    const auto listed = std::ranges::find(cell->entries, id, &Entry::shot);
+    if (listed == cell->entries.end()) continue;
+    const Entry entry = *listed;
+    cell->entries.erase(listed);
+    cell->sealed = 0;
     cell->pruneAt = 0;
-    publish(*cell);
-    unlist(id, 0);
+    cells_.change(*cell);
+    unlist(entry, 0);
   }
 }
 
@@ -354,43 +384,37 @@ void PaintWorld::joinTwins(uint32_t id, std::span<const CellKey> cells) {
   writeCount(twins.ids.front(), twins.counted);
 }
 
-void PaintWorld::writeRecord(uint32_t id, const ShotFrame& frame, const ShotMap& map) {
-  const Shot& shot = list_[id];
-  const uint32_t index = states_[id].record;
-  const auto record = records_.change(index * kRecordWords, kRecordWords);
+void PaintWorld::writeRecord(uint32_t index) {
+  const Placed& placed = placed_[index];
+  const Shot& shot = list_[placed.shot];
+  const auto record = records_.write(index * kRecordWords, kRecordWords);
   // Rounds to the nearest metre: small scenes around the world's origin keep all digits of their
   // floats.
-  const glm::dvec3 whole = glm::round(frame.origin);
+  const glm::dvec3 origin(shot.origin[0], shot.origin[1], shot.origin[2]);
+  const glm::dvec3 whole = glm::round(origin);
   for (int axis = 0; axis < 3; ++axis) {
     const size_t i = static_cast<size_t>(axis);
     record[i] = static_cast<uint32_t>(static_cast<int32_t>(whole[axis]));
-    record[4 + i] = std::bit_cast<uint32_t>(static_cast<float>(frame.origin[axis] - whole[axis]));
-    record[8 + i] = std::bit_cast<uint32_t>(frame.direction[axis]);
+    record[4 + i] = std::bit_cast<uint32_t>(static_cast<float>(origin[axis] - whole[axis]));
+    record[8 + i] = std::bit_cast<uint32_t>(shot.direction[i]);
   }
-  record[3] = std::bit_cast<uint32_t>(frame.range);
-  record[7] = std::bit_cast<uint32_t>(frame.slope);
-  record[kNumberWord] = id + 1;
-  record[kColorWord] = glm::packHalf2x16(glm::vec2(shot.color[0], shot.color[1]));
-  record[kColorWord + 1] = glm::packHalf2x16(glm::vec2(shot.color[2], 1));
-  record[14] = placed_[index].base;
-  record[15] = map.root;
+  // No point is within a negative range.
+  record[3] = std::bit_cast<uint32_t>(placed.hidden ? -1.0f : rangeOf(placed.shot));
+  record[7] = std::bit_cast<uint32_t>(placed.slope);
+  record[11] = placed.shot + 1;
+  // The shot's alpha counts once, and once for each of the twins that it hides.
+  const float times = std::min(1.0f + static_cast<float>(placed.counted), 65504.0f);
+  record[12] = glm::packHalf2x16(glm::vec2(shot.color[0], shot.color[1]));
+  record[13] = glm::packHalf2x16(glm::vec2(shot.color[2], times));
+  record[14] = placed.base;
+  record[15] = placed.root;
 }
 
-// Sets how often the shot's alpha counts: once, and once for each of the `counted` twins that it
-// hides.
 void PaintWorld::writeCount(uint32_t id, uint32_t counted) {
-  const uint32_t index = states_[id].record;
-  if (index == kNone) return;
-  const float times = std::min(1.0f + static_cast<float>(counted), 65504.0f);
-  records_.change(index * kRecordWords + kColorWord + 1, 1)[0] =
-      glm::packHalf2x16(glm::vec2(list_[id].color[2], times));
-}
-
-ShotFrame PaintWorld::frameOf(uint32_t id) const {
-  const uint32_t* record = records_.data() + states_[id].record * kRecordWords;
-  ShotFrame frame(list_[id], std::bit_cast<float>(record[3]));
-  frame.setFarthest(frame.range / std::bit_cast<float>(record[7]));
-  return frame;
+  const uint32_t record = states_[id].record;
+  if (record == kNone) return;
+  placed_[record].counted = counted;
+  writeRecord(record);
 }
 
 }  // namespace grisaille::sspm

@@ -22,6 +22,7 @@ using CastRays = std::function<bool(std::span<const grisaille_ray>, std::span<gr
 
 constexpr float kThrough = 1.0f / 512;  // least visible transmittance; see walk.glsl
 constexpr uint32_t kMostLevels = 16;    // cell widths in use at the same time
+constexpr size_t kRecordWords = 16;     // of a shot: Shot in shaders/sspm/walk.glsl
 
 // Parameters that change where paint lies, or which paint hides which.
 struct PaintRules {
@@ -39,14 +40,19 @@ class PaintWorld {
   // Places the shots of a list, newest first, and forgets shots that have left it.
   // shots: the list, oldest first. kept: number of leading shots unchanged since the previous call.
   // patience: seconds after which it stops placing, but not before one step.
-  // cast: casts the rays of the surveys.
-  // Returns the number of shots that are still pending.
+  // limit: most memory, host and device together, bytes. It gives up the oldest shots to stay
+  // below. cast: casts the rays of the surveys. Returns the number of shots that are still pending.
   size_t update(std::span<const Shot> shots, size_t kept, const PaintRules& rules, double patience,
-                const CastRays& cast);
+                uint64_t limit, const CastRays& cast);
+  // Number of leading shots that the last update() gave up.
+  size_t givenUp() const { return floor_; }
+
+  // Writes the changes of update() on the device. Call it inside record(), outside passes.
+  void upload(const plugin::Frame& frame, Uploader& uploader);
 
   CellTable& cells() { return cells_; }
-  Mirror& records() { return records_; }
-  Mirror& blocks() { return blocks_; }
+  DeviceWords& records() { return records_; }
+  DeviceWords& blocks() { return blocks_; }
   std::span<const int32_t> levels() const { return levels_; }  // levelCode() of each level in use
 
  private:
@@ -58,9 +64,14 @@ class PaintWorld {
   // A shot in at least one cell's list.
   struct Placed {
     uint32_t shot = 0;
-    uint32_t base = 0;    // first block of its map
-    uint32_t blocks = 0;  // number of blocks of its map
-    uint32_t cells = 0;   // number of cells that list it
+    uint32_t base = 0;     // first block of its map
+    uint32_t blocks = 0;   // number of blocks of its map
+    uint32_t root = 0;     // of its map
+    uint32_t cores = 0;    // number of its entries with Entry::core
+    uint32_t others = 0;   // number of its other entries
+    uint32_t counted = 0;  // twins that only count
+    float slope = 0;       // of its frame
+    bool hidden = false;   // has lost all entries with Entry::core; paints nothing
   };
   // A shot under survey.
   struct Work {
@@ -85,6 +96,7 @@ class PaintWorld {
   // paint_world.cpp
   void clear();
   void forget(size_t count, bool allLost);
+  void erase(const std::vector<bool>& gone);
   std::vector<uint64_t> forgetTwins(const std::vector<bool>& gone);
   bool step(const CastRays& cast, std::vector<uint32_t>& unknown);
   void refill();
@@ -94,23 +106,27 @@ class PaintWorld {
   void joinTwins(uint32_t id, std::span<const CellKey> cells);
   CellGrid gridFor(const ShotFrame& frame);
   void place(Work& work);
-  void publish(Cell& cell) {
-    cells_.publish(cell, [&](uint32_t shot) { return states_[shot].record; });
-  }
   void remove(uint32_t id, std::span<const CellKey> cells);
-  void writeRecord(uint32_t id, const ShotFrame& frame, const ShotMap& map);
+  void writeRecord(uint32_t record);
   void writeCount(uint32_t id, uint32_t counted);
-  ShotFrame frameOf(uint32_t id) const;
+
+  // memory.cpp
+  uint32_t takeRecord(uint32_t id);
+  void unlist(const Entry& entry, uint32_t to);
+  void release(uint32_t record);
+  bool isGone(const Entry& entry) const;
+  void sweep();
+  uint64_t bytes() const;
+  void keepWithin(uint64_t limit);
+  void giveUp(uint32_t floor);
+  void takeUp();
 
   // hiding.cpp
   bool isHidden(uint32_t id, const Survey& survey, const CellGrid& grid);
-  bool join(uint32_t id, const ShotFrame& frame, const CellGrid& grid, const ShotMap& map,
-            const Share& share);
-  size_t learn(Cell& cell, const glm::dvec3& origin, const CellGrid& grid,
-               const SurfacePoint& point);
-  bool paintsPoint(const Entry& entry, const glm::dvec3& origin, const SurfacePoint& point) const;
+  void join(uint32_t record, const ShotFrame& frame, const CellGrid& grid, const ShotMap& map,
+            const Share& share, bool thin);
+  size_t learn(Cell& cell, const CellGrid& grid, const SurfacePoint& point);
   void prune(Cell& cell);
-  void unlist(uint32_t id, uint32_t to);
 
   std::span<const Shot> list_;  // during update()
   PaintRules rules_;
@@ -122,8 +138,13 @@ class PaintWorld {
   CellTable cells_;
   std::vector<Placed> placed_;  // one per record
   std::vector<uint32_t> freeRecords_;
-  Mirror records_, blocks_;
+  DeviceWords records_, blocks_;
   Runs runs_;
+  uint32_t placing_ = kNone;  // record of the shot that place() works on
+  size_t entries_ = 0;        // of all cells
+  size_t hidden_ = 0;         // of these: entries of hidden shots
+  uint32_t floor_ = 0;        // shots below are given up
+  uint64_t limit_ = 0;
   std::vector<int32_t> levels_;
 };
 

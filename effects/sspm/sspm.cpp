@@ -111,7 +111,8 @@ class Sspm {
         samples_(host, "samples", grisaille_shader_sspm_samples),
         upsample_(host, "upsample", grisaille_shader_sspm_upsample),
         rest_(host, "rest", grisaille_shader_sspm_rest),
-        nearest_(host.sampler({.label = "nearest"})) {}
+        nearest_(host.sampler({.label = "nearest"})),
+        uploader_(host) {}
 
   static uint32_t reads(plugin::Values values, uint32_t) noexcept {
     const bool surface = values.get<Mode>(Parameter::kMode) == Mode::kSurface;
@@ -196,13 +197,11 @@ class Sspm {
     };
     kept_ = std::min(kept_, frame.objectsKept());
     const std::span<const Shot> shots = frame.objects<Shot>();
-    const size_t waiting = world_.update(shots, kept_, rules, frame.patience(), cast);
+    const uint64_t limit = 256ull << 20;
+    const size_t waiting = world_.update(shots, kept_, rules, frame.patience(), limit, cast);
     kept_ = shots.size();
     frame.waiting(waiting);
-    for (Mirror* mirror :
-         {&world_.cells().slots(), &world_.cells().words(), &world_.records(), &world_.blocks()}) {
-      mirror->upload(host_, frame);
-    }
+    world_.upload(frame, uploader_);
     const Bindings shared = {
         plugin::uniform(0, frame.viewBlock()),
         plugin::texture(0, frame.attachment(GRISAILLE_VIEW_DEPTH), nearest_),
@@ -348,6 +347,7 @@ class Sspm {
   plugin::Buffer restList_;
   uint64_t restWords_ = 0;
   PaintWorld world_;
+  Uploader uploader_;
   size_t kept_ = 0;  // leading shots of the list unchanged since world_.update()
 };
 

@@ -176,6 +176,11 @@ void Survey::writeRays() {
   }
 }
 
+size_t Survey::bytes() const {
+  return samples_.capacity() * sizeof(Sample) + slots_.capacity() * sizeof(Slot) +
+         squares_.capacity() * sizeof(Square) + rays_.capacity() * sizeof(grisaille_ray);
+}
+
 size_t Survey::countUnknown(float within) const {
   return static_cast<size_t>(std::ranges::count_if(samples_, [&](const Sample& sample) {
     return sample.unknown && glm::length(unitsOf(sample.place)) < within;

@@ -64,6 +64,9 @@ class Survey {
   // Casts their rays again, after the map is complete.
   void askAgain();
 
+  // Memory, bytes.
+  size_t bytes() const;
+
   // Visible surfaces in range. Call it when rays() is empty.
   std::vector<Patch> patches() const;
   const ShotFrame& frame() const { return frame_; }

@@ -1,0 +1,103 @@
+// SPDX-License-Identifier: MIT
+// Arrays of 32-bit words that are on the device alone. Changes wait on the host, and an Uploader
+// writes them there.
+#pragma once
+
+#include <bit>
+#include <cstdint>
+#include <span>
+#include <unordered_map>
+#include <vector>
+
+#include "grisaille/effect.hpp"
+
+namespace grisaille::sspm {
+
+class DeviceWords {
+ public:
+  explicit DeviceWords(const char* label) : label_(label) {}
+
+  size_t size() const { return size_; }
+  // Grows to `words`, or more. New words are undefined.
+  void resize(size_t words);
+  void clear();
+  // Words [first, first + count), to fill in. Replaces what waits at the same `first`; other runs
+  // must not overlap. Valid until the next call.
+  std::span<uint32_t> write(size_t first, size_t count);
+
+  // Bytes on the device and of waiting changes. After the next upload the device may have `size()`
+  // plus a sixteenth; it then needs the old array too, until the frame has ended.
+  uint64_t bytes() const;
+  uint64_t peakBytes() const;
+  uint64_t waitingBytes() const { return payload_.size() * sizeof(uint32_t); }
+  grisaille_buffer buffer() const { return buffer_; }
+
+ private:
+  friend class Uploader;
+  struct Run {
+    size_t payload, target, count;  // words; first word in payload_, and in the array
+  };
+
+  const char* label_;
+  size_t size_ = 0;
+  size_t deviceWords_ = 0;
+  plugin::Buffer buffer_;
+  std::vector<uint32_t> payload_;
+  std::vector<Run> runs_;
+  std::unordered_map<size_t, size_t> runAt_;  // index of the run at a target
+};
+
+// Writes changes on the device with shaders/sspm/scatter.comp.
+class Uploader {
+ public:
+  explicit Uploader(const plugin::Host& host);
+
+  // Call it inside record(), outside passes. Throws plugin::Failure.
+  void upload(const plugin::Frame& frame, DeviceWords& words);
+  uint64_t bytes() const { return stagingWords_ * sizeof(uint32_t); }
+
+ private:
+  void grow(const plugin::Frame& frame, DeviceWords& words);
+  void scatter(const plugin::Frame& frame, std::span<const uint32_t> staging,
+               grisaille_buffer source, grisaille_buffer target);
+
+  plugin::Host host_;
+  plugin::PipelineCache scatter_;
+  plugin::Buffer staging_;
+  size_t stagingWords_ = 0;
+};
+
+// Allocates runs of units in an array. Size classes: 1 to 3, and 4, 5, 6 or 7 times a power of two.
+// Freed runs are reused within their class.
+class Runs {
+ public:
+  // unit: size of a unit, words.
+  Runs(DeviceWords& words, size_t unit) : words_(words), unit_(unit) {}
+
+  static uint32_t capacityFor(uint32_t count) {
+    if (count <= 4) return count;
+    const int shift = std::bit_width(count - 1) - 3;
+    return (((count - 1) >> shift) + 1) << shift;
+  }
+
+  // Allocates a run of at least `count` units, count > 0. Returns its first unit. May resize the
+  // array.
+  uint32_t take(uint32_t count);
+  // Frees a run. `count`: same as at take(), or the run's capacity.
+  void give(uint32_t first, uint32_t count) { free_[classOf(capacityFor(count))].push_back(first); }
+  void clear();
+
+ private:
+  static size_t classOf(uint32_t capacity) {
+    if (capacity <= 4) return capacity - 1;
+    const int shift = std::bit_width(capacity) - 3;
+    return static_cast<size_t>(4 * shift) + (capacity >> shift) - 1;
+  }
+
+  DeviceWords& words_;
+  size_t unit_;
+  uint32_t end_ = 0;
+  std::vector<uint32_t> free_[128];
+};
+
+}  // namespace grisaille::sspm
