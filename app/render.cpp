@@ -208,9 +208,15 @@ void renderFrames(const RenderOptions& options, RenderJob& job, gpu::Device& dev
   }
   if (job.owned) writeCoverage(options, job, renderer);
   options.objects.save(job.chain);
-  if (renderer.waiting() > 0) {
+  if (renderer.report().waiting > 0) {
     fmt::print(stderr, "warning: {} objects are not drawn: the rays that they need were not cast\n",
-               renderer.waiting());
+               renderer.report().waiting);
+  }
+  if (renderer.report().givenUp > 0) {
+    fmt::print(stderr,
+               "warning: the {} oldest objects are not drawn: the memory that their effect may use "
+               "leaves no room for them; raise its limit (sspm: --set sspm.memory=MB)\n",
+               renderer.report().givenUp);
   }
 }
 

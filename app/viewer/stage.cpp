@@ -150,7 +150,7 @@ void Stage::updateHeld(const StageDesc& desc) {
     const Exchanged exchanged(*desc.chain, *desc.held);
     render(desc, desc.size, outputs);
   }
-  heldWaiting_ = renderer_.waiting();
+  heldWaiting_ = renderer_.report().waiting;
   if (heldSize_ != desc.size) {
     device_.destroy(held_);
     held_ = {};
@@ -199,7 +199,7 @@ void Stage::update(const StageDesc& desc) {
   left_ = {};
   if (!held) right_ = {};
   render(desc, desc.size, outputs);
-  waiting_ = renderer_.waiting();
+  waiting_ = renderer_.report().waiting;
   size_ = desc.size;
   left_ = {
       renderer_.texture(desc.left), desc.left, kindOf(desc, desc.chain->selection, desc.left), {}};

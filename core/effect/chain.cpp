@@ -102,7 +102,7 @@ void Chain::end() {
   stop();
 }
 
-uint64_t Chain::record(const Selection::Entry& entry, FrameInputs inputs) {
+Report Chain::record(const Selection::Entry& entry, FrameInputs inputs) {
   Running& one = running_.find(entry.key())->second;
   const objects::ObjectList* list = objects(entry.key());
   if (list != nullptr) {
@@ -112,7 +112,7 @@ uint64_t Chain::record(const Selection::Entry& entry, FrameInputs inputs) {
   inputs.values = entry.values.all();
   one.instance->record(inputs);
   if (list != nullptr) one.seen = list->revision();
-  return one.instance->waiting();
+  return one.instance->report();
 }
 
 objects::ObjectList* Chain::objectsEvenIfAbsent(std::string_view effect) {

@@ -54,9 +54,9 @@ class Chain {
   void end();
 
   // Records one effect, which create() has created. `inputs` describes the frame; the function
-  // fills in values and objects. Returns the number of pieces of work that wait for a later frame.
-  // Throws the errors of Instance::record().
-  uint64_t record(const Selection::Entry& entry, FrameInputs inputs);
+  // fills in values and objects. Returns what the effect reported. Throws the errors of
+  // Instance::record().
+  Report record(const Selection::Entry& entry, FrameInputs inputs);
 
   // --- Plugins
 

@@ -308,7 +308,11 @@ struct HostFunctions {
   }
 
   static grisaille_result waiting(const grisaille_frame* self, uint64_t count) {
-    return record(self, "waiting", [&](HostServices& s) { s.waiting_ = count; });
+    return record(self, "waiting", [&](HostServices& s) { s.report_.waiting = count; });
+  }
+
+  static grisaille_result givenUp(const grisaille_frame* self, uint64_t count) {
+    return record(self, "given_up", [&](HostServices& s) { s.report_.givenUp = count; });
   }
 
   // Conversions. They throw Misuse for a resource that the effect may not use.
@@ -407,6 +411,7 @@ grisaille_frame frameTable(HostServices* self) {
           .objects = nullptr,
           .patience = 0,
           .waiting = HostFunctions::waiting,
+          .given_up = HostFunctions::givenUp,
           .guard = 0,
           .reserved = 0};
 }

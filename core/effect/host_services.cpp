@@ -74,7 +74,7 @@ const grisaille_frame* HostServices::openFrame(const FrameInputs& inputs) {
   frame_.objects = takesObjects_ ? &objects_ : nullptr;
   frame_.patience = inputs.patience;
   offered_ = inputs.services;
-  waiting_ = 0;
+  report_ = {};
   commands_ = inputs.commands;
   open();
   return &frame_;

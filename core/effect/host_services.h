@@ -44,8 +44,8 @@ class HostServices {
   // effect's fault; else `otherwise`.
   ErrorId failureId(ErrorId otherwise) const { return deviceFault_.value_or(otherwise); }
 
-  // Number of waiting pieces of work that the effect reported in the last frame.
-  uint64_t waiting() const { return waiting_; }
+  // What the effect reported in the last frame.
+  const Report& report() const { return report_; }
 
   // Destroys the resources that the effect has not destroyed.
   void destroyAll() noexcept;
@@ -87,7 +87,7 @@ class HostServices {
   grisaille_frame frame_;
   grisaille_objects objects_ = {};
   Services offered_;
-  uint64_t waiting_ = 0;
+  Report report_;
   gpu::Commands* commands_ = nullptr;
   bool passOpen_ = false;
   std::vector<grisaille_texture> attachments_;  // the effect may read these

@@ -93,8 +93,8 @@ void Instance::record(const FrameInputs& inputs) {
   }
 }
 
-uint64_t Instance::waiting() const {
-  return state_->services.waiting();
+const Report& Instance::report() const {
+  return state_->services.report();
 }
 
 }  // namespace grisaille::effect

@@ -4,6 +4,7 @@
 
 #include <array>
 #include <cstddef>
+#include <cstdint>
 #include <limits>
 #include <memory>
 #include <span>
@@ -60,6 +61,18 @@ struct FrameInputs {
   size_t objectsKept = 0;      // see grisaille_objects::kept
 };
 
+// What an effect reported in a frame.
+struct Report {
+  uint64_t waiting = 0;  // pieces of work for a later frame; 0: the picture is complete
+  uint64_t givenUp = 0;  // objects for which a limit leaves no room
+
+  Report& operator+=(const Report& other) {
+    waiting += other.waiting;
+    givenUp += other.givenUp;
+    return *this;
+  }
+};
+
 class Instance {
  public:
   // Throws kEffectCreate with the effect's message.
@@ -78,8 +91,8 @@ class Instance {
   // that the effect destroys in record() stay until the next call, because this frame may use them.
   void record(const FrameInputs& inputs);
 
-  // Number of waiting pieces of work that the effect reported in the last record().
-  uint64_t waiting() const;
+  // What the effect reported in the last record().
+  const Report& report() const;
 
  private:
   struct State;

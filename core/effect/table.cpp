@@ -27,7 +27,7 @@ constexpr uint32_t kEffectFlags = GRISAILLE_EFFECT_DEFAULT;
 // Size of the struct in each version, this program's first.
 constexpr std::initializer_list<size_t> kEffectDescSizes = {sizeof(grisaille_effect_desc)};
 constexpr double kMaxWhole = 9007199254740992;  // 2^53: beyond it a double skips whole numbers
-constexpr std::array<std::string_view, 5> kUnits = {"", "m", "px", "rad", "s"};
+constexpr std::array<std::string_view, 6> kUnits = {"", "m", "px", "rad", "s", "MB"};
 
 // `what` continues the sentence after the field's path: "is 3, over 2".
 template <typename... Args>
@@ -167,7 +167,7 @@ void checkNumbers(const std::string& at, const grisaille_param_desc& param) {
 void checkUnit(const std::string& at, const char* unit) {
   checkPresent(at + ".unit", unit);
   if (std::ranges::find(kUnits, unit) == kUnits.end()) {
-    refuse(at + ".unit", "is \"{}\", must be m, px, rad, s or empty", oneLine(unit));
+    refuse(at + ".unit", "is \"{}\", must be m, px, rad, s, MB or empty", oneLine(unit));
   }
 }
 

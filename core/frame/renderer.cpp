@@ -209,7 +209,7 @@ void Renderer::render(const FrameDesc& desc) {
   if (desc.chain != nullptr) desc.chain->create();
   for (auto& [name, slot] : targets_) slot.used = false;
   outputs_.clear();
-  waiting_ = 0;
+  report_ = {};
   depth_ = {};
   opaque_ = desc.background.a == 1;
   gpu::Commands& commands = device_.begin();
@@ -313,7 +313,7 @@ void Renderer::recordEffects(gpu::Commands& commands, const FrameDesc& desc, con
     inputs.patience = desc.patience;
     inputs.services = desc.services;
     try {
-      waiting_ += desc.chain->record(*active.entry, inputs);
+      report_ += desc.chain->record(*active.entry, inputs);
     } catch (...) {
       // No pass is open here. The scene and the other effects do not repeat the uploads of this
       // frame, so the device runs them.

@@ -75,9 +75,8 @@ class Renderer {
   // frame stays open.
   void render(const FrameDesc& desc);
 
-  // Number of pieces of work that wait for a later frame, summed over the effects of the last
-  // frame. 0: the last picture is complete.
-  uint64_t waiting() const { return waiting_; }
+  // What the effects of the last frame reported, summed.
+  const effect::Report& report() const { return report_; }
 
   // Reads back an output of the last frame, with 1, 3 or 4 channels; `color` has a fourth, alpha,
   // only if the background was not opaque. Waits for the device. Throws kOutputUnknown unless that
@@ -122,7 +121,7 @@ class Renderer {
   std::map<std::string, Slot, std::less<>> targets_;         // by name of output or attachment
   std::map<std::string, std::string, std::less<>> outputs_;  // of the last frame: output to target
   Compositor compositor_;
-  uint64_t waiting_ = 0;
+  effect::Report report_;
   FramesBefore before_;
   bool opaque_ = true;  // the background of the last frame
   Depth depth_;

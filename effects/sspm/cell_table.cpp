@@ -44,8 +44,13 @@ uint64_t CellTable::bytes() const {
          slotCells_.size() * sizeof(uint32_t) + slots_.peakBytes() + words_.peakBytes();
 }
 
+// The first slot for a key: the hash as a share of all slots.
+uint32_t CellTable::slotOf(const CellKey& key) const {
+  return static_cast<uint32_t>(uint64_t{hashOf(key)} * slotCells_.size() >> 32);
+}
+
 Cell* CellTable::find(const CellKey& key) {
-  for (uint32_t i = hashOf(key) & slotMask();; i = (i + 1) & slotMask()) {
+  for (uint32_t i = slotOf(key);; i = after(i)) {
     const uint32_t cell = slotCells_[i];
     if (cell == kFree) return nullptr;
     if (cells_[cell].key == key) return &cells_[cell];
@@ -55,8 +60,8 @@ Cell* CellTable::find(const CellKey& key) {
 Cell& CellTable::at(const CellKey& key) {
   if (Cell* cell = find(key)) return *cell;
   cells_.emplace_back().key = key;
-  if (cells_.size() * 3 > slotCells_.size() * 2) {
-    slotCells_.assign(slotCells_.size() * 2, kFree);
+  if (cells_.size() * 10 > slotCells_.size() * 7) {
+    slotCells_.assign(slotCells_.size() / 2 * 3, kFree);
     rehash();
   } else {
     place(static_cast<uint32_t>(cells_.size() - 1));
@@ -75,8 +80,8 @@ void CellTable::change(Cell& cell) {
 }
 
 void CellTable::place(uint32_t cell) {
-  uint32_t i = hashOf(cells_[cell].key) & slotMask();
-  while (slotCells_[i] != kFree) i = (i + 1) & slotMask();
+  uint32_t i = slotOf(cells_[cell].key);
+  while (slotCells_[i] != kFree) i = after(i);
   slotCells_[i] = cell;
   cells_[cell].slot = i;
 }

@@ -9,6 +9,7 @@
 #include <vector>
 
 #include "device_words.h"
+#include "packed.h"
 
 namespace grisaille::sspm {
 
@@ -59,9 +60,9 @@ struct Entry {
 
 struct Cell {
   CellKey key;
-  std::vector<Entry> entries;     // newest first
-  std::vector<KnownPoint> known;  // one per part and surface
-  uint64_t crowded = 0;           // parts with surfaces that did not fit into `known`
+  Packed<Entry> entries;     // newest first
+  Packed<KnownPoint> known;  // one per part and surface
+  uint64_t crowded = 0;      // parts with surfaces that did not fit into `known`
   // Sealed pieces: newer shots hide every shot older than `sealedBelow` on them. `sealer` is the
   // newest of these shots.
   uint64_t sealed = 0;
@@ -110,7 +111,7 @@ class CellTable {
   }
 
   std::deque<Cell>& cells() { return cells_; }
-  uint32_t slotMask() const { return static_cast<uint32_t>(slotCells_.size() - 1); }
+  uint32_t slotCount() const { return static_cast<uint32_t>(slotCells_.size()); }
   // Host and device together, also while arrays grow; bytes.
   uint64_t bytes() const;
 
@@ -118,6 +119,8 @@ class CellTable {
   DeviceWords& words() { return words_; }
 
  private:
+  uint32_t slotOf(const CellKey& key) const;
+  uint32_t after(uint32_t slot) const { return slot + 1 < slotCount() ? slot + 1 : 0; }
   void place(uint32_t cell);
   void rehash();
   // The cell's run on the device, as long as its list.

@@ -67,7 +67,7 @@ class Uploader {
   size_t stagingWords_ = 0;
 };
 
-// Allocates runs of units in an array. Size classes: 1 to 3, and 4, 5, 6 or 7 times a power of two.
+// Allocates runs of units in an array. Size classes: 1 to 7, and 8 to 15 times a power of two.
 // Freed runs are reused within their class.
 class Runs {
  public:
@@ -75,8 +75,8 @@ class Runs {
   Runs(DeviceWords& words, size_t unit) : words_(words), unit_(unit) {}
 
   static uint32_t capacityFor(uint32_t count) {
-    if (count <= 4) return count;
-    const int shift = std::bit_width(count - 1) - 3;
+    if (count <= 8) return count;
+    const int shift = std::bit_width(count - 1) - 4;
     return (((count - 1) >> shift) + 1) << shift;
   }
 
@@ -89,15 +89,15 @@ class Runs {
 
  private:
   static size_t classOf(uint32_t capacity) {
-    if (capacity <= 4) return capacity - 1;
-    const int shift = std::bit_width(capacity) - 3;
-    return static_cast<size_t>(4 * shift) + (capacity >> shift) - 1;
+    if (capacity <= 8) return capacity - 1;
+    const int shift = std::bit_width(capacity) - 4;
+    return static_cast<size_t>(8 * shift) + (capacity >> shift) - 1;
   }
 
   DeviceWords& words_;
   size_t unit_;
   uint32_t end_ = 0;
-  std::vector<uint32_t> free_[128];
+  std::vector<uint32_t> free_[256];
 };
 
 }  // namespace grisaille::sspm

@@ -147,12 +147,7 @@ void PaintWorld::join(uint32_t record, const ShotFrame& frame, const CellGrid& g
   }
   if (!entry.core && placed.cores == 0) return;
   const auto position = std::ranges::lower_bound(cell.entries, id, std::greater<>(), &Entry::shot);
-  const auto index = position - cell.entries.begin();
-  // Grows by a quarter: doubling would leave a third of all entries unused.
-  if (cell.entries.size() == cell.entries.capacity()) {
-    cell.entries.reserve(cell.entries.size() * 5 / 4 + 1);
-  }
-  cell.entries.insert(cell.entries.begin() + index, entry);
+  cell.entries.insert(static_cast<size_t>(position - cell.entries.begin()), entry);
   ++entries_;
   ++(entry.core ? placed.cores : placed.others);
   if (cell.entries.size() >= cell.pruneAt) prune(cell);
@@ -196,7 +191,7 @@ void PaintWorld::prune(Cell& cell) {
   cell.sealed = 0;
   cell.sealedBelow = kNone;
   cell.sealer = 0;
-  std::erase_if(cell.entries, [&](const Entry& entry) {
+  cell.entries.eraseIf([&](const Entry& entry) {
     if (isGone(entry) || isHiddenIn(cell, entry)) {
       unlist(entry, isGone(entry) ? 0 : cell.sealer + 1);
       return true;

@@ -67,7 +67,7 @@ void PaintWorld::sweep() {
   if (hidden_ < kSweepAt || hidden_ < entries_ / 8) return;
   size_t empty = 0;
   for (Cell& cell : cells_.cells()) {
-    const auto erased = std::erase_if(cell.entries, [&](const Entry& entry) {
+    const auto erased = cell.entries.eraseIf([&](const Entry& entry) {
       if (!isGone(entry)) return false;
       unlist(entry, 0);
       return true;

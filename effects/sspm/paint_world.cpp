@@ -149,8 +149,7 @@ void PaintWorld::forget(size_t count, bool allLost) {
 // Removes shots from everything.
 void PaintWorld::erase(const std::vector<bool>& gone) {
   for (Cell& cell : cells_.cells()) {
-    const auto erased =
-        std::erase_if(cell.entries, [&](const Entry& entry) { return gone[entry.shot]; });
+    const auto erased = cell.entries.eraseIf([&](const Entry& entry) { return gone[entry.shot]; });
     if (erased == 0) continue;
     entries_ -= erased;
     cell.sealed = 0;
@@ -345,7 +344,7 @@ void PaintWorld::remove(uint32_t id, std::span<const CellKey> cells) {
     const auto listed = std::ranges::find(cell->entries, id, &Entry::shot);
     if (listed == cell->entries.end()) continue;
     const Entry entry = *listed;
-    cell->entries.erase(listed);
+    cell->entries.eraseIf([&](const Entry& it) { return it.shot == id; });
     cell->sealed = 0;
     cell->pruneAt = 0;
     cells_.change(*cell);

@@ -22,6 +22,7 @@ enum Parameter {
   kNoiseSeed,
   kResolution,
   kRefine,
+  kMemory,
 };
 
 enum Output { kPaint, kCoverage, kOwner };
@@ -139,6 +140,17 @@ constexpr grisaille_param_desc kParams[] = {
                        .keys = kRefineKeys,
                        .labels = kRefineLabels,
                        .defaultValue = 2}),
+    plugin::intParam({.key = "memory",
+                      .label = "Memory",
+                      .unit = "MB",
+                      .tooltip = "On surfaces only: most memory for paint, host and device "
+                                 "together; the oldest shots that do not fit are not drawn",
+                      .hardMin = 16,
+                      .hardMax = 65536,
+                      .softMin = 64,
+                      .softMax = 4096,
+                      .defaultValue = 256,
+                      .log = true}),
 };
 
 constexpr grisaille_output_desc kOutputs[] = {

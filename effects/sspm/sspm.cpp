@@ -59,7 +59,7 @@ struct ListsBlock {
   glm::vec4 level_fraction[kMostLevels];
   glm::ivec4 camera_cell;
   glm::vec4 camera_fraction;
-  uint32_t slot_mask;
+  uint32_t slot_count;
   float per_fade;
 };
 GRISAILLE_CHECK_BLOCK_sspm_surface_Lists(ListsBlock);
@@ -197,10 +197,11 @@ class Sspm {
     };
     kept_ = std::min(kept_, frame.objectsKept());
     const std::span<const Shot> shots = frame.objects<Shot>();
-    const uint64_t limit = 256ull << 20;
+    const uint64_t limit = frame.value<uint64_t>(kMemory) * 1'000'000;
     const size_t waiting = world_.update(shots, kept_, rules, frame.patience(), limit, cast);
     kept_ = shots.size();
     frame.waiting(waiting);
+    frame.givenUp(world_.givenUp());
     world_.upload(frame, uploader_);
     const Bindings shared = {
         plugin::uniform(0, frame.viewBlock()),
@@ -313,7 +314,7 @@ class Sspm {
     const glm::dvec3 metres = glm::round(eye);
     block.camera_cell = glm::ivec4(glm::ivec3(metres), static_cast<int32_t>(levels.size()));
     block.camera_fraction = glm::vec4(glm::dvec4(eye - metres, frame.value<double>(kFull)));
-    block.slot_mask = world_.cells().slotMask();
+    block.slot_count = world_.cells().slotCount();
     block.per_fade = perFade(frame);
     return block;
   }

@@ -20,7 +20,7 @@ layout(UNIFORM(2), std140) uniform Lists {
   vec4 level_fraction[kLevels];   // xyz: the camera's position in it, in cells; w: cells per metre
   ivec4 camera_cell;              // xyz: the camera's position, whole metres; w: number of levels
   vec4 camera_fraction;           // xyz: its remainder, -0.5 to 0.5 metres; w: r0, metres
-  uint slot_mask;                 // number of slots, a power of two, minus 1
+  uint slot_count;
   float per_fade;                 // 1 / edge_fade
 } lists;
 
@@ -130,10 +130,13 @@ uint hashCell(ivec3 cell, int code) {
   return h ^ h >> 12;
 }
 
-// Entries of a cell: x: first, y: end. Both 0 without paint.
+// Entries of a cell: x: first, y: end. Both 0 without paint. The search starts at the hash as a
+// share of all slots.
 uvec2 findCell(ivec3 cell, int code) {
-  for (uint i = hashCell(cell, code);; ++i) {
-    const uint slot = (i & lists.slot_mask) * 6u;
+  uint first, low;
+  umulExtended(hashCell(cell, code), lists.slot_count, first, low);
+  for (uint i = first;; i = i + 1u < lists.slot_count ? i + 1u : 0u) {
+    const uint slot = i * 6u;
     if (slots[slot + 3u] < 0) return uvec2(0u);
     if (slots[slot + 3u] == code && ivec3(slots[slot], slots[slot + 1u], slots[slot + 2u]) == cell) {
       return uvec2(slots[slot + 4u], slots[slot + 4u] + slots[slot + 5u]);

@@ -126,9 +126,9 @@ TEST_F(ChainTest, StoppingEndsAllInstances) {
 TEST_F(ChainTest, ValuesAndWhatWaitsCrossTheChain) {
   Chain chain{Selection(registry, Keys{"teller"})};
   const StartedChain started(chain, *device);
-  EXPECT_EQ(record(chain, "teller", outputs), 0u);
+  EXPECT_EQ(record(chain, "teller", outputs).waiting, 0u);
   chain.selection.set(Assignment{{"teller", "waits"}, "12"});
-  EXPECT_EQ(record(chain, "teller", outputs), 12u);
+  EXPECT_EQ(record(chain, "teller", outputs).waiting, 12u);
 }
 
 // --- Reloaded plugins

@@ -78,14 +78,14 @@ struct InstanceTest : testing::Test {
       instance.record(inputs);
     });
   }
-  uint64_t record(Chain& chain, std::string_view effect, std::span<const gpu::Texture> outputs,
+  Report record(Chain& chain, std::string_view effect, std::span<const gpu::Texture> outputs,
                   const FrameInputs& given = {}) {
-    uint64_t waiting = 0;
+    Report report;
     chain.create();
     frame(outputs, given, [&](FrameInputs& inputs) {
-      waiting = chain.record(*chain.selection.find(effect), inputs);
+      report = chain.record(*chain.selection.find(effect), inputs);
     });
-    return waiting;
+    return report;
   }
 
   std::vector<float> texelsOf(gpu::Texture texture) const {

@@ -203,7 +203,7 @@ TEST_F(ObjectsTest, EffectsWithoutATableSeeNone) {
   const std::vector<gpu::Texture> plain = {makeTexture("plain", gpu::Format::kR32Float)};
   chain.selection = Selection(registry, Keys{"plain"});
   EXPECT_EQ(chain.objects("plain"), nullptr);
-  EXPECT_EQ(record(chain, "plain", plain), 0u);
+  EXPECT_EQ(record(chain, "plain", plain).waiting, 0u);
 }
 
 }  // namespace

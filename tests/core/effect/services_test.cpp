@@ -58,19 +58,29 @@ TEST_F(ServicesTest, PatienceIsToldAndHasNoEndOtherwise) {
   EXPECT_EQ(told({})[2], INFINITY);
 }
 
+TEST_F(ServicesTest, WhatIsGivenUpIsToldUntilTheNextFrame) {
+  values.set("gives_up", "5");
+  told({});
+  EXPECT_EQ(instance.report().givenUp, 5u);
+  EXPECT_EQ(instance.report().waiting, 0u);
+  values.set("gives_up", "-1");
+  told({});
+  EXPECT_EQ(instance.report().givenUp, 0u);
+}
+
 TEST_F(ServicesTest, WhatWaitsIsToldUntilTheNextFrame) {
-  EXPECT_EQ(instance.waiting(), 0u);
+  EXPECT_EQ(instance.report().waiting, 0u);
   values.set("waits", "17");
   told({});
-  EXPECT_EQ(instance.waiting(), 17u);
+  EXPECT_EQ(instance.report().waiting, 17u);
   values.set("waits", "0");
   told({});
-  EXPECT_EQ(instance.waiting(), 0u);
+  EXPECT_EQ(instance.report().waiting, 0u);
   values.set("waits", "3");
   told({});
   values.set("waits", "-1");
   told({});
-  EXPECT_EQ(instance.waiting(), 0u);
+  EXPECT_EQ(instance.report().waiting, 0u);
 }
 
 TEST_F(ServicesTest, RaysAreCastWhereThereIsAService) {

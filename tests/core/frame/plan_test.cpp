@@ -317,13 +317,13 @@ TEST_F(PlanTest, ObjectsReachTheEffectsAndWhatWaitsComesBack) {
   EXPECT_EQ(texels[0], 20);
   EXPECT_EQ(texels[1], 0);  // the effect's first frame
   EXPECT_EQ(texels[2], 0.5f);
-  EXPECT_EQ(renderer_->waiting(), 4u);
+  EXPECT_EQ(renderer_->report().waiting, 4u);
   list.undo();
   EXPECT_EQ(told({"told"})[1], 19);
   // A frame that failed, or that did not run the effect, does not count as its previous frame.
   list.remove(11);
   told({"depth"});
-  EXPECT_EQ(renderer_->waiting(), 0u);
+  EXPECT_EQ(renderer_->report().waiting, 0u);
   add(1);
   EXPECT_ERROR(ErrorId::kOutputUnknown, told({"nothing"}));
   EXPECT_EQ(told({"told"})[1], 11);

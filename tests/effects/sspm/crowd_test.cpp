@@ -131,6 +131,51 @@ TEST_P(CrowdTest, TheNewestWinsOfAMillion) {
   expectNewest();
 }
 
+// When the memory is full, the oldest shots go: the picture is that of the others. What an undo or a
+// larger limit frees serves the oldest again.
+TEST_P(CrowdTest, TheOldestGoWhenTheMemoryIsFull) {
+  const scene::Scene scene = wallScene();
+  TracedRays rays(scene);
+  std::mt19937 random(7);
+  std::uniform_real_distribution<double> unit(0, 1);
+  std::vector<lab::Shot> shots;
+  for (int i = 0; i < 13'000; ++i) {
+    const glm::dvec3 target(6 * unit(random) - 3, 4 * unit(random) - 2, 0);
+    const glm::dvec3 offset(unit(random) - 0.5, unit(random) - 0.5, 1);
+    shots.push_back(shotAt(target + offset, target, randomColor(random)));
+  }
+  const Settings rules = {{"paint_range", "0.03"}, {"edge_fade", "0"}};
+  PaintFrame limited(device(), scene), free(device(), scene);
+  limited.setRays(&rays);
+  free.setRays(&rays);
+  free.set(rules);
+  const auto set = [&](const char* memory) {
+    Settings all = rules;
+    all.emplace_back("memory", memory);
+    limited.set(all);
+  };
+  const auto givenUpOf = [&](size_t count) {
+    limited.render(kWall, kWidth, kHeight, std::span(shots).first(count));
+    EXPECT_EQ(limited.waiting(), 0u);
+    const size_t givenUp = limited.givenUp();
+    free.render(kWall, kWidth, kHeight, std::span(shots).first(count).subspan(givenUp));
+    EXPECT_EQ(free.givenUp(), 0u);
+    EXPECT_EQ(limited.read("paint").pixels, free.read("paint").pixels) << count;
+    return givenUp;
+  };
+  set("16");
+  const size_t first = givenUpOf(12'000);
+  EXPECT_GT(first, 1000u);
+  EXPECT_LT(first, 11'000u);
+  const size_t second = givenUpOf(13'000);
+  EXPECT_GT(second, first);
+  EXPECT_LT(givenUpOf(9'000), second);
+  set("256");
+  EXPECT_EQ(givenUpOf(9'000), 0u);
+  set("16");
+  EXPECT_GT(givenUpOf(9'000), 0u);
+}
+
 // All shots on one spot: the newest colour shows, even where its alpha is low.
 TEST_P(CrowdTest, AMillionOnOneSpot) {
   const scene::Scene scene = wallScene();

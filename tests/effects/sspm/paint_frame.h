@@ -39,7 +39,8 @@ class PaintFrame {
               std::span<const lab::Shot> shots,
               std::vector<std::string> outputs = {"paint", "paint_coverage", "depth"});
   image::Image read(const std::string& output) { return renderer_.read(output); }
-  uint64_t waiting() const { return renderer_.waiting(); }
+  uint64_t waiting() const { return renderer_.report().waiting; }
+  uint64_t givenUp() const { return renderer_.report().givenUp; }
 
  private:
   effect::Registry registry_;

@@ -109,7 +109,7 @@ typedef struct grisaille_param_desc {
   uint32_t enum_count;  /**< enum: number of entries, 2 to 64; other types: 0 */
   const char* key;      /**< a-z, 0-9, _; begins with a letter; unique in the effect */
   const char* label;    /**< name shown to users: "Kernel size" */
-  const char* unit;     /**< "m", "px", "rad", "s", or "" */
+  const char* unit;     /**< "m", "px", "rad", "s", "MB", or "" */
   const char* tooltip;  /**< one sentence, without a line break */
   double hard_min;      /**< least value that the host accepts; bool and enum: 0 */
   double hard_max;      /**< greatest value that the host accepts; bool: 1; enum: enum_count - 1 */
@@ -674,6 +674,14 @@ typedef struct grisaille_frame {
    * @param count number of waiting pieces; 0 (the value without a call): the picture is complete
    */
   grisaille_result (*waiting)(const struct grisaille_frame* self, uint64_t count);
+  /**
+   * Reports how many objects the effect gave up: a limit that its user chose, of memory say, leaves
+   * no room for them. The host tells the user.
+   * @param self this frame
+   * @param count number of leading objects of the list that have no effect in any frame until the
+   *   list or the limit changes; 0 (the value without a call): none
+   */
+  grisaille_result (*given_up)(const struct grisaille_frame* self, uint64_t count);
 
   /**
    * The guard band: the number of pixels by which every attachment extends beyond the picture on

@@ -240,6 +240,9 @@ class Frame {
   /// Reports how many pieces of work wait for a later frame. The host then renders again soon.
   /// @param count number of waiting pieces; 0 (the value without a call): the picture is complete
   void waiting(uint64_t count) const { require(frame_->waiting(frame_, count), "waiting"); }
+  /// Reports how many objects a limit leaves no room for. The host tells the user.
+  /// @param count number of leading objects without effect; 0 (the value without a call): none
+  void givenUp(uint64_t count) const { require(frame_->given_up(frame_, count), "given_up"); }
 
   /// Records a pass: a named, timed group of commands. Passes do not nest.
   /// @param label names the pass

@@ -30,7 +30,7 @@ struct UsedWhen {
 struct FloatParam {
   const char* key = nullptr;      ///< a-z, 0-9, _; begins with a letter; unique in the effect
   const char* label = nullptr;    ///< name shown to users: "Kernel size"
-  const char* unit = "";          ///< "m", "px", "rad", "s", or ""
+  const char* unit = "";          ///< "m", "px", "rad", "s", "MB", or ""
   const char* tooltip = nullptr;  ///< one sentence, without a line break
   double hardMin = 0;             ///< least value that the host accepts
   double hardMax = 0;             ///< greatest value that the host accepts
@@ -50,7 +50,7 @@ struct FloatParam {
 struct IntParam {
   const char* key = nullptr;      ///< a-z, 0-9, _; begins with a letter; unique in the effect
   const char* label = nullptr;    ///< name shown to users: "Samples"
-  const char* unit = "";          ///< "m", "px", "rad", "s", or ""
+  const char* unit = "";          ///< "m", "px", "rad", "s", "MB", or ""
   const char* tooltip = nullptr;  ///< one sentence, without a line break
   int32_t hardMin = 0;            ///< least value that the host accepts
   int32_t hardMax = 0;            ///< greatest value that the host accepts
@@ -225,7 +225,7 @@ constexpr grisaille_output_desc output(const Output& o) {
 struct Field {
   const char* key = nullptr;      ///< a key, for files and the command line; unique in the object
   const char* label = nullptr;    ///< name shown to users
-  const char* unit = "";          ///< number: "m", "px", "rad", "s", or ""; other types: ""
+  const char* unit = "";          ///< number: "m", "px", "rad", "s", "MB", or ""; other types: ""
   const char* tooltip = nullptr;  ///< one line
   grisaille_field_type type = GRISAILLE_FIELD_NUMBER;  ///< type of the field and its member
   size_t offset = 0;               ///< offsetof() of the member in the effect's struct

@@ -15,7 +15,7 @@ namespace {
 namespace plugin = grisaille::plugin;
 using grisaille::tests::Mark;
 
-enum Parameter { kCasts, kWaits, kPicture, kFails };
+enum Parameter { kCasts, kWaits, kGivesUp, kPicture, kFails };
 
 constexpr const char* kCastKeys[] = {"none",          "two",      "nan_origin", "long_direction",
                                      "nan_direction", "no_reach", "nan_reach",  "null"};
@@ -29,6 +29,14 @@ constexpr grisaille_param_desc kParams[] = {
     plugin::intParam({.key = "waits",
                       .label = "Waits",
                       .tooltip = "What it says that waits; under 0: nothing",
+                      .hardMin = -1,
+                      .hardMax = 100,
+                      .softMin = -1,
+                      .softMax = 100,
+                      .defaultValue = -1}),
+    plugin::intParam({.key = "gives_up",
+                      .label = "Gives up",
+                      .tooltip = "Objects that it says it gives up; under 0: it says nothing",
                       .hardMin = -1,
                       .hardMax = 100,
                       .softMin = -1,
@@ -124,6 +132,8 @@ class Teller {
     if (frame.value<bool>(kFails)) throw plugin::Failure("told to fail");
     const int32_t waits = frame.value<int32_t>(kWaits);
     if (waits >= 0) frame.waiting(static_cast<uint64_t>(waits));
+    const int32_t givesUp = frame.value<int32_t>(kGivesUp);
+    if (givesUp >= 0) frame.givenUp(static_cast<uint64_t>(givesUp));
     std::vector<float> told(size_t{frame.width()} * frame.height());
     const auto marks = frame.objects<Mark>();
     told[0] = static_cast<float>(marks.size());
