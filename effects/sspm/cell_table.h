@@ -46,10 +46,7 @@ constexpr size_t kMostKnown = 64;  // pieces in a cell
 // A shot in a cell's list.
 struct Entry {
   uint64_t touched = 0;  // parts of the cell that it may paint
-  // Known pieces, one bit each: those that it may paint, and those of them that it paints without
-  // gaps.
-  uint64_t painted = 0;
-  uint64_t solid = 0;
+  uint64_t solid = 0;    // known pieces that it paints without gaps
   uint32_t shot = 0;
   // Reference within its map: the root, or a plane if that plane serves the whole cell.
   uint16_t reference = 0;

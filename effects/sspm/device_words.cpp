@@ -42,7 +42,7 @@ uint64_t DeviceWords::bytes() const {
 }
 
 uint64_t DeviceWords::peakBytes() const {
-  return bytes() + (size_ > deviceWords_ ? (size_ + size_ / 16) * sizeof(uint32_t) : 0);
+  return bytes() + (size_ > deviceWords_ ? (size_ + size_ / 32) * sizeof(uint32_t) : 0);
 }
 
 Uploader::Uploader(const plugin::Host& host)
@@ -74,14 +74,15 @@ void Uploader::upload(const plugin::Frame& frame, DeviceWords& words) {
     }
   }
   flush();
-  words.payload_ = {};
-  words.runs_ = {};
-  words.runAt_.clear();
+  // Returns their memory; clear() would keep it.
+  words.payload_ = std::vector<uint32_t>();
+  words.runs_ = std::vector<DeviceWords::Run>();
+  words.runAt_ = std::unordered_map<size_t, size_t>();
 }
 
 void Uploader::grow(const plugin::Frame& frame, DeviceWords& words) {
   if (words.deviceWords_ >= std::max(words.size_, kLeast)) return;
-  const size_t grown = std::max(words.size_ + words.size_ / 16, kLeast);
+  const size_t grown = std::max(words.size_ + words.size_ / 32, kLeast);
   plugin::Buffer larger = host_.buffer(words.label_, grown * sizeof(uint32_t));
   if (words.deviceWords_ > 0) {
     const uint32_t copy[] = {static_cast<uint32_t>(words.deviceWords_), 1, 0, 0, 0, 0};

@@ -26,7 +26,7 @@ class DeviceWords {
   std::span<uint32_t> write(size_t first, size_t count);
 
   // Bytes on the device and of waiting changes. After the next upload the device may have `size()`
-  // plus a sixteenth; it then needs the old array too, until the frame has ended.
+  // plus a thirty-second; it then needs the old array too, until the frame has ended.
   uint64_t bytes() const;
   uint64_t peakBytes() const;
   uint64_t waitingBytes() const { return payload_.size() * sizeof(uint32_t); }

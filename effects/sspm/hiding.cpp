@@ -55,8 +55,14 @@ bool has(uint64_t parts, int part) {
 }
 
 bool isHiddenIn(const Cell& cell, const Entry& entry) {
-  return entry.shot < cell.sealedBelow && (entry.touched & cell.crowded) == 0 &&
-         entry.painted != 0 && (entry.painted & ~cell.sealed) == 0;
+  if (entry.shot >= cell.sealedBelow || (entry.touched & cell.crowded) != 0) return false;
+  bool touches = false;
+  for (size_t i = 0; i < cell.known.size(); ++i) {
+    if (!has(entry.touched, partOf(cell.known[i].place))) continue;
+    if (!has(cell.sealed, static_cast<int>(i))) return false;
+    touches = true;
+  }
+  return touches;
 }
 
 // Whether the shot paints a point, whose offset is from the shot's muzzle. word: of its map.
@@ -135,12 +141,9 @@ void PaintWorld::join(uint32_t record, const ShotFrame& frame, const CellGrid& g
   for (size_t i = 0; i < cell.known.size(); ++i) {
     const int part = partOf(cell.known[i].place);
     if (!has(entry.touched, part)) continue;
-    const bool solid = !has(ragged, part);
-    if (solid && !reaches(i)) continue;
-    entry.painted |= uint64_t{1} << i;
-    if (solid) entry.solid |= uint64_t{1} << i;
+    entry.core = true;
+    if (!has(ragged, part) && reaches(i)) entry.solid |= uint64_t{1} << i;
   }
-  entry.core = entry.core || entry.painted != 0;
   if (isHiddenIn(cell, entry)) {
     states_[id].lostTo = std::max(states_[id].lostTo, cell.sealer + 1);
     return;
@@ -170,7 +173,6 @@ size_t PaintWorld::learn(Cell& cell, const CellGrid& grid, const SurfacePoint& p
   // The maps of the listed shots are on the device alone. They may paint the piece, with gaps.
   for (Entry& entry : cell.entries) {
     if (!has(entry.touched, point.part) || isGone(entry)) continue;
-    entry.painted |= uint64_t{1} << (cell.known.size() - 1);
     if (std::exchange(entry.core, true)) continue;
     Placed& placed = placed_[states_[entry.shot].record];
     --placed.others;

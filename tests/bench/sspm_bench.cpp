@@ -229,6 +229,7 @@ class Bench {
     painted_.back()->render(options_.width, options_.height);
     device_->takeTimes();
     const auto each = static_cast<double>(count);
+    malloc_trim(0);
     const double grown = residentMemory() - memory;
     rows_.push_back({.mode = mode,
                      .shots = count,
