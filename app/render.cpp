@@ -5,6 +5,7 @@
 
 #include <algorithm>
 #include <cstdio>
+#include <limits>
 #include <memory>
 #include <optional>
 
@@ -181,6 +182,29 @@ void renderSequence(const RenderOptions& options, RenderJob& job, const frame::F
   throw truth::Interrupted();
 }
 
+// Lets effects work on the objects that wait, say shots without their place, and shows the
+// progress. Frames of another size leave the histories of effects as they are.
+void settleObjects(const frame::FrameDesc& desc, frame::Renderer& renderer) {
+  const auto& lists = desc.chain->objectLists();
+  if (std::ranges::all_of(lists, [](const auto& list) { return list.second.size() == 0; })) return;
+  frame::FrameDesc small = desc;
+  small.width = small.height = 16;
+  small.patience = 0.5;
+  truth::Progress progress("objects", truth::usualProgress());
+  uint64_t most = 0, before = std::numeric_limits<uint64_t>::max();
+  for (;;) {
+    renderer.render(small);
+    const uint64_t waiting = renderer.report().waiting;
+    // Without rays, none of them ever gets its place.
+    if (waiting == 0 || waiting >= before) return;
+    before = waiting;
+    most = std::max(most, waiting);
+    progress.show({.done = static_cast<double>(most - waiting),
+                   .total = static_cast<double>(most),
+                   .text = fmt::format("{} wait", waiting)});
+  }
+}
+
 void renderFrames(const RenderOptions& options, RenderJob& job, gpu::Device& device) {
   SceneServices services(job.view.scene);
   options.objects.apply(job.chain, job.view.camera, job.view.size, services.rays());
@@ -202,6 +226,8 @@ void renderFrames(const RenderOptions& options, RenderJob& job, gpu::Device& dev
   if (!job.times.empty()) {
     renderSequence(options, job, desc, renderer);
   } else {
+    settleObjects(desc, renderer);
+    if (!options.timings.empty()) device.takeTimes();  // those of its frames
     for (uint32_t i = 0; i < options.frames; ++i) renderer.render(desc);
     writeOutputs(job, 0, renderer);
     printWritten(options, job, 1);
