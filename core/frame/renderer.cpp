@@ -346,21 +346,31 @@ std::vector<gpu::Texture> Renderer::outputTargets(const effect::Effect& effect, 
 }
 
 void Renderer::recordCompose(gpu::Commands& commands, const FrameDesc& desc, const Plan& plan) {
-  // An overlay and the visibility after it share one layer.
-  std::vector<Layer> layers(1);
+  // Light falls on paint too: overlays first, whatever the order of the effects, then visibilities.
+  // The last overlay and the first visibility share one layer.
+  std::vector<gpu::Texture> overlays;
+  std::vector<Layer> visibilities;
   for (const Plan::Active& active : plan.active) {
     for (const grisaille_output_desc& output : active.effect().outputs()) {
-      const bool overlay = output.role == GRISAILLE_ROLE_OVERLAY;
       if (!composed(active.effect().outputs(), output.role, desc.surface)) continue;
       const gpu::Texture texture = find(targetName(active.effect(), output));
-      if (overlay ? layers.back().overlay || layers.back().visibility
-                  : bool{layers.back().visibility}) {
-        layers.emplace_back();
+      if (output.role == GRISAILLE_ROLE_OVERLAY) {
+        overlays.push_back(texture);
+      } else {
+        visibilities.push_back(
+            {.overlay = {}, .visibility = texture, .tinted = output.role == GRISAILLE_ROLE_TINT});
       }
-      (overlay ? layers.back().overlay : layers.back().visibility) = texture;
-      if (!overlay) layers.back().tinted = output.role == GRISAILLE_ROLE_TINT;
     }
   }
+  if (visibilities.empty()) visibilities.emplace_back();
+  std::vector<Layer> layers;
+  for (const gpu::Texture overlay : overlays)
+    layers.push_back({.overlay = overlay, .visibility = {}});
+  if (!layers.empty()) {
+    visibilities.front().overlay = overlays.back();
+    layers.pop_back();
+  }
+  layers.insert(layers.end(), visibilities.begin(), visibilities.end());
   const bool base = desc.surface == Surface::kBaseColour;
   commands.beginPass("compose/color");
   compositor_.record(

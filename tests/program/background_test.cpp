@@ -91,6 +91,28 @@ TEST_P(Background, LeavesSurfacesAndOtherOutputsAsTheyAre) {
   }
 }
 
+TEST_P(Background, PaintIsShadedInAnyOrderOfTheEffects) {
+  const std::string shots = " --add sspm=40,40 --add sspm=30,20";
+  const image::Image after = rendered("--effects ssao,sspm" + shots, "a.exr");
+  const image::Image before =
+      rendered("--effects sspm,ssao" + shots + " --write ao=ao.exr --write paint=p.exr", "b.exr");
+  EXPECT_EQ(after.pixels, before.pixels);
+  const image::Image ao = image::read(folder_ / "ao.exr"), paint = image::read(folder_ / "p.exr");
+  size_t painted = 0;
+  for (uint32_t y = 0; y < after.height; ++y) {
+    for (uint32_t x = 0; x < after.width; ++x) {
+      const float alpha = paint.at(x, y, 3);
+      if (depth_.at(x, y) == 0 || alpha == 0) continue;
+      painted += ao.at(x, y) < 0.95f ? 1 : 0;
+      for (uint32_t c = 0; c < 3; ++c) {
+        const float color = (1 - alpha) + alpha * paint.at(x, y, c);
+        ASSERT_NEAR(after.at(x, y, c), color * ao.at(x, y), 2e-3f);
+      }
+    }
+  }
+  EXPECT_GT(painted, 20u);
+}
+
 // The depth of an effect's guard band is larger than the picture.
 TEST_P(Background, FitsThePictureBesideAGuardBand) {
   const std::string wide = "--set ssao.guard_band=0.2 --background ";

@@ -190,7 +190,10 @@ typedef enum grisaille_format {
   GRISAILLE_FORMAT_R32UI = 8    /**< one channel, 32-bit unsigned integer */
 } grisaille_format;
 
-/** How the composed picture uses an output. */
+/**
+ * How the composed picture uses an output. Overlays are composited first, in the chain's order;
+ * then visibilities and tints multiply the result, paint included.
+ */
 typedef enum grisaille_role {
   GRISAILLE_ROLE_NONE = 0, /**< not composed: the user writes it to a file or views it on its own */
   /** The first channel, 0 to 1, multiplies the light; 1 = open. Any format but R32UI. */
