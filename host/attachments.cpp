@@ -135,22 +135,6 @@ void Attachments::dispatch(gpu::Commands& commands, std::string_view label,
   commands.endPass();
 }
 
-// View depth for facet normals. An orthographic camera's view depth is shifted by the pinhole's
-// distance, which costs precision; this one is not shifted.
-gpu::Texture Attachments::exactDepth(gpu::Commands& commands, SourceBlock source,
-                                     gpu::Texture depth) {
-  if (source.shift.x == 0) return targets_[GRISAILLE_VIEW_DEPTH];
-  source.shift.x = 0;
-  const gpu::Texture exact = commands.transient({.label = "exact depth",
-                                                 .format = gpu::Format::kR32Float,
-                                                 .width = width_,
-                                                 .height = height_,
-                                                 .usage = kComputed});
-  dispatch(commands, "host/exact depth", kernels_.get(Kernels::kDepth),
-           commands.uniform(std::as_bytes(std::span(&source, 1))), {depth, {}}, exact);
-  return exact;
-}
-
 void Attachments::record(gpu::Commands& commands, const SourceBlock& source,
                          const Textures& textures) {
   const gpu::BufferRange block = commands.uniform(std::as_bytes(std::span(&source, 1)));
@@ -178,10 +162,9 @@ void Attachments::record(gpu::Commands& commands, const SourceBlock& source,
              {textures.normal, depth}, normal);
   }
   if (facet || (normal && !textures.normal)) {
-    const gpu::Texture exact = exactDepth(commands, source, textures.depth);
     const auto fill = [&](gpu::Texture target) {
       dispatch(commands, "host/facet normal", kernels_.get(Kernels::kFacetNormal), block,
-               {exact, {}}, target);
+               {depth, {}}, target);
     };
     if (facet) fill(facet);
     if (normal && !textures.normal) fill(normal);

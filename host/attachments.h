@@ -67,7 +67,6 @@ class Attachments {
   void drop();
   void dispatch(gpu::Commands& commands, std::string_view label, gpu::ComputePipeline pipeline,
                 gpu::BufferRange source, std::array<gpu::Texture, 2> from, gpu::Texture to);
-  gpu::Texture exactDepth(gpu::Commands& commands, SourceBlock source, gpu::Texture depth);
 
   gpu::HostDevice& device_;
   Kernels& kernels_;

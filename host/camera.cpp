@@ -9,96 +9,170 @@
 namespace grisaille::host {
 namespace {
 
+constexpr double kInfinity = std::numeric_limits<double>::infinity();
 // Renderers write more than this for the sky, and less for a scene. Same as in `grisaille apply`.
 constexpr double kSky = 1e9;  // metres
+constexpr double kFarthestNear = 1e6;  // metres
+constexpr double kLargestPosition = 1e15;  // metres
+constexpr int kReversedBuffer = 3;  // kBufferReversed of shaders/host/source.glsl
 
-[[noreturn]] void refuse(const std::string& why) {
-  throw Error(ErrorId::kHostCamera, "{}", why);
+template <typename... Args>
+[[noreturn]] void refuse(fmt::format_string<Args...> why, Args&&... args) {
+  throw Error(ErrorId::kHostCamera, "{}", fmt::format(why, std::forward<Args>(args)...));
 }
 
-glm::dmat3 rotationOf(const grisaille_host_camera& camera) {
-  glm::dmat3 axes;
-  for (int i = 0; i < 9; ++i) axes[i / 3][i % 3] = camera.world_from_view[i];
-  const glm::dmat3 product = glm::transpose(axes) * axes;
+glm::dmat4 matrixOf(const double (&numbers)[16], const char* name) {
+  glm::dmat4 matrix;
+  for (int i = 0; i < 16; ++i) {
+    matrix[i / 4][i % 4] = numbers[i];
+    if (!std::isfinite(numbers[i])) refuse("{}[{}] is {}", name, i, numbers[i]);
+  }
+  return matrix;
+}
+
+// Sets the position and the axes.
+void readView(const grisaille_host_camera& camera, scene::View& seen) {
+  const glm::dmat4 view = matrixOf(camera.view, "view");
+  const glm::dmat3 turn(view);
+  const glm::dmat3 product = glm::transpose(turn) * turn;
   for (int i = 0; i < 9; ++i) {
     if (!(std::abs(product[i / 3][i % 3] - (i % 4 == 0 ? 1 : 0)) <= 1e-3)) {
-      refuse("the columns of world_from_view are not perpendicular axes of length 1");
+      refuse("the columns of view are not perpendicular axes of length 1");
     }
   }
-  if (glm::determinant(axes) < 0) refuse("world_from_view is a reflection");
-  return axes;
+  if (glm::determinant(turn) < 0) refuse("view is a reflection");
+  if (glm::dvec4(view[0][3], view[1][3], view[2][3], view[3][3]) != glm::dvec4(0, 0, 0, 1)) {
+    refuse("the last row of view is not 0, 0, 0, 1");
+  }
+  seen.worldFromView = glm::transpose(turn);
+  seen.eye = -(seen.worldFromView * glm::dvec3(view[3]));
+  for (int i = 0; i < 3; ++i) {
+    if (!(std::abs(seen.eye[i]) <= kLargestPosition)) {
+      refuse("the camera's position holds {}, not within 1e15", seen.eye[i]);
+    }
+  }
 }
 
-double farOf(const grisaille_host_camera& camera) {
-  return camera.far_plane == 0 ? std::numeric_limits<double>::infinity() : camera.far_plane;
+// The projection, scaled so that clip w is -z (perspective) or 1 (orthographic), with y up.
+struct Projection {
+  glm::dmat4 matrix;
+  bool orthographic;
+};
+Projection projectionOf(const grisaille_host_camera& camera) {
+  glm::dmat4 matrix = matrixOf(camera.projection, "projection");
+  const bool orthographic = matrix[2][3] == 0;
+  const double w = orthographic ? matrix[3][3] : -matrix[2][3];
+  if (!(w > 0) && orthographic) refuse("the projection's clip w is {}, not over 0", w);
+  if (!(w > 0)) refuse("projection[11] is {}, not below 0: view space must look along -z", -w);
+  matrix /= w;
+  if (matrix[1][1] < 0) {
+    for (int column = 0; column < 4; ++column) matrix[column][1] *= -1;
+  }
+  // The entries that both kinds lack, and those that one kind lacks: column, row.
+  constexpr int kBoth[][2] = {{0, 1}, {0, 2}, {0, 3}, {1, 0}, {1, 2}, {1, 3}};
+  constexpr int kPerspective[][2] = {{3, 0}, {3, 1}, {3, 3}};
+  constexpr int kOrthographic[][2] = {{2, 0}, {2, 1}, {2, 3}};
+  const auto expectNone = [&](const int (&entry)[2]) {
+    const double value = matrix[entry[0]][entry[1]];
+    if (std::abs(value) <= 1e-9) return;
+    refuse("projection[{}] is {}, not 0: the projection is sheared, rotated or has an oblique near "
+           "plane", 4 * entry[0] + entry[1], value);
+  };
+  for (const auto& entry : kBoth) expectNone(entry);
+  for (const auto& entry : orthographic ? kOrthographic : kPerspective) expectNone(entry);
+  if (!(matrix[0][0] > 0)) refuse("projection[0] is not over 0: the picture is mirrored");
+  if (matrix[1][1] == 0) refuse("projection[5] is 0");
+  return {.matrix = matrix, .orthographic = orthographic};
 }
 
-void check(const grisaille_host_camera& camera, bool orthographic) {
-  checkReserved(camera.reserved, "camera.reserved");
-  for (const double x : camera.position) {
-    if (!(std::abs(x) <= 1e15)) refuse(fmt::format("position holds {}, not within 1e15", x));
+void readPixels(const Projection& projection, scene::View& seen) {
+  const glm::dmat4& p = projection.matrix;
+  seen.orthographic = projection.orthographic;
+  const glm::dvec2 slope(p[0][0], p[1][1]);
+  // NDC at the view axis.
+  const glm::dvec2 axis = projection.orthographic ? glm::dvec2(p[3]) : -glm::dvec2(p[2]);
+  seen.scale = glm::dvec2(2, -2) / (slope * glm::dvec2(seen.size));
+  seen.offset = (glm::dvec2(-1, 1) - axis) / slope;
+}
+
+// How a depth buffer's value becomes view depth. With t the value or, if it grows with distance, 1
+// minus the value: perspective x / (t + y), orthographic t x + y. The subtraction from 1 is exact
+// where depths crowd.
+struct Buffer {
+  double x, y;
+  bool reversed;
+};
+Buffer bufferOf(const Projection& projection, uint32_t clip) {
+  // Perspective: value = a + b / view depth; orthographic: value = a + b * view depth.
+  const glm::dvec2 row(projection.matrix[2][2], projection.matrix[3][2]);
+  double a = projection.orthographic ? row.y : -row.x;
+  double b = projection.orthographic ? -row.x : row.y;
+  if (clip == GRISAILLE_HOST_CLIP_MINUS_ONE_TO_ONE) {
+    a = (a + 1) / 2;
+    b /= 2;
   }
-  if (!(camera.near_plane > 0 && camera.near_plane <= 1e6)) {
-    refuse(fmt::format("near_plane is {}, not over 0 and at most 1e6", camera.near_plane));
+  if (b == 0) refuse("clip z does not depend on the distance: projection[10] or [14] is wrong");
+  if (projection.orthographic) {
+    const bool reversed = b < 0;
+    return {.x = reversed ? 1 / b : -1 / b, .y = reversed ? -a / b : (1 - a) / b,
+            .reversed = reversed};
   }
-  const double far = farOf(camera);
-  if (!(far > camera.near_plane)) {
-    refuse(fmt::format("far_plane is {}, not over near_plane {}", far, camera.near_plane));
-  }
-  if (orthographic) {
-    const double height = camera.orthographic_height;
-    if (!(height > 0 && height <= 1e9)) {
-      refuse(fmt::format(
-          "vertical_angle is 0, and orthographic_height is {}, not over 0 and at most 1e9",
-          height));
+  const bool reversed = b > 0;
+  return {.x = std::abs(b), .y = reversed ? -a : a - 1, .reversed = reversed};
+}
+
+// Sets the near and the far plane. Moves an orthographic camera whose near plane is not in front of
+// it back along its axis, which does not change the picture. Returns by how many metres.
+double readPlanes(const Buffer& buffer, scene::View& seen, double& far) {
+  if (seen.orthographic) {
+    const double near = buffer.x + buffer.y;
+    far = buffer.y;
+    if (!(far > near && far - near <= kSky && std::abs(far) <= kSky)) {
+      refuse("the orthographic near plane is {} and the far plane {}, not within 1e9 m", near, far);
     }
-    if (!(far <= kSky)) refuse("an orthographic camera needs a far_plane of at most 1e9");
-  } else {
-    if (!(camera.vertical_angle >= 0.01 && camera.vertical_angle <= 3.1)) {
-      refuse(fmt::format("vertical_angle is {} radians, neither 0 nor from 0.01 to 3.1",
-                         camera.vertical_angle));
-    }
-    if (camera.orthographic_height != 0) {
-      refuse("vertical_angle and orthographic_height are both given");
-    }
+    const double back = near > 0 ? 0 : (far - near) / 1024 - near;
+    seen.eye += back * seen.worldFromView[2];
+    seen.nearPlane = near + back;
+    seen.farPlane = far + back;
+    return back;
   }
+  seen.nearPlane = buffer.x / (1 + buffer.y);
+  // Rounding of the matrix makes an infinite far plane one behind the camera or very far away.
+  far = buffer.y > 1e-12 ? buffer.x / buffer.y : kInfinity;
+  if (!(seen.nearPlane > 0 && seen.nearPlane <= kFarthestNear)) {
+    refuse("the near plane is {} m, not over 0 and at most 1e6: see grisaille_host_camera.clip",
+           seen.nearPlane);
+  }
+  return 0;
 }
 
 }  // namespace
 
-View viewOf(const grisaille_host_frame& frame, uint32_t width, uint32_t height, uint32_t rows) {
+View viewOf(const grisaille_host_frame& frame, const glm::uvec2& size, uint32_t rows) {
   const grisaille_host_camera& camera = whole(frame.camera, "frame.camera");
-  checkEnum(frame.depth_kind, 4, "frame.depth_kind");
+  checkEnum(camera.clip, 2, "camera.clip");
+  checkEnum(frame.depth_kind, 3, "frame.depth_kind");
   checkEnum(frame.normal_space, 2, "frame.normal_space");
   checkEnum(frame.normal_encoding, 2, "frame.normal_encoding");
-  const bool orthographic = camera.vertical_angle == 0;
-  check(camera, orthographic);
-  const glm::dmat3 axes = rotationOf(camera);
-  const double near = camera.near_plane, far = farOf(camera);
-  const double aspect = double{1} * width / height;
-
   View view{};
-  view.camera.eye = {camera.position[0], camera.position[1], camera.position[2]};
-  view.camera.target = view.camera.eye - axes[2] * std::max(1.0, glm::length(view.camera.eye));
-  view.camera.up = axes[1];
-  view.camera.fovyDegrees = glm::degrees(camera.vertical_angle);
-  view.camera.nearPlane = near;
-  double half = std::tan(camera.vertical_angle / 2);  // half the height, at a view depth of 1
-  if (orthographic) {
-    const double seen = camera.orthographic_height;
-    view.camera = scene::orthographicCamera(view.camera, seen, seen * aspect, far);
-    half = seen / 2;
-  }
+  scene::View& seen = view.seen;
+  seen.size = size;
+  readView(camera, seen);
+  const Projection projection = projectionOf(camera);
+  readPixels(projection, seen);
+  const Buffer buffer = bufferOf(projection, camera.clip);
+  double far = 0;
+  const double back = readPlanes(buffer, seen, far);
 
   SourceBlock& source = view.source;
-  source.world_from_view = glm::mat4(glm::mat3(axes));
-  const glm::dvec2 corner(half * aspect, half);
-  source.view_from_pixel =
-      glm::vec4(glm::dvec4(2 * corner.x / width, -2 * corner.y / height, -corner.x, corner.y));
-  source.planes = glm::vec4(
-      glm::dvec4(near, std::min(far, kSky), std::isinf(far) ? 0 : near / far, std::min(far, kSky)));
-  source.shift = glm::vec4(glm::dvec4(view.camera.nearPlane - near, view.camera.nearPlane, 0, 0));
-  source.mode = glm::ivec4(frame.depth_kind, orthographic ? 1 : 0,
+  source.world_from_view = glm::mat4(glm::mat3(seen.worldFromView));
+  source.view_from_pixel = glm::vec4(glm::dvec4(seen.scale, seen.offset));
+  const double y = buffer.y + (seen.orthographic ? back : 0);
+  source.depth = glm::vec4(glm::dvec4(buffer.x, y, std::min(far, kSky), back));
+  source.planes = glm::vec4(glm::dvec4(seen.nearPlane, seen.farPlane, 0, 0));
+  const bool reversed = frame.depth_kind == GRISAILLE_HOST_DEPTH_BUFFER && buffer.reversed;
+  source.mode = glm::ivec4(reversed ? kReversedBuffer : static_cast<int>(frame.depth_kind),
+                           seen.orthographic ? 1 : 0,
                            rows == GRISAILLE_HOST_ROWS_FROM_BOTTOM ? 1 : 0,
                            frame.normal_encoding | frame.normal_space << 1);
   return view;

@@ -176,7 +176,7 @@ host::Textures grisaille_host_effect::texturesOf(const grisaille_host_frame& fra
 void grisaille_host_effect::record(const grisaille_host_frame& frame) {
   device.gpu->requireUsable();
   const uint32_t reads = values().effect().reads(values().all().data(), wanted_);
-  const host::View view = host::viewOf(frame, width, height, rows_);
+  const host::View view = host::viewOf(frame, {width, height}, rows_);
   const host::Textures textures = texturesOf(frame, reads);
   attachments_.prepare(reads, textures);
   std::array<gpu::Texture, 6> read;
@@ -199,8 +199,8 @@ void grisaille_host_effect::record(const grisaille_host_frame& frame) {
 void grisaille_host_effect::recordInto(gpu::Commands& commands, const host::View& view,
                                        const host::Textures& textures, uint32_t reads) {
   attachments_.record(commands, view.source, textures);
-  const grisaille::frame::ViewBlock block = grisaille::frame::viewBlock(view.camera, width, height);
-  const grisaille_view seen = grisaille::frame::viewOf(view.camera, width, height);
+  const grisaille::frame::ViewBlock block = grisaille::frame::viewBlock(view.seen);
+  const grisaille_view seen = grisaille::frame::effectView(view.seen);
   grisaille::effect::FrameInputs inputs;
   inputs.commands = &commands;
   inputs.width = width;

@@ -7,6 +7,8 @@
 #include <glm/glm.hpp>
 #include <map>
 
+#include "core/scene/view.h"
+
 namespace grisaille::app {
 namespace {
 
@@ -35,6 +37,7 @@ std::vector<ColorShare> colorShares(const image::Image& owner, const image::Imag
                                     const image::Image& depth, const image::Image& normal,
                                     const scene::Camera& camera, const objects::View& objects,
                                     const objects::Field& colour) {
+  const scene::View view = scene::viewOf(camera, {depth.width, depth.height});
   std::map<std::string, double> areas;
   double nobodys = 0, all = 0;
   for (uint32_t y = 0; y < depth.height; ++y) {
@@ -42,12 +45,12 @@ std::vector<ColorShare> colorShares(const image::Image& owner, const image::Imag
       const double z = depth.at(x, y);
       if (z <= 0) continue;
       // The ray has a length of 1 along the view direction.
-      const glm::dvec3 ray =
-          scene::pixelDirection(camera, depth.width, depth.height, glm::dvec2(x + 0.5, y + 0.5));
+      const glm::dvec3 ray = scene::rayAt(view, glm::dvec2(x + 0.5, y + 0.5)).direction;
       const glm::dvec3 n(normal.at(x, y, 0), normal.at(x, y, 1), normal.at(x, y, 2));
       const double length = glm::length(ray);
       const double cosine = std::max(std::abs(glm::dot(n, ray)) / length, kLeastCosine);
-      const double area = z * z / (cosine * length);
+      const double scale = scene::depthScale(view, z);
+      const double area = scale * scale / (cosine * length);
       const auto own = static_cast<size_t>(owner.at(x, y));
       const double alpha = own == 0 || own > objects.count ? 0.0 : double{overlay.at(x, y, 3)};
       if (alpha > 0) {

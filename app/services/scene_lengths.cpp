@@ -10,6 +10,7 @@
 #include <vector>
 
 #include "core/scene/depth_sketch.h"
+#include "core/scene/view.h"
 
 namespace grisaille::app {
 namespace {
@@ -65,14 +66,14 @@ bool anyFollows(const effect::Selection& selection) {
 
 std::optional<double> suitableRadius(const image::Image& depth, const scene::Camera& camera) {
   std::array<std::vector<double>, 3> places;  // along each axis of the world, from the eye
+  const scene::View view = scene::viewOf(camera, {depth.width, depth.height});
   const uint32_t across = (depth.width + kMostPixels - 1) / kMostPixels;
   const uint32_t down = (depth.height + kMostPixels - 1) / kMostPixels;
   for (uint32_t y = down / 2; y < depth.height; y += down) {
     for (uint32_t x = across / 2; x < depth.width; x += across) {
       const double metres = double{depth.at(x, y)};
       if (!(metres > 0)) continue;
-      const glm::dvec3 point =
-          metres * scene::pixelDirection(camera, depth.width, depth.height, {x + 0.5, y + 0.5});
+      const glm::dvec3 point = scene::worldPosition(view, {x + 0.5, y + 0.5}, metres) - view.eye;
       for (int axis = 0; axis < 3; ++axis) places[static_cast<size_t>(axis)].push_back(point[axis]);
     }
   }

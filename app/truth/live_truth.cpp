@@ -41,9 +41,7 @@ void giveWay() {
 }  // namespace
 
 bool LiveView::operator==(const LiveView& o) const {
-  return scene == o.scene && pose == o.pose && camera.eye == o.camera.eye &&
-         camera.target == o.camera.target && camera.up == o.camera.up &&
-         camera.fovyDegrees == o.camera.fovyDegrees && camera.nearPlane == o.camera.nearPlane &&
+  return scene == o.scene && pose == o.pose && camera == o.camera &&
          size == o.size && radius == o.radius && samples == o.samples;
 }
 

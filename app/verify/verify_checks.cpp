@@ -51,6 +51,18 @@ double randomValue(const grisaille_param_desc& param, std::mt19937& random) {
   return std::clamp(value, low, high);
 }
 
+// Cameras of every kind that a host may have, from the atrium's.
+struct CameraKind {
+  const char* name;
+  double orthographicHeight = 0;   // metres
+  glm::dvec2 shift = glm::dvec2(0);
+};
+constexpr CameraKind kCameras[] = {
+    {.name = "orthographic", .orthographicHeight = 6},
+    {.name = "off-centre", .shift = glm::dvec2(0.4, -0.7)},
+    {.name = "jittered", .shift = glm::dvec2(0.3 / kSize.x, -0.4 / kSize.y)},
+    {.name = "orthographic, off-centre", .orthographicHeight = 3, .shift = glm::dvec2(-0.6, 0.2)}};
+
 // Collects the messages of the driver and of the validation.
 class Messages {
  public:
@@ -106,6 +118,7 @@ class EffectCheck {
     for (const std::string& name : names_)
       draw("writing " + name + " alone", kSize, values, {name});
     report_.conclude(title_ + "writes each output alone");
+    checkCameras();
     checkExtremes();
     checkRandom();
     for (int i = 0; i < 3; ++i) {
@@ -278,6 +291,20 @@ class EffectCheck {
     draw(fmt::format("{} = {}", param.key, values.text(param.key)), kSize, values, names_);
   }
 
+  // Each camera twice: an effect that keeps a history then uses it.
+  void checkCameras() {
+    const effect::Values values(effect_);
+    for (const CameraKind& kind : kCameras) {
+      camera_ = scene::atriumCamera();
+      camera_.orthographicHeight = kind.orthographicHeight;
+      camera_.shift = kind.shift;
+      const std::string what = fmt::format("with an {} camera", kind.name);
+      for (int i = 0; i < 2; ++i) draw(what, kSize, values, names_);
+    }
+    camera_ = scene::atriumCamera();
+    report_.conclude(title_ + "draws with cameras of every kind");
+  }
+
   void checkExtremes() {
     effect::Values least(effect_), most(effect_);
     for (const grisaille_param_desc& param : effect_.params()) {
@@ -316,7 +343,7 @@ class EffectCheck {
   Messages& messages_;
   const effect::Effect& effect_;
   const std::string title_;
-  const scene::Camera camera_ = scene::atriumCamera();
+  scene::Camera camera_ = scene::atriumCamera();
   frame::Renderer renderer_;
   SceneServices services_;
   std::vector<std::string> names_;  // full names of the outputs

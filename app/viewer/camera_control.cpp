@@ -82,8 +82,10 @@ void orbit(scene::Camera& camera, const glm::dvec3& pivot, glm::dvec2 dragPixels
 
 void pan(scene::Camera& camera, glm::dvec2 dragPixels, double heightPixels) {
   // Metres per pixel at the target's depth.
-  const double metres =
-      2 * std::tan(glm::radians(camera.fovyDegrees) / 2) * distanceOf(camera) / heightPixels;
+  const double tall = camera.orthographicHeight > 0
+                          ? camera.orthographicHeight
+                          : 2 * std::tan(glm::radians(camera.fovyDegrees) / 2) * distanceOf(camera);
+  const double metres = tall / heightPixels;
   const glm::dmat3 axes = scene::worldFromView(camera);
   const glm::dvec3 way = metres * (dragPixels.y * axes[1] - dragPixels.x * axes[0]);
   scene::Camera next = camera;
@@ -103,6 +105,7 @@ void zoom(scene::Camera& camera, const glm::dvec3& point, double notches) {
   const double factor = std::max(std::pow(0.9, notches), std::min(least, 1.0));
   scene::Camera next = camera;
   next.eye = point + factor * way;
+  next.orthographicHeight *= factor;
   next.target = next.eye + std::max(factor * distanceOf(camera), leastDistance(next.eye)) * forward;
   take(camera, next);
 }
@@ -121,6 +124,7 @@ void frameBall(scene::Camera& camera, const glm::dvec3& centre, double radius, d
       std::max(radius / std::sin(std::atan(half)), radius + kClearance * camera.nearPlane);
   const glm::dvec3 forward = (camera.target - camera.eye) / distanceOf(camera);
   scene::Camera next = camera;
+  if (camera.orthographicHeight > 0) next.orthographicHeight = 2 * radius / std::min(aspect, 1.0);
   next.target = centre;
   next.eye = centre - std::max(distance, leastDistance(centre)) * forward;
   take(camera, next);

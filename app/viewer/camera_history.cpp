@@ -12,7 +12,8 @@ bool CameraHistory::isHere(const scene::Camera& camera) const {
   if (places_.empty()) return false;
   const scene::Camera& place = places_[here_];
   return place.eye == camera.eye && place.target == camera.target && place.up == camera.up &&
-         place.fovyDegrees == camera.fovyDegrees;
+         place.fovyDegrees == camera.fovyDegrees &&
+         place.orthographicHeight == camera.orthographicHeight && place.shift == camera.shift;
 }
 
 void CameraHistory::note(const scene::Camera& now) {

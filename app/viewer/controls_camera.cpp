@@ -15,6 +15,7 @@
 #include "app/viewer/camera_control.h"
 #include "app/viewer/controls.h"
 #include "app/viewer/input.h"
+#include "core/scene/view.h"
 
 namespace grisaille::app::viewer {
 namespace {
@@ -62,12 +63,11 @@ Controls::Pick Controls::pick(const Place& place, glm::dvec2 at) {
     session_.attempt("pick", [&] { depths = stage_->depthsAt(std::span(&texel, 1)); });
     if (!depths.empty() && std::isfinite(depths[0])) {
       const scene::Camera& seen = *stage_->camera();
-      return {seen.eye + depths[0] * pixelDirection(seen, place.size.x, place.size.y, at), true};
+      return {scene::worldPosition(scene::viewOf(seen, place.size), at, depths[0]), true};
     }
   }
-  return {camera.eye + glm::length(camera.target - camera.eye) *
-                           pixelDirection(camera, place.size.x, place.size.y, at),
-          false};
+  const double distance = glm::length(camera.target - camera.eye);
+  return {scene::worldPosition(scene::viewOf(camera, place.size), at, distance), false};
 }
 
 // The least distance of what is in the middle fifth of the picture, metres; infinite: sky.

@@ -8,6 +8,7 @@
 
 #include "core/base/error.h"
 #include "core/frame/texture_image.h"
+#include "core/scene/view.h"
 #include "shaders/depths.h"
 #include "shaders/keep_output.h"
 
@@ -78,9 +79,7 @@ std::vector<Viewable> viewables(const effect::Selection& effects) {
 }
 
 bool Stage::Wanted::operator==(const Wanted& o) const {
-  return camera.eye == o.camera.eye && camera.target == o.camera.target &&
-         camera.up == o.camera.up && camera.fovyDegrees == o.camera.fovyDegrees &&
-         camera.nearPlane == o.camera.nearPlane && size == o.size && surface == o.surface &&
+  return camera == o.camera && size == o.size && surface == o.surface &&
          background == o.background && revision == o.revision && left == o.left &&
          right == o.right && extra == o.extra && objects == o.objects && poses == o.poses;
 }
@@ -255,11 +254,12 @@ std::vector<double> Stage::depthsAt(std::span<const glm::ivec2> texels) {
   }
   device_.submit();
   const std::vector<std::byte> bytes = device_.read(gpu::BufferRange{depthsRead_});
+  const scene::View view = scene::viewOf(done_->camera, done_->size);
   std::vector<double> depths(texels.size(), std::numeric_limits<double>::infinity());
   for (size_t i = 0; i < texels.size(); ++i) {
     float value = 0;
     std::memcpy(&value, &bytes[i * sizeof(float)], sizeof(value));
-    if (inside[i] && value > 0) depths[i] = done_->camera.nearPlane / double{value};
+    if (inside[i] && value > 0) depths[i] = scene::viewDepthOf(view, double{value});
   }
   return depths;
 }

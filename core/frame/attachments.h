@@ -7,16 +7,16 @@
 #include <string_view>
 
 #include "core/gpu/device.h"
-#include "core/scene/camera.h"
+#include "core/scene/view.h"
 
 namespace grisaille::frame {
 
 // The motion of surfaces since the previous frame; see GRISAILLE_MOTION.
 struct MotionTarget {
   gpu::Texture texture;  // kRgba16Float; null: not wanted
-  // The previous frame's camera, widened to this frame's guard band. Nothing: the motion is
-  // unknown.
-  std::optional<scene::Camera> then;
+  // The previous frame's view, in this frame's size and widened to its guard band. Nothing: the
+  // motion is unknown.
+  std::optional<scene::View> then;
   glm::dvec2 guard = {};  // pixels on each side
 };
 
@@ -51,11 +51,10 @@ class AttachmentSource {
   // Whether motion since the previous frame is known, which was drawn in pose number `poses`.
   virtual bool knowsMotion(uint64_t poses) const { return poses == this->poses(); }
 
-  // Fills every pixel of each target; all have this size. Call it outside a pass; the labels of its
+  // Fills every pixel of each target; all have the view's size. Call it outside a pass; the labels of its
   // passes begin with `passes`. Throws kPictureMissing for an attachment that this source lacks.
-  virtual void record(gpu::Commands& commands, const scene::Camera& camera, uint32_t width,
-                      uint32_t height, gpu::BufferRange viewBlock, const AttachmentTargets& targets,
-                      std::string_view passes) = 0;
+  virtual void record(gpu::Commands& commands, const scene::View& view, gpu::BufferRange viewBlock,
+                      const AttachmentTargets& targets, std::string_view passes) = 0;
 };
 
 }  // namespace grisaille::frame

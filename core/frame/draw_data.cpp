@@ -73,9 +73,8 @@ glm::dmat4 normalTransform(const glm::dmat3& linear) {
   return glm::dmat4(largest > 0 ? map / largest : map);
 }
 
-glm::dmat4 clipFromCamera(const scene::Camera& camera, glm::uvec2 size) {
-  return scene::clipFromView(camera, double{1} * size.x / size.y) *
-         glm::dmat4(glm::transpose(scene::worldFromView(camera)));
+glm::dmat4 clipFromCamera(const scene::View& view) {
+  return scene::clipFromView(view) * glm::dmat4(glm::transpose(view.worldFromView));
 }
 
 glm::dmat4 cameraFromObject(const glm::dmat4& worldFromObject, const glm::dvec3& eye) {

@@ -8,7 +8,7 @@
 
 #include "core/gpu/types.h"
 #include "core/image/image.h"
-#include "core/scene/camera.h"
+#include "core/scene/view.h"
 #include "core/scene/scene.h"
 
 namespace grisaille::frame {
@@ -21,7 +21,7 @@ std::vector<std::vector<uint8_t>> mipChain(const image::Image8& image);
 glm::dmat4 normalTransform(const glm::dmat3& linear);
 
 // Transforms in double precision, from world axes with the origin at the camera, and to them.
-glm::dmat4 clipFromCamera(const scene::Camera& camera, glm::uvec2 size);
+glm::dmat4 clipFromCamera(const scene::View& view);
 glm::dmat4 cameraFromObject(const glm::dmat4& worldFromObject, const glm::dvec3& eye);
 
 // False if all corners of the box lie outside one side plane of the frustum. The clipper handles

@@ -49,11 +49,12 @@ std::vector<Half4> normalTexels(const image::Image& normal, const image::Image& 
   return texels;
 }
 
-std::vector<float> clipDepth(const image::Image& depth, double near) {
+std::vector<float> clipDepth(const image::Image& depth, const scene::View& view) {
   std::vector<float> clip(depth.pixels.size());
   for (size_t i = 0; i < clip.size(); ++i) {
     const float metres = depth.pixels[i];
-    clip[i] = metres > 0 ? std::min(static_cast<float>(near / double{metres}), 1.0f) : 0.0f;
+    const double reversed = metres > 0 ? scene::clipDepthOf(view, double{metres}) : 0;
+    clip[i] = static_cast<float>(std::clamp(reversed, 0.0, 1.0));
   }
   return clip;
 }
@@ -94,10 +95,10 @@ void PictureAttachments::show(Pictures pictures) {
   pictures_ = std::move(pictures);
 }
 
-void PictureAttachments::record(gpu::Commands& commands, const scene::Camera& camera,
-                                uint32_t width, uint32_t height, gpu::BufferRange viewBlock,
-                                const AttachmentTargets& targets, std::string_view) {
+void PictureAttachments::record(gpu::Commands& commands, const scene::View& view,
+                                gpu::BufferRange viewBlock, const AttachmentTargets& targets, std::string_view) {
   const image::Image& depth = pictures_.viewDepth;
+  const uint32_t width = view.size.x, height = view.size.y;
   if (depth.width != width || depth.height != height) {
     throw Error(ErrorId::kPictureSize, "the depth has {} x {} pixels, the frame {} x {}",
                 depth.width, depth.height, width, height);
@@ -116,7 +117,7 @@ void PictureAttachments::record(gpu::Commands& commands, const scene::Camera& ca
                                     .usage = gpu::TextureUsage::kSampled});
   }
   commands.beginPass("pictures/upload");
-  upload(commands, targets.depth, clipDepth(depth, camera.nearPlane));
+  upload(commands, targets.depth, clipDepth(depth, view));
   if (viewDepth) upload(commands, viewDepth, depth.pixels);
   for (const gpu::Texture to : {targets.backDepth, targets.nextDepth}) {
     // Pictures have neither: 0 stands for no surface.

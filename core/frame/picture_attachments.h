@@ -34,9 +34,8 @@ class PictureAttachments : public AttachmentSource {
   // Pictures have no pixels beyond their border.
   bool goesBeyond() const override { return false; }
   // Clamps clip depth to 1, the near plane.
-  void record(gpu::Commands& commands, const scene::Camera& camera, uint32_t width, uint32_t height,
-              gpu::BufferRange viewBlock, const AttachmentTargets& targets,
-              std::string_view passes) override;
+  void record(gpu::Commands& commands, const scene::View& view, gpu::BufferRange viewBlock,
+              const AttachmentTargets& targets, std::string_view passes) override;
 
  private:
   void drawFacets(gpu::Commands& commands, gpu::Texture viewDepth, gpu::BufferRange viewBlock,

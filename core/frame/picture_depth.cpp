@@ -5,6 +5,7 @@
 #include <cmath>
 
 #include "core/base/error.h"
+#include "core/scene/view.h"
 
 namespace grisaille::frame {
 namespace {
@@ -39,8 +40,7 @@ image::Image viewDepthOf(const image::Image& depth, const DepthMeaning& meaning,
                          const scene::Camera& camera, const std::string& name) {
   const bool buffer = meaning.kind == DepthKind::kClip || meaning.kind == DepthKind::kClipReversed;
   const double most = buffer ? 1 : std::numeric_limits<double>::infinity();
-  const double half = std::tan(glm::radians(camera.fovyDegrees) / 2);
-  const double scale = 2 * half / depth.height;  // size of a pixel at a view depth of 1
+  const scene::View view = scene::viewOf(camera, {depth.width, depth.height});
   image::Image result = depth;
   for (uint32_t y = 0; y < depth.height; ++y) {
     for (uint32_t x = 0; x < depth.width; ++x) {
@@ -49,9 +49,8 @@ image::Image viewDepthOf(const image::Image& depth, const DepthMeaning& meaning,
       if (!(value >= 0 && value <= most)) {
         throw Error(ErrorId::kPictureDepth, "{}: the depth at ({}, {}) is {}", name, x, y, value);
       }
-      const glm::dvec2 place =
-          scale * (glm::dvec2(x, y) + 0.5 - 0.5 * glm::dvec2(depth.width, depth.height));
-      pixel = static_cast<float>(metres(value, meaning, std::sqrt(1 + glm::dot(place, place))));
+      const glm::dvec3 direction = scene::rayAt(view, glm::dvec2(x, y) + 0.5).direction;
+      pixel = static_cast<float>(metres(value, meaning, glm::length(direction)));
     }
   }
   return result;

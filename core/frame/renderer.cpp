@@ -167,10 +167,9 @@ struct Renderer::Plan {
 
 // One set of attachments: of the picture's size, or with the guard band around it.
 struct Renderer::SceneView {
-  scene::Camera camera;
-  uint32_t width, height;  // pixels
-  uint32_t guard;          // pixels on each side
-  uint32_t attachments;    // of GRISAILLE_READS
+  scene::View view;
+  uint32_t guard;        // pixels on each side
+  uint32_t attachments;  // of GRISAILLE_READS
   gpu::BufferRange block;
   std::string prefix;  // of the names of targets
 
@@ -232,11 +231,10 @@ void Renderer::render(const FrameDesc& desc) {
 }
 
 void Renderer::record(gpu::Commands& commands, const FrameDesc& desc, const Plan& plan) {
+  const scene::View seen = scene::viewOf(desc.camera, {desc.width, desc.height});
   const auto sceneView = [&](uint32_t guard, uint32_t attachments, const char* prefix) {
-    const ViewBlock block = viewBlock(desc.camera, desc.width, desc.height, guard);
-    return SceneView{.camera = widened(desc.camera, desc.height, guard),
-                     .width = desc.width + 2 * guard,
-                     .height = desc.height + 2 * guard,
+    const ViewBlock block = viewBlock(seen, guard);
+    return SceneView{.view = scene::widened(seen, guard),
                      .guard = guard,
                      .attachments = attachments,
                      .block = commands.uniform(std::as_bytes(std::span(&block, 1))),
@@ -255,7 +253,7 @@ void Renderer::record(gpu::Commands& commands, const FrameDesc& desc, const Plan
 void Renderer::recordAttachments(gpu::Commands& commands, const FrameDesc& desc, const Plan& plan,
                                  const SceneView& view) {
   const auto attachment = [&](const char* name, gpu::Format format, gpu::TextureUsage usage) {
-    return target(view.prefix + name, format, usage, view.width, view.height);
+    return target(view.prefix + name, format, usage, view.view.size.x, view.view.size.y);
   };
   AttachmentTargets targets;
   targets.depth = attachment(kClipDepth, gpu::Format::kD32Float, kDrawn);
@@ -281,16 +279,19 @@ void Renderer::recordAttachments(gpu::Commands& commands, const FrameDesc& desc,
   if (thickness) targets.thickness = attachment(kThickness, gpu::Format::kR32Float, kDrawn);
   if (view.reads(GRISAILLE_MOTION) && source_.hasMotion()) {
     targets.motion.texture = attachment(kMotion, gpu::Format::kRgba16Float, kDrawn);
-    if (plan.then) targets.motion.then = widened(*plan.then, desc.height, view.guard);
+    if (plan.then) {
+      targets.motion.then =
+          scene::widened(scene::viewOf(*plan.then, {desc.width, desc.height}), view.guard);
+    }
     targets.motion.guard = glm::dvec2(view.guard);
   }
-  source_.record(commands, view.camera, view.width, view.height, view.block, targets,
+  source_.record(commands, view.view, view.block, targets,
                  view.prefix.empty() ? kScenePasses : kGuardedPasses);
 }
 
 void Renderer::recordEffects(gpu::Commands& commands, const FrameDesc& desc, const Plan& plan,
                              const SceneView& picture, const SceneView& guarded) {
-  const grisaille_view view = viewOf(desc.camera, desc.width, desc.height);
+  const grisaille_view view = effectView(scene::viewOf(desc.camera, {desc.width, desc.height}));
   for (const Plan::Active& active : plan.active) {
     if (active.wanted == 0) continue;
     effect::FrameInputs inputs;

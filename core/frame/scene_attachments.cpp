@@ -13,11 +13,10 @@ SceneAttachments::~SceneAttachments() {
   device_.destroy(nearest_);
 }
 
-void SceneAttachments::record(gpu::Commands& commands, const scene::Camera& camera, uint32_t width,
-                              uint32_t height, gpu::BufferRange viewBlock,
-                              const AttachmentTargets& targets, std::string_view passes) {
+void SceneAttachments::record(gpu::Commands& commands, const scene::View& view,
+                              gpu::BufferRange viewBlock, const AttachmentTargets& targets, std::string_view passes) {
   commands.beginPass(std::string(passes) + "geometry");
-  scene_.draw(commands, camera, width, height,
+  scene_.draw(commands, view,
               {.depth = targets.depth,
                .normal = targets.normal,
                .baseColour = targets.baseColour,
@@ -25,11 +24,10 @@ void SceneAttachments::record(gpu::Commands& commands, const scene::Camera& came
                .thickness = targets.thickness});
   commands.endPass();
   if (targets.viewDepth) {
-    viewDepth(commands, targets.depth, viewBlock, targets.viewDepth, {width, height}, passes);
+    viewDepth(commands, targets.depth, viewBlock, targets.viewDepth, view.size, passes);
   }
   if (targets.motion.texture) {
-    motion_.record(commands, camera, {width, height}, viewBlock, targets.depth, targets.motion,
-                   passes);
+    motion_.record(commands, view, viewBlock, targets.depth, targets.motion, passes);
   }
   // Draws the surfaces behind the depth `front`, and returns their clip depth.
   const auto drawBehind = [&](const char* label, gpu::Texture front, SceneSides sides,
@@ -37,14 +35,14 @@ void SceneAttachments::record(gpu::Commands& commands, const scene::Camera& came
     const gpu::Texture depth =
         commands.transient({.label = label,
                             .format = gpu::Format::kD32Float,
-                            .width = width,
-                            .height = height,
+                            .width = view.size.x,
+                            .height = view.size.y,
                             .usage = gpu::TextureUsage::kTarget | gpu::TextureUsage::kSampled});
     const std::string behind = std::string(passes) + std::string(prefix);
     commands.beginPass(behind + "geometry");
-    scene_.draw(commands, camera, width, height, {.depth = depth, .front = front, .sides = sides});
+    scene_.draw(commands, view, {.depth = depth, .front = front, .sides = sides});
     commands.endPass();
-    if (metres) viewDepth(commands, depth, viewBlock, metres, {width, height}, behind);
+    if (metres) viewDepth(commands, depth, viewBlock, metres, view.size, behind);
     return depth;
   };
   if (targets.backDepth || targets.nextDepth) {

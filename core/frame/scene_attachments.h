@@ -28,9 +28,8 @@ class SceneAttachments : public AttachmentSource {
   uint64_t poses() const override { return poses_; }
   bool knowsMotion(uint64_t poses) const override { return motion_.knows(poses); }
   void finish(bool motion) override;
-  void record(gpu::Commands& commands, const scene::Camera& camera, uint32_t width, uint32_t height,
-              gpu::BufferRange viewBlock, const AttachmentTargets& targets,
-              std::string_view passes) override;
+  void record(gpu::Commands& commands, const scene::View& view, gpu::BufferRange viewBlock,
+              const AttachmentTargets& targets, std::string_view passes) override;
 
  private:
   // Converts clip depth to view depth.

@@ -20,6 +20,7 @@ struct ThenBlock {
   glm::vec4 then_pixel_from_view;
   float known;
   float camera_moved;
+  float then_orthographic;
 };
 GRISAILLE_CHECK_BLOCK_camera_motion_frag_Then(ThenBlock);
 
@@ -27,19 +28,15 @@ GRISAILLE_CHECK_BLOCK_camera_motion_frag_Then(ThenBlock);
 struct MotionBlock {
   glm::mat4 clip_from_object;
   glm::mat4 then_clip_from_object;
+  glm::vec4 depth_from_object;
+  glm::vec4 then_depth_from_object;
   glm::vec2 pixels_from_clip;
 };
 GRISAILLE_CHECK_BLOCK_motion_vert_MotionBlock(MotionBlock);
 
-bool sameView(const scene::Camera& a, const scene::Camera& b) {
-  return a.eye == b.eye && a.target == b.target && a.up == b.up && a.fovyDegrees == b.fovyDegrees;
-}
-
-// pixel = view.xy / view depth * .xy + .zw, in pixels of the picture inside an attachment of
-// `size`.
-glm::vec4 pixelFromView(const scene::Camera& camera, glm::uvec2 size, glm::dvec2 guard) {
-  const double focal = size.y / (2 * std::tan(glm::radians(camera.fovyDegrees) / 2));
-  return glm::vec4(glm::dvec4(focal, -focal, glm::dvec2(size) / 2.0 - guard));
+// View depth of an object's point p is dot(row, (p, 1)).
+glm::dvec4 depthRow(const scene::View& view, const glm::dmat4& cameraFromObject) {
+  return glm::transpose(cameraFromObject) * glm::dvec4(-view.worldFromView[2], 0);
 }
 
 template <typename Visit>
@@ -93,30 +90,33 @@ void SceneMotion::makePipelines() {
                                             .colorFormats = kFormats});
 }
 
-void SceneMotion::record(gpu::Commands& commands, const scene::Camera& camera, glm::uvec2 size,
+void SceneMotion::record(gpu::Commands& commands, const scene::View& view,
                          gpu::BufferRange viewBlock, gpu::Texture depth, const MotionTarget& to,
                          std::string_view passes) {
   makePipelines();
   commands.beginPass(std::string(passes) + "motion");
-  recordCamera(commands, camera, size, viewBlock, depth, to);
+  recordCamera(commands, view, viewBlock, depth, to);
   if (to.then && then_ && then_->poses != scene_.poses) {
-    recordMoved(commands, camera, size, depth, to);
+    recordMoved(commands, view, depth, to);
   }
   commands.endPass();
 }
 
-void SceneMotion::recordCamera(gpu::Commands& commands, const scene::Camera& camera,
-                               glm::uvec2 size, gpu::BufferRange viewBlock, gpu::Texture depth,
+void SceneMotion::recordCamera(gpu::Commands& commands, const scene::View& view,
+                               gpu::BufferRange viewBlock, gpu::Texture depth,
                                const MotionTarget& to) {
-  const scene::Camera& then = to.then ? *to.then : camera;
+  const scene::View& then = to.then ? *to.then : view;
   // In double precision: the cameras may be far from the world's origin.
-  const glm::dmat3 turn = glm::transpose(scene::worldFromView(then));
-  glm::dmat4 thenFromView(turn * scene::worldFromView(camera));
-  thenFromView[3] = glm::dvec4(turn * (camera.eye - then.eye), 1);
+  const glm::dmat3 turn = glm::transpose(then.worldFromView);
+  glm::dmat4 thenFromView(turn * view.worldFromView);
+  thenFromView[3] = glm::dvec4(turn * (view.eye - then.eye), 1);
+  // In pixels of the picture inside the attachment.
+  const glm::dvec2 origin = -then.offset / then.scale - to.guard;
   const ThenBlock block = {.then_from_view = glm::mat4(thenFromView),
-                           .then_pixel_from_view = pixelFromView(then, size, to.guard),
+                           .then_pixel_from_view = glm::vec4(glm::dvec4(1.0 / then.scale, origin)),
                            .known = to.then ? 1.0f : 0.0f,
-                           .camera_moved = sameView(then, camera) ? 0.0f : 1.0f};
+                           .camera_moved = then == view ? 0.0f : 1.0f,
+                           .then_orthographic = then.orthographic ? 1.0f : 0.0f};
   const std::array bindings = {
       gpu::uniformBinding(0, viewBlock),
       gpu::uniformBinding(1, commands.uniform(std::as_bytes(std::span(&block, 1)))),
@@ -148,8 +148,8 @@ std::vector<bool> SceneMotion::uploadDeformed(gpu::Commands& commands) {
   return moved;
 }
 
-void SceneMotion::recordMoved(gpu::Commands& commands, const scene::Camera& camera, glm::uvec2 size,
-                              gpu::Texture depth, const MotionTarget& to) {
+void SceneMotion::recordMoved(gpu::Commands& commands, const scene::View& view, gpu::Texture depth,
+                              const MotionTarget& to) {
   const std::vector<bool> deformed = uploadDeformed(commands);
   // Whether the vertices of a primitive moved: those of a deformed one belong to one run.
   const auto isDeformed = [&](const scene::Primitive& primitive) {
@@ -164,8 +164,8 @@ void SceneMotion::recordMoved(gpu::Commands& commands, const scene::Camera& came
   const gpu::Buffer positions = resources_.positions(commands);
   const gpu::Buffer indices = resources_.indices(commands);
   const std::vector<scene::Bounds>& bounds = resources_.primitiveBounds();
-  const glm::dmat4 clipFromCamera = frame::clipFromCamera(camera, size);
-  const glm::dmat4 thenClipFromCamera = frame::clipFromCamera(*to.then, size);
+  const glm::dmat4 clipFromCamera = frame::clipFromCamera(view);
+  const glm::dmat4 thenClipFromCamera = frame::clipFromCamera(*to.then);
 
   std::vector<gpu::Draw> draws;
   std::vector<std::array<gpu::Binding, 2>> bindings;
@@ -178,14 +178,18 @@ void SceneMotion::recordMoved(gpu::Commands& commands, const scene::Camera& came
     const glm::dmat4& before = then_->transforms[i];
     const bool bends = primitive.indexCount > 0 && isDeformed(primitive);
     if (!bends && before == instance.worldFromObject) continue;
-    const glm::dmat4 clipFromObject =
-        clipFromCamera * cameraFromObject(instance.worldFromObject, camera.eye);
+    const glm::dmat4 fromObject = cameraFromObject(instance.worldFromObject, view.eye);
+    const glm::dmat4 thenFromObject = cameraFromObject(before, to.then->eye);
+    const glm::dmat4 clipFromObject = clipFromCamera * fromObject;
     if (!mayBeSeen(bounds[instance.primitive], clipFromObject)) continue;
     const scene::Material& material = scene_.materials[primitive.material];
     const MotionBlock block = {.clip_from_object = glm::mat4(clipFromObject),
-                               .then_clip_from_object = glm::mat4(
-                                   thenClipFromCamera * cameraFromObject(before, to.then->eye)),
-                               .pixels_from_clip = glm::vec2(size) * glm::vec2(0.5f, -0.5f)};
+                               .then_clip_from_object =
+                                   glm::mat4(thenClipFromCamera * thenFromObject),
+                               .depth_from_object = glm::vec4(depthRow(view, fromObject)),
+                               .then_depth_from_object =
+                                   glm::vec4(depthRow(*to.then, thenFromObject)),
+                               .pixels_from_clip = glm::vec2(view.size) * glm::vec2(0.5f, -0.5f)};
     auto& stream = streams.emplace_back();
     stream[0].buffer = positions;
     stream[1].buffer = bends ? thenPositions_ : positions;

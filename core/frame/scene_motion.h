@@ -11,7 +11,7 @@
 #include "core/frame/attachments.h"
 #include "core/frame/scene_resources.h"
 #include "core/gpu/device.h"
-#include "core/scene/camera.h"
+#include "core/scene/view.h"
 #include "core/scene/scene.h"
 
 namespace grisaille::frame {
@@ -41,15 +41,14 @@ class SceneMotion {
 
   // Writes every pixel of `to.texture`. `depth`: clip depth of the same size. Call it outside a
   // pass.
-  void record(gpu::Commands& commands, const scene::Camera& camera, glm::uvec2 size,
-              gpu::BufferRange viewBlock, gpu::Texture depth, const MotionTarget& to,
-              std::string_view passes);
+  void record(gpu::Commands& commands, const scene::View& view, gpu::BufferRange viewBlock,
+              gpu::Texture depth, const MotionTarget& to, std::string_view passes);
 
  private:
-  void recordCamera(gpu::Commands& commands, const scene::Camera& camera, glm::uvec2 size,
+  void recordCamera(gpu::Commands& commands, const scene::View& view,
                     gpu::BufferRange viewBlock, gpu::Texture depth, const MotionTarget& to);
-  void recordMoved(gpu::Commands& commands, const scene::Camera& camera, glm::uvec2 size,
-                   gpu::Texture depth, const MotionTarget& to);
+  void recordMoved(gpu::Commands& commands, const scene::View& view, gpu::Texture depth,
+                   const MotionTarget& to);
   std::vector<bool> uploadDeformed(gpu::Commands& commands);
   void makePipelines();
 

@@ -24,6 +24,7 @@ struct DrawBlock {
   float chord_scale = 1;
   float padding = 0;
   glm::mat4 camera_from_object;
+  glm::vec4 sight;
 };
 GRISAILLE_CHECK_BLOCK_geometry_vert_01100_DrawBlock(DrawBlock);
 
@@ -276,8 +277,8 @@ gpu::Sampler SceneResources::sampler(const scene::Material& material, bool base)
   return sampler;
 }
 
-void SceneResources::draw(gpu::Commands& commands, const scene::Camera& camera, uint32_t width,
-                          uint32_t height, const SceneTargets& targets) {
+void SceneResources::draw(gpu::Commands& commands, const scene::View& view,
+                          const SceneTargets& targets) {
   const bool normal{targets.normal}, base{targets.baseColour}, facet{targets.facetNormal};
   const bool thick{targets.thickness};
   const bool behind{targets.front};
@@ -293,7 +294,9 @@ void SceneResources::draw(gpu::Commands& commands, const scene::Camera& camera, 
   const gpu::Buffer thickness = thick ? this->thickness(commands) : gpu::Buffer{};
   const std::vector<scene::Bounds>& bounds = primitiveBounds();
 
-  const glm::dmat4 clipFromCamera = frame::clipFromCamera(camera, {width, height});
+  const glm::dmat4 clipFromCamera = frame::clipFromCamera(view);
+  const glm::vec4 sight =
+      view.orthographic ? glm::vec4(-view.worldFromView[2], 0) : glm::vec4(0, 0, 0, 1);
 
   // Draws point into bindings and streams until render() returns: reserve, so that they never move.
   std::vector<gpu::Draw> draws;
@@ -305,7 +308,7 @@ void SceneResources::draw(gpu::Commands& commands, const scene::Camera& camera, 
     const scene::Primitive& primitive = scene_.primitives[instance.primitive];
     const scene::Material& material = scene_.materials[primitive.material];
     const glm::dmat4 cameraFromObject =
-        frame::cameraFromObject(instance.worldFromObject, camera.eye);
+        frame::cameraFromObject(instance.worldFromObject, view.eye);
     const glm::dmat4 clipFromObject = clipFromCamera * cameraFromObject;
     if (!mayBeSeen(bounds[instance.primitive], clipFromObject)) continue;
 
@@ -317,7 +320,8 @@ void SceneResources::draw(gpu::Commands& commands, const scene::Camera& camera, 
                           .alpha_cutoff = material.alphaCutoff,
                           .front_sign = mirrors ? -1.0f : 1.0f,
                           .chord_scale = thick ? chordScale(instance.primitive, linear) : 0,
-                          .camera_from_object = glm::mat4(cameraFromObject)};
+                          .camera_from_object = glm::mat4(cameraFromObject),
+                          .sight = sight};
     const auto blockBytes = std::as_bytes(std::span(&block, 1));
     const Variant variant{.facet = facet,
                           .normal = normal,

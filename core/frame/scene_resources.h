@@ -10,7 +10,7 @@
 
 #include "core/gpu/device.h"
 #include "core/scene/bodies.h"
-#include "core/scene/camera.h"
+#include "core/scene/view.h"
 #include "core/scene/scene.h"
 
 namespace grisaille::frame {
@@ -47,8 +47,7 @@ class SceneResources {
   SceneResources& operator=(const SceneResources&) = delete;
 
   // Draws every instance that may be visible. Call it inside a pass.
-  void draw(gpu::Commands& commands, const scene::Camera& camera, uint32_t width, uint32_t height,
-            const SceneTargets& targets);
+  void draw(gpu::Commands& commands, const scene::View& view, const SceneTargets& targets);
 
   // Buffers of the scene's positions, in its present pose, and indices; uploaded if necessary.
   gpu::Buffer positions(gpu::Commands& commands);

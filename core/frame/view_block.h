@@ -4,7 +4,7 @@
 
 #include <glm/glm.hpp>
 
-#include "core/scene/camera.h"
+#include "core/scene/view.h"
 #include "grisaille/effect.h"
 
 namespace grisaille::frame {
@@ -18,14 +18,12 @@ struct ViewBlock {
   glm::ivec4 camera_cell;
   glm::vec4 camera_fraction;
   glm::vec4 attachment;
+  glm::vec4 planes;
 };
 
-// `guard`: pixels by which attachments extend beyond the picture on each side.
-ViewBlock viewBlock(const scene::Camera& camera, uint32_t width, uint32_t height,
-                    uint32_t guard = 0);
-// The camera whose picture extends `guard` pixels further on each side, with the same pixel size.
-scene::Camera widened(const scene::Camera& camera, uint32_t height, uint32_t guard);
+// `view`: of the picture. `guard`: pixels by which attachments extend beyond it on each side.
+ViewBlock viewBlock(const scene::View& view, uint32_t guard = 0);
 
-grisaille_view viewOf(const scene::Camera& camera, uint32_t width, uint32_t height);
+grisaille_view effectView(const scene::View& view);
 
 }  // namespace grisaille::frame

@@ -35,6 +35,11 @@ glm::dvec3 vectorOf(const json& value, std::string_view field) {
   return {numberOf(value[0], field), numberOf(value[1], field), numberOf(value[2], field)};
 }
 
+glm::dvec2 shiftOf(const json& value) {
+  if (!value.is_array() || value.size() != 2) refuse("shift", "is not an array of two numbers");
+  return {numberOf(value[0], "shift"), numberOf(value[1], "shift")};
+}
+
 glm::uvec2 sizeOf(const json& value) {
   if (!value.is_array() || value.size() != 2) refuse("size", "is not an array of two numbers");
   glm::uvec2 size;
@@ -57,7 +62,8 @@ json parse(std::string_view text, const std::string& name) {
 }
 
 [[noreturn]] void refuseKey(const std::string& key) {
-  const std::string keys[] = {"eye", "target", "up", "fovy_degrees", "size", "near"};
+  const std::string keys[] = {
+      "eye", "target", "up", "fovy_degrees", "orthographic_height", "shift", "size", "near", "far"};
   const std::string near = nearest(key, keys);
   refuse(fmt::format("\"{}\"", key),
          fmt::format("is not a key of a camera{}{}", near.empty() ? "" : ", nearest is ", near));
@@ -72,6 +78,13 @@ void set(Camera& camera, const std::string& key, const json& value) {
     camera.up = vectorOf(value, key);
   } else if (key == "fovy_degrees") {
     camera.fovyDegrees = numberOf(value, key);
+  } else if (key == "orthographic_height") {
+    camera.orthographicHeight = numberOf(value, key);
+    if (!(camera.orthographicHeight > 0)) refuse(key, "is not above 0");
+  } else if (key == "shift") {
+    camera.shift = shiftOf(value);
+  } else if (key == "far") {
+    camera.farPlane = numberOf(value, key);
   } else if (key == "size") {
     camera.size = sizeOf(value);
   } else if (key == "near") {
@@ -100,6 +113,17 @@ void validate(const Camera& camera) {
   if (!(camera.nearPlane > 0 && camera.nearPlane <= 1e9)) {
     refuse("near", fmt::format("is {}, not above 0 and at most 1e9", camera.nearPlane));
   }
+  if (!(camera.orthographicHeight >= 0 && camera.orthographicHeight <= 1e9)) {
+    refuse("orthographic_height", fmt::format("is {}, not at most 1e9", camera.orthographicHeight));
+  }
+  if (camera.orthographicHeight > 0 &&
+      !(camera.farPlane > camera.nearPlane && camera.farPlane <= 1e9)) {
+    refuse("far", fmt::format("is {}, not above near, {}, and at most 1e9", camera.farPlane,
+                              camera.nearPlane));
+  }
+  if (!(std::abs(camera.shift.x) <= 10 && std::abs(camera.shift.y) <= 10)) {
+    refuse("shift", "is not from -10 to 10");
+  }
   if ((camera.size.x == 0) != (camera.size.y == 0) || camera.size.x > kLargestSize ||
       camera.size.y > kLargestSize) {
     refuse("size", fmt::format("is not from 1 to {} per side", kLargestSize));
@@ -124,8 +148,12 @@ Camera cameraFromJson(const json& document, const std::string& name) {
     if (!document.is_object()) refuse("the file", "does not hold a JSON object");
     Camera camera;
     for (const auto& [key, value] : document.items()) set(camera, key, value);
+    const bool orthographic = document.contains("orthographic_height");
     for (const char* key : {"eye", "target", "fovy_degrees"}) {
-      if (!document.contains(key)) refuse(key, "is missing");
+      if (document.contains(key) || (orthographic && key == std::string_view("fovy_degrees"))) {
+        continue;
+      }
+      refuse(key, "is missing");
     }
     validate(camera);
     return camera;
@@ -148,6 +176,11 @@ std::string cameraJson(const Camera& camera) {
                                   {"target", array(camera.target)},
                                   {"up", array(camera.up)},
                                   {"fovy_degrees", camera.fovyDegrees}};
+  if (camera.orthographicHeight > 0) {
+    document["orthographic_height"] = camera.orthographicHeight;
+    document["far"] = camera.farPlane;
+  }
+  if (camera.shift != glm::dvec2(0)) document["shift"] = {camera.shift.x, camera.shift.y};
   if (camera.size.x != 0) document["size"] = {camera.size.x, camera.size.y};
   document["near"] = camera.nearPlane;
   return document.dump();
@@ -157,39 +190,10 @@ void saveCamera(const Camera& camera, const std::string& path) {
   writeFileAtomically(path, cameraJson(camera) + "\n");
 }
 
-Camera orthographicCamera(const Camera& camera, double height, double width, double far) {
-  const double near = camera.nearPlane;
-  const double back = 64 * std::max({far - near, height, width});
-  const glm::dvec3 backward = glm::normalize(camera.eye - camera.target);
-  Camera pinhole = camera;
-  pinhole.eye += back * backward;
-  pinhole.target = pinhole.eye - backward * std::max(1.0, glm::length(pinhole.eye));
-  pinhole.fovyDegrees = glm::degrees(2 * std::atan(height / 2 / (back + (near + far) / 2)));
-  pinhole.nearPlane = near + back;
-  return pinhole;
-}
-
 glm::dmat3 worldFromView(const Camera& camera) {
   const glm::dvec3 backward = glm::normalize(camera.eye - camera.target);
   const glm::dvec3 right = glm::normalize(glm::cross(camera.up, backward));
   return {right, glm::cross(backward, right), backward};
-}
-
-glm::dmat4 clipFromView(const Camera& camera, double aspect) {
-  const double scale = 1 / std::tan(glm::radians(camera.fovyDegrees) / 2);
-  glm::dmat4 clip(0);
-  clip[0][0] = scale / aspect;
-  clip[1][1] = scale;
-  clip[2][3] = -1;
-  clip[3][2] = camera.nearPlane;
-  return clip;
-}
-
-glm::dvec3 pixelDirection(const Camera& camera, uint32_t width, uint32_t height,
-                          const glm::dvec2& point) {
-  const double half = std::tan(glm::radians(camera.fovyDegrees) / 2);
-  const glm::dvec2 place = (2.0 * point / glm::dvec2(width, height) - 1.0) * half;
-  return worldFromView(camera) * glm::dvec3(place.x * width / height, -place.y, -1);
 }
 
 }  // namespace grisaille::scene

@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: MIT
-// A pinhole camera and its files: JSON with `eye`, `target` (metres, world), optional `up` (default
-// +y), `fovy_degrees`, optional `size` [width, height] and optional `near` (metres).
+// A camera and its files: JSON with `eye`, `target` (metres, world), optional `up` (default +y),
+// `fovy_degrees` or `orthographic_height`, and the optional `shift` [x, y], `size` [width, height],
+// `near` and `far`. core/scene/view.h says which position a pixel shows.
 #pragma once
 
 #include <glm/glm.hpp>
@@ -13,9 +14,16 @@ struct Camera {
   glm::dvec3 eye = glm::dvec3(0, 0, 1);
   glm::dvec3 target = glm::dvec3(0);
   glm::dvec3 up = glm::dvec3(0, 1, 0);
-  double fovyDegrees = 60;          // vertical field of view, 0.01 ... 170
+  double fovyDegrees = 60;          // perspective: vertical field of view, 0.01 ... 170
+  double orthographicHeight = 0;    // metres that the height spans, up to 1e9; 0: perspective
+  // How far the picture's centre lies to the right of the view axis and above it, as shares of the
+  // picture's width and height, -10 ... 10: for tiles, for each eye of a headset, or for jitter.
+  glm::dvec2 shift = glm::dvec2(0);
   glm::uvec2 size = glm::uvec2(0);  // pixels; 0: not given
   double nearPlane = 0.01;          // metres, above 0, at most 1e9
+  double farPlane = 1000;           // orthographic: metres, above nearPlane, at most 1e9
+
+  bool operator==(const Camera&) const = default;
 };
 
 // Throws kCameraInvalid with the name of the wrong field: numbers that are not finite, eye equal to
@@ -43,27 +51,7 @@ void saveCamera(const Camera& camera, const std::string& path);
 // The default camera of the built-in atrium.
 Camera atriumCamera();
 
-// Approximates an orthographic camera by a distant pinhole, since frames and effects support only
-// pinholes. The pinhole keeps the axes and moves back. Between the near and the far plane, lengths
-// are wrong by at most about 1 part in 128, directions by at most about 0.6 degrees. View depths
-// grow by as much as the near plane.
-// camera: eye, axes and near plane; its angle of view is not used
-// height, width: size of the view, metres
-// far: far plane of `camera`, metres, finite
-// The angle of view of the result may be below the minimum of validate().
-Camera orthographicCamera(const Camera& camera, double height, double width, double far);
-
 // The columns of the result are the view axes in world space: right, up, backward.
 glm::dmat3 worldFromView(const Camera& camera);
-
-// Projection with reversed depth and an infinite far plane: clip z = near, clip w = -view z.
-glm::dmat4 clipFromView(const Camera& camera, double aspect);
-
-// Returns the world direction through a point of a picture.
-// width, height: size of the picture, pixels
-// point: pixels from the top left corner
-// The length of the direction is such that its view depth is 1.
-glm::dvec3 pixelDirection(const Camera& camera, uint32_t width, uint32_t height,
-                          const glm::dvec2& point);
 
 }  // namespace grisaille::scene

@@ -5,6 +5,7 @@
 #include <cmath>
 
 #include "core/base/error.h"
+#include "core/scene/view.h"
 
 namespace grisaille::scene {
 namespace {
@@ -56,7 +57,7 @@ image::ViewMatrices matricesOf(const Camera& camera, uint32_t width, uint32_t he
   glm::dmat4 view(rotation);
   view[3] = glm::dvec4(-(rotation * camera.eye), 1);
   return {.worldToCamera = toRows(view),
-          .worldToNdc = toRows(clipFromView(camera, double{1} * width / height) * view)};
+          .worldToNdc = toRows(clipFromView(viewOf(camera, {width, height})) * view)};
 }
 
 Camera cameraOf(const image::ViewMatrices& matrices, uint32_t width, uint32_t height,

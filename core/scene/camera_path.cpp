@@ -57,6 +57,11 @@ std::vector<Camera> camerasOf(const CameraPath& path) {
     camera.eye = glm::mix(a.eye, b.eye, share);
     camera.target = glm::mix(a.target, b.target, share);
     camera.fovyDegrees = glm::mix(a.fovyDegrees, b.fovyDegrees, share);
+    // Between cameras of two kinds, the kind changes at the key.
+    if (a.orthographicHeight > 0 && b.orthographicHeight > 0) {
+      camera.orthographicHeight = glm::mix(a.orthographicHeight, b.orthographicHeight, share);
+    }
+    camera.shift = glm::mix(a.shift, b.shift, share);
     try {
       validate(camera);
     } catch (const Error& error) {

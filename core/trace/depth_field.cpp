@@ -17,11 +17,11 @@ constexpr double kNever = std::numeric_limits<double>::infinity();
 constexpr double kLift = 1e-7;
 
 // Walks over the columns, or the rows, of the picture that a ray crosses. With a the ray's scaled
-// coordinate and w its view depth, the ray crosses the line at `c` pixels from the centre where
-// a = c w.
+// coordinate and w its view depth, the ray crosses the line at `c` pixels from the view axis where
+// a = c w. For an orthographic camera, w is 1.
 class Walk {
  public:
-  // `pixel`: column or row where the ray starts. `centre`: centre of the picture, pixels.
+  // `pixel`: column or row where the ray starts. `centre`: the view axis, pixels.
   Walk(double a, double aStep, double w, double wStep, uint32_t pixel, double centre)
       : a_(a), aStep_(aStep), w_(w), wStep_(wStep), pixel_(pixel), centre_(centre) {
     const double motion = aStep * w - a * wStep;
@@ -54,13 +54,15 @@ class Walk {
 };
 
 // Returns whether a ray is inside a pixel's solid anywhere from t0 to t1, metres along the ray. The
-// height above the plane, `height`, and view depth, `w`, are linear along the ray.
+// height above the plane, `height`, and view depth, `w`, are linear along the ray. An orthographic
+// camera sees a point `height` / normal.z behind the plane.
 bool isInside(const FacetPlane& plane, double height, double heightStep, double w, double wStep,
-              double thickness, double t0, double t1) {
+              double thickness, bool orthographic, double t0, double t1) {
   const double h0 = height + t0 * heightStep;
   const double h1 = height + t1 * heightStep;
   if (h0 >= 0 && h1 >= 0) return false;
   if (h0 >= 0 || h1 >= 0) return true;  // the ray crosses the plane
+  if (orthographic) return std::max(h0, h1) > thickness * plane.normal.z;
   // At the same place of the picture, the plane's view depth is w offset / (height + offset). The
   // ray is less than `thickness` behind the plane where the expression below is above 0.
   const auto inside = [&](double t) {
@@ -97,8 +99,10 @@ bool DepthField::isOpen(const Path& path, double thickness) const {
   const auto& [from, direction, length, pixel] = path;
   const double scale = projection_.scale();
   const glm::dvec2 centre = projection_.centre();
-  Walk column(scale * from.x, scale * direction.x, from.z, direction.z, pixel.x, centre.x);
-  Walk row(scale * from.y, scale * direction.y, from.z, direction.z, pixel.y, centre.y);
+  const bool orthographic = projection_.orthographic();
+  const double w = orthographic ? 1 : from.z, wStep = orthographic ? 0 : direction.z;
+  Walk column(scale * from.x, scale * direction.x, w, wStep, pixel.x, centre.x);
+  Walk row(scale * from.y, scale * direction.y, w, wStep, pixel.y, centre.y);
   double t = 0;
   for (;;) {
     Walk& first = column.next() < row.next() ? column : row;
@@ -106,7 +110,7 @@ bool DepthField::isOpen(const Path& path, double thickness) const {
     const FacetPlane& plane =
         planes_[static_cast<size_t>(row.pixel()) * width_ + static_cast<size_t>(column.pixel())];
     if (plane.offset < 0 && isInside(plane, plane.height(from), glm::dot(plane.normal, direction),
-                                     from.z, direction.z, thickness, t, end)) {
+                                     from.z, direction.z, thickness, orthographic, t, end)) {
       return false;
     }
     if (first.next() >= length) return true;

@@ -2,10 +2,9 @@
 // Projects world positions to the pixels of a picture, in double precision.
 #pragma once
 
-#include <cmath>
 #include <glm/glm.hpp>
 
-#include "core/scene/camera.h"
+#include "core/scene/view.h"
 #include "core/trace/ray_tracer.h"
 
 namespace grisaille::trace {
@@ -14,26 +13,33 @@ namespace grisaille::trace {
 class Projection {
  public:
   Projection(const scene::Camera& camera, uint32_t width, uint32_t height)
-      : viewFromWorld_(glm::transpose(scene::worldFromView(camera))),
-        eye_(camera.eye),
-        centre_(0.5 * width, 0.5 * height),
-        scale_(0.5 * height / std::tan(glm::radians(camera.fovyDegrees) / 2)) {}
+      : view_(scene::viewOf(camera, {width, height})),
+        viewFromWorld_(glm::transpose(view_.worldFromView)),
+        centre_(-view_.offset / view_.scale),
+        scale_(-1 / view_.scale.y) {}
 
   glm::dvec3 turn(const glm::dvec3& direction) const {
     const glm::dvec3 v = viewFromWorld_ * direction;
     return {v.x, -v.y, -v.z};
   }
-  glm::dvec3 place(const glm::dvec3& position) const { return turn(position - eye_); }
+  glm::dvec3 place(const glm::dvec3& position) const { return turn(position - view_.eye); }
 
   // Projects a view-space point with z above 0 to pixels from the top left corner.
-  glm::dvec2 draw(const glm::dvec3& p) const { return centre_ + scale_ / p.z * glm::dvec2(p); }
+  glm::dvec2 draw(const glm::dvec3& p) const {
+    return centre_ + scale_ / scene::depthScale(view_, p.z) * glm::dvec2(p);
+  }
 
-  const glm::dvec2& centre() const { return centre_; }
-  double scale() const { return scale_; }  // pixels per metre at a view depth of 1 m
+  bool orthographic() const { return view_.orthographic; }
+  const glm::dvec2& centre() const { return centre_; }  // where the view axis meets the picture
+  // Pixels per metre; perspective: at a view depth of 1 m.
+  double scale() const { return scale_; }
+  double scaleAt(double viewDepth) const {  // pixels per metre
+    return scale_ / scene::depthScale(view_, viewDepth);
+  }
 
  private:
+  scene::View view_;
   glm::dmat3 viewFromWorld_;
-  glm::dvec3 eye_;
   glm::dvec2 centre_;
   double scale_;
 };

@@ -1,4 +1,5 @@
 // SPDX-License-Identifier: MIT
+#include "core/scene/view.h"
 #include "core/trace/ray_tracer.h"
 
 #include <algorithm>
@@ -126,19 +127,13 @@ void RayTracer::follow() {
 
 std::vector<Hit> RayTracer::castPrimary(const scene::Camera& camera, uint32_t width,
                                         uint32_t height, std::span<const glm::uvec2> pixels) const {
-  const double aspect = static_cast<double>(width) / static_cast<double>(height);
-  const glm::dmat3 worldFromView = scene::worldFromView(camera);
-  const glm::dmat4 clipFromView = scene::clipFromView(camera, aspect);
-  const glm::dvec3 eye = camera.eye - impl_->traced.origin();
+  const scene::View view = scene::viewOf(camera, {width, height});
   std::vector<Hit> hits(pixels.size());
   forEach(pixels.size(), [&](size_t i) {
     Hit& hit = hits[i];
     hit.pixel = pixels[i];
-    const double x = 2.0 * (pixels[i].x + 0.5) / width - 1.0;
-    const double y = 1.0 - 2.0 * (pixels[i].y + 0.5) / height;
-    // The direction has a view depth of 1, which makes distances along the ray view depths.
-    const glm::dvec3 direction =
-        worldFromView * glm::dvec3(x / clipFromView[0][0], y / clipFromView[1][1], -1.0);
+    const scene::ViewRay seen = scene::rayAt(view, glm::dvec2(pixels[i]) + 0.5);
+    const glm::dvec3 eye = seen.origin - impl_->traced.origin(), direction = seen.direction;
     RTCRayHit ray =
         makeRay(glm::vec3(eye), glm::vec3(direction), static_cast<float>(camera.nearPlane),
                 std::numeric_limits<float>::infinity());

@@ -80,9 +80,9 @@ void Classic::occlude(const plugin::Frame& frame, grisaille_texture target, bool
   settings.bias = frame.value<float>(kBias);
   settings.finish = finishOf(frame);
 
-  // Constants 0 ... 3 of shaders/ssao/occlusion.glsl.
+  // Constants of shaders/ssao/occlusion.glsl.
   const grisaille_constant constants[] = {
-      plugin::specialize(0, count), plugin::specialize(1, frame.value<uint32_t>(kRotation)),
+      cameraKind(frame), plugin::specialize(0, count), plugin::specialize(1, frame.value<uint32_t>(kRotation)),
       plugin::specialize(2, frame.value<uint32_t>(kRangeCheck)), plugin::specialize(3, !blurred)};
   const bool normals = sampling == Sampling::kHemisphere;
   Bindings bindings = {plugin::uniform(0, frame.viewBlock()),

@@ -23,6 +23,12 @@ class Bindings {
   size_t count_ = 0;
 };
 
+// The specialization constant ORTHOGRAPHIC_ID of shaders/common/view.glsl, as the shaders of this
+// effect define it.
+inline grisaille_constant cameraKind(const plugin::Frame& frame) {
+  return plugin::specialize(7, frame.view().orthographic != 0);
+}
+
 // Dispatches at least width x height invocations, in groups of 8x8: the local size of all shaders
 // of this effect.
 inline void dispatch(const plugin::Frame& frame, grisaille_pipeline pipeline,

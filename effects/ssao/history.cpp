@@ -37,19 +37,12 @@ GRISAILLE_CHECK_BLOCK_ssao_reach_Settings(ReachBlock);
 // Pixels per side of a tile in shaders/ssao/reach.comp.
 constexpr uint32_t kTile = 16;
 
-// Plane tolerance of the history rejection, in view depths.
-constexpr float kSameSurface = 0.01f;
+// Plane tolerance of the history rejection, in view depths; orthographic: in picture heights.
+constexpr double kSameSurface = 0.01f;
 // Largest difference between the history and the frame near surfaces that move. Without a denoiser
 // as wide as the noise pattern, a frame is too noisy to judge the history by.
 constexpr float kMargin = 0.03f;
 constexpr uint32_t kPattern = 5;  // texels
-
-// Projection of a view: pixel = view.xy / view depth * .xy + .zw.
-glm::dvec4 pixelFromView(const grisaille_view& view, glm::dvec2 size) {
-  const glm::dmat4 clip = glm::make_mat4(view.clip_from_view);
-  return {clip[0][0] * size.x / 2, -clip[1][1] * size.y / 2, size.x / 2 * (1 - clip[2][0]),
-          size.y / 2 * (1 + clip[2][1])};
-}
 
 // Transform from the view space of `from` to that of `to`. In double precision: the cameras may be
 // far from the world's origin.
@@ -123,19 +116,20 @@ grisaille_texture History::accumulate(const plugin::Frame& frame, uint32_t scale
   now.view = frame.view();
 
   const Seen& then = frames_ > 0 ? then_ : now;
-  const glm::dvec4 pixel = pixelFromView(then.view, then.size);
+  const glm::dvec2 pixel = glm::make_vec2(then.view.view_from_pixel);
+  const glm::dvec2 offset = glm::make_vec2(then.view.view_from_pixel + 2);
+  const double tall = now.view.orthographic != 0 ? -now.view.view_from_pixel[1] * now.size.y : 1;
   const double zoom = then.size.y / now.size.y;
   const AccumulateBlock settings = {
       .then_from_view = glm::mat4(between(now.view, then.view)),
-      .then_view_from_pixel =
-          glm::vec4(1.0 / pixel.x, 1.0 / pixel.y, -pixel.z / pixel.x, -pixel.w / pixel.y),
-      .then_pixel_from_view = glm::vec4(pixel),
+      .then_view_from_pixel = glm::vec4(glm::dvec4(pixel, offset)),
+      .then_pixel_from_view = glm::vec4(glm::dvec4(1.0 / pixel, -offset / pixel)),
       .then_from_pixel =
           glm::vec4(glm::dvec4(glm::dvec2(zoom), then.size / 2.0 - now.size / 2.0 * zoom)),
       .then_size = glm::vec2(then.width, then.height),
       .then_scale = static_cast<float>(then.scale),
       .most = frames_ > 0 ? static_cast<float>(most) : 0.0f,
-      .tolerance = 1 / kSameSurface,
+      .tolerance = static_cast<float>(1 / (kSameSurface * tall)),
       .margin = frame.value<uint32_t>(kBlurSize) >= kPattern * scale ? kMargin : 1.0f};
   const grisaille_texture motion = frame.attachment(GRISAILLE_MOTION);
   const bool moves = motion.id != 0;
@@ -151,7 +145,7 @@ grisaille_texture History::accumulate(const plugin::Frame& frame, uint32_t scale
         plugin::texture(3, moves ? motion : denoised, clamped_),
         plugin::texture(4, reach, clamped_),
         plugin::image(0, now.mean)};
-    dispatch(frame, accumulate_.get({plugin::specialize(0, scale), plugin::specialize(1, moves)}),
+    dispatch(frame, accumulate_.get({cameraKind(frame), plugin::specialize(0, scale), plugin::specialize(1, moves)}),
              bindings, width, height);
   });
   spare_ = std::exchange(then_, std::move(now));

@@ -153,7 +153,7 @@ void Slices::record(const plugin::Frame& frame, Pair outputs) {
   history_.keepOnly({frame.value<double>(kRadius), frame.value<double>(kSlices),
                      frame.value<double>(kEdgeSlices), frame.value<double>(kKernelSize),
                      frame.value<double>(kBias), frame.value<double>(kThickness),
-                     frame.value<double>(kBacks)});
+                     frame.value<double>(kBacks), double{1} * frame.view().orthographic});
   const uint32_t averaged = frame.value<uint32_t>(kHistory);
   if (averaged == 1) history_.forget();
 
@@ -275,8 +275,9 @@ void Slices::occlude(const plugin::Frame& frame, plugin::PipelineCache& pipeline
     next = known;
     backs = std::min(backs, Backs::kDrawn);
   }
-  // Constants 0 ... 4 of shaders/ssao/slices.glsl; of the list's, 0 ... 3.
+  // Constants of shaders/ssao/slices.glsl; the list's has all but the last.
   const grisaille_constant constants[] = {
+      cameraKind(frame),
       plugin::specialize(0, frame.value<uint32_t>(kSlices)), plugin::specialize(1, stepsOf(frame)),
       plugin::specialize(2, size.scale), plugin::specialize(3, static_cast<uint32_t>(backs)),
       plugin::specialize(4, frame.value<uint32_t>(kEdgeSlices))};
@@ -295,7 +296,7 @@ void Slices::occlude(const plugin::Frame& frame, plugin::PipelineCache& pipeline
   bindings.add(listed->list);
   bindings.add(plugin::texture(3, listed->kept, clamped_));
   if (target.bent.id != 0) bindings.add(plugin::texture(4, listed->bent, clamped_));
-  frame.dispatch(pipelines.get(std::span(constants).first(4)), bindings, listGroups(frame), 1);
+  frame.dispatch(pipelines.get(std::span(constants).first(5)), bindings, listGroups(frame), 1);
 }
 
 // Bindings of shaders/ssao/filter.glsl.
@@ -314,8 +315,8 @@ Bindings Slices::filterBindings(const plugin::Frame& frame, Pair from, Pair targ
 
 void Slices::denoise(const plugin::Frame& frame, plugin::PipelineCache& pipelines, Size size,
                      bool columns, uint32_t blur, Pair raw, Pair target) {
-  // Constants 0 ... 2 of shaders/ssao/denoise.glsl.
-  const grisaille_constant constants[] = {plugin::specialize(0, blur),
+  // Constants of shaders/ssao/denoise.glsl.
+  const grisaille_constant constants[] = {cameraKind(frame), plugin::specialize(0, blur),
                                           plugin::specialize(1, size.scale),
                                           plugin::specialize(2, columns)};
   // Texels per invocation, along the row or the column.
@@ -327,9 +328,9 @@ void Slices::denoise(const plugin::Frame& frame, plugin::PipelineCache& pipeline
 
 void Slices::alongEdges(const plugin::Frame& frame, plugin::PipelineCache& pipelines, Size size,
                         Pair denoised, Pair target) {
-  // Constants 0 and 1 of shaders/ssao/edges.glsl.
+  // Constants of shaders/ssao/edges.glsl.
   const grisaille_constant constants[] = {
-      plugin::specialize(0, frame.value<uint32_t>(kEdgeDenoise)),
+      cameraKind(frame), plugin::specialize(0, frame.value<uint32_t>(kEdgeDenoise)),
       plugin::specialize(1, size.scale)};
   dispatch(frame, pipelines.get(constants), filterBindings(frame, denoised, target), size.width,
            size.height);
@@ -337,8 +338,8 @@ void Slices::alongEdges(const plugin::Frame& frame, plugin::PipelineCache& pipel
 
 void Slices::upsample(const plugin::Frame& frame, Kernels& kernels, Size size, Pair coarse,
                       const Listed& listed, Pair target) {
-  // Constants 0 and 1 of shaders/ssao/upsample.glsl.
-  const grisaille_constant constants[] = {plugin::specialize(0, size.scale),
+  // Constants of shaders/ssao/upsample.glsl.
+  const grisaille_constant constants[] = {cameraKind(frame), plugin::specialize(0, size.scale),
                                           plugin::specialize(1, frame.value<uint32_t>(kRefine))};
   const UpsampleBlock settings = {.finish = finishOf(frame),
                                   .tolerance = toleranceOf(frame),
@@ -378,7 +379,7 @@ void Slices::denoiseListed(const plugin::Frame& frame, Kernels& kernels, const L
     bindings.add(plugin::texture(5, raw.bent, clamped_));
     bindings.add(plugin::image(1, target.bent));
   }
-  frame.dispatch(kernels.refined.get({}), bindings, listGroups(frame), 1);
+  frame.dispatch(kernels.refined.get({cameraKind(frame)}), bindings, listGroups(frame), 1);
 }
 
 }  // namespace grisaille::ssao

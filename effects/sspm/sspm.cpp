@@ -35,7 +35,6 @@ struct SplatBlock {
   glm::ivec4 noise_cell[kOctaves];
   glm::vec4 noise_fraction[kOctaves];
   float half_width;
-  float pixel_slope;
   uint32_t octaves;
 };
 GRISAILLE_CHECK_BLOCK_sspm_splat_Splat(SplatBlock);
@@ -95,7 +94,6 @@ SplatBlock splatBlock(const plugin::Frame& frame) {
     block.noise_fraction[octave] = glm::vec4(glm::dvec4(place - whole, cells));
   }
   block.half_width = 0.5f * (1 - frame.value<float>(kSplatSharpness));
-  block.pixel_slope = static_cast<float>(frame.view().pixel_slope);
   block.octaves = kOctaves;
   return block;
 }

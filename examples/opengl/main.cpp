@@ -49,20 +49,18 @@ class Occlusion {
 
   // Records the effect. Returns a texture of the picture's size: ambient visibility, 1 = open.
   GLuint record(uint64_t number) {
-    const glm::dmat4 world = glm::inverse(glm::dmat4(viewFromWorld()));
+    const glm::dmat4 view(viewFromWorld()), projection(clipFromView());
     grisaille_host_camera camera = {};
     camera.struct_size = sizeof(camera);
-    for (int i = 0; i < 9; ++i) camera.world_from_view[i] = world[i / 3][i % 3];
-    for (int i = 0; i < 3; ++i) camera.position[i] = world[3][i];
-    camera.vertical_angle = double{kAngle};
-    camera.near_plane = double{kNear};
-    camera.far_plane = double{kFar};
+    camera.clip = GRISAILLE_HOST_CLIP_MINUS_ONE_TO_ONE;
+    for (int i = 0; i < 16; ++i) camera.view[i] = view[i / 4][i % 4];
+    for (int i = 0; i < 16; ++i) camera.projection[i] = projection[i / 4][i % 4];
     grisaille_host_frame frame = {};
     frame.struct_size = sizeof(frame);
     frame.number = number;
     frame.camera = &camera;
     frame.depth = depth_;
-    frame.depth_kind = GRISAILLE_HOST_DEPTH_CLIP;
+    frame.depth_kind = GRISAILLE_HOST_DEPTH_BUFFER;
     frame.normal = normal_;
     frame.normal_space = GRISAILLE_HOST_NORMALS_VIEW;
     check(grisaille_host_effect_record(effect_, &frame));

@@ -87,6 +87,11 @@ GLuint framebuffer(GLuint depth, std::initializer_list<GLuint> colours) {
 
 }  // namespace
 
+glm::mat4 clipFromView() {
+  return glm::perspective(kAngle, static_cast<float>(kWidth) / static_cast<float>(kHeight), kNear,
+                          kFar);
+}
+
 Renderer::Renderer()
     : depth(texture(GL_DEPTH24_STENCIL8)),
       normal(texture(GL_RGBA32F)),
@@ -130,8 +135,7 @@ void Renderer::drawScene() {
   glClearColor(0, 0, 0, 0);
   glClear(GL_COLOR_BUFFER_BIT | GL_DEPTH_BUFFER_BIT | GL_STENCIL_BUFFER_BIT);
   glUseProgram(scene_);
-  const glm::mat4 clip = glm::perspective(
-      kAngle, static_cast<float>(kWidth) / static_cast<float>(kHeight), kNear, kFar);
+  const glm::mat4 clip = clipFromView();
   glUniformMatrix4fv(0, 1, GL_FALSE, glm::value_ptr(viewFromWorld()));
   glUniformMatrix4fv(1, 1, GL_FALSE, glm::value_ptr(clip));
   glBindVertexArray(layout_);

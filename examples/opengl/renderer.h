@@ -10,6 +10,9 @@
 
 namespace example {
 
+// The projection, with clip z from -1 to 1.
+glm::mat4 clipFromView();
+
 class Renderer {
  public:
   Renderer();

@@ -34,8 +34,7 @@ class Occlusion {
         depth_(wrap(renderer.depth)),
         normal_(wrap(renderer.normal)),
         effect_(device_, {.effect = "ssao", .width = kWidth, .height = kHeight}),
-        camera_(gr::Camera::pinhole(&viewFromWorld()[0][0], double{kAngle}, double{kNear},
-                                    double{kFar})) {
+        camera_(&viewFromWorld()[0][0], &clipFromView()[0][0]) {
     effect_.set("radius", 0.5);
   }
 
@@ -44,7 +43,6 @@ class Occlusion {
                     .commandBuffer = commands,
                     .camera = camera_,
                     .depth = depth_,
-                    .depthKind = GRISAILLE_HOST_DEPTH_CLIP_REVERSED,
                     .normal = &normal_});
   }
 

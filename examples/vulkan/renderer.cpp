@@ -18,18 +18,6 @@ constexpr uint32_t kLightComp[] =
 #include "light.comp.inc"
     ;
 
-// Reversed depth: 1 at the near plane, 0 at the far one. Clip space has y down.
-glm::mat4 clipFromView() {
-  const float scale = 1 / std::tan(kAngle / 2);
-  glm::mat4 clip(0.0f);
-  clip[0][0] = scale * static_cast<float>(kHeight) / static_cast<float>(kWidth);
-  clip[1][1] = -scale;
-  clip[2][2] = kNear / (kFar - kNear);
-  clip[3][2] = kNear * kFar / (kFar - kNear);
-  clip[2][3] = -1;
-  return clip;
-}
-
 VkPipelineShaderStageCreateInfo stage(VkShaderStageFlagBits bit, VkShaderModule module) {
   VkPipelineShaderStageCreateInfo info{VK_STRUCTURE_TYPE_PIPELINE_SHADER_STAGE_CREATE_INFO};
   info.stage = bit;
@@ -48,6 +36,17 @@ VkRenderingAttachmentInfo attachment(const Image& image) {
 }
 
 }  // namespace
+
+glm::mat4 clipFromView() {
+  const float scale = 1 / std::tan(kAngle / 2);
+  glm::mat4 clip(0.0f);
+  clip[0][0] = scale * static_cast<float>(kHeight) / static_cast<float>(kWidth);
+  clip[1][1] = -scale;
+  clip[2][2] = kNear / (kFar - kNear);
+  clip[3][2] = kNear * kFar / (kFar - kNear);
+  clip[2][3] = -1;
+  return clip;
+}
 
 Renderer::Renderer(Context& context) : context_(context) {
   constexpr VkImageUsageFlags kReadBack =

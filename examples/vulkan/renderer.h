@@ -12,6 +12,9 @@
 
 namespace example {
 
+// The projection. Reversed depth: 1 at the near plane, 0 at the far one. Clip space has y down.
+glm::mat4 clipFromView();
+
 class Renderer {
  public:
   static constexpr uint32_t kFramesInFlight = 2;

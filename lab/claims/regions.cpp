@@ -89,21 +89,20 @@ Mask about(const trace::FlickerFrame& frame, uint32_t margin, const Test& test) 
 Mask openBehind(const trace::FlickerFrame& frame, double radius) {
   const auto width = static_cast<int>(frame.truth.width),
              height = static_cast<int>(frame.truth.height);
-  const double scale =
-      trace::Projection(frame.camera, frame.truth.width, frame.truth.height).scale();
+  const trace::Projection projection(frame.camera, frame.truth.width, frame.truth.height);
   Mask mask(frame.hits.size(), 0);
   eachPair(frame, [&](size_t p, size_t q) {
     const trace::Hit &a = frame.hits[p], &b = frame.hits[q];
     if (!seen(a) || !seen(b) || !jumps(a, b, radius)) return;
     const double behind = std::min(a.viewDepth, b.viewDepth) + radius;
     // The surface behind is farther: its radius covers fewer pixels.
-    const int margin = static_cast<int>(std::min(radius * scale / behind, 16384.0));
+    const int margin = static_cast<int>(std::min(radius * projection.scaleAt(behind), 16384.0));
     const int x = static_cast<int>(p) % width, y = static_cast<int>(p) / width;
     for (int v = std::max(y - margin, 0); v <= std::min(y + margin, height - 1); ++v) {
       for (int u = std::max(x - margin, 0); u <= std::min(x + margin, width - 1); ++u) {
         const size_t i = static_cast<size_t>(v) * frame.truth.width + static_cast<size_t>(u);
         const double depth = frame.hits[i].viewDepth;
-        const bool reaches = std::max(std::abs(u - x), std::abs(v - y)) <= radius * scale / depth;
+        const bool reaches = std::max(std::abs(u - x), std::abs(v - y)) <= radius * projection.scaleAt(depth);
         if (depth > behind && reaches && frame.truth.pixels[i] >= kOpen) mask[i] = 1;
       }
     }

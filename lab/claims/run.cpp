@@ -208,7 +208,7 @@ ScreenSplats ClaimsRunner::Stage::splatsOf(Run& run) const {
                 "{}: noise = \"screen\" needs a surface in the middle of the picture",
                 claim_.place);
   }
-  return {.cell = values.get("splat_scale") * projection.scale() / depth,
+  return {.cell = values.get("splat_scale") * projection.scaleAt(depth),
           .sharpness = values.get("splat_sharpness"),
           .seed = static_cast<uint32_t>(values.get("noise_seed"))};
 }

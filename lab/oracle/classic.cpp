@@ -117,7 +117,8 @@ class Classic : public Occlusion {
   // The tolerances that keep a surface from occluding itself.
   struct Own {
     double tolerance = 0;  // metres that an occluder must be nearer than the sample point
-    glm::dvec2 slope{0};   // change of the raised plane's inverse view depth per pixel
+    // Change per pixel of the raised plane's inverse view depth; orthographic: of minus its depth.
+    glm::dvec2 slope{0};
   };
 
   Own ownOf(const glm::ivec2& pixel) const {
@@ -126,14 +127,17 @@ class Classic : public Occlusion {
     if (settings_.sphere) return {.tolerance = rounding};
     const glm::dvec3 normal = view_.normal(pixel);
     const double facing = std::max(-glm::dot(normal, view_.ray(glm::dvec2(pixel) + 0.5)), 1e-3);
-    const double away = facing * depth;  // from the plane to the eye
-    const glm::dvec2 slope =
-        -glm::dvec2(normal) / view_.focal() / (away - std::min(settings_.bias, 0.999 * away));
+    const bool parallel = view_.orthographic();
+    // From the plane to the eye.
+    const double away = parallel ? facing : facing * depth;
+    const double raised = parallel ? 0 : std::min(settings_.bias, 0.999 * away);
+    const glm::dvec2 slope = -glm::dvec2(normal) / view_.focal() / (away - raised);
     const double turned = kNormalRounding / facing;
-    const double aside = turned / view_.focal().x / facing;
+    const double aside = turned / view_.focal().x / facing, shrink = view_.shrink(depth);
     const double place =
-        depth * kPlaceRounding * glm::dot(glm::abs(slope), glm::dvec2(view_.size()));
-    return {.tolerance = rounding + settings_.radius * (turned + aside) + depth * (aside + place),
+        shrink * kPlaceRounding * glm::dot(glm::abs(slope), glm::dvec2(view_.size()));
+    const double angles = parallel ? turned : turned + aside;
+    return {.tolerance = rounding + settings_.radius * angles + shrink * (aside + place),
             .slope = slope};
   }
 
@@ -142,21 +146,20 @@ class Classic : public Occlusion {
     const double depth = -position.z;
     const double pointDepth = -point.z;
     if (pointDepth <= view_.nearPlane()) return false;  // no surface is nearer
-    const glm::dvec2 at =
-        glm::dvec2(point) / pointDepth * view_.focal() + glm::dvec2(view_.size()) / 2.0;
+    const glm::dvec2 at = view_.pixelOf(point);
     // Avoids integer overflow. Outside the picture, depth() returns the nearest pixel anyway.
     const glm::dvec2 whole = glm::clamp(glm::floor(at), -1e6, 1e6);
     const double surface = view_.depth(glm::ivec2(whole));
     if (surface <= 0) return false;
     // Moves the point along the surface's plane to the centre of the pixel that depth() read.
     const glm::dvec2 tap = glm::clamp(whole + 0.5, glm::dvec2(0.5), glm::dvec2(view_.size()) - 0.5);
-    const double turned = pointDepth * glm::dot(own.slope, tap - at);
-    if (!(surface * (1 + turned) < pointDepth - own.tolerance)) return false;
+    const double turned = view_.shrink(pointDepth) * glm::dot(own.slope, tap - at);
+    if (!(surface + view_.shrink(surface) * turned < pointDepth - own.tolerance)) return false;
     using Range = OcclusionSettings::Range;
-    const double near = view_.nearPlane();
     if (settings_.range == Range::kLinear) return surface > depth - settings_.radius;
     if (settings_.range == Range::kNone) return true;
-    return std::abs(near / depth - near / surface) < settings_.radius;
+    const auto clip = [&](double metres) { return scene::clipDepthOf(view_.camera(), metres); };
+    return std::abs(clip(depth) - clip(surface)) < settings_.radius;
   }
 
   double blurred(const glm::ivec2& pixel) {

@@ -8,12 +8,12 @@ namespace grisaille::lab::oracle {
 
 Mean PastFrame::seenAt(const glm::dvec3& place, const glm::dvec3& normal) const {
   constexpr Mean kUnseen{.open = 0, .frames = 0};
-  constexpr double kSameSurface = 0.01;  // view depths
+  constexpr double kSameSurface = 0.01;  // view depths; orthographic: picture heights
   const glm::dvec3 position = view.viewFromWorld() * (place - view.eye());
   const glm::dvec3 facing = view.viewFromWorld() * normal;
   if (position.z >= 0) return kUnseen;
-  const glm::dvec2 pixel =
-      glm::dvec2(position) / -position.z * view.focal() + glm::dvec2(view.size()) / 2.0;
+  const glm::dvec2 pixel = view.pixelOf(position);
+  const double tall = view.orthographic() ? view.size().y / std::abs(view.focal().y) : -position.z;
   const glm::dvec2 at = (pixel - 0.5) / static_cast<double>(scale);
   const glm::dvec2 last = glm::dvec2(texels) - 0.5;
   if (at.x < -0.5 || at.y < -0.5 || at.x > last.x || at.y > last.y) return kUnseen;
@@ -26,7 +26,7 @@ Mean PastFrame::seenAt(const glm::dvec3& place, const glm::dvec3& normal) const 
     const double depth = view.depth(texel * scale);
     if (depth <= 0 || glm::dot(view.worldNormal(texel * scale), normal) <= 0.8) continue;
     const glm::dvec3 apart = view.position(texel * scale) - position;
-    const double off = std::abs(glm::dot(facing, apart)) / (kSameSurface * -position.z);
+    const double off = std::abs(glm::dot(facing, apart)) / (kSameSurface * tall);
     const double share =
         (corner.x != 0 ? part.x : 1 - part.x) * (corner.y != 0 ? part.y : 1 - part.y);
     const double weight = share * std::max(0.0, 1 - off);

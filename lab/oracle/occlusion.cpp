@@ -37,8 +37,7 @@ std::optional<Raised> raisedBy(const View& view, const glm::ivec2& pixel, const 
                                double bias) {
   const glm::dvec3 position = view.position(pixel) + bias * normal;
   if (bias > 0 && -position.z <= view.nearPlane()) return std::nullopt;
-  const glm::dvec2 middle = glm::dvec2(view.size()) / 2.0;
-  return Raised{position, glm::dvec2(position) / -position.z * view.focal() + middle - 0.5};
+  return Raised{position, view.pixelOf(position) - 0.5};
 }
 
 std::unique_ptr<Occlusion> makeOcclusion(const View& view, const OcclusionSettings& settings,

@@ -44,21 +44,13 @@ double valueNoise(const glm::dvec3& place, uint32_t seed) {
 
 }  // namespace
 
-glm::dvec3 worldOf(const scene::Camera& camera, uint32_t width, uint32_t height, uint32_t x,
-                   uint32_t y, double viewDepth) {
-  const double half = std::tan(glm::radians(camera.fovyDegrees) / 2);
-  const glm::dvec3 direction(half * width / height * (2 * (x + 0.5) / width - 1),
-                             half * (1 - 2 * (y + 0.5) / height), -1);
-  return camera.eye + viewDepth * (scene::worldFromView(camera) * direction);
-}
-
-double splatNoise(const glm::dvec3& world, double viewDepth, double pixelSlope,
+double splatNoise(const glm::dvec3& world, double pixelSize,
                   const PaintSettings& settings) {
   double sum = 0, weights = 0;
   for (uint32_t octave = 0; octave < 3; ++octave) {
     const double cell = settings.splatScale / std::exp2(octave);
     const double weight = 1 / std::exp2(octave);
-    const double shown = std::clamp(cell / (2 * pixelSlope * viewDepth) - 1, 0.0, 1.0);
+    const double shown = std::clamp(cell / (2 * pixelSize) - 1, 0.0, 1.0);
     const uint32_t seed = (settings.noiseSeed * 3 + octave) * 0x27d4eb2fu;
     sum += weight * shown * (valueNoise(world / cell, seed) - 0.5);
     weights += weight;
@@ -66,7 +58,7 @@ double splatNoise(const glm::dvec3& world, double viewDepth, double pixelSlope,
   return 0.9 * std::clamp(0.5 + 2 * sum / weights, 0.0, 1.0);
 }
 
-PaintPixel paintOf(const glm::dvec3& world, double viewDepth, double pixelSlope,
+PaintPixel paintOf(const glm::dvec3& world, double viewDepth, double pixelSize,
                    std::span<const Shot> shots, const PaintSettings& settings,
                    const std::optional<Sight>& sight) {
   PaintPixel pixel;
@@ -90,7 +82,7 @@ PaintPixel paintOf(const glm::dvec3& world, double viewDepth, double pixelSlope,
   }
   pixel.coverage = std::min(alphas, 1.0);
   if (pixel.coverage <= 0) return pixel;
-  const double above = pixel.coverage - splatNoise(world, viewDepth, pixelSlope, settings);
+  const double above = pixel.coverage - splatNoise(world, pixelSize, settings);
   const double half = 0.5 * (1 - settings.splatSharpness);
   double alpha = above > 0 ? 1 : 0;
   if (half > 0) {

@@ -29,10 +29,6 @@ struct PaintPixel {
   double coverage = 0;
 };
 
-// The world position that a pixel of this view depth shows.
-glm::dvec3 worldOf(const scene::Camera& camera, uint32_t width, uint32_t height, uint32_t x,
-                   uint32_t y, double viewDepth);
-
 // Input of the mode `surface`, in which a shot paints only surfaces that its muzzle sees.
 struct Sight {
   glm::dvec3 facet;  // the pixel's facet normal, world, unit; 0: unknown, and nothing paints there
@@ -40,13 +36,11 @@ struct Sight {
   std::function<bool(const Shot& shot)> sees = {};
 };
 
-// `pixelSlope`: height of a pixel at a view depth of 1 m, in metres. Without `sight`, the mode is
-// `per_shot`.
-PaintPixel paintOf(const glm::dvec3& world, double viewDepth, double pixelSlope,
+// `pixelSize`: height of a pixel at the view depth, metres. Without `sight`, the mode is `per_shot`.
+PaintPixel paintOf(const glm::dvec3& world, double viewDepth, double pixelSize,
                    std::span<const Shot> shots, const PaintSettings& settings,
                    const std::optional<Sight>& sight = std::nullopt);
 
-double splatNoise(const glm::dvec3& world, double viewDepth, double pixelSlope,
-                  const PaintSettings& settings);
+double splatNoise(const glm::dvec3& world, double pixelSize, const PaintSettings& settings);
 
 }  // namespace grisaille::lab::oracle

@@ -168,7 +168,7 @@ class Slices : public Occlusion {
     return std::abs(glm::dot(apart, view_.normal(surface))) / toleranceAt(surface);
   }
   double toleranceAt(const glm::ivec2& surface) const {  // metres
-    const double pixelWidth = view_.depth(surface) / std::abs(view_.focal().x);
+    const double pixelWidth = view_.shrink(view_.depth(surface)) / std::abs(view_.focal().x);
     return std::min(kPlaneTolerance * settings_.radius, kPlanePixels * pixelWidth);
   }
   double slopeAlong(const glm::ivec2& texel, const glm::ivec2& along) const;
@@ -225,7 +225,7 @@ Texel Slices::estimate(const glm::ivec2& texel, int scale, int frames, bool list
   const std::optional<Raised> raised = raisedBy(view_, pixel, normal, settings_.bias);
   if (!raised) return kSky;
   const glm::dvec3 position = raised->position;
-  const glm::dvec3 toward = -glm::normalize(position);
+  const glm::dvec3 toward = view_.toward(position);
   const double facing = glm::dot(normal, toward);
   normal = glm::normalize(normal + toward * std::max((facing < -1e-3 ? 1e-2 : 1e-3) - facing, 0.0));
   // A block of 5x5 texels holds the 25 points of a Hammersley set. Each frame of a history takes
@@ -252,7 +252,7 @@ Texel Slices::estimate(const glm::ivec2& texel, int scale, int frames, bool list
 
 Texel Slices::sliceOf(const glm::dvec3& position, const glm::dvec3& normal,
                       const glm::dvec3& direction, const glm::dvec2& pixel, double dither) const {
-  const glm::dvec3 toward = -glm::normalize(position);
+  const glm::dvec3 toward = view_.toward(position);
   glm::dvec3 across = direction - toward * glm::dot(direction, toward);
   across /= std::sqrt(std::max(glm::dot(across, across), 1e-12));
   const double out = glm::dot(normal, across), up = glm::dot(normal, toward);
@@ -263,12 +263,17 @@ Texel Slices::sliceOf(const glm::dvec3& position, const glm::dvec3& normal,
 
   // The slice's line in the picture, and the taps on it. They reach as far as the view ray that
   // touches the sphere. Tap i is at least i + 1 pixels away, and distant taps fall on a grid.
-  const double depth = -position.z, square = settings_.radius * settings_.radius;
-  glm::dvec2 way = (glm::dvec2(across) * depth + glm::dvec2(position) * across.z) * view_.focal();
+  const double shrink = view_.shrink(-position.z), square = settings_.radius * settings_.radius;
+  glm::dvec2 way = glm::dvec2(across) * view_.focal();
+  if (!view_.orthographic()) {
+    way = (glm::dvec2(across) * shrink + glm::dvec2(position) * across.z) * view_.focal();
+  }
   const double stretch = glm::dot(way, way);
   way /= std::sqrt(std::max(stretch, 1e-20));
-  const double cut = std::max(1 - square / glm::dot(position, position), 0.0625);
-  const double reach = settings_.radius / (depth * depth) * std::sqrt(stretch / cut);
+  const double cut = view_.orthographic()
+                         ? 1
+                         : std::max(1 - square / glm::dot(position, position), 0.0625);
+  const double reach = settings_.radius / (shrink * shrink) * std::sqrt(stretch / cut);
   Walk ahead{.side = 1, .share = 1}, behind{.side = -1, .share = 0};
   Walk nextAhead = ahead, nextBehind = behind;
   uint32_t shut = 0;
@@ -312,14 +317,14 @@ uint32_t Slices::tap(const Slice& slice, const glm::dvec3& position, const glm::
   const bool seen = view_.holds(at);
   const double depth = next ? view_.next(at) : view_.depth(at);
   const glm::dvec3 ray = view_.ray(glm::dvec2(at) + 0.5);
-  const glm::dvec3 front = ray * depth - position, step = front - walk.point;
+  const glm::dvec3 front = view_.position(at, depth) - position, step = front - walk.point;
   bool joined = seen && walk.depth && std::abs(depth - *walk.depth) < thickness_;
   const double beyond = glm::dot(front, front) - settings_.radius * settings_.radius;
   const bool inside = beyond <= 0;
   glm::dvec3 wide(0);
   using Backs = OcclusionSettings::Backs;
   if (settings_.backs != Backs::kAssumed) {
-    const glm::dvec2 across = depth * glm::dvec2(at - walk.at) / view_.focal();
+    const glm::dvec2 across = view_.shrink(depth) * glm::dvec2(at - walk.at) / view_.focal();
     joined = joined && std::abs(depth - *walk.depth) < kSteepest * glm::length(across);
     if (inside && !joined && !next && walk.seen > 0) {
       wide = (settings_.backs == Backs::kPeeled ? kLoneAboveNext : kLone) * glm::dvec3(across, 0);
@@ -379,7 +384,8 @@ double Slices::slopeAlong(const glm::ivec2& texel, const glm::ivec2& along) cons
   const double byNormal =
       glm::dot(glm::dvec2(normal) / view_.focal(), glm::dvec2(along)) * settings_.scale;
   if (before <= 0 || after <= 0) return byNormal;
-  const double one = (before - depth) * facing / before, two = (depth - after) * facing / after;
+  const double one = (before - depth) * facing / view_.shrink(before);
+  const double two = (depth - after) * facing / view_.shrink(after);
   const double both = (one + two) / 2, width = settings_.scale / std::abs(view_.focal().x);
   const double most = kMostBent * width / std::max(std::abs(facing), 0.5);
   return std::max(8 * std::abs(one - two), std::abs(both - byNormal)) < most ? both : byNormal;
@@ -401,7 +407,7 @@ Texel Slices::denoised(const std::function<Texel(const glm::ivec2&)>& from, cons
     const glm::ivec2 inside = glm::clamp(other, glm::ivec2(0), texels_ - 1);
     const double depth = view_.depth(inside * settings_.scale);
     if (depth <= 0) continue;
-    const double off = std::abs((depth - own) * facing + depth * i * slope) / toleranceAt(surface);
+    const double off = std::abs((depth - own) * facing + view_.shrink(depth) * i * slope) / toleranceAt(surface);
     const double weight = (width - std::abs(i)) * std::max(1 - off, 0.0);
     sum += weight * from(inside);
     weights += weight;

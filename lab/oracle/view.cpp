@@ -1,7 +1,6 @@
 // SPDX-License-Identifier: MIT
 #include "lab/oracle/view.h"
 
-#include <cmath>
 #include <utility>
 
 namespace grisaille::lab::oracle {
@@ -20,12 +19,9 @@ View::View(const scene::Camera& camera, const glm::uvec2& size, uint32_t guard,
       guard_(static_cast<int>(guard)),
       // Single precision, same as the shaders: rounding must not cut a surface on the near plane.
       nearPlane_(static_cast<float>(camera.nearPlane)),
-      eye_(camera.eye),
-      viewFromWorld_(glm::transpose(scene::worldFromView(camera))),
-      attachments_(std::move(attachments)) {
-  const double focal = size_.y / (2 * std::tan(glm::radians(camera.fovyDegrees) / 2));
-  focal_ = {focal, -focal};
-}
+      camera_(scene::viewOf(camera, size)),
+      viewFromWorld_(glm::transpose(camera_.worldFromView)),
+      attachments_(std::move(attachments)) {}
 
 bool View::holds(const glm::ivec2& pixel) const {
   const glm::ivec2 low(-guard_), high = size_ + guard_;
@@ -71,11 +67,12 @@ glm::dvec3 View::normal(const glm::ivec2& pixel) const {
 }
 
 glm::dvec3 View::ray(const glm::dvec2& point) const {
-  return {(point - glm::dvec2(size_) / 2.0) / focal_, -1};
+  if (orthographic()) return {0, 0, -1};
+  return {point * camera_.scale + camera_.offset, -1};
 }
 
 glm::dvec3 View::position(const glm::ivec2& pixel, double depth) const {
-  return ray(glm::dvec2(pixel) + 0.5) * depth;
+  return scene::viewPosition(camera_, glm::dvec2(pixel) + 0.5, depth);
 }
 
 glm::dmat3 axesAbout(const glm::dvec3& n) {

@@ -9,7 +9,7 @@
 #include <glm/glm.hpp>
 
 #include "core/image/image.h"
-#include "core/scene/camera.h"
+#include "core/scene/view.h"
 
 namespace grisaille::lab::oracle {
 
@@ -33,7 +33,9 @@ class View {
 
   glm::ivec2 size() const { return size_; }
   double nearPlane() const { return nearPlane_; }
-  const glm::dvec3& eye() const { return eye_; }
+  // The camera without guard band.
+  const scene::View& camera() const { return camera_; }
+  const glm::dvec3& eye() const { return camera_.eye; }
   const glm::dmat3& viewFromWorld() const { return viewFromWorld_; }
 
   // Whether the attachments hold this pixel of the picture.
@@ -53,14 +55,26 @@ class View {
   double thickness(const glm::ivec2& pixel) const;
   glm::dvec3 colour(const glm::ivec2& pixel) const;
 
-  // View ray through a point of the picture in pixels, (0, 0) the top left corner; its z is -1.
+  // View space: the direction of the ray through a point of the picture in pixels, (0, 0) the top
+  // left corner; its z is -1.
   glm::dvec3 ray(const glm::dvec2& point) const;
   // View-space position at a pixel's centre and this view depth.
   glm::dvec3 position(const glm::ivec2& pixel, double depth) const;
   glm::dvec3 position(const glm::ivec2& pixel) const { return position(pixel, depth(pixel)); }
 
-  // Size of one metre at a view depth of 1 m, in pixels.
-  glm::dvec2 focal() const { return focal_; }
+  // Point of the picture, in pixels, of a view-space position in front of the camera.
+  glm::dvec2 pixelOf(const glm::dvec3& position) const {
+    return scene::pixelOf(camera_, position);
+  }
+  // Unit direction from a view-space position to the camera.
+  glm::dvec3 toward(const glm::dvec3& position) const {
+    return orthographic() ? glm::dvec3(0, 0, 1) : -glm::normalize(position);
+  }
+  bool orthographic() const { return camera_.orthographic; }
+  // Size of one metre in pixels; perspective: at a view depth of 1 m. y is below 0.
+  glm::dvec2 focal() const { return 1.0 / camera_.scale; }
+  // Lengths in the picture shrink by this: the view depth, or 1 if orthographic.
+  double shrink(double depth) const { return scene::depthScale(camera_, depth); }
 
  private:
   glm::ivec2 nearest(const glm::ivec2& pixel) const;
@@ -68,8 +82,7 @@ class View {
   glm::ivec2 size_;
   int guard_;
   double nearPlane_;
-  glm::dvec2 focal_;  // y is negative: rows run downwards
-  glm::dvec3 eye_;    // world
+  scene::View camera_;
   glm::dmat3 viewFromWorld_;
   Attachments attachments_;
 };

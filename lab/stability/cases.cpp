@@ -92,10 +92,16 @@ void addCameras(Cases& cases) {
   for (const double height : {0.3, 2.5, 20.0}) {
     cases.add("orthographic", number(height) + " m high",
               {"slices", "slices, refined", "classic", "paint"}, [&](Case& one) {
-                one.camera = scene::orthographicCamera(one.camera, height,
-                                                       height * one.size.x / one.size.y, 8);
+                one.camera.orthographicHeight = height;
+                one.camera.farPlane = 8;
                 one.quick = height == 2.5;
               });
+  }
+  for (const auto& [shift, name] :
+       {std::pair(glm::dvec2(0.5, -0.25), "half a picture"), {{0.3 / 96, -0.4 / 96}, "jitter"}}) {
+    cases.add("view axis off centre", name,
+              {"slices", "slices, refined", "history", "classic", "paint"},
+              [&](Case& one) { one.camera.shift = shift; });
   }
   for (const double away : {1e3, 1e5, 1e6, 1e7}) {
     const Scenery scenery{.origin = {away, -0.3 * away, 0.7 * away}};

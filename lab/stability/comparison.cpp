@@ -87,7 +87,7 @@ float compareAt(const image::Image& picture, const glm::ivec2& pixel, const glm:
 }
 
 glm::dvec3 placeOf(const Case& one, const oracle::View& view, const glm::ivec2& pixel) {
-  return one.camera.eye + scene::worldFromView(one.camera) * view.position(pixel);
+  return view.eye() + scene::worldFromView(one.camera) * view.position(pixel);
 }
 
 // The rms error over the middle half of the picture, where no sphere extends beyond the picture.
@@ -213,7 +213,6 @@ image::Image comparePaint(const Case& one, const effect::Values& values, const o
   const bool surface = values.text("mode") == "surface";
   std::optional<Sights> sights;
   if (surface && hides(one.scenery.kind)) sights.emplace(scene);
-  const double slope = 1 / view.focal().x;
   const glm::dmat3 worldFromView = scene::worldFromView(one.camera);
   // The only case with more shots has identical ones: older shots are covered completely.
   std::span<const Shot> shots = one.shots;
@@ -229,7 +228,8 @@ image::Image comparePaint(const Case& one, const effect::Values& values, const o
       if (sights) sight->sees = [&](const auto& shot) { return sights->sees(shot, place); };
     }
     const oracle::PaintPixel value =
-        paintOf(place, view.depth(pixel), slope, shots, settings, sight);
+        paintOf(place, view.depth(pixel), scene::pixelSize(view.camera(), view.depth(pixel)), shots,
+                settings, sight);
     const glm::uvec2 at(pixel);
     differences.push_back(std::max(difference(coverage.at(at.x, at.y), value.coverage),
                                    compareAt(paint, pixel, value.paint, 4, expected)));

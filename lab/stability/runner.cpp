@@ -86,6 +86,18 @@ scene::Scene sceneOf(const Case& one) {
   return one.scenery.isPicture() ? scene::Scene() : makeScene(one.scenery);
 }
 
+// The camera whose picture extends `guard` pixels further on each side.
+scene::Camera widened(const scene::Camera& camera, const glm::uvec2& size, uint32_t guard) {
+  if (guard == 0) return camera;
+  scene::Camera wide = camera;
+  const glm::dvec2 share = glm::dvec2(size + 2 * guard) / glm::dvec2(size);
+  const double slope = std::tan(glm::radians(camera.fovyDegrees) / 2);
+  wide.fovyDegrees = glm::degrees(2 * std::atan(slope * share.y));
+  wide.orthographicHeight *= share.y;
+  wide.shift /= share;
+  return wide;
+}
+
 }  // namespace
 
 struct Runner::Stage {
@@ -188,7 +200,7 @@ void Runner::render(Stage& stage, const Case& one, const scene::Scene& scene, Pi
     read(outputsOf(one));
     // Draw the effect's input again, to read it back for the oracle.
     const std::vector<std::string> names = attachmentsOf(one, values);
-    draw(frame::widened(camera, one.size.y, guard), one.size + 2 * guard, nullptr, names);
+    draw(widened(camera, one.size, guard), one.size + 2 * guard, nullptr, names);
     oracle::Attachments seen;
     for (const std::string& name : names) {
       (name == "depth"         ? seen.depth

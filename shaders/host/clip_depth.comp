@@ -1,7 +1,7 @@
 #version 460
 // SPDX-License-Identifier: MIT
-// Converts view depth to clip depth, reversed with an infinite far plane. Surfaces in front of the
-// near plane move to it.
+// Converts view depth to clip depth, as clipDepthOf() of common/view.glsl does. Surfaces in front of
+// the near plane move to it.
 #extension GL_GOOGLE_include_directive : require
 #include "source.glsl"
 
@@ -13,5 +13,8 @@ void main() {
   const ivec2 pixel = ivec2(gl_GlobalInvocationID.xy);
   if (any(greaterThanEqual(pixel, imageSize(clip_depth)))) return;
   const float metres = texelFetch(view_depth, pixel, 0).x;
-  imageStore(clip_depth, pixel, vec4(metres > 0.0 ? min(source.shift.y / metres, 1.0) : 0.0));
+  const vec2 planes = source.planes.xy;
+  float clip = planes.x / max(metres, 1e-30);
+  if (orthographic()) clip = (planes.y - metres) / (planes.y - planes.x);
+  imageStore(clip_depth, pixel, vec4(metres > 0.0 ? clamp(clip, 0.0, 1.0) : 0.0));
 }

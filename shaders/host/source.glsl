@@ -4,14 +4,16 @@
 
 layout(UNIFORM(0), std140) uniform Source {
   mat4 world_from_view;  // rotation
-  vec4 view_from_pixel;  // pixel * .xy + .zw: view.xy at view depth 1, or of an orthographic camera
-  vec4 planes;           // near, far; near / far, 0: infinite; depth from which on is sky; metres
-  vec4 shift;            // metres: x: added to view depth; y: near plane of the effects' camera
+  vec4 view_from_pixel;  // as in common/view.glsl
+  // xy: of a depth buffer, with t the reversed value: view depth = x / (t + y), orthographic
+  // t x + y. z: depth from which on is sky, metres; w: added to depths in metres.
+  vec4 depth;
+  vec4 planes;           // near plane, far plane of an orthographic camera, metres
   ivec4 mode;            // x: depth kind; y: 1: orthographic; z: 1: rows from the bottom; w: flags
 } source;
 
 const int kUnsigned = 1, kInView = 2;  // flags of normals
-const int kClip = 0, kClipReversed = 1, kView = 2, kDistance = 3;
+const int kBuffer = 0, kView = 1, kDistance = 2, kBufferReversed = 3;
 
 bool orthographic() {
   return source.mode.y != 0;

@@ -11,6 +11,7 @@ layout(UNIFORM(1), std140) uniform Then {
   vec4 then_pixel_from_view;  // of the previous camera, at this frame's size
   float known;                // 0: no motion is known
   float camera_moved;         // 0: the camera is that of the previous frame
+  float then_orthographic;    // 1: the previous camera was orthographic
 } then;
 layout(TEXTURE(0)) uniform sampler2D clip_depth;
 layout(location = 0) out vec4 motion;
@@ -22,10 +23,11 @@ void main() {
     motion.w = kResting;
     if (then.camera_moved > 0.0) {
       const vec2 pixel = gl_FragCoord.xy - view.attachment.xy;
-      const vec3 now = viewPosition(pixel, view.camera_fraction.w / clip);
+      const vec3 now = viewPosition(pixel, viewDepthOf(clip));
       const vec3 before = (then.then_from_view * vec4(now, 1.0)).xyz;
+      const float scale = then.then_orthographic > 0.0 ? 1.0 : -before.z;
       const vec2 from =
-          before.xy * (then.then_pixel_from_view.xy / -before.z) + then.then_pixel_from_view.zw;
+          before.xy * (then.then_pixel_from_view.xy / scale) + then.then_pixel_from_view.zw;
       motion = motionOf(from - pixel, -before.z, -now.z, kResting);
     }
   }

@@ -12,5 +12,6 @@ layout(UNIFORM(0), std140) uniform DrawBlock {
   float chord_scale;        // on the thickness of matter
 #if FACET
   mat4 camera_from_object;  // world axes, metres from the camera
+  vec4 sight;               // away from the camera: .xyz + .w * position from the camera
 #endif
 } draw;

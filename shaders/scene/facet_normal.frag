@@ -4,10 +4,6 @@
 #extension GL_GOOGLE_include_directive : require
 #include "common/view.glsl"
 
-bool orthographic() {
-  return false;
-}
-
 #include "facet_normal.glsl"
 
 layout(location = 0) out vec4 world_normal;

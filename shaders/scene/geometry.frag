@@ -74,7 +74,7 @@ void main() {
 #endif
 #if FACET
   const float area = dot(facet, facet);
-  const float towards = dot(facet, from_camera) > 0.0 ? -1.0 : 1.0;
+  const float towards = dot(facet, draw.sight.xyz + draw.sight.w * from_camera) > 0.0 ? -1.0 : 1.0;
   out_facet = vec4(area > 0.0 ? facet * (towards * inversesqrt(area)) : vec3(0.0), 1.0);
 #endif
 }

@@ -5,8 +5,8 @@
 #include "motion_draw.glsl"
 #include "motion.glsl"
 
-layout(location = 0) in vec3 now;  // clip x, y, w
-layout(location = 1) in vec3 then;
+layout(location = 0) in vec4 now;  // clip x, y, w; view depth
+layout(location = 1) in vec4 then;
 layout(TEXTURE(0)) uniform sampler2D front;  // clip depth
 layout(location = 0) out vec4 motion;
 
@@ -14,6 +14,6 @@ void main() {
   // Fragments in the holes of a mask are nearer than the visible surface, hidden ones are farther.
   const float visible = texelFetch(front, ivec2(gl_FragCoord.xy), 0).x;
   if (abs(gl_FragCoord.z - visible) > 1e-6 * visible) discard;
-  motion = motionOf((then.xy / then.z - now.xy / now.z) * draw.pixels_from_clip, then.z, now.z,
+  motion = motionOf((then.xy / then.z - now.xy / now.z) * draw.pixels_from_clip, then.w, now.w,
                     kMoving);
 }

@@ -1,7 +1,6 @@
 #version 460
 // SPDX-License-Identifier: MIT
-// Converts clip depth to linear view depth in metres. Clip depth is reversed with an infinite far
-// plane: near plane / view depth.
+// Converts clip depth to linear view depth in metres.
 #extension GL_GOOGLE_include_directive : require
 #include "common/view.glsl"
 
@@ -13,6 +12,6 @@ void main() {
   const ivec2 pixel = ivec2(gl_GlobalInvocationID.xy);
   if (any(greaterThanEqual(pixel, imageSize(view_depth)))) return;
   const float depth = textureLod(clip_depth, (vec2(pixel) + 0.5) * view.attachment.zw, 0.0).x;
-  const float metres = depth > 0.0 ? view.camera_fraction.w / depth : 0.0;
+  const float metres = depth > 0.0 ? viewDepthOf(depth) : 0.0;
   imageStore(view_depth, pixel, vec4(metres));
 }

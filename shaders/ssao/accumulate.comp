@@ -8,6 +8,7 @@
 // clamped to the frame.
 #extension GL_GOOGLE_include_directive : require
 #extension GL_EXT_control_flow_attributes : require
+#define ORTHOGRAPHIC_ID 7
 #include "common/view.glsl"
 #include "plane.glsl"
 
@@ -24,7 +25,7 @@ layout(UNIFORM(1), std140) uniform Settings {
   vec2 then_size;             // texels
   float then_scale;           // pixels per texel
   float most;                 // largest history length, frames; 0: no history
-  float tolerance;            // inverse of the plane tolerance, 1 / view depth
+  float tolerance;            // inverse of the plane tolerance, 1 / depthScale()
   float margin;               // largest difference of a history from this frame near movement
 } settings;
 layout(TEXTURE(0)) uniform sampler2D denoised;  // visibility and view depth; nearest, clamped
@@ -63,11 +64,17 @@ struct Before {
   bool seen;
 };
 
+// Position in the previous frame's view space. A history never spans cameras of two kinds.
+vec3 thenPosition(vec2 pixel, float view_depth) {
+  const vec2 place = pixel * settings.then_view_from_pixel.xy + settings.then_view_from_pixel.zw;
+  return vec3(place * depthScale(view_depth), -view_depth);
+}
+
 // A surface that rests, by the cameras alone: motion vectors are half floats.
 Before resting(vec3 position) {
   Before before;
   before.position = (settings.then_from_view * vec4(position, 1.0)).xyz;
-  before.pixel = before.position.xy * (settings.then_pixel_from_view.xy / -before.position.z) +
+  before.pixel = before.position.xy * (settings.then_pixel_from_view.xy / depthScale(-before.position.z)) +
                  settings.then_pixel_from_view.zw;
   before.seen = before.position.z < -1e-6 * length(position);
   return before;
@@ -77,9 +84,7 @@ Before moving(vec2 pixel, float depth, vec4 moved) {
   Before before;
   before.pixel =
       (pixel + moved.xy) * settings.then_from_pixel.xy + settings.then_from_pixel.zw;
-  const vec2 ray =
-      before.pixel * settings.then_view_from_pixel.xy + settings.then_view_from_pixel.zw;
-  before.position = vec3(ray, -1.0) * (depth * (1.0 + moved.z));
+  before.position = thenPosition(before.pixel, depth * (1.0 + moved.z));
   before.seen = true;
   return before;
 }
@@ -102,11 +107,10 @@ vec2 reproject(Before before, vec3 normal, vec3 world) {
     const vec2 corner = vec2(i & 1u, i >> 1u);
     const vec2 texel = clamp(first + corner, vec2(0.0), settings.then_size - 1.0);
     const vec4 old = textureLod(history, (texel + 0.5) / settings.then_size, 0.0);
-    const vec2 from = (texel * settings.then_scale + 0.5) * settings.then_view_from_pixel.xy +
-                      settings.then_view_from_pixel.zw;
+    const vec3 from = thenPosition(texel * settings.then_scale + 0.5, old.y);
     // History rejection, by the distance from the tangent plane and by the normal.
     const float plane_distance =
-        abs(dot(facing, vec3(from, -1.0) * old.y - then)) * settings.tolerance / -then.z;
+        abs(dot(facing, from - then)) * settings.tolerance / depthScale(-then.z);
     const vec2 bilinear = mix(1.0 - fraction, fraction, corner);
     const float same_normal = dot(decodeOctahedral(old.w), world) > 0.8 ? 1.0 : 0.0;
     const float weight =

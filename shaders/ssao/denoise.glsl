@@ -23,14 +23,18 @@ float depthAt(ivec2 texel, vec2 inverse) {
   return textureLod(source, (vec2(texel) + 0.5) * inverse, 0.0).y;
 }
 
+vec4 depthScales(vec4 depths) {
+  return vec4(depthScale(depths.x), depthScale(depths.y), depthScale(depths.z), depthScale(depths.w));
+}
+
 // Slope of the tangent plane along the row or column. Interpolated normals differ from the planes
 // of the facets, and weights that follow them leave the noise pattern. If the texels before and
 // after a texel lie on a line with it, close to the normal's plane, the result is the slope of that
 // line; else it is `slope`, that of the normal. `most` is the largest accepted difference.
 vec4 facetSlope(vec4 depths, float before, float after, vec4 facing, vec4 slope, vec4 most) {
   const vec4 back = vec4(before, depths.xyz), on = vec4(depths.yzw, after);
-  const vec4 slope_before = (back - depths) * facing / max(back, 1e-30);
-  const vec4 slope_after = (depths - on) * facing / max(on, 1e-30);
+  const vec4 slope_before = (back - depths) * facing / depthScales(max(back, 1e-30));
+  const vec4 slope_after = (depths - on) * facing / depthScales(max(on, 1e-30));
   const vec4 facet = 0.5 * (slope_before + slope_after);
   return mix(slope, facet,
              lessThan(max(8.0 * abs(slope_before - slope_after), abs(facet - slope)), most));
@@ -73,7 +77,7 @@ void main() {
     const vec2 other = textureLod(source, from, 0.0).xy;
     const vec4 k = float(i) - vec4(0.0, 1.0, 2.0, 3.0);
     // Spatial weight times range weight. Sky, depth 0, has none.
-    const vec4 plane_distance = abs((other.y - depths) * facing + other.y * (k * slope));
+    const vec4 plane_distance = abs((other.y - depths) * facing + depthScale(other.y) * (k * slope));
     const vec4 bilateral = max(width - abs(k), 0.0) * max(1.0 - plane_distance, 0.0);
     const vec4 weight = other.y > 0.0 ? bilateral : vec4(0.0);
     sum += weight * other.x;

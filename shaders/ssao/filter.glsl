@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: MIT
 // Bindings of denoise.glsl and edges.glsl. LAST is 1 in the filter's last pass, BENT is 1 with bent
 // normals.
+#define ORTHOGRAPHIC_ID 7
 #include "common/view.glsl"
 #include "finish.glsl"
 #include "plane.glsl"

@@ -10,6 +10,7 @@
 // 3. Project each sample point and read the depth buffer there (a tap).
 // 4. The point is occluded if the tap's depth is nearer than the point and passes the range check.
 //    Occlusion is the share of occluded points.
+#define ORTHOGRAPHIC_ID 7
 #include "common/view.glsl"
 #include "finish.glsl"
 #include "plane.glsl"
@@ -35,15 +36,17 @@ layout(IMAGE(0), r16f) writeonly uniform image2D visibility;
 
 // Values that all sample points of a pixel share. Depth offsets count from the pixel's view depth.
 struct Taps {
-  vec4 row_x, row_y;  // dot(row, (kernel point, 1)): pixels from the view axis, times view depth
+  // dot(row, (kernel point, 1)): pixels from the view axis, times depthScale()
+  vec4 row_x, row_y;
   vec3 row_offset;    // dot(row, kernel point): the sample point's depth offset from the centre's
   float centre;       // depth offset of the sample points' centre, metres
   float depth;        // the pixel's view depth, metres
   float near_offset;  // depth offset of the near plane, metres
   float range_limit;  // range check: least depth offset of an occluder, metres
-  float raw_depth;    // the pixel's raw depth: near plane / view depth
+  float raw_depth;    // the pixel's clip depth
   float tolerance;    // how much nearer than a sample point an occluder must be, metres
-  vec2 slope;         // inverse view depth of the plane through the centre, 1 / m per pixel
+  vec2 slope;         // of the plane through the centre: 1 / view depth or, orthographic, -view
+                      // depth, per pixel
 };
 
 // Rounding errors. Of a view depth that went through the float depth buffer: relative. Of a normal
@@ -53,16 +56,18 @@ const float kDepthRounding = 5e-7, kNormalRounding = 5e-4, kPlaceRounding = 2.5e
 // Keeps a surface from occluding itself. Two causes:
 // - Rounding of depth, normal and position: taps.tolerance, see effects/ssao/README.md.
 // - A tap is the centre of a pixel, beside the projected point, or far from it outside the picture:
-//   isOccluded() moves the point there along the tangent plane, whose inverse view depth is linear
-//   over the picture with this slope.
+//   isOccluded() moves the point there along the tangent plane. The plane's inverse view depth or,
+//   orthographic, its view depth is linear over the picture with this slope.
 void tolerateRounding(inout Taps taps, vec2 pixel, float depth, vec3 normal) {
   const Plane plane = planeOf(pixel, normal);
   const float facing = max(-plane.facing, 1e-3);
-  taps.slope = -plane.slope / (depth * facing - min(settings.bias, 0.999 * depth * facing));
+  const float scale = depthScale(depth);
+  taps.slope = -plane.slope /
+               (scale * facing - perspective() * min(settings.bias, 0.999 * depth * facing));
   const float turned = kNormalRounding / facing;
   const float aside = turned * view.view_from_pixel.x / facing;
-  const float place = depth * kPlaceRounding * dot(abs(taps.slope), view.size.xy);
-  taps.tolerance += settings.radius * (turned + aside) + depth * (aside + place);
+  const float place = scale * kPlaceRounding * dot(abs(taps.slope), view.size.xy);
+  taps.tolerance += settings.radius * (turned + perspective() * aside) + scale * (aside + place);
 }
 
 // Steps 3 and 4: 1 if sample point i is occluded, else 0.
@@ -71,28 +76,29 @@ float isOccluded(Taps taps, uint i) {
   // Compares offsets from the pixel's depth: a far surface's depth plus a small radius would round
   // to the depth alone.
   const float point_offset = dot(taps.row_offset, point.xyz) + taps.centre;
-  const float point_depth = max(taps.depth + point_offset, view.camera_fraction.w);
-  const float inverse = 1.0 / point_depth;
+  const float point_depth = max(taps.depth + point_offset, view.planes.x);
+  const float inverse = 1.0 / depthScale(point_depth);
   const vec2 projected =
       vec2(dot(taps.row_x, point), dot(taps.row_y, point)) * inverse + view.pixel_from_view.zw;
   const vec2 tap = clamp(floor(projected) + 0.5, vec2(0.5), view.size.xy - 0.5);
   const float tap_depth = textureLod(view_depth, tap * view.size.zw, 0.0).x;
   const float tap_offset = tap_depth - taps.depth;
-  // Moved to the tap, the point has the view depth point_depth / (1 + moved).
+  // Moved to the tap, the point has the view depth point_depth / (1 + moved) or, orthographic,
+  // point_depth - moved.
 #if SPHERE
   const float moved = 0.0;
 #else
-  const float moved = point_depth * dot(taps.slope, tap - projected);
+  const float moved = depthScale(point_depth) * dot(taps.slope, tap - projected);
 #endif
   // Depth test. Sample points nearer than the near plane are open.
-  const bool in_front = tap_offset + taps.tolerance + moved * tap_depth < point_offset &&
+  const bool in_front = tap_offset + taps.tolerance + moved * depthScale(tap_depth) < point_offset &&
                         point_offset > taps.near_offset;
   // Range check, linear: the tap is less than the radius in front of the pixel. Raw depth compares
   // depth buffer values. The sky, depth 0, never passes.
   bool occluded = in_front && tap_offset > taps.range_limit;
   if (kRangeCheck == 1u) {
     occluded =
-        occluded && abs(taps.raw_depth - view.camera_fraction.w / tap_depth) < settings.radius;
+        occluded && abs(taps.raw_depth - clipDepthOf(tap_depth)) < settings.radius;
   }
   return occluded ? 1.0 : 0.0;
 }
@@ -145,9 +151,9 @@ float occlusionAt(ivec2 pixel, float depth) {
   taps.row_offset = -vec3(axes[0].z, axes[1].z, axes[2].z);
   taps.depth = depth;
   taps.centre = -settings.bias * normal.z;
-  taps.near_offset = view.camera_fraction.w - depth;
+  taps.near_offset = view.planes.x - depth;
   taps.range_limit = kRangeCheck == 0u ? max(taps.centre - settings.radius, -depth) : -depth;
-  taps.raw_depth = view.camera_fraction.w / (depth + taps.centre);
+  taps.raw_depth = clipDepthOf(depth + taps.centre);
 
   float occluded = 0.0;
   TAP16(0u) TAP16(16u) TAP16(32u) TAP16(48u)

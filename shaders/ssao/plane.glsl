@@ -20,7 +20,7 @@ vec3 viewNormal(vec3 world_normal) {
 
 // Tangent plane of a pixel's surface. A surface at view depth e, `across` pixels away, has the
 // signed distance
-//   (e - depth) * facing + e * dot(slope, across)
+//   (e - depth) * facing + depthScale(e) * dot(slope, across)
 // from the plane. The form subtracts depths before it multiplies: the pixel itself is at a distance
 // of exactly 0, at any scale of the tolerance.
 struct Plane {
@@ -29,14 +29,13 @@ struct Plane {
 };
 
 Plane planeOf(vec2 pixel, vec3 normal) {
-  const vec2 ray = pixel * view.view_from_pixel.xy + view.view_from_pixel.zw;
-  return Plane(normal.xy * view.view_from_pixel.xy, dot(normal.xy, ray) - normal.z);
+  return Plane(normal.xy * view.view_from_pixel.xy, dot(normal, rayDirection(pixel)));
 }
 
 // Distance of a surface at view depth `other`, `across` pixels away, from the tangent plane of a
 // surface at view depth `depth`. Metres, unless the caller has scaled the plane.
 float planeDistance(Plane plane, float depth, float other, vec2 across) {
-  return abs((other - depth) * plane.facing + other * dot(plane.slope, across));
+  return abs((other - depth) * plane.facing + depthScale(other) * dot(plane.slope, across));
 }
 
 // A surface's point, raised along its normal by the effect's bias. Matter lower than that does not
@@ -49,14 +48,14 @@ struct Raised {
 
 Raised raised(vec3 position, vec3 normal, float bias) {
   const vec3 up = bias * normal, at = position + up;
-  const float depth = max(-at.z, 1e-30);
-  return Raised(at, (up.xy + position.xy / -position.z * up.z) / depth * view.pixel_from_view.xy,
-                bias > 0.0 && -at.z <= view.camera_fraction.w);
+  const vec2 across = up.xy + position.xy / -position.z * (up.z * perspective());
+  return Raised(at, across / depthScale(max(-at.z, 1e-30)) * view.pixel_from_view.xy,
+                bias > 0.0 && -at.z <= view.planes.x);
 }
 
 // Inverse of the plane tolerance at view depth `depth`, 1 / metres. The tolerance is the lesser of
 // 1 / `inverse` and the width of four pixels at that depth: a larger one would smear grooves and
 // ledges of a few pixels.
 float toleranceAt(float depth, float inverse) {
-  return max(inverse, 0.25 / max(depth * abs(view.view_from_pixel.x), 1e-30));
+  return max(inverse, 0.25 / max(depthScale(depth) * abs(view.view_from_pixel.x), 1e-30));
 }

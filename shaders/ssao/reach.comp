@@ -27,7 +27,7 @@ void main() {
     const float depth = textureLod(view_depth, place, 0.0).x;
     // Surfaces within the radius may be nearer to the camera, where it spans more pixels.
     const float nearest = max(depth - settings.radius, 0.25 * depth);
-    const float reach = settings.radius * abs(view.pixel_from_view.x) / max(nearest, 1e-30);
+    const float reach = settings.radius * abs(view.pixel_from_view.x) / depthScale(max(nearest, 1e-30));
     most = moved.w > 1.5 ? max(most, reach + length(moved.xy)) : most;
   }
   imageStore(target, tile, vec4(most >= 0.0 ? min(most / float(kTile), 1e4) + 1.0 : 0.0));

@@ -5,6 +5,7 @@
 // noise. The share of a pixel that keeps its upsampled value is not averaged. In one pass: over
 // rows, then columns, it would cost half and err 2 % more, 4 % on leaves.
 // BENT is 0 or 1; 1 also averages the mean open directions, and turns them into world space.
+#define ORTHOGRAPHIC_ID 7
 #include "common/view.glsl"
 #include "finish.glsl"
 #include "listed.glsl"

@@ -18,6 +18,7 @@
 // the denoiser finds few texels of one surface, the texel takes kEdgeSlices times as many slices.
 // BENT is 0 or 1; 1 also computes the mean open direction. LISTED is 0 or 1; 1 computes only the
 // pixels of a list, at the picture's resolution, none of them as an edge.
+#define ORTHOGRAPHIC_ID 7
 #include "common/view.glsl"
 #include "plane.glsl"
 #if LISTED
@@ -167,8 +168,8 @@ uint sectorsOfTap(Slice s, vec2 at, float side, float dither, bool next, inout S
   const bool seen = all(equal(clamp(place, vec2(0.0), vec2(1.0)), place));
   const float depth =
       next ? textureLod(next_depth, place, 0.0).x : textureLod(view_depth, place, 0.0).x;
-  const vec3 ray = vec3(at * view.view_from_pixel.xy + view.view_from_pixel.zw, -1.0);
-  const vec3 front = ray * depth - s.position;
+  const vec3 ray = rayDirection(at);
+  const vec3 front = viewPosition(at, depth) - s.position;
   // Clips the solid, front + k ray with k in [0, thickness], to the sphere.
   const float a = 1.0 / dot(ray, ray), b = dot(ray, front) * a;
   const float beyond = dot(front, front) - settings.radius * settings.radius;
@@ -191,7 +192,7 @@ uint sectorsOfTap(Slice s, vec2 at, float side, float dither, bool next, inout S
   bool connected = seen && deeper < settings.thickness;
   vec2 wide = vec2(0.0);
   if (kBacks != 0u) {
-    const vec2 across = depth * (at - before.at) * view.view_from_pixel.xy;
+    const vec2 across = depthScale(depth) * (at - before.at) * view.view_from_pixel.xy;
     connected = connected && deeper * deeper < kSteepest * kSteepest * dot(across, across);
     // A surface of one tap, such as a leaf or a bar, stands for what lies between taps: it reaches
     // to both sides, parallel to the pixel's tangent plane.
@@ -263,12 +264,13 @@ float sliceOf(vec3 position, vec3 view_vec, vec3 normal, vec3 direction, vec2 pi
 
   // Direction of the slice on the screen, and extent of the sphere along it in pixels: up to the
   // view ray that is tangent to the sphere.
-  const float depth = -position.z;
-  vec2 way = (ortho_direction.xy * depth + position.xy * ortho_direction.z) * view.pixel_from_view.xy;
+  const float scale = depthScale(-position.z);
+  vec2 way = (ortho_direction.xy * scale + position.xy * (ortho_direction.z * perspective())) *
+             view.pixel_from_view.xy;
   const float stretch = dot(way, way);
   way *= inversesqrt(max(stretch, 1e-20));
-  const float near = settings.radius * settings.radius / dot(position, position);
-  const float reach = settings.radius / (depth * depth) * sqrt(stretch / max(1.0 - near, 0.0625));
+  const float near = perspective() * settings.radius * settings.radius / dot(position, position);
+  const float reach = settings.radius / (scale * scale) * sqrt(stretch / max(1.0 - near, 0.0625));
   uint occluded = 0u;
   Side ahead = Side(vec2(0.0), vec2(0.0), 1.0, -1e30, 0.0, 1.0, 0.0, pixel);
   Side behind = Side(vec2(0.0), vec2(0.0), 0.0, -1e30, 0.0, 1.0, 0.0, pixel);
@@ -331,7 +333,7 @@ float openAt(uvec2 texel, vec2 pixel, float depth, out vec3 bent) {
   const Raised at = raised(viewPosition(pixel, depth), normal, settings.bias);
   if (at.hidden) return 1.0;
   const vec3 position = at.position;
-  const vec3 view_vec = position * -inversesqrt(dot(position, position));
+  const vec3 view_vec = towardsCamera(position);
   uint count = kSlices;
 #if !LISTED
   if (kEdgeSlices > 1u) {

@@ -10,6 +10,7 @@
 //
 // Pixels that the parameter `refine` selects go on a list, for the passes `refine` and `denoise
 // refined`. The latter reads the upsampled pixels around them from the image `blocks`.
+#define ORTHOGRAPHIC_ID 7
 #include "common/view.glsl"
 #include "finish.glsl"
 #include "listed.glsl"

@@ -13,7 +13,6 @@ layout(UNIFORM(1), std140) uniform Splat {
   // xyz: the camera's position in its cell, in cells; w: cells per metre.
   vec4 noise_fraction[kOctaves];
   float half_width;   // half the width of the smooth step, in coverage; 0: a hard edge
-  float pixel_slope;  // height of a pixel at 1 m view depth, metres
   uint octaves;       // kOctaves, but unknown to the compiler, which then keeps the loop
 } splat;
 
@@ -53,7 +52,7 @@ float valueNoise(ivec3 origin, vec3 place, uint seed) {
 // octaves: number of octaves; 0 gives the mean.
 float splatNoise(vec3 from_camera, float view_depth, uint octaves) {
   float sum = 0.0, weights = 0.0;
-  const float pixel = splat.pixel_slope * view_depth;
+  const float pixel = pixelSize(view_depth);
   for (uint octave = 0; octave < octaves; ++octave) {
     const float cells = splat.noise_fraction[octave].w;
     const float weight = exp2(-float(octave));

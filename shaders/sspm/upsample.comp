@@ -42,7 +42,7 @@ void upsamplePixel(Corners corners, ivec2 pixel, vec2 share) {
   const float depth = textureLod(view_depth, uv, 0.0).x;
   const vec3 normal = textureLod(facet_normal, uv, 0.0).xyz;
   const vec3 from_camera = fromCamera(at, depth);
-  const float tolerance = kOffPlane * splat.pixel_slope * depth;
+  const float tolerance = kOffPlane * pixelSize(depth);
   vec3 color = vec3(0.0);
   // Sums of weights: of all samples on the plane, and of those with paint, which alone blend
   // colours.

@@ -5,6 +5,7 @@
 #include <vector>
 
 #include "core/frame/texture_image.h"
+#include "core/scene/view.h"
 #include "shaders/tutorial_blur.h"
 #include "shaders/tutorial_inputs.h"
 #include "shaders/tutorial_occlusion.h"
@@ -122,7 +123,7 @@ void TutorialSsao::pass(gpu::Commands& commands, std::string_view label,
 
 void TutorialSsao::draw(frame::Renderer& renderer, const scene::Camera& camera, glm::uvec2 size,
                         double radius) {
-  const glm::mat4 projection(scene::clipFromView(camera, double{1} * size.x / size.y));
+  const glm::mat4 projection(scene::clipFromView(scene::viewOf(camera, size)));
   const glm::mat3 viewFromWorld(glm::transpose(scene::worldFromView(camera)));
   gpu::Commands& commands = device_.begin();
   const Inputs inputs = makeInputs(commands, renderer.texture("depth"), renderer.texture("normal"),

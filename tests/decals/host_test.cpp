@@ -7,6 +7,7 @@
 #include "examples/decals/tables.h"
 #include "tests/decals/built.h"
 #include "tests/host/hosts.h"
+#include "tests/host/seen.h"
 
 namespace grisaille::tests {
 namespace {
@@ -31,12 +32,13 @@ class DecalsHost : public ::testing::TestWithParam<TestDevice> {
   std::vector<float> record(Host& host, host::Device& device, host::Effect& effect,
                             const glm::dvec3& eye) {
     const glm::dmat4 view = glm::lookAt(eye, eye - glm::dvec3(0, 1, 0), glm::dvec3(0, 0, -1));
+    const glm::dmat4 projection = projectionOf({.angle = 0.6}, 1, {.near = 0.1});
     const host::Texture depth = host.texture(device, Texels::kFloat1, kSide, kSide,
                                              std::vector<float>(size_t{kSide} * kSide, 2.0f));
     host.frame([&](void* commands, uint64_t number) {
       effect.record({.number = number,
                      .commandBuffer = commands,
-                     .camera = host::Camera::pinhole(&view[0][0], 0.6, 0.1),
+                     .camera = host::Camera(&view[0][0], &projection[0][0]),
                      .depth = depth,
                      .depthKind = GRISAILLE_HOST_DEPTH_VIEW});
     });

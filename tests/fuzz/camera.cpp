@@ -4,6 +4,7 @@
 
 #include "core/scene/camera.h"
 #include "core/scene/camera_path.h"
+#include "core/scene/view.h"
 #include "tests/fuzz/fuzz.h"
 
 namespace grisaille::fuzz {
@@ -19,7 +20,7 @@ void requireFinite(const Matrix& matrix) {
 void requireSound(const scene::Camera& camera) {
   scene::validate(camera);
   requireFinite(scene::worldFromView(camera));
-  requireFinite(scene::clipFromView(camera, 16.0 / 9));
+  requireFinite(scene::clipFromView(scene::viewOf(camera, {16, 9})));
   const std::string text = scene::cameraJson(camera);
   require(scene::cameraJson(scene::parseCamera(text, "again")) == text);
 }

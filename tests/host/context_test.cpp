@@ -10,6 +10,7 @@
 
 #include "examples/opengl/window.h"
 #include "tests/host/opengl_host.h"
+#include "tests/host/seen.h"
 
 namespace grisaille::tests {
 namespace {
@@ -129,7 +130,8 @@ class OpenGlContext : public ::testing::Test {
   }
   void record(host::Effect& effect) {
     constexpr double kView[16] = {1, 0, 0, 0, 0, 1, 0, 0, 0, 0, 1, 0, 0, 0, 0, 1};
-    const host::Camera camera = host::Camera::pinhole(kView, 1, 0.1);
+    const glm::dmat4 projection = projectionOf({.angle = 1}, 1, {.near = 0.1});
+    const host::Camera camera(kView, &projection[0][0]);
     host_->frame([&](void*, uint64_t number) {
       effect.record({.number = number,
                      .camera = camera,

@@ -21,7 +21,8 @@ struct Way {
   const char* name;
   grisaille_host_depth depth = GRISAILLE_HOST_DEPTH_VIEW;
   Texels depthTexels = Texels::kFloat1;
-  double far = 0;  // metres; 0: none
+  Clip clip = {.near = kNear};
+  bool clipYDown = false;  // as many Vulkan renderers have it
   bool normals = true;
   grisaille_host_normals space = GRISAILLE_HOST_NORMALS_WORLD;
   grisaille_host_encoding encoding = GRISAILLE_HOST_SIGNED;
@@ -46,19 +47,18 @@ std::vector<float> turned(const std::vector<float>& numbers, const Seen& seen,
   return result;
 }
 
-std::vector<float> depthOf(const Seen& seen, const Way& way, bool orthographic) {
+// What a depth buffer holds, from the projection that drew it from `nearer` metres nearer.
+std::vector<float> depthOf(const Seen& seen, const Way& way, const glm::dmat4& projection,
+                           double nearer) {
   std::vector<float> numbers;
   for (size_t i = 0; i < seen.view.size(); ++i) {
-    const double z = seen.view[i], far = way.far;
-    double reversed = 0;
-    if (z > 0 && orthographic) reversed = (far - z) / (far - kNear);
-    if (z > 0 && !orthographic) {
-      reversed = far == 0 ? kNear / z : kNear * (far - z) / (z * (far - kNear));
+    double value = seen.view[i];
+    if (way.depth == GRISAILLE_HOST_DEPTH_DISTANCE) value = seen.distance[i];
+    if (way.depth == GRISAILLE_HOST_DEPTH_BUFFER) {
+      const glm::dvec4 p = projection * glm::dvec4(0, 0, nearer - seen.view[i], 1);
+      value = way.clip.fromMinusOne ? (p.z / p.w + 1) / 2 : p.z / p.w;
+      if (seen.view[i] == 0) value = way.clip.reversed ? 0 : 1;
     }
-    const double value = way.depth == GRISAILLE_HOST_DEPTH_VIEW            ? z
-                         : way.depth == GRISAILLE_HOST_DEPTH_DISTANCE      ? seen.distance[i]
-                         : way.depth == GRISAILLE_HOST_DEPTH_CLIP_REVERSED ? reversed
-                                                                           : 1 - reversed;
     numbers.push_back(static_cast<float>(value));
   }
   return turned(numbers, seen, way.rows);
@@ -82,20 +82,25 @@ class Conventions : public ::testing::TestWithParam<TestDevice> {
   ~Conventions() override { EXPECT_EQ(host_->complaints(), 0); }
 
   // Renders ambient occlusion; returns rows from the top.
-  image::Image visibility(const Eye& eye, const Way& way) {
-    const Seen seen = see(eye, kWidth, kHeight);
-    const bool orthographic = eye.angle == 0;
+  // `given`: what the eye sees, from `nearer` metres further back; null: traced.
+  image::Image visibility(const Eye& eye, const Way& way, const Seen* given = nullptr,
+                          double nearer = 0) {
+    const Seen seen = given != nullptr ? *given : see(eye, kWidth, kHeight);
+    glm::dmat4 projection = projectionOf(eye, double{1} * kWidth / kHeight, way.clip);
     const auto depth =
-        host_->texture(device_, way.depthTexels, kWidth, kHeight, depthOf(seen, way, orthographic));
+        host_->texture(device_, way.depthTexels, kWidth, kHeight, depthOf(seen, way, projection, nearer));
     const auto normal =
         host_->texture(device_, Texels::kFloat4, kWidth, kHeight, normalsOf(seen, way, eye));
     host::Effect effect(device_,
                         {.effect = "ssao", .width = kWidth, .height = kHeight, .rows = way.rows});
     effect.set("radius", 0.6);
     const double* view = &eye.viewFromWorld[0][0];
-    const host::Camera camera = orthographic
-                                    ? host::Camera::orthographic(view, eye.height, kNear, way.far)
-                                    : host::Camera::pinhole(view, eye.angle, kNear, way.far);
+    if (way.clipYDown) {
+      for (int column = 0; column < 4; ++column) projection[column][1] *= -1;
+    }
+    const host::Camera camera(view, &projection[0][0],
+                              way.clip.fromMinusOne ? GRISAILLE_HOST_CLIP_MINUS_ONE_TO_ONE
+                                                    : GRISAILLE_HOST_CLIP_ZERO_TO_ONE);
     host_->frame([&](void* commands, uint64_t number) {
       effect.record({.number = number,
                      .commandBuffer = commands,
@@ -121,33 +126,63 @@ class Conventions : public ::testing::TestWithParam<TestDevice> {
 };
 GRISAILLE_IN_EVERY_HOST(Conventions);
 
+const Clip kInfinite = {.near = kNear}, kFinite = {.near = kNear, .far = kFar};
+
+std::vector<Way> everyWay() {
+  constexpr auto kBuffer = GRISAILLE_HOST_DEPTH_BUFFER;
+  std::vector<Way> ways;
+  for (const bool reversed : {false, true}) {
+    for (const bool fromMinusOne : {false, true}) {
+      for (const bool finite : {false, true}) {
+        Clip clip = finite ? kFinite : kInfinite;
+        clip.reversed = reversed;
+        clip.fromMinusOne = fromMinusOne;
+        ways.push_back({.name = "buffer", .depth = kBuffer, .clip = clip});
+      }
+    }
+  }
+  ways.push_back({.name = "distance", .depth = GRISAILLE_HOST_DEPTH_DISTANCE});
+  ways.push_back({.name = "metres, planes from -1 to 1",
+                  .clip = {.near = kNear, .far = kFar, .fromMinusOne = true}});
+  ways.push_back({.name = "depth and stencil",
+                  .depth = kBuffer,
+                  .depthTexels = Texels::kDepth24,
+                  .clip = kFinite});
+  ways.push_back({.name = "clip y down", .depth = kBuffer, .clip = kFinite, .clipYDown = true});
+  ways.push_back({.name = "normals in view space", .space = GRISAILLE_HOST_NORMALS_VIEW});
+  ways.push_back({.name = "normals from 0 to 1", .encoding = GRISAILLE_HOST_UNSIGNED});
+  ways.push_back({.name = "rows from the bottom",
+                  .depth = kBuffer,
+                  .clip = {.near = kNear, .far = kFar, .reversed = true},
+                  .space = GRISAILLE_HOST_NORMALS_VIEW,
+                  .encoding = GRISAILLE_HOST_UNSIGNED,
+                  .rows = GRISAILLE_HOST_ROWS_FROM_BOTTOM});
+  return ways;
+}
+
+// For cameras of every kind.
 TEST_P(Conventions, AllComeToTheSame) {
-  const image::Image expected = visibility(pinhole(), {.name = "metres"});
-  image::Image open = expected;
-  std::ranges::fill(open.pixels, 1.0f);
-  EXPECT_GT(image::shareOver(expected, open, 0.2), 0.05) << "no pixel is occluded";
-  constexpr auto kReversed = GRISAILLE_HOST_DEPTH_CLIP_REVERSED;
-  const Way ways[] = {{.name = "reversed, infinite", .depth = kReversed},
-                      {.name = "reversed, finite", .depth = kReversed, .far = kFar},
-                      {.name = "infinite", .depth = GRISAILLE_HOST_DEPTH_CLIP},
-                      {.name = "finite", .depth = GRISAILLE_HOST_DEPTH_CLIP, .far = kFar},
-                      {.name = "distance", .depth = GRISAILLE_HOST_DEPTH_DISTANCE},
-                      {.name = "depth and stencil",
-                       .depth = GRISAILLE_HOST_DEPTH_CLIP,
-                       .depthTexels = Texels::kDepth24,
-                       .far = kFar},
-                      {.name = "normals in view space", .space = GRISAILLE_HOST_NORMALS_VIEW},
-                      {.name = "normals from 0 to 1", .encoding = GRISAILLE_HOST_UNSIGNED},
-                      {.name = "rows from the bottom",
-                       .depth = kReversed,
-                       .far = kFar,
-                       .space = GRISAILLE_HOST_NORMALS_VIEW,
-                       .encoding = GRISAILLE_HOST_UNSIGNED,
-                       .rows = GRISAILLE_HOST_ROWS_FROM_BOTTOM}};
-  for (const Way& way : ways) {
-    const image::Image found = visibility(pinhole(), way);
-    EXPECT_EQ(share(found, expected), 0)
-        << way.name << " " << image::compare(found, expected).largest;
+  Eye eccentric = pinhole(), parallel = pinhole();
+  eccentric.shift = {0.2, -0.15};
+  parallel.angle = 0;
+  parallel.height = 3;
+  parallel.shift = {0.1, 0.05};
+  for (const Eye& eye : {pinhole(), eccentric, parallel}) {
+    const Way metres = {.name = "metres", .clip = eye.angle > 0 ? kInfinite : kFinite};
+    const image::Image expected = visibility(eye, metres);
+    image::Image open = expected;
+    std::ranges::fill(open.pixels, 1.0f);
+    EXPECT_GT(image::shareOver(expected, open, 0.2), 0.03) << "no pixel is occluded";
+    for (const Way& way : everyWay()) {
+      Way own = way;
+      if (eye.angle == 0) own.clip.far = kFar;
+      const image::Image found = visibility(eye, own);
+      // An orthographic buffer of 24 bits has steps of a micrometre; others round depth.
+      EXPECT_LE(share(found, expected), eye.angle > 0 ? 0 : 0.001)
+          << way.name << (way.clip.reversed ? ", reversed" : "")
+          << (way.clip.fromMinusOne ? ", from -1" : "") << (own.clip.far > 0 ? ", finite" : "")
+          << ", angle " << eye.angle << ": " << image::compare(found, expected).largest;
+    }
   }
 }
 
@@ -180,31 +215,23 @@ TEST_P(Conventions, WithoutNormalsThoseOfTheFacetsAreTaken) {
   EXPECT_EQ(share(turned, found), 0);
 }
 
-// An orthographic camera gives the picture of a pinhole very far away.
-TEST_P(Conventions, OrthographicIsAPinholeFromFarAway) {
-  const glm::dvec3 target(0.1, 0.5, -0.3), backward = glm::normalize(glm::dvec3(1.1, 1.1, 3.4));
-  const auto from = [&](double metres) {
-    return glm::lookAt(target + metres * backward, target, glm::dvec3(0, 1, 0));
+// An orthographic camera's near plane may lie behind its eye.
+TEST_P(Conventions, AnOrthographicEyeMayStandInTheScene) {
+  Eye outside = pinhole();
+  outside.angle = 0;
+  outside.height = 3;
+  Eye inside = outside;
+  inside.viewFromWorld = glm::translate(glm::dmat4(1), glm::dvec3(0, 0, 6)) * outside.viewFromWorld;
+  const auto way = [](double near, double far, grisaille_host_depth depth) {
+    return Way{.name = "orthographic", .depth = depth, .clip = {.near = near, .far = far}};
   };
-  constexpr double kTall = 3, kFarAway = 150;  // metres
-  const Eye far = {.viewFromWorld = from(kFarAway), .angle = 2 * std::atan(kTall / 2 / kFarAway)};
-  const Eye near = {.viewFromWorld = from(4), .height = kTall};
-  const image::Image expected = visibility(far, {.name = "far"});
-  for (const bool reversed : {true, false}) {
-    for (const bool normals : {true, false}) {
-      const Way way = {
-          .name = "orthographic",
-          .depth = reversed ? GRISAILLE_HOST_DEPTH_CLIP_REVERSED : GRISAILLE_HOST_DEPTH_CLIP,
-          .far = 9,
-          .normals = normals};
-      const image::Image found = visibility(near, way);
-      const image::Difference difference = image::compare(found, expected);
-      EXPECT_LT(difference.rmse, normals ? 0.01 : 0.02) << reversed << normals;
-      EXPECT_LT(std::abs(difference.bias), 0.003) << reversed << normals;
-    }
-  }
-  const Way metres = {.name = "metres", .far = 9};
-  EXPECT_LT(image::compare(visibility(near, metres), expected).rmse, 0.01);
+  const image::Image expected =
+      visibility(outside, way(kNear, kFar, GRISAILLE_HOST_DEPTH_BUFFER));
+  // The inner eye sees what lies behind it: its pictures have the outer one's values, moved.
+  const Seen seen = see(outside, kWidth, kHeight);
+  const image::Image found = visibility(
+      inside, way(kNear - 6, kFar - 6, GRISAILLE_HOST_DEPTH_BUFFER), &seen, 6);
+  EXPECT_LE(share(found, expected), 0.001) << image::compare(found, expected).largest;
 }
 
 }  // namespace

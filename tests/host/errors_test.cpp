@@ -4,12 +4,14 @@
 
 #include <unistd.h>
 
+#include <cstring>
 #include <filesystem>
 #include <fstream>
 #include <limits>
 
 #include "effects/sspm/shot.h"
 #include "tests/host/hosts.h"
+#include "tests/host/seen.h"
 #include "tests/host/vulkan_host.h"
 
 namespace grisaille::tests {
@@ -40,9 +42,9 @@ class Errors : public ::testing::TestWithParam<TestDevice> {
         depth_(host_->texture(device_, Texels::kFloat1, kSide, kSide,
                               std::vector<float>(kSide * kSide, 2.0f))),
         camera_(sized<grisaille_host_camera>()) {
-    camera_.world_from_view[0] = camera_.world_from_view[4] = camera_.world_from_view[8] = 1;
-    camera_.vertical_angle = 1;
-    camera_.near_plane = 0.1;
+    for (const int i : {0, 5, 10, 15}) camera_.view[i] = 1;
+    const glm::dmat4 projection = projectionOf({.angle = 1}, 1, {.near = 0.1});
+    std::memcpy(camera_.projection, &projection, sizeof(camera_.projection));
   }
   ~Errors() override { EXPECT_EQ(host_->complaints(), 0); }
 
@@ -309,8 +311,8 @@ TEST_P(Errors, OfFrames) {
     frame.depth = nullptr;
     expectRefused(frame, 5601, "frame.depth is null");
     frame = sound;
-    frame.depth_kind = 4;
-    expectRefused(frame, 5611, "frame.depth_kind is 4");
+    frame.depth_kind = 3;
+    expectRefused(frame, 5611, "frame.depth_kind is 3");
     frame = sound;
     frame.normal_space = 2;
     expectRefused(frame, 5611, "frame.normal_space is 2");
@@ -358,36 +360,42 @@ TEST_P(Errors, OfCameras) {
   const grisaille_host_camera sound = camera_;
   host_->frame([&](void* commands, uint64_t number) {
     const grisaille_host_frame frame = frameOf(commands, number);
-    const auto expectRefused = [&](double grisaille_host_camera::*field, double value,
+    using Matrix = double (grisaille_host_camera::*)[16];
+    const auto expectRefused = [&](Matrix matrix, int element, double value,
                                    const std::string& mention) {
-      camera_.*field = value;
+      (camera_.*matrix)[element] = value;
       expectError(grisaille_host_effect_record(effect.handle(), &frame), 5607, mention);
       camera_ = sound;
     };
-    expectRefused(&grisaille_host_camera::near_plane, 0, "near_plane is 0");
-    expectRefused(&grisaille_host_camera::near_plane, kNan, "near_plane is nan");
-    expectRefused(&grisaille_host_camera::far_plane, 0.05, "far_plane is 0.05");
-    expectRefused(&grisaille_host_camera::far_plane, kNan, "far_plane is nan");
-    expectRefused(&grisaille_host_camera::vertical_angle, 4, "vertical_angle is 4");
-    expectRefused(&grisaille_host_camera::vertical_angle, 0, "orthographic_height is 0");
-    expectRefused(&grisaille_host_camera::orthographic_height, 2, "both given");
-    camera_.position[1] = kNan;
-    expectError(grisaille_host_effect_record(effect.handle(), &frame), 5607, "position");
+    constexpr Matrix kView = &grisaille_host_camera::view;
+    constexpr Matrix kProjection = &grisaille_host_camera::projection;
+    expectRefused(kView, 13, kNan, "view[13] is nan");
+    expectRefused(kView, 13, 1e16, "not within 1e15");
+    expectRefused(kView, 5, 2, "perpendicular axes");
+    expectRefused(kView, 5, -1, "reflection");
+    expectRefused(kView, 3, 0.1, "last row of view");
+    expectRefused(kProjection, 0, kNan, "projection[0] is nan");
+    expectRefused(kProjection, 0, -1, "mirrored");
+    expectRefused(kProjection, 5, 0, "projection[5] is 0");
+    expectRefused(kProjection, 4, 0.2, "projection[4] is 0.2");
+    expectRefused(kProjection, 2, 0.2, "oblique near plane");
+    expectRefused(kProjection, 12, 0.2, "projection[12] is 0.2");
+    expectRefused(kProjection, 11, 1, "look along -z");
+    expectRefused(kProjection, 14, 0, "does not depend on the distance");
+    expectRefused(kProjection, 10, 3, "near plane is -");
+    const glm::dmat4 parallel = projectionOf({.height = 3}, 1, {.near = 0.1, .far = 10});
+    std::memcpy(camera_.projection, &parallel, sizeof(camera_.projection));
+    camera_.projection[15] = -1;
+    expectError(grisaille_host_effect_record(effect.handle(), &frame), 5607, "clip w is -1");
+    camera_.projection[15] = 1;
+    camera_.projection[10] = -1e-10;
+    expectError(grisaille_host_effect_record(effect.handle(), &frame), 5607, "within 1e9 m");
     camera_ = sound;
-    camera_.world_from_view[4] = 2;
-    expectError(grisaille_host_effect_record(effect.handle(), &frame), 5607, "axes");
-    camera_.world_from_view[4] = -1;
-    expectError(grisaille_host_effect_record(effect.handle(), &frame), 5607, "reflection");
-    camera_ = sound;
-    camera_.vertical_angle = 0;
-    camera_.orthographic_height = 3;
-    expectError(grisaille_host_effect_record(effect.handle(), &frame), 5607, "needs a far_plane");
+    camera_.clip = 2;
+    expectError(grisaille_host_effect_record(effect.handle(), &frame), 5611, "camera.clip is 2");
     camera_ = sound;
     camera_.struct_size = 0;
     expectError(grisaille_host_effect_record(effect.handle(), &frame), 5602, "frame.camera");
-    camera_ = sound;
-    camera_.reserved = 5;
-    expectError(grisaille_host_effect_record(effect.handle(), &frame), 5611, "reserved");
     camera_ = sound;
   });
 }

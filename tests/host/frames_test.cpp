@@ -70,7 +70,8 @@ class Frames : public ::testing::TestWithParam<TestDevice> {
 
   std::unique_ptr<Host> host_;
   host::Device device_;
-  host::Camera camera_ = host::Camera::pinhole(&eye().viewFromWorld[0][0], 0.8, 0.25);
+  const glm::dmat4 projection_ = projectionOf(eye(), 4.0 / 3, {.near = 0.25});
+  host::Camera camera_{&eye().viewFromWorld[0][0], &projection_[0][0]};
 };
 GRISAILLE_IN_EVERY_HOST(Frames);
 

@@ -7,6 +7,7 @@
 #include "app/services/scene_services.h"
 #include "core/scene/camera.h"
 #include "core/scene/scene.h"
+#include "core/scene/view.h"
 #include "tests/window/window_test.h"
 
 namespace grisaille::tests {
@@ -35,9 +36,9 @@ class NavigationTest : public WindowTest {
   // The surface point that a camera sees at a pixel of the window.
   std::optional<glm::dvec3> seen(const DrivenViewer& viewer, const Camera& camera, Point at) {
     const glm::ivec4 rect = rectOf(viewer);
-    const glm::dvec3 towards = glm::normalize(scene::pixelDirection(
-        camera, static_cast<uint32_t>(rect[2]), static_cast<uint32_t>(rect[3]),
-        {at.x - rect[0] + 0.5, at.y - rect[1] + 0.5}));
+    const glm::dvec3 towards = glm::normalize(
+        scene::rayAt(scene::viewOf(camera, {rect[2], rect[3]}),
+                     {at.x - rect[0] + 0.5, at.y - rect[1] + 0.5}).direction);
     const glm::vec3 unit(towards);
     const grisaille_ray ray = {.origin = {camera.eye.x, camera.eye.y, camera.eye.z},
                                .direction = {unit.x, unit.y, unit.z},
@@ -52,10 +53,8 @@ class NavigationTest : public WindowTest {
                             const glm::dvec3& point) {
     const glm::ivec4 rect = rectOf(viewer);
     const glm::dvec3 view = glm::transpose(scene::worldFromView(camera)) * (point - camera.eye);
-    const glm::dvec4 clip =
-        scene::clipFromView(camera, double{1} * rect[2] / rect[3]) * glm::dvec4(view, 1);
-    return {rect[0] + (clip.x / clip.w + 1) / 2 * rect[2] - 0.5,
-            rect[1] + (1 - clip.y / clip.w) / 2 * rect[3] - 0.5};
+    const glm::dvec2 pixel = scene::pixelOf(scene::viewOf(camera, {rect[2], rect[3]}), view);
+    return glm::dvec2(rect[0], rect[1]) + pixel - 0.5;
   }
   static void expectAt(const DrivenViewer& viewer, const Camera& camera, const glm::dvec3& point,
                        Point at) {

@@ -401,15 +401,27 @@ GRISAILLE_EXPORT int grisaille_host_effect_load_objects(grisaille_host_effect* e
 
 /** The meaning of the texels of a depth texture. */
 typedef enum grisaille_host_depth {
-  /** A depth buffer: 0 at the near plane, 1 at the far plane and in the sky. */
-  GRISAILLE_HOST_DEPTH_CLIP = 0,
-  /** A reversed depth buffer: 1 at the near plane, 0 at the far plane and in the sky. */
-  GRISAILLE_HOST_DEPTH_CLIP_REVERSED = 1,
+  /**
+   * A depth buffer, which holds 0 to 1: clip z / clip w or, with
+   * #GRISAILLE_HOST_CLIP_MINUS_ONE_TO_ONE, half of it plus 1/2. The projection says whether depth is
+   * reversed and where the planes lie; the sky has the far plane's depth.
+   */
+  GRISAILLE_HOST_DEPTH_BUFFER = 0,
   /** Metres along the view direction; in the sky 0, or the far plane's distance or more. */
-  GRISAILLE_HOST_DEPTH_VIEW = 2,
-  /** Metres from the eye; in the sky 0, or the far plane's distance or more. */
-  GRISAILLE_HOST_DEPTH_DISTANCE = 3
+  GRISAILLE_HOST_DEPTH_VIEW = 1,
+  /**
+   * Metres from the eye (orthographic: along the view direction); in the sky 0, or the far plane's
+   * distance or more.
+   */
+  GRISAILLE_HOST_DEPTH_DISTANCE = 2
 } grisaille_host_depth;
+
+/** The range of clip z / clip w between the near and the far plane. */
+typedef enum grisaille_host_clip {
+  /** Vulkan's and Direct3D's; OpenGL's after glClipControl() with GL_ZERO_TO_ONE. */
+  GRISAILLE_HOST_CLIP_ZERO_TO_ONE = 0,
+  GRISAILLE_HOST_CLIP_MINUS_ONE_TO_ONE = 1 /**< OpenGL's, unless glClipControl() changed it */
+} grisaille_host_clip;
 
 /** The space of normals. */
 typedef enum grisaille_host_normals {
@@ -424,20 +436,27 @@ typedef enum grisaille_host_encoding {
 } grisaille_host_encoding;
 
 /**
- * A pinhole camera or an orthographic one. Its axis goes through the picture's centre, and its
- * pixels are square.
+ * The camera that drew the frame, as matrices. Both are column-major: element [4 * column + row].
+ *
+ * A perspective projection may be off-centre (one eye of a headset, a tile of a large picture) and
+ * jittered (for temporal anti-aliasing): pass the matrix that the vertex shader used. An orthographic
+ * projection has the last row 0, 0, 0, 1. Depth may be reversed, and the far plane infinite. The
+ * library does not use the sign of element 5: grisaille_host_effect_desc::rows says which row of the
+ * picture is the top one.
+ *
+ * Not supported: mirrored, sheared or rotated projections, an oblique near plane, and a view space
+ * that looks along +z.
  */
 typedef struct grisaille_host_camera {
   uint32_t struct_size; /**< sizeof(grisaille_host_camera) */
-  uint32_t reserved;    /**< 0 */
-  double position[3];   /**< world, metres */
-  /** Rotation; its columns are the camera's right, up and backward axes in world space. */
-  double world_from_view[9];
-  double vertical_angle;      /**< radians that the height spans, 0.01 to 3.1; 0: orthographic */
-  double orthographic_height; /**< metres that the height spans, over 0, at most 1e9; pinhole: 0 */
-  double near_plane;          /**< metres, over 0, at most 1e6 */
-  /** Metres, over near_plane. Pinhole: 0 or infinity means none; orthographic: at most 1e9. */
-  double far_plane;
+  uint32_t clip;        /**< a grisaille_host_clip */
+  /** World to view space: a rotation and a translation; the position is within 1e15 m. */
+  double view[16];
+  /**
+   * View to clip space. Perspective: a near plane over 0, at most 1e6 m. Orthographic: planes within
+   * 1e9 m, the near one may lie behind the eye.
+   */
+  double projection[16];
 } grisaille_host_camera;
 
 /** One frame, as an effect reads it. All textures have the effect's size. */

@@ -197,52 +197,21 @@ class Texture {
 /// @addtogroup host_frame
 /// @{
 
-/// A camera, built from a view matrix.
+/// A camera, built from the matrices that drew the frame.
 struct Camera : grisaille_host_camera {
-  /// Returns a pinhole camera.
-  /// @param viewFromWorld 16 numbers, column-major: a rotation and a translation
-  /// @param verticalAngle radians that the picture's height spans, 0.01 to 3.1
-  /// @param near the near plane, metres, over 0
-  /// @param far the far plane, metres, over `near`; 0 or infinity: none
-  /// @return the camera
+  /// @param viewFromWorld 16 numbers, column-major; see grisaille_host_camera::view
+  /// @param clipFromView 16 numbers, column-major; see grisaille_host_camera::projection
+  /// @param range the range of clip z / clip w
   template <typename Number>
-  static Camera pinhole(const Number* viewFromWorld, double verticalAngle, double near,
-                        double far = 0) {
-    Camera camera = placed(viewFromWorld);
-    camera.vertical_angle = verticalAngle;
-    camera.near_plane = near;
-    camera.far_plane = far;
-    return camera;
-  }
-
-  /// Returns an orthographic camera.
-  /// @param viewFromWorld 16 numbers, column-major: a rotation and a translation
-  /// @param height metres that the picture's height spans, over 0
-  /// @param near the near plane, metres, over 0
-  /// @param far the far plane, metres, over `near`, at most 1e9
-  /// @return the camera
-  template <typename Number>
-  static Camera orthographic(const Number* viewFromWorld, double height, double near, double far) {
-    Camera camera = placed(viewFromWorld);
-    camera.orthographic_height = height;
-    camera.near_plane = near;
-    camera.far_plane = far;
-    return camera;
-  }
-
- private:
-  template <typename Number>
-  static Camera placed(const Number* view) {
-    Camera camera{};
-    camera.struct_size = sizeof(grisaille_host_camera);
-    for (int row = 0; row < 3; ++row) {
-      for (int column = 0; column < 3; ++column) {
-        const double entry = static_cast<double>(view[4 * column + row]);
-        camera.world_from_view[3 * row + column] = entry;
-        camera.position[column] -= entry * static_cast<double>(view[12 + row]);
-      }
+  Camera(const Number* viewFromWorld, const Number* clipFromView,
+         grisaille_host_clip range = GRISAILLE_HOST_CLIP_ZERO_TO_ONE)
+      : grisaille_host_camera{} {
+    struct_size = sizeof(grisaille_host_camera);
+    clip = static_cast<uint32_t>(range);
+    for (int i = 0; i < 16; ++i) {
+      view[i] = static_cast<double>(viewFromWorld[i]);
+      projection[i] = static_cast<double>(clipFromView[i]);
     }
-    return camera;
   }
 };
 
@@ -252,7 +221,7 @@ struct Frame {
   void* commandBuffer = nullptr;  ///< see grisaille_host_frame::command_buffer
   const Camera& camera;           ///< the camera that drew the frame
   const Texture& depth;           ///< one channel, or a depth buffer
-  grisaille_host_depth depthKind = GRISAILLE_HOST_DEPTH_CLIP;  ///< meaning of `depth`
+  grisaille_host_depth depthKind = GRISAILLE_HOST_DEPTH_BUFFER;  ///< meaning of `depth`
   const Texture* normal = nullptr;  ///< three channels; null: facet normals, from depth
   grisaille_host_normals normalSpace = GRISAILLE_HOST_NORMALS_WORLD;  ///< space of `normal`
   grisaille_host_encoding normalEncoding = GRISAILLE_HOST_SIGNED;     ///< encoding of `normal`

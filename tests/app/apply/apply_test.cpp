@@ -8,6 +8,7 @@
 #include "core/image/image.h"
 #include "core/scene/camera.h"
 #include "core/scene/camera_matrices.h"
+#include "core/scene/view.h"
 #include "tests/app/apply/apply_run.h"
 #include "tests/app/apply/odd_pictures.h"
 #include "tests/support/expect_error.h"
@@ -46,11 +47,12 @@ TEST_F(ApplyOnce, EveryKindOfDepthComesToTheSame) {
   const scene::Camera camera = scene::parseCamera(kCamera, "test");
   image::Image clip = depth, reversed = depth, distance = depth, viewNormal = normal;
   const double near = camera.nearPlane, far = 80;
+  const scene::View view = scene::viewOf(camera, {depth.width, depth.height});
   const glm::dmat3 viewFromWorld = glm::transpose(scene::worldFromView(camera));
   for (uint32_t i = 0; i < depth.pixels.size(); ++i) {
     const double z{depth.pixels[i]};
     const glm::dvec2 at(i % depth.width + 0.5, i / depth.width + 0.5);
-    const double ray = glm::length(scene::pixelDirection(camera, depth.width, depth.height, at));
+    const double ray = glm::length(scene::rayAt(view, at).direction);
     reversed.pixels[i] = static_cast<float>(z > 0 ? near * (far - z) / (z * (far - near)) : 0);
     clip.pixels[i] = static_cast<float>(z > 0 ? 1 - near / z : 1);
     distance.pixels[i] =

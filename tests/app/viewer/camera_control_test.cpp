@@ -9,6 +9,7 @@
 #include <random>
 
 #include "core/base/error.h"
+#include "core/scene/view.h"
 
 namespace grisaille::app::viewer {
 namespace {
@@ -21,8 +22,7 @@ constexpr double kWidth = 1280;
 // Position of a world point in the picture, pixels.
 glm::dvec2 pixelOf(const Camera& camera, const glm::dvec3& point) {
   const glm::dvec3 view = glm::transpose(scene::worldFromView(camera)) * (point - camera.eye);
-  const glm::dvec4 clip = scene::clipFromView(camera, kWidth / kHeight) * glm::dvec4(view, 1);
-  return {(clip.x / clip.w + 1) / 2 * kWidth, (1 - clip.y / clip.w) / 2 * kHeight};
+  return scene::pixelOf(scene::viewOf(camera, {kWidth, kHeight}), view);
 }
 
 double distanceOf(const Camera& camera) {
@@ -132,9 +132,8 @@ TEST(CameraControl, PanKeepsThePointUnderTheCursor) {
 // A surface point in front of a camera, at a random pixel and distance.
 glm::dvec3 randomPoint(std::mt19937_64& random, const Camera& camera) {
   const glm::dvec2 pixel(randomIn(random, 0, kWidth), randomIn(random, 0, kHeight));
-  return camera.eye + distanceOf(camera) * std::pow(10, randomIn(random, -1, 1)) *
-                          scene::pixelDirection(camera, static_cast<uint32_t>(kWidth),
-                                                static_cast<uint32_t>(kHeight), pixel);
+  return scene::worldPosition(scene::viewOf(camera, {kWidth, kHeight}), pixel,
+                              distanceOf(camera) * std::pow(10, randomIn(random, -1, 1)));
 }
 
 TEST(CameraControl, ThePivotKeepsItsPixelAndItsDistance) {

@@ -27,13 +27,12 @@ class SharedSource : public frame::AttachmentSource {
     pictures_.show(shared.pictures);
   }
   bool goesBeyond() const override { return false; }
-  void record(gpu::Commands& commands, const scene::Camera& camera, uint32_t width, uint32_t height,
-              gpu::BufferRange viewBlock, const frame::AttachmentTargets& targets,
-              std::string_view passes) override {
+  void record(gpu::Commands& commands, const scene::View& view, gpu::BufferRange viewBlock,
+              const frame::AttachmentTargets& targets, std::string_view passes) override {
     frame::AttachmentTargets others = targets;
     others.backDepth = {};
     others.nextDepth = {};
-    pictures_.record(commands, camera, width, height, viewBlock, others, passes);
+    pictures_.record(commands, view, viewBlock, others, passes);
     commands.beginPass("pictures/depths behind");
     const auto upload = [&](gpu::Texture to, const image::Image& from) {
       if (to) commands.upload(to, 0, 0, std::as_bytes(std::span(from.pixels)));

@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: MIT
 // Cameras from the matrices in picture files, in the conventions of several renderers.
 #include "core/scene/camera_matrices.h"
+#include "core/scene/view.h"
 
 #include <gtest/gtest.h>
 
@@ -32,8 +33,8 @@ const Camera kCamera{
 
 void expectSame(const Camera& camera, const Camera& expected) {
   for (const glm::dvec2 at : {glm::dvec2(0, 0), glm::dvec2(1234, 77), glm::dvec2(1920, 1081)}) {
-    const glm::dvec3 a = pixelDirection(camera, kWidth, kHeight, at);
-    const glm::dvec3 b = pixelDirection(expected, kWidth, kHeight, at);
+    const glm::dvec3 a = rayAt(viewOf(camera, {kWidth, kHeight}), at).direction;
+    const glm::dvec3 b = rayAt(viewOf(expected, {kWidth, kHeight}), at).direction;
     EXPECT_LT(glm::length(a - b), 3e-6);
   }
   EXPECT_LT(glm::length(camera.eye - expected.eye), 1e-5);

@@ -204,32 +204,5 @@ TEST(Camera, TheTargetIsTheMiddleOfThePicture) {
   }
 }
 
-TEST(Camera, PixelDirectionsLandOnTheirPixels) {
-  const Camera camera{.eye = {1, 2, 3}, .target = {-4, 0, 2}, .up = {0.2, 1, 0}, .fovyDegrees = 50};
-  const glm::dmat4 clip = clipFromView(camera, 64.0 / 48);
-  for (const glm::dvec2 point : {glm::dvec2(0.5, 0.5), {63.5, 0.5}, {10.25, 40}, {32, 24}}) {
-    const glm::dvec3 view =
-        glm::transpose(worldFromView(camera)) * pixelDirection(camera, 64, 48, point);
-    EXPECT_NEAR(view.z, -1, 1e-12);
-    const glm::dvec4 p = clip * glm::dvec4(3.0 * view, 1);
-    EXPECT_NEAR((p.x / p.w + 1) * 32, point.x, 1e-9);
-    EXPECT_NEAR((1 - p.y / p.w) * 24, point.y, 1e-9);
-  }
-}
-
-TEST(Camera, DepthIsReversed) {
-  const Camera camera{.fovyDegrees = 90, .nearPlane = 0.5};
-  const glm::dmat4 clip = clipFromView(camera, 2);
-  const auto project = [&](const glm::dvec3& view) {
-    const glm::dvec4 p = clip * glm::dvec4(view, 1);
-    return glm::dvec3(p) / p.w;
-  };
-  EXPECT_NEAR(project({0, 0, -0.5}).z, 1, 1e-15);
-  EXPECT_NEAR(project({0, 0, -1e12}).z, 0, 1e-11);
-  // The top right corner of a picture twice as wide as it is high.
-  EXPECT_NEAR(project({6, 3, -3}).x, 1, 1e-12);
-  EXPECT_NEAR(project({6, 3, -3}).y, 1, 1e-12);
-}
-
 }  // namespace
 }  // namespace grisaille::scene

@@ -10,6 +10,7 @@
 
 #include "core/base/error.h"
 #include "core/scene/depth_sketch.h"
+#include "core/scene/view.h"
 #include "tests/support/scene_files.h"
 
 namespace grisaille::scene {
@@ -77,7 +78,7 @@ double coveredBy(const Scene& scene, const Camera& camera, double aspect) {
 double expectFramed(const Scene& scene, const Camera& camera, double aspect) {
   EXPECT_NO_THROW(validate(camera));
   EXPECT_EQ(parseCamera(cameraJson(camera), "camera").eye, camera.eye);
-  const glm::dmat4 clip = clipFromView(camera, aspect);
+  const glm::dmat4 clip = clipFromView(viewOf(camera, {std::lround(9000 * aspect), 9000}));
   const glm::dmat3 view = glm::transpose(worldFromView(camera));
   double reach = 0;
   forEachFace(scene, camera.eye, [&](const Face& face) {

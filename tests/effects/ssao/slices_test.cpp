@@ -313,7 +313,10 @@ TEST_P(SlicesTest, LeavesDarkenAsMuchAsTheyShould) {
 TEST_P(SlicesTest, AGuardBandMakesItTheMiddleOfALargerPicture) {
   const scene::Scene scene = tests::cornerScene();
   constexpr uint32_t kSize = 160, kBand = 80;
-  const scene::Camera wide = frame::widened(kCorner, kSize, kBand);
+  scene::Camera wide = kCorner;
+  const double share = (kSize + 2.0 * kBand) / kSize;
+  wide.fovyDegrees =
+      glm::degrees(2 * std::atan(std::tan(glm::radians(kCorner.fovyDegrees) / 2) * share));
   for (const char* resolution : kResolutions) {
     const tests::Settings settings = {{"resolution", resolution}, {"blur_size", "0"}};
     const image::Image larger =

@@ -8,6 +8,7 @@
 #include "tests/effects/sspm/paint_frame.h"
 #include "tests/support/devices.h"
 #include "tests/support/scenes.h"
+#include "core/scene/view.h"
 
 namespace grisaille::tests {
 namespace {
@@ -52,10 +53,6 @@ double different(const image::Image& paint, const image::Image& coverage, Expect
   return static_cast<double>(count) / (paint.width * paint.height);
 }
 
-double pixelSlope(const scene::Camera& camera) {
-  return 2 * std::tan(glm::radians(camera.fovyDegrees) / 2) / kDefinedHeight;
-}
-
 class DefinitionTest : public BackendTest {};
 GRISAILLE_ON_EVERY_DEVICE(DefinitionTest);
 
@@ -82,11 +79,12 @@ TEST_P(DefinitionTest, PerShotIsTheDefinition) {
     frame.set(settingsOf(settings, "per_shot"));
     frame.render(kCrease, kDefinedWidth, kDefinedHeight, shots);
     const image::Image depth = frame.read("depth");
+    const scene::View view = scene::viewOf(kCrease, {kDefinedWidth, kDefinedHeight});
     const double wrong =
         different(frame.read("paint"), frame.read("paint_coverage"), [&](uint32_t x, uint32_t y) {
           const double d = depth.at(x, y);
-          return paintOf(worldOf(kCrease, kDefinedWidth, kDefinedHeight, x, y, d), d,
-                         pixelSlope(kCrease), shots, settings);
+          return paintOf(scene::worldPosition(view, {x + 0.5, y + 0.5}, d), d,
+                         scene::pixelSize(view, d), shots, settings);
         });
     EXPECT_LT(wrong, 0.001) << "round " << round;
   }

@@ -9,6 +9,7 @@
 #include "tests/effects/sspm/paint_frame.h"
 #include "tests/support/devices.h"
 #include "tests/support/scenes.h"
+#include "core/scene/view.h"
 
 namespace grisaille::tests {
 namespace {
@@ -114,13 +115,13 @@ TEST_P(PaintTest, FarFromTheWorldsOriginPaintIsTheSame) {
   EXPECT_LE(different, first.pixels.size() / 1000);
   // The splats belong to the places that the pixels show.
   const image::Image paint = b.read("paint"), depth = b.read("depth");
-  const double slope = 2 * std::tan(glm::radians(camera.fovyDegrees) / 2) / kHeight;
+  const scene::View view = scene::viewOf(camera, {kWidth, kHeight});
   size_t wrong = 0;
   for (uint32_t y = 0; y < kHeight; ++y) {
     for (uint32_t x = 0; x < kWidth; ++x) {
       const double z = depth.at(x, y);
-      const glm::dvec3 world = worldOf(camera, kWidth, kHeight, x, y, z);
-      const double above = second.at(x, y) - splatNoise(world, z, slope, {});
+      const glm::dvec3 world = scene::worldPosition(view, {x + 0.5, y + 0.5}, z);
+      const double above = second.at(x, y) - splatNoise(world, scene::pixelSize(view, z), {});
       // Within the step's width, the noise does not decide coverage.
       if (std::abs(above) > 0.06 && (above > 0) != (paint.at(x, y, 3) > 0.5f)) ++wrong;
     }

@@ -29,7 +29,7 @@ View viewOf(const scene::Camera& camera, bool wall) {
   for (uint32_t y = 0; y < kSize.y; ++y) {
     for (uint32_t x = 0; x < kSize.x; ++x) {
       const glm::dvec3 ray =
-          scene::pixelDirection(camera, kSize.x, kSize.y, glm::dvec2(x + 0.5, y + 0.5));
+          scene::rayAt(scene::viewOf(camera, kSize), glm::dvec2(x + 0.5, y + 0.5)).direction;
       const double floor = ray.y < 0 ? -camera.eye.y / ray.y : 0;
       const double ahead = wall && ray.z < 0 ? -camera.eye.z / ray.z : 0;
       const bool onWall = ahead > 0 && (floor == 0 || ahead < floor);

@@ -27,7 +27,7 @@
  * @par Units
  * Metres, radians, pixels, seconds. Matrices are column-major, vectors are columns. World axes are
  * right-handed with +y up; view space looks along -z. Clip space has y up, depth 1 at the near
- * plane and 0 at infinity. Row 0 of every texture is the top row.
+ * plane and 0 at the far plane, or at infinity. Row 0 of every texture is the top row.
  *
  * @par Keys
  * A key names a table entry in files and on the command line. It consists of a-z, 0-9 and _, begins
@@ -134,7 +134,8 @@ typedef struct grisaille_param_desc {
 
 /** The G-buffer attachments. The host draws an attachment only when an active effect reads it. */
 typedef enum grisaille_attachment {
-  GRISAILLE_DEPTH = 0, /**< d32f: clip depth; 1 at the near plane, 0 at infinity and in the sky */
+  /** d32f: clip depth; 1 at the near plane, 0 in the sky. viewDepthOf() of view.glsl converts it. */
+  GRISAILLE_DEPTH = 0,
   GRISAILLE_VIEW_DEPTH = 1,  /**< r32f: distance along the view direction, metres; sky: 0 */
   GRISAILLE_NORMAL = 2,      /**< rgba16f: unit world normal, facing the camera, in xyz; sky: 0 */
   GRISAILLE_BASE_COLOUR = 3, /**< rgba8 sRGB, read as linear: base colour; sky: 0 */
@@ -575,12 +576,17 @@ typedef struct grisaille_host {
  */
 typedef struct grisaille_view {
   uint32_t struct_size;      /**< sizeof(grisaille_view) */
-  uint32_t reserved;         /**< 0 */
+  uint32_t orthographic;     /**< 1: orthographic; 0: perspective */
   double position[3];        /**< world, metres */
   double world_from_view[9]; /**< rotation, column-major 3x3 */
-  double clip_from_view[16]; /**< pinhole, column-major 4x4; reversed depth, no far plane */
-  double near_plane;         /**< metres */
-  double pixel_slope;        /**< height of a pixel at 1 m view depth, metres */
+  /**
+   * View-space x and y of the surface that a pixel shows: pixel * [0, 1] + [2, 3], metres.
+   * Perspective: times the view depth. The view axis may pass anywhere through the picture, and
+   * pixels may have any aspect ratio. [1] is below 0, because row 0 is the top row.
+   */
+  double view_from_pixel[4];
+  double near_plane; /**< metres */
+  double far_plane;  /**< metres; perspective: 0, which means none */
 } grisaille_view;
 
 /** One frame of one effect, valid during grisaille_effect_desc::record. */
