@@ -360,7 +360,7 @@ TEST_P(Errors, OfCameras) {
   const grisaille_host_camera sound = camera_;
   host_->frame([&](void* commands, uint64_t number) {
     const grisaille_host_frame frame = frameOf(commands, number);
-    using Matrix = double (grisaille_host_camera::*)[16];
+    using Matrix = double(grisaille_host_camera::*)[16];
     const auto expectRefused = [&](Matrix matrix, int element, double value,
                                    const std::string& mention) {
       (camera_.*matrix)[element] = value;

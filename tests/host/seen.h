@@ -115,9 +115,9 @@ inline glm::dvec3 placeOf(const Eye& eye, const Seen& seen, size_t i) {
   const double half = eye.angle > 0 ? std::tan(eye.angle / 2) : eye.height / 2;
   const double x = static_cast<double>(i % seen.width) + 0.5;
   const double y = static_cast<double>(i / seen.width) + 0.5;
-  const glm::dvec2 at = 2 * half / seen.height * glm::dvec2(x - 0.5 * seen.width,
-                                                           0.5 * seen.height - y) +
-                        2 * half * eye.shift * glm::dvec2(double{1} * seen.width / seen.height, 1);
+  const glm::dvec2 at =
+      2 * half / seen.height * glm::dvec2(x - 0.5 * seen.width, 0.5 * seen.height - y) +
+      2 * half * eye.shift * glm::dvec2(double{1} * seen.width / seen.height, 1);
   return {at * (eye.angle > 0 ? seen.view[i] : 1.0), -seen.view[i]};
 }
 

@@ -13,7 +13,8 @@
 namespace grisaille::tests {
 namespace {
 
-constexpr uint32_t kWidth = 192, kHeight = 128;
+constexpr uint32_t kWidth = 480, kHeight = 320;
+constexpr uint32_t kStep = 5;    // of the pixels that rays check, each way
 constexpr double kRadius = 0.5;  // metres
 constexpr double kNear = 0.25, kFar = 40;
 
@@ -21,18 +22,30 @@ struct Box {
   glm::dvec3 least, most;
 };
 // A floor, two walls and boxes on the floor, all thick.
-constexpr Box kBoxes[] = {{{-9, -1, -9}, {9, 0, 9}},        {{-9, 0, -3}, {9, 6, -2}},
-                          {{-3, 0, -9}, {-2, 6, 9}},        {{-1.2, 0, -1}, {-0.3, 1.1, -0.2}},
+constexpr Box kBoxes[] = {{{-9, -1, -9}, {9, 0, 9}},          {{-9, 0, -3}, {9, 6, -2}},
+                          {{-3, 0, -9}, {-2, 6, 9}},          {{-1.2, 0, -1}, {-0.3, 1.1, -0.2}},
                           {{0.2, 0, -1.6}, {1.1, 0.5, -0.6}}, {{-0.4, 0, 0.3}, {0.3, 0.35, 0.8}}};
+
+// Where a ray enters and leaves a box, in lengths of the ray; enters > leaves: nowhere.
+struct Span {
+  glm::dvec3 in, out;
+
+  Span(const Box& box, const glm::dvec3& origin, const glm::dvec3& ray) {
+    const glm::dvec3 a = (box.least - origin) / ray, b = (box.most - origin) / ray;
+    in = glm::min(a, b);
+    out = glm::max(a, b);
+  }
+  double enters() const { return std::max({in.x, in.y, in.z}); }
+  double leaves() const { return std::min({out.x, out.y, out.z}); }
+};
 
 Met meetBoxes(const glm::dvec3& origin, const glm::dvec3& ray) {
   Met met;
   for (const Box& box : kBoxes) {
-    const glm::dvec3 a = (box.least - origin) / ray, b = (box.most - origin) / ray;
-    const glm::dvec3 in = glm::min(a, b), out = glm::max(a, b);
-    const int axis = in.x > in.y ? (in.x > in.z ? 0 : 2) : (in.y > in.z ? 1 : 2);
-    const double enters = in[axis], leaves = std::min({out.x, out.y, out.z});
-    if (!(enters > 0 && enters < leaves && enters < met.along)) continue;
+    const Span span(box, origin, ray);
+    const double enters = span.enters();
+    if (!(enters > 0 && enters < span.leaves() && enters < met.along)) continue;
+    const int axis = span.in.x == enters ? 0 : span.in.y == enters ? 1 : 2;
     met.along = enters;
     met.normal = glm::dvec3(0);
     met.normal[axis] = ray[axis] > 0 ? -1 : 1;
@@ -40,20 +53,69 @@ Met meetBoxes(const glm::dvec3& origin, const glm::dvec3& ray) {
   return met;
 }
 
-// Cosine-weighted share of the directions that meet nothing within the radius.
-image::Image truthOf(const Eye& eye) {
-  constexpr int kSide = 24;  // strata of directions, each way
-  const Seen seen = see(eye, kWidth, kHeight, meetBoxes);
+// The nearest surface at or behind the visible one that faces away.
+Met meetBacks(const glm::dvec3& origin, const glm::dvec3& ray) {
+  const double front = meetBoxes(origin, ray).along;
+  Met met;
+  for (const Box& box : kBoxes) {
+    const Span span(box, origin, ray);
+    const double leaves = span.leaves();
+    if (span.enters() < leaves && leaves > front) met.along = std::min(met.along, leaves);
+  }
+  return met;
+}
+
+// The nearest surface behind that one that faces the eye.
+Met meetNext(const glm::dvec3& origin, const glm::dvec3& ray) {
+  const double back = meetBacks(origin, ray).along;
+  Met met;
+  for (const Box& box : kBoxes) {
+    const Span span(box, origin, ray);
+    const double enters = span.enters();
+    if (enters < span.leaves() && enters > back) met.along = std::min(met.along, enters);
+  }
+  return met;
+}
+
+// What a renderer draws for one camera.
+struct Drawn {
+  explicit Drawn(const Eye& of)
+      : eye(of),
+        front(see(of, kWidth, kHeight, meetBoxes)),
+        back(see(of, kWidth, kHeight, meetBacks)),
+        next(see(of, kWidth, kHeight, meetNext)) {}
+
+  Eye eye;
+  Seen front, back, next;
+};
+
+// The pixels that rays check.
+image::Image sampled(const image::Image& picture) {
+  image::Image some{
+      .width = kWidth / kStep, .height = kHeight / kStep, .channels = 1, .pixels = {}};
+  for (uint32_t y = 0; y < some.height; ++y) {
+    for (uint32_t x = 0; x < some.width; ++x)
+      some.pixels.push_back(picture.at(x * kStep, y * kStep));
+  }
+  return some;
+}
+
+// Cosine-weighted share of the directions that meet nothing within the radius, at these pixels.
+image::Image truthOf(const Drawn& drawn) {
+  constexpr int kSide = 12;  // strata of directions, each way
+  const Seen& seen = drawn.front;
+  const Eye& eye = drawn.eye;
   const glm::dmat4 world = glm::inverse(eye.viewFromWorld);
-  image::Image truth{.width = kWidth, .height = kHeight, .channels = 1, .pixels = {}};
-  for (size_t i = 0; i < seen.view.size(); ++i) {
+  image::Image truth{
+      .width = kWidth / kStep, .height = kHeight / kStep, .channels = 1, .pixels = {}};
+  for (size_t at = 0; at < size_t{truth.width} * truth.height; ++at) {
+    const size_t i = at / truth.width * kStep * kWidth + at % truth.width * kStep;
     if (seen.view[i] == 0) {
       truth.pixels.push_back(1);
       continue;
     }
     const glm::dvec3 n = seen.normal[i];
-    const glm::dvec3 place =
-        glm::dvec3(world * glm::dvec4(placeOf(eye, seen, i), 1)) + 1e-6 * n;
+    const glm::dvec3 place = glm::dvec3(world * glm::dvec4(placeOf(eye, seen, i), 1)) + 1e-6 * n;
     const glm::dvec3 right = std::abs(n.y) > 0.5 ? glm::dvec3(1, 0, 0) : glm::dvec3(0, 1, 0);
     const glm::dvec3 up = glm::cross(n, right);
     int open = 0;
@@ -98,25 +160,34 @@ class Truth : public ::testing::TestWithParam<TestDevice> {
   Truth() : host_(makeHost(GetParam())), device_(host_->device()) {}
   ~Truth() override { EXPECT_EQ(host_->complaints(), 0); }
 
-  image::Image visibility(const Eye& eye, const Way& way) {
-    const Seen seen = see(eye, kWidth, kHeight, meetBoxes);
+  image::Image visibility(const Drawn& drawn, const Way& way) {
+    const Eye& eye = drawn.eye;
+    const Seen& seen = drawn.front;
     const glm::dmat4 projection = projectionOf(eye, double{1} * kWidth / kHeight, way.clip);
-    std::vector<float> depths, normals;
-    for (size_t i = 0; i < seen.view.size(); ++i) {
-      double value = way.depth == GRISAILLE_HOST_DEPTH_VIEW ? seen.view[i] : seen.distance[i];
+    const auto depthOf = [&](const Seen& of, size_t i) {
+      double value = way.depth == GRISAILLE_HOST_DEPTH_VIEW ? of.view[i] : of.distance[i];
       if (way.depth == GRISAILLE_HOST_DEPTH_BUFFER) {
-        const glm::dvec4 p = projection * glm::dvec4(0, 0, -seen.view[i], 1);
+        const glm::dvec4 p = projection * glm::dvec4(0, 0, -of.view[i], 1);
         value = way.clip.fromMinusOne ? (p.z / p.w + 1) / 2 : p.z / p.w;
-        if (seen.view[i] == 0) value = way.clip.reversed ? 0 : 1;
+        if (of.view[i] == 0) value = way.clip.reversed ? 0 : 1;
       }
-      depths.push_back(static_cast<float>(value));
+      return static_cast<float>(value);
+    };
+    std::vector<float> depths, backs, nexts, normals;
+    for (size_t i = 0; i < seen.view.size(); ++i) {
+      depths.push_back(depthOf(seen, i));
+      backs.push_back(depthOf(drawn.back, i));
+      nexts.push_back(depthOf(drawn.next, i));
       for (int k = 0; k < 3; ++k) normals.push_back(static_cast<float>(seen.normal[i][k]));
       normals.push_back(0);
     }
     const auto depth = host_->texture(device_, Texels::kFloat1, kWidth, kHeight, depths);
+    const auto next = host_->texture(device_, Texels::kFloat1, kWidth, kHeight, nexts);
+    const auto back = host_->texture(device_, Texels::kFloat1, kWidth, kHeight, backs);
     const auto normal = host_->texture(device_, Texels::kFloat4, kWidth, kHeight, normals);
     host::Effect effect(device_, {.effect = "ssao", .width = kWidth, .height = kHeight});
     effect.set("radius", kRadius);
+    effect.set("backs", "peeled");
     const host::Camera camera(&eye.viewFromWorld[0][0], &projection[0][0],
                               way.clip.fromMinusOne ? GRISAILLE_HOST_CLIP_MINUS_ONE_TO_ONE
                                                     : GRISAILLE_HOST_CLIP_ZERO_TO_ONE);
@@ -126,7 +197,9 @@ class Truth : public ::testing::TestWithParam<TestDevice> {
                      .camera = camera,
                      .depth = depth,
                      .depthKind = way.depth,
-                     .normal = &normal});
+                     .normal = &normal,
+                     .backDepth = &back,
+                     .nextDepth = &next});
     });
     return {.width = kWidth,
             .height = kHeight,
@@ -161,11 +234,12 @@ std::vector<Kind> kinds() {
 
 TEST_P(Truth, EveryCameraAndEveryDepthAgreesWithRays) {
   for (const Kind& kind : kinds()) {
-    const image::Image truth = truthOf(kind.eye);
+    const Drawn drawn(kind.eye);
+    const image::Image truth = truthOf(drawn);
     double worst = 0;
     for (const Way& way : everyWay()) {
       if (kind.eye.angle == 0 && way.clip.far == 0) continue;
-      const double rmse = image::compare(visibility(kind.eye, way), truth).rmse;
+      const double rmse = image::compare(sampled(visibility(drawn, way)), truth).rmse;
       EXPECT_LE(rmse, 0.035) << kind.name << ", shift " << kind.eye.shift.x << ", depth kind "
                              << way.depth << ", reversed " << way.clip.reversed << ", from -1 "
                              << way.clip.fromMinusOne;
@@ -183,7 +257,7 @@ TEST_P(Truth, OrthographicIsPerspectiveFromAfar) {
   const Way metres = {.depth = GRISAILLE_HOST_DEPTH_VIEW, .clip = {kNear, 0}};
   const Way buffer = {.clip = {kNear, kFar, true}};
   const image::Difference difference =
-      image::compare(visibility(near, buffer), visibility(far, metres));
+      image::compare(visibility(Drawn(near), buffer), visibility(Drawn(far), metres));
   std::printf("orthographic against perspective from %g m: RMSE %.5f\n", kAway, difference.rmse);
   EXPECT_LE(difference.rmse, 0.003);
 }
