@@ -2,6 +2,7 @@
 // The C functions of grisaille/host.h. They return error numbers and let no exception out.
 #include <algorithm>
 #include <array>
+#include <cstring>
 #include <new>
 
 #include "backends/opengl/opengl.h"
@@ -74,7 +75,7 @@ const char* grisaille_host_last_error(void) {
 
 int grisaille_host_device_vulkan(const grisaille_host_vulkan* vulkan, grisaille_host_device** out) {
   return making(out, [&] {
-    const grisaille_host_vulkan& given = whole(vulkan, "vulkan");
+    const grisaille_host_vulkan given = whole(vulkan, "vulkan");
     checkReserved(given.reserved, "vulkan.reserved");
     if (given.frames_in_flight < 1 || given.frames_in_flight > 16) {
       throw Error(ErrorId::kHostValue, "vulkan.frames_in_flight is {}, out of 1 to 16",
@@ -97,9 +98,19 @@ int grisaille_host_device_vulkan(const grisaille_host_vulkan* vulkan, grisaille_
 
 int grisaille_host_device_opengl(const grisaille_host_opengl* opengl, grisaille_host_device** out) {
   return making(out, [&] {
-    const grisaille_host_opengl& given = whole(opengl, "opengl");
+    const grisaille_host_opengl given = whole(opengl, "opengl");
     checkReserved(given.reserved, "opengl.reserved");
-    return new grisaille_host_device(grisaille::opengl::createHostDevice(), given.effect_folder);
+    checkEnum(given.state, 2, "opengl.state");
+    if (given.frames_in_flight > 16) {
+      throw Error(ErrorId::kHostValue, "opengl.frames_in_flight is {}, out of 0 to 16",
+                  given.frames_in_flight);
+    }
+    constexpr uint32_t kUsualFrames = 3;
+    const grisaille::opengl::HostSpec spec = {
+        .framesInFlight = given.frames_in_flight > 0 ? given.frames_in_flight : kUsualFrames,
+        .keepsState = given.state == GRISAILLE_HOST_STATE_KEPT};
+    return new grisaille_host_device(grisaille::opengl::createHostDevice(spec),
+                                     given.effect_folder);
   });
 }
 
@@ -195,8 +206,9 @@ int grisaille_host_device_set_pictures(grisaille_host_device* device,
   return guarded([&] {
     grisaille_host_device& one = present(device, "device");
     if (pictures == nullptr) return one.pictures.set({});
-    checkReserved(whole(pictures, "pictures").reserved, "pictures.reserved");
-    one.pictures.set(*pictures);
+    const grisaille_host_pictures given = whole(pictures, "pictures");
+    checkReserved(given.reserved, "pictures.reserved");
+    one.pictures.set(given);
   });
 }
 
@@ -204,8 +216,9 @@ int grisaille_host_device_set_rays(grisaille_host_device* device, const grisaill
   return guarded([&] {
     grisaille_host_device& one = present(device, "device");
     if (rays == nullptr) return one.rays.set({});
-    checkReserved(whole(rays, "rays").reserved, "rays.reserved");
-    one.rays.set(*rays);
+    const grisaille_host_rays given = whole(rays, "rays");
+    checkReserved(given.reserved, "rays.reserved");
+    one.rays.set(given);
   });
 }
 
@@ -221,11 +234,15 @@ int grisaille_host_effect_record(grisaille_host_effect* effect, const grisaille_
   return guarded([&] { present(effect, "effect").record(whole(frame, "frame")); });
 }
 
+int grisaille_host_effect_dropped(grisaille_host_effect* effect) {
+  return guarded([&] { present(effect, "effect").dropped(); });
+}
+
 int grisaille_host_effect_output(const grisaille_host_effect* effect, const char* key,
                                  grisaille_host_output* out) {
   return guarded([&] {
     const grisaille_host_effect& one = present(effect, "effect");
-    grisaille_host_output& to = whole(out, "out");
+    grisaille_host_output to = whole(out, "out");
     uint32_t format = 0;
     const gpu::NativeTexture texture = one.output(&present(key, "key"), format);
     to.format = format;
@@ -235,5 +252,6 @@ int grisaille_host_effect_output(const grisaille_host_effect* effect, const char
     to.height = one.height;
     to.image = texture.name;
     to.view = texture.view;
+    std::memcpy(out, &to, std::min<size_t>(to.struct_size, sizeof(to)));
   });
 }

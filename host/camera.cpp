@@ -11,10 +11,10 @@ namespace {
 
 constexpr double kInfinity = std::numeric_limits<double>::infinity();
 // Renderers write more than this for the sky, and less for a scene. Same as in `grisaille apply`.
-constexpr double kSky = 1e9;  // metres
-constexpr double kFarthestNear = 1e6;  // metres
+constexpr double kSky = 1e9;               // metres
+constexpr double kFarthestNear = 1e6;      // metres
 constexpr double kLargestPosition = 1e15;  // metres
-constexpr int kReversedBuffer = 3;  // kBufferReversed of shaders/host/source.glsl
+constexpr int kReversedBuffer = 3;         // kBufferReversed of shaders/host/source.glsl
 
 template <typename... Args>
 [[noreturn]] void refuse(fmt::format_string<Args...> why, Args&&... args) {
@@ -72,11 +72,13 @@ Projection projectionOf(const grisaille_host_camera& camera) {
   constexpr int kBoth[][2] = {{0, 1}, {0, 2}, {0, 3}, {1, 0}, {1, 2}, {1, 3}};
   constexpr int kPerspective[][2] = {{3, 0}, {3, 1}, {3, 3}};
   constexpr int kOrthographic[][2] = {{2, 0}, {2, 1}, {2, 3}};
-  const auto expectNone = [&](const int (&entry)[2]) {
+  const auto expectNone = [&](const int(&entry)[2]) {
     const double value = matrix[entry[0]][entry[1]];
     if (std::abs(value) <= 1e-9) return;
-    refuse("projection[{}] is {}, not 0: the projection is sheared, rotated or has an oblique near "
-           "plane", 4 * entry[0] + entry[1], value);
+    refuse(
+        "projection[{}] is {}, not 0: the projection is sheared, rotated or has an oblique near "
+        "plane",
+        4 * entry[0] + entry[1], value);
   };
   for (const auto& entry : kBoth) expectNone(entry);
   for (const auto& entry : orthographic ? kOrthographic : kPerspective) expectNone(entry);
@@ -114,8 +116,8 @@ Buffer bufferOf(const Projection& projection, uint32_t clip) {
   if (b == 0) refuse("clip z does not depend on the distance: projection[10] or [14] is wrong");
   if (projection.orthographic) {
     const bool reversed = b < 0;
-    return {.x = reversed ? 1 / b : -1 / b, .y = reversed ? -a / b : (1 - a) / b,
-            .reversed = reversed};
+    return {
+        .x = reversed ? 1 / b : -1 / b, .y = reversed ? -a / b : (1 - a) / b, .reversed = reversed};
   }
   const bool reversed = b > 0;
   return {.x = std::abs(b), .y = reversed ? -a : a - 1, .reversed = reversed};
@@ -149,7 +151,7 @@ double readPlanes(const Buffer& buffer, scene::View& seen, double& far) {
 }  // namespace
 
 View viewOf(const grisaille_host_frame& frame, const glm::uvec2& size, uint32_t rows) {
-  const grisaille_host_camera& camera = whole(frame.camera, "frame.camera");
+  const grisaille_host_camera camera = whole(frame.camera, "frame.camera");
   checkEnum(camera.clip, 2, "camera.clip");
   checkEnum(frame.depth_kind, 3, "frame.depth_kind");
   checkEnum(frame.normal_space, 2, "frame.normal_space");
@@ -171,10 +173,10 @@ View viewOf(const grisaille_host_frame& frame, const glm::uvec2& size, uint32_t 
   source.depth = glm::vec4(glm::dvec4(buffer.x, y, std::min(far, kSky), back));
   source.planes = glm::vec4(glm::dvec4(seen.nearPlane, seen.farPlane, 0, 0));
   const bool reversed = frame.depth_kind == GRISAILLE_HOST_DEPTH_BUFFER && buffer.reversed;
-  source.mode = glm::ivec4(reversed ? kReversedBuffer : static_cast<int>(frame.depth_kind),
-                           seen.orthographic ? 1 : 0,
-                           rows == GRISAILLE_HOST_ROWS_FROM_BOTTOM ? 1 : 0,
-                           frame.normal_encoding | frame.normal_space << 1);
+  source.mode =
+      glm::ivec4(reversed ? kReversedBuffer : static_cast<int>(frame.depth_kind),
+                 seen.orthographic ? 1 : 0, rows == GRISAILLE_HOST_ROWS_FROM_BOTTOM ? 1 : 0,
+                 frame.normal_encoding | frame.normal_space << 1);
   return view;
 }
 

@@ -2,9 +2,15 @@
 // Checks of the arguments that a host passes.
 #pragma once
 
+#include <algorithm>
+#include <array>
+#include <cstddef>
 #include <cstdint>
+#include <cstring>
+#include <span>
 
 #include "core/base/error.h"
+#include "grisaille/host.h"
 
 namespace grisaille::host {
 
@@ -15,16 +21,32 @@ T& present(T* given, const char* name) {
   return *given;
 }
 
-// The same for a struct that begins with its size. Also throws kHostStruct unless the size is
-// right: each struct has the same size in all versions.
+// The sizes of a struct of host.h in earlier versions of the library, without the fields that were
+// appended since.
 template <typename Struct>
-Struct& whole(Struct* given, const char* name) {
-  Struct& found = present(given, name);
-  if (found.struct_size != sizeof(Struct)) {
-    throw Error(ErrorId::kHostStruct, "{}.struct_size is {}, not {}", name, found.struct_size,
-                sizeof(Struct));
-  }
-  return found;
+constexpr std::array<size_t, 0> kEarlierSizes = {};
+template <>
+constexpr inline std::array<size_t, 2> kEarlierSizes<grisaille_host_frame> = {
+    offsetof(grisaille_host_frame, thickness), offsetof(grisaille_host_frame, next_depth)};
+template <>
+constexpr inline std::array<size_t, 1> kEarlierSizes<grisaille_host_opengl> = {
+    offsetof(grisaille_host_opengl, frames_in_flight)};
+
+// Checks a struct_size. `bytes`: the struct, whose bytes beyond `own` must be 0. Throws
+// kHostStruct.
+void checkStructSize(const void* bytes, uint32_t size, size_t own, std::span<const size_t> earlier,
+                     const char* name);
+
+// A copy of a struct that begins with its size. Fields that an earlier version lacks are 0. Throws
+// kHostNull, and kHostStruct unless the size is that of a version, or larger with only zeros beyond
+// the fields that this version knows.
+template <typename Struct>
+Struct whole(const Struct* given, const char* name) {
+  const Struct& found = present(given, name);
+  checkStructSize(&found, found.struct_size, sizeof(Struct), kEarlierSizes<Struct>, name);
+  Struct copy = {};
+  std::memcpy(&copy, &found, std::min<size_t>(found.struct_size, sizeof(Struct)));
+  return copy;
 }
 
 // Throws kHostNull if `handle` is null.

@@ -196,6 +196,21 @@ void grisaille_host_effect::record(const grisaille_host_frame& frame) {
   device.gpu->end(shown_);
 }
 
+// The effect's instance begins again: uploads of the dropped recording are lost. Its textures, and
+// the attachments, are created anew, and the pictures keep their identity.
+void grisaille_host_effect::dropped() {
+  device.gpu->requireUsable();
+  chain_.end();
+  chain_.start(*device.gpu);
+  chain_.create();
+  attachments_.resize(width, height);
+  for (const Picture& picture : pictures_) {
+    if (picture.made) device.gpu->forget(picture.made);
+    if (picture.shown && picture.shown != picture.made) device.gpu->forget(picture.shown);
+  }
+  device.gpu->forgetTransients();
+}
+
 void grisaille_host_effect::recordInto(gpu::Commands& commands, const host::View& view,
                                        const host::Textures& textures, uint32_t reads) {
   attachments_.record(commands, view.source, textures);

@@ -22,6 +22,8 @@ struct grisaille_host_effect {
   grisaille::effect::Values& values() { return chain_.selection.entries()[0].values; }
   const grisaille::effect::Values& values() const { return chain_.selection.entries()[0].values; }
   void record(const grisaille_host_frame& frame);
+  // Forgets all that recordings have written: for a recording that the host has dropped.
+  void dropped();
   grisaille::gpu::NativeTexture output(std::string_view key, uint32_t& format) const;
 
   grisaille_host_device& device;

@@ -15,9 +15,10 @@ class GlCommands final : public gpu::Commands {
  public:
   GlCommands(Context& context, Resources& resources, PassTimer& timer, uint32_t uniformAlignment);
 
-  // Begin and end a frame. `slot` is 0 ... kFramesInFlight - 1. The GPU must have finished the
-  // previous frame of this slot.
+  // Begin and end a frame. The GPU must have finished the previous frame of this slot.
   void beginFrame(uint32_t slot);
+  // See UniformRing::prepare().
+  void prepareSlots(uint32_t slots) { uniforms_.prepare(slots); }
   void endFrame();
 
   void beginPass(std::string_view label) override;

@@ -40,6 +40,8 @@ void requireVersion(const Adapter& adapter) {
               adapter.version / 10, adapter.version % 10);
 }
 
+constexpr uint32_t kFramesInFlight = 2;
+
 class GlDevice final : public gpu::Device {
  public:
   GlDevice(const Adapter& adapter, const gpu::DeviceOptions& options);

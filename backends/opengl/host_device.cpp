@@ -2,8 +2,8 @@
 // A device in another program's context. It restores the state of the context after recording.
 #include <epoxy/gl.h>
 
-#include <array>
 #include <optional>
+#include <vector>
 
 #include "backends/opengl/adapters.h"
 #include "backends/opengl/commands.h"
@@ -34,13 +34,25 @@ bool sampledAsFloat(int type) {
   return type == GL_FLOAT || type == GL_UNSIGNED_NORMALIZED || type == GL_SIGNED_NORMALIZED;
 }
 
+// Whether the GPU has finished the commands before a fence, as far as the driver knows. Does not
+// wait.
+bool isDone(GLsync fence) {
+  if (fence == nullptr) return true;
+  GLint status = GL_UNSIGNALED;
+  glGetSynciv(fence, GL_SYNC_STATUS, 1, nullptr, &status);
+  return status == GL_SIGNALED;
+}
+
 class GlHostDevice final : public gpu::HostDevice {
  public:
-  explicit GlHostDevice(const Adapter& adapter)
-      : current_(currentContext()),
+  GlHostDevice(const Adapter& adapter, const HostSpec& spec)
+      : spec_(spec),
+        current_(currentContext()),
         info_(readInfo(adapter.listed)),
         timer_(gpu::Clock::kNone),
-        commands_(context_, resources_, timer_, info_.capabilities.uniformAlignment) {}
+        commands_(context_, resources_, timer_, info_.capabilities.uniformAlignment),
+        // One more than the frames in flight: the frame that is recorded.
+        fences_(spec.framesInFlight + 1, nullptr) {}
   ~GlHostDevice() override {
     for (const GLsync fence : fences_) glDeleteSync(fence);  // ignores null
   }
@@ -83,12 +95,15 @@ class GlHostDevice final : public gpu::HostDevice {
   gpu::Commands& begin(void* commandBuffer, uint64_t frame,
                        std::span<const gpu::Texture> reads) override;
   void end(std::span<const gpu::Texture> writes) override;
+  void forget(gpu::Texture) override {}  // commands run at once: nothing can be dropped
+  void forgetTransients() override {}
   gpu::NativeTexture native(gpu::Texture texture) override;
   void requireUsable() const override;
 
  private:
   void turnTo(uint64_t frame);
 
+  const HostSpec spec_;
   void* current_;  // the context
   Context context_;
   gpu::DeviceInfo info_;
@@ -96,9 +111,9 @@ class GlHostDevice final : public gpu::HostDevice {
   Resources resources_;
   PassTimer timer_;
   GlCommands commands_;
-  std::array<GLsync, kFramesInFlight> fences_ = {};
+  std::vector<GLsync> fences_;     // by slot: of its last frame; null: none
   std::optional<uint64_t> frame_;  // number of the last frame
-  uint64_t turns_ = 0;             // number of frames begun
+  uint32_t slot_ = 0;              // of that frame
 };
 
 void GlHostDevice::requireUsable() const {
@@ -150,7 +165,8 @@ gpu::ForeignInfo GlHostDevice::foreign(gpu::Texture texture) {
           .depth = ofLevel(name, GL_TEXTURE_DEPTH_SIZE) > 0};
 }
 
-// Starts a frame: waits for the earlier frame in the same slot, and reuses its uniform memory.
+// Starts a frame in a slot whose last frame the GPU has finished. Without one, adds a slot: the
+// library does not wait.
 void GlHostDevice::turnTo(uint64_t frame) {
   if (frame_ && frame < *frame_) {
     throw Error(ErrorId::kHostFrame, "frame {} follows frame {}; numbers must not fall", frame,
@@ -159,17 +175,15 @@ void GlHostDevice::turnTo(uint64_t frame) {
   if (frame_ == frame) return;
   if (frame_) commands_.endFrame();
   frame_ = frame;
-  GLsync& fence = fences_[++turns_ % kFramesInFlight];
-  if (fence != nullptr) {
-    constexpr GLuint64 kPatience = 10'000'000'000;  // nanoseconds; longer, and the driver hangs
-    const GLenum status = glClientWaitSync(fence, GL_SYNC_FLUSH_COMMANDS_BIT, kPatience);
-    glDeleteSync(fence);
-    fence = nullptr;
-    if (status == GL_WAIT_FAILED || status == GL_TIMEOUT_EXPIRED) {
-      throw Error(ErrorId::kDeviceLost, "OpenGL does not finish an earlier frame");
-    }
+  // The oldest frame's slot is the first to be free.
+  const auto count = static_cast<uint32_t>(fences_.size());
+  uint32_t slot = count;
+  for (uint32_t i = 1; i <= count && slot == count; ++i) {
+    if (isDone(fences_[(slot_ + i) % count])) slot = (slot_ + i) % count;
   }
-  commands_.beginFrame(static_cast<uint32_t>(turns_ % kFramesInFlight));
+  if (slot == count) fences_.push_back(nullptr);
+  slot_ = slot;
+  commands_.beginFrame(slot_);
 }
 
 gpu::Commands& GlHostDevice::begin(void* commandBuffer, uint64_t frame,
@@ -178,7 +192,8 @@ gpu::Commands& GlHostDevice::begin(void* commandBuffer, uint64_t frame,
     throw Error(ErrorId::kHostFrame, "OpenGL takes no command buffer, but one was given");
   }
   turnTo(frame);
-  state_.save();
+  if (!spec_.keepsState) state_.save();
+  HostState::prepare();
   glMemoryBarrier(GL_ALL_BARRIER_BITS);
   return commands_;
 }
@@ -189,10 +204,11 @@ void GlHostDevice::end(std::span<const gpu::Texture> writes) {
   }
   resources_.barriers();
   glMemoryBarrier(GL_ALL_BARRIER_BITS);
-  GLsync& fence = fences_[turns_ % kFramesInFlight];
+  commands_.prepareSlots(static_cast<uint32_t>(fences_.size()));
+  GLsync& fence = fences_[slot_];
   glDeleteSync(fence);
   fence = glFenceSync(GL_SYNC_GPU_COMMANDS_COMPLETE, 0);
-  state_.restore();
+  if (!spec_.keepsState) state_.restore();
 }
 
 gpu::NativeTexture GlHostDevice::native(gpu::Texture texture) {
@@ -205,7 +221,7 @@ gpu::NativeTexture GlHostDevice::native(gpu::Texture texture) {
 
 }  // namespace
 
-std::unique_ptr<gpu::HostDevice> createHostDevice() {
+std::unique_ptr<gpu::HostDevice> createHostDevice(const HostSpec& spec) {
   if (currentContext() == nullptr) {
     throw Error(ErrorId::kHostContext, "no OpenGL context is current on this thread");
   }
@@ -215,7 +231,7 @@ std::unique_ptr<gpu::HostDevice> createHostDevice() {
                 adapter.listed.name, epoxy_is_desktop_gl() ? "" : " ES", adapter.version / 10,
                 adapter.version % 10);
   }
-  return std::make_unique<GlHostDevice>(adapter);
+  return std::make_unique<GlHostDevice>(adapter, spec);
 }
 
 }  // namespace grisaille::opengl

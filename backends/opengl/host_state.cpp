@@ -92,11 +92,7 @@ void HostState::save() {
   program_ = stateOf(GL_CURRENT_PROGRAM);
   activeUnit_ = stateOf(GL_ACTIVE_TEXTURE);
   unpackBuffer_ = stateOf(GL_PIXEL_UNPACK_BUFFER_BINDING);
-  glBindBuffer(GL_PIXEL_UNPACK_BUFFER, 0);
-  for (size_t i = 0; i < kUnpack.size(); ++i) {
-    unpack_[i] = stateOf(kUnpack[i].name);
-    glPixelStorei(kUnpack[i].name, kUnpack[i].needed);
-  }
+  for (size_t i = 0; i < kUnpack.size(); ++i) unpack_[i] = stateOf(kUnpack[i].name);
   for (GLuint i = 0; i < kSlots; ++i) {
     glActiveTexture(GL_TEXTURE0 + i);
     units_[i] = {stateOf(GL_TEXTURE_BINDING_2D), stateOf(GL_TEXTURE_BINDING_2D_ARRAY),
@@ -109,6 +105,11 @@ void HostState::save() {
   }
   saveBuffers(uniform_, kUniform, kSlots);
   saveBuffers(storage_, kStorage, storages_);
+}
+
+void HostState::prepare() {
+  glBindBuffer(GL_PIXEL_UNPACK_BUFFER, 0);
+  for (const Unpack& one : kUnpack) glPixelStorei(one.name, one.needed);
 }
 
 // Binds textures by target: glBindTextureUnit(unit, 0) would unbind the unit's other targets too.

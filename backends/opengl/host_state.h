@@ -14,6 +14,8 @@ class HostState {
   HostState();  // the context must be current here and in all later calls
 
   void save();
+  // Sets what uploads need, without a query.
+  static void prepare();
   void restore() const;
 
  private:

@@ -15,8 +15,14 @@ std::vector<gpu::ListedDevice> listDevices();
 // Throws kBackendMissing, kNoDevice, kDeviceTooOld, kDeviceFailed.
 std::unique_ptr<gpu::Device> createDevice(const gpu::DeviceOptions& options);
 
+struct HostSpec {
+  // Frames by which the GPU may be behind without an allocation, at least 1.
+  uint32_t framesInFlight = 3;
+  bool keepsState = false;  // the program restores the context's state itself
+};
+
 // Creates a device in another program's context, which must be current. Throws kHostContext,
 // kDeviceTooOld.
-std::unique_ptr<gpu::HostDevice> createHostDevice();
+std::unique_ptr<gpu::HostDevice> createHostDevice(const HostSpec& spec);
 
 }  // namespace grisaille::opengl

@@ -16,12 +16,7 @@ gpu::BufferRange Arena::copy(std::span<const std::byte> bytes) {
   uint64_t offset = (used_ + alignment_ - 1) / alignment_ * alignment_;
   if (chunks_.empty() || offset > chunks_.back().size ||
       bytes.size() > chunks_.back().size - offset) {
-    const uint64_t size = std::max<uint64_t>(kChunkBytes, bytes.size());
-    chunks_.reserve(chunks_.size() + 1);
-    const gpu::Buffer buffer = resources_.addUntracked(
-        "upload", size, VK_BUFFER_USAGE_UNIFORM_BUFFER_BIT | VK_BUFFER_USAGE_TRANSFER_SRC_BIT,
-        MemoryKind::kUpload);
-    chunks_.push_back({buffer, size});
+    addChunk(std::max<uint64_t>(kChunkBytes, bytes.size()));
     offset = 0;
   }
   const gpu::Buffer buffer = chunks_.back().buffer;
@@ -30,6 +25,14 @@ gpu::BufferRange Arena::copy(std::span<const std::byte> bytes) {
   }
   used_ = offset + bytes.size();
   return {buffer, offset, bytes.size()};
+}
+
+void Arena::addChunk(uint64_t size) {
+  chunks_.reserve(chunks_.size() + 1);
+  const gpu::Buffer buffer = resources_.addUntracked(
+      "upload", size, VK_BUFFER_USAGE_UNIFORM_BUFFER_BIT | VK_BUFFER_USAGE_TRANSFER_SRC_BIT,
+      MemoryKind::kUpload);
+  chunks_.push_back({buffer, size});
 }
 
 // Keeps one chunk of kChunkBytes for the next frame.

@@ -20,6 +20,11 @@ class Arena {
   // Copies `bytes` to an offset that is aligned for uniform bindings and copies.
   gpu::BufferRange copy(std::span<const std::byte> bytes);
 
+  // Makes room for copies without any, so that the first of them allocates nothing.
+  void prepare() {
+    if (chunks_.empty()) addChunk(kChunkBytes);
+  }
+
   // Frees all copies. The device must have finished with them.
   void reset();
 
@@ -30,6 +35,8 @@ class Arena {
     gpu::Buffer buffer;
     uint64_t size = 0;
   };
+
+  void addChunk(uint64_t size);
 
   Resources& resources_;
   uint64_t alignment_ = 16;  // bytes: the largest texel's, or more if the device requires it

@@ -92,7 +92,9 @@ VkImageMemoryBarrier2 imageBarrier(const gpu::Transition& transition, VkImage im
                                    VkImageAspectFlags aspect) {
   const Scope before = scopeOf(transition.before), after = scopeOf(transition.after);
   VkImageMemoryBarrier2 barrier{VK_STRUCTURE_TYPE_IMAGE_MEMORY_BARRIER_2};
-  barrier.srcStageMask = before.stages;
+  // A texture whose contents a host dropped may be in use by earlier frames.
+  const bool undefined = transition.before == Access::kNone;
+  barrier.srcStageMask = undefined ? VK_PIPELINE_STAGE_2_ALL_COMMANDS_BIT : before.stages;
   barrier.srcAccessMask = writesIn(before.accesses);
   barrier.dstStageMask = after.stages;
   barrier.dstAccessMask = after.accesses;

@@ -58,6 +58,10 @@ void Recorder::begin(Recording& recording, VkCommandBuffer commands) {
   pending_ = false;
 }
 
+void Recorder::clearTransients(uint64_t count) {
+  transients_.clear([&](gpu::Texture texture) { resources_.retire(texture, count); });
+}
+
 void Recorder::endFrame(uint64_t count) {
   transients_.endFrame([&](gpu::Texture texture) { resources_.retire(texture, count); });
 }

@@ -23,6 +23,8 @@ class Recorder : public gpu::Commands {
   // Makes the transient textures available again. `count`: the last frame's, as in
   // Resources::retire().
   void endFrame(uint64_t count);
+  // Destroys the transient textures, with the same `count`.
+  void clearTransients(uint64_t count);
 
   void beginPass(std::string_view label) override;
   void endPass() override;

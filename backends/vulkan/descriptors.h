@@ -19,6 +19,11 @@ class DescriptorPools {
 
   VkDescriptorSet allocate(VkDescriptorSetLayout layout);
 
+  // Adds pools until there are as many as in `other`: the sets of an equal frame then fit.
+  void prepareLike(const DescriptorPools& other) {
+    while (pools_.size() < other.pools_.size()) addPool();
+  }
+
   // Frees all sets. The device must have finished with them.
   void reset();
 

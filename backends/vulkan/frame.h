@@ -39,6 +39,12 @@ struct Recording {
     descriptors.reset();
   }
 
+  // Allocates what a frame like `other` needs.
+  void prepareLike(const Recording& other) {
+    arena.prepare();
+    descriptors.prepareLike(other.descriptors);
+  }
+
   Arena arena;
   DescriptorPools descriptors;
   PassTimer timer;

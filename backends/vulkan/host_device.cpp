@@ -29,6 +29,8 @@ class VulkanHostDevice final : public Making<gpu::HostDevice> {
   gpu::Commands& begin(void* commandBuffer, uint64_t frame,
                        std::span<const gpu::Texture> reads) override;
   void end(std::span<const gpu::Texture> writes) override;
+  void forget(gpu::Texture texture) override;
+  void forgetTransients() override { recorder_.clearTransients(lastUse()); }
   gpu::NativeTexture native(gpu::Texture texture) override;
   void requireUsable() const override {}
 
@@ -125,6 +127,14 @@ void VulkanHostDevice::end(std::span<const gpu::Texture> writes) {
   resources_.recordBarriers(commands_);
   hand(false);
   recorder_.end();
+  // The frames that follow allocate nothing, whichever recording they take.
+  const Recording& own = *recordings_[*frame_ % recordings_.size()];
+  for (const auto& recording : recordings_) recording->prepareLike(own);
+}
+
+void VulkanHostDevice::forget(gpu::Texture texture) {
+  const gpu::TextureDesc& desc = resources_.get(texture).desc;
+  resources_.tracker().add(texture, std::max(desc.mips, 1u), std::max(desc.layers, 1u));
 }
 
 gpu::NativeTexture VulkanHostDevice::native(gpu::Texture texture) {

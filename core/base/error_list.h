@@ -154,7 +154,8 @@ GRISAILLE_ERROR(kPictureColour, 5511, "repair the picture: base colours are line
 GRISAILLE_ERROR(kSequence, 5507, "number the files with %04d or ####, the same frames in each")
 // --- 56xx: libgrisaille
 GRISAILLE_ERROR(kHostNull, 5601, "pass a pointer that is not null")
-GRISAILLE_ERROR(kHostStruct, 5602, "set struct_size to the size of the struct")
+GRISAILLE_ERROR(kHostStruct, 5602,
+                "set struct_size to sizeof the struct, and fields of later versions to 0")
 GRISAILLE_ERROR(kHostDevice, 5603,
                 "give the handles of one device that meets the requirements in host.h")
 GRISAILLE_ERROR(kHostContext, 5604, "make the device's OpenGL context current")
@@ -162,7 +163,7 @@ GRISAILLE_ERROR(kHostTexture, 5605, "describe a 2D texture of one sample that sh
 GRISAILLE_ERROR(kHostFrame, 5606,
                 "count frames upwards; pass a command buffer with Vulkan, null with OpenGL")
 GRISAILLE_ERROR(kHostCamera, 5607,
-                "give a rotation, finite distances, and a near plane nearer than the far plane")
+                "give matrices as the comment of grisaille_host_camera describes them")
 GRISAILLE_ERROR(kHostInUse, 5608, "destroy textures and effects before their device")
 GRISAILLE_ERROR(kHostForeign, 5609, "use only objects of one device together")
 GRISAILLE_ERROR(

@@ -49,6 +49,11 @@ class HostDevice : public Maker {
   // `writes`. Call it also after a recording that threw.
   virtual void end(std::span<const Texture> writes) = 0;
 
+  // Makes the contents of a texture undefined, as of a new one: for a recording that the program
+  // dropped instead of submitting it. forgetTransients() does so for all transient textures.
+  virtual void forget(Texture texture) = 0;
+  virtual void forgetTransients() = 0;
+
   virtual NativeTexture native(Texture texture) = 0;
 
   // Throws kHostContext if the program's state forbids using the device: on OpenGL, if the device's

@@ -34,4 +34,9 @@ void TransientPool::endFrame(const Destroy& destroy) {
   std::erase_if(entries_, [](const Entry& entry) { return entry.idle > kIdleFrames; });
 }
 
+void TransientPool::clear(const Destroy& destroy) {
+  for (const Entry& entry : entries_) destroy(entry.texture);
+  entries_.clear();
+}
+
 }  // namespace grisaille::gpu

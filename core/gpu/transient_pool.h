@@ -22,6 +22,9 @@ class TransientPool {
   // than `kIdleFrames` frames.
   void endFrame(const Destroy& destroy);
 
+  // Destroys all textures, also those that this frame has taken.
+  void clear(const Destroy& destroy);
+
  private:
   static constexpr uint32_t kIdleFrames = 3;
   struct Entry {

@@ -81,9 +81,10 @@ void Classic::occlude(const plugin::Frame& frame, grisaille_texture target, bool
   settings.finish = finishOf(frame);
 
   // Constants of shaders/ssao/occlusion.glsl.
-  const grisaille_constant constants[] = {
-      cameraKind(frame), plugin::specialize(0, count), plugin::specialize(1, frame.value<uint32_t>(kRotation)),
-      plugin::specialize(2, frame.value<uint32_t>(kRangeCheck)), plugin::specialize(3, !blurred)};
+  const grisaille_constant constants[] = {cameraKind(frame), plugin::specialize(0, count),
+                                          plugin::specialize(1, frame.value<uint32_t>(kRotation)),
+                                          plugin::specialize(2, frame.value<uint32_t>(kRangeCheck)),
+                                          plugin::specialize(3, !blurred)};
   const bool normals = sampling == Sampling::kHemisphere;
   Bindings bindings = {plugin::uniform(0, frame.viewBlock()),
                        plugin::uniform(1, frame.uniform(settings)),

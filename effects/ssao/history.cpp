@@ -103,14 +103,19 @@ grisaille_texture History::accumulate(const plugin::Frame& frame, uint32_t scale
   spare_ = {};
   const uint32_t width = plugin::groupsFor(frame.width(), scale);
   const uint32_t height = plugin::groupsFor(frame.height(), scale);
-  if (!now.mean || now.width != width || now.height != height) {
-    now.mean = host_.texture({.label = "mean visibility",
-                              .format = GRISAILLE_FORMAT_RGBA32F,
-                              .width = width,
-                              .height = height});
-  }
-  now.width = width;
-  now.height = height;
+  const auto fit = [&](Seen& seen) {
+    if (seen.mean && seen.width == width && seen.height == height) return;
+    seen.mean = host_.texture({.label = "mean visibility",
+                               .format = GRISAILLE_FORMAT_RGBA32F,
+                               .width = width,
+                               .height = height});
+    seen.width = width;
+    seen.height = height;
+  };
+  fit(now);
+  // The second frame's, now: later frames allocate nothing.
+  Seen next = frames_ > 0 ? Seen() : std::move(then_);
+  if (frames_ == 0) fit(next);
   now.scale = scale;
   now.size = {frame.width(), frame.height()};
   now.view = frame.view();
@@ -145,10 +150,13 @@ grisaille_texture History::accumulate(const plugin::Frame& frame, uint32_t scale
         plugin::texture(3, moves ? motion : denoised, clamped_),
         plugin::texture(4, reach, clamped_),
         plugin::image(0, now.mean)};
-    dispatch(frame, accumulate_.get({cameraKind(frame), plugin::specialize(0, scale), plugin::specialize(1, moves)}),
+    dispatch(frame,
+             accumulate_.get(
+                 {cameraKind(frame), plugin::specialize(0, scale), plugin::specialize(1, moves)}),
              bindings, width, height);
   });
-  spare_ = std::exchange(then_, std::move(now));
+  spare_ = frames_ > 0 ? std::move(then_) : std::move(next);
+  then_ = std::move(now);
   ++frames_;
   return then_.mean;
 }

@@ -16,8 +16,8 @@ class History {
  public:
   explicit History(plugin::Host host);
 
-  // Values of the parameters that change the estimate, and the kind of the camera. keepOnly() forgets the history if they
-  // differ from those of the previous call.
+  // Values of the parameters that change the estimate, and the kind of the camera. keepOnly()
+  // forgets the history if they differ from those of the previous call.
   using Values = std::array<double, 8>;
   void keepOnly(const Values& values);
   void forget();

@@ -278,8 +278,10 @@ void Slices::occlude(const plugin::Frame& frame, plugin::PipelineCache& pipeline
   // Constants of shaders/ssao/slices.glsl; the list's has all but the last.
   const grisaille_constant constants[] = {
       cameraKind(frame),
-      plugin::specialize(0, frame.value<uint32_t>(kSlices)), plugin::specialize(1, stepsOf(frame)),
-      plugin::specialize(2, size.scale), plugin::specialize(3, static_cast<uint32_t>(backs)),
+      plugin::specialize(0, frame.value<uint32_t>(kSlices)),
+      plugin::specialize(1, stepsOf(frame)),
+      plugin::specialize(2, size.scale),
+      plugin::specialize(3, static_cast<uint32_t>(backs)),
       plugin::specialize(4, frame.value<uint32_t>(kEdgeSlices))};
   Bindings bindings = {plugin::uniform(0, frame.viewBlock()),
                        plugin::uniform(1, frame.uniform(settings)),

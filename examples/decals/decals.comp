@@ -23,9 +23,9 @@ shared uint candidates[kMost / 32 + 1];  // a bit for each box
 
 // Offset from p to the point at which another pixel's ray meets the plane of p.
 vec3 footprint(vec2 pixel, vec3 p, vec3 normal) {
-  const vec3 start = rayStart(pixel) * mat3(view.view_from_world);
+  const vec3 from = p - rayStart(pixel) * mat3(view.view_from_world);
   const vec3 ray = rayDirection(pixel) * mat3(view.view_from_world);
-  return start + ray * (dot(normal, p - start) / min(dot(normal, ray), -1e-3)) - p;
+  return ray * (dot(normal, from) / min(dot(normal, ray), -1e-3)) - from;
 }
 
 void main() {

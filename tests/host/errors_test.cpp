@@ -86,6 +86,12 @@ TEST_P(Errors, OfDevices) {
   EXPECT_EQ(made, nullptr) << "a failed call must leave its result unchanged";
   expectError(grisaille_host_device_opengl(nullptr, nullptr), 5601, "out is null");
   auto opengl = sized<grisaille_host_opengl>();
+  opengl.state = 2;
+  expectError(grisaille_host_device_opengl(&opengl, &made), 5611, "opengl.state is 2");
+  opengl.state = 0;
+  opengl.frames_in_flight = 17;
+  expectError(grisaille_host_device_opengl(&opengl, &made), 5611, "frames_in_flight is 17");
+  opengl.frames_in_flight = 0;
   opengl.reserved = 7;
   expectError(grisaille_host_device_opengl(&opengl, &made), 5611, "reserved is 7");
   opengl.struct_size = 3;
@@ -352,6 +358,41 @@ TEST_P(Errors, OfTexturesInFrames) {
     expectError(grisaille_host_effect_record(effect.handle(), &frame), 5609, "different devices");
     frame.depth = small.handle();
     expectError(grisaille_host_effect_record(effect.handle(), &frame), 5605, "8 x 8 pixels");
+  });
+}
+
+// A struct of an earlier version, and one of a later version without anything new in it.
+TEST_P(Errors, OfStructsFromOtherVersions) {
+  host::Effect effect(device_, {.effect = "ssao", .width = kSide, .height = kSide});
+  expectError(grisaille_host_effect_dropped(nullptr), 5601, "effect is null");
+  host_->frame([&](void* commands, uint64_t number) {
+    grisaille_host_frame frame = frameOf(commands, number);
+    const auto record = [&](const void* bytes) {
+      return grisaille_host_effect_record(effect.handle(),
+                                          static_cast<const grisaille_host_frame*>(bytes));
+    };
+    // Fields that the earlier version lacks are not read.
+    const auto* garbage = reinterpret_cast<const grisaille_host_texture*>(uintptr_t{8});
+    frame.next_depth = garbage;
+    frame.struct_size = offsetof(grisaille_host_frame, next_depth);
+    EXPECT_EQ(record(&frame), 0) << grisaille_host_last_error();
+    frame.thickness = garbage;
+    frame.struct_size = offsetof(grisaille_host_frame, thickness);
+    EXPECT_EQ(record(&frame), 0) << grisaille_host_last_error();
+    frame.struct_size -= 8;
+    expectError(record(&frame), 5602, "which no version has");
+    // A later version's struct.
+    struct {
+      grisaille_host_frame known;
+      uint32_t further[3];
+    } later = {.known = frameOf(commands, number), .further = {}};
+    later.known.struct_size = sizeof(later.known) + sizeof(later.further);
+    EXPECT_EQ(record(&later), 0) << grisaille_host_last_error();
+    later.further[1] = 1;
+    expectError(record(&later), 5602,
+                "byte " + std::to_string(sizeof(later.known) + 4) + " is not 0");
+    later.known.struct_size = 1 << 20;
+    expectError(record(&later), 5602, "struct_size is 1048576");
   });
 }
 

@@ -342,6 +342,32 @@ TEST_P(Frames, ObjectsOfAFileAreThoseThatAreSet) {
   EXPECT_TRUE(std::ranges::any_of(paint, [](float x) { return x > 0; }));
 }
 
+// A host drops a command buffer, for example when its window is resized, and records anew.
+TEST_P(Frames, ADroppedRecordingLeavesNoTrace) {
+  const host::Texture seen = depth(64, 48);
+  host::Effect expected = ssao(64, 48);
+  expected.set("estimator", "classic");
+  record(expected, seen);
+  const std::vector<float> open = host_->read(expected.output("ao"));
+  for (const int before : {0, 2}) {  // recordings that were submitted
+    host::Effect effect = ssao(64, 48);
+    effect.set("estimator", "classic");  // uploads its noise in the first recording
+    for (int i = 0; i < before; ++i) record(effect, seen);
+    for (int i = 0; i < 2; ++i) {
+      host_->drop([&](void* commands, uint64_t number) {
+        effect.record({.number = number,
+                       .commandBuffer = commands,
+                       .camera = camera_,
+                       .depth = seen,
+                       .depthKind = GRISAILLE_HOST_DEPTH_VIEW});
+      });
+      effect.dropped();
+    }
+    record(effect, seen);
+    EXPECT_EQ(host_->read(effect.output("ao")), open) << before;
+  }
+}
+
 // An effect that writes its inputs to its output.
 class Told : public Frames {
  protected:

@@ -32,6 +32,9 @@ class Host {
   // Runs a frame: calls `record` with the command buffer and the frame's number, then submits.
   virtual void frame(const std::function<void(void*, uint64_t)>& record) = 0;
 
+  // Records a frame, and drops its commands. OpenGL runs them at once.
+  virtual void drop(const std::function<void(void*, uint64_t)>& record) = 0;
+
   // Waits, then reads the numbers of an output, with rows in memory order.
   virtual std::vector<float> read(const grisaille_host_output& output) = 0;
 

@@ -75,14 +75,22 @@ class VulkanHost : public Host {
     submit([&] { record(commands_, frame_); });
     ++frame_;
   }
+  void drop(const std::function<void(void*, uint64_t)>& record) override {
+    begin();
+    record(commands_, frame_);
+    example::check(vkEndCommandBuffer(commands_), "vkEndCommandBuffer");
+  }
   std::vector<float> read(const grisaille_host_output& output) override;
   int complaints() const override { return context_.complaints; }
 
  private:
+  void begin() {
+    VkCommandBufferBeginInfo info{};
+    info.sType = VK_STRUCTURE_TYPE_COMMAND_BUFFER_BEGIN_INFO;
+    example::check(vkBeginCommandBuffer(commands_, &info), "vkBeginCommandBuffer");
+  }
   void submit(const std::function<void()>& record) {
-    VkCommandBufferBeginInfo begin{};
-    begin.sType = VK_STRUCTURE_TYPE_COMMAND_BUFFER_BEGIN_INFO;
-    example::check(vkBeginCommandBuffer(commands_, &begin), "vkBeginCommandBuffer");
+    begin();
     record();
     example::check(vkEndCommandBuffer(commands_), "vkEndCommandBuffer");
     VkSubmitInfo info{};

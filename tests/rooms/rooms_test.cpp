@@ -42,7 +42,7 @@ constexpr Room kRooms[] = {
     {"effects/sspm", "grisaille shaders"},
     {"host",
      "backends/opengl/opengl.h backends/vulkan/vulkan.h core/effect core/gpu "
-     "core/frame/view_block.h core/objects core/scene/camera.h grisaille shaders"},
+     "core/frame/view_block.h core/objects core/scene/view.h grisaille shaders"},
     {"host/include/grisaille", "grisaille"},
     // The program's commands, then the shared folders, each after the folders that it sees.
     {"app",

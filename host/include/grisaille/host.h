@@ -13,7 +13,7 @@
  * number of the error; grisaille_host_last_error() then returns one line: what is wrong, why, and
  * what to do. The comment of each function lists its errors. Every function may also return
  * - 5601: an argument or a pointer in a struct is null,
- * - 5602: a struct_size is not the size of its struct,
+ * - 5602: a struct_size is no version's, or a field of a later version is not 0,
  * - 5611: a reserved field is not 0,
  * - 9001: an internal error of the library,
  * - 9002: out of memory,
@@ -22,7 +22,9 @@
  * The library throws no exception and prints nothing.
  *
  * @par Structs
- * A struct begins with struct_size: set it to the size of the struct. Set unused fields to 0.
+ * A struct begins with struct_size: set it to the size of the struct. Set unused fields to 0. Later
+ * versions append fields. The library takes the struct of an earlier version, with 0 in the fields
+ * that it lacks, and that of a later version if all bytes beyond the fields that it knows are 0.
  *
  * @par Ownership
  * Destroy every object that you create; destroy effects and textures before their device. The
@@ -63,7 +65,7 @@ extern "C" {
  * @{
  */
 
-#define GRISAILLE_HOST_VERSION 1u /**< grows when functions or fields are added */
+#define GRISAILLE_HOST_VERSION 2u /**< grows when functions or fields are added */
 
 /**
  * Returns the version of the library. It cannot fail. Any thread may call it.
@@ -105,11 +107,30 @@ typedef struct grisaille_host_vulkan {
   const char* effect_folder; /**< additional folder of effects, which the library trusts; or null */
 } grisaille_host_vulkan;
 
+/** Who restores the state of an OpenGL context. */
+typedef enum grisaille_host_state {
+  /** The library queries the state that a recording changes, some 250 values, and restores it. */
+  GRISAILLE_HOST_STATE_RESTORED = 0,
+  /**
+   * You set what you need after each recording, and the library queries no state. A recording
+   * changes the program, the active texture unit, the 2D and 2D array textures and the samplers of
+   * units 0 to 15, the image units, uniform and shader storage buffer bindings 0 to 15, the general
+   * bindings of both buffers, GL_PIXEL_UNPACK_BUFFER, and the unpack parameters of glPixelStore.
+   */
+  GRISAILLE_HOST_STATE_KEPT = 1
+} grisaille_host_state;
+
 /** Your OpenGL context, which is the current context. */
 typedef struct grisaille_host_opengl {
   uint32_t struct_size;      /**< sizeof(grisaille_host_opengl) */
-  uint32_t reserved;         /**< 0 */
+  uint32_t state;            /**< a grisaille_host_state */
   const char* effect_folder; /**< additional folder of effects, which the library trusts; or null */
+  /**
+   * 1 to 16: how many frames the GPU may be behind without a new allocation of memory; 0: 3. The
+   * library never waits: if the GPU is further behind, the recording allocates.
+   */
+  uint32_t frames_in_flight;
+  uint32_t reserved; /**< 0 */
 } grisaille_host_opengl;
 
 /**
@@ -133,6 +154,7 @@ GRISAILLE_EXPORT int grisaille_host_device_vulkan(const grisaille_host_vulkan* v
  * @param opengl your OpenGL context
  * @param[out] out the device; null after an error
  * @retval 5604 No context is current.
+ * @retval 5611 `state` is not a grisaille_host_state, or frames_in_flight is out of range.
  * @retval 1004 The context is older than 4.5, or OpenGL ES.
  * @retval 3106 The library cannot read effect_folder.
  */
@@ -403,8 +425,8 @@ GRISAILLE_EXPORT int grisaille_host_effect_load_objects(grisaille_host_effect* e
 typedef enum grisaille_host_depth {
   /**
    * A depth buffer, which holds 0 to 1: clip z / clip w or, with
-   * #GRISAILLE_HOST_CLIP_MINUS_ONE_TO_ONE, half of it plus 1/2. The projection says whether depth is
-   * reversed and where the planes lie; the sky has the far plane's depth.
+   * #GRISAILLE_HOST_CLIP_MINUS_ONE_TO_ONE, half of it plus 1/2. The projection says whether depth
+   * is reversed and where the planes lie; the sky has the far plane's depth.
    */
   GRISAILLE_HOST_DEPTH_BUFFER = 0,
   /** Metres along the view direction; in the sky 0, or the far plane's distance or more. */
@@ -439,10 +461,10 @@ typedef enum grisaille_host_encoding {
  * The camera that drew the frame, as matrices. Both are column-major: element [4 * column + row].
  *
  * A perspective projection may be off-centre (one eye of a headset, a tile of a large picture) and
- * jittered (for temporal anti-aliasing): pass the matrix that the vertex shader used. An orthographic
- * projection has the last row 0, 0, 0, 1. Depth may be reversed, and the far plane infinite. The
- * library does not use the sign of element 5: grisaille_host_effect_desc::rows says which row of the
- * picture is the top one.
+ * jittered (for temporal anti-aliasing): pass the matrix that the vertex shader used. An
+ * orthographic projection has the last row 0, 0, 0, 1. Depth may be reversed, and the far plane
+ * infinite. The library does not use the sign of element 5: grisaille_host_effect_desc::rows says
+ * which row of the picture is the top one.
  *
  * Not supported: mirrored, sheared or rotated projections, an oblique near plane, and a view space
  * that looks along +z.
@@ -453,8 +475,8 @@ typedef struct grisaille_host_camera {
   /** World to view space: a rotation and a translation; the position is within 1e15 m. */
   double view[16];
   /**
-   * View to clip space. Perspective: a near plane over 0, at most 1e6 m. Orthographic: planes within
-   * 1e9 m, the near one may lie behind the eye.
+   * View to clip space. Perspective: a near plane over 0, at most 1e6 m. Orthographic: planes
+   * within 1e9 m, the near one may lie behind the eye.
    */
   double projection[16];
 } grisaille_host_camera;
@@ -499,9 +521,9 @@ typedef struct grisaille_host_frame {
  *
  * From the second frame on, the call allocates nothing while size and parameters stay the same.
  *
- * Vulkan: submit the command buffers in the order of recording, each once and as a whole. The call
- * changes the compute pipeline and descriptor set 0 of the compute bind point. After error 3203,
- * submit the command buffer nevertheless.
+ * Vulkan: submit the command buffers in the order of recording, each once and as a whole, or call
+ * grisaille_host_effect_dropped(). The call changes the compute pipeline and descriptor set 0 of
+ * the compute bind point. After error 3203, submit the command buffer nevertheless.
  *
  * @param effect the effect
  * @param frame the frame
@@ -519,6 +541,19 @@ typedef struct grisaille_host_frame {
  */
 GRISAILLE_EXPORT int grisaille_host_effect_record(grisaille_host_effect* effect,
                                                   const grisaille_host_frame* frame);
+
+/**
+ * Forgets what recordings of an effect have written. Call it for each effect with a recording in a
+ * command buffer that you drop instead of submitting, before you record one of them again, in the
+ * same frame or in a later one. The effect keeps its parameters, objects and output textures; it
+ * uploads again what it needs, and begins a history anew. OpenGL executes recordings at once: there
+ * the call is allowed, but never needed.
+ * @param effect the effect
+ * @retval 3202 The effect fails; the error line quotes its message.
+ * @retval 1007 No device memory is left.
+ * @retval 5604 The device's context is not current.
+ */
+GRISAILLE_EXPORT int grisaille_host_effect_dropped(grisaille_host_effect* effect);
 
 /** An output: a texture that the library owns. */
 typedef struct grisaille_host_output {

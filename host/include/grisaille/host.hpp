@@ -108,9 +108,16 @@ class Device {
   /// Creates a device on the OpenGL context that is current in this thread.
   /// @param effectFolder additional folder of effects, which the library trusts; or null
   /// @return the device
-  static Device opengl(const char* effectFolder = nullptr) {
-    const grisaille_host_opengl given = {
-        .struct_size = sizeof(grisaille_host_opengl), .reserved = 0, .effect_folder = effectFolder};
+  /// @param state who restores the context's state
+  /// @param framesInFlight see grisaille_host_opengl::frames_in_flight
+  static Device opengl(const char* effectFolder = nullptr,
+                       grisaille_host_state state = GRISAILLE_HOST_STATE_RESTORED,
+                       uint32_t framesInFlight = 0) {
+    const grisaille_host_opengl given = {.struct_size = sizeof(grisaille_host_opengl),
+                                         .state = static_cast<uint32_t>(state),
+                                         .effect_folder = effectFolder,
+                                         .frames_in_flight = framesInFlight,
+                                         .reserved = 0};
     Device made;
     grisaille_host_device* device = nullptr;
     require(grisaille_host_device_opengl(&given, &device));
@@ -336,6 +343,10 @@ class Effect {
         .next_depth = handleOf(frame.nextDepth)};
     require(grisaille_host_effect_record(effect_.get(), &given));
   }
+
+  /// Forgets what recordings have written, for one that you drop instead of submitting: see
+  /// grisaille_host_effect_dropped().
+  void dropped() { require(grisaille_host_effect_dropped(effect_.get())); }
 
   /// Returns an output. The texture holds a result once you have recorded the effect. It stays the
   /// same texture until you resize or destroy the effect.

@@ -1,0 +1,245 @@
+// SPDX-License-Identifier: MIT
+// Counts the library's calls of the graphics APIs. From the second frame on, recording creates no
+// object and allocates no memory, it never waits, and it queries no state if the host asks for
+// that.
+#include <gtest/gtest.h>
+
+#include <epoxy/gl.h>
+
+#include <map>
+#include <string>
+#include <string_view>
+
+#include "examples/vulkan/context.h"
+#include "tests/host/hosts.h"
+#include "tests/host/opengl_host.h"
+#include "tests/host/seen.h"
+#include "tests/host/vulkan_host.h"
+
+namespace grisaille::tests {
+namespace {
+
+constexpr uint32_t kWidth = 48, kHeight = 32;
+
+// Calls by the function's name, while `counting`.
+std::map<std::string, size_t, std::less<>> calls;
+bool counting = false;
+
+void note(std::string_view name) {
+  if (counting) ++calls[std::string(name)];
+}
+
+std::string summary(const std::map<std::string, size_t, std::less<>>& of) {
+  std::string text;
+  for (const auto& [name, count] : of) text += name + " x " + std::to_string(count) + " ";
+  return text;
+}
+
+// --- OpenGL: libepoxy calls each function through a pointer, which a test may replace.
+
+// `Pointer`: libepoxy's.
+template <auto& Pointer, typename Function>
+struct Counted;
+template <auto& Pointer, typename Result, typename... Arguments>
+struct Counted<Pointer, Result (*)(Arguments...)> {
+  static inline Result (*real)(Arguments...) = nullptr;
+  static inline const char* name = nullptr;
+
+  static Result call(Arguments... arguments) {
+    note(name);
+    // At the first call, libepoxy looks the function up and stores it in its pointer.
+    struct Again {
+      ~Again() {
+        if (Pointer == &call) return;
+        real = Pointer;
+        Pointer = &call;
+      }
+    } again;
+    return real(arguments...);
+  }
+  static void install(const char* as) {
+    if (Pointer == &call) return;
+    name = as;
+    real = Pointer;
+    Pointer = &call;
+  }
+};
+
+#define COUNT(function) Counted<epoxy_##function, decltype(epoxy_##function)>::install(#function)
+void installGl() {
+  // Waits.
+  COUNT(glClientWaitSync);
+  COUNT(glWaitSync);
+  COUNT(glFinish);
+  // Queries of state.
+  COUNT(glGetIntegerv);
+  COUNT(glGetIntegeri_v);
+  COUNT(glGetInteger64i_v);
+  COUNT(glGetInteger64v);
+  COUNT(glGetBooleanv);
+  COUNT(glGetFloatv);
+  COUNT(glGetError);
+  COUNT(glIsEnabled);
+  COUNT(glIsTexture);
+  COUNT(glGetTextureParameteriv);
+  COUNT(glGetTextureLevelParameteriv);
+  COUNT(glGetProgramiv);
+  // Objects and memory.
+  COUNT(glCreateBuffers);
+  COUNT(glNamedBufferStorage);
+  COUNT(glNamedBufferData);
+  COUNT(glMapNamedBufferRange);
+  COUNT(glCreateTextures);
+  COUNT(glGenTextures);
+  COUNT(glTextureView);
+  COUNT(glTextureStorage2D);
+  COUNT(glTextureStorage3D);
+  COUNT(glCreateSamplers);
+  COUNT(glCreateFramebuffers);
+  COUNT(glCreateShader);
+  COUNT(glCreateProgram);
+  COUNT(glCompileShader);
+  COUNT(glLinkProgram);
+  // Work, to see that calls are counted.
+  COUNT(glDispatchCompute);
+}
+
+// --- Vulkan: the host hands the library the function that looks up all others.
+
+// `Function`: the declared function, which tells functions of one type apart.
+template <auto Function, typename Type>
+struct Hook;
+template <auto Function, typename Result, typename... Arguments>
+struct Hook<Function, Result (*)(Arguments...)> {
+  static inline Result (*real)(Arguments...) = nullptr;
+  static inline const char* name = nullptr;
+
+  static Result call(Arguments... arguments) {
+    note(name);
+    return real(arguments...);
+  }
+};
+
+PFN_vkGetDeviceProcAddr realDeviceProc = nullptr;
+
+#define HOOKS(X)                 \
+  X(vkAllocateMemory)            \
+  X(vkCreateBuffer)              \
+  X(vkCreateImage)               \
+  X(vkCreateImageView)           \
+  X(vkCreateSampler)             \
+  X(vkCreateDescriptorPool)      \
+  X(vkCreateDescriptorSetLayout) \
+  X(vkCreatePipelineLayout)      \
+  X(vkCreateShaderModule)        \
+  X(vkCreateComputePipelines)    \
+  X(vkCreateCommandPool)         \
+  X(vkCreateFence)               \
+  X(vkCreateSemaphore)           \
+  X(vkMapMemory)                 \
+  X(vkWaitForFences)             \
+  X(vkWaitSemaphores)            \
+  X(vkQueueWaitIdle)             \
+  X(vkDeviceWaitIdle)            \
+  X(vkQueueSubmit)               \
+  X(vkQueueSubmit2)              \
+  X(vkCmdDispatch)
+
+VKAPI_ATTR PFN_vkVoidFunction VKAPI_CALL deviceProc(VkDevice device, const char* name) {
+  const PFN_vkVoidFunction real = realDeviceProc(device, name);
+  if (real == nullptr) return nullptr;
+#define TRY(function)                                        \
+  if (std::string_view(name) == #function) {                 \
+    using One = Hook<&function, PFN_##function>;             \
+    One::real = reinterpret_cast<PFN_##function>(real);      \
+    One::name = #function;                                   \
+    return reinterpret_cast<PFN_vkVoidFunction>(&One::call); \
+  }
+  HOOKS(TRY)
+#undef TRY
+  return real;
+}
+
+VKAPI_ATTR PFN_vkVoidFunction VKAPI_CALL instanceProc(VkInstance instance, const char* name) {
+  const PFN_vkVoidFunction real = vkGetInstanceProcAddr(instance, name);
+  if (std::string_view(name) != "vkGetDeviceProcAddr") return real;
+  realDeviceProc = reinterpret_cast<PFN_vkGetDeviceProcAddr>(real);
+  return reinterpret_cast<PFN_vkVoidFunction>(&deviceProc);
+}
+
+class Calls : public ::testing::TestWithParam<TestDevice> {
+ protected:
+  bool isVulkan() const { return GetParam().backend == "vulkan"; }
+
+  host::Device device(Host& host, uint32_t framesInFlight, grisaille_host_state state) const {
+    if (!isVulkan()) return host::Device::opengl(nullptr, state, framesInFlight);
+    host::VulkanSpec spec = vulkanSpec(host);
+    spec.framesInFlight = framesInFlight;
+    spec.getInstanceProcAddr = reinterpret_cast<void (*)()>(&instanceProc);
+    return host::Device::vulkan(spec);
+  }
+
+  // Records two effects over many frames. Returns the calls after the first frame.
+  std::map<std::string, size_t, std::less<>> after(uint32_t framesInFlight,
+                                                   grisaille_host_state state) {
+    const std::unique_ptr<Host> host = makeHost(GetParam(), false);
+    const host::Device device = this->device(*host, framesInFlight, state);
+    if (!isVulkan()) installGl();
+    const Eye eye{.viewFromWorld = glm::lookAt(glm::dvec3(1.2, 1.6, 3.1),
+                                               glm::dvec3(0.1, 0.5, -0.3), glm::dvec3(0, 1, 0)),
+                  .angle = 0.8};
+    const Seen seen = see(eye, kWidth, kHeight);
+    const host::Texture depth = host->texture(device, Texels::kFloat1, kWidth, kHeight,
+                                              {seen.view.begin(), seen.view.end()});
+    const host::EffectSpec spec{.effect = "ssao", .width = kWidth, .height = kHeight};
+    host::Effect slices(device, spec), classic(device, spec);
+    slices.set("history", 8);
+    slices.set("resolution", "half");
+    classic.set("estimator", "classic");
+    const glm::dmat4 projection = projectionOf(eye, double{1} * kWidth / kHeight, {});
+    const host::Camera camera(&eye.viewFromWorld[0][0], &projection[0][0]);
+    calls.clear();
+    for (uint32_t i = 0; i < 2 * framesInFlight + 3; ++i) {
+      host->frame([&](void* commands, uint64_t number) {
+        counting = i > 0;
+        for (host::Effect* effect : {&slices, &classic}) {
+          effect->record({.number = number,
+                          .commandBuffer = commands,
+                          .camera = camera,
+                          .depth = depth,
+                          .depthKind = GRISAILLE_HOST_DEPTH_VIEW});
+        }
+        counting = false;
+      });
+      if (!isVulkan()) glFinish();  // the GPU is not behind
+    }
+    EXPECT_EQ(host->complaints(), 0);
+    return calls;
+  }
+};
+GRISAILLE_IN_EVERY_HOST(Calls);
+
+TEST_P(Calls, RecordingNeitherCreatesNorWaits) {
+  for (uint32_t framesInFlight = 1; framesInFlight <= 16; ++framesInFlight) {
+    auto made = after(framesInFlight, GRISAILLE_HOST_STATE_KEPT);
+    const char* work = isVulkan() ? "vkCmdDispatch" : "glDispatchCompute";
+    EXPECT_GT(made[work], 0u) << "calls are not counted";
+    made.erase(work);
+    EXPECT_TRUE(made.empty()) << framesInFlight << " frames in flight: " << summary(made);
+  }
+}
+
+// Unless the host restores state itself, the library queries the state that it changes.
+TEST_P(Calls, QueriesAreForStateThatTheLibraryRestores) {
+  if (isVulkan()) GTEST_SKIP() << "Vulkan has no such state";
+  auto made = after(2, GRISAILLE_HOST_STATE_RESTORED);
+  EXPECT_GT(made["glGetIntegerv"], 0u);
+  for (const char* query : {"glGetIntegerv", "glGetIntegeri_v", "glGetInteger64i_v"}) {
+    made.erase(query);
+  }
+  made.erase("glDispatchCompute");
+  EXPECT_TRUE(made.empty()) << summary(made);
+}
+
+}  // namespace
+}  // namespace grisaille::tests
