@@ -24,6 +24,12 @@ class VulkanHostDevice final : public Making<gpu::HostDevice> {
     }
   }
 
+  // With its view, so that the first recording that uses a texture creates nothing.
+  gpu::Texture createTexture(const gpu::TextureDesc& desc) override {
+    const gpu::Texture texture = Making::createTexture(desc);
+    if (desc.layers <= 1) native(texture);
+    return texture;
+  }
   gpu::Texture wrap(const gpu::ForeignTexture& texture) override;
   gpu::ForeignInfo foreign(gpu::Texture texture) override;
   gpu::Commands& begin(void* commandBuffer, uint64_t frame,

@@ -11,6 +11,7 @@
 #include <string_view>
 
 #include "examples/vulkan/context.h"
+#include "tests/host/allocations.h"
 #include "tests/host/hosts.h"
 #include "tests/host/opengl_host.h"
 #include "tests/host/seen.h"
@@ -26,7 +27,13 @@ std::map<std::string, size_t, std::less<>> calls;
 bool counting = false;
 
 void note(std::string_view name) {
-  if (counting) ++calls[std::string(name)];
+  if (!counting) return;
+  const auto found = calls.find(name);
+  if (found != calls.end()) {
+    ++found->second;
+  } else {
+    calls.emplace(name, 1);
+  }
 }
 
 std::string summary(const std::map<std::string, size_t, std::less<>>& of) {
@@ -47,14 +54,15 @@ struct Counted<Pointer, Result (*)(Arguments...)> {
 
   static Result call(Arguments... arguments) {
     note(name);
-    // At the first call, libepoxy looks the function up and stores it in its pointer.
-    struct Again {
-      ~Again() {
-        if (Pointer == &call) return;
+    // At its first call, libepoxy's stub looks the function up, stores it in the pointer, and calls
+    // it through the pointer.
+    struct Through {
+      Through() { Pointer = real; }
+      ~Through() {
         real = Pointer;
         Pointer = &call;
       }
-    } again;
+    } through;
     return real(arguments...);
   }
   static void install(const char* as) {
@@ -170,6 +178,7 @@ VKAPI_ATTR PFN_vkVoidFunction VKAPI_CALL instanceProc(VkInstance instance, const
 class Calls : public ::testing::TestWithParam<TestDevice> {
  protected:
   bool isVulkan() const { return GetParam().backend == "vulkan"; }
+  const char* work() const { return isVulkan() ? "vkCmdDispatch" : "glDispatchCompute"; }
 
   host::Device device(Host& host, uint32_t framesInFlight, grisaille_host_state state) const {
     if (!isVulkan()) return host::Device::opengl(nullptr, state, framesInFlight);
@@ -198,9 +207,11 @@ class Calls : public ::testing::TestWithParam<TestDevice> {
     classic.set("estimator", "classic");
     const glm::dmat4 projection = projectionOf(eye, double{1} * kWidth / kHeight, {});
     const host::Camera camera(&eye.viewFromWorld[0][0], &projection[0][0]);
-    calls.clear();
+    calls = {{work(), 0}};  // counting the work allocates nothing
+    allocations_ = 0;
     for (uint32_t i = 0; i < 2 * framesInFlight + 3; ++i) {
       host->frame([&](void* commands, uint64_t number) {
+        const AllocationCount count;
         counting = i > 0;
         for (host::Effect* effect : {&slices, &classic}) {
           effect->record({.number = number,
@@ -210,22 +221,27 @@ class Calls : public ::testing::TestWithParam<TestDevice> {
                           .depthKind = GRISAILLE_HOST_DEPTH_VIEW});
         }
         counting = false;
+        // In the second frame, the history reads a texture of another format, for which llvmpipe
+        // compiles the shader again.
+        if (i > (isVulkan() ? 0 : 1)) allocations_ += count.soFar();
       });
       if (!isVulkan()) glFinish();  // the GPU is not behind
     }
     EXPECT_EQ(host->complaints(), 0);
     return calls;
   }
+
+  size_t allocations_ = 0;  // of C++ memory, in the last after()
 };
 GRISAILLE_IN_EVERY_HOST(Calls);
 
 TEST_P(Calls, RecordingNeitherCreatesNorWaits) {
   for (uint32_t framesInFlight = 1; framesInFlight <= 16; ++framesInFlight) {
     auto made = after(framesInFlight, GRISAILLE_HOST_STATE_KEPT);
-    const char* work = isVulkan() ? "vkCmdDispatch" : "glDispatchCompute";
-    EXPECT_GT(made[work], 0u) << "calls are not counted";
-    made.erase(work);
+    EXPECT_GT(made[work()], 0u) << "calls are not counted";
+    made.erase(work());
     EXPECT_TRUE(made.empty()) << framesInFlight << " frames in flight: " << summary(made);
+    EXPECT_EQ(SANITIZED ? 0 : allocations_, 0u) << framesInFlight << " frames in flight";
   }
 }
 
@@ -237,7 +253,7 @@ TEST_P(Calls, QueriesAreForStateThatTheLibraryRestores) {
   for (const char* query : {"glGetIntegerv", "glGetIntegeri_v", "glGetInteger64i_v"}) {
     made.erase(query);
   }
-  made.erase("glDispatchCompute");
+  made.erase(work());
   EXPECT_TRUE(made.empty()) << summary(made);
 }
 
