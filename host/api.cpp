@@ -90,7 +90,8 @@ int grisaille_host_device_vulkan(const grisaille_host_vulkan* vulkan, grisaille_
         .device = given.device,
         .queueFamily = given.queue_family,
         .framesInFlight = given.frames_in_flight,
-        .getInstanceProcAddr = given.get_instance_proc_addr};
+        .getInstanceProcAddr = given.get_instance_proc_addr,
+        .pipelineCache = given.pipeline_cache};
     return new grisaille_host_device(grisaille::vulkan::createHostDevice(handles),
                                      given.effect_folder);
   });
@@ -232,6 +233,15 @@ int grisaille_host_effect_resize(grisaille_host_effect* effect, uint32_t width, 
 
 int grisaille_host_effect_record(grisaille_host_effect* effect, const grisaille_host_frame* frame) {
   return guarded([&] { present(effect, "effect").record(whole(frame, "frame")); });
+}
+
+int grisaille_host_effect_prepare(grisaille_host_effect* effect,
+                                  const grisaille_host_prepare* how) {
+  return guarded([&] {
+    grisaille_host_prepare with = {};
+    if (how != nullptr) with = whole(how, "how");
+    present(effect, "effect").prepare(with);
+  });
 }
 
 int grisaille_host_effect_dropped(grisaille_host_effect* effect) {

@@ -91,19 +91,26 @@ void Attachments::resize(uint32_t width, uint32_t height) {
   height_ = height;
 }
 
-void Attachments::prepare(uint32_t reads, const Textures& textures) {
-  const bool normalsGiven{textures.normal};
-  kernels_.nearest();
-  kernels_.get(Kernels::kDepth);
-  if ((reads & GRISAILLE_READS(GRISAILLE_DEPTH)) != 0) kernels_.get(Kernels::kClipDepth);
+gpu::Format Attachments::formatOf(grisaille_attachment attachment) {
+  return kFormats[attachment];
+}
+
+void Attachments::prepare(Kernels& kernels, uint32_t reads, bool normalsGiven, bool thickness) {
+  kernels.nearest();
+  kernels.get(Kernels::kDepth);
+  if ((reads & GRISAILLE_READS(GRISAILLE_DEPTH)) != 0) kernels.get(Kernels::kClipDepth);
   const bool facets = (reads & GRISAILLE_READS(GRISAILLE_FACET_NORMAL)) != 0;
   const bool normals = (reads & GRISAILLE_READS(GRISAILLE_NORMAL)) != 0;
-  if (normals && normalsGiven) kernels_.get(Kernels::kNormal);
-  if (facets || (normals && !normalsGiven)) kernels_.get(Kernels::kFacetNormal);
+  if (normals && normalsGiven) kernels.get(Kernels::kNormal);
+  if (facets || (normals && !normalsGiven)) kernels.get(Kernels::kFacetNormal);
   if ((reads & GRISAILLE_READS(GRISAILLE_BASE_COLOUR)) != 0) {
-    kernels_.turn(kFormats[GRISAILLE_BASE_COLOUR]);
+    kernels.turn(kFormats[GRISAILLE_BASE_COLOUR]);
   }
-  if (textures.thickness) kernels_.turn(kFormats[GRISAILLE_THICKNESS]);
+  if (thickness) kernels.turn(kFormats[GRISAILLE_THICKNESS]);
+}
+
+void Attachments::prepare(uint32_t reads, const Textures& textures) {
+  prepare(kernels_, reads, bool{textures.normal}, bool{textures.thickness});
   reads |= GRISAILLE_READS(GRISAILLE_VIEW_DEPTH);  // all other attachments are computed with it
   reads &= ~GRISAILLE_READS(GRISAILLE_MOTION);     // hosts give none
   if (!textures.thickness) reads &= ~GRISAILLE_READS(GRISAILLE_THICKNESS);

@@ -48,6 +48,13 @@ class Attachments {
   // Sets the size and destroys the attachments of the old size.
   void resize(uint32_t width, uint32_t height);
 
+  // The format of an attachment.
+  static gpu::Format formatOf(grisaille_attachment attachment);
+
+  // Creates the pipelines that fill the attachments of `reads`. `normals`, `thickness`: whether the
+  // host gives these textures.
+  static void prepare(Kernels& kernels, uint32_t reads, bool normals, bool thickness);
+
   // Creates the missing attachments of `reads`, a combination of GRISAILLE_READS, and destroys the
   // others. Throws kOutOfDeviceMemory.
   void prepare(uint32_t reads, const Textures& textures);

@@ -29,6 +29,9 @@ template <>
 constexpr inline std::array<size_t, 2> kEarlierSizes<grisaille_host_frame> = {
     offsetof(grisaille_host_frame, thickness), offsetof(grisaille_host_frame, next_depth)};
 template <>
+constexpr inline std::array<size_t, 1> kEarlierSizes<grisaille_host_vulkan> = {
+    offsetof(grisaille_host_vulkan, pipeline_cache)};
+template <>
 constexpr inline std::array<size_t, 1> kEarlierSizes<grisaille_host_opengl> = {
     offsetof(grisaille_host_opengl, frames_in_flight)};
 

@@ -63,7 +63,7 @@ void Pictures::read(const char* path, grisaille_picture& out) {
 
 grisaille_host_device::grisaille_host_device(std::unique_ptr<grisaille::gpu::HostDevice> made,
                                              const char* effectFolder)
-    : gpu(std::move(made)), kernels(*gpu) {
+    : gpu(std::move(made)), kernels(*gpu), pipelines(*gpu) {
   const auto own = grisaille::host::ownEffects();
   std::error_code failed;
   if (std::filesystem::is_directory(own, failed)) registry.scan(own);

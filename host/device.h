@@ -10,6 +10,7 @@
 #include "core/gpu/host_device.h"
 #include "grisaille/host.h"
 #include "host/attachments.h"
+#include "host/pipelines.h"
 
 namespace grisaille::host {
 
@@ -50,7 +51,8 @@ struct grisaille_host_device {
   std::vector<const grisaille_effect_desc*> tables;  // of the registry's effects
   std::unique_ptr<grisaille::gpu::HostDevice> gpu;
   grisaille::host::Kernels kernels;
-  uint32_t textures = 0, effects = 0;  // numbers of live objects
+  grisaille::host::Pipelines pipelines;  // makes the resources of effects
+  uint32_t textures = 0, effects = 0;    // numbers of live objects
   grisaille::host::Rays rays;
   grisaille::host::Pictures pictures;
 };

@@ -56,7 +56,7 @@ grisaille_host_effect::grisaille_host_effect(grisaille_host_device& of,
       chain_(host::chainOf(of, desc)),
       attachments_(*of.gpu, of.kernels) {
   of.gpu->requireUsable();
-  chain_.start(*of.gpu);
+  chain_.start(of.pipelines);
   chain_.create();
   host::checkEnum(desc.rows, 2, "desc.rows");
   host::checkReserved(desc.reserved, "desc.reserved");
@@ -70,6 +70,7 @@ grisaille_host_effect::grisaille_host_effect(grisaille_host_device& of,
 }
 
 grisaille_host_effect::~grisaille_host_effect() {
+  release(prepared_);
   drop(pictures_);
   --device.effects;
 }
@@ -196,12 +197,58 @@ void grisaille_host_effect::record(const grisaille_host_frame& frame) {
   device.gpu->end(shown_);
 }
 
+void grisaille_host_effect::release(std::vector<gpu::ComputePipeline>& pipelines) {
+  for (const gpu::ComputePipeline pipeline : pipelines) device.pipelines.destroy(pipeline);
+  pipelines.clear();
+}
+
+void grisaille_host_effect::prepare(const grisaille_host_prepare& how) {
+  device.gpu->requireUsable();
+  host::checkEnum(how.orthographic, 2, "how.orthographic");
+  host::checkReserved(how.reserved, "how.reserved");
+  const auto given = [&](grisaille_attachment a) { return (how.inputs & GRISAILLE_READS(a)) != 0; };
+  // The library computes the others from depth; hosts give no motion.
+  constexpr uint32_t kOptional =
+      GRISAILLE_READS(GRISAILLE_NEXT_DEPTH) | GRISAILLE_READS(GRISAILLE_THICKNESS);
+  const uint32_t reads = values().effect().reads(values().all().data(), wanted_);
+  const grisaille::objects::ObjectList* list = chain_.objects(values().effect().key());
+  const std::vector<host::NeededPipeline> needed = host::pipelinesOf(
+      values(), list != nullptr ? list->view() : grisaille::objects::View{},
+      {.width = width,
+       .height = height,
+       .wanted = wanted_,
+       .attachments = (~kOptional | how.inputs) & ~GRISAILLE_READS(GRISAILLE_MOTION),
+       .orthographic = how.orthographic != 0});
+  // The library's own pipelines are the first step.
+  const auto count = static_cast<uint32_t>(needed.size() + 1);
+  const auto tell = [&](uint32_t done) {
+    if (how.progress != nullptr) how.progress(how.context, done, count);
+  };
+  host::Attachments::prepare(device.kernels, reads, given(GRISAILLE_NORMAL),
+                             given(GRISAILLE_THICKNESS));
+  tell(1);
+  std::vector<gpu::ComputePipeline> pipelines;
+  pipelines.reserve(needed.size());
+  try {
+    for (const host::NeededPipeline& one : needed) {
+      pipelines.push_back(device.pipelines.createComputePipeline(
+          {.label = one.label, .shader = one.shader, .constants = one.constants}));
+      tell(static_cast<uint32_t>(pipelines.size() + 1));
+    }
+  } catch (...) {
+    release(pipelines);
+    throw;
+  }
+  release(prepared_);
+  prepared_ = std::move(pipelines);
+}
+
 // The effect's instance begins again: uploads of the dropped recording are lost. Its textures, and
 // the attachments, are created anew, and the pictures keep their identity.
 void grisaille_host_effect::dropped() {
   device.gpu->requireUsable();
   chain_.end();
-  chain_.start(*device.gpu);
+  chain_.start(device.pipelines);
   chain_.create();
   attachments_.resize(width, height);
   for (const Picture& picture : pictures_) {

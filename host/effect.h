@@ -22,6 +22,8 @@ struct grisaille_host_effect {
   grisaille::effect::Values& values() { return chain_.selection.entries()[0].values; }
   const grisaille::effect::Values& values() const { return chain_.selection.entries()[0].values; }
   void record(const grisaille_host_frame& frame);
+  // Creates the pipelines that recordings with these inputs need.
+  void prepare(const grisaille_host_prepare& how);
   // Forgets all that recordings have written: for a recording that the host has dropped.
   void dropped();
   grisaille::gpu::NativeTexture output(std::string_view key, uint32_t& format) const;
@@ -42,10 +44,13 @@ struct grisaille_host_effect {
   void recordInto(grisaille::gpu::Commands& commands, const grisaille::host::View& view,
                   const grisaille::host::Textures& textures, uint32_t reads);
 
+  void release(std::vector<grisaille::gpu::ComputePipeline>& pipelines);
+
   const uint32_t rows_;
   grisaille::effect::Chain chain_;  // holds only this effect
   uint32_t wanted_ = 0;             // wanted outputs, by bit
   std::vector<Picture> pictures_;   // one per output
   std::vector<grisaille::gpu::Texture> made_, shown_;
   grisaille::host::Attachments attachments_;
+  std::vector<grisaille::gpu::ComputePipeline> prepared_;  // kept until the next prepare()
 };

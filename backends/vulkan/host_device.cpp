@@ -18,7 +18,8 @@ using gpu::Access;
 class VulkanHostDevice final : public Making<gpu::HostDevice> {
  public:
   explicit VulkanHostDevice(const HostHandles& handles)
-      : Making(handles, CacheFile::kNone), recorder_(context_, resources_, {}) {
+      : Making(handles, CacheFile::kNone, reinterpret_cast<VkPipelineCache>(handles.pipelineCache)),
+        recorder_(context_, resources_, {}) {
     for (uint32_t i = 0; i < handles.framesInFlight; ++i) {
       recordings_.push_back(std::make_unique<Recording>(context_, resources_, gpu::Clock::kNone));
     }

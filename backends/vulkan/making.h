@@ -33,8 +33,8 @@ class Making : public Interface {
  protected:
   // `origin`: the argument of Context's constructor, options or another program's handles.
   template <typename Origin>
-  Making(const Origin& origin, CacheFile file)
-      : context_(origin), cache_(context_, file), resources_(context_) {}
+  Making(const Origin& origin, CacheFile file, VkPipelineCache cache = VK_NULL_HANDLE)
+      : context_(origin), cache_(context_, file, cache), resources_(context_) {}
 
   // Counts for Resources::retire() and releaseUpTo(): the last work that may use the existing
   // objects, and the last work that has finished.

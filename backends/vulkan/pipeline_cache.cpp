@@ -81,8 +81,11 @@ bool write(const fs::path& path, const std::string& data) {
 
 }  // namespace
 
-PipelineCache::PipelineCache(Context& context, CacheFile file)
-    : context_(context), path_(file == CacheFile::kOwn ? fileOf(context.properties) : "") {
+PipelineCache::PipelineCache(Context& context, CacheFile file, VkPipelineCache foreign)
+    : context_(context),
+      path_(file == CacheFile::kOwn ? fileOf(context.properties) : ""),
+      foreign_(foreign) {
+  if (foreign_ != VK_NULL_HANDLE) return;
   const std::string data = path_.empty() ? "" : load(path_, context.properties);
   if (!data.empty()) loadedHash_ = hashOf(data);
   VkPipelineCacheCreateInfo info{VK_STRUCTURE_TYPE_PIPELINE_CACHE_CREATE_INFO};

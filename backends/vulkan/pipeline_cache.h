@@ -15,12 +15,13 @@ enum class CacheFile { kOwn, kNone };
 
 class PipelineCache {
  public:
-  PipelineCache(Context& context, CacheFile file);
+  // `foreign`: another program's cache, which is used instead; null: none.
+  PipelineCache(Context& context, CacheFile file, VkPipelineCache foreign = VK_NULL_HANDLE);
   ~PipelineCache();  // writes the file if its contents changed
   PipelineCache(const PipelineCache&) = delete;
   PipelineCache& operator=(const PipelineCache&) = delete;
 
-  VkPipelineCache handle() const { return cache_; }
+  VkPipelineCache handle() const { return foreign_ != VK_NULL_HANDLE ? foreign_ : cache_; }
 
  private:
   void save() const;
@@ -28,6 +29,7 @@ class PipelineCache {
   Context& context_;
   std::filesystem::path path_;  // empty: no file
   size_t loadedHash_ = 0;       // hash of the driver's data after loading
+  VkPipelineCache foreign_;
   VkPipelineCache cache_ = VK_NULL_HANDLE;
 };
 

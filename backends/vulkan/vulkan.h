@@ -25,6 +25,7 @@ struct HostHandles {
   uint32_t queueFamily = 0;
   uint32_t framesInFlight = 0;  // at least 1
   void (*getInstanceProcAddr)() = nullptr;
+  uint64_t pipelineCache = 0;  // a VkPipelineCache of the program; 0: none
 };
 
 // Throws kHostDevice, kBackendMissing, kDeviceTooOld, kDeviceFailed.

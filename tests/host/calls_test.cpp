@@ -245,6 +245,69 @@ TEST_P(Calls, RecordingNeitherCreatesNorWaits) {
   }
 }
 
+// After prepare(), no recording compiles anything. A second effect with the same values compiles
+// nothing either: both share their pipelines.
+TEST_P(Calls, PreparedEffectsCompileNothing) {
+  const std::unique_ptr<Host> host = makeHost(GetParam(), false);
+  const host::Device device = this->device(*host, 2, GRISAILLE_HOST_STATE_RESTORED);
+  if (!isVulkan()) installGl();
+  const glm::dmat4 view(1), perspective = projectionOf({.angle = 1}, 1.5, {}),
+                            parallel = projectionOf({.height = 2}, 1.5, {.far = 9});
+  const std::vector<float> metres(size_t{kWidth} * kHeight, 2.0f);
+  const host::Texture depth = host->texture(device, Texels::kFloat1, kWidth, kHeight, metres);
+  const host::Texture normal = host->texture(device, Texels::kFloat4, kWidth, kHeight,
+                                             std::vector<float>(4 * metres.size(), 0.5f));
+  const auto compiled = [&] {
+    size_t sum = 0;
+    for (const char* name : {"vkCreateShaderModule", "vkCreateComputePipelines", "glLinkProgram"}) {
+      sum += calls[name];
+    }
+    return sum;
+  };
+  using Set = std::pair<const char*, const char*>;
+  const std::vector<std::vector<Set>> settings = {
+      {}, {{"resolution", "half"}, {"history", "8"}}, {{"estimator", "classic"}}};
+  for (const bool orthographic : {false, true}) {
+    for (const std::vector<Set>& values : settings) {
+      const host::EffectSpec spec{
+          .effect = "ssao", .width = kWidth, .height = kHeight, .outputs = {"ao", "bent_normal"}};
+      host::Effect one(device, spec), other(device, spec);
+      for (const auto& [key, value] : values) one.set(key, value), other.set(key, value);
+      std::vector<std::pair<uint32_t, uint32_t>> steps;
+      calls.clear();
+      counting = true;
+      one.prepare(
+          orthographic, GRISAILLE_READS(GRISAILLE_NORMAL),
+          [](void* context, uint32_t done, uint32_t count) {
+            static_cast<decltype(steps)*>(context)->emplace_back(done, count);
+          },
+          &steps);
+      EXPECT_GT(compiled(), 1u);
+      ASSERT_GT(steps.size(), 1u);
+      for (uint32_t i = 0; i < steps.size(); ++i) {
+        EXPECT_EQ(steps[i], std::pair(i + 1, static_cast<uint32_t>(steps.size())));
+      }
+      calls.clear();
+      const host::Camera camera(&view[0][0], orthographic ? &parallel[0][0] : &perspective[0][0]);
+      for (int frame = 0; frame < 3; ++frame) {
+        host->frame([&](void* commands, uint64_t number) {
+          for (host::Effect* effect : {&one, &other}) {
+            effect->record({.number = number,
+                            .commandBuffer = commands,
+                            .camera = camera,
+                            .depth = depth,
+                            .depthKind = GRISAILLE_HOST_DEPTH_VIEW,
+                            .normal = &normal});
+          }
+        });
+      }
+      counting = false;
+      EXPECT_EQ(compiled(), 0u) << orthographic << " " << (values.empty() ? "" : values[0].first);
+      EXPECT_GT(calls[work()], 0u);
+    }
+  }
+}
+
 // Unless the host restores state itself, the library queries the state that it changes.
 TEST_P(Calls, QueriesAreForStateThatTheLibraryRestores) {
   if (isVulkan()) GTEST_SKIP() << "Vulkan has no such state";

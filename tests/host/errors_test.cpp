@@ -365,6 +365,11 @@ TEST_P(Errors, OfTexturesInFrames) {
 TEST_P(Errors, OfStructsFromOtherVersions) {
   host::Effect effect(device_, {.effect = "ssao", .width = kSide, .height = kSide});
   expectError(grisaille_host_effect_dropped(nullptr), 5601, "effect is null");
+  expectError(grisaille_host_effect_prepare(nullptr, nullptr), 5601, "effect is null");
+  EXPECT_EQ(grisaille_host_effect_prepare(effect.handle(), nullptr), 0);
+  auto how = sized<grisaille_host_prepare>();
+  how.orthographic = 2;
+  expectError(grisaille_host_effect_prepare(effect.handle(), &how), 5611, "orthographic is 2");
   host_->frame([&](void* commands, uint64_t number) {
     grisaille_host_frame frame = frameOf(commands, number);
     const auto record = [&](const void* bytes) {

@@ -105,6 +105,11 @@ typedef struct grisaille_host_vulkan {
   /** PFN_vkGetInstanceProcAddr of your loader; null: the library loads libvulkan.so.1 */
   void (*get_instance_proc_addr)(void);
   const char* effect_folder; /**< additional folder of effects, which the library trusts; or null */
+  /**
+   * VkPipelineCache with which the library creates pipelines: load and save its bytes as for your
+   * own pipelines. Not externally synchronized. 0: the library keeps a cache in memory.
+   */
+  uint64_t pipeline_cache;
 } grisaille_host_vulkan;
 
 /** Who restores the state of an OpenGL context. */
@@ -339,7 +344,8 @@ GRISAILLE_EXPORT int grisaille_host_effect_create(grisaille_host_device* device,
 GRISAILLE_EXPORT int grisaille_host_effect_destroy(grisaille_host_effect* effect);
 
 /**
- * Sets a parameter, from the next recording on. That recording may compile shaders.
+ * Sets a parameter, from the next recording on. That recording may compile shaders, unless you call
+ * grisaille_host_effect_prepare() before.
  * @param effect the effect
  * @param key key of the parameter
  * @param value a number in the unit of the effect's table, the index of an enum entry, or 0 or 1
@@ -541,6 +547,41 @@ typedef struct grisaille_host_frame {
  */
 GRISAILLE_EXPORT int grisaille_host_effect_record(grisaille_host_effect* effect,
                                                   const grisaille_host_frame* frame);
+
+/** Says what the recordings that follow will be like. */
+typedef struct grisaille_host_prepare {
+  uint32_t struct_size;  /**< sizeof(grisaille_host_prepare) */
+  uint32_t orthographic; /**< 1: for orthographic cameras; 0: for perspective ones */
+  /** GRISAILLE_READS() of the optional textures that the frames have, such as #GRISAILLE_NORMAL. */
+  uint32_t inputs;
+  uint32_t reserved; /**< 0 */
+  void* context;     /**< your pointer, which the library passes to `progress` */
+  /**
+   * Null, or your function, which the call calls after each step, in the same thread. It must not
+   * call the library.
+   * @param context grisaille_host_prepare::context
+   * @param done number of finished steps
+   * @param count number of all steps
+   */
+  void (*progress)(void* context, uint32_t done, uint32_t count);
+} grisaille_host_prepare;
+
+/**
+ * Compiles the shaders that recordings need with the effect's present parameters, size and objects:
+ * a recording as described compiles nothing. Effects of a device share pipelines. Any thread may
+ * call it, for example one that loads your program, while no other thread uses the device.
+ * Pipelines that depend on what rays find, for paint of shots with several ranges, compile when
+ * first needed.
+ * @param effect the effect
+ * @param how the recordings; null: perspective, with depth alone
+ * @retval 5611 A field is out of range.
+ * @retval 3202 The effect fails; the error line quotes its message.
+ * @retval 3203 The effect fails; the error line quotes its message.
+ * @retval 1008 The driver refuses a shader.
+ * @retval 5604 The device's context is not current.
+ */
+GRISAILLE_EXPORT int grisaille_host_effect_prepare(grisaille_host_effect* effect,
+                                                   const grisaille_host_prepare* how);
 
 /**
  * Forgets what recordings of an effect have written. Call it for each effect with a recording in a

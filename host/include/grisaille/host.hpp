@@ -80,6 +80,7 @@ struct VulkanSpec {
   /// PFN_vkGetInstanceProcAddr of your loader; null: the library loads libvulkan.so.1
   void (*getInstanceProcAddr)() = nullptr;
   const char* effectFolder = nullptr;  ///< additional folder of trusted effects; or null
+  uint64_t pipelineCache = 0;          ///< VkPipelineCache of yours; 0: none
 };
 
 /// Owns a device. Destroy it after its textures and effects.
@@ -97,7 +98,8 @@ class Device {
                                          .physical_device = spec.physicalDevice,
                                          .device = spec.device,
                                          .get_instance_proc_addr = spec.getInstanceProcAddr,
-                                         .effect_folder = spec.effectFolder};
+                                         .effect_folder = spec.effectFolder,
+                                         .pipeline_cache = spec.pipelineCache};
     Device made;
     grisaille_host_device* device = nullptr;
     require(grisaille_host_device_vulkan(&given, &device));
@@ -107,9 +109,9 @@ class Device {
 
   /// Creates a device on the OpenGL context that is current in this thread.
   /// @param effectFolder additional folder of effects, which the library trusts; or null
-  /// @return the device
   /// @param state who restores the context's state
   /// @param framesInFlight see grisaille_host_opengl::frames_in_flight
+  /// @return the device
   static Device opengl(const char* effectFolder = nullptr,
                        grisaille_host_state state = GRISAILLE_HOST_STATE_RESTORED,
                        uint32_t framesInFlight = 0) {
@@ -342,6 +344,22 @@ class Effect {
         .thickness = handleOf(frame.thickness),
         .next_depth = handleOf(frame.nextDepth)};
     require(grisaille_host_effect_record(effect_.get(), &given));
+  }
+
+  /// Compiles the shaders that recordings need: see grisaille_host_effect_prepare().
+  /// @param orthographic whether cameras are orthographic
+  /// @param inputs GRISAILLE_READS() of the optional textures that the frames have
+  /// @param progress see grisaille_host_prepare::progress; null: none
+  /// @param context passed to `progress`
+  void prepare(bool orthographic = false, uint32_t inputs = 0,
+               void (*progress)(void*, uint32_t, uint32_t) = nullptr, void* context = nullptr) {
+    const grisaille_host_prepare how = {.struct_size = sizeof(grisaille_host_prepare),
+                                        .orthographic = orthographic ? 1u : 0u,
+                                        .inputs = inputs,
+                                        .reserved = 0,
+                                        .context = context,
+                                        .progress = progress};
+    require(grisaille_host_effect_prepare(effect_.get(), &how));
   }
 
   /// Forgets what recordings have written, for one that you drop instead of submitting: see
