@@ -30,7 +30,7 @@ vec3 footprint(vec2 pixel, vec3 p, vec3 normal) {
 
 void main() {
   const ivec2 pixel = ivec2(gl_GlobalInvocationID.xy);
-  const uint thread = gl_LocalInvocationIndex;
+  const uint thread = gl_LocalInvocationIndex, count = min(boxes.length(), kMost);
   const vec2 at = vec2(pixel) + 0.5;
   const float depth = textureLod(view_depth, at * view.size.zw, 0.0).x;
   const vec3 normal = textureLod(facet_normal, at * view.size.zw, 0.0).xyz;
@@ -50,7 +50,6 @@ void main() {
   const float radius = distance(centre, end) + distance(end, viewPosition(corner, back));
   const vec4 sphere = vec4(centre * mat3(view.view_from_world), 1.0);
 
-  const uint count = min(boxes.length(), kMost);
   for (uint i = thread; kAny && i < count; i += kSide * kSide) {
     const mat3x4 axes = boxes[i].axes;
     const vec3 reach = vec3(length(axes[0].xyz), length(axes[1].xyz), length(axes[2].xyz));

@@ -140,7 +140,6 @@ PFN_vkGetDeviceProcAddr realDeviceProc = nullptr;
   X(vkCreateDescriptorSetLayout) \
   X(vkCreatePipelineLayout)      \
   X(vkCreateShaderModule)        \
-  X(vkCreateComputePipelines)    \
   X(vkCreateCommandPool)         \
   X(vkCreateFence)               \
   X(vkCreateSemaphore)           \
@@ -152,6 +151,20 @@ PFN_vkGetDeviceProcAddr realDeviceProc = nullptr;
   X(vkQueueSubmit)               \
   X(vkQueueSubmit2)              \
   X(vkCmdDispatch)
+
+// The pipeline cache of the last call.
+VkPipelineCache usedCache = VK_NULL_HANDLE;
+PFN_vkCreateComputePipelines realCreatePipelines = nullptr;
+
+VKAPI_ATTR VkResult VKAPI_CALL createPipelines(VkDevice device, VkPipelineCache cache,
+                                               uint32_t count,
+                                               const VkComputePipelineCreateInfo* infos,
+                                               const VkAllocationCallbacks* allocator,
+                                               VkPipeline* pipelines) {
+  note("vkCreateComputePipelines");
+  usedCache = cache;
+  return realCreatePipelines(device, cache, count, infos, allocator, pipelines);
+}
 
 VKAPI_ATTR PFN_vkVoidFunction VKAPI_CALL deviceProc(VkDevice device, const char* name) {
   const PFN_vkVoidFunction real = realDeviceProc(device, name);
@@ -165,6 +178,10 @@ VKAPI_ATTR PFN_vkVoidFunction VKAPI_CALL deviceProc(VkDevice device, const char*
   }
   HOOKS(TRY)
 #undef TRY
+  if (std::string_view(name) == "vkCreateComputePipelines") {
+    realCreatePipelines = reinterpret_cast<PFN_vkCreateComputePipelines>(real);
+    return reinterpret_cast<PFN_vkVoidFunction>(&createPipelines);
+  }
   return real;
 }
 
@@ -306,6 +323,26 @@ TEST_P(Calls, PreparedEffectsCompileNothing) {
       EXPECT_GT(calls[work()], 0u);
     }
   }
+}
+
+TEST_P(Calls, TheHostsPipelineCacheIsUsed) {
+  if (!isVulkan()) GTEST_SKIP() << "OpenGL has no such cache";
+  const std::unique_ptr<Host> host = makeHost(GetParam(), false);
+  host::VulkanSpec spec = vulkanSpec(*host);
+  const auto device = static_cast<VkDevice>(spec.device);
+  VkPipelineCacheCreateInfo info{};
+  info.sType = VK_STRUCTURE_TYPE_PIPELINE_CACHE_CREATE_INFO;
+  VkPipelineCache cache = VK_NULL_HANDLE;
+  ASSERT_EQ(vkCreatePipelineCache(device, &info, nullptr, &cache), VK_SUCCESS);
+  spec.getInstanceProcAddr = reinterpret_cast<void (*)()>(&instanceProc);
+  spec.pipelineCache = host::number(cache);
+  {
+    const host::Device made = host::Device::vulkan(spec);
+    host::Effect effect(made, {.effect = "ssao", .width = kWidth, .height = kHeight});
+    effect.prepare();
+  }
+  EXPECT_EQ(usedCache, cache);
+  vkDestroyPipelineCache(device, cache, nullptr);
 }
 
 // Unless the host restores state itself, the library queries the state that it changes.
