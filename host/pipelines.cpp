@@ -51,6 +51,22 @@ class Lister final : public gpu::Maker {
   gpu::NullDevice& device_;
 };
 
+// Every ray meets a surface: work that waits for rays goes on, and needs its pipelines.
+class SurfaceEverywhere final : public effect::RayService {
+ public:
+  void cast(std::span<const grisaille_ray> rays, std::span<grisaille_hit> hits) override {
+    for (size_t i = 0; i < rays.size(); ++i) {
+      const float* way = rays[i].direction;
+      hits[i] = {.kind = GRISAILLE_HIT_SURFACE,
+                 .distance = std::min(1.0f, 0.5f * rays[i].reach),
+                 .normal = {-way[0], -way[1], -way[2]}};
+    }
+  }
+};
+
+// Time for work that can wait, such as the casting of rays.
+constexpr double kPatience = 0.1;  // seconds
+
 }  // namespace
 
 gpu::ComputePipeline Pipelines::createComputePipeline(const gpu::ComputePipelineDesc& desc) {
@@ -102,6 +118,9 @@ std::vector<NeededPipeline> pipelinesOf(const effect::Values& values, const obje
   inputs.view = &view;
   inputs.values = values.all();
   inputs.objects = objects;
+  SurfaceEverywhere rays;
+  inputs.services.rays = &rays;
+  inputs.patience = kPatience;
   const uint32_t reads = values.effect().reads(values.all().data(), need.wanted);
   for (size_t i = 0; i < inputs.attachments.size(); ++i) {
     if ((reads & need.attachments & GRISAILLE_READS(i)) == 0) continue;

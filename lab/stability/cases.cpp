@@ -89,7 +89,8 @@ void addCameras(Cases& cases) {
                 one.quick = fov == 0.01 || fov == 1 || fov == 170;
               });
   }
-  for (const double height : {0.3, 2.5, 20.0}) {
+  // Pixels 20 m / 54 high have a neighbour exactly at the denoiser's limit: rounding decides there.
+  for (const double height : {0.3, 2.5, 18.0}) {
     cases.add("orthographic", number(height) + " m high",
               {"slices", "slices, refined", "classic", "paint"}, [&](Case& one) {
                 one.camera.orthographicHeight = height;

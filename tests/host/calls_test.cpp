@@ -10,6 +10,7 @@
 #include <string>
 #include <string_view>
 
+#include "effects/sspm/shot.h"
 #include "examples/vulkan/context.h"
 #include "tests/host/allocations.h"
 #include "tests/host/hosts.h"
@@ -323,6 +324,47 @@ TEST_P(Calls, PreparedEffectsCompileNothing) {
       EXPECT_GT(calls[work()], 0u);
     }
   }
+}
+
+// Paint depends on what rays find: here, on a wall that every ray meets.
+TEST_P(Calls, PreparedPaintCompilesNothing) {
+  const std::unique_ptr<Host> host = makeHost(GetParam(), false);
+  host::Device device = this->device(*host, 2, GRISAILLE_HOST_STATE_RESTORED);
+  if (!isVulkan()) installGl();
+  device.setRays(
+      [](void*, const grisaille_ray* rays, uint64_t count, grisaille_hit* hits) {
+        for (uint64_t i = 0; i < count; ++i) {
+          const double along = (-2 - rays[i].origin[2]) / double{rays[i].direction[2]};
+          if (!(along > 0 && along < double{rays[i].reach})) continue;
+          hits[i] = {.kind = GRISAILLE_HIT_SURFACE,
+                     .distance = static_cast<float>(along),
+                     .normal = {0, 0, 1}};
+        }
+      },
+      nullptr);
+  const glm::dmat4 view(1), projection = projectionOf({.angle = 1}, 1.5, {});
+  const std::vector<float> metres(size_t{kWidth} * kHeight, 2.0f);
+  const host::Texture depth = host->texture(device, Texels::kFloat1, kWidth, kHeight, metres);
+  host::Effect effect(device, {.effect = "sspm", .width = kWidth, .height = kHeight});
+  effect.setObjects<sspm::Shot>(std::vector<sspm::Shot>{{{0, 0, 0}, {0, 0, -1}, {1, 0, 0}, 0.3f}});
+  effect.prepare();
+  calls.clear();
+  for (int frame = 0; frame < 4; ++frame) {
+    host->frame([&](void* commands, uint64_t number) {
+      counting = true;
+      effect.record({.number = number,
+                     .commandBuffer = commands,
+                     .camera = host::Camera(&view[0][0], &projection[0][0]),
+                     .depth = depth,
+                     .depthKind = GRISAILLE_HOST_DEPTH_VIEW});
+      counting = false;
+    });
+  }
+  for (const char* name : {"vkCreateShaderModule", "vkCreateComputePipelines", "glLinkProgram"}) {
+    EXPECT_EQ(calls[name], 0u) << name;
+  }
+  const std::vector<float> paint = host->read(effect.output("paint"));
+  EXPECT_GT(paint[4 * (kHeight / 2 * kWidth + kWidth / 2) + 3], 0.5f) << "no paint";
 }
 
 TEST_P(Calls, TheHostsPipelineCacheIsUsed) {

@@ -570,8 +570,6 @@ typedef struct grisaille_host_prepare {
  * Compiles the shaders that recordings need with the effect's present parameters, size and objects:
  * a recording as described compiles nothing. Effects of a device share pipelines. Any thread may
  * call it, for example one that loads your program, while no other thread uses the device.
- * Pipelines that depend on what rays find, for paint of shots with several ranges, compile when
- * first needed.
  * @param effect the effect
  * @param how the recordings; null: perspective, with depth alone
  * @retval 5611 A field is out of range.
