@@ -41,8 +41,8 @@ void giveWay() {
 }  // namespace
 
 bool LiveView::operator==(const LiveView& o) const {
-  return scene == o.scene && pose == o.pose && camera == o.camera &&
-         size == o.size && radius == o.radius && samples == o.samples;
+  return scene == o.scene && pose == o.pose && camera == o.camera && size == o.size &&
+         radius == o.radius && samples == o.samples;
 }
 
 struct LiveTruth::Job {

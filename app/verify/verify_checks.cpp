@@ -54,7 +54,7 @@ double randomValue(const grisaille_param_desc& param, std::mt19937& random) {
 // Cameras of every kind that a host may have, from the atrium's.
 struct CameraKind {
   const char* name;
-  double orthographicHeight = 0;   // metres
+  double orthographicHeight = 0;  // metres
   glm::dvec2 shift = glm::dvec2(0);
 };
 constexpr CameraKind kCameras[] = {

@@ -51,8 +51,9 @@ class AttachmentSource {
   // Whether motion since the previous frame is known, which was drawn in pose number `poses`.
   virtual bool knowsMotion(uint64_t poses) const { return poses == this->poses(); }
 
-  // Fills every pixel of each target; all have the view's size. Call it outside a pass; the labels of its
-  // passes begin with `passes`. Throws kPictureMissing for an attachment that this source lacks.
+  // Fills every pixel of each target; all have the view's size. Call it outside a pass; the labels
+  // of its passes begin with `passes`. Throws kPictureMissing for an attachment that this source
+  // lacks.
   virtual void record(gpu::Commands& commands, const scene::View& view, gpu::BufferRange viewBlock,
                       const AttachmentTargets& targets, std::string_view passes) = 0;
 };

@@ -8,8 +8,8 @@
 
 #include "core/gpu/types.h"
 #include "core/image/image.h"
-#include "core/scene/view.h"
 #include "core/scene/scene.h"
+#include "core/scene/view.h"
 
 namespace grisaille::frame {
 

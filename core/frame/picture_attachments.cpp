@@ -96,7 +96,8 @@ void PictureAttachments::show(Pictures pictures) {
 }
 
 void PictureAttachments::record(gpu::Commands& commands, const scene::View& view,
-                                gpu::BufferRange viewBlock, const AttachmentTargets& targets, std::string_view) {
+                                gpu::BufferRange viewBlock, const AttachmentTargets& targets,
+                                std::string_view) {
   const image::Image& depth = pictures_.viewDepth;
   const uint32_t width = view.size.x, height = view.size.y;
   if (depth.width != width || depth.height != height) {

@@ -14,7 +14,8 @@ SceneAttachments::~SceneAttachments() {
 }
 
 void SceneAttachments::record(gpu::Commands& commands, const scene::View& view,
-                              gpu::BufferRange viewBlock, const AttachmentTargets& targets, std::string_view passes) {
+                              gpu::BufferRange viewBlock, const AttachmentTargets& targets,
+                              std::string_view passes) {
   commands.beginPass(std::string(passes) + "geometry");
   scene_.draw(commands, view,
               {.depth = targets.depth,

@@ -183,13 +183,12 @@ void SceneMotion::recordMoved(gpu::Commands& commands, const scene::View& view, 
     const glm::dmat4 clipFromObject = clipFromCamera * fromObject;
     if (!mayBeSeen(bounds[instance.primitive], clipFromObject)) continue;
     const scene::Material& material = scene_.materials[primitive.material];
-    const MotionBlock block = {.clip_from_object = glm::mat4(clipFromObject),
-                               .then_clip_from_object =
-                                   glm::mat4(thenClipFromCamera * thenFromObject),
-                               .depth_from_object = glm::vec4(depthRow(view, fromObject)),
-                               .then_depth_from_object =
-                                   glm::vec4(depthRow(*to.then, thenFromObject)),
-                               .pixels_from_clip = glm::vec2(view.size) * glm::vec2(0.5f, -0.5f)};
+    const MotionBlock block = {
+        .clip_from_object = glm::mat4(clipFromObject),
+        .then_clip_from_object = glm::mat4(thenClipFromCamera * thenFromObject),
+        .depth_from_object = glm::vec4(depthRow(view, fromObject)),
+        .then_depth_from_object = glm::vec4(depthRow(*to.then, thenFromObject)),
+        .pixels_from_clip = glm::vec2(view.size) * glm::vec2(0.5f, -0.5f)};
     auto& stream = streams.emplace_back();
     stream[0].buffer = positions;
     stream[1].buffer = bends ? thenPositions_ : positions;

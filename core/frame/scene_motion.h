@@ -11,8 +11,8 @@
 #include "core/frame/attachments.h"
 #include "core/frame/scene_resources.h"
 #include "core/gpu/device.h"
-#include "core/scene/view.h"
 #include "core/scene/scene.h"
+#include "core/scene/view.h"
 
 namespace grisaille::frame {
 
@@ -45,8 +45,8 @@ class SceneMotion {
               gpu::Texture depth, const MotionTarget& to, std::string_view passes);
 
  private:
-  void recordCamera(gpu::Commands& commands, const scene::View& view,
-                    gpu::BufferRange viewBlock, gpu::Texture depth, const MotionTarget& to);
+  void recordCamera(gpu::Commands& commands, const scene::View& view, gpu::BufferRange viewBlock,
+                    gpu::Texture depth, const MotionTarget& to);
   void recordMoved(gpu::Commands& commands, const scene::View& view, gpu::Texture depth,
                    const MotionTarget& to);
   std::vector<bool> uploadDeformed(gpu::Commands& commands);

@@ -307,8 +307,7 @@ void SceneResources::draw(gpu::Commands& commands, const scene::View& view,
   for (const scene::Instance& instance : scene_.instances) {
     const scene::Primitive& primitive = scene_.primitives[instance.primitive];
     const scene::Material& material = scene_.materials[primitive.material];
-    const glm::dmat4 cameraFromObject =
-        frame::cameraFromObject(instance.worldFromObject, view.eye);
+    const glm::dmat4 cameraFromObject = frame::cameraFromObject(instance.worldFromObject, view.eye);
     const glm::dmat4 clipFromObject = clipFromCamera * cameraFromObject;
     if (!mayBeSeen(bounds[instance.primitive], clipFromObject)) continue;
 

@@ -10,8 +10,8 @@
 
 #include "core/gpu/device.h"
 #include "core/scene/bodies.h"
-#include "core/scene/view.h"
 #include "core/scene/scene.h"
+#include "core/scene/view.h"
 
 namespace grisaille::frame {
 

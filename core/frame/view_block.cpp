@@ -26,8 +26,7 @@ ViewBlock viewBlock(const scene::View& view, uint32_t guard) {
   block.camera_fraction = glm::vec4(glm::dvec4(view.eye - cell, 0));
   const glm::dvec2 band(guard);
   block.attachment = glm::vec4(glm::dvec4(band, 1.0 / (size + 2.0 * band)));
-  block.planes =
-      glm::vec4(glm::dvec4(view.nearPlane, view.farPlane, view.orthographic ? 1 : 0, 0));
+  block.planes = glm::vec4(glm::dvec4(view.nearPlane, view.farPlane, view.orthographic ? 1 : 0, 0));
   return block;
 }
 

@@ -62,8 +62,8 @@ json parse(std::string_view text, const std::string& name) {
 }
 
 [[noreturn]] void refuseKey(const std::string& key) {
-  const std::string keys[] = {
-      "eye", "target", "up", "fovy_degrees", "orthographic_height", "shift", "size", "near", "far"};
+  const std::string keys[] = {"eye",   "target", "up",   "fovy_degrees", "orthographic_height",
+                              "shift", "size",   "near", "far"};
   const std::string near = nearest(key, keys);
   refuse(fmt::format("\"{}\"", key),
          fmt::format("is not a key of a camera{}{}", near.empty() ? "" : ", nearest is ", near));

@@ -14,8 +14,8 @@ struct Camera {
   glm::dvec3 eye = glm::dvec3(0, 0, 1);
   glm::dvec3 target = glm::dvec3(0);
   glm::dvec3 up = glm::dvec3(0, 1, 0);
-  double fovyDegrees = 60;          // perspective: vertical field of view, 0.01 ... 170
-  double orthographicHeight = 0;    // metres that the height spans, up to 1e9; 0: perspective
+  double fovyDegrees = 60;        // perspective: vertical field of view, 0.01 ... 170
+  double orthographicHeight = 0;  // metres that the height spans, up to 1e9; 0: perspective
   // How far the picture's centre lies to the right of the view axis and above it, as shares of the
   // picture's width and height, -10 ... 10: for tiles, for each eye of a headset, or for jitter.
   glm::dvec2 shift = glm::dvec2(0);

@@ -12,9 +12,9 @@ namespace grisaille::scene {
 // View space has x to the right, y up, and the camera looks along -z. View depth is -z. The pixel
 // (0, 0) is the picture's top left corner, and (0.5, 0.5) the centre of the first pixel.
 struct View {
-  glm::dvec3 eye = glm::dvec3(0);                // world, metres
-  glm::dmat3 worldFromView = glm::dmat3(1);      // columns: right, up, backward
-  glm::uvec2 size = glm::uvec2(1);               // pixels
+  glm::dvec3 eye = glm::dvec3(0);            // world, metres
+  glm::dmat3 worldFromView = glm::dmat3(1);  // columns: right, up, backward
+  glm::uvec2 size = glm::uvec2(1);           // pixels
   // view.xy = (pixel * scale + offset) * (orthographic ? 1 : view depth)
   glm::dvec2 scale = glm::dvec2(1, -1), offset = glm::dvec2(0);
   double nearPlane = 0.01;  // metres

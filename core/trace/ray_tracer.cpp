@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: MIT
-#include "core/scene/view.h"
 #include "core/trace/ray_tracer.h"
+#include "core/scene/view.h"
 
 #include <algorithm>
 #include <array>

@@ -102,7 +102,8 @@ Mask openBehind(const trace::FlickerFrame& frame, double radius) {
       for (int u = std::max(x - margin, 0); u <= std::min(x + margin, width - 1); ++u) {
         const size_t i = static_cast<size_t>(v) * frame.truth.width + static_cast<size_t>(u);
         const double depth = frame.hits[i].viewDepth;
-        const bool reaches = std::max(std::abs(u - x), std::abs(v - y)) <= radius * projection.scaleAt(depth);
+        const bool reaches =
+            std::max(std::abs(u - x), std::abs(v - y)) <= radius * projection.scaleAt(depth);
         if (depth > behind && reaches && frame.truth.pixels[i] >= kOpen) mask[i] = 1;
       }
     }

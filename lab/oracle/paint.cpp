@@ -44,8 +44,7 @@ double valueNoise(const glm::dvec3& place, uint32_t seed) {
 
 }  // namespace
 
-double splatNoise(const glm::dvec3& world, double pixelSize,
-                  const PaintSettings& settings) {
+double splatNoise(const glm::dvec3& world, double pixelSize, const PaintSettings& settings) {
   double sum = 0, weights = 0;
   for (uint32_t octave = 0; octave < 3; ++octave) {
     const double cell = settings.splatScale / std::exp2(octave);

@@ -36,7 +36,8 @@ struct Sight {
   std::function<bool(const Shot& shot)> sees = {};
 };
 
-// `pixelSize`: height of a pixel at the view depth, metres. Without `sight`, the mode is `per_shot`.
+// `pixelSize`: height of a pixel at the view depth, metres. Without `sight`, the mode is
+// `per_shot`.
 PaintPixel paintOf(const glm::dvec3& world, double viewDepth, double pixelSize,
                    std::span<const Shot> shots, const PaintSettings& settings,
                    const std::optional<Sight>& sight = std::nullopt);

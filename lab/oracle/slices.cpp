@@ -270,9 +270,8 @@ Texel Slices::sliceOf(const glm::dvec3& position, const glm::dvec3& normal,
   }
   const double stretch = glm::dot(way, way);
   way /= std::sqrt(std::max(stretch, 1e-20));
-  const double cut = view_.orthographic()
-                         ? 1
-                         : std::max(1 - square / glm::dot(position, position), 0.0625);
+  const double cut =
+      view_.orthographic() ? 1 : std::max(1 - square / glm::dot(position, position), 0.0625);
   const double reach = settings_.radius / (shrink * shrink) * std::sqrt(stretch / cut);
   Walk ahead{.side = 1, .share = 1}, behind{.side = -1, .share = 0};
   Walk nextAhead = ahead, nextBehind = behind;
@@ -407,7 +406,8 @@ Texel Slices::denoised(const std::function<Texel(const glm::ivec2&)>& from, cons
     const glm::ivec2 inside = glm::clamp(other, glm::ivec2(0), texels_ - 1);
     const double depth = view_.depth(inside * settings_.scale);
     if (depth <= 0) continue;
-    const double off = std::abs((depth - own) * facing + view_.shrink(depth) * i * slope) / toleranceAt(surface);
+    const double off =
+        std::abs((depth - own) * facing + view_.shrink(depth) * i * slope) / toleranceAt(surface);
     const double weight = (width - std::abs(i)) * std::max(1 - off, 0.0);
     sum += weight * from(inside);
     weights += weight;

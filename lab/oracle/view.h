@@ -63,9 +63,7 @@ class View {
   glm::dvec3 position(const glm::ivec2& pixel) const { return position(pixel, depth(pixel)); }
 
   // Point of the picture, in pixels, of a view-space position in front of the camera.
-  glm::dvec2 pixelOf(const glm::dvec3& position) const {
-    return scene::pixelOf(camera_, position);
-  }
+  glm::dvec2 pixelOf(const glm::dvec3& position) const { return scene::pixelOf(camera_, position); }
   // Unit direction from a view-space position to the camera.
   glm::dvec3 toward(const glm::dvec3& position) const {
     return orthographic() ? glm::dvec3(0, 0, 1) : -glm::normalize(position);

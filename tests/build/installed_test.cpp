@@ -3,6 +3,7 @@
 // with the sources and the build folder hidden.
 #include <gtest/gtest.h>
 
+#include <algorithm>
 #include <memory>
 #include <regex>
 
@@ -107,6 +108,31 @@ TEST_F(Installed, TutorialRunsAndItsPicturesAreThose) {
         << name;
   }
   EXPECT_EQ(pictures, 4u);
+}
+
+// The tutorial's effect draws the same lines for an orthographic camera as for a perspective one
+// 1,000 m behind it, which sees the same.
+TEST_F(Installed, TutorialHoldsForOrthographicCameras) {
+  const fs::path outline = workOf("tutorial") / "outline";
+  if (!fs::exists(outline)) GTEST_SKIP() << "the tutorial did not run";
+  const std::string script =
+      "cd outline\nexport GRISAILLE_EFFECT_PATH=\"$PWD/build/lib/grisaille/effects\"\n"
+      "grisaille render --effects outline --size 320x180 --write visibility=parallel.exr --camera '"
+      R"({"eye": [-6.5, 1.75, 1.9], "target": [2.6, 2.35, -1.2], "orthographic_height": 6, "far": 60})"
+      "'\n"
+      "grisaille render --effects outline --size 320x180 --write visibility=afar.exr --camera '"
+      R"({"eye": [-951.24414, -60.54082, 323.73592], "target": [2.6, 2.35, -1.2], "fovy_degrees": 0.3437736, "near": 1000.01})"
+      "'\n";
+  const Outcome outcome = session("tutorial", script);
+  ASSERT_EQ(outcome.status, 0) << outcome.out << outcome.err;
+  const image::Image parallel = image::read(outline / "parallel.exr"),
+                     afar = image::read(outline / "afar.exr");
+  const auto lines = [](const image::Image& picture) {
+    return std::ranges::count_if(picture.pixels, [](float v) { return v < 0.5f; });
+  };
+  EXPECT_GT(lines(afar), 500);
+  EXPECT_NEAR(static_cast<double>(lines(parallel)) / static_cast<double>(lines(afar)), 1, 0.05)
+      << lines(parallel) << " and " << lines(afar);
 }
 
 // A project in C, with another compiler than the program's, and all commands of its README.

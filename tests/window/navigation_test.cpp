@@ -36,9 +36,10 @@ class NavigationTest : public WindowTest {
   // The surface point that a camera sees at a pixel of the window.
   std::optional<glm::dvec3> seen(const DrivenViewer& viewer, const Camera& camera, Point at) {
     const glm::ivec4 rect = rectOf(viewer);
-    const glm::dvec3 towards = glm::normalize(
-        scene::rayAt(scene::viewOf(camera, {rect[2], rect[3]}),
-                     {at.x - rect[0] + 0.5, at.y - rect[1] + 0.5}).direction);
+    const glm::dvec3 towards =
+        glm::normalize(scene::rayAt(scene::viewOf(camera, {rect[2], rect[3]}),
+                                    {at.x - rect[0] + 0.5, at.y - rect[1] + 0.5})
+                           .direction);
     const glm::vec3 unit(towards);
     const grisaille_ray ray = {.origin = {camera.eye.x, camera.eye.y, camera.eye.z},
                                .direction = {unit.x, unit.y, unit.z},

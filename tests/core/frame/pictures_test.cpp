@@ -67,7 +67,8 @@ TEST(PictureDepth, DistancesAreFromTheEye) {
   for (uint32_t y = 0; y < 7; ++y) {
     for (uint32_t x = 0; x < 13; ++x) {
       distance.pixels.push_back(static_cast<float>(
-          3 * glm::length(scene::rayAt(scene::viewOf(camera, {13, 7}), {x + 0.5, y + 0.5}).direction)));
+          3 *
+          glm::length(scene::rayAt(scene::viewOf(camera, {13, 7}), {x + 0.5, y + 0.5}).direction)));
     }
   }
   const image::Image depth = viewDepthOf(distance, {.kind = DepthKind::kDistance}, camera, "test");
@@ -100,7 +101,8 @@ image::Image depthOf(const std::vector<Plane>& planes, const scene::Camera& came
   for (uint32_t y = 0; y < height; ++y) {
     for (uint32_t x = 0; x < width; ++x) {
       const glm::dvec3 ray =
-          viewFromWorld * scene::rayAt(scene::viewOf(camera, {width, height}), {x + 0.5, y + 0.5}).direction;
+          viewFromWorld *
+          scene::rayAt(scene::viewOf(camera, {width, height}), {x + 0.5, y + 0.5}).direction;
       double nearest = 1e9;
       size_t which = planes.size();
       for (size_t i = 0; i < planes.size(); ++i) {

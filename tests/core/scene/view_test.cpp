@@ -64,7 +64,8 @@ TEST(View, AGuardBandKeepsThePicture) {
     const View view = viewOf(camera, kSize), wide = widened(view, 8);
     EXPECT_EQ(wide.size, kSize + 16u);
     const glm::dvec2 pixel(11.5, 3.25);
-    EXPECT_LT(glm::length(viewPosition(view, pixel, 3) - viewPosition(wide, pixel + 8.0, 3)), 1e-12);
+    EXPECT_LT(glm::length(viewPosition(view, pixel, 3) - viewPosition(wide, pixel + 8.0, 3)),
+              1e-12);
   }
 }
 
@@ -74,7 +75,8 @@ TEST(View, TilesMakeUpThePicture) {
     camera.shift = glm::dvec2(0);
     const View whole = viewOf(camera, kSize);
     Camera tile = camera;
-    tile.fovyDegrees = glm::degrees(2 * std::atan(std::tan(glm::radians(camera.fovyDegrees) / 2) / 2));
+    tile.fovyDegrees =
+        glm::degrees(2 * std::atan(std::tan(glm::radians(camera.fovyDegrees) / 2) / 2));
     tile.orthographicHeight /= 2;
     for (const glm::dvec2 place : {glm::dvec2(0, 0), {1, 0}, {0, 1}, {1, 1}}) {
       tile.shift = {place.x - 0.5, 0.5 - place.y};

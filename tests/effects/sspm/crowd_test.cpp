@@ -6,11 +6,11 @@
 #include <cmath>
 #include <limits>
 
+#include "core/scene/view.h"
 #include "lab/oracle/paint.h"
 #include "tests/effects/sspm/paint_frame.h"
 #include "tests/support/devices.h"
 #include "tests/support/scenes.h"
-#include "core/scene/view.h"
 
 namespace grisaille::tests {
 namespace {
@@ -98,8 +98,8 @@ TEST_P(CrowdTest, TheNewestWinsOfAMillion) {
     size_t painted = 0, wrong = 0;
     for (uint32_t y = 0; y < kHeight; ++y) {
       for (uint32_t x = 0; x < kWidth; ++x) {
-        const glm::dvec3 p = scene::worldPosition(scene::viewOf(kWall, {kWidth, kHeight}), {x + 0.5, y + 0.5},
-                                 double{depth.at(x, y)});
+        const glm::dvec3 p = scene::worldPosition(scene::viewOf(kWall, {kWidth, kHeight}),
+                                                  {x + 0.5, y + 0.5}, double{depth.at(x, y)});
         size_t number = 0;
         for (const size_t i : newest) {
           const glm::dvec3 q =

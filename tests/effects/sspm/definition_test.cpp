@@ -4,11 +4,11 @@
 
 #include <algorithm>
 
+#include "core/scene/view.h"
 #include "lab/oracle/paint.h"
 #include "tests/effects/sspm/paint_frame.h"
 #include "tests/support/devices.h"
 #include "tests/support/scenes.h"
-#include "core/scene/view.h"
 
 namespace grisaille::tests {
 namespace {

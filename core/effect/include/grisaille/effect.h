@@ -134,7 +134,8 @@ typedef struct grisaille_param_desc {
 
 /** The G-buffer attachments. The host draws an attachment only when an active effect reads it. */
 typedef enum grisaille_attachment {
-  /** d32f: clip depth; 1 at the near plane, 0 in the sky. viewDepthOf() of view.glsl converts it. */
+  /** d32f: clip depth; 1 at the near plane, 0 in the sky. viewDepthOf() of view.glsl converts it.
+   */
   GRISAILLE_DEPTH = 0,
   GRISAILLE_VIEW_DEPTH = 1,  /**< r32f: distance along the view direction, metres; sky: 0 */
   GRISAILLE_NORMAL = 2,      /**< rgba16f: unit world normal, facing the camera, in xyz; sky: 0 */
