@@ -57,6 +57,16 @@ void addView(CLI::App& program) {
   command->add_option("--view", session.view, "Output to show; default: color");
   command->add_option("--split", session.split,
                       "Second output, shown to the right of a line that you can drag");
+  command
+      ->add_option("--split-as", session.splitWay,
+                   "Compare both sides by a line, by their difference, or in turn; default: line")
+      ->type_name("WAY")
+      ->transform(CLI::CheckedTransformer(
+          std::map<std::string, viewer::SplitWay>{{"line", viewer::SplitWay::kLine},
+                                                  {"difference", viewer::SplitWay::kDifference},
+                                                  {"flicker", viewer::SplitWay::kFlicker}}));
+  command->add_option("--split-backend", session.splitBackend,
+                      "Backend that renders the right side; default: the window's");
   command->add_flag("--compare-truth", session.compareTruth,
                     "Ray trace the view, and show the error of the first effect's visibility");
   command
@@ -92,6 +102,7 @@ void addView(CLI::App& program) {
                     "Validate every graphics call, in the rendering layer and in the driver");
   command->callback([options, effects] {
     options->session.effectsGiven = effects->count() > 0;
+    if (!options->session.splitBackend.empty()) backends::find(options->session.splitBackend);
     if (!options->windowSize.empty()) options->size = parseSize(options->windowSize);
     if (!options->capture.empty()) image::checkWritable(options->capture);
     const NamedOutput outputs[] = {{"--capture " + options->capture, options->capture},

@@ -42,7 +42,8 @@ std::optional<glm::ivec2> Controls::texel(const Place& place) const {
 }
 
 bool Controls::rightSide(const Place& place) const {
-  return session_.split && cursor_.x - place.corner.x + 0.5 > double{session_.line} * place.size.x;
+  return session_.split && session_.splitting.way == SplitWay::kLine &&
+         cursor_.x - place.corner.x + 0.5 > double{session_.line} * place.size.x;
 }
 
 bool Controls::update(const Place& place, Stage* stage, double seconds, float pixelsAUnit,
@@ -83,7 +84,8 @@ bool Controls::updateMouse(const Place& place, double seconds) {
 void Controls::beginDrag(const Place& place) {
   const double line = place.corner.x + double{session_.line} * place.size.x;
   if (ImGui::IsMouseClicked(ImGuiMouseButton_Left)) {
-    if (session_.split && std::abs(cursor_.x - line) <= kLineReach) {
+    const bool lined = session_.split && session_.splitting.way == SplitWay::kLine;
+    if (lined && std::abs(cursor_.x - line) <= kLineReach) {
       drag_ = Drag::kLine;
     } else if (session_.placing && !ImGui::GetIO().KeyAlt) {
       drag_ = Drag::kPlace;
@@ -184,7 +186,14 @@ void Controls::updateKeys(const Place& place, Requests& requests) {
 
 void Controls::updateViewKeys() {
   if (isKeyPressed(GLFW_KEY_B)) session_.placing = !session_.placing;
-  if (isKeyPressed(GLFW_KEY_X)) session_.split = !session_.split;
+  if (isKeyPressed(GLFW_KEY_X)) {
+    SplitWay& way = session_.splitting.way;
+    if (session_.split && ImGui::GetIO().KeyShift) {
+      way = static_cast<SplitWay>((static_cast<int>(way) + 1) % 3);
+    } else {
+      session_.split = !session_.split;
+    }
+  }
   if (isKeyPressed(GLFW_KEY_LEFT_BRACKET)) session_.line = std::max(session_.line - 0.05f, 0.0f);
   if (isKeyPressed(GLFW_KEY_RIGHT_BRACKET)) session_.line = std::min(session_.line + 0.05f, 1.0f);
   if (isKeyPressed(GLFW_KEY_T)) session_.compareWithTruth(!session_.comparing.on);

@@ -9,6 +9,7 @@
 #include <string>
 
 #include "app/viewer/scene_loading.h"
+#include "backends/backends.h"
 #include "core/scene/built_in.h"
 
 namespace grisaille::app::viewer {
@@ -41,7 +42,8 @@ constexpr struct {
     {"Ctrl + Z, Ctrl + Shift + Z", "undo, redo"},
     {"", ""},
     {"V, Shift + V", "next view, previous view"},
-    {"X, [ ]", "split; move the line left, right"},
+    {"X, Shift + X", "split; compare by a line, by the difference, or in turn"},
+    {"[ ]", "move the line left, right"},
     {"T", "compare with truth"},
     {"I", "value under the cursor"},
     {"Ctrl + scroll, + / -", "zoom into pixels"},
@@ -95,6 +97,26 @@ bool Panel::section(const char* label, bool open) {
   return is;
 }
 
+// The backend of the window, which the user can change, and its device.
+void Panel::drawBackend(const Status& status, Requests& requests) {
+  const float combo = 6 * ImGui::GetFontSize();
+  ImGui::SetNextItemWidth(std::min(combo, ImGui::GetContentRegionAvail().x));
+  const std::string now = status.backend.empty() ? "" : backends::find(status.backend).label;
+  if (ImGui::BeginCombo("###backend", now.c_str())) {
+    for (const backends::Backend& one : backends::all()) {
+      if (ImGui::Selectable(one.label, one.name == status.backend)) requests.backend = one.name;
+      layout.note(std::string("backend.") + one.name);
+    }
+    ImGui::EndCombo();
+  }
+  layout.note("backend", status.backend);
+  tip("Opens the window with another backend; everything stays as it is");
+  ImGui::SameLine();
+  ImGui::AlignTextToFramePadding();
+  const std::string device = status.device.name + (status.device.software ? ", software" : "");
+  ImGui::TextWrapped("%s", device.c_str());
+}
+
 Requests Panel::draw(const Status& status, glm::vec2 window) {
   Requests requests;
   layout.begin();
@@ -109,11 +131,10 @@ Requests Panel::draw(const Status& status, glm::vec2 window) {
     ImGui::Begin("Grisaille", nullptr,
                  ImGuiWindowFlags_NoDecoration | ImGuiWindowFlags_NoMove |
                      ImGuiWindowFlags_NoBringToFrontOnFocus | ImGuiWindowFlags_NoFocusOnAppearing);
-    ImGui::TextWrapped("%s: %s%s", status.device.backend.c_str(), status.device.name.c_str(),
-                       status.device.software ? ", software" : "");
-    const float messages = 5 * ImGui::GetTextLineHeightWithSpacing();
+    drawBackend(status, requests);
+    const float below = heightBelow(status, window);
     if (std::exchange(wantsFocus_, false)) ImGui::SetNextWindowFocus();
-    ImGui::BeginChild("controls", ImVec2(0, -messages));
+    ImGui::BeginChild("controls", ImVec2(0, -below));
     if (session_.hasAnimations() && section("Time", true)) drawTime();
     if (section("Effects", true)) drawEffects(status, requests);
     if (section("View", true)) drawViews(status, requests);
@@ -124,6 +145,7 @@ Requests Panel::draw(const Status& status, glm::vec2 window) {
     if (section("Camera", false)) drawCamera();
     if (section("Scene", false)) drawScene(status, requests);
     ImGui::EndChild();
+    drawReadout(status);
     drawMessages();
     drawBorder(window);
     ImGui::End();
@@ -140,23 +162,6 @@ Requests Panel::draw(const Status& status, glm::vec2 window) {
   }
   if (help) drawHelp(window);
   return requests;
-}
-
-void Panel::drawMessages() {
-  ImGui::Separator();
-  ImGui::BeginChild("messages");
-  for (const Message& message : session_.messages) {
-    if (message.error) ImGui::PushStyleColor(ImGuiCol_Text, kErrorColour);
-    ImGui::TextWrapped("%s", message.text.c_str());
-    if (message.error) ImGui::PopStyleColor();
-  }
-  if (messagesSeen_ != session_.messages.size()) ImGui::SetScrollHereY(1);
-  messagesSeen_ = session_.messages.size();
-  if (!session_.messages.empty()) layout.note("message", session_.messages.back().text);
-  const auto error = std::ranges::find(session_.messages.rbegin(), session_.messages.rend(), true,
-                                       &Message::error);
-  if (error != session_.messages.rend()) layout.note("error", 0, 0, 0, 0, error->text);
-  ImGui::EndChild();
 }
 
 void Panel::drawSettings(Requests& requests) {

@@ -17,6 +17,7 @@
 #include "app/viewer/layout.h"
 #include "app/viewer/pass_stats.h"
 #include "app/viewer/session.h"
+#include "app/viewer/side_difference.h"
 #include "app/viewer/state_file.h"
 
 namespace grisaille::app::viewer {
@@ -46,10 +47,16 @@ struct Status {
   std::vector<PassStats> passes;
   PassStats whole;
   std::vector<ColorShare> coverage;
-  std::vector<float> cursorValue;  // of the texel under the cursor; empty: none
+  // Of the texel under the cursor, on the left and the right side; empty: none.
+  std::array<std::vector<float>, 2> cursorValues;
+  bool cursorRight = false;  // the cursor is on the right side
   glm::ivec2 cursorTexel = glm::ivec2(0);
   glm::uvec2 picture = glm::uvec2(0);  // pixels
   uint64_t waiting = 0;                // objects still to be drawn
+  std::array<std::string, 2> sides;    // what each side of a split picture shows
+  std::optional<SideNumbers> apart;    // none: the sides show different kinds of values
+  bool turned = false;                 // the right side is shown in turn
+  std::string backend;                 // of the window
   TruthStatus truth;
   TuneStatus tune;
   std::optional<double> loading;  // share of the scene that is read, 0 ... 1
@@ -60,7 +67,8 @@ struct Status {
 
 // Actions that the panel and the keys request from the viewer.
 struct Requests {
-  std::optional<std::string> scene;  // to open; "": the built-in scene
+  std::optional<std::string> scene;    // to open; "": the built-in scene
+  std::optional<std::string> backend;  // that shall open the window
   std::optional<TuneWish> tune;
   bool cancelTune = false;
   bool rescan = false, picture = false, copyCommand = false, help = false, quit = false;
@@ -95,7 +103,7 @@ class Panel {
 
  private:
   // panel.cpp
-  void drawMessages();
+  void drawBackend(const Status& status, Requests& requests);
   void drawBorder(glm::vec2 window);
   bool section(const char* label, bool open);
   void drawScene(const Status& status, Requests& requests);
@@ -126,6 +134,15 @@ class Panel {
   void drawBackground();
   void drawViewChoice(const char* label, const char* id, std::string& output,
                       const std::vector<Viewable>& all);
+  // panel_split.cpp
+  void drawSplit(const Status& status);
+  void drawRightBackend(const Status& status);
+  void drawSplitWay();
+  // panel_readout.cpp
+  // The height that readout and messages take from the controls above them.
+  float heightBelow(const Status& status, glm::vec2 window);
+  void drawReadout(const Status& status);
+  void drawMessages();
   // panel_time.cpp
   void drawTime();
   void drawAnimationChoice();
@@ -145,7 +162,7 @@ class Panel {
   bool editField(const objects::Field& field, const std::string& id, objects::Value& value);
   void drawCoverage(const Status& status);
   // panel_truth.cpp
-  void drawTruth(const TruthStatus& status);
+  void drawTruth();
   void drawTruthSettings();
 
   // panel_items.cpp
@@ -171,6 +188,7 @@ class Panel {
   std::vector<SavedSettings> savedList_;
   bool listsFresh_ = false, wantsFocus_ = false;
   size_t messagesSeen_ = 0;
+  float readoutHeight_ = 0;                         // in the window's units
   std::map<std::string, TuneWish> wishes_;          // by effect
   std::map<std::string, std::string> objectPaths_;  // by effect
   std::map<std::string, size_t> selected_;          // by effect: index of an object

@@ -4,49 +4,9 @@
 
 #include <algorithm>
 
-#include "app/truth/error_map.h"
 #include "app/viewer/panel.h"
 
 namespace grisaille::app::viewer {
-namespace {
-
-// The error map's colours with their values.
-void drawLegend() {
-  const float width = ImGui::GetContentRegionAvail().x;
-  const float height = 0.6f * ImGui::GetTextLineHeight();
-  const ImVec2 from = ImGui::GetCursorScreenPos();
-  const auto colorAt = [](float error) {
-    const glm::vec3 color = truth::errorColor(error);
-    return ImGui::GetColorU32(ImVec4(color.r, color.g, color.b, 1));
-  };
-  const ImU32 dark = colorAt(-truth::kFullError), bright = colorAt(truth::kFullError);
-  const ImU32 right = colorAt(0);
-  ImDrawList& list = *ImGui::GetWindowDrawList();
-  const float middle = from.x + width / 2;
-  list.AddRectFilledMultiColor(from, ImVec2(middle, from.y + height), dark, right, right, dark);
-  list.AddRectFilledMultiColor(ImVec2(middle, from.y), ImVec2(from.x + width, from.y + height),
-                               right, bright, bright, right);
-  ImGui::Dummy(ImVec2(width, height));
-  const std::string darkText = fmt::format("-{:.2f} too dark", truth::kFullError);
-  const std::string brightText = fmt::format("too bright +{:.2f}", truth::kFullError);
-  ImGui::TextUnformatted(darkText.c_str());
-  ImGui::SameLine(ImGui::GetCursorPosX() + width - ImGui::CalcTextSize(brightText.c_str()).x);
-  ImGui::TextUnformatted(brightText.c_str());
-}
-
-void drawNumbers(const TruthStatus& status) {
-  const truth::Comparison& c = status.comparison;
-  if (c.pixels == 0) {
-    ImGui::TextDisabled(status.running ? "preparing the scene for tracing" : "nothing is traced");
-    return;
-  }
-  ImGui::Text("RMSE %.4f \u00b1 %.1g, mean error %+.4f", c.rmse, c.error, c.bias);
-  ImGui::Text("truth \u00b1%.3f per pixel, %.0f rays, %.3g %% of pixels%s", c.noise, status.rays,
-              100 * status.share, status.running ? " \u2026" : "");
-}
-
-}  // namespace
-
 void Panel::drawTruthSettings() {
   const std::vector<std::string> outputs = session_.comparable();
   const std::string compared = session_.comparedOutput();
@@ -78,7 +38,7 @@ void Panel::drawTruthSettings() {
   layout.note("truth rays", fmt::format("{}", rays));
 }
 
-void Panel::drawTruth(const TruthStatus& status) {
+void Panel::drawTruth() {
   bool on = session_.comparing.on;
   if (toggle("Compare with truth", "compare", on,
              "Traces the view in the background and shows the error (T)")) {
@@ -89,16 +49,6 @@ void Panel::drawTruth(const TruthStatus& status) {
     return;
   }
   drawTruthSettings();
-  drawNumbers(status);
-  if (session_.left == kErrorView || (session_.split && session_.right == kErrorView)) {
-    drawLegend();
-  }
-  if (const auto& point = status.cursor) {
-    ImGui::Text("here %.3f, truth %.3f \u00b1 %.3f, error %+.3f", point->shown, point->truth,
-                point->truthError, point->shown - point->truth);
-  } else {
-    ImGui::TextDisabled("here: nothing under the cursor");
-  }
   ImGui::Separator();
 }
 

@@ -42,24 +42,8 @@ void Panel::drawBackground() {
 
 void Panel::drawViews(const Status& status, Requests& requests) {
   drawViewChoice("View", "view", session_.left, session_.views(false));
-  toggle("Split", "split", session_.split,
-         "Two sides, with a line between them that you can drag (X)");
-  if (session_.split) {
-    drawViewChoice("Right side", "view right", session_.right, session_.views(true));
-    if (button("Hold", "hold", "Keeps the current settings for the right side")) {
-      session_.hold();
-    }
-    if (session_.held) {
-      ImGui::SameLine();
-      if (button("Swap", "swap", "Exchanges the settings of both sides")) session_.swapHeld();
-      ImGui::SameLine();
-      if (button("Let go", "let go", "Shows the live settings on the right side again")) {
-        session_.held.reset();
-        session_.checkViews();
-      }
-    }
-  }
-  drawTruth(status.truth);
+  drawSplit(status);
+  drawTruth();
   bool base = session_.surface == frame::Surface::kBaseColour;
   if (toggle("Base colour under the light", "base", base, "Off: all surfaces are white")) {
     session_.surface = base ? frame::Surface::kBaseColour : frame::Surface::kWhite;
@@ -68,13 +52,8 @@ void Panel::drawViews(const Status& status, Requests& requests) {
   ImGui::SliderFloat(fit("Zoom", "zoom").c_str(), &session_.zoom, 1, 64, "%.3g px per texel",
                      ImGuiSliderFlags_Logarithmic);
   layout.note("zoom", fmt::format("{}", session_.zoom));
-  toggle("Value under the cursor", "inspect", session_.inspecting, "(I)");
-  if (session_.inspecting && !status.cursorValue.empty()) {
-    std::string text = fmt::format("{}, {}:", status.cursorTexel.x, status.cursorTexel.y);
-    for (const float value : status.cursorValue) text += fmt::format(" {:.6g}", value);
-    ImGui::TextUnformatted(text.c_str());
-    layout.note("value", text);
-  }
+  toggle("Value under the cursor", "inspect", session_.inspecting,
+         "Shown at the bottom of the panel; of both sides, if the picture is split (I)");
   toggle("Pause", "pause", session_.paused, "Keeps the picture as it is (P)");
   ImGui::SameLine();
   if (button("Step", "step", "Renders one frame (N)")) session_.step = true;

@@ -30,9 +30,13 @@ Screen::Shown Screen::wanted(const ScreenDesc& desc) const {
   all.block.place = desc.place.corner;
   all.block.size = empty ? glm::ivec2(0) : glm::ivec2(desc.place.size);
   all.block.zoom = desc.zoom;
-  all.block.line = desc.split ? desc.line * width : 2 * width + 16;
+  const float beyond = 2 * width + 16;
+  const bool lined = desc.split && desc.way == SplitWay::kLine;
+  const bool right = desc.split && desc.way == SplitWay::kFlicker && desc.turned;
+  all.block.line = lined ? desc.line * width : right ? -beyond : beyond;
   all.block.far_depth = desc.farDepth;
   all.block.line_width = desc.lineWidth;
+  all.block.full = desc.split && desc.way == SplitWay::kDifference ? desc.full : 0;
   if (empty) {
     all.sides[0].texture = all.sides[1].texture = blank_;
     return all;

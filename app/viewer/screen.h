@@ -14,14 +14,6 @@ struct ImDrawData;
 
 namespace grisaille::app::viewer {
 
-// The texture that one side of the picture shows.
-struct Side {
-  gpu::Texture texture = {};
-  Kind kind = Kind::kLight;
-
-  bool operator==(const Side&) const = default;
-};
-
 // Parameters of Screen::draw().
 struct ScreenDesc {
   glm::uvec2 pixels = glm::uvec2(0);  // of the window, over 0
@@ -31,7 +23,10 @@ struct ScreenDesc {
   glm::uvec2 texels = glm::uvec2(0);  // of the sides
   uint64_t revision = 0;              // changes with the content of the sides
   bool split = false;
-  float line = 0.5f;                   // of the split, as a share of the picture's width
+  float line = 0.5f;  // of the split, as a share of the picture's width
+  SplitWay way = SplitWay::kLine;
+  bool turned = false;                 // with kFlicker: the right side is shown, else the left
+  float full = 0.25f;                  // with kDifference: as in SplitSettings
   float zoom = 1;                      // pixels per texel
   glm::vec2 centre = glm::vec2(0.5f);  // point in the middle, as a share of the picture
   float farDepth = 1;                  // metres, drawn as mid grey
@@ -57,7 +52,7 @@ class Screen {
   struct ShowBlock {
     glm::ivec2 place, size;
     glm::vec2 centre;
-    float zoom, line, far_depth, line_width;
+    float zoom, line, far_depth, line_width, full;
 
     bool operator==(const ShowBlock&) const = default;
   };

@@ -61,6 +61,8 @@ Session::Session(SessionOptions options)
                    .value_or(background);
   if (!options_.camera.empty()) camera = cameraOf(options_.camera, "--camera");
   split = !options_.split.empty();
+  splitting.way = options_.splitWay;
+  splitting.backend = options_.splitBackend;
   beginComparing();
   for (auto [wanted, view] : {std::pair{&options_.view, &left}, {&options_.split, &right}}) {
     if (wanted->empty()) continue;

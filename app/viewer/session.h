@@ -28,12 +28,28 @@
 
 namespace grisaille::app::viewer {
 
+// How a split picture shows its two sides: beside a line, as their difference, or in turn.
+enum class SplitWay : uint8_t { kLine, kDifference, kFlicker };
+
+// Settings of a split picture.
+struct SplitSettings {
+  static constexpr float kLeastFull = 1e-4f, kMostFull = 1;
+  static constexpr double kLeastTurn = 0.2, kMostTurn = 2;  // at most 5 changes a second
+
+  SplitWay way = SplitWay::kLine;
+  float full = 0.25f;        // the difference that has the full colour, kLeastFull ... kMostFull
+  double turn = 0.5;         // seconds that a side is shown in turn, kLeastTurn ... kMostTurn
+  std::string backend = "";  // that renders the right side; "": the window's
+};
+
 // Options of the command line.
 struct SessionOptions {
   std::string scene, camera, config, surface, background, view, split;
   std::vector<std::string> effects, presets, sets, loads, pluginPaths;
   PoseOptions pose;
   bool effectsGiven = false;
+  std::string splitBackend;  // of the right side; "": the window's
+  SplitWay splitWay = SplitWay::kLine;
   bool compareTruth = false;
   double truthRadius = 0;  // metres; 0: the effect's radius
   uint32_t truthRays = 0;  // per pixel; 0: the default
@@ -173,6 +189,7 @@ class Session {
   std::string left = "color", right = "normal";  // outputs
   bool split = false;
   float line = 0.5f;  // of the split, as a share of the picture's width
+  SplitSettings splitting;
   frame::Surface surface = frame::Surface::kWhite;
   frame::Background background = frame::kGrey;
   float zoom = 1;                      // pixels per texel

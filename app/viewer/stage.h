@@ -19,6 +19,14 @@ namespace grisaille::app::viewer {
 // How show.comp converts values to colours; same numbers as in shaders/viewer/show.comp.
 enum class Kind : uint32_t { kLight, kNumber, kSigned, kDepth, kOverlay, kEncoded };
 
+// The texture that one side of the picture shows.
+struct Side {
+  gpu::Texture texture = {};
+  Kind kind = Kind::kLight;
+
+  bool operator==(const Side&) const = default;
+};
+
 // An output of the frame that the viewer can show.
 struct Viewable {
   std::string output, label;

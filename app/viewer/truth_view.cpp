@@ -33,7 +33,15 @@ std::vector<uint32_t> packed(const image::Image& colors) {
 }  // namespace
 
 TruthView::~TruthView() {
-  for (const Sheet& sheet : sheets_) device_.destroy(sheet.texture);
+  for (const Sheet& sheet : sheets_) device_->destroy(sheet.texture);
+}
+
+void TruthView::moveTo(gpu::Device& device) {
+  for (Sheet& sheet : sheets_) {
+    device_->destroy(sheet.texture);
+    sheet = {};
+  }
+  device_ = &device;
 }
 
 void TruthView::show(const truth::LiveView& view, image::Image picture) {
@@ -146,26 +154,26 @@ std::optional<Side> TruthView::side(std::string_view view) {
   const std::vector<uint32_t> colors =
       error ? packed(truth::errorMap(values)) : std::vector<uint32_t>();
   if (sheet.size != traced_.size) {
-    device_.destroy(sheet.texture);
+    device_->destroy(sheet.texture);
     sheet = {};
     sheet.texture =
-        device_.createTexture({.label = error ? "error" : "truth",
-                               .format = error ? gpu::Format::kRgba8Unorm : gpu::Format::kR32Float,
-                               .width = traced_.size.x,
-                               .height = traced_.size.y,
-                               .usage = gpu::TextureUsage::kSampled});
+        device_->createTexture({.label = error ? "error" : "truth",
+                                .format = error ? gpu::Format::kRgba8Unorm : gpu::Format::kR32Float,
+                                .width = traced_.size.x,
+                                .height = traced_.size.y,
+                                .usage = gpu::TextureUsage::kSampled});
     sheet.size = traced_.size;
   }
-  gpu::Commands& commands = device_.begin();
+  gpu::Commands& commands = device_->begin();
   try {
     commands.upload(
         sheet.texture, 0, 0,
         error ? std::as_bytes(std::span(colors)) : std::as_bytes(std::span(values.pixels)));
   } catch (...) {
-    device_.abandon();
+    device_->abandon();
     throw;
   }
-  device_.submit();
+  device_->submit();
   sheet.revision = revision_;
   return Side{sheet.texture, side.kind};
 }

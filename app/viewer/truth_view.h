@@ -16,11 +16,14 @@ namespace grisaille::app::viewer {
 
 class TruthView {
  public:
-  // The device must outlive this.
-  explicit TruthView(gpu::Device& device) : device_(device) {}
+  // The device must outlive this, or its use: see moveTo().
+  explicit TruthView(gpu::Device& device) : device_(&device) {}
   ~TruthView();
   TruthView(const TruthView&) = delete;
   TruthView& operator=(const TruthView&) = delete;
+
+  // Uses another device from now on. What is traced stays.
+  void moveTo(gpu::Device& device);
 
   // Sets the view and its compared output. Traces only if the view differs from the last one; else
   // compares the new picture with the truth traced already.
@@ -69,7 +72,7 @@ class TruthView {
   void compare();
   std::optional<size_t> standIn(glm::uvec2 texel) const;
 
-  gpu::Device& device_;
+  gpu::Device* device_;
   truth::LiveTruth truth_;
   truth::LiveView view_;
   image::Image picture_;  // without pixels: no comparison

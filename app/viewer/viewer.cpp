@@ -7,13 +7,13 @@
 #include <thread>
 
 #include "app/truth/interruption.h"
+#include "app/viewer/side_labels.h"
 #include "core/scene/built_in.h"
 
 namespace grisaille::app::viewer {
 namespace fs = std::filesystem;
 namespace {
 
-constexpr int kSettleFrames = 3;           // ImGui shows hover effects a frame or two late
 constexpr double kLookInterval = 0.5;      // seconds between two checks of watched files
 constexpr double kWaitInterval = 0.05;     // seconds between two checks of background work
 constexpr double kLeastFrame = 1.0 / 120;  // seconds, if the display does not limit the rate
@@ -47,64 +47,18 @@ Viewer::Viewer(const ViewerOptions& options)
     state_.height = options_.size.y;
   }
   openWindow();
-  screen_ = std::make_unique<Screen>(*device_);
-  truth_ = std::make_unique<TruthView>(*device_);
   rebuild_.watch(session_.registry());
   openScene(options_.session.scene);
 }
 
 Viewer::~Viewer() {
   stage_.reset();
+  other_.reset();
+  difference_.reset();
   truth_.reset();
   screen_.reset();
   device_.reset();
   window_.reset();
-}
-
-// Opens the window with the requested backend, else with the first that starts.
-void Viewer::openWindow() {
-  if (!options_.backend.empty()) {
-    tryBackend(backends::find(options_.backend));
-    return;
-  }
-  std::string reasons;
-  for (const backends::Backend& backend : backends::all()) {
-    try {
-      tryBackend(backend);
-      if (!reasons.empty()) session_.say(reasons, true);
-      return;
-    } catch (const Error& error) {
-      reasons += fmt::format("{}{}: {}", reasons.empty() ? "" : "; ", backend.name, error.detail());
-    }
-  }
-  throw Error(ErrorId::kNoDevice, "no backend opens a window: {}", reasons);
-}
-
-void Viewer::tryBackend(const backends::Backend& backend) {
-  auto window =
-      std::make_unique<Window>(backend, options_.check, glm::uvec2(state_.width, state_.height));
-  gpu::DeviceOptions device;
-  device.device = options_.device;
-  device.check = options_.check;
-  device.timed = true;
-  device.message = options_.message;
-  device.window = window->surface();
-  device_ = backends::create(backend.name, device);
-  window_ = std::move(window);
-  backend_ = backend.name;
-  const gpu::DeviceInfo& info = device_->info();
-  fmt::print("{}: {} ({}){}\n", info.backend, info.name, info.driver,
-             info.software ? ", software" : "");
-  std::fflush(stdout);
-}
-
-void Viewer::nameWindow() {
-  const std::string scene =
-      session_.scenePath.empty() ? "atrium" : fs::path(session_.scenePath).filename().string();
-  const gpu::DeviceInfo& info = device_->info();
-  window_->setTitle(fmt::format("{} - Grisaille - {} on {}{}", scene,
-                                backends::find(backend_).label, info.name,
-                                info.software ? " (software)" : ""));
 }
 
 void Viewer::run() {
@@ -137,7 +91,8 @@ void Viewer::showFrames() {
     const bool hurry = options_.frames > 0 && !truth_->running();
     if (lookAround() || hurry) settle_ = std::max(settle_, 1);
     if (stage_ && retry_.wait > 0 && Clock::now() >= retry_.at) stage_->retry();
-    const bool stale = stage_ && !session_.paused && stage_->isStale(stageDesc());
+    if (turnSides()) settle_ = std::max(settle_, 1);
+    const bool stale = !session_.paused && isStale();
     const bool due = settle_ > 0 || moving_ || stale || session_.continuous || session_.step ||
                      session_.isPlaying();
     const glm::uvec2 pixels = window_->pixels();
@@ -148,7 +103,7 @@ void Viewer::showFrames() {
     settle_ = std::max(settle_ - 1, 0);
     frame(since.count());
     ++drawn_;
-    if (stage_ && !stage_->isStale(stageDesc()) && !truth_->running()) ++complete_;
+    if (stage_ && !isStale() && !truth_->running()) ++complete_;
     const std::chrono::duration<double> took = Clock::now() - now;
     if (took.count() < kLeastFrame) {
       std::this_thread::sleep_for(std::chrono::duration<double>(kLeastFrame) - took);
@@ -159,13 +114,16 @@ void Viewer::showFrames() {
 // Seconds to wait for an event.
 double Viewer::patience() {
   const bool visible = window_->pixels().x > 0;
-  const bool stale = stage_ && !session_.paused && stage_->isStale(stageDesc());
+  const bool stale = !session_.paused && isStale();
   const bool runs = moving_ || session_.continuous || session_.isPlaying();
   if (visible && (settle_ > 0 || stale || runs)) return 0;
-  if (loading_.running() || !rebuild_.building().empty() || tune_.started() || truth_->running()) {
-    return kWaitInterval;
+  const bool busy = loading_.running() || !rebuild_.building().empty() || tune_.started();
+  double seconds = busy || truth_->running() ? kWaitInterval : kLookInterval;  // notices signals
+  if (session_.split && session_.splitting.way == SplitWay::kFlicker) {
+    const std::chrono::duration<double> left = turnAt_ - Clock::now();
+    seconds = std::clamp(left.count(), 0.0, seconds);
   }
-  return kLookInterval;  // the loop must also notice signals
+  return seconds;
 }
 
 // Checks scene loading, plugin builds, tune and truth. True if one of them has news.
@@ -182,7 +140,11 @@ bool Viewer::lookAround() {
   if (const auto outcome = rebuild_.take()) {
     buildMessage_ = outcome->message;
     news = true;
-    if (outcome->good) perform({.scene = {}, .tune = {}, .rescan = true});
+    if (outcome->good) {
+      Requests again;
+      again.rescan = true;
+      perform(again);
+    }
   }
   news |= lookAtTune();
   session_.attempt("truth", [&] { news |= truth_->look(); });
@@ -191,7 +153,7 @@ bool Viewer::lookAround() {
 
 void Viewer::startTune(const TuneWish& wish) {
   session_.attempt("search", [&] {
-    tune_.start(session_.tuneCommand(wish, place().size, backend_, options_.device));
+    tune_.start(session_.tuneCommand(wish, place().size, backend_, deviceName()));
     tuning_ = {.effect = wish.effect, .running = true, .state = tune_.state(), .outcome = {}};
   });
 }
@@ -221,7 +183,13 @@ void Viewer::frame(double seconds) {
   ImGui::NewFrame();
   if (drawn_ <= 1) ImGui::SetWindowFocus(nullptr);  // at first, the keys belong to the picture
   const ImGuiIO& io = ImGui::GetIO();
-  Requests requests = panel_.draw(status(), {io.DisplaySize.x, io.DisplaySize.y});
+  const Status now = status();
+  Requests requests = panel_.draw(now, {io.DisplaySize.x, io.DisplaySize.y});
+  if (session_.split) {
+    const float unit = 1 / io.DisplayFramebufferScale.x;
+    drawSideLabels(session_, now, unit * glm::vec2(place().corner), unit * glm::vec2(place().size),
+                   panel_.layout);
+  }
   moving_ =
       controls_.update(place(), stage_.get(), seconds, io.DisplayFramebufferScale.x, requests);
   if (!ImGui::IsAnyItemActive()) session_.noteChanges();
@@ -237,7 +205,10 @@ void Viewer::frame(double seconds) {
 void Viewer::perform(const Requests& requests) {
   if (requests.rescan) {
     session_.attempt("plugins", [&] {
-      session_.rescan([&] { device_->wait(); });
+      session_.rescan([&] {
+        device_->wait();
+        if (other_) other_->forget();
+      });
       rebuild_.watch(session_.registry());
     });
     settle_ = kSettleFrames;
@@ -248,10 +219,13 @@ void Viewer::perform(const Requests& requests) {
   if (requests.picture) savePicture();
   if (requests.copyCommand) {
     session_.attempt("command", [&] {
-      const std::string command = session_.commandLine(place().size, backend_, options_.device);
+      const std::string command = session_.commandLine(place().size, backend_, deviceName());
       window_->setClipboard(command);
       session_.say(command);
     });
+  }
+  if (requests.backend) {
+    session_.attempt("backend", [&] { changeBackend(*requests.backend); });
   }
   if (std::exchange(controls_.wantsFullScreen, false)) window_->toggleFullScreen();
   if (requests.quit) window_->close();
@@ -274,6 +248,7 @@ void Viewer::takeScene() {
     // Truth and stage refer to the old scene.
     truth_->stop();
     stage_.reset();
+    if (other_) other_->forget();
     session_.setScene(scene, path, place().size);
     retry_ = {};
     stage_ = std::make_unique<Stage>(*device_, *session_.scene, *session_.services, session_.chain);
@@ -299,14 +274,16 @@ void Viewer::takeDropped() {
   }
 }
 
+void Viewer::noteSize() {
+  if (window_->isFullScreen()) return;
+  const glm::uvec2 size = window_->size();
+  if (size.x == 0 || size.y == 0) return;
+  state_.width = std::min(size.x, 16384u);
+  state_.height = std::min(size.y, 16384u);
+}
+
 void Viewer::keepState() {
-  if (!window_->isFullScreen()) {
-    const glm::uvec2 size = window_->size();
-    if (size.x > 0 && size.y > 0) {
-      state_.width = std::min(size.x, 16384u);
-      state_.height = std::min(size.y, 16384u);
-    }
-  }
+  noteSize();
   saveState(state_, stateFile());
 }
 

@@ -9,9 +9,11 @@
 #include <string>
 
 #include "app/viewer/controls.h"
+#include "app/viewer/other_backend.h"
 #include "app/viewer/rebuild.h"
 #include "app/viewer/scene_loading.h"
 #include "app/viewer/screen.h"
+#include "app/viewer/side_difference.h"
 #include "app/viewer/truth_view.h"
 #include "app/viewer/window.h"
 
@@ -45,12 +47,11 @@ class Viewer {
 
  private:
   using Clock = std::chrono::steady_clock;
+  static constexpr int kSettleFrames = 3;  // ImGui shows hover effects a frame or two late
 
   // viewer.cpp
   void showFrames();
   void rescue();
-  void openWindow();
-  void tryBackend(const backends::Backend& backend);
   double patience();
   bool lookAround();
   void frame(double seconds);
@@ -60,10 +61,30 @@ class Viewer {
   void openScene(const std::string& path);
   void takeScene();
   void takeDropped();
-  void nameWindow();
+  void noteSize();
   void keepState();
+  // viewer_backend.cpp
+  struct Opened {
+    std::unique_ptr<Window> window;
+    std::unique_ptr<gpu::Device> device;
+  };
+  void openWindow();
+  Opened open(const backends::Backend& backend);
+  gpu::DeviceOptions deviceOptions(const std::string& backend) const;
+  void take(Opened opened, const std::string& backend);
+  void changeBackend(const std::string& backend);
+  void nameWindow();
+  // The right side's picture on another backend: none if the window's backend renders it.
+  std::optional<StageDesc> otherDesc();
+  bool isOtherStale();
+  void updateOther();
+  std::string deviceName() const;  // --device, for the backend that it was given for
   // viewer_picture.cpp
   StageDesc stageDesc();
+  bool isStale();
+  bool turnSides();
+  void compareSides();
+  std::array<std::string, 2> sideNames();
   Place place() const;
   void updateStage();
   void updateCoverage();
@@ -88,7 +109,9 @@ class Viewer {
   std::unique_ptr<Window> window_;
   std::unique_ptr<gpu::Device> device_;
   std::unique_ptr<Screen> screen_;
-  std::unique_ptr<Stage> stage_;  // of the session's scene; null before the first
+  std::unique_ptr<Stage> stage_;         // of the session's scene; null before the first
+  std::unique_ptr<OtherBackend> other_;  // null: not in use
+  std::unique_ptr<SideDifference> difference_;
   std::unique_ptr<TruthView> truth_;
   Panel panel_;
   Controls controls_;
@@ -100,10 +123,19 @@ class Viewer {
   PassTimes times_;
   std::vector<ColorShare> coverage_;
 
-  std::string backend_, layoutWritten_;
+  std::string backend_, firstBackend_, layoutWritten_;
   int settle_ = 0;            // further frames to draw, for hover and for late updates
   bool moving_ = false;       // a held key or button moves the camera or sprays
   double updateSeconds_ = 0;  // duration of the stage's last update
+  bool turned_ = false;       // with SplitWay::kFlicker: the right side is shown
+  Clock::time_point turnAt_ = {};
+  // How far the sides are apart, and of which content.
+  struct Compared {
+    std::array<Side, 2> sides;
+    uint64_t revision = 0;
+    SideNumbers numbers;
+  };
+  std::optional<Compared> apart_;
   // When a frame that failed is tried again. `wait`: seconds from the failure; 0: none has failed.
   struct Retry {
     double wait = 0;

@@ -55,7 +55,7 @@ StageDesc Viewer::stageDesc() {
   // The compared output stands in for truth and error until these have a texture.
   const std::string compared = session_.comparedOutput();
   desc.left = isTruthView(session_.left) ? compared : session_.left;
-  if (session_.split) {
+  if (session_.split && !otherDesc()) {
     desc.right = isTruthView(session_.right) ? compared : session_.right;
     if (session_.held && !isTruthView(session_.right)) {
       desc.held = &*session_.held;
@@ -74,6 +74,10 @@ StageDesc Viewer::stageDesc() {
   return desc;
 }
 
+bool Viewer::isStale() {
+  return stage_ && (stage_->isStale(stageDesc()) || isOtherStale());
+}
+
 void Viewer::updateStage() {
   if (!stage_) return;
   compareWithTruth();
@@ -82,10 +86,11 @@ void Viewer::updateStage() {
   session_.step = false;
   if (desc.size.x == 0 || desc.size.y == 0) return;
   if (session_.continuous) stage_->touch();
-  if (!stage_->isStale(desc)) return;
+  if (!isStale()) return;
   const auto draw = [&] {
     const Clock::time_point start = Clock::now();
     stage_->update(desc);
+    updateOther();
     updateSeconds_ = std::chrono::duration<double>(Clock::now() - start).count();
     if (panel_.wantsCoverage) updateCoverage();
     const std::string compared = session_.comparedOutput();
@@ -135,11 +140,59 @@ Side Viewer::side(bool right) {
   if (isTruthView(view)) {
     if (const auto side = truth_->side(view)) return *side;
   }
+  if (right && other_ && otherDesc()) {
+    if (const auto side = other_->side()) return *side;
+  }
   return {stage_->texture(right), stage_->kind(right)};
+}
+
+// True if the sides that are shown in turn change now.
+bool Viewer::turnSides() {
+  if (!session_.split || session_.splitting.way != SplitWay::kFlicker) {
+    turned_ = false;
+    return false;
+  }
+  const Clock::time_point now = Clock::now();
+  if (now < turnAt_) return false;
+  turned_ = !turned_;
+  turnAt_ = now + std::chrono::duration_cast<Clock::duration>(
+                      std::chrono::duration<double>(session_.splitting.turn));
+  return true;
+}
+
+// Sides of different kinds have no common unit, and the truth has numbers of its own.
+void Viewer::compareSides() {
+  const bool traced = isTruthView(session_.left) || isTruthView(session_.right);
+  if (!session_.split || traced || !stage_) return apart_.reset();
+  const std::array<Side, 2> sides = {side(false), side(true)};
+  if (!sides[0].texture || !sides[1].texture || sides[0].kind != sides[1].kind) {
+    return apart_.reset();
+  }
+  const uint64_t revision = stage_->revision() + (other_ ? other_->revision() : 0);
+  if (apart_ && apart_->sides == sides && apart_->revision == revision) return;
+  apart_.reset();
+  apart_ = {sides, revision, difference_->compare(sides, stage_->size())};
+  settle_ = std::max(settle_, 1);  // the panel shows the new numbers
+}
+
+std::array<std::string, 2> Viewer::sideNames() {
+  std::array<std::string, 2> names;
+  for (const bool right : {false, true}) {
+    const std::string& view = right ? session_.right : session_.left;
+    std::string& name = names[right ? 1 : 0] = view;
+    for (const Viewable& one : session_.views(right)) {
+      if (one.output == view) name = one.label;
+    }
+    if (session_.held && !isTruthView(view)) name += right ? ", held settings" : ", live settings";
+    if (!otherDesc()) continue;
+    name += std::string(", ") + backends::find(right ? session_.splitting.backend : backend_).label;
+  }
+  return names;
 }
 
 std::vector<float> Viewer::cursorValue(bool right, glm::uvec2 texel) {
   const std::string& view = right ? session_.right : session_.left;
+  if (right && other_ && otherDesc()) return other_->valueAt(texel);
   if (!isTruthView(view)) return stage_->valueAt(right, texel);
   const auto point = truth_->at(texel);
   if (!point) return {};
@@ -166,7 +219,11 @@ Status Viewer::status() {
   status.whole = times_.whole();
   status.coverage = coverage_;
   status.picture = place().size;
-  status.waiting = stage_ ? stage_->waiting() : 0;
+  status.waiting = (stage_ ? stage_->waiting() : 0) + (other_ ? other_->waiting() : 0);
+  status.backend = backend_;
+  if (session_.split) status.sides = sideNames();
+  if (apart_) status.apart = apart_->numbers;
+  status.turned = turned_;
   if (loading_.running()) {
     status.loading = loading_.progress();
     status.loadingPath = sceneLabel(loading_.path());
@@ -179,7 +236,11 @@ Status Viewer::status() {
   if (session_.inspecting && stage_ && texel) {
     session_.attempt("value", [&] {
       status.cursorTexel = *texel;
-      status.cursorValue = cursorValue(controls_.rightSide(place()), glm::uvec2(*texel));
+      status.cursorRight = controls_.rightSide(place());
+      for (const bool right : {false, true}) {
+        if (right && !session_.split) continue;
+        status.cursorValues[right ? 1 : 0] = cursorValue(right, glm::uvec2(*texel));
+      }
     });
   }
   return status;
@@ -191,13 +252,20 @@ void Viewer::drawWindow() {
   if (desc.pixels.x == 0 || desc.pixels.y == 0) return;
   desc.place = place();
   desc.keeps = retry_.wait > 0;
-  session_.attempt("sides", [&] { desc.sides = {side(false), side(session_.split)}; });
+  session_.attempt("sides", [&] {
+    compareSides();
+    desc.sides = {side(false), side(session_.split)};
+  });
   if (stage_) {
     desc.texels = stage_->size();
-    desc.revision = stage_->revision() + truth_->revision();  // for one scene, both only grow
+    desc.revision = stage_->revision() + truth_->revision();  // for one scene, all only grow
+    if (other_) desc.revision += other_->revision();
   }
   desc.split = session_.split;
   desc.line = session_.line;
+  desc.way = session_.splitting.way;
+  desc.turned = turned_;
+  desc.full = session_.splitting.full;
   desc.zoom = session_.zoom;
   desc.centre = session_.centre;
   desc.farDepth = std::max(1e-6f, static_cast<float>(session_.extent) / 8);
@@ -246,8 +314,7 @@ void Viewer::writeLayout() {
   if (options_.layoutFile.empty()) return;
   const Place where = place();
   const auto corner = glm::vec2(where.corner), end = corner + glm::vec2(where.size);
-  const bool done =
-      settle_ == 0 && !session_.isPlaying() && stage_ && !stage_->isStale(stageDesc());
+  const bool done = settle_ == 0 && !session_.isPlaying() && stage_ && !isStale();
   panel_.layout.note("picture", corner.x, corner.y, end.x, end.y,
                      retry_.wait > 0 ? "failed"
                      : done          ? "done"

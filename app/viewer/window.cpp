@@ -52,6 +52,10 @@ Window::Window(const backends::Backend& backend, bool check, glm::uvec2 size) {
 
 Window::~Window() {
   if (ImGui::GetCurrentContext() != nullptr && ImGui::GetIO().BackendPlatformUserData != nullptr) {
+    // A window that follows does not learn of their release.
+    for (int key = 0; key <= GLFW_KEY_LAST; ++key) {
+      if (keys_[static_cast<size_t>(key)]) sendKey(key, false);
+    }
     ImGui_ImplGlfw_Shutdown();
   }
   glfwDestroyWindow(window_);
@@ -124,6 +128,16 @@ float Window::scale() const {
   float x = 1, y = 1;
   glfwGetWindowContentScale(window_, &x, &y);
   return std::clamp(std::max(x, y), 0.5f, 4.0f);
+}
+
+glm::ivec2 Window::position() const {
+  glm::ivec2 place(0);
+  glfwGetWindowPos(window_, &place.x, &place.y);
+  return place;
+}
+
+void Window::moveTo(glm::ivec2 position) {
+  glfwSetWindowPos(window_, position.x, position.y);
 }
 
 bool Window::closing() const {

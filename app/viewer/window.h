@@ -37,9 +37,11 @@ class Window {
 
   // The window as device creation takes it; owned by this.
   backends::Window* surface() { return &*surface_; }
-  glm::uvec2 pixels() const;  // size of the framebuffer; 0 while minimised
-  glm::uvec2 size() const;    // in the desktop's units
-  float scale() const;        // the display's scale of text and sizes, 0.5 ... 4
+  glm::uvec2 pixels() const;    // size of the framebuffer; 0 while minimised
+  glm::uvec2 size() const;      // in the desktop's units
+  float scale() const;          // the display's scale of text and sizes, 0.5 ... 4
+  glm::ivec2 position() const;  // of its content, in the desktop's units
+  void moveTo(glm::ivec2 position);
   bool closing() const;
   void close();
   void setTitle(const std::string& title);

@@ -1,7 +1,7 @@
 #version 460
 // SPDX-License-Identifier: MIT
-// Shows outputs of a frame in the window: magnified, and split by a line that the user drags, with
-// one output on each side.
+// Shows outputs of a frame in the window: magnified; split by a line that the user drags, with one
+// output on each side; or as the difference of both.
 #extension GL_GOOGLE_include_directive : require
 #include "common/bindings.glsl"
 
@@ -16,7 +16,8 @@ layout(UNIFORM(0)) uniform Show {
   float zoom;       // pixels per texel
   float line;       // x of the line, from the picture's left edge, pixels
   float far_depth;  // depth drawn as mid grey, metres
-  float line_width; // pixels
+  float line_width; // pixels; 0: no line
+  float full;       // the difference that has the full colour; 0: no difference is shown
 } show;
 
 // Kinds of the left and the right side: how numbers become colours. Without a right side, both are
@@ -33,6 +34,7 @@ const uint kEncoded = 5u; // three channels, unchanged
 
 const vec3 kGround = vec3(0.07, 0.07, 0.08);
 const vec3 kLine = vec3(0.90, 0.62, 0.0);
+const vec3 kLower = vec3(0.0, 0.45, 0.70), kHigher = vec3(0.90, 0.62, 0.0);  // Okabe and Ito
 
 vec3 encoded(vec3 light) {
   light = clamp(light, 0.0, 1.0);
@@ -56,6 +58,18 @@ vec3 shown(vec4 value, uint kind, ivec2 pixel) {
   }
 }
 
+// Blue where the left side is darker, orange where it is brighter, as truth::errorColor(). The
+// channel that differs most gives the strength; the mean gives the sign.
+vec3 difference(vec2 uv, ivec2 pixel) {
+  const vec4 a = textureLod(left_side, uv, 0.0), b = textureLod(right_side, uv, 0.0);
+  if (any(isnan(a)) || any(isinf(a)) || any(isnan(b)) || any(isinf(b))) return vec3(0.5);
+  const vec3 off = shown(a, left_kind, pixel) - shown(b, right_kind, pixel);
+  const vec3 size = abs(off);
+  const float most = max(size.r, max(size.g, size.b));
+  const vec3 colour = off.r + off.g + off.b < 0.0 ? kLower : kHigher;
+  return mix(vec3(1.0), colour, min(most / show.full, 1.0));
+}
+
 void main() {
   const ivec2 pixel = ivec2(gl_GlobalInvocationID.xy);
   if (any(greaterThanEqual(pixel, imageSize(window)))) return;
@@ -69,13 +83,15 @@ void main() {
     const vec2 uv = (texel + 0.5) / vec2(extent);
     if (all(greaterThanEqual(texel, vec2(0.0))) && all(lessThan(texel, vec2(extent)))) {
       // Equal kinds: one conversion for both sides.
-      if (left_kind == right_kind) {
+      if (show.full > 0.0) {
+        color = difference(uv, inside);
+      } else if (left_kind == right_kind) {
         const vec4 value = right ? textureLod(right_side, uv, 0.0) : textureLod(left_side, uv, 0.0);
         color = shown(value, left_kind, inside);
       } else color = right ? shown(textureLod(right_side, uv, 0.0), right_kind, inside)
                     : shown(textureLod(left_side, uv, 0.0), left_kind, inside);
     }
-    if (abs(x - show.line) < show.line_width) color = kLine;
+    if (show.full == 0.0 && abs(x - show.line) < show.line_width) color = kLine;
   }
   imageStore(window, pixel, vec4(color, 1.0));
 }

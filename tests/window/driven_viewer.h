@@ -58,8 +58,10 @@ class DrivenViewer {
   // Waits for a viewer that ends by itself. Call it once.
   Outcome ended() { return outcome_.get(); }
 
- private:
+  // Gives the window the keys, also a window that has replaced the first one.
   void focus();
+
+ private:
   bool isDrawn(const nlohmann::json& now) const;
 
   const TemporaryFolder& folder_;
