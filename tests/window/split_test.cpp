@@ -151,8 +151,8 @@ TEST_P(SplitTest, AnotherBackendKeepsEverything) {
   viewer.untilValue("sspm.objects", "1");
   viewer.drag(viewer.at("ssao.intensity", 0.5, 0.5), viewer.at("ssao.intensity", 0.8, 0.5));
   viewer.untilChanged("ssao.intensity", "1");
-  viewer.click("section Cost");
-  viewer.untilValue("section Cost", "open");
+  viewer.click("section View");
+  viewer.untilValue("section View", "closed");
   viewer.send("mousemove 5 5");
   viewer.untilDrawn();
   const auto kept = [&] {
