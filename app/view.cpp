@@ -88,6 +88,12 @@ void addView(CLI::App& program) {
       ->allow_extra_args(false);
   command->add_option("--bookmarks", options->bookmarks, "Folder of the bookmarks, camera files")
       ->type_name("DIR");
+  command->add_flag("--fresh", options->fresh,
+                    "Start without the scene, camera, effects and panel of the last session");
+  command
+      ->add_option("--session", options->sessionFile,
+                   "Start with a session file; other options override it")
+      ->type_name("FILE.json");
   command
       ->add_option("--layout", options->layoutFile,
                    "Write the position of each control as JSON, for programs that drive the window")

@@ -153,11 +153,11 @@ void Controls::updateKeysAnywhere(Requests& requests) {
   if (ctrl && isKeyPressed(GLFW_KEY_Q)) requests.quit = true;
   if (ctrl && isKeyPressed(GLFW_KEY_S)) panel_.saveSettings();
   if (ctrl && (isKeyPressed(GLFW_KEY_EQUAL) || isKeyPressed(GLFW_KEY_KP_ADD)))
-    state_.textScale *= 1.1;
+    state_.layout.textScale *= 1.1;
   if (ctrl && (isKeyPressed(GLFW_KEY_MINUS) || isKeyPressed(GLFW_KEY_KP_SUBTRACT)))
-    state_.textScale /= 1.1;
-  if (ctrl && isKeyPressed(GLFW_KEY_0)) state_.textScale = 1;
-  state_.textScale = std::clamp(state_.textScale, 0.5, 4.0);
+    state_.layout.textScale /= 1.1;
+  if (ctrl && isKeyPressed(GLFW_KEY_0)) state_.layout.textScale = 1;
+  state_.layout.textScale = std::clamp(state_.layout.textScale, 0.5, 4.0);
 }
 
 void Controls::updateKeys(const Place& place, Requests& requests) {

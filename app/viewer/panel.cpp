@@ -63,7 +63,7 @@ constexpr struct {
 
 float Panel::width(glm::vec2 window) const {
   if (!shown) return 0;
-  return std::min(static_cast<float>(state_.panelWidth) * ImGui::GetFontSize(), window.x);
+  return std::min(static_cast<float>(state_.layout.panelWidth) * ImGui::GetFontSize(), window.x);
 }
 
 // The panel's right border, which the user can drag.
@@ -84,15 +84,16 @@ void Panel::drawBorder(glm::vec2 window) {
   const double font = ImGui::GetFontSize();
   const double most = std::max(double{window.x} / font, kLeastWidth);
   const double wanted = (double{ImGui::GetIO().MousePos.x} + double{grip} / 2) / font;
-  state_.panelWidth = std::clamp(wanted, kLeastWidth, std::min(most, ViewerState::kWidestPanel));
+  state_.layout.panelWidth = std::clamp(wanted, kLeastWidth, std::min(most, PanelLayout::kWidest));
 }
 
 // A section of the panel. It stays as the user left it, also in the next run.
 bool Panel::section(const char* label, bool open) {
-  const auto known = state_.sections.find(label);
-  ImGui::SetNextItemOpen(known != state_.sections.end() ? known->second : open, ImGuiCond_Once);
+  const auto known = state_.layout.sections.find(label);
+  ImGui::SetNextItemOpen(known != state_.layout.sections.end() ? known->second : open,
+                         known != state_.layout.sections.end() ? ImGuiCond_Always : ImGuiCond_Once);
   const bool is = ImGui::CollapsingHeader(label);
-  if (ImGui::IsItemToggledOpen()) state_.sections[label] = is;
+  if (ImGui::IsItemToggledOpen()) state_.layout.sections[label] = is;
   layout.note(std::string("section ") + label, is ? "open" : "closed");
   return is;
 }
@@ -194,6 +195,17 @@ void Panel::drawSettings(Requests& requests) {
       session_.saveSettings((configFolder() / "settings" / (savedName_ + ".toml")).string());
     });
     listsFresh_ = false;
+  }
+  path("##session", "session path", sessionPath_);
+  ImGui::SameLine();
+  if (button("Open##session", "open session",
+             "Scene, camera, effects, values, objects and layout of a session file")) {
+    requests.openSession = sessionPath_;
+  }
+  ImGui::SameLine();
+  if (button("Save session", "save session",
+             "One file with all that you have set; the last session comes back by itself")) {
+    requests.saveSession = sessionPath_;
   }
   if (button("Copy as command line", "copy command",
              "Copies the `grisaille render` command that makes this picture (Ctrl+C)")) {

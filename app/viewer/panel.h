@@ -67,8 +67,9 @@ struct Status {
 
 // Actions that the panel and the keys request from the viewer.
 struct Requests {
-  std::optional<std::string> scene;    // to open; "": the built-in scene
-  std::optional<std::string> backend;  // that shall open the window
+  std::optional<std::string> scene;                     // to open; "": the built-in scene
+  std::optional<std::string> backend;                   // that shall open the window
+  std::optional<std::string> openSession, saveSession;  // files
   std::optional<TuneWish> tune;
   bool cancelTune = false;
   bool rescan = false, picture = false, copyCommand = false, help = false, quit = false;
@@ -183,6 +184,7 @@ class Panel {
   ViewerState& state_;
   Bookmarks& bookmarks_;
   std::string scenePath_, settingsPath_ = "settings.toml", savedName_;
+  std::string sessionPath_ = "session.json";
   std::string bookmarkName_;
   std::vector<Bookmarks::Entry> bookmarkList_;
   std::vector<SavedSettings> savedList_;

@@ -39,7 +39,7 @@ Settings asked(const SessionOptions& options, Settings settings) {
 
 }  // namespace
 
-Session::Session(SessionOptions options)
+Session::Session(SessionOptions options, const std::optional<SavedSession>& last)
     : registry_(loadEffects(options.pluginPaths)),
       chain(effect::Selection(*registry_)),
       history(
@@ -51,18 +51,27 @@ Session::Session(SessionOptions options)
           [this](std::string_view effect) { return chain.objectsEvenIfAbsent(effect); }),
       options_(std::move(options)) {
   const Settings settings = options_.config.empty() ? Settings{} : readSettings(options_.config);
-  apply(asked(options_, settings), options_.presets);
+  const SavedSession kept = last.value_or(SavedSession{});
+  const bool sameScene = options_.scene.empty() || sceneKey(options_.scene) == sceneKey(kept.scene);
+  if (last) resume(kept, sameScene);
+  if (!last || !options_.config.empty()) {
+    apply(asked(options_, settings), options_.presets);
+  } else {
+    applyGiven();
+  }
   history.begin(chain.state());  // what the command line asks for is no step of undo
   loadAllPresets();
-  surface =
-      surfaceOf(!options_.surface.empty() ? options_.surface : settings.surface.value_or("white"));
-  background = backgroundOf(!options_.background.empty() ? options_.background
-                                                         : settings.background.value_or(""))
-                   .value_or(background);
+  surface = surfaceOf(!options_.surface.empty() ? options_.surface
+                                                : settings.surface.value_or(kept.surface));
+  background =
+      backgroundOf(!options_.background.empty() ? options_.background
+                                                : settings.background.value_or(kept.background))
+          .value_or(background);
+  takeViews(kept);
   if (!options_.camera.empty()) camera = cameraOf(options_.camera, "--camera");
-  split = !options_.split.empty();
-  splitting.way = options_.splitWay;
-  splitting.backend = options_.splitBackend;
+  split = split || !options_.split.empty();
+  splitting.way = options_.splitWay.value_or(splitting.way);
+  if (!options_.splitBackend.empty()) splitting.backend = options_.splitBackend;
   beginComparing();
   for (auto [wanted, view] : {std::pair{&options_.view, &left}, {&options_.split, &right}}) {
     if (wanted->empty()) continue;
@@ -117,7 +126,6 @@ void Session::setScene(std::shared_ptr<scene::Scene> loaded, const std::string& 
   homeGiven_ = first && !options_.camera.empty();
   homeCamera = homeGiven_ ? camera : scene::defaultCamera(*scene, aspect_);
   camera = homeCamera;
-  cameraHistory.begin(camera);
   extent = glm::length(scene->bounds.max - scene->bounds.min);
   suitableRadius_ = suitableRadius(*scene);
   fitToScene();
@@ -126,12 +134,15 @@ void Session::setScene(std::shared_ptr<scene::Scene> loaded, const std::string& 
   ++heldRevision;
   zoom = 1;
   centre = glm::vec2(0.5f);
-  if (!first) return;
-  attempt("pose", [&] {
-    const scene::Pose pose = options_.pose.poseOf(*scene);
-    choose(pose.animation);
-    takePose(pose);
-  });
+  if (first) {
+    attempt("pose", [&] {
+      const scene::Pose pose = options_.pose.poseOf(*scene);
+      choose(pose.animation);
+      takePose(pose);
+    });
+  }
+  arrive();
+  cameraHistory.begin(camera);
 }
 
 void Session::goTo(const scene::Camera& next) {

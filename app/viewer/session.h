@@ -19,28 +19,16 @@
 #include "app/settings/settings.h"
 #include "app/viewer/camera_history.h"
 #include "app/viewer/history.h"
+#include "app/viewer/session_file.h"
 #include "app/viewer/stage.h"
 #include "app/viewer/tune_run.h"
+#include "app/viewer/view_settings.h"
 #include "core/base/error.h"
 #include "core/effect/selection.h"
 #include "core/scene/camera.h"
 #include "core/scene/scene.h"
 
 namespace grisaille::app::viewer {
-
-// How a split picture shows its two sides: beside a line, as their difference, or in turn.
-enum class SplitWay : uint8_t { kLine, kDifference, kFlicker };
-
-// Settings of a split picture.
-struct SplitSettings {
-  static constexpr float kLeastFull = 1e-4f, kMostFull = 1;
-  static constexpr double kLeastTurn = 0.2, kMostTurn = 2;  // at most 5 changes a second
-
-  SplitWay way = SplitWay::kLine;
-  float full = 0.25f;        // the difference that has the full colour, kLeastFull ... kMostFull
-  double turn = 0.5;         // seconds that a side is shown in turn, kLeastTurn ... kMostTurn
-  std::string backend = "";  // that renders the right side; "": the window's
-};
 
 // Options of the command line.
 struct SessionOptions {
@@ -49,7 +37,7 @@ struct SessionOptions {
   PoseOptions pose;
   bool effectsGiven = false;
   std::string splitBackend;  // of the right side; "": the window's
-  SplitWay splitWay = SplitWay::kLine;
+  std::optional<SplitWay> splitWay;
   bool compareTruth = false;
   double truthRadius = 0;  // metres; 0: the effect's radius
   uint32_t truthRays = 0;  // per pixel; 0: the default
@@ -62,17 +50,6 @@ struct Playback {
   scene::Pose pose = {};
   bool playing = false;
   double speed = 1;  // seconds of the animation per second
-};
-
-// Settings of the comparison with the truth.
-struct TruthSettings {
-  static constexpr uint32_t kLeastRays = 16, kMostRays = 4096;
-  static constexpr double kFarthest = 1e6;  // metres
-
-  bool on = false;
-  std::string output = "";            // compared output; "": the first comparable one
-  std::optional<double> radius = {};  // metres, over 0 to kFarthest; none: the effect's
-  uint32_t rays = 256;                // per pixel, kLeastRays ... kMostRays
 };
 
 // A search that the user requests: `grisaille tune` for one effect in the current view.
@@ -108,14 +85,18 @@ struct Message {
   std::string about = {};  // of an error: what attempt() tried; "": it stays
 };
 
+// A scene's path in one form: a built-in scene's name, or an absolute path.
+std::string sceneKey(const std::string& path);
+
 class Session {
   std::unique_ptr<effect::Registry> registry_;  // first: the members below use its effects
 
  public:
   static constexpr size_t kMessagesKept = 50;
 
-  // Reads every file that the options name, except the scene. Throws Error.
-  explicit Session(SessionOptions options);
+  // Reads every file that the options name, except the scene. `last`: takes over the last session,
+  // except what the options name; of another scene, only effects and views. Throws Error.
+  explicit Session(SessionOptions options, const std::optional<SavedSession>& last = {});
   Session(const Session&) = delete;
   Session& operator=(const Session&) = delete;
 
@@ -125,6 +106,8 @@ class Session {
   // scene takes the pose of the command line; others are at rest.
   void setScene(std::shared_ptr<scene::Scene> loaded, const std::string& path, glm::uvec2 size);
   std::string scenePath;  // a file, or a built-in scene's name; "": the default one
+  // The scene to begin with, as the options or the last session name it.
+  const std::string& firstScene() const { return options_.scene; }
   std::shared_ptr<const scene::Scene> scene;
   std::unique_ptr<SceneServices> services;  // of the scene
   scene::Camera camera, homeCamera;
@@ -258,6 +241,12 @@ class Session {
   void loadSettings(const std::string& path);
   void saveSettings(const std::string& path);
 
+  // Everything that a session file keeps, except backend and layout; session_save.cpp.
+  SavedSession saved();
+  // Takes over a session; effects and objects are steps of undo. Camera and pose wait for
+  // setScene() unless its scene is here. True if setScene() must follow, with session.scene.
+  bool open(const SavedSession& session);
+
   // Saves settings, objects and camera to a folder. Returns the `grisaille view` command that loads
   // them. Throws kFileUnwritable.
   std::string rescue(const std::filesystem::path& folder);
@@ -282,6 +271,11 @@ class Session {
   // The effect whose objects a file holds; "": none.
   std::string ownerOf(const std::string& path);
   void fitToScene();
+  void resume(const SavedSession& last, bool sameScene);
+  void applyGiven();
+  void takeViews(const SavedSession& session);
+  void takeObjects(const SavedSession& session, bool undoable);
+  void arrive();
   void beginComparing();
   static constexpr double kWithin = 1e-6;  // rounding of times, frames
   void loadAllPresets();
@@ -290,6 +284,15 @@ class Session {
   std::shared_ptr<scene::Scene> posed_;           // the same as `scene`
   std::map<std::string, EffectPresets> presets_;  // by effect
   std::string lastChange_;
+  // Camera and pose of a session whose scene is not here yet.
+  struct Arrival {
+    std::string scene;
+    std::optional<scene::Camera> camera;
+    scene::Pose pose;
+  };
+  std::optional<Arrival> arrival_;
+  // Objects of a session for effects that are not loaded: kept for the next session file.
+  std::map<std::string, std::string> strangeObjects_;          // by effect
   std::string placer_;                                         // effect chosen last
   std::map<std::string, objects::Object, std::less<>> next_;   // by effect
   std::string leftBefore_ = "color", rightBefore_ = "normal";  // views before the comparison

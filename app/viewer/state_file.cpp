@@ -23,7 +23,7 @@ namespace {
 namespace fs = std::filesystem;
 using nlohmann::json;
 
-constexpr size_t kMostRecent = 12, kMostSections = 64;
+constexpr size_t kMostRecent = 12;
 constexpr uint32_t kLargestSide = 16384;
 constexpr uintmax_t kLargestFile = 1 << 20;
 
@@ -76,12 +76,15 @@ ViewerState parse(const std::string& text) {
     } else if (key == "height") {
       state.height = static_cast<uint32_t>(numberOf(value, "height", 1, kLargestSide));
     } else if (key == "text_scale") {
-      state.textScale = numberOf(value, "text_scale", 0.5, 4);
+      state.layout.textScale =
+          numberOf(value, "text_scale", PanelLayout::kSmallestText, PanelLayout::kLargestText);
     } else if (key == "panel_width") {
-      state.panelWidth = numberOf(value, "panel_width", 5, ViewerState::kWidestPanel);
+      state.layout.panelWidth =
+          numberOf(value, "panel_width", PanelLayout::kNarrowest, PanelLayout::kWidest);
     } else if (key == "sections") {
-      state.sections = value.get<decltype(state.sections)>();
-      if (state.sections.size() > kMostSections) refuse("'sections' has too many members");
+      state.layout.sections = value.get<decltype(state.layout.sections)>();
+      if (state.layout.sections.size() > PanelLayout::kMostSections)
+        refuse("'sections' has too many members");
     }
   }
   return state;
@@ -152,9 +155,9 @@ void saveState(const ViewerState& state, const fs::path& file) {
   }
   document["width"] = state.width;
   document["height"] = state.height;
-  document["text_scale"] = state.textScale;
-  document["panel_width"] = state.panelWidth;
-  document["sections"] = state.sections;
+  document["text_scale"] = state.layout.textScale;
+  document["panel_width"] = state.layout.panelWidth;
+  document["sections"] = state.layout.sections;
   std::error_code failed;
   fs::create_directories(file.parent_path(), failed);  // on failure, writing throws
   writeFileAtomically(file.string(), document.dump(2) + "\n");

@@ -4,10 +4,10 @@
 
 #include <cstdint>
 #include <filesystem>
-#include <functional>
-#include <map>
 #include <string>
 #include <vector>
+
+#include "app/viewer/session_file.h"
 
 namespace grisaille::app::viewer {
 
@@ -22,12 +22,7 @@ std::string timeStamp();
 struct ViewerState {
   std::vector<std::string> recent;      // scenes, absolute paths, newest first, at most 12
   uint32_t width = 1600, height = 900;  // of the window, in screen units, 1 ... 16384
-  double textScale = 1;                 // 0.5 ... 4
-  static constexpr double kWidestPanel = 200;
-  double panelWidth = 26;  // in heights of the text, 5 ... kWidestPanel
-  std::map<std::string, bool, std::less<>> sections =
-      {};  // of the panel: open; only those that the
-           // user has opened or closed, at most 64
+  PanelLayout layout;
 
   // Makes `path` the newest scene. Ignores built-in scenes, "" among them.
   void noteRecent(const std::string& path);

@@ -36,19 +36,22 @@ void orNote(const std::function<void()>& action) {
 Viewer::Viewer(const ViewerOptions& options)
     : options_(options),
       state_(loadState(stateFile(), stateMessage_)),
-      session_(options.session),
+      last_(firstSession()),
+      session_(options.session, last_),
       bookmarks_(options.bookmarks.empty() ? configFolder() / "bookmarks"
                                            : fs::path(options.bookmarks)),
       panel_(session_, state_, bookmarks_),
       controls_(session_, panel_, bookmarks_, state_) {
   if (!stateMessage_.empty()) session_.say(stateMessage_, true);
+  if (options_.fresh) state_.layout = {};
+  if (last_ && last_->layout) state_.layout = *last_->layout;
   if (options_.size.x > 0) {
     state_.width = options_.size.x;
     state_.height = options_.size.y;
   }
   openWindow();
   rebuild_.watch(session_.registry());
-  openScene(options_.session.scene);
+  openScene(session_.firstScene());
 }
 
 Viewer::~Viewer() {
@@ -71,11 +74,13 @@ void Viewer::run() {
   }
   if (!options_.capture.empty()) saveCapture();
   orNote([&] { keepState(); });
+  orNote([&] { keepSession(); });
 }
 
 // Saves state and unsaved work when an error or a signal ends the program.
 void Viewer::rescue() {
   orNote([&] { keepState(); });
+  orNote([&] { keepSession(); });
   orNote([&] {
     const fs::path folder = stateFolder() / ("rescued-" + timeStamp());
     fmt::print(stderr, "note: settings, objects and camera are saved; continue with: {}\n",
@@ -175,7 +180,7 @@ bool Viewer::lookAtTune() {
 }
 
 void Viewer::frame(double seconds) {
-  const float scale = window_->scale() * static_cast<float>(state_.textScale);
+  const float scale = window_->scale() * static_cast<float>(state_.layout.textScale);
   if (context_.setScale(scale)) screen_->fontChanged();
   takeDropped();
   session_.advance(seconds);
@@ -216,6 +221,12 @@ void Viewer::perform(const Requests& requests) {
   if (requests.tune) startTune(*requests.tune);
   if (requests.cancelTune) tune_.cancel();
   if (requests.scene) openScene(*requests.scene);
+  if (requests.openSession) {
+    session_.attempt("session", [&] { openSession(*requests.openSession); });
+  }
+  if (requests.saveSession) {
+    session_.attempt("session", [&] { saveSessionTo(*requests.saveSession); });
+  }
   if (requests.picture) savePicture();
   if (requests.copyCommand) {
     session_.attempt("command", [&] {
@@ -255,6 +266,7 @@ void Viewer::takeScene() {
     times_.clear();
     state_.noteRecent(path);
     keepState();
+    session_.attempt("session", [&] { keepSession(); });
     nameWindow();
     settle_ = kSettleFrames;
   };
@@ -268,6 +280,8 @@ void Viewer::takeDropped() {
     const std::string ending = fs::path(path).extension().string();
     if (ending == ".glb" || ending == ".gltf") {
       openScene(path);
+    } else if (isSessionFile(path)) {
+      session_.attempt("session", [&] { openSession(path); });
     } else {
       session_.attempt("file", [&] { session_.openFile(path); });
     }

@@ -23,6 +23,8 @@ struct ViewerOptions {
   SessionOptions session;
   std::string backend, device;      // "": the first that starts
   std::string bookmarks;            // folder; "": configFolder()/bookmarks
+  bool fresh = false;               // begin without the last session
+  std::string sessionFile;          // begin with this session instead; "": the last one
   std::string layoutFile;           // receives the controls' rectangles; "": none
   glm::uvec2 size = glm::uvec2(0);  // of the window, screen units; 0: as in the last run
   // Ends after this number of complete frames: with the scene's picture and, if it is compared with
@@ -63,6 +65,13 @@ class Viewer {
   void takeDropped();
   void noteSize();
   void keepState();
+  // viewer_session.cpp
+  std::optional<SavedSession> firstSession();
+  bool keepsSession() const { return options_.frames == 0; }
+  void keepSession();
+  void saveSessionTo(const std::string& path);
+  void openSession(const std::string& path);
+  SavedSession saved();
   // viewer_backend.cpp
   struct Opened {
     std::unique_ptr<Window> window;
@@ -102,6 +111,8 @@ class Viewer {
   ViewerOptions options_;
   std::string stateMessage_;
   ViewerState state_;
+  bool setsAside_ = false;  // keepSession() keeps the file that is there under another name
+  std::optional<SavedSession> last_;  // the session to begin with
   Session session_;
   Bookmarks bookmarks_;
   WindowLibrary library_;

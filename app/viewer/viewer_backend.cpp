@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: MIT
 // The viewer's backends: the one of the window, which the user can change, and the one that may
 // render the right side of a split picture.
+#include <algorithm>
 #include <filesystem>
 
 #include "app/viewer/viewer.h"
@@ -13,8 +14,12 @@ void Viewer::openWindow() {
     take(open(backends::find(options_.backend)), options_.backend);
     return;
   }
+  std::vector<backends::Backend> order(backends::all().begin(), backends::all().end());
+  std::ranges::stable_partition(order, [&](const backends::Backend& backend) {
+    return last_ && last_->backend == backend.name;
+  });
   std::string reasons;
-  for (const backends::Backend& backend : backends::all()) {
+  for (const backends::Backend& backend : order) {
     try {
       take(open(backend), backend.name);
       if (!reasons.empty()) session_.say(reasons, true);

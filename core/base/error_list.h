@@ -116,6 +116,7 @@ GRISAILLE_ERROR(kSettingsInvalid, 5104, "correct the line that the message names
 GRISAILLE_ERROR(kViewerState, 5105, "no action needed; the viewer starts with its defaults")
 GRISAILLE_ERROR(kTruthUnknown, 5106, "name ao, ao_error, ceiling, ceiling_error, depth or normal")
 GRISAILLE_ERROR(kTruthCache, 5107, "remove the file; the program traces the truth again")
+GRISAILLE_ERROR(kSessionFile, 5109, "give a whole file that the viewer's \"Save session\" wrote")
 GRISAILLE_ERROR(kLeftOut, 5108, "build the program again with the option that the message names")
 // --- 52xx: the viewer
 GRISAILLE_ERROR(kNoDisplay, 5201, "start it on a desktop, or use `grisaille render`")

@@ -193,7 +193,7 @@ class Reader : public nlohmann::json_sax<json> {
   bool hasList_ = false;
 };
 
-Objects parse(const Table& table, std::string_view text) {
+Objects parsed(const Table& table, std::string_view text) {
   Reader reader(table);
   json::sax_parse(text.begin(), text.end(), &reader);
   return reader.take();
@@ -275,11 +275,14 @@ void save(const View& objects, const std::string& path) {
 }
 
 Objects load(const Table& table, const std::string& path) {
-  const std::string text = readRegularFile(path, ErrorId::kObjectFileUnreadable);
+  return parse(table, readRegularFile(path, ErrorId::kObjectFileUnreadable), path);
+}
+
+Objects parse(const Table& table, std::string_view text, const std::string& name) {
   try {
-    return parse(table, text);
+    return parsed(table, text);
   } catch (const Error& error) {
-    throw Error(error.id(), "{}: {}", path, error.detail());
+    throw Error(error.id(), "{}: {}", name, error.detail());
   }
 }
 
@@ -303,7 +306,7 @@ Object parseObject(const Table& table, std::string_view text) {
   try {
     const std::string file =
         fmt::format("{{\"version\": {}, \"{}\": [{}]}}", kVersion, table.key, text);
-    const Objects objects = parse(table, file);
+    const Objects objects = parsed(table, file);
     if (objects.size() == 1) return objects.view().object(0);
     throw Error(ErrorId::kObjectField, "there are {} objects, not one", objects.size());
   } catch (const Error& error) {

@@ -34,6 +34,9 @@ void save(const View& objects, const std::string& path);
 // "decals[3].colour[1] is 2, out of 0 to 1".
 Objects load(const Table& table, const std::string& path);
 
+// The same from the text of a file; `name` prefixes the messages.
+Objects parse(const Table& table, std::string_view text, const std::string& name);
+
 // The key of the list in a file: the first member, in the file's first 256 bytes, other than
 // "version". "" if no such member exists. Throws kObjectFileUnreadable.
 std::string listKeyOf(const std::string& path);

@@ -20,9 +20,9 @@ ViewerState some() {
   for (const char* path : {"/a.glb", "/b c.gltf", "/ä/\"'.glb"}) state.noteRecent(path);
   state.width = 1920;
   state.height = 1080;
-  state.textScale = 1.0 / 3 + 1;
-  state.panelWidth = 31.25;
-  state.sections = {{"Cost", true}, {"View", false}};
+  state.layout.textScale = 1.0 / 3 + 1;
+  state.layout.panelWidth = 31.25;
+  state.layout.sections = {{"Cost", true}, {"View", false}};
   return state;
 }
 

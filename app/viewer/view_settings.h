@@ -1,0 +1,36 @@
+// SPDX-License-Identifier: MIT
+// Settings of what the picture shows: the split into two sides, and the comparison with the truth.
+#pragma once
+
+#include <cstdint>
+#include <optional>
+#include <string>
+
+namespace grisaille::app::viewer {
+
+// How a split picture shows its two sides: beside a line, as their difference, or in turn.
+enum class SplitWay : uint8_t { kLine, kDifference, kFlicker };
+
+// Settings of a split picture.
+struct SplitSettings {
+  static constexpr float kLeastFull = 1e-4f, kMostFull = 1;
+  static constexpr double kLeastTurn = 0.2, kMostTurn = 2;  // at most 5 changes a second
+
+  SplitWay way = SplitWay::kLine;
+  float full = 0.25f;        // the difference that has the full colour, kLeastFull ... kMostFull
+  double turn = 0.5;         // seconds that a side is shown in turn, kLeastTurn ... kMostTurn
+  std::string backend = "";  // that renders the right side; "": the window's
+};
+
+// Settings of the comparison with the truth.
+struct TruthSettings {
+  static constexpr uint32_t kLeastRays = 16, kMostRays = 4096;
+  static constexpr double kFarthest = 1e6;  // metres
+
+  bool on = false;
+  std::string output = "";            // compared output; "": the first comparable one
+  std::optional<double> radius = {};  // metres, over 0 to kFarthest; none: the effect's
+  uint32_t rays = 256;                // per pixel, kLeastRays ... kMostRays
+};
+
+}  // namespace grisaille::app::viewer
