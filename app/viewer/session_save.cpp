@@ -108,6 +108,7 @@ void Session::takeObjects(const SavedSession& session, bool undoable) {
                          const objects::Objects all =
                              objects::parse(list->table(), text, "the session's " + key);
                          if (!undoable) return list->assign(all.view());
+                         if (objects::jsonOf(all.view()) == objects::jsonOf(list->view())) return;
                          changeObjects(key, "session", false,
                                        [&](objects::ObjectList& own) { own.replace(all.view()); });
                        });

@@ -24,7 +24,7 @@ SavedSession whole() {
   session.scene = "/models/a \"hall\".glb";
   session.pose = {.animation = 2, .seconds = 1.0 / 3};
   session.camera = scene::atriumCamera();
-  session.effects.effects = {{"ssao", true, {{"radius", "0.1"}, {"estimator", "classic"}}},
+  session.effects.effects = {{"ssao", true, {{"estimator", "classic"}, {"radius", "0.1"}}},
                              {"other", false, {}}};
   session.held = session.effects;
   session.held->effects[0].on = false;
