@@ -151,6 +151,7 @@ void Controls::updateKeysAnywhere(Requests& requests) {
   if (isKeyPressed(GLFW_KEY_F11)) wantsFullScreen = true;
   if (isKeyPressed(GLFW_KEY_F12)) requests.picture = true;
   if (ctrl && isKeyPressed(GLFW_KEY_Q)) requests.quit = true;
+  if (ctrl && isKeyPressed(GLFW_KEY_O)) requests.openDialog = true;
   if (ctrl && isKeyPressed(GLFW_KEY_S)) panel_.saveSettings();
   if (ctrl && (isKeyPressed(GLFW_KEY_EQUAL) || isKeyPressed(GLFW_KEY_KP_ADD)))
     state_.layout.textScale *= 1.1;
@@ -163,7 +164,7 @@ void Controls::updateKeysAnywhere(Requests& requests) {
 void Controls::updateKeys(const Place& place, Requests& requests) {
   const ImGuiIO& io = ImGui::GetIO();
   if (isKeyPressed(GLFW_KEY_ESCAPE)) {
-    panel_.help = false;
+    panel_.closeDialogs();
     ImGui::SetWindowFocus(nullptr);
   }
   updateBookmarkKeys();

@@ -80,6 +80,8 @@ bool InterfaceContext::setScale(float scale) {
 
 InterfaceRenderer::~InterfaceRenderer() {
   device_.destroy(pipeline_);
+  device_.destroy(picturesPipeline_);
+  device_.destroy(pictures_);
   device_.destroy(sampler_);
   device_.destroy(font_);
   device_.destroy(vertices_);
@@ -135,27 +137,54 @@ gpu::Buffer InterfaceRenderer::buffer(gpu::Commands& commands, gpu::Buffer& buff
   return buffer;
 }
 
+ImTextureID picturesTexture() {
+  // A number or a pointer, by ImGui's version. The font has 0.
+  return (ImTextureID)(intptr_t)1;  // NOLINT(google-readability-casting)
+}
+
+gpu::GraphicsPipeline InterfaceRenderer::makePipeline(bool pictures) {
+  constexpr uint32_t kStride[] = {sizeof(ImDrawVert)};
+  constexpr gpu::VertexAttribute kAttributes[] = {
+      {0, 0, gpu::AttributeFormat::kFloat2, offsetof(ImDrawVert, pos)},
+      {1, 0, gpu::AttributeFormat::kFloat2, offsetof(ImDrawVert, uv)},
+      {2, 0, gpu::AttributeFormat::kUnorm8x4, offsetof(ImDrawVert, col)}};
+  constexpr gpu::Format kFormat[] = {gpu::Format::kRgba8Unorm};
+  const gpu::Specialization constants[] = {{0, pictures ? 1u : 0u}};
+  gpu::GraphicsPipelineDesc desc;
+  desc.label = "interface";
+  desc.vertex = &grisaille_shader_interface_vert;
+  desc.fragment = &grisaille_shader_interface_frag;
+  desc.constants = constants;
+  desc.streamStrides = kStride;
+  desc.attributes = kAttributes;
+  desc.colorFormats = kFormat;
+  desc.blend = gpu::Blend::kOver;
+  return device_.createGraphicsPipeline(desc);
+}
+
+void InterfaceRenderer::uploadPictures(gpu::Commands& commands, const InterfacePictures& pictures) {
+  device_.destroy(pictures_);
+  pictures_ = {};
+  if (!picturesPipeline_) picturesPipeline_ = makePipeline(true);
+  pictures_ = device_.createTexture({.label = "pictures",
+                                     .format = gpu::Format::kRgba8Unorm,
+                                     .width = pictures.width,
+                                     .height = pictures.height,
+                                     .usage = gpu::TextureUsage::kSampled});
+  commands.upload(pictures_, 0, 0, pictures.texels);
+  picturesRevision_ = pictures.revision;
+}
+
 void InterfaceRenderer::draw(gpu::Commands& commands, const ImDrawData& data, gpu::Texture target,
-                             uint32_t width, uint32_t height) {
+                             uint32_t width, uint32_t height, const InterfacePictures* pictures) {
   gather(data);
   if (indexData_.empty()) return;
   if (!pipeline_) {
     sampler_ = device_.createSampler({.label = "interface", .filter = gpu::Filter::kLinear});
-    constexpr uint32_t kStride[] = {sizeof(ImDrawVert)};
-    constexpr gpu::VertexAttribute kAttributes[] = {
-        {0, 0, gpu::AttributeFormat::kFloat2, offsetof(ImDrawVert, pos)},
-        {1, 0, gpu::AttributeFormat::kFloat2, offsetof(ImDrawVert, uv)},
-        {2, 0, gpu::AttributeFormat::kUnorm8x4, offsetof(ImDrawVert, col)}};
-    constexpr gpu::Format kFormat[] = {gpu::Format::kRgba8Unorm};
-    gpu::GraphicsPipelineDesc desc;
-    desc.label = "interface";
-    desc.vertex = &grisaille_shader_interface_vert;
-    desc.fragment = &grisaille_shader_interface_frag;
-    desc.streamStrides = kStride;
-    desc.attributes = kAttributes;
-    desc.colorFormats = kFormat;
-    desc.blend = gpu::Blend::kOver;
-    pipeline_ = device_.createGraphicsPipeline(desc);
+    pipeline_ = makePipeline(false);
+  }
+  if (pictures != nullptr && picturesRevision_ != pictures->revision) {
+    uploadPictures(commands, *pictures);
   }
   uploadFont(commands);
   const gpu::BufferRange vertexRange = {buffer(commands, vertices_, vertexBytes_,
@@ -169,6 +198,8 @@ void InterfaceRenderer::draw(gpu::Commands& commands, const ImDrawData& data, gp
   const std::array bindings = {
       gpu::uniformBinding(0, commands.uniform(std::as_bytes(std::span(&block, 1)))),
       gpu::textureBinding(0, {.texture = font_}, sampler_)};
+  const std::array pictured = {bindings[0],
+                               gpu::textureBinding(0, {.texture = pictures_}, sampler_)};
   std::vector<gpu::Draw> draws;
   uint32_t first = 0;
   const ImVec2 scale = data.FramebufferScale;
@@ -183,8 +214,9 @@ void InterfaceRenderer::draw(gpu::Commands& commands, const ImDrawData& data, gp
       const uint32_t bottom = clip((command.ClipRect.w - data.DisplayPos.y) * scale.y, height);
       if (right > left && bottom > top && command.ElemCount > 0) {
         gpu::Draw draw;
-        draw.pipeline = pipeline_;
-        draw.bindings = bindings;
+        const bool picture = pictures_ && command.GetTexID() == picturesTexture();
+        draw.pipeline = picture ? picturesPipeline_ : pipeline_;
+        draw.bindings = picture ? pictured : bindings;
         draw.vertexStreams = {&vertexRange, 1};
         draw.indices = indexRange;
         draw.count = command.ElemCount;

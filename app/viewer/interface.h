@@ -4,12 +4,12 @@
 // Vulkan renderer needs the loader.
 #pragma once
 
+#include <imgui/imgui.h>
+
 #include <cstdint>
 #include <vector>
 
 #include "core/gpu/device.h"
-
-struct ImDrawData;
 
 namespace grisaille::app::viewer {
 
@@ -32,6 +32,16 @@ class InterfaceContext {
   float scale_ = 0;
 };
 
+// Pictures that the interface shows, as one texture.
+struct InterfacePictures {
+  uint32_t width = 0, height = 0;  // pixels
+  std::vector<std::byte> texels;   // RGBA, 8 bits, sRGB encoded, top row first
+  uint64_t revision = 0;           // changes with the texels
+};
+
+// The texture of the pictures, for ImDrawList::AddImage().
+ImTextureID picturesTexture();
+
 class InterfaceRenderer {
  public:
   // The device must outlive this.
@@ -43,20 +53,23 @@ class InterfaceRenderer {
   void fontChanged();
 
   // Draws over the content of `target` (kRgba8Unorm, `width` x `height` pixels: the window's size).
-  // Call inside a pass.
+  // Call inside a pass. `pictures`: what picturesTexture() stands for; null: nothing.
   void draw(gpu::Commands& commands, const ImDrawData& data, gpu::Texture target, uint32_t width,
-            uint32_t height);
+            uint32_t height, const InterfacePictures* pictures = nullptr);
 
  private:
   void uploadFont(gpu::Commands& commands);
+  void uploadPictures(gpu::Commands& commands, const InterfacePictures& pictures);
+  gpu::GraphicsPipeline makePipeline(bool pictures);
   void gather(const ImDrawData& data);
   gpu::Buffer buffer(gpu::Commands& commands, gpu::Buffer& buffer, uint64_t& capacity,
                      const char* label, std::span<const std::byte> bytes, gpu::BufferUsage usage);
 
   gpu::Device& device_;
-  gpu::GraphicsPipeline pipeline_;
+  gpu::GraphicsPipeline pipeline_, picturesPipeline_;
   gpu::Sampler sampler_;
-  gpu::Texture font_;
+  gpu::Texture font_, pictures_;
+  uint64_t picturesRevision_ = 0;
   gpu::Buffer vertices_, indices_;
   uint64_t vertexBytes_ = 0, indexBytes_ = 0;  // capacities
   std::vector<std::byte> vertexData_;          // of the frame; reused, to keep their memory

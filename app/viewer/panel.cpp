@@ -52,6 +52,7 @@ constexpr struct {
     {", .", "one frame of the animation back, on"},
     {"", ""},
     {"Ctrl + C", "copy the command line"},
+    {"Ctrl + O", "open a scene or another file"},
     {"Ctrl + S", "save the settings"},
     {"F5", "look for plugins again"},
     {"F11", "full screen"},
@@ -144,22 +145,17 @@ Requests Panel::draw(const Status& status, glm::vec2 window) {
     if (section("Settings", false)) drawSettings(requests);
     if (section("Cost", false)) drawCost(status);
     if (section("Camera", false)) drawCamera();
-    if (section("Scene", false)) drawScene(status, requests);
+    if (section("Scene", false)) drawScene(requests);
     ImGui::EndChild();
     drawReadout(status);
     drawMessages();
     drawBorder(window);
     ImGui::End();
   }
-  if (status.loading) {
-    ImGui::SetNextWindowPos(ImVec2((width(window) + window.x) / 2, window.y / 2), ImGuiCond_Always,
-                            ImVec2(0.5f, 0.5f));
-    ImGui::Begin("Loading", nullptr,
-                 ImGuiWindowFlags_NoDecoration | ImGuiWindowFlags_NoInputs |
-                     ImGuiWindowFlags_AlwaysAutoResize);
-    ImGui::TextUnformatted(status.loadingPath.c_str());
-    ImGui::ProgressBar(static_cast<float>(*status.loading), ImVec2(20 * ImGui::GetFontSize(), 0));
-    ImGui::End();
+  drawLoading(status, window, requests);
+  drawFailure(status, window, requests);
+  if (const auto file = dialog_.draw(state_, width(window), window.x, window.y, layout)) {
+    requests.file = file;
   }
   if (help) drawHelp(window);
   return requests;
@@ -256,27 +252,6 @@ void Panel::drawCamera() {
     session_.attempt("bookmark", [&] { bookmarks_.save(bookmarkName_, session_.camera); });
     listsFresh_ = false;
   }
-}
-
-void Panel::drawScene(const Status& status, Requests& requests) {
-  ImGui::TextWrapped("%s", sceneLabel(session_.scenePath).c_str());
-  ImGui::BeginDisabled(status.loading.has_value());
-  bool open = path("##scene", "scene path", scenePath_);
-  ImGui::SameLine();
-  open |= button("Open", "open scene",
-                 "A .glb or .gltf file, or a built-in scene; or drop a file on the window");
-  if (open && !scenePath_.empty()) requests.scene = scenePath_;
-  for (const scene::BuiltIn& one : scene::builtIns()) {
-    if (ImGui::Selectable(sceneLabel(one.name).c_str())) requests.scene = one.name;
-    tip(one.about);
-    layout.note(std::string("scene.") + one.name);
-  }
-  for (const std::string& recent : state_.recent) {
-    if (ImGui::Selectable(fitted(recent).c_str())) requests.scene = recent;
-    layout.note("recent." + recent);
-    tip(recent);
-  }
-  ImGui::EndDisabled();
 }
 
 void Panel::drawHelp(glm::vec2 window) {

@@ -15,6 +15,7 @@
 #include "app/truth/comparison.h"
 #include "app/viewer/bookmarks.h"
 #include "app/viewer/layout.h"
+#include "app/viewer/open_dialog.h"
 #include "app/viewer/pass_stats.h"
 #include "app/viewer/session.h"
 #include "app/viewer/side_difference.h"
@@ -61,13 +62,17 @@ struct Status {
   TuneStatus tune;
   std::optional<double> loading;  // share of the scene that is read, 0 ... 1
   std::string loadingPath;
+  // Why the last scene could not be opened, and no scene has been since; "": none.
+  std::string failedScene;
   std::string rebuilding;    // build target of the plugin being built; "": none
   std::string buildMessage;  // why the last build failed; "": it succeeded
 };
 
 // Actions that the panel and the keys request from the viewer.
 struct Requests {
-  std::optional<std::string> scene;                     // to open; "": the built-in scene
+  std::optional<std::string> scene;  // to open; "": the built-in scene
+  std::optional<std::string> file;   // to open: a scene or any other kind
+  bool openDialog = false, cancelLoading = false, closeFailure = false;
   std::optional<std::string> backend;                   // that shall open the window
   std::optional<std::string> openSession, saveSession;  // files
   std::optional<TuneWish> tune;
@@ -79,6 +84,16 @@ class Panel {
  public:
   Panel(Session& session, ViewerState& state, Bookmarks& bookmarks)
       : session_(session), state_(state), bookmarks_(bookmarks) {}
+
+  // The panel's own file dialog, and the thumbnails that it shows.
+  void showOpenDialog() {
+    thumbnails.read(state_.recent);
+    dialog_.show();
+  }
+  void closeDialogs() {
+    help = false;
+    dialog_.close();
+  }
 
   // Call between ImGui::NewFrame() and ImGui::Render(). `window`: size, in the window's units.
   Requests draw(const Status& status, glm::vec2 window);
@@ -101,13 +116,14 @@ class Panel {
   glm::uvec2 pictureSize = glm::uvec2(1920, 1080);  // of saved pictures
   bool pictureAsShown = true;                       // save at the size on the screen
   Layout layout;
+  Thumbnails thumbnails{stateFolder() / "thumbnails"};
 
  private:
   // panel.cpp
   void drawBackend(const Status& status, Requests& requests);
   void drawBorder(glm::vec2 window);
   bool section(const char* label, bool open);
-  void drawScene(const Status& status, Requests& requests);
+  void drawScene(Requests& requests);
   void drawCamera();
   void drawSettings(Requests& requests);
   void drawHelp(glm::vec2 window);
@@ -180,9 +196,14 @@ class Panel {
   // The end of a path that is too long for the panel, after an ellipsis.
   static std::string fitted(const std::string& path);
 
+  // panel_scene.cpp
+  void drawLoading(const Status& status, glm::vec2 window, Requests& requests);
+  void drawFailure(const Status& status, glm::vec2 window, Requests& requests);
+
   Session& session_;
   ViewerState& state_;
   Bookmarks& bookmarks_;
+  OpenDialog dialog_{thumbnails};
   std::string scenePath_, settingsPath_ = "settings.toml", savedName_;
   std::string sessionPath_ = "session.json";
   std::string bookmarkName_;

@@ -5,6 +5,7 @@
 
 #include <chrono>
 
+#include "core/base/error.h"
 #include "core/scene/built_in.h"
 
 namespace grisaille::app::viewer {
@@ -15,16 +16,31 @@ std::string sceneLabel(const std::string& path) {
 }
 
 SceneLoading::~SceneLoading() {
-  if (result_.valid()) result_.wait();
+  cancel();
+  for (const Result& result : ending_) result.wait();
 }
 
 void SceneLoading::start(const std::string& path) {
   path_ = path;
-  *progress_ = 0;
-  result_ = std::async(std::launch::async, [path, progress = progress_] {
-    const auto report = [&](double share) { *progress = share; };
+  progress_ = std::make_shared<std::atomic<double>>(0);
+  cancelled_ = std::make_shared<std::atomic<bool>>(false);
+  result_ = std::async(std::launch::async, [path, progress = progress_, cancelled = cancelled_] {
+    const auto report = [&](double share) {
+      if (*cancelled) throw Error(ErrorId::kSceneUnreadable, "{}: cancelled", path);
+      *progress = share;
+    };
     return std::make_shared<scene::Scene>(scene::loadScene(path, report));
   });
+}
+
+void SceneLoading::cancel() {
+  std::erase_if(ending_, [](const Result& result) {
+    return result.wait_for(std::chrono::seconds(0)) == std::future_status::ready;
+  });
+  if (!result_.valid()) return;
+  *cancelled_ = true;
+  ending_.push_back(std::move(result_));
+  result_ = {};
 }
 
 std::shared_ptr<scene::Scene> SceneLoading::take() {

@@ -7,6 +7,7 @@
 #include <memory>
 #include <optional>
 #include <string>
+#include <vector>
 
 #include "core/scene/scene.h"
 
@@ -17,7 +18,7 @@ std::string sceneLabel(const std::string& path);
 
 class SceneLoading {
  public:
-  ~SceneLoading();  // waits until the scene is read
+  ~SceneLoading();  // cancels, and waits for the threads
 
   bool running() const { return result_.valid(); }
   double progress() const { return *progress_; }  // 0 ... 1
@@ -27,14 +28,22 @@ class SceneLoading {
   // running().
   void start(const std::string& path);
 
+  // Ends the reading without a result: running() is false at once. The thread ends at its next
+  // report of progress.
+  void cancel();
+
   // The scene, once; null while it is still being read or nothing was started. Throws the errors of
   // scene::loadScene().
   std::shared_ptr<scene::Scene> take();
 
  private:
   std::string path_;
+  using Result = std::future<std::shared_ptr<scene::Scene>>;
+
   std::shared_ptr<std::atomic<double>> progress_ = std::make_shared<std::atomic<double>>(0);
-  std::future<std::shared_ptr<scene::Scene>> result_;
+  std::shared_ptr<std::atomic<bool>> cancelled_;  // of result_
+  Result result_;
+  std::vector<Result> ending_;  // of cancelled readings
 };
 
 }  // namespace grisaille::app::viewer

@@ -117,7 +117,7 @@ gpu::Texture Screen::draw(const ScreenDesc& desc, const ImDrawData& interfaceDat
     const std::array bindings = {gpu::textureBinding(0, {.texture = picture_}, nearest_),
                                  gpu::imageBinding(0, window_)};
     commands.dispatch({.pipeline = copy_, .bindings = bindings, .groups = groupsFor(size_)});
-    interface_.draw(commands, interfaceData, window_, size_.x, size_.y);
+    interface_.draw(commands, interfaceData, window_, size_.x, size_.y, desc.pictures);
     commands.endPass();
     device_.submit();
     shown_ = now;

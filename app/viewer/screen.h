@@ -10,8 +10,6 @@
 #include "app/viewer/controls.h"
 #include "app/viewer/interface.h"
 
-struct ImDrawData;
-
 namespace grisaille::app::viewer {
 
 // Parameters of Screen::draw().
@@ -31,6 +29,7 @@ struct ScreenDesc {
   glm::vec2 centre = glm::vec2(0.5f);  // point in the middle, as a share of the picture
   float farDepth = 1;                  // metres, drawn as mid grey
   float lineWidth = 1;                 // pixels
+  const InterfacePictures* pictures = nullptr;  // of the interface; null: none
 };
 
 class Screen {
@@ -46,6 +45,9 @@ class Screen {
   // Draws the picture, if it has changed, and the interface, as one frame of the device. The result
   // is valid until the next call.
   gpu::Texture draw(const ScreenDesc& desc, const ImDrawData& interfaceData);
+
+  // The window's content of the last draw() without the interface; null before.
+  gpu::Texture picture() const { return shown_ ? picture_ : gpu::Texture(); }
 
  private:
   // Same layout as in shaders/viewer/show.comp.

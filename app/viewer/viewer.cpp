@@ -42,6 +42,10 @@ Viewer::Viewer(const ViewerOptions& options)
                                            : fs::path(options.bookmarks)),
       panel_(session_, state_, bookmarks_),
       controls_(session_, panel_, bookmarks_, state_) {
+  std::error_code failed;
+  if (!fs::exists(stateFile(), failed)) {
+    session_.say("Drag in the picture to orbit. F1 lists all keys, Ctrl+O opens a file.");
+  }
   if (!stateMessage_.empty()) session_.say(stateMessage_, true);
   if (options_.fresh) state_.layout = {};
   if (last_ && last_->layout) state_.layout = *last_->layout;
@@ -108,6 +112,7 @@ void Viewer::showFrames() {
     settle_ = std::max(settle_ - 1, 0);
     frame(since.count());
     ++drawn_;
+    if (stage_ && !isStale()) noteThumbnail();
     if (stage_ && !isStale() && !truth_->running()) ++complete_;
     const std::chrono::duration<double> took = Clock::now() - now;
     if (took.count() < kLeastFrame) {
@@ -220,7 +225,7 @@ void Viewer::perform(const Requests& requests) {
   }
   if (requests.tune) startTune(*requests.tune);
   if (requests.cancelTune) tune_.cancel();
-  if (requests.scene) openScene(*requests.scene);
+  performOpening(requests);
   if (requests.openSession) {
     session_.attempt("session", [&] { openSession(*requests.openSession); });
   }
@@ -242,11 +247,26 @@ void Viewer::perform(const Requests& requests) {
   if (requests.quit) window_->close();
 }
 
-void Viewer::openScene(const std::string& path) {
-  if (loading_.running()) {
-    session_.say("a scene is already loading: " + loading_.path());
-    return;
+void Viewer::performOpening(const Requests& requests) {
+  if (requests.scene) openScene(*requests.scene);
+  if (requests.file) openAny(*requests.file);
+  if (requests.openDialog) panel_.showOpenDialog();
+  if (requests.closeFailure) failedScene_.clear();
+  if (requests.cancelLoading && loading_.running()) {
+    loading_.cancel();
+    session_.say("loading is cancelled: " + sceneLabel(loading_.path()));
+    if (!session_.scene) failedScene_ = session_.messages.back().text;
+    panel_.thumbnails.read(state_.recent);
   }
+  if (requests.openDialog || requests.closeFailure || requests.cancelLoading) {
+    settle_ = kSettleFrames;
+  }
+}
+
+// Another scene that is being read is given up.
+void Viewer::openScene(const std::string& path) {
+  loading_.cancel();
+  failedScene_.clear();
   std::error_code failed;
   loading_.start(scene::findBuiltIn(path) != nullptr ? path : fs::absolute(path, failed).string());
 }
@@ -262,6 +282,7 @@ void Viewer::takeScene() {
     if (other_) other_->forget();
     session_.setScene(scene, path, place().size);
     retry_ = {};
+    pictured_ = false;
     stage_ = std::make_unique<Stage>(*device_, *session_.scene, *session_.services, session_.chain);
     times_.clear();
     state_.noteRecent(path);
@@ -272,20 +293,44 @@ void Viewer::takeScene() {
   };
   // A run of so many frames would wait for the scene forever.
   if (options_.frames > 0) return take();
-  session_.attempt("scene", take);
+  if (session_.attempt("scene", take)) return;
+  failedScene_ = session_.messages.back().text;
+  panel_.thumbnails.read(state_.recent);
+  settle_ = kSettleFrames;
+}
+
+void Viewer::openAny(const std::string& path) {
+  if (isOfKind(path, FileKind::kScene)) {
+    openScene(path);
+  } else if (isSessionFile(path)) {
+    session_.attempt("session", [&] { openSession(path); });
+  } else {
+    session_.attempt("file", [&] { session_.openFile(path); });
+  }
 }
 
 void Viewer::takeDropped() {
-  for (const std::string& path : window_->takeDropped()) {
-    const std::string ending = fs::path(path).extension().string();
-    if (ending == ".glb" || ending == ".gltf") {
-      openScene(path);
-    } else if (isSessionFile(path)) {
-      session_.attempt("session", [&] { openSession(path); });
-    } else {
-      session_.attempt("file", [&] { session_.openFile(path); });
+  for (const std::string& path : window_->takeDropped()) openAny(path);
+}
+
+// Keeps a small picture of the scene, for the list of scenes opened last.
+void Viewer::noteThumbnail() {
+  const bool listed = !state_.recent.empty() && state_.recent.front() == session_.scenePath;
+  if (pictured_ || !keepsSession() || !listed || !screen_->picture() || session_.split) return;
+  pictured_ = true;
+  session_.attempt("thumbnail", [&] {
+    const Place where = place();
+    const glm::uvec2 pixels = window_->pixels();
+    const std::vector<std::byte> window = device_->read(screen_->picture());
+    image::Image8 picture{.width = where.size.x, .height = where.size.y, .pixels = {}};
+    for (uint32_t y = 0; y < where.size.y; ++y) {
+      const size_t from = (size_t{y} * pixels.x + static_cast<size_t>(where.corner.x)) * 4;
+      if (from + size_t{where.size.x} * 4 > window.size()) return;
+      const auto* first = reinterpret_cast<const uint8_t*>(window.data()) + from;
+      picture.pixels.insert(picture.pixels.end(), first, first + size_t{where.size.x} * 4);
     }
-  }
+    panel_.thumbnails.save(session_.scenePath, picture);
+  });
 }
 
 void Viewer::noteSize() {

@@ -58,9 +58,12 @@ class Viewer {
   bool lookAround();
   void frame(double seconds);
   void perform(const Requests& requests);
+  void performOpening(const Requests& requests);
   void startTune(const TuneWish& wish);
   bool lookAtTune();
   void openScene(const std::string& path);
+  void openAny(const std::string& path);
+  void noteThumbnail();
   void takeScene();
   void takeDropped();
   void noteSize();
@@ -129,6 +132,8 @@ class Viewer {
   SceneLoading loading_;
   Rebuild rebuild_;
   std::string buildMessage_;
+  std::string failedScene_;  // as in Status
+  bool pictured_ = false;    // the scene has its thumbnail
   TuneRun tune_;
   TuneStatus tuning_;
   PassTimes times_;

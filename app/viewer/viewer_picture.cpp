@@ -228,6 +228,7 @@ Status Viewer::status() {
     status.loading = loading_.progress();
     status.loadingPath = sceneLabel(loading_.path());
   }
+  status.failedScene = failedScene_;
   status.truth = truthStatus();
   status.tune = tuning_;
   status.rebuilding = rebuild_.building();
@@ -269,6 +270,7 @@ void Viewer::drawWindow() {
   desc.zoom = session_.zoom;
   desc.centre = session_.centre;
   desc.farDepth = std::max(1e-6f, static_cast<float>(session_.extent) / 8);
+  desc.pictures = &panel_.thumbnails.pictures();
   desc.lineWidth = std::max(1.0f, window_->scale());
   shown_ = screen_->draw(desc, *ImGui::GetDrawData());
   if (!device_->present(shown_)) settle_ = std::max(settle_, 1);
@@ -316,9 +318,10 @@ void Viewer::writeLayout() {
   const auto corner = glm::vec2(where.corner), end = corner + glm::vec2(where.size);
   const bool done = settle_ == 0 && !session_.isPlaying() && stage_ && !isStale();
   panel_.layout.note("picture", corner.x, corner.y, end.x, end.y,
-                     retry_.wait > 0 ? "failed"
-                     : done          ? "done"
-                                     : "stale");
+                     retry_.wait > 0                    ? "failed"
+                     : !stage_ && !failedScene_.empty() ? "empty"
+                     : done                             ? "done"
+                                                        : "stale");
   panel_.layout.note("camera", 0, 0, 0, 0, scene::cameraJson(session_.camera));
   panel_.layout.note("drawn", 0, 0, 0, 0, fmt::format("{}", drawn_));
   panel_.layout.note("typing", 0, 0, 0, 0, ImGui::GetIO().WantTextInput ? "true" : "false");

@@ -65,7 +65,6 @@ void Viewer::saveSessionTo(const std::string& path) {
 }
 
 void Viewer::openSession(const std::string& path) {
-  if (loading_.running()) throw Error(ErrorId::kUsage, "a scene is loading");
   const SavedSession session = loadSession(path);
   if (session.layout) state_.layout = *session.layout;
   if (session_.open(session)) openScene(session.scene);

@@ -101,7 +101,9 @@ void DrivenViewer::untilDrawn() {
 
 // Input has arrived once the viewer has drawn a frame for it. Input without effect draws no frame.
 bool DrivenViewer::isDrawn(const nlohmann::json& now) const {
-  if (!now.contains("picture") || now["picture"]["value"] != "done") return false;
+  if (!now.contains("picture")) return false;
+  const std::string picture = now["picture"]["value"];
+  if (picture != "done" && picture != "empty") return false;
   return now["drawn"]["value"] != drawnBefore_ || Clock::now() - sent_ > kArrives;
 }
 
