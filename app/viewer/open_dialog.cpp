@@ -95,8 +95,9 @@ std::optional<std::string> OpenDialog::drawFiles(Layout& layout) {
       if (file.folder) {
         entered = wholePath(file.name, folder_);
       } else {
-        text_ = file.name;
-        if (ImGui::IsMouseDoubleClicked(ImGuiMouseButton_Left)) chosen = take(text_);
+        // The second click of two that entered a folder chooses nothing.
+        const bool again = std::exchange(text_, file.name) == file.name;
+        if (again && ImGui::IsMouseDoubleClicked(ImGuiMouseButton_Left)) chosen = take(text_);
       }
     }
     layout.note("open file " + file.name);

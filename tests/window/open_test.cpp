@@ -103,7 +103,7 @@ TEST_P(OpenTest, AFolderWithoutPermissionAndABrokenSceneAreNoCrash) {
   const std::string camera = viewer.value("camera");
   viewer.key("ctrl+o");
   viewer.untilThere("open path");
-  viewer.type("broken.glb\\n");
+  viewer.type("broken.glb");
   viewer.key("Return");
   viewer.untilThere("failure");
   EXPECT_EQ(viewer.value("camera"), camera);
