@@ -151,6 +151,7 @@ void Controls::updateKeysAnywhere(Requests& requests) {
   if (isKeyPressed(GLFW_KEY_F11)) wantsFullScreen = true;
   if (isKeyPressed(GLFW_KEY_F12)) requests.picture = true;
   if (ctrl && isKeyPressed(GLFW_KEY_Q)) requests.quit = true;
+  if (isKeyPressed(GLFW_KEY_ESCAPE)) requests.cancelLoading = true;
   if (ctrl && isKeyPressed(GLFW_KEY_O)) requests.openDialog = true;
   if (ctrl && isKeyPressed(GLFW_KEY_S)) panel_.saveSettings();
   if (ctrl && (isKeyPressed(GLFW_KEY_EQUAL) || isKeyPressed(GLFW_KEY_KP_ADD)))

@@ -56,7 +56,7 @@ void Panel::drawLoading(const Status& status, glm::vec2 window, Requests& reques
   ImGui::PopTextWrapPos();
   ImGui::ProgressBar(static_cast<float>(*status.loading), ImVec2(room, 0));
   layout.note("loading", fmt::format("{:.2f}", *status.loading));
-  if (button("Cancel##loading", "cancel loading", "Keeps the scene that is here")) {
+  if (button("Cancel##loading", "cancel loading", "Keeps the scene that is here (Esc)")) {
     requests.cancelLoading = true;
   }
   ImGui::End();

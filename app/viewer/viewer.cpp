@@ -127,7 +127,8 @@ double Viewer::patience() {
   const bool stale = !session_.paused && isStale();
   const bool runs = moving_ || session_.continuous || session_.isPlaying();
   if (visible && (settle_ > 0 || stale || runs)) return 0;
-  const bool busy = loading_.running() || !rebuild_.building().empty() || tune_.started();
+  const bool busy =
+      loading_.running() || !rebuild_.building().empty() || tune_.started() || portal_.running();
   double seconds = busy || truth_->running() ? kWaitInterval : kLookInterval;  // notices signals
   if (session_.split && session_.splitting.way == SplitWay::kFlicker) {
     const std::chrono::duration<double> left = turnAt_ - Clock::now();
@@ -157,6 +158,7 @@ bool Viewer::lookAround() {
     }
   }
   news |= lookAtTune();
+  news |= lookAtPortal();
   session_.attempt("truth", [&] { news |= truth_->look(); });
   return news || before != rebuild_.building();
 }
@@ -247,10 +249,20 @@ void Viewer::perform(const Requests& requests) {
   if (requests.quit) window_->close();
 }
 
+// The desktop's dialog comes first, the panel's own where there is none.
+bool Viewer::lookAtPortal() {
+  const auto outcome = portal_.take();
+  if (!outcome) return false;
+  if (outcome->missing) panel_.showOpenDialog();
+  if (!outcome->path.empty()) openAny(outcome->path);
+  settle_ = kSettleFrames;
+  return true;
+}
+
 void Viewer::performOpening(const Requests& requests) {
   if (requests.scene) openScene(*requests.scene);
   if (requests.file) openAny(*requests.file);
-  if (requests.openDialog) panel_.showOpenDialog();
+  if (requests.openDialog) portal_.start();
   if (requests.closeFailure) failedScene_.clear();
   if (requests.cancelLoading && loading_.running()) {
     loading_.cancel();

@@ -10,6 +10,7 @@
 
 #include "app/viewer/controls.h"
 #include "app/viewer/other_backend.h"
+#include "app/viewer/portal.h"
 #include "app/viewer/rebuild.h"
 #include "app/viewer/scene_loading.h"
 #include "app/viewer/screen.h"
@@ -61,6 +62,7 @@ class Viewer {
   void performOpening(const Requests& requests);
   void startTune(const TuneWish& wish);
   bool lookAtTune();
+  bool lookAtPortal();
   void openScene(const std::string& path);
   void openAny(const std::string& path);
   void noteThumbnail();
@@ -131,6 +133,7 @@ class Viewer {
   Controls controls_;
   SceneLoading loading_;
   Rebuild rebuild_;
+  Portal portal_;
   std::string buildMessage_;
   std::string failedScene_;  // as in Status
   bool pictured_ = false;    // the scene has its thumbnail
