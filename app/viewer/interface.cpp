@@ -28,12 +28,43 @@ constexpr const char* kFonts[] = {"/usr/share/fonts/truetype/dejavu/DejaVuSans.t
                                   "/usr/share/fonts/TTF/DejaVuSans.ttf",
                                   "/usr/share/fonts/dejavu-sans-fonts/DejaVuSans.ttf"};
 
-void setStyle(float scale) {
+// One accent colour marks whatever the user can press or drag; its strength says what it does.
+void setAccent(ImGuiStyle& style, bool light) {
+  const ImVec4 accent = light ? ImVec4(0.05f, 0.40f, 0.66f, 1) : ImVec4(0.26f, 0.59f, 0.98f, 1);
+  const auto set = [&](ImGuiCol colour, float strength) {
+    style.Colors[colour] = ImVec4(accent.x, accent.y, accent.z, strength);
+  };
+  const float weak = light ? 0.16f : 0.25f;
+  set(ImGuiCol_FrameBg, weak);
+  set(ImGuiCol_FrameBgHovered, 0.40f);
+  set(ImGuiCol_FrameBgActive, 0.60f);
+  set(ImGuiCol_Button, 0.40f);
+  set(ImGuiCol_ButtonHovered, 0.75f);
+  set(ImGuiCol_ButtonActive, 1);
+  set(ImGuiCol_Header, 0.31f);
+  set(ImGuiCol_HeaderHovered, 0.60f);
+  set(ImGuiCol_HeaderActive, 0.80f);
+  set(ImGuiCol_CheckMark, 1);
+  set(ImGuiCol_SliderGrab, 0.80f);
+  set(ImGuiCol_SliderGrabActive, 1);
+  set(ImGuiCol_SeparatorHovered, 0.78f);
+  set(ImGuiCol_SeparatorActive, 1);
+  set(ImGuiCol_TextSelectedBg, 0.35f);
+  set(ImGuiCol_NavHighlight, 1);
+  set(ImGuiCol_PlotHistogram, 0.80f);
+  set(ImGuiCol_TitleBgActive, light ? 0.35f : 0.45f);
+}
+
+void setStyle(float scale, bool light) {
   ImGuiStyle style;
-  ImGui::StyleColorsDark(&style);
+  light ? ImGui::StyleColorsLight(&style) : ImGui::StyleColorsDark(&style);
+  setAccent(style, light);
   style.WindowRounding = style.FrameRounding = style.GrabRounding = 3;
   style.WindowBorderSize = 0;
   style.Colors[ImGuiCol_WindowBg].w = 1;
+  // Hints and reasons are read, too.
+  style.Colors[ImGuiCol_TextDisabled] =
+      light ? ImVec4(0.38f, 0.38f, 0.38f, 1) : ImVec4(0.62f, 0.62f, 0.62f, 1);
   style.ScaleAllSizes(scale);
   ImGui::GetStyle() = style;
 }
@@ -59,7 +90,7 @@ bool InterfaceContext::setScale(float scale) {
   scale = std::clamp(scale, kSmallestText, 2 * kLargestText);
   if (scale == scale_) return false;
   scale_ = scale;
-  setStyle(scale);
+  setStyle(scale, light_);
   ImFontAtlas& fonts = *ImGui::GetIO().Fonts;
   fonts.Clear();
   const float pixels = std::round(kTextPixels * scale);
@@ -76,6 +107,22 @@ bool InterfaceContext::setScale(float scale) {
   }
   fonts.Build();
   return true;
+}
+
+void InterfaceContext::setLight(bool light) {
+  if (light == light_) return;
+  light_ = light;
+  if (scale_ > 0) setStyle(scale_, light_);
+}
+
+ImVec4 readable(ImVec4 colour) {
+  constexpr float kDarker = 0.55f;
+  if (ImGui::GetStyleColorVec4(ImGuiCol_WindowBg).x < 0.5f) return colour;
+  return {kDarker * colour.x, kDarker * colour.y, kDarker * colour.z, colour.w};
+}
+
+ImVec4 errorColour() {
+  return readable({0.90f, 0.62f, 0.00f, 1});
 }
 
 InterfaceRenderer::~InterfaceRenderer() {

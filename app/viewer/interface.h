@@ -15,6 +15,11 @@ namespace grisaille::app::viewer {
 
 constexpr float kSmallestText = 0.5f, kLargestText = 4;  // times the default size
 
+// A colour as text on the theme's background: darker on the light one.
+ImVec4 readable(ImVec4 colour);
+// The colour of error messages.
+ImVec4 errorColour();
+
 // Creates and owns Dear ImGui's context, in this program's style. At most one per process.
 class InterfaceContext {
  public:
@@ -27,9 +32,12 @@ class InterfaceContext {
   // user's. Do not call between ImGui::NewFrame() and ImGui::Render(). True if the font changed:
   // then call InterfaceRenderer::fontChanged().
   bool setScale(float scale);
+  // The light theme, or the dark one. The same call limits.
+  void setLight(bool light);
 
  private:
   float scale_ = 0;
+  bool light_ = false;
 };
 
 // Pictures that the interface shows, as one texture.

@@ -192,6 +192,7 @@ void Panel::drawSettings(Requests& requests) {
     });
     listsFresh_ = false;
   }
+  toggle("Light theme", "light theme", state_.layout.light);
   path("##session", "session path", sessionPath_);
   ImGui::SameLine();
   if (button("Open##session", "open session",
@@ -239,7 +240,7 @@ void Panel::drawCamera() {
     }
     ImGui::SameLine();
     if (!entry.camera) {
-      ImGui::TextColored(kErrorColour, "%s: %s", entry.name.c_str(), entry.error.c_str());
+      ImGui::TextColored(errorColour(), "%s: %s", entry.name.c_str(), entry.error.c_str());
     } else if (ImGui::Selectable(entry.name.c_str())) {
       session_.goTo(*entry.camera);
     }

@@ -14,6 +14,7 @@
 #include "app/report/coverage.h"
 #include "app/truth/comparison.h"
 #include "app/viewer/bookmarks.h"
+#include "app/viewer/interface.h"
 #include "app/viewer/layout.h"
 #include "app/viewer/open_dialog.h"
 #include "app/viewer/pass_stats.h"
@@ -22,8 +23,6 @@
 #include "app/viewer/state_file.h"
 
 namespace grisaille::app::viewer {
-
-inline const ImVec4 kErrorColour(0.90f, 0.62f, 0.00f, 1);  // text of error messages
 
 // State of the comparison with the truth.
 struct TruthStatus {
@@ -46,7 +45,7 @@ struct TuneStatus {
 struct Status {
   gpu::DeviceInfo device;
   std::vector<PassStats> passes;
-  PassStats whole;
+  PassStats sum, whole;
   std::vector<ColorShare> coverage;
   // Of the texel under the cursor, on the left and the right side; empty: none.
   std::array<std::vector<float>, 2> cursorValues;
@@ -137,7 +136,9 @@ class Panel {
   void drawSceneLength(effect::Selection::Entry& entry, const grisaille_param_desc& param);
   bool editParameter(const effect::Selection::Entry& entry, const grisaille_param_desc& param,
                      double& value);
+  // panel_cost.cpp
   void drawCost(const Status& status);
+  void saveCost(const Status& status);
   // panel_tune.cpp
   void drawPresets(effect::Selection::Entry& entry);
   void drawTune(const effect::Selection::Entry& entry, const TuneStatus& status,

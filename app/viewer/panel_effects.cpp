@@ -14,17 +14,6 @@
 namespace grisaille::app::viewer {
 namespace {
 
-// Okabe and Ito's palette, safe for all kinds of colour vision; without black, since the background
-// is dark.
-const std::array<ImVec4, 7> kColours = {{{0.90f, 0.62f, 0.00f, 1},
-                                         {0.34f, 0.71f, 0.91f, 1},
-                                         {0.00f, 0.62f, 0.45f, 1},
-                                         {0.94f, 0.89f, 0.26f, 1},
-                                         {0.00f, 0.45f, 0.70f, 1},
-                                         {0.84f, 0.37f, 0.00f, 1},
-                                         {0.80f, 0.47f, 0.65f, 1}}};
-constexpr size_t kFrameColour = 6;
-
 // A printf format for a value with its unit; escapes '%' in the unit.
 std::string formatOf(const grisaille_param_desc& param, const char* number) {
   std::string text = number;
@@ -78,13 +67,13 @@ void Panel::drawEffects(const Status& status, Requests& requests) {
   }
   if (!status.rebuilding.empty()) ImGui::TextWrapped("building %s ...", status.rebuilding.c_str());
   if (!status.buildMessage.empty()) {
-    ImGui::PushStyleColor(ImGuiCol_Text, kColours[0]);
+    ImGui::PushStyleColor(ImGuiCol_Text, errorColour());
     ImGui::TextWrapped("%s", status.buildMessage.c_str());
     ImGui::PopStyleColor();
     layout.note("build message", status.buildMessage);
   }
   for (const effect::Refused& refused : session_.registry().refused()) {
-    ImGui::PushStyleColor(ImGuiCol_Text, kColours[0]);
+    ImGui::PushStyleColor(ImGuiCol_Text, errorColour());
     ImGui::TextWrapped("%s", refused.reason.what());
     ImGui::PopStyleColor();
     layout.note("refused", refused.reason.what());
@@ -281,42 +270,6 @@ bool Panel::editParameter(const effect::Selection::Entry& entry, const grisaille
       return edited;
     }
   }
-}
-
-void Panel::drawCost(const Status& status) {
-  const char* clock = gpu::clockName(status.device.clock);
-  ImGui::TextDisabled("%s clock, last %zu frames", clock, status.whole.recent.size());
-  toggle("Render all the time", "continuous", session_.continuous,
-         "Off: renders a frame only when something has changed");
-  std::vector<PassStats> rows = status.passes;
-  rows.push_back(status.whole);
-  float most = 0;
-  for (const float ms : status.whole.recent) most = std::max(most, ms);
-  if (!ImGui::BeginTable("cost", 4, ImGuiTableFlags_SizingStretchProp)) return;
-  ImGui::TableSetupColumn("pass", ImGuiTableColumnFlags_WidthFixed);
-  ImGui::TableSetupColumn("mean, ms", ImGuiTableColumnFlags_WidthFixed);
-  ImGui::TableSetupColumn("p95, ms", ImGuiTableColumnFlags_WidthFixed);
-  ImGui::TableSetupColumn("", ImGuiTableColumnFlags_WidthStretch);
-  ImGui::TableHeadersRow();
-  for (size_t i = 0; i < rows.size(); ++i) {
-    const PassStats& row = rows[i];
-    ImGui::TableNextRow();
-    ImGui::TableNextColumn();
-    const size_t colour = i + 1 == rows.size() ? kFrameColour : i % kFrameColour;
-    ImGui::TextColored(kColours[colour], "%s", row.label.c_str());
-    ImGui::TableNextColumn();
-    ImGui::Text("%.2f", row.mean);
-    layout.note("cost." + row.label, fmt::format("{:.3f}", row.mean));
-    ImGui::TableNextColumn();
-    ImGui::Text("%.2f", row.p95);
-    ImGui::TableNextColumn();
-    ImGui::PushStyleColor(ImGuiCol_PlotLines, kColours[colour]);
-    ImGui::PlotLines(("##" + row.label).c_str(), row.recent.data(),
-                     static_cast<int>(row.recent.size()), 0, nullptr, 0, most,
-                     ImVec2(-1, ImGui::GetFrameHeight()));
-    ImGui::PopStyleColor();
-  }
-  ImGui::EndTable();
 }
 
 }  // namespace grisaille::app::viewer

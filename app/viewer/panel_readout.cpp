@@ -166,7 +166,7 @@ void Panel::drawMessages() {
   ImGui::Separator();
   ImGui::BeginChild("messages");
   for (const Message& message : session_.messages) {
-    if (message.error) ImGui::PushStyleColor(ImGuiCol_Text, kErrorColour);
+    if (message.error) ImGui::PushStyleColor(ImGuiCol_Text, errorColour());
     ImGui::TextWrapped("%s", message.text.c_str());
     if (message.error) ImGui::PopStyleColor();
   }

@@ -73,7 +73,7 @@ void Panel::drawFailure(const Status& status, glm::vec2 window, Requests& reques
   ImGui::SetNextWindowSize(ImVec2(wide, std::min(22 * font, window.y)));
   ImGui::Begin("Failure", nullptr, kFixed);
   ImGui::TextUnformatted("The scene is not open");
-  ImGui::PushStyleColor(ImGuiCol_Text, kErrorColour);
+  ImGui::PushStyleColor(ImGuiCol_Text, errorColour());
   ImGui::TextWrapped("%s", status.failedScene.c_str());
   ImGui::PopStyleColor();
   layout.note("failure", status.failedScene);

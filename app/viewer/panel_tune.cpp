@@ -10,7 +10,7 @@ namespace grisaille::app::viewer {
 namespace {
 
 void drawTrouble(const std::string& text) {
-  ImGui::PushStyleColor(ImGuiCol_Text, kErrorColour);
+  ImGui::PushStyleColor(ImGuiCol_Text, errorColour());
   ImGui::TextWrapped("%s", text.c_str());
   ImGui::PopStyleColor();
 }

@@ -1,6 +1,8 @@
 // SPDX-License-Identifier: MIT
 #include "app/viewer/pass_stats.h"
 
+#include <fmt/format.h>
+
 #include <algorithm>
 #include <numeric>
 #include <utility>
@@ -43,6 +45,7 @@ void PassTimes::add(const gpu::FrameTimes& frame) {
   }
   for (size_t i = 0; i < next.size(); ++i) append(next[i].recent, sums[i]);
   append(whole_, frame.wholeMilliseconds);
+  append(sums_, std::accumulate(sums.begin(), sums.end(), 0.0));
   passes_ = std::move(next);
 }
 
@@ -54,6 +57,29 @@ std::vector<PassStats> PassTimes::all() const {
 
 PassStats PassTimes::whole() const {
   return statsOf("frame", whole_);
+}
+
+PassStats PassTimes::sum() const {
+  return statsOf("sum of passes", sums_);
+}
+
+std::string costCsv(std::span<const PassStats> columns) {
+  std::string text = "frame number";
+  size_t frames = 0;
+  for (const PassStats& column : columns) {
+    text += fmt::format(",{} ms", column.label);
+    frames = std::max(frames, column.recent.size());
+  }
+  text += '\n';
+  for (size_t i = 0; i < frames; ++i) {
+    text += fmt::format("{}", i + 1);
+    for (const PassStats& column : columns) {
+      const size_t missing = frames - column.recent.size();
+      text += i < missing ? "," : fmt::format(",{:.4f}", column.recent[i - missing]);
+    }
+    text += '\n';
+  }
+  return text;
 }
 
 }  // namespace grisaille::app::viewer

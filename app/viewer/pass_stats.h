@@ -32,6 +32,8 @@ class PassTimes {
 
   // The times of whole frames, labelled "frame".
   PassStats whole() const;
+  // The sum of each frame's passes, labelled "sum of passes".
+  PassStats sum() const;
 
   void clear() { *this = {}; }
 
@@ -42,7 +44,11 @@ class PassTimes {
   };
 
   std::vector<Pass> passes_;
-  std::vector<float> whole_;
+  std::vector<float> whole_, sums_;
 };
+
+// The frames of `columns` as CSV, oldest first: a line of labels, then one line a frame with
+// milliseconds. A pass that is newer than the oldest frame has empty fields there.
+std::string costCsv(std::span<const PassStats> columns);
 
 }  // namespace grisaille::app::viewer

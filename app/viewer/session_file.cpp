@@ -147,6 +147,7 @@ void takeTruth(const json& truth, TruthSettings& comparing) {
 
 PanelLayout layoutOf(const json& layout) {
   PanelLayout panel;
+  take(layout, "light", panel.light);
   take(layout, "text_scale", panel.textScale, PanelLayout::kSmallestText,
        PanelLayout::kLargestText);
   take(layout, "panel_width", panel.panelWidth, PanelLayout::kNarrowest, PanelLayout::kWidest);
@@ -227,7 +228,8 @@ std::string sessionJson(const SavedSession& session, const fs::path& folder) {
   if (session.comparing.radius) document["truth"]["radius"] = *session.comparing.radius;
   document["backend"] = session.backend;
   if (session.layout) {
-    document["panel"] = {{"text_scale", session.layout->textScale},
+    document["panel"] = {{"light", session.layout->light},
+                         {"text_scale", session.layout->textScale},
                          {"panel_width", session.layout->panelWidth},
                          {"sections", session.layout->sections}};
   }

@@ -31,6 +31,7 @@ struct PanelLayout {
   static constexpr size_t kMostSections = 64;
 
   double textScale = 1;
+  bool light = false;      // the light theme, else the dark one
   double panelWidth = 26;  // in heights of the text
   // Open or not; only sections that the user has opened or closed, at most kMostSections.
   std::map<std::string, bool, std::less<>> sections = {};

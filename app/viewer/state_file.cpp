@@ -81,6 +81,8 @@ ViewerState parse(const std::string& text) {
     } else if (key == "panel_width") {
       state.layout.panelWidth =
           numberOf(value, "panel_width", PanelLayout::kNarrowest, PanelLayout::kWidest);
+    } else if (key == "light") {
+      state.layout.light = value.get<bool>();
     } else if (key == "sections") {
       state.layout.sections = value.get<decltype(state.layout.sections)>();
       if (state.layout.sections.size() > PanelLayout::kMostSections)
@@ -157,6 +159,7 @@ void saveState(const ViewerState& state, const fs::path& file) {
   document["height"] = state.height;
   document["text_scale"] = state.layout.textScale;
   document["panel_width"] = state.layout.panelWidth;
+  document["light"] = state.layout.light;
   document["sections"] = state.layout.sections;
   std::error_code failed;
   fs::create_directories(file.parent_path(), failed);  // on failure, writing throws

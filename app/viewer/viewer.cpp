@@ -188,6 +188,7 @@ bool Viewer::lookAtTune() {
 
 void Viewer::frame(double seconds) {
   const float scale = window_->scale() * static_cast<float>(state_.layout.textScale);
+  context_.setLight(state_.layout.light);
   if (context_.setScale(scale)) screen_->fontChanged();
   takeDropped();
   session_.advance(seconds);

@@ -216,6 +216,7 @@ Status Viewer::status() {
   Status status;
   status.device = device_->info();
   status.passes = times_.all();
+  status.sum = times_.sum();
   status.whole = times_.whole();
   status.coverage = coverage_;
   status.picture = place().size;

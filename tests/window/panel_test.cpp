@@ -102,5 +102,55 @@ TEST_P(PanelTest, NamesAndTooltipsAreNotCut) {
   expectQuits(viewer);
 }
 
+// The numbers stay in sight while a slider is dragged, also in a low window.
+TEST_P(PanelTest, TheErrorIsInSightWhileASliderIsDragged) {
+  DrivenViewer viewer(folder_,
+                      {"--backend", GetParam(), "--size", "640x480", "--effects", "ssao", "--set",
+                       "ssao.kernel_size=2", "--compare-truth", "--truth-rays", "16"},
+                      {"XDG_CACHE_HOME=" + (folder_ / "cache")});
+  viewer.untilThere("truth numbers");
+  viewer.untilThere("error legend");
+  viewer.untilThere("ssao.radius");
+  for (const char* control : {"truth numbers", "error legend", "ssao.radius"}) {
+    EXPECT_LE(rectOf(viewer.layout(), control)[3], 480) << control;
+    EXPECT_LE(rectOf(viewer.layout(), control)[2], rectOf(viewer.layout(), "picture")[0]);
+  }
+  const std::string before = viewer.value("truth numbers");
+  viewer.drag(viewer.at("ssao.radius", 0.5, 0.5), viewer.at("ssao.radius", 0.7, 0.5));
+  viewer.untilChanged("truth numbers", before);
+  expectQuits(viewer);
+}
+
+TEST_P(PanelTest, CostIsAGraphAndAFileAndTheThemeStays) {
+  {
+    DrivenViewer viewer(folder_, arguments({"--effects", "ssao"}));
+    viewer.click("section View");
+    viewer.untilValue("section View", "closed");
+    viewer.click("section Cost");
+    viewer.untilThere("save cost");
+    EXPECT_NE(viewer.value("cost.frame"), "");
+    EXPECT_NE(viewer.value("cost.sum of passes"), "");
+    const auto graph = rectOf(viewer.layout(), "cost graph");
+    EXPECT_GT(graph[2] - graph[0], 0.9 * rectOf(viewer.layout(), "picture")[0] - 40);
+    viewer.click("save cost");
+    viewer.until("a file", [](const nlohmann::json& now) {
+      return now.contains("message") &&
+             now["message"]["value"].get<std::string>().find("cost.csv") != std::string::npos;
+    });
+    const std::string message = viewer.value("message");
+    EXPECT_TRUE(
+        readFile(folder_ / message.substr(0, message.find(','))).starts_with("frame number,"));
+    viewer.click("section Settings");
+    viewer.untilThere("light theme");
+    viewer.click("light theme");
+    viewer.untilValue("light theme", "true");
+    expectQuits(viewer);
+  }
+  DrivenViewer viewer(folder_, arguments({"--effects", "ssao"}));
+  EXPECT_EQ(viewer.value("light theme"), "true");
+  EXPECT_GT(display_.pixels(2, 1670, 1, 1)[0] & 0xffu, 200u);  // the panel's ground
+  expectQuits(viewer);
+}
+
 }  // namespace
 }  // namespace grisaille::tests

@@ -62,5 +62,20 @@ TEST(PassTimes, KeepTheLastFrames) {
   }
 }
 
+TEST(PassTimesTest, CsvHasALineAFrame) {
+  PassTimes times;
+  times.add(frameOf({{"a", 1}}, 2));
+  times.add(frameOf({{"a", 3}, {"b", 0.5}}, 4));
+  EXPECT_EQ(times.sum().recent, (std::vector<float>{1, 3.5}));
+  std::vector<PassStats> columns = times.all();
+  columns.push_back(times.sum());
+  columns.push_back(times.whole());
+  EXPECT_EQ(costCsv(columns),
+            "frame number,a ms,b ms,sum of passes ms,frame ms\n"
+            "1,1.0000,,1.0000,2.0000\n"
+            "2,3.0000,0.5000,3.5000,4.0000\n");
+  EXPECT_EQ(costCsv({}), "frame number\n");
+}
+
 }  // namespace
 }  // namespace grisaille::app::viewer

@@ -38,7 +38,8 @@ SavedSession whole() {
   session.splitting = {.way = SplitWay::kFlicker, .full = 0.5f, .turn = 1, .backend = "vulkan"};
   session.comparing = {.on = true, .output = "ssao.ao", .radius = 0.3, .rays = 64};
   session.backend = "opengl";
-  session.layout = {.textScale = 1.25, .panelWidth = 30, .sections = {{"Cost", true}}};
+  session.layout = {
+      .textScale = 1.25, .light = true, .panelWidth = 30, .sections = {{"Cost", true}}};
   return session;
 }
 

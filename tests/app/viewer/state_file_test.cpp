@@ -21,6 +21,7 @@ ViewerState some() {
   state.width = 1920;
   state.height = 1080;
   state.layout.textScale = 1.0 / 3 + 1;
+  state.layout.light = true;
   state.layout.panelWidth = 31.25;
   state.layout.sections = {{"Cost", true}, {"View", false}};
   return state;
