@@ -48,14 +48,14 @@ class InputTest : public WindowTest {
       return std::to_string(std::uniform_int_distribution<int>(0, count - 1)(random));
     };
     const std::string keys[] = {
-        "a",          "b",         "d",       "e",        "i",         "n",         "p",
-        "q",          "s",         "v",       "w",        "x",         "1",         "ctrl+1",
-        "Home",       "Tab",       "space",   "Return",   "Escape",    "Up",        "Down",
-        "Left",       "shift+x",   "Right",   "F1",       "F2",        "F5",        "F11",
-        "ctrl+z",     "ctrl+y",    "t",       "ctrl+c",   "ctrl+s",    "ctrl+plus", "ctrl+minus",
-        "ctrl+0",     "BackSpace", "shift+v", "plus",     "minus",     "7",         "period",
-        "Delete",     "f",         "shift+w", "alt+Left", "alt+Right", "Prior",     "Next",
-        "shift+Left", "k",         "comma"};
+        "a",          "b",          "d",         "e",       "i",        "n",         "p",
+        "q",          "s",          "v",         "w",       "x",        "1",         "ctrl+1",
+        "Home",       "Tab",        "space",     "Return",  "Escape",   "Up",        "Down",
+        "Left",       "shift+x",    "ctrl+o",    "Right",   "F1",       "F2",        "F5",
+        "F11",        "ctrl+z",     "ctrl+y",    "t",       "ctrl+c",   "ctrl+s",    "ctrl+plus",
+        "ctrl+minus", "ctrl+0",     "BackSpace", "shift+v", "plus",     "minus",     "7",
+        "period",     "Delete",     "f",         "shift+w", "alt+Left", "alt+Right", "Prior",
+        "Next",       "shift+Left", "k",         "comma"};
     std::string words;
     for (int i = 0; i < kInputs; ++i) {
       const int kind = std::uniform_int_distribution<int>(0, 5)(random);
