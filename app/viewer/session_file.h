@@ -5,8 +5,8 @@
 //   {"grisaille_session": 1,
 //    "scene": "/models/hall.glb",        absolute, or the name of a built-in scene
 //    "scene_beside": "models/hall.glb",  the same, from the folder of the session file
-//    "camera": {...}, "effects": [{"key": "ssao", "on": true, "values": {"radius": "0.5"}}, ...],
-//    "objects": {"sspm": {"version": 1, "shots": [...]}}, ...}
+//    "camera": {...}, "effects": [{"key": "blur", "on": true, "values": {"size": "0.5"}}, ...],
+//    "objects": {"stickers": {"version": 1, "decals": [...]}}, ...}
 //
 // A file never names plugins: opening one must not run foreign code.
 #pragma once
