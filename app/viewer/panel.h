@@ -53,6 +53,7 @@ struct Status {
   glm::ivec2 cursorTexel = glm::ivec2(0);
   glm::uvec2 picture = glm::uvec2(0);  // pixels
   uint64_t waiting = 0;                // objects still to be drawn
+  uint64_t givenUp = 0;                // the oldest, for which a limit leaves no room
   std::array<std::string, 2> sides;    // what each side of a split picture shows
   std::optional<SideNumbers> apart;    // none: the sides show different kinds of values
   bool turned = false;                 // the right side is shown in turn

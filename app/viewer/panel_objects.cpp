@@ -86,6 +86,13 @@ void Panel::drawObjectsOf(const std::string& effect, const Status& status) {
     ImGui::SameLine();
     ImGui::TextDisabled("%llu waiting", static_cast<unsigned long long>(status.waiting));
   }
+  if (status.givenUp > 0) {
+    ImGui::SameLine();
+    ImGui::TextDisabled("%llu given up", static_cast<unsigned long long>(status.givenUp));
+    tip("The oldest objects are not drawn: the memory that their effect may use is full. Raise its "
+        "Memory, or undo");
+    layout.note(effect + ".given_up", fmt::format("{}", status.givenUp));
+  }
   ImGui::SameLine();
   if (ImGui::SmallButton("Clear")) session_.clearObjects(effect);
   tip("Deletes all objects; Ctrl+Z restores them");

@@ -199,6 +199,7 @@ void Stage::update(const StageDesc& desc) {
   if (!held) right_ = {};
   render(desc, desc.size, outputs);
   waiting_ = renderer_.report().waiting;
+  givenUp_ = renderer_.report().givenUp;
   size_ = desc.size;
   left_ = {
       renderer_.texture(desc.left), desc.left, kindOf(desc, desc.chain->selection, desc.left), {}};

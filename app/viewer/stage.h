@@ -103,6 +103,8 @@ class Stage {
 
   // Number of objects still to be drawn in later frames; 0: the picture is complete.
   uint64_t waiting() const { return waiting_; }
+  // Objects for which a limit leaves no room.
+  uint64_t givenUp() const { return givenUp_; }
 
  private:
   struct Side {
@@ -137,7 +139,7 @@ class Stage {
   std::optional<Wanted> done_, heldDone_;  // inputs of the rendered sides
   Side left_, right_;
   glm::uvec2 size_ = glm::uvec2(0);
-  uint64_t waiting_ = 0, heldWaiting_ = 0, revision_ = 0;
+  uint64_t waiting_ = 0, heldWaiting_ = 0, givenUp_ = 0, revision_ = 0;
   gpu::Texture held_;  // a copy of the held settings' output
   glm::uvec2 heldSize_ = glm::uvec2(0);
   gpu::ComputePipeline keep_, depths_;
