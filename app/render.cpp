@@ -182,8 +182,8 @@ void renderSequence(const RenderOptions& options, RenderJob& job, const frame::F
   throw truth::Interrupted();
 }
 
-// Lets effects work on the objects that wait, say shots without their place, and shows the
-// progress. Frames of another size leave the histories of effects as they are.
+// Lets effects work on the objects that wait, and shows the progress. Frames of another size leave
+// the histories of effects as they are.
 void settleObjects(const frame::FrameDesc& desc, frame::Renderer& renderer) {
   const auto& lists = desc.chain->objectLists();
   if (std::ranges::all_of(lists, [](const auto& list) { return list.second.size() == 0; })) return;
@@ -241,7 +241,7 @@ void renderFrames(const RenderOptions& options, RenderJob& job, gpu::Device& dev
   if (renderer.report().givenUp > 0) {
     fmt::print(stderr,
                "warning: the {} oldest objects are not drawn: the memory that their effect may use "
-               "leaves no room for them; raise its limit (sspm: --set sspm.memory=MB)\n",
+               "leaves no room for them; raise that limit, a parameter of the effect\n",
                renderer.report().givenUp);
   }
 }

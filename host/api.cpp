@@ -248,6 +248,16 @@ int grisaille_host_effect_dropped(grisaille_host_effect* effect) {
   return guarded([&] { present(effect, "effect").dropped(); });
 }
 
+int grisaille_host_effect_report(const grisaille_host_effect* effect, grisaille_host_report* out) {
+  return guarded([&] {
+    const effect::Report& report = present(effect, "effect").report();
+    grisaille_host_report to = whole(out, "out");
+    to.waiting = report.waiting;
+    to.given_up = report.givenUp;
+    std::memcpy(out, &to, std::min<size_t>(to.struct_size, sizeof(to)));
+  });
+}
+
 int grisaille_host_effect_output(const grisaille_host_effect* effect, const char* key,
                                  grisaille_host_output* out) {
   return guarded([&] {

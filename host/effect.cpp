@@ -3,6 +3,7 @@
 
 #include <algorithm>
 #include <array>
+#include <limits>
 
 #include "core/frame/view_block.h"
 #include "host/checks.h"
@@ -178,6 +179,11 @@ void grisaille_host_effect::record(const grisaille_host_frame& frame) {
   device.gpu->requireUsable();
   const uint32_t reads = values().effect().reads(values().all().data(), wanted_);
   const host::View view = host::viewOf(frame, {width, height}, rows_);
+  const double patience =
+      frame.patience == 0 ? std::numeric_limits<double>::infinity() : frame.patience;
+  if (!(patience > 0)) {
+    throw Error(ErrorId::kHostValue, "frame.patience is {}, must be 0 or more", frame.patience);
+  }
   const host::Textures textures = texturesOf(frame, reads);
   attachments_.prepare(reads, textures);
   std::array<gpu::Texture, 6> read;
@@ -189,7 +195,7 @@ void grisaille_host_effect::record(const grisaille_host_frame& frame) {
   gpu::Commands& commands =
       device.gpu->begin(frame.command_buffer, frame.number, std::span(read).first(count));
   try {
-    recordInto(commands, view, textures, reads);
+    recordInto(commands, view, textures, reads, patience);
   } catch (...) {
     device.gpu->end(shown_);
     throw;
@@ -250,6 +256,7 @@ void grisaille_host_effect::dropped() {
   chain_.end();
   chain_.start(device.pipelines);
   chain_.create();
+  report_ = {};
   attachments_.resize(width, height);
   for (const Picture& picture : pictures_) {
     if (picture.made) device.gpu->forget(picture.made);
@@ -259,7 +266,8 @@ void grisaille_host_effect::dropped() {
 }
 
 void grisaille_host_effect::recordInto(gpu::Commands& commands, const host::View& view,
-                                       const host::Textures& textures, uint32_t reads) {
+                                       const host::Textures& textures, uint32_t reads,
+                                       double patience) {
   attachments_.record(commands, view.source, textures);
   const grisaille::frame::ViewBlock block = grisaille::frame::viewBlock(view.seen);
   const grisaille_view seen = grisaille::frame::effectView(view.seen);
@@ -276,7 +284,8 @@ void grisaille_host_effect::recordInto(gpu::Commands& commands, const host::View
   inputs.outputs = made_;
   if (device.rays) inputs.services.rays = &device.rays;
   if (device.pictures) inputs.services.pictures = &device.pictures;
-  chain_.record(chain_.selection.entries()[0], inputs);
+  inputs.patience = patience;
+  report_ = chain_.record(chain_.selection.entries()[0], inputs);
   if (rows_ == GRISAILLE_HOST_ROWS_FROM_TOP) return;
   const gpu::BufferRange source = commands.uniform(std::as_bytes(std::span(&view.source, 1)));
   const auto outputs = values().effect().outputs();

@@ -26,6 +26,7 @@ struct grisaille_host_effect {
   void prepare(const grisaille_host_prepare& how);
   // Forgets all that recordings have written: for a recording that the host has dropped.
   void dropped();
+  const grisaille::effect::Report& report() const { return report_; }
   grisaille::gpu::NativeTexture output(std::string_view key, uint32_t& format) const;
 
   grisaille_host_device& device;
@@ -42,14 +43,15 @@ struct grisaille_host_effect {
   void makePictures(std::vector<Picture>& pictures, uint32_t ofWidth, uint32_t ofHeight);
   grisaille::host::Textures texturesOf(const grisaille_host_frame& frame, uint32_t reads) const;
   void recordInto(grisaille::gpu::Commands& commands, const grisaille::host::View& view,
-                  const grisaille::host::Textures& textures, uint32_t reads);
+                  const grisaille::host::Textures& textures, uint32_t reads, double patience);
 
   void release(std::vector<grisaille::gpu::ComputePipeline>& pipelines);
 
   const uint32_t rows_;
   grisaille::effect::Chain chain_;  // holds only this effect
   uint32_t wanted_ = 0;             // wanted outputs, by bit
-  std::vector<Picture> pictures_;   // one per output
+  grisaille::effect::Report report_;
+  std::vector<Picture> pictures_;  // one per output
   std::vector<grisaille::gpu::Texture> made_, shown_;
   grisaille::host::Attachments attachments_;
   std::vector<grisaille::gpu::ComputePipeline> prepared_;  // kept until the next prepare()

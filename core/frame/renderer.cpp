@@ -347,8 +347,8 @@ std::vector<gpu::Texture> Renderer::outputTargets(const effect::Effect& effect, 
 }
 
 void Renderer::recordCompose(gpu::Commands& commands, const FrameDesc& desc, const Plan& plan) {
-  // Light falls on paint too: overlays first, whatever the order of the effects, then visibilities.
-  // The last overlay and the first visibility share one layer.
+  // Light falls on overlays too: they come first, whatever the order of the effects, then
+  // visibilities. The last overlay and the first visibility share one layer.
   std::vector<gpu::Texture> overlays;
   std::vector<Layer> visibilities;
   for (const Plan::Active& active : plan.active) {

@@ -32,6 +32,7 @@ void CellTable::clear() {
   cells_.clear();
   changed_.clear();
   listBytes_ = 0;
+  slots_.clear();
   words_.clear();
   runs_.clear();
   slotCells_.assign(kFirstSlots, kFree);
@@ -130,7 +131,7 @@ void CellTable::writeSlots() {
     slot[5] = static_cast<uint32_t>(cell.entries.size());
   };
   if (rehashed_) {
-    slots_.clear();
+    slots_.discard();
     slots_.resize(slotCells_.size() * kSlotWords);
     const std::span<uint32_t> all = slots_.write(0, slots_.size());
     std::ranges::fill(all, kFree);

@@ -21,11 +21,18 @@ void DeviceWords::resize(size_t words) {
   size_ = std::max(size_, words);
 }
 
+// Returns the memory, which the clear() of containers would keep.
+void DeviceWords::discard() {
+  payload_ = std::vector<uint32_t>();
+  runs_ = std::vector<Run>();
+  runAt_ = std::unordered_map<size_t, size_t>();
+}
+
 void DeviceWords::clear() {
+  discard();
   size_ = 0;
-  payload_.clear();
-  runs_.clear();
-  runAt_.clear();
+  buffer_ = {};
+  deviceWords_ = 0;
 }
 
 std::span<uint32_t> DeviceWords::write(size_t first, size_t count) {
@@ -74,10 +81,7 @@ void Uploader::upload(const plugin::Frame& frame, DeviceWords& words) {
     }
   }
   flush();
-  // Returns their memory; clear() would keep it.
-  words.payload_ = std::vector<uint32_t>();
-  words.runs_ = std::vector<DeviceWords::Run>();
-  words.runAt_ = std::unordered_map<size_t, size_t>();
+  words.discard();
 }
 
 void Uploader::grow(const plugin::Frame& frame, DeviceWords& words) {

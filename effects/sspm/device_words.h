@@ -20,6 +20,9 @@ class DeviceWords {
   size_t size() const { return size_; }
   // Grows to `words`, or more. New words are undefined.
   void resize(size_t words);
+  // Drops the waiting changes.
+  void discard();
+  // Drops the array too.
   void clear();
   // Words [first, first + count), to fill in. Replaces what waits at the same `first`; other runs
   // must not overlap. Valid until the next call.

@@ -115,7 +115,6 @@ void PaintWorld::giveUp(uint32_t floor) {
   forgetTwins(gone);
   erase(gone);
   floor_ = floor;
-  cells_.removeEmpty();
 }
 
 // Puts the shots that were given up back to pending.

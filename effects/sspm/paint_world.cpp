@@ -148,14 +148,17 @@ void PaintWorld::forget(size_t count, bool allLost) {
 
 // Removes shots from everything.
 void PaintWorld::erase(const std::vector<bool>& gone) {
+  size_t empty = 0;
   for (Cell& cell : cells_.cells()) {
     const auto erased = cell.entries.eraseIf([&](const Entry& entry) { return gone[entry.shot]; });
+    empty += cell.entries.empty() ? 1 : 0;
     if (erased == 0) continue;
     entries_ -= erased;
     cell.sealed = 0;
     cell.pruneAt = 0;
     cells_.change(cell);
   }
+  if (empty > cells_.cells().size() / 8) cells_.removeEmpty();
   const auto isGone = [&](const Work& work) { return static_cast<bool>(gone[work.id]); };
   std::erase_if(work_, isGone);
   std::erase_if(partly_, isGone);

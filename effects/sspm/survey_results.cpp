@@ -14,7 +14,7 @@ namespace {
 constexpr int32_t kPatchSize = kFinestAUnit / 4;  // width of the largest patch
 constexpr size_t kRecent = 16;                    // planes that a leaf may share
 // Of a square's width: how far a line may be from the one for which it stands.
-constexpr float kLineMerges = 0.09f;
+constexpr float kLineMerges = 0.05f;
 constexpr int32_t kMixedSize = kFinestAUnit / 8;  // of a square with several planes
 
 // A plane far enough behind the muzzle that it hides everything.

@@ -49,7 +49,8 @@ class Frames : public ::testing::TestWithParam<TestDevice> {
   }
   void record(host::Effect& effect, const host::Texture& depth,
               const host::Texture* colour = nullptr, const host::Texture* back = nullptr,
-              const host::Texture* thickness = nullptr, const host::Texture* next = nullptr) {
+              const host::Texture* thickness = nullptr, const host::Texture* next = nullptr,
+              double patience = 0) {
     host_->frame([&](void* commands, uint64_t number) {
       effect.record({.number = number,
                      .commandBuffer = commands,
@@ -59,7 +60,8 @@ class Frames : public ::testing::TestWithParam<TestDevice> {
                      .backDepth = back,
                      .baseColour = colour,
                      .thickness = thickness,
-                     .nextDepth = next});
+                     .nextDepth = next,
+                     .patience = patience});
     });
   }
   host::Effect ssao(uint32_t width, uint32_t height) {
@@ -296,6 +298,40 @@ TEST_P(Frames, ShotsPaintWhatTheHostsRaysFind) {
   effect.setObjects<sspm::Shot>(Shots{shot});
   EXPECT_GE(painted(origin, way).first, on);
   EXPECT_EQ(asked, second);
+}
+
+// With little patience, shots wait for later recordings. What a limit leaves no room for is told.
+TEST_P(Frames, ShotsThatWaitOrAreGivenUpAreTold) {
+  host::Effect effect(device_, {.effect = "sspm", .width = 96, .height = 72});
+  effect.set("memory", 16.0);
+  const host::Texture seen = depth(96, 72);
+  uint64_t asked = 0;
+  device_.setRays(castWorld, &asked);
+  Shots shots;
+  for (int i = 0; i < 9000; ++i) {
+    const glm::dvec3 target(-1.5 + 0.03 * (i % 100), 0, -1.5 + 0.03 * (i / 100));
+    shots.push_back(shotAt(target + glm::dvec3(0.1, 1, 0.2), target));
+    shots.back().range = 0.01;
+  }
+  effect.setObjects<sspm::Shot>(shots);
+  const auto recorded = [&](double patience) {
+    record(effect, seen, nullptr, nullptr, nullptr, nullptr, patience);
+    grisaille_host_report report{};
+    report.struct_size = sizeof(report);
+    EXPECT_EQ(grisaille_host_effect_report(effect.handle(), &report), 0);
+    return report;
+  };
+  const uint64_t first = recorded(1e-6).waiting;
+  EXPECT_GT(first, 0u);
+  EXPECT_LE(first, shots.size());
+  EXPECT_LT(recorded(0.1).waiting, first);
+  const grisaille_host_report whole = recorded(0);
+  EXPECT_EQ(whole.waiting, 0u);
+  EXPECT_GT(whole.given_up, 0u);
+  EXPECT_LT(whole.given_up, shots.size());
+  effect.setObjects<sspm::Shot>(std::span(shots).first(10));
+  EXPECT_EQ(recorded(0).given_up, 0u);
+  EXPECT_THROW(recorded(-1), host::Failure);
 }
 
 TEST_P(Frames, RaysThatTellNonsenseAreRefused) {

@@ -92,7 +92,7 @@ TEST_P(Background, LeavesSurfacesAndOtherOutputsAsTheyAre) {
 }
 
 TEST_P(Background, PaintIsShadedInAnyOrderOfTheEffects) {
-  const std::string shots = " --add sspm=40,40 --add sspm=30,20";
+  const std::string shots = " --set sspm.paint_range=2 --add sspm=40,40 --add sspm=30,20";
   const image::Image after = rendered("--effects ssao,sspm" + shots, "a.exr");
   const image::Image before =
       rendered("--effects sspm,ssao" + shots + " --write ao=ao.exr --write paint=p.exr", "b.exr");

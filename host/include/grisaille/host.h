@@ -515,6 +515,11 @@ typedef struct grisaille_host_frame {
    * in the units of `depth`; null: unknown.
    */
   const grisaille_host_texture* next_depth;
+  /**
+   * Seconds that the effect may spend in this recording on work that can wait for later ones, such
+   * as ray casts; 0: no limit. See grisaille_host_effect_report().
+   */
+  double patience;
 } grisaille_host_frame;
 
 /**
@@ -593,6 +598,22 @@ GRISAILLE_EXPORT int grisaille_host_effect_prepare(grisaille_host_effect* effect
  * @retval 5604 The device's context is not current.
  */
 GRISAILLE_EXPORT int grisaille_host_effect_dropped(grisaille_host_effect* effect);
+
+/** What an effect reported in its last recording. */
+typedef struct grisaille_host_report {
+  uint32_t struct_size; /**< sizeof(grisaille_host_report), set by the caller */
+  uint32_t reserved;    /**< 0 */
+  uint64_t waiting;     /**< pieces of work for later recordings; 0: the outputs are complete */
+  uint64_t given_up;    /**< oldest objects for which a limit, say of memory, leaves no room */
+} grisaille_host_report;
+
+/**
+ * Returns what an effect reported in its last recording.
+ * @param effect the effect
+ * @param[out] out the report; set its `struct_size` before the call
+ */
+GRISAILLE_EXPORT int grisaille_host_effect_report(const grisaille_host_effect* effect,
+                                                  grisaille_host_report* out);
 
 /** An output: a texture that the library owns. */
 typedef struct grisaille_host_output {

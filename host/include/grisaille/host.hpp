@@ -241,6 +241,8 @@ struct Frame {
   const Texture* thickness = nullptr;
   /// see grisaille_host_frame::next_depth; null: unknown
   const Texture* nextDepth = nullptr;
+  /// seconds, see grisaille_host_frame::patience; 0: no limit
+  double patience = 0;
 };
 
 /// @}
@@ -342,7 +344,8 @@ class Effect {
         .back_depth = handleOf(frame.backDepth),
         .base_colour = handleOf(frame.baseColour),
         .thickness = handleOf(frame.thickness),
-        .next_depth = handleOf(frame.nextDepth)};
+        .next_depth = handleOf(frame.nextDepth),
+        .patience = frame.patience};
     require(grisaille_host_effect_record(effect_.get(), &given));
   }
 
@@ -365,6 +368,14 @@ class Effect {
   /// Forgets what recordings have written, for one that you drop instead of submitting: see
   /// grisaille_host_effect_dropped().
   void dropped() { require(grisaille_host_effect_dropped(effect_.get())); }
+
+  /// @return what the effect reported in its last recording
+  grisaille_host_report report() const {
+    grisaille_host_report report{};
+    report.struct_size = sizeof(report);
+    require(grisaille_host_effect_report(effect_.get(), &report));
+    return report;
+  }
 
   /// Returns an output. The texture holds a result once you have recorded the effect. It stays the
   /// same texture until you resize or destroy the effect.

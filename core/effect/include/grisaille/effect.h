@@ -194,7 +194,7 @@ typedef enum grisaille_format {
 
 /**
  * How the composed picture uses an output. Overlays are composited first, in the chain's order;
- * then visibilities and tints multiply the result, paint included.
+ * then visibilities and tints multiply the result.
  */
 typedef enum grisaille_role {
   GRISAILLE_ROLE_NONE = 0, /**< not composed: the user writes it to a file or views it on its own */
