@@ -281,8 +281,8 @@ void PaintWorld::askAgain(const CastRays& cast) {
   }
 }
 
-// Level for a shot: cells about a range wide. They
-// are wider if their numbers would not fit at the shot's position.
+// Level for a shot: cells about a range wide, or wider if their numbers would not fit at the shot's
+// position.
 CellGrid PaintWorld::gridFor(const ShotFrame& frame) {
   const glm::dvec3 far = glm::abs(frame.origin) + 2.0 * double{frame.range} / double{frame.slope};
   const double least = std::max({far.x, far.y, far.z}) * 0x1p-28;

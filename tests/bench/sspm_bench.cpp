@@ -32,6 +32,8 @@ namespace {
 using Clock = std::chrono::steady_clock;
 using Shots = std::vector<lab::Shot>;
 
+constexpr double kRange = 0.25;  // of shots, metres: the default
+
 struct Options : CommonOptions {
   std::vector<size_t> counts = {64, 1000, 10000};
   std::vector<size_t> wallCounts = {64, 1000, 10000, 100000, 1000000};
@@ -133,6 +135,16 @@ class Painted {
     return millisecondsSince(start);
   }
 
+  // Share of the pixels that have paint.
+  double painted(uint32_t width, uint32_t height) {
+    const std::vector<std::string> color = std::exchange(outputs_, {"sspm.paint_coverage"});
+    render(width, height);
+    outputs_ = color;
+    const image::Image coverage = renderer_.read("sspm.paint_coverage");
+    const auto count = std::ranges::count_if(coverage.pixels, [](float it) { return it > 0; });
+    return static_cast<double>(count) / static_cast<double>(coverage.pixels.size());
+  }
+
   // Milliseconds of the last frame: of the effect's passes, and of all passes.
   std::pair<double, double> passes() {
     double effect = 0, all = 0;
@@ -157,6 +169,7 @@ class Painted {
 struct Row {
   std::string mode;
   size_t shots = 0;
+  double range = 0, painted = 0;  // metres; share of the pixels
   std::vector<double> effect = {}, frame = {}, effectRatio = {}, frameRatio = {};
   double placeSeconds = 0, raysAShot = 0, memory = 0, bytesAShot = 0;
 };
@@ -173,8 +186,12 @@ class Bench {
   const gpu::DeviceInfo& info() const { return device_->info(); }
 
   std::vector<Row> run() {
-    for (const size_t count : place_.counts) place("surface", count);
-    for (const size_t count : place_.perShotCounts) place("per_shot", count);
+    for (const size_t count : place_.counts) place("surface", count, kRange);
+    const double most = rows_.back().painted;
+    place("surface", place_.counts.front(), rangeFor(place_.counts.front(), most));
+    std::ranges::rotate(rows_, rows_.end() - 1);
+    std::ranges::rotate(painted_, painted_.end() - 1);
+    for (const size_t count : place_.perShotCounts) place("per_shot", count, kRange);
     for (uint32_t round = 0; round < options_.rounds; ++round) {
       fmt::print(stderr, "round {} of {}\n", round + 1, options_.rounds);
       double firstEffect = 0, firstFrame = 0;
@@ -195,7 +212,7 @@ class Bench {
   // Milliseconds that one more shot adds to a frame of few pixels, with the highest number of
   // shots. Each frame with a new shot follows a frame without one.
   std::vector<double> oneMore(size_t times) {
-    const size_t which = place_.counts.size() - 1;
+    const size_t which = place_.counts.size();
     std::mt19937 random(2);
     std::vector<double> more;
     for (size_t i = 0; i < times; ++i) {
@@ -211,12 +228,27 @@ class Bench {
   }
 
  private:
-  void place(const char* mode, size_t count) {
+  // Range with which a number of shots paints as many pixels as `share`, by bisection.
+  double rangeFor(size_t count, double share) {
+    Painted painted(*device_, place_.subject, registry_, *place_.rays);
+    painted.add(std::span(place_.shots).first(count));
+    double low = kRange, high = 16;
+    for (int i = 0; i < 10; ++i) {
+      const double middle = std::sqrt(low * high);
+      painted.values().set("paint_range", fmt::format("{}", middle));
+      (painted.painted(options_.width, options_.height) < share ? low : high) = middle;
+    }
+    device_->takeTimes();
+    return high;
+  }
+
+  void place(const char* mode, size_t count, double range) {
     fmt::print(stderr, "{}: {} shots\n", mode, count);
     painted_.push_back(
         std::make_unique<Painted>(*device_, place_.subject, registry_, *place_.rays));
     painted_.back()->values().set("mode", mode);
     painted_.back()->values().set("shot_limit", "65536");
+    painted_.back()->values().set("paint_range", fmt::format("{}", range));
     painted_.back()->render(options_.width, options_.height);
     const double idle = painted_.back()->render(64, 36);
     // The textures of a large frame are in the figure before as well as in the one after.
@@ -228,12 +260,15 @@ class Bench {
     const double took = painted_.back()->render(64, 36) - idle;
     // Until the device has finished with the frame that uploaded the paint.
     for (int i = 0; i < 4; ++i) painted_.back()->render(options_.width, options_.height);
-    device_->takeTimes();
     const auto each = static_cast<double>(count);
     malloc_trim(0);
     const double grown = residentMemory() - memory;
+    const double share = painted_.back()->painted(options_.width, options_.height);
+    device_->takeTimes();
     rows_.push_back({.mode = mode,
                      .shots = count,
+                     .range = range,
+                     .painted = share,
                      .placeSeconds = std::max(took, 0.0) / 1000,
                      .raysAShot = static_cast<double>(place_.rays->count() - rays) / each,
                      .memory = grown,
@@ -250,14 +285,18 @@ class Bench {
 
 void print(const std::vector<Row>& rows) {
   fmt::print(
-      "| mode | shots | paint, ms | paint, first row = 1 | frame, ms | frame, first row = 1 | "
+      "| mode | shots | range, m | painted | paint, ms | paint, first row = 1 | frame, ms | frame, "
+      "first row = 1 | "
       "to place all, s | rays a shot | memory, MiB | bytes a shot |\n"
-      "|---|---|---|---|---|---|---|---|---|---|\n");
+      "|---|---|---|---|---|---|---|---|---|---|---|---|\n");
   for (const Row& row : rows) {
     fmt::print(
-        "| {} | {} | {:.2f} | {:.2f} | {:.2f} | {:.2f} | {:.2f} | {:.0f} | {:.0f} | {:.0f} |\n",
-        row.mode, row.shots, median(row.effect), median(row.effectRatio), median(row.frame),
-        median(row.frameRatio), row.placeSeconds, row.raysAShot, row.memory, row.bytesAShot);
+        "| {} | {} | {:.2f} | {:.0f} % | {:.2f} | {:.2f} | {:.2f} | {:.2f} | {:.2f} | {:.0f} | "
+        "{:.0f} "
+        "| {:.0f} |\n",
+        row.mode, row.shots, row.range, 100 * row.painted, median(row.effect),
+        median(row.effectRatio), median(row.frame), median(row.frameRatio), row.placeSeconds,
+        row.raysAShot, row.memory, row.bytesAShot);
   }
 }
 
@@ -312,7 +351,7 @@ void measure(const std::string& backend, const Place& place, const effect::Regis
                              place.subject.name, backend),
         .rows = {}};
     std::ranges::copy_if(rows, std::back_inserter(curve.rows),
-                         [&](const Row& row) { return row.mode == mode; });
+                         [&](const Row& row) { return row.mode == mode && row.range == kRange; });
     if (!curve.rows.empty()) curves.push_back(std::move(curve));
   }
   const std::vector<double> more = bench.oneMore(101);
@@ -334,8 +373,11 @@ void run(Options options) {
   fmt::print(
       "# What paint costs\n\nMade by `./dev bench sspm`: {}x{}, {} hardware threads, shots from "
       "about the cameras at\nanything that they see, parameters at their defaults, {} rounds in "
-      "turn, medians.\n\nPaint: the effect's passes on the first camera. Frame: all passes, with "
-      "SSAO. Rays "
+      "turn, medians.\n\nThe first row has a range with which its shots paint as many pixels as "
+      "the "
+      "largest\nnumber of shots does.\n\nPaint: the effect's passes on the first camera. Frame: "
+      "all "
+      "passes, with SSAO. Rays "
       "a shot: cast to place it.\nMemory: what the process grows by with these shots; on a "
       "software "
       "driver that is the host's and\nthe device's share together.\n\n",

@@ -611,6 +611,7 @@ typedef struct grisaille_host_report {
  * Returns what an effect reported in its last recording.
  * @param effect the effect
  * @param[out] out the report; set its `struct_size` before the call
+ * @retval 5602 `out->struct_size` is not the size of a version of the struct.
  */
 GRISAILLE_EXPORT int grisaille_host_effect_report(const grisaille_host_effect* effect,
                                                   grisaille_host_report* out);
