@@ -35,7 +35,7 @@ using Shots = std::vector<lab::Shot>;
 constexpr double kRange = 0.25;  // of shots, metres: the default
 
 struct Options : CommonOptions {
-  std::vector<size_t> counts = {64, 1000, 10000};
+  std::vector<size_t> counts = {64, 1000, 10000, 100000};
   std::vector<size_t> wallCounts = {64, 1000, 10000, 100000, 1000000};
   std::vector<size_t> perShotCounts = {1, 4, 16, 64, 256};
   std::string out;
