@@ -79,7 +79,7 @@ struct InstanceTest : testing::Test {
     });
   }
   Report record(Chain& chain, std::string_view effect, std::span<const gpu::Texture> outputs,
-                  const FrameInputs& given = {}) {
+                const FrameInputs& given = {}) {
     Report report;
     chain.create();
     frame(outputs, given, [&](FrameInputs& inputs) {

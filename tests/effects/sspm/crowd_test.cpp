@@ -133,8 +133,8 @@ TEST_P(CrowdTest, TheNewestWinsOfAMillion) {
   expectNewest();
 }
 
-// When the memory is full, the oldest shots go: the picture is that of the others. What an undo or a
-// larger limit frees serves the oldest again.
+// When the memory is full, the oldest shots go: the picture is that of the others. What an undo or
+// a larger limit frees serves the oldest again.
 TEST_P(CrowdTest, TheOldestGoWhenTheMemoryIsFull) {
   const scene::Scene scene = wallScene();
   TracedRays rays(scene);
