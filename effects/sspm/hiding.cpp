@@ -168,8 +168,8 @@ size_t PaintWorld::learn(Cell& cell, const CellGrid& grid, const SurfacePoint& p
   }
   const glm::vec3 inCell = (point.at - grid.corner(cell.key)) / grid.edge;
   const glm::vec3 low = middleOf(point.part) - 0.124f, high = middleOf(point.part) + 0.124f;
-  cell.known.push_back({.place = packPlace(glm::clamp(inCell, low, high)),
-                        .normal = glm::packSnorm3x10_1x2(glm::vec4(point.normal, 0))});
+  cell.known.add({.place = packPlace(glm::clamp(inCell, low, high)),
+                  .normal = glm::packSnorm3x10_1x2(glm::vec4(point.normal, 0))});
   // The maps of the listed shots are on the device alone. They may paint the piece, with gaps.
   for (Entry& entry : cell.entries) {
     if (!has(entry.touched, point.part) || isGone(entry)) continue;

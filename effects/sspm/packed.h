@@ -43,7 +43,7 @@ class Packed {
     items_[at] = copy;
     ++size_;
   }
-  void push_back(const T& item) { insert(size_, item); }
+  void add(const T& item) { insert(size_, item); }
 
   // Returns the number of erased items. Calls erased() once for each item, in order.
   template <typename Erased>

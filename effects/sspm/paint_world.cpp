@@ -314,9 +314,9 @@ void PaintWorld::place(Work& work) {
     const uint32_t record = takeRecord(id);
     placing_ = record;
     // Cells that its surfaces only come close to matter as long as other cells show it.
-    const auto others =
-        std::ranges::partition(shares, [](const Share& share) { return !share.points.empty(); });
-    const bool thin = others.begin() == shares.begin();
+    const auto others = std::partition(shares.begin(), shares.end(),
+                                       [](const Share& share) { return !share.points.empty(); });
+    const bool thin = others == shares.begin();
     for (const Share& share : shares) {
       join(record, survey.frame(), *work.grid, map, share, thin);
     }
