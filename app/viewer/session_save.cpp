@@ -104,14 +104,14 @@ void Session::takeObjects(const SavedSession& session, bool undoable) {
       continue;
     }
     objects::ObjectList* list = chain.objects(effect);
-    const bool taken = list != nullptr && attempt("objects of the session", [&, key = effect] {
-                         const objects::Objects all =
-                             objects::parse(list->table(), text, "the session's " + key);
-                         if (!undoable) return list->assign(all.view());
-                         if (objects::jsonOf(all.view()) == objects::jsonOf(list->view())) return;
-                         changeObjects(key, "session", false,
-                                       [&](objects::ObjectList& own) { own.replace(all.view()); });
-                       });
+    const bool taken =
+        list != nullptr && attempt("objects of the session", [&, key = effect, &text = text] {
+          const objects::Objects all = objects::parse(list->table(), text, "the session's " + key);
+          if (!undoable) return list->assign(all.view());
+          if (objects::jsonOf(all.view()) == objects::jsonOf(list->view())) return;
+          changeObjects(key, "session", false,
+                        [&](objects::ObjectList& own) { own.replace(all.view()); });
+        });
     if (!taken) strangeObjects_[effect] = text;
   }
   if (!undoable) return;

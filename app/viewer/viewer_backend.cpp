@@ -15,7 +15,7 @@ void Viewer::openWindow() {
     return;
   }
   std::vector<backends::Backend> order(backends::all().begin(), backends::all().end());
-  std::ranges::stable_partition(order, [&](const backends::Backend& backend) {
+  std::stable_partition(order.begin(), order.end(), [&](const backends::Backend& backend) {
     return last_ && last_->backend == backend.name;
   });
   std::string reasons;

@@ -102,7 +102,7 @@ void addCameras(Cases& cases) {
        {std::pair(glm::dvec2(0.5, -0.25), "half a picture"), {{0.3 / 96, -0.4 / 96}, "jitter"}}) {
     cases.add("view axis off centre", name,
               {"slices", "slices, refined", "history", "classic", "paint"},
-              [&](Case& one) { one.camera.shift = shift; });
+              [&, by = shift](Case& one) { one.camera.shift = by; });
   }
   for (const double away : {1e3, 1e5, 1e6, 1e7}) {
     const Scenery scenery{.origin = {away, -0.3 * away, 0.7 * away}};
