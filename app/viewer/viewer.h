@@ -94,6 +94,7 @@ class Viewer {
   void updateOther();
   std::string deviceName() const;  // --device, for the backend that it was given for
   // viewer_picture.cpp
+  StageDesc commonDesc();
   StageDesc stageDesc();
   bool isStale();
   bool turnSides();

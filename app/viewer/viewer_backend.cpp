@@ -113,12 +113,7 @@ std::optional<StageDesc> Viewer::otherDesc() {
   const std::string& backend = session_.splitting.backend;
   if (!session_.split || backend.empty() || backend == backend_) return std::nullopt;
   if (isTruthView(session_.right)) return std::nullopt;
-  StageDesc desc;
-  desc.camera = session_.camera;
-  desc.size = place().size;
-  desc.surface = session_.surface;
-  desc.background = session_.background;
-  desc.chain = &session_.chain;
+  StageDesc desc = commonDesc();
   // Revisions of held and of live settings must differ.
   desc.liveRevision =
       2 * (session_.held ? session_.heldRevision : session_.revision) + (session_.held ? 1 : 0);

@@ -43,13 +43,19 @@ Place Viewer::place() const {
   return {.corner = {static_cast<int>(left), 0}, .size = {pixels.x - left, pixels.y}};
 }
 
-StageDesc Viewer::stageDesc() {
+// What both sides of the picture share.
+StageDesc Viewer::commonDesc() {
   StageDesc desc;
   desc.camera = session_.camera;
   desc.size = place().size;
   desc.surface = session_.surface;
   desc.background = session_.background;
   desc.chain = &session_.chain;
+  return desc;
+}
+
+StageDesc Viewer::stageDesc() {
+  StageDesc desc = commonDesc();
   desc.liveRevision = session_.revision;
   desc.poses = session_.scene ? session_.scene->poses : 0;
   // The compared output stands in for truth and error until these have a texture.
