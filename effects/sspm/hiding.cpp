@@ -1,8 +1,7 @@
 // SPDX-License-Identifier: MIT
 // Culls shots that newer paint hides. A cell knows the pieces of surfaces in it. A piece is sealed
-// when the transmittance of its paint is below the least visible one and its coverage is full, in
-// the worst case over its part of the cell. A shot is hidden in a cell if all pieces that it may
-// paint are sealed.
+// when the strengths of its paint sum up to 1, in the worst case over its part of the cell. A shot
+// is hidden in a cell if all pieces that it may paint are sealed.
 #include <glm/gtc/packing.hpp>
 
 #include <algorithm>
@@ -185,10 +184,9 @@ size_t PaintWorld::learn(Cell& cell, const CellGrid& grid, const SurfacePoint& p
 void PaintWorld::prune(Cell& cell) {
   const auto edge = static_cast<float>(edgeOf(cell.key.code));
   const float half = edge / 8 * 1.7321f * (1 + 2 * kPartMargin);
-  std::array<float, kMostKnown> through, alphas;
+  std::array<float, kMostKnown> strengths;
   std::array<uint32_t, kMostKnown> newest;
-  through.fill(1);
-  alphas.fill(0);
+  strengths.fill(0);
   newest.fill(kNone);
   cell.sealed = 0;
   cell.sealedBelow = kNone;
@@ -213,10 +211,8 @@ void PaintWorld::prune(Cell& cell) {
       if (newest[i] == kNone) newest[i] = entry.shot;
       const float alpha = std::min(1.0f, rules_.full / across);
       const float fade = rules_.fade > 0 ? std::min(1.0f, (1 - across / range) / rules_.fade) : 1;
-      through[i] *= 1 - alpha;
-      alphas[i] += alpha * fade;
-      // The factors allow for rounding on the device.
-      if (through[i] < 0.99f * kThrough && alphas[i] >= 1.001f) {
+      strengths[i] += alpha * fade;
+      if (strengths[i] >= 1.001f) {  // allows for rounding on the device
         cell.sealed |= uint64_t{1} << i;
         cell.sealer = std::max(cell.sealer, newest[i]);
         cell.sealedBelow = std::min(cell.sealedBelow, entry.shot);

@@ -112,7 +112,7 @@ void PaintWorld::keepWithin(uint64_t limit) {
 void PaintWorld::giveUp(uint32_t floor) {
   std::vector<bool> gone(states_.size());
   std::fill_n(gone.begin(), floor, true);
-  forgetTwins(gone);
+  forgetTwins(gone, floor);
   erase(gone);
   floor_ = floor;
 }

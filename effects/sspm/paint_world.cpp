@@ -17,30 +17,6 @@ namespace {
 constexpr size_t kMostWork = 64;    // shots under survey at the same time
 constexpr size_t kMostRays = 4096;  // per step, except for a single shot
 
-bool alike(const Shot& a, const Shot& b) {
-  return std::ranges::equal(a.origin, b.origin) && std::ranges::equal(a.direction, b.direction) &&
-         a.range == b.range;
-}
-
-uint64_t hashOf(const Shot& shot) {
-  uint64_t hash = 14695981039346656037ull;
-  const auto mix = [&](uint64_t word) {
-    hash = (hash ^ word) * 0x9E3779B97F4A7C15ull;
-    hash ^= hash >> 29;
-  };
-  for (const double x : shot.origin) mix(std::bit_cast<uint64_t>(x));
-  for (const float x : shot.direction) mix(std::bit_cast<uint32_t>(x));
-  mix(std::bit_cast<uint32_t>(static_cast<float>(shot.range)));
-  return hash;
-}
-
-// Number of coincident shots of this range that hide everything older in their whole range.
-size_t layersOf(float full, float range) {
-  const float least = std::min(1.0f, full / range);
-  if (least >= 1 - kThrough) return 1;
-  return static_cast<size_t>(std::ceil(std::log(kThrough) / std::log1p(-least)));
-}
-
 // Calls work(0) to work(count - 1), on all hardware threads if there is more than one call.
 void onAllThreads(size_t count, const std::function<void(size_t)>& work) {
   std::atomic<size_t> next = 0;
@@ -123,14 +99,7 @@ void PaintWorld::forget(size_t count, bool allLost) {
   for (size_t id = 0; id < gone.size(); ++id) {
     gone[id] = id >= count || states_[id].lostTo > least;
   }
-  const std::vector<uint64_t> recount = forgetTwins(gone);
-  if (!recount.empty()) {
-    for (size_t id = 0; id < count; ++id) {
-      if (states_[id].record == kNone && std::ranges::binary_search(recount, hashOf(list_[id]))) {
-        gone[id] = true;
-      }
-    }
-  }
+  forgetTwins(gone, count);
   if (allLost) {
     for (Cell& cell : cells_.cells()) {
       cell.sealed = 0;
@@ -175,20 +144,6 @@ void PaintWorld::erase(const std::vector<bool>& gone) {
   }
 }
 
-// Removes shots that are gone from their groups of twins. Returns the hashes of the groups that
-// must count again, ascending.
-std::vector<uint64_t> PaintWorld::forgetTwins(const std::vector<bool>& gone) {
-  std::vector<uint64_t> recount;
-  for (auto& [hash, twins] : twins_) {
-    if (std::erase_if(twins.ids, [&](uint32_t id) { return gone[id]; }) == 0) continue;
-    if (twins.counted > 0) recount.push_back(hash);
-    twins.counted = 0;
-  }
-  std::erase_if(twins_, [](const auto& entry) { return entry.second.ids.empty(); });
-  std::ranges::sort(recount);
-  return recount;
-}
-
 // Casts one round of rays for the newest pending shots. Returns false if no shot is pending, or if
 // the host casts no rays.
 // unknown: gets the shots of which the host cannot tell yet.
@@ -229,7 +184,8 @@ void PaintWorld::refill() {
     const uint32_t id = pending_.back();
     const Shot& shot = list_[id];
     // Places its twin first.
-    if (std::ranges::any_of(work_, [&](const Work& w) { return alike(list_[w.id], shot); })) return;
+    if (std::ranges::any_of(work_, [&](const Work& w) { return areTwins(list_[w.id], shot); }))
+      return;
     pending_.pop_back();
     if (!countTwin(id)) work_.push_back({.id = id, .survey = Survey(shot, rangeOf(id))});
   }
@@ -355,37 +311,6 @@ void PaintWorld::remove(uint32_t id, std::span<const CellKey> cells) {
   }
 }
 
-// Whether enough newer twins hide this shot. If true, counts it in the record of the newest.
-bool PaintWorld::countTwin(uint32_t id) {
-  const auto found = twins_.find(hashOf(list_[id]));
-  if (found == twins_.end()) return false;
-  Twins& twins = found->second;
-  if (!alike(list_[twins.ids.front()], list_[id])) return false;
-  const auto newer = std::ranges::count_if(twins.ids, [&](uint32_t other) { return other > id; });
-  if (static_cast<size_t>(newer) < layersOf(rules_.full, rangeOf(id))) return false;
-  states_[id].lostTo = twins.ids.front() + 1;
-  writeCount(twins.ids.front(), ++twins.counted);
-  return true;
-}
-
-void PaintWorld::joinTwins(uint32_t id, std::span<const CellKey> cells) {
-  Twins& twins = twins_[hashOf(list_[id])];
-  if (!twins.ids.empty()) {
-    if (!alike(list_[twins.ids.front()], list_[id])) return;
-    if (std::ranges::find(twins.ids, id) != twins.ids.end()) return;
-    writeCount(twins.ids.front(), 0);
-  }
-  twins.ids.insert(std::ranges::lower_bound(twins.ids, id, std::greater<>()), id);
-  if (twins.ids.size() > layersOf(rules_.full, rangeOf(id))) {
-    const uint32_t last = twins.ids.back();
-    twins.ids.pop_back();
-    remove(last, cells);
-    states_[last].lostTo = std::max(states_[last].lostTo, twins.ids.front() + 1);
-    ++twins.counted;
-  }
-  writeCount(twins.ids.front(), twins.counted);
-}
-
 void PaintWorld::writeRecord(uint32_t index) {
   const Placed& placed = placed_[index];
   const Shot& shot = list_[placed.shot];
@@ -410,13 +335,6 @@ void PaintWorld::writeRecord(uint32_t index) {
   record[13] = glm::packHalf2x16(glm::vec2(shot.color[2], times));
   record[14] = placed.base;
   record[15] = placed.root;
-}
-
-void PaintWorld::writeCount(uint32_t id, uint32_t counted) {
-  const uint32_t record = states_[id].record;
-  if (record == kNone) return;
-  placed_[record].counted = counted;
-  writeRecord(record);
 }
 
 }  // namespace grisaille::sspm

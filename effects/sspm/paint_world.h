@@ -20,9 +20,8 @@ namespace grisaille::sspm {
 // Casts rays and writes one hit for each. Returns false if the host casts no rays.
 using CastRays = std::function<bool(std::span<const grisaille_ray>, std::span<grisaille_hit>)>;
 
-constexpr float kThrough = 1.0f / 512;  // least visible transmittance; see walk.glsl
-constexpr uint32_t kMostLevels = 16;    // cell widths in use at the same time
-constexpr size_t kRecordWords = 16;     // of a shot: Shot in shaders/sspm/walk.glsl
+constexpr uint32_t kMostLevels = 16;  // cell widths in use at the same time
+constexpr size_t kRecordWords = 16;   // of a shot: Shot in shaders/sspm/walk.glsl
 
 // Parameters that change where paint lies, or which paint hides which.
 struct PaintRules {
@@ -84,11 +83,10 @@ class PaintWorld {
     std::vector<Share> shares = {};
     bool told = true;  // by the host, as far as it could
   };
-  // Shots with the same origin, direction and range. Once enough of them hide everything older, the
-  // effect does not place further older ones: it only counts their alphas.
+  // A group of twins.
   struct Twins {
-    std::vector<uint32_t> ids;  // newest first
-    uint32_t counted = 0;       // shots that only count, in the record of the newest
+    uint32_t newest = 0;
+    uint32_t counted = 0;  // the others
   };
 
   float rangeOf(uint32_t id) const { return list_[id].rangeOr(rules_.range); }
@@ -97,17 +95,19 @@ class PaintWorld {
   void clear();
   void forget(size_t count, bool allLost);
   void erase(const std::vector<bool>& gone);
-  std::vector<uint64_t> forgetTwins(const std::vector<bool>& gone);
   bool step(const CastRays& cast, std::vector<uint32_t>& unknown);
   void refill();
   bool castFor(std::span<Work* const> works, const CastRays& cast);
   void askAgain(const CastRays& cast);
-  bool countTwin(uint32_t id);
-  void joinTwins(uint32_t id, std::span<const CellKey> cells);
   CellGrid gridFor(const ShotFrame& frame);
   void place(Work& work);
   void remove(uint32_t id, std::span<const CellKey> cells);
   void writeRecord(uint32_t record);
+
+  // twins.cpp
+  bool countTwin(uint32_t id);
+  void joinTwins(uint32_t id, std::span<const CellKey> cells);
+  void forgetTwins(std::vector<bool>& gone, size_t count);
   void writeCount(uint32_t id, uint32_t counted);
 
   // memory.cpp

@@ -83,8 +83,8 @@ constexpr grisaille_param_desc kParams[] = {
                       .log = true}),
     plugin::floatParam({.key = "edge_fade",
                         .label = "Edge fade",
-                        .tooltip = "Share of the range over which the coverage falls to 0 at the "
-                                   "rim, which breaks the rim up into splats; 0: a hard rim",
+                        .tooltip = "Share of the range over which a shot's strength falls to 0 at "
+                                   "the rim, which breaks the rim up into a splat; 0: a hard rim",
                         .hardMin = 0,
                         .hardMax = 1,
                         .softMin = 0,
@@ -95,7 +95,7 @@ constexpr grisaille_param_desc kParams[] = {
     plugin::floatParam({.key = "splat_scale",
                         .label = "Splat scale",
                         .unit = "m",
-                        .tooltip = "Size of the splats: the noise's largest cells",
+                        .tooltip = "Size of a splat's drops and bays: the noise's largest cells",
                         .hardMin = 1e-6,
                         .hardMax = 1e6,
                         .softMin = 0.005,
@@ -127,8 +127,8 @@ constexpr grisaille_param_desc kParams[] = {
     plugin::enumParam({.key = "resolution",
                        .label = "Resolution",
                        .tooltip = "On surfaces only: paint is computed at every pixel, or at every "
-                                  "second or fourth of a row and a column; other pixels blend the "
-                                  "samples on their plane. Splats stay as fine",
+                                  "second or fourth of a row and a column; other pixels ask only "
+                                  "the shots that paint the samples around them",
                        .keys = kResolutionKeys,
                        .labels = kResolutionLabels,
                        .defaultValue = 0}),
@@ -157,15 +157,15 @@ constexpr grisaille_output_desc kOutputs[] = {
     plugin::output({.key = "paint",
                     .format = GRISAILLE_FORMAT_RGBA16F,
                     .role = GRISAILLE_ROLE_OVERLAY,
-                    .tooltip = "Paint after the splat step: linear colour, and alpha, 0 to 1"}),
+                    .tooltip = "Paint: linear colour, and alpha, 0 to 1"}),
     plugin::output({.key = "paint_coverage",
                     .format = GRISAILLE_FORMAT_R32F,
                     .role = GRISAILLE_ROLE_NONE,
-                    .tooltip = "Sum of the shots' alphas before the splat step, at most 1"}),
+                    .tooltip = "Sum of the shots' strengths, at most 1"}),
     plugin::output({.key = "paint_owner",
                     .format = GRISAILLE_FORMAT_R32UI,
                     .role = GRISAILLE_ROLE_OWNER,
-                    .tooltip = "1 + the number of the shot that weighs most in the colour; 0: no "
+                    .tooltip = "1 + the number of the shot that adds most to the alpha; 0: no "
                                "paint"}),
 };
 

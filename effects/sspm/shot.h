@@ -4,6 +4,7 @@
 
 #include <algorithm>
 #include <cfloat>
+#include <cstdint>
 
 namespace grisaille::sspm {
 
@@ -18,5 +19,14 @@ struct Shot {
     return range > 0 ? std::max(static_cast<float>(range), FLT_MIN) : otherwise;
   }
 };
+
+// Twins have one ray and one range. Only the newest of them is drawn, and stands for all.
+bool areTwins(const Shot& a, const Shot& b);
+// The same for twins.
+uint64_t twinHash(const Shot& shot);
+
+// The seed of a shot's splat; shaders/sspm/splat.glsl computes the same.
+// noiseSeed: the parameter.
+uint32_t splatSeed(const Shot& shot, uint32_t noiseSeed);
 
 }  // namespace grisaille::sspm

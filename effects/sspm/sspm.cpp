@@ -5,15 +5,16 @@
 #include <cmath>
 #include <glm/glm.hpp>
 #include <limits>
+#include <unordered_map>
 
 #include "grisaille/effect.hpp"
 #include "paint_world.h"
 #include "parameters.h"
 #include "shaders/sspm_per_shot.h"
 #include "shaders/sspm_per_shot_first.h"
+#include "shaders/sspm_per_shot_last.h"
 #include "shaders/sspm_rest.h"
 #include "shaders/sspm_samples.h"
-#include "shaders/sspm_splat.h"
 #include "shaders/sspm_surface.h"
 #include "shaders/sspm_upsample.h"
 
@@ -21,7 +22,7 @@ namespace grisaille::sspm {
 namespace {
 
 constexpr uint32_t kGroup = 8;  // width and height of a group, threads; all shaders but rest.comp
-constexpr int kOctaves = 3;
+constexpr uint32_t kOctaves = 3;
 // shaders/sspm/rest.comp: pixels of the picture per thread, threads per group.
 constexpr uint32_t kRestShare = 32, kRestGroup = 64;
 // Largest picture, in pixels, for the list of rest.comp: 64 MiB of the 128 that every device binds.
@@ -32,12 +33,12 @@ using Bindings = std::vector<grisaille_binding>;
 
 // shaders/sspm/splat.glsl, std140.
 struct SplatBlock {
-  glm::ivec4 noise_cell[kOctaves];
-  glm::vec4 noise_fraction[kOctaves];
+  float cells;
   float half_width;
   uint32_t octaves;
+  uint32_t seed;
 };
-GRISAILLE_CHECK_BLOCK_sspm_splat_Splat(SplatBlock);
+GRISAILLE_CHECK_BLOCK_sspm_surface_Splat(SplatBlock);
 
 // shaders/sspm/per_shot.glsl, std140.
 struct ShotBlock {
@@ -47,8 +48,10 @@ struct ShotBlock {
   float full;
   glm::vec3 color;
   float per_fade;
-  float number;
+  uint32_t number;
   float muzzle;
+  uint32_t seed;
+  float times;
 };
 GRISAILLE_CHECK_BLOCK_sspm_per_shot_Shot(ShotBlock);
 
@@ -81,21 +84,10 @@ int32_t wrapped(double cell) {
 }
 
 SplatBlock splatBlock(const plugin::Frame& frame) {
-  SplatBlock block{};
-  const glm::dvec3 eye = eyeOf(frame);
-  const uint32_t seed = frame.value<uint32_t>(kNoiseSeed);
-  for (int octave = 0; octave < kOctaves; ++octave) {
-    const double cells = std::exp2(octave) / frame.value<double>(kSplatScale);
-    const glm::dvec3 place = eye * cells;
-    const glm::dvec3 whole = glm::floor(place);
-    const uint32_t octaveSeed = (seed * 3u + static_cast<uint32_t>(octave)) * 0x27d4eb2fu;
-    block.noise_cell[octave] = glm::ivec4(wrapped(whole.x), wrapped(whole.y), wrapped(whole.z),
-                                          static_cast<int32_t>(octaveSeed));
-    block.noise_fraction[octave] = glm::vec4(glm::dvec4(place - whole, cells));
-  }
-  block.half_width = 0.5f * (1 - frame.value<float>(kSplatSharpness));
-  block.octaves = kOctaves;
-  return block;
+  return {.cells = static_cast<float>(1 / frame.value<double>(kSplatScale)),
+          .half_width = 0.5f * (1 - frame.value<float>(kSplatSharpness)),
+          .octaves = kOctaves,
+          .seed = frame.value<uint32_t>(kNoiseSeed)};
 }
 
 class Sspm {
@@ -104,7 +96,7 @@ class Sspm {
       : host_(host),
         firstShot_(host, "first shot", grisaille_shader_sspm_per_shot_first),
         perShot_(host, "shot", grisaille_shader_sspm_per_shot),
-        splat_(host, "splat", grisaille_shader_sspm_splat),
+        lastShot_(host, "last", grisaille_shader_sspm_per_shot_last),
         surface_(host, "surface", grisaille_shader_sspm_surface),
         samples_(host, "samples", grisaille_shader_sspm_samples),
         upsample_(host, "upsample", grisaille_shader_sspm_upsample),
@@ -130,59 +122,75 @@ class Sspm {
   void recordPerShot(const plugin::Frame& frame) {
     // Keeps placed shots for a return to mode `surface`, up to the first change of the list.
     kept_ = std::min(kept_, frame.objectsKept());
-    const std::span<const Shot> all = frame.objects<Shot>();
-    const size_t count = std::min(all.size(), frame.value<size_t>(kShotLimit));
-    const auto scratch = [&](const char* label, grisaille_format format, bool full) {
+    const auto scratch = [&](const char* label) {
       return frame.transient({.label = label,
-                              .format = format,
-                              .width = full ? frame.width() : 1,
-                              .height = full ? frame.height() : 1});
+                              .format = GRISAILLE_FORMAT_RGBA32F,
+                              .width = frame.width(),
+                              .height = frame.height()});
     };
-    const bool owned = frame.wanted(Output::kOwner);
-    const grisaille_texture paint = scratch("paint", GRISAILLE_FORMAT_RGBA32F, true);
-    const grisaille_texture owners = scratch("owners", GRISAILLE_FORMAT_RG32F, owned);
+    const grisaille_texture paint = scratch("paint"), rest = scratch("strengths");
     const grisaille_texture depth = frame.attachment(GRISAILLE_VIEW_DEPTH);
+    const grisaille_binding splat = plugin::uniform(1, frame.uniform(splatBlock(frame)));
+    std::vector<ShotBlock> blocks = shotBlocks(frame);
     // Without shots, one with a negative range clears the targets.
-    const Shot none = {};
-    for (size_t i = 0; i < std::max<size_t>(count, 1); ++i) {
-      const size_t number = all.size() - count + i;
-      const Shot& shot = count > 0 ? all[number] : none;
-      const float range = count > 0 ? shot.rangeOr(frame.value<float>(kPaintRange)) : -1;
-      const ShotBlock block = shotBlock(frame, shot, range, number);
+    if (blocks.empty()) blocks.emplace_back().range = -1;
+    for (size_t i = 0; i < blocks.size(); ++i) {
       const grisaille_pipeline pipeline =
-          (i == 0 ? firstShot_ : perShot_).get({plugin::specialize(0, owned)});
-      const grisaille_binding bindings[] = {
-          plugin::uniform(0, frame.viewBlock()), plugin::uniform(1, frame.uniform(block)),
-          plugin::texture(0, depth, nearest_), plugin::image(0, paint), plugin::image(1, owners)};
+          (i == 0 ? firstShot_ : perShot_).get({plugin::specialize(0, isCovered(frame))});
+      const grisaille_binding bindings[] = {plugin::uniform(0, frame.viewBlock()),
+                                            splat,
+                                            plugin::uniform(2, frame.uniform(blocks[i])),
+                                            plugin::texture(0, depth, nearest_),
+                                            plugin::image(0, paint),
+                                            plugin::image(1, rest)};
       frame.pass("shot", [&] { cover(frame, pipeline, bindings); });
     }
-    const grisaille_pipeline pipeline =
-        splat_.get({plugin::specialize(0, wanted(frame)), plugin::specialize(1, owned)});
-    Bindings bindings = {plugin::uniform(0, frame.viewBlock()),
-                         plugin::uniform(1, frame.uniform(splatBlock(frame))),
-                         plugin::texture(0, depth, nearest_), plugin::texture(1, paint, nearest_),
-                         plugin::texture(2, owned ? owners : paint, nearest_)};
-    frame.pass("splat", [&] {
+    const grisaille_pipeline pipeline = lastShot_.get({plugin::specialize(0, wanted(frame))});
+    Bindings bindings = {plugin::uniform(0, frame.viewBlock()), plugin::texture(0, paint, nearest_),
+                         plugin::texture(1, rest, nearest_)};
+    frame.pass("last", [&] {
       addOutputs(frame, bindings);
       cover(frame, pipeline, bindings);
     });
   }
 
-  static ShotBlock shotBlock(const plugin::Frame& frame, const Shot& shot, float range,
-                             size_t number) {
+  // The shots to draw, newest first. A shot stands for all others of its ray and range.
+  static std::vector<ShotBlock> shotBlocks(const plugin::Frame& frame) {
+    const std::span<const Shot> all = frame.objects<Shot>();
+    const size_t count = std::min(all.size(), frame.value<size_t>(kShotLimit));
+    std::vector<ShotBlock> blocks;
+    std::unordered_multimap<uint64_t, std::pair<size_t, size_t>> drawn;  // ray: shot, block
+    for (size_t number = all.size(); number > all.size() - count; --number) {
+      const Shot& shot = all[number - 1];
+      const auto [first, end] = drawn.equal_range(twinHash(shot));
+      const auto twin = std::find_if(
+          first, end, [&](const auto& it) { return areTwins(all[it.second.first], shot); });
+      if (twin != end) {
+        ++blocks[twin->second.second].times;
+        continue;
+      }
+      drawn.emplace(twinHash(shot), std::pair(number - 1, blocks.size()));
+      blocks.push_back(shotBlock(frame, shot, number));
+    }
+    return blocks;
+  }
+
+  static ShotBlock shotBlock(const plugin::Frame& frame, const Shot& shot, size_t number) {
     // Double precision: single precision cannot tell where the ray of a distant muzzle passes.
     const glm::dvec3 muzzle =
         glm::dvec3(shot.origin[0], shot.origin[1], shot.origin[2]) - eyeOf(frame);
     const glm::dvec3 direction(shot.direction[0], shot.direction[1], shot.direction[2]);
     const double onwards = -glm::dot(muzzle, direction);
     return {.origin = glm::vec3(muzzle + onwards * direction),
-            .range = range,
+            .range = shot.rangeOr(frame.value<float>(kPaintRange)),
             .direction = glm::vec3(direction),
             .full = frame.value<float>(kFull),
             .color = {shot.color[0], shot.color[1], shot.color[2]},
             .per_fade = perFade(frame),
-            .number = static_cast<float>(number + 1),
-            .muzzle = static_cast<float>(-onwards)};
+            .number = static_cast<uint32_t>(number),
+            .muzzle = static_cast<float>(-onwards),
+            .seed = splatSeed(shot, frame.value<uint32_t>(kNoiseSeed)),
+            .times = 1};
   }
 
   void recordSurface(const plugin::Frame& frame) {
@@ -203,14 +211,15 @@ class Sspm {
     world_.upload(frame, uploader_);
     const Bindings shared = {
         plugin::uniform(0, frame.viewBlock()),
+        plugin::uniform(1, frame.uniform(splatBlock(frame))),
+        plugin::uniform(2, frame.uniform(listsBlock(frame))),
+        plugin::storage(2, plugin::whole(world_.records().buffer())),
         plugin::texture(0, frame.attachment(GRISAILLE_VIEW_DEPTH), nearest_),
         plugin::texture(1, frame.attachment(GRISAILLE_FACET_NORMAL), nearest_)};
-    const Bindings lists = {plugin::uniform(2, frame.uniform(listsBlock(frame))),
-                            plugin::storage(0, plugin::whole(world_.cells().slots().buffer())),
+    const Bindings lists = {plugin::storage(0, plugin::whole(world_.cells().slots().buffer())),
                             plugin::storage(1, plugin::whole(world_.cells().words().buffer())),
-                            plugin::storage(2, plugin::whole(world_.records().buffer())),
                             plugin::storage(3, plugin::whole(world_.blocks().buffer()))};
-    Bindings outputs = {plugin::uniform(1, frame.uniform(splatBlock(frame)))};
+    Bindings outputs;
     addOutputs(frame, outputs);
     const auto resolution = frame.value<Resolution>(kResolution);
     if (resolution != Resolution::kFull && pixelsOf(frame) <= kRestMost) {
@@ -229,40 +238,31 @@ class Sspm {
                      const Bindings& lists, const Bindings& outputs) {
     const uint32_t width = plugin::groupsFor(frame.width() - 1, step) + 1;
     const uint32_t height = plugin::groupsFor(frame.height() - 1, step) + 1;
-    const auto scratch = [&](const char* label, grisaille_format format, bool full) {
-      return frame.transient({.label = label,
-                              .format = format,
-                              .width = full ? width : 1,
-                              .height = full ? height : 1});
+    const auto scratch = [&](const char* label) {
+      return frame.transient(
+          {.label = label, .format = GRISAILLE_FORMAT_RGBA32F, .width = width, .height = height});
     };
-    const bool owned = frame.wanted(Output::kOwner);
-    const grisaille_texture samples = scratch("samples", GRISAILLE_FORMAT_RGBA16F, true);
-    const grisaille_texture planes = scratch("planes", GRISAILLE_FORMAT_RGBA32F, true);
-    const grisaille_texture owners = scratch("owners", GRISAILLE_FORMAT_R32UI, owned);
+    const grisaille_texture samples = scratch("samples"), planes = scratch("planes");
     const auto refine = frame.value<uint32_t>(kRefine);
     const grisaille_binding rest = plugin::storage(4, plugin::whole(restFor(frame)));
 
-    std::vector<grisaille_constant> constants = walkConstants(frame);
-    constants.push_back(plugin::specialize(2, step));
+    const grisaille_constant one = walkConstants(frame)[1], spacing = plugin::specialize(2, step);
     frame.pass("samples", [&] {
-      frame.dispatch(samples_.get(constants),
-                     joined({shared,
-                             lists,
-                             {rest, plugin::image(0, samples), plugin::image(1, planes),
-                              plugin::image(2, owners)}}),
-                     plugin::groupsFor(width, kGroup), plugin::groupsFor(height, kGroup));
-    });
-    const grisaille_pipeline upsample =
-        upsample_.get({constants[0], constants[2], plugin::specialize(3, refine)});
-    frame.pass("upsample", [&] {
       frame.dispatch(
-          upsample,
-          joined({shared,
-                  outputs,
-                  {rest, plugin::texture(2, samples, nearest_),
-                   plugin::texture(3, planes, nearest_), plugin::texture(4, owners, nearest_)}}),
-          plugin::groupsFor(frame.width(), kGroup * step),
-          plugin::groupsFor(frame.height(), kGroup * step));
+          samples_.get({plugin::specialize(0, isCovered(frame)), one, spacing}),
+          joined({shared, lists, {rest, plugin::image(0, samples), plugin::image(1, planes)}}),
+          plugin::groupsFor(width, kGroup), plugin::groupsFor(height, kGroup));
+    });
+    const grisaille_pipeline upsample = upsample_.get(
+        {plugin::specialize(0, wanted(frame)), spacing, plugin::specialize(3, refine)});
+    frame.pass("upsample", [&] {
+      frame.dispatch(upsample,
+                     joined({shared,
+                             outputs,
+                             {rest, plugin::texture(2, samples, nearest_),
+                              plugin::texture(3, planes, nearest_)}}),
+                     plugin::groupsFor(frame.width(), kGroup * step),
+                     plugin::groupsFor(frame.height(), kGroup * step));
     });
     if (refine == static_cast<uint32_t>(Refine::kNothing)) return;
     frame.pass("rest", [&] {
@@ -317,6 +317,9 @@ class Sspm {
     return block;
   }
 
+  // Whether pixels at full alpha must still sum up strengths.
+  static bool isCovered(const plugin::Frame& frame) { return frame.wanted(Output::kCoverage); }
+
   static uint32_t wanted(const plugin::Frame& frame) {
     return (frame.wanted(Output::kPaint) ? 1u : 0u) | (frame.wanted(Output::kCoverage) ? 2u : 0u) |
            (frame.wanted(Output::kOwner) ? 4u : 0u);
@@ -341,7 +344,7 @@ class Sspm {
   }
 
   plugin::Host host_;
-  plugin::PipelineCache firstShot_, perShot_, splat_, surface_, samples_, upsample_, rest_;
+  plugin::PipelineCache firstShot_, perShot_, lastShot_, surface_, samples_, upsample_, rest_;
   plugin::Sampler nearest_;
   plugin::Buffer restList_;
   uint64_t restWords_ = 0;

@@ -8,6 +8,7 @@
 #include <glm/glm.hpp>
 #include <optional>
 #include <span>
+#include <vector>
 
 #include "core/scene/camera.h"
 #include "lab/paint/shot.h"
@@ -36,12 +37,21 @@ struct Sight {
   std::function<bool(const Shot& shot)> sees = {};
 };
 
+// A shot as it is composited.
+struct PaintLayer {
+  Shot shot;
+  double times = 1;   // number of shots with this ray and range, of which it is the newest
+  uint32_t seed = 0;  // of its splat
+};
+
+// The layers of a list of shots, newest first. `limited`: only of the newest `shotLimit` shots.
+std::vector<PaintLayer> layersOf(std::span<const Shot> shots, const PaintSettings& settings,
+                                 bool limited);
+
 // `pixelSize`: height of a pixel at the view depth, metres. Without `sight`, the mode is
 // `per_shot`.
 PaintPixel paintOf(const glm::dvec3& world, double viewDepth, double pixelSize,
-                   std::span<const Shot> shots, const PaintSettings& settings,
+                   std::span<const PaintLayer> layers, const PaintSettings& settings,
                    const std::optional<Sight>& sight = std::nullopt);
-
-double splatNoise(const glm::dvec3& world, double pixelSize, const PaintSettings& settings);
 
 }  // namespace grisaille::lab::oracle

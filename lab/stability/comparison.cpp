@@ -214,11 +214,9 @@ image::Image comparePaint(const Case& one, const effect::Values& values, const o
   std::optional<Sights> sights;
   if (surface && hides(one.scenery.kind)) sights.emplace(scene);
   const glm::dmat3 worldFromView = scene::worldFromView(one.camera);
-  // The only case with more shots has identical ones: older shots are covered completely.
-  std::span<const Shot> shots = one.shots;
-  constexpr size_t kCounted = 4096;
-  if (shots.size() > kCounted) shots = shots.last(kCounted);
+  const std::span<const Shot> shots = one.shots;
   image::Image expected = likeOf(paint);
+  const std::vector<oracle::PaintLayer> layers = layersOf(shots, settings, !surface);
   std::vector<float> differences;
   for (const glm::ivec2& pixel : pixelsToCompare(view.size())) {
     const glm::dvec3 place = placeOf(one, view, pixel);
@@ -228,8 +226,8 @@ image::Image comparePaint(const Case& one, const effect::Values& values, const o
       if (sights) sight->sees = [&](const auto& shot) { return sights->sees(shot, place); };
     }
     const oracle::PaintPixel value =
-        paintOf(place, view.depth(pixel), scene::pixelSize(view.camera(), view.depth(pixel)), shots,
-                settings, sight);
+        paintOf(place, view.depth(pixel), scene::pixelSize(view.camera(), view.depth(pixel)),
+                layers, settings, sight);
     const glm::uvec2 at(pixel);
     differences.push_back(std::max(difference(coverage.at(at.x, at.y), value.coverage),
                                    compareAt(paint, pixel, value.paint, 4, expected)));

@@ -22,9 +22,10 @@ void main() {
     const vec2 at = vec2(pixel) + 0.5;
     const vec2 uv = at * view.size.zw;
     const float depth = textureLod(view_depth, uv, 0.0).x;
-    const vec3 from_camera = fromCamera(at, depth);
-    const float noise = splatNoise(from_camera, depth, kOctaves);
-    const Sum sum = walk(from_camera, textureLod(facet_normal, uv, 0.0).xyz, enoughAlpha(noise));
-    writePaint(pixel, sum.color, sum.alphas, sum.owner, noise);
+    const vec3 normal = textureLod(facet_normal, uv, 0.0).xyz;
+    uint blocked;
+    Sum sum = walk(Point(fromCamera(at, depth), normal, pixelSize(depth)), (kWanted & 2u) != 0u, blocked);
+    sum.owner = numberOf(sum.owner);
+    writePaint(pixel, sum);
   }
 }

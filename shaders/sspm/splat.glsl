@@ -1,19 +1,17 @@
 // SPDX-License-Identifier: MIT
-// The splat step: paint appears where its coverage is above a noise of the world position. The
-// noise is a sum of three octaves of value noise, on lattices of splat_scale / 2^octave metres that
-// are fixed in the world. The hash takes a lattice point as integers. effects/sspm/README.md has
-// the definition (step 4).
+// A shot's splat: its paint appears where its strength is above its noise. The noise is a sum of
+// three octaves of value noise in the plane across the shot's ray, so that a splat is longer where
+// the ray grazes a surface. Every shot has a seed of its own. effects/sspm/README.md has the
+// definition (steps 3 to 5).
 #include "place.glsl"
 
 const uint kOctaves = 3;
 
 layout(UNIFORM(1), std140) uniform Splat {
-  // One per octave. xyz: the camera's lattice cell, modulo 2^32; w: hash seed.
-  ivec4 noise_cell[kOctaves];
-  // xyz: the camera's position in its cell, in cells; w: cells per metre.
-  vec4 noise_fraction[kOctaves];
-  float half_width;   // half the width of the smooth step, in coverage; 0: a hard edge
+  float cells;        // of the first octave, per metre
+  float half_width;   // half the width of the smooth step, in strength; 0: a hard edge
   uint octaves;       // kOctaves, but unknown to the compiler, which then keeps the loop
+  uint seed;
 } splat;
 
 // Integer hash lowbias32 (Wellons 2018, "Prospecting for Hash Functions").
@@ -27,52 +25,103 @@ uint hashBits(uint x) {
 }
 
 // Value noise: uniform in [0, 1) at the lattice points, between them the quintic interpolation of
-// Perlin 2002, "Improving Noise". `place` is in cells from `origin`, which may wrap around.
-float valueNoise(ivec3 origin, vec3 place, uint seed) {
-  const vec3 whole = floor(place);
-  const vec3 f = place - whole;
-  const vec3 w = f * f * f * (f * (f * 6.0 - 15.0) + 10.0);
-  const uvec3 low = uvec3(origin + ivec3(whole));
-  const uvec3 a = low * uvec3(0x9e3779b1u, 0x85ebca77u, 0xc2b2ae3du);
-  const uvec3 b = (low + 1u) * uvec3(0x9e3779b1u, 0x85ebca77u, 0xc2b2ae3du);
-  vec4 x0 = vec4(0.0), x1 = vec4(0.0);
-  for (int i = 0; i < 4; ++i) {
-    const uint yz = ((i & 1) != 0 ? b.y : a.y) ^ ((i & 2) != 0 ? b.z : a.z) ^ seed;
-    x0[i] = float(hashBits(a.x ^ yz) >> 8);
-    x1[i] = float(hashBits(b.x ^ yz) >> 8);
-  }
-  const vec4 x = mix(x0, x1, w.x);
-  const vec2 y = mix(x.xz, x.yw, w.y);
-  return mix(y.x, y.y, w.z) * (1.0 / 16777216.0);
+// Perlin 2002, "Improving Noise". place: in cells.
+float valueNoise(vec2 place, uint seed) {
+  const vec2 whole = floor(place);
+  const vec2 f = place - whole;
+  const vec2 w = f * f * f * (f * (f * 6.0 - 15.0) + 10.0);
+  const uvec2 low = uvec2(ivec2(whole)) * uvec2(0x9e3779b1u, 0x85ebca77u);
+  const uvec2 high = low + uvec2(0x9e3779b1u, 0x85ebca77u);
+  const uvec4 bits = uvec4(low.x, high.x, low.x, high.x) ^ uvec4(low.y, low.y, high.y, high.y) ^ seed;
+  const vec4 at = vec4(hashBits(bits.x) >> 8, hashBits(bits.y) >> 8, hashBits(bits.z) >> 8, hashBits(bits.w) >> 8);
+  const vec2 x = mix(at.xz, at.yw, w.x);
+  return mix(x.x, x.y, w.y) * (1.0 / 16777216.0);
 }
 
-// Noise in [0, 0.9]: full coverage is always paint. An octave whose cells are less than four pixels
+// Two axes across a unit direction (Duff et al. 2017, "Building an Orthonormal Basis, Revisited").
+mat2x3 axesAcross(vec3 w) {
+  const float s = w.z >= 0.0 ? 1.0 : -1.0;
+  const float a = -1.0 / (s + w.z);
+  const float b = w.x * w.y * a;
+  return mat2x3(1.0 + s * w.x * w.x * a, s * b, -s * w.x, b, s + w.y * w.y * a, -w.y);
+}
+
+// The seed of a shot's splat. fraction: the muzzle's position less its whole metres.
+uint splatSeed(vec3 fraction, vec3 direction) {
+  const uvec3 a = floatBitsToUint(fraction) * uvec3(0x9e3779b1u, 0x85ebca77u, 0xc2b2ae3du);
+  const uvec3 b = floatBitsToUint(direction) * uvec3(0x165667b1u, 0xd3a2646du, 0xfd7046c5u);
+  return hashBits(splat.seed * 0x27d4eb2fu ^ a.x ^ a.y ^ a.z ^ b.x ^ b.y ^ b.z);
+}
+
+// Noise in [0, 0.9]: full strength is always paint. An octave whose cells are less than four pixels
 // wide fades to its mean; at two pixels it is gone.
-// from_camera: position relative to the camera, world axes, metres.
-// octaves: number of octaves; 0 gives the mean.
-float splatNoise(vec3 from_camera, float view_depth, uint octaves) {
-  float sum = 0.0, weights = 0.0;
-  const float pixel = pixelSize(view_depth);
-  for (uint octave = 0; octave < octaves; ++octave) {
-    const float cells = splat.noise_fraction[octave].w;
-    const float weight = exp2(-float(octave));
-    const float shown = clamp(1.0 / (2.0 * pixel * cells) - 1.0, 0.0, 1.0);
-    if (shown > 0.0) {
-      const vec3 place = from_camera * cells + splat.noise_fraction[octave].xyz;
-      const float value =
-          valueNoise(splat.noise_cell[octave].xyz, place, uint(splat.noise_cell[octave].w));
-      sum += weight * shown * (value - 0.5);
-    }
-    weights += weight;
+// across: offset from the shot's ray, along axesAcross(), metres. pixel: a pixel's width there,
+// metres. octaves: number of octaves; 0 gives the mean.
+float splatNoise(uint seed, vec2 across, float pixel, uint octaves) {
+  // A turn by up to 90 degrees, which differs from shot to shot, and by 37 between octaves.
+  const float t = float(hashBits(seed ^ 0x68bc21ebu) >> 8) * (1.0 / 16777216.0);
+  const vec2 turn = vec2(1.0 - t * t, 2.0 * t) / (1.0 + t * t);
+  vec2 place = splat.cells * vec2(turn.x * across.x - turn.y * across.y, turn.y * across.x + turn.x * across.y);
+  float sum = 0.0, weight = 1.0, cells = splat.cells;
+  for (uint octave = 0u; octave < octaves; ++octave) {
+    const float shown = clamp(0.5 / (pixel * cells) - 1.0, 0.0, 1.0);
+    const float value = valueNoise(clamp(place, -1e9, 1e9), seed + octave * 0x27d4eb2fu);
+    sum += weight * shown * (value - 0.5);
+    weight *= 0.5;
+    cells *= 2.0;
+    place = vec2(1.6 * place.x - 1.2 * place.y, 1.2 * place.x + 1.6 * place.y);
   }
-  // The sum of octaves stays near its mean: a factor of 2 makes it fill the range.
-  return 0.9 * clamp(0.5 + 2.0 * sum / max(weights, 1.0), 0.0, 1.0);
+  // 7 / 4 is the sum of the weights. The sum of octaves stays near its mean: a factor of 2 makes it
+  // fill the range.
+  return 0.9 * clamp(0.5 + sum * (8.0 / 7.0), 0.0, 1.0);
 }
 
-// Alpha of paint with this coverage: 0 or 1, and between them over the width of the smooth step.
-float splatAlpha(float coverage, float noise) {
-  if (coverage <= 0.0) return 0.0;
-  const float above = coverage - noise;
+// Alpha of paint of this strength: 0 or 1, and between them over the width of the smooth step.
+float splatAlpha(float strength, float noise) {
+  if (strength <= 0.0) return 0.0;
+  const float above = strength - noise;
   if (splat.half_width <= 0.0) return above > 0.0 ? 1.0 : 0.0;
-  return smoothstep(-splat.half_width, splat.half_width, above) * min(coverage / splat.half_width, 1.0);
+  return smoothstep(-splat.half_width, splat.half_width, above) * min(strength / splat.half_width, 1.0);
+}
+
+// What lies on a point, composited newest first.
+struct Sum {
+  vec3 color;      // of the shots, times the alpha that each adds
+  float alpha;     // largest of the shots' alphas
+  float strengths; // sum
+  float weight;    // alpha that the owner adds
+  float before;    // strengths of the shots newer than the owner
+  uint owner;      // the shot that adds most alpha; 0: no paint
+};
+const Sum kNothing = Sum(vec3(0.0), 0.0, 0.0, 0.0, 0.0, 0u);
+
+// Whether older shots can still change the outputs: early ray termination.
+// covered: the sum of strengths matters too, up to 1.
+bool isOpen(Sum sum, bool covered) {
+  return sum.strengths < 1.0 && (covered || sum.alpha < 1.0);
+}
+
+// Composites one shot below the sum, by steps 3 to 5 of the definition.
+// across: offset from its ray, along axesAcross(), metres. pixel: a pixel's width, metres.
+// seed: of its splat. times: number of shots that this one stands for. owner: what names the shot.
+void composite(inout Sum sum, vec2 across, float pixel, uint seed, float range, float full,
+               float per_fade, float times, vec3 color, uint owner) {
+  const float apart = length(across);
+  const float alpha = min(1.0, full / max(apart, 1e-6));
+  const float fade = min(1.0, (1.0 - apart / range) * per_fade);
+  const float strength = min(times * alpha * fade, 1.0);
+  sum.strengths += strength;
+  // Several weak shots together close gaps.
+  const float filled = clamp(1.0 - 4.0 * (1.0 - sum.strengths), strength, 1.0);
+  // Near full strength the noise decides nothing, and the shader skips its octaves.
+  const bool open = filled < 0.9 + splat.half_width;
+  const float shown = splatAlpha(filled, splatNoise(seed, across, pixel, open ? splat.octaves : 0u));
+  const float weight = max(shown - sum.alpha, 0.0);
+  sum.color += weight * color;
+  sum.alpha = max(sum.alpha, shown);
+  if (weight > sum.weight) {
+    sum.weight = weight;
+    sum.before = sum.strengths - strength;
+    sum.owner = owner;
+  }
 }

@@ -16,10 +16,12 @@ void main() {
   const vec2 at = vec2(pixel) + 0.5;
   const vec2 uv = at * view.size.zw;
   const float depth = textureLod(view_depth, uv, 0.0).x;
-  const vec3 from_camera = fromCamera(at, depth);
-  const float noise = splatNoise(from_camera, depth, kOctaves);
-  const float enough = enoughAlpha(noise);
-  Sum sum = Sum(vec3(0.0), 1.0, 0.0, 0.0, 0u);
-  if (depth > 0.0) sum = walk(from_camera, textureLod(facet_normal, uv, 0.0).xyz, enough);
-  writePaint(pixel, sum.color, sum.alphas, sum.owner, noise);
+  Sum sum = kNothing;
+  if (depth > 0.0) {
+    const vec3 normal = textureLod(facet_normal, uv, 0.0).xyz;
+    uint blocked;
+    sum = walk(Point(fromCamera(at, depth), normal, pixelSize(depth)), (kWanted & 2u) != 0u, blocked);
+    sum.owner = numberOf(sum.owner);
+  }
+  writePaint(pixel, sum);
 }

@@ -1,13 +1,15 @@
 #version 460
 // SPDX-License-Identifier: MIT
-// Mode `surface` below full resolution, second pass: joint bilateral upsampling (Kopf et al. 2007).
-// A pixel blends the four samples around it bilinearly, and leaves out samples whose plane it does
-// not lie on. Then follows the splat step. Pixels that the parameter `refine` selects go on a list
-// for rest.comp instead. One thread computes the pixels between four samples, which it reads once.
+// Mode `surface` below full resolution, second pass. A pixel looks at the four samples around it
+// that have its plane, as in joint bilateral upsampling (Kopf et al. 2007). It composites only the
+// shots that own them, but these exactly, so that rims and splats are as fine as at full
+// resolution. Pixels that the parameter `refine` selects go on a list for rest.comp instead. One
+// thread computes the pixels between four samples, which it reads once.
 #extension GL_GOOGLE_include_directive : require
 #extension GL_EXT_control_flow_attributes : require
 #include "splat.glsl"
 #include "outputs.glsl"
+#include "walk.glsl"
 
 layout(local_size_x = 8, local_size_y = 8) in;
 layout(constant_id = 2) const uint kStep = 2;    // pixels
@@ -16,7 +18,6 @@ layout(TEXTURE(0)) uniform sampler2D view_depth;
 layout(TEXTURE(1)) uniform sampler2D facet_normal;
 layout(TEXTURE(2)) uniform sampler2D samples;  // outputs of samples.comp
 layout(TEXTURE(3)) uniform sampler2D planes;
-layout(TEXTURE(4)) uniform usampler2D owners;
 layout(STORAGE(4), std430) buffer Rest {
   uint rest_count;
   uint rest[];  // x | y << 16
@@ -24,70 +25,82 @@ layout(STORAGE(4), std430) buffer Rest {
 
 const float kSameFacing = 0.9;  // least cosine between the facets' normals of pixel and sample
 const float kOffPlane = 0.5;    // plane tolerance, in pixels' widths
-// Difference of coverage or of a colour channel between samples above which a pixel counts as a
-// rim.
-const float kRim = 0.25;
 
-// The four samples around a pixel, by rows.
+// The four samples around a pixel, by rows; see samples.comp.
 struct Corners {
-  vec4 paint[4];
   vec4 plane[4];
-  uint owner[4];
+  vec4 owner, blocked, before, strengths;
+  uvec4 number;  // 1 + the number of the owner's shot; 0: no paint
+  bvec4 full;    // alpha is 1
 };
+
+float sumOf(vec4 v) {
+  return dot(v, vec4(1.0));
+}
+
+// Composites the owners of the samples around a pixel, newest first.
+// weights: of the samples, 0 if they are not on the pixel's plane.
+Sum compositeOwners(Corners corners, vec4 weights, Point point) {
+  const vec4 known = vec4(greaterThan(weights, vec4(0.0)));
+  uvec4 left = corners.number * uvec4(known);
+  uint newest = max(max(left.x, left.y), max(left.z, left.w));
+  // Samples that agree and have full alpha leave nothing to ask.
+  const vec4 agree = vec4(equal(left, uvec4(newest))) * vec4(corners.full);
+  const bool plain = all(greaterThanEqual(agree, known));
+  Sum sum = kNothing;
+  while (newest > 0u && !plain && isOpen(sum, false)) {
+    const vec4 its = weights * vec4(equal(left, uvec4(newest)));
+    const float owner = dot(its, corners.owner) / sumOf(its);
+    const uint record = uint(owner + 0.5) - 1u;
+    const Shot shot = shots[record];
+    const vec3 q = point.from_camera - muzzleOf(shot);
+    const vec2 across = q * axesAcross(shot.direction);
+    // At a silhouette that hides the pixel from the muzzle, the larger part of the samples decides.
+    const float seen = dot(weights, vec4(greaterThanEqual(corners.number, uvec4(newest))));
+    const float hidden = dot(weights, vec4(lessThan(abs(corners.blocked - owner), vec4(0.5))));
+    if (seen >= hidden && length(across) < shot.range && dot(q, shot.direction) >= 0.0) {
+      sum.strengths = max(sum.strengths, dot(its, corners.before) / sumOf(its));
+      compositeShot(sum, record, shot, across, point.pixel);
+    }
+    left *= uvec4(notEqual(left, uvec4(newest)));
+    newest = max(max(left.x, left.y), max(left.z, left.w));
+  }
+  if (plain && newest > 0u) {
+    sum.owner = uint(max(max(corners.owner.x * known.x, corners.owner.y * known.y),
+                         max(corners.owner.z * known.z, corners.owner.w * known.w)));
+    sum.color = colorOf(shots[sum.owner - 1u]);
+    sum.alpha = 1.0;
+  }
+  sum.strengths = dot(weights, corners.strengths) / max(sumOf(weights), 1e-20);
+  return sum;
+}
 
 // Upsamples one pixel, or appends it to the list. share: its position between the samples, 0 to 1.
 void upsamplePixel(Corners corners, ivec2 pixel, vec2 share) {
   const vec2 at = vec2(pixel) + 0.5;
   const vec2 uv = at * view.size.zw;
   const float depth = textureLod(view_depth, uv, 0.0).x;
-  const vec3 normal = textureLod(facet_normal, uv, 0.0).xyz;
-  const vec3 from_camera = fromCamera(at, depth);
-  const float tolerance = kOffPlane * pixelSize(depth);
-  vec3 color = vec3(0.0);
-  // Sums of weights: of all samples on the plane, and of those with paint, which alone blend
-  // colours.
-  float alphas = 0.0, all = 0.0, painted = 0.0, largest = 0.0;
-  vec4 least = vec4(1e30), most = vec4(-1e30);  // rgb: of samples with paint; a: coverage of all
-  uint owner = 0u;
+  const Point point = Point(fromCamera(at, depth), textureLod(facet_normal, uv, 0.0).xyz, pixelSize(depth));
+  vec4 weights = vec4((1.0 - share.x) * (1.0 - share.y), share.x * (1.0 - share.y), (1.0 - share.x) * share.y, share.x * share.y);
   [[unroll]] for (int i = 0; i < 4; ++i) {
-    const vec2 bilinear = vec2((i & 1) != 0 ? share.x : 1.0 - share.x,
-                               (i & 2) != 0 ? share.y : 1.0 - share.y);
-    const vec4 plane = corners.plane[i], paint = corners.paint[i];
-    const bool on_plane = dot(plane.xyz, normal) >= kSameFacing &&
-                          abs(dot(plane.xyz, from_camera) - plane.w) <= tolerance;
-    const float weight = on_plane ? bilinear.x * bilinear.y : 0.0;
-    const float paint_weight = paint.a > 0.0 ? weight : 0.0;
-    all += weight;
-    painted += paint_weight;
-    alphas += weight * paint.a;
-    color += paint_weight * paint.rgb;
-    least = min(least, vec4(paint_weight > 0.0 ? paint.rgb : vec3(1e30),
-                            weight > 0.0 ? paint.a : 1e30));
-    most = max(most, vec4(paint_weight > 0.0 ? paint.rgb : vec3(-1e30),
-                          weight > 0.0 ? paint.a : -1e30));
-    if ((kWanted & 4u) != 0u && paint_weight > largest) {
-      largest = paint_weight;
-      owner = corners.owner[i];
-    }
+    const vec4 plane = corners.plane[i];
+    const bool on_plane = dot(plane.xyz, point.normal) >= kSameFacing &&
+                          abs(dot(plane.xyz, point.from_camera) - plane.w) <= kOffPlane * point.pixel;
+    weights[i] = on_plane ? weights[i] : 0.0;
   }
+  const bool served = sumOf(weights) > 0.0;
   // No sample on the plane, and no refinement: takes the nearest sample.
-  if (kRefine == 0u && all <= 0.0) {
-    const int i = (share.x >= 0.5 ? 1 : 0) + (share.y >= 0.5 ? 2 : 0);
-    const vec4 paint = i == 0 ? corners.paint[0] : i == 1 ? corners.paint[1] : i == 2 ? corners.paint[2] : corners.paint[3];
-    all = painted = 1.0;
-    color = paint.rgb;
-    alphas = depth > 0.0 ? paint.a : 0.0;
-    owner = i == 0 ? corners.owner[0] : i == 1 ? corners.owner[1] : i == 2 ? corners.owner[2] : corners.owner[3];
-  }
-  const bool rim = any(greaterThan(most - least, vec4(kRim)));
-  if (depth > 0.0 && (kRefine >= 1u && all <= 0.0 || kRefine >= 2u && rim)) {
+  if (!served) weights = depth > 0.0 ? vec4(equal(vec4(0, 1, 2, 3), vec4(round(share.x) + 2.0 * round(share.y)))) : vec4(0.0);
+  const vec4 known = vec4(greaterThan(weights, vec4(0.0)));
+  const uvec4 numbers = corners.number * uvec4(known);
+  const uint newest = max(max(numbers.x, numbers.y), max(numbers.z, numbers.w));
+  const bool rim = any(lessThan(vec4(equal(numbers, uvec4(newest))), known));
+  if (depth > 0.0 && (kRefine >= 1u && !served || kRefine >= 2u && rim)) {
     rest[atomicAdd(rest_count, 1u)] = uint(pixel.x) | uint(pixel.y) << 16;
   } else {
-    const float coverage = alphas / max(all, 1e-20);
-    // At other coverages the noise decides nothing, and the shader skips its octaves.
-    const bool open = coverage > 0.0 && coverage < 0.9 + splat.half_width && (kWanted & 1u) != 0u;
-    const float noise = splatNoise(from_camera, depth, open ? splat.octaves : 0u);
-    writePaint(pixel, color / max(painted, 1e-20), coverage, owner, noise);
+    Sum sum = compositeOwners(corners, weights, point);
+    sum.owner = numberOf(sum.owner);
+    writePaint(pixel, sum);
   }
 }
 
@@ -100,9 +113,14 @@ void main() {
   Corners corners;
   [[unroll]] for (int i = 0; i < 4; ++i) {
     const vec2 place = (cell + vec2(i & 1, i >> 1) + 0.5) * texel;
-    corners.paint[i] = textureLod(samples, place, 0.0);
+    const vec4 one = textureLod(samples, place, 0.0);
     corners.plane[i] = textureLod(planes, place, 0.0);
-    corners.owner[i] = (kWanted & 4u) != 0u ? textureLod(owners, place, 0.0).x : 0u;
+    corners.owner[i] = one.x;
+    corners.number[i] = numberOf(uint(one.x));
+    corners.blocked[i] = one.y;
+    corners.before[i] = one.z;
+    corners.full[i] = one.w >= 2.0;
+    corners.strengths[i] = one.w >= 2.0 ? one.w - 2.0 : one.w;
   }
   // The last two samples of a row or a column may be closer together.
   const vec2 across = max(min(vec2(kStep), vec2(size - 1 - first)), 1.0);

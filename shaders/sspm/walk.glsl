@@ -2,14 +2,10 @@
 // Composites any number of shots at a point of a surface.
 //
 // A hash grid of the world has a list of shots for each cell and facing, newest first. The walk
-// composites this list front to back with the over operator (Porter and Duff 1984):
-// - transmittance T = prod(1 - alpha),
-// - colour C = sum(alpha c T),
-// - coverage A = sum(alpha f), which is additive.
-// It ends early, when no older shot changes the outputs any more. A shot paints only what its
-// muzzle sees, by its map (effects/sspm/shot_map.h).
+// composites this list front to back, and ends early, when no older shot changes the outputs any
+// more. A shot paints only what its muzzle sees, by its map (effects/sspm/shot_map.h).
 //
-// Declare kWanted before the include, see outputs.glsl.
+// Include splat.glsl before.
 
 // Levels are hash grids of different cell width, for shots of different range.
 const uint kLevels = 16;
@@ -83,15 +79,10 @@ uint squareOf(uint tag, uint block, uint first, uint square) {
 // normal `facing`. Descends the map's tree to a leaf, and compares q with the leaf's plane, with a
 // bias. Same as inSight() of effects/sspm/shot_map.cpp, which explains the bias.
 // at: reference within the map, where the descent starts. along: dot(q, direction).
-bool inSight(Shot shot, uint at, vec3 q, float along, vec3 facing) {
+// across: offset of q from the ray, along axesAcross().
+bool inSight(Shot shot, uint at, vec3 q, float along, vec2 across, vec3 facing) {
   if (at >= kLine) {
-    const vec3 w = shot.direction;
-    const float s = w.z >= 0.0 ? 1.0 : -1.0;
-    const float a = -1.0 / (s + w.z);
-    const float b = w.x * w.y * a;
-    const vec3 right = vec3(1.0 + s * w.x * w.x * a, s * b, -s * w.x);
-    const vec3 up = vec3(b, s + w.y * w.y * a, -w.y);
-    vec2 place = vec2(dot(q, right), dot(q, up)) / (max(along, 1e-20) * shot.slope);
+    vec2 place = across / (max(along, 1e-20) * shot.slope);
     const float radius = length(place);
     if (radius > 1.0) place *= min(1.0 + log(radius), 0.999 * kMapReach) / radius;
     vec2 in_square = (place + kMapReach) * (2.0 / kMapReach);
@@ -162,35 +153,42 @@ uint nextEntry(uint first, uint end, uint part) {
   return first;
 }
 
-// Result of compositing.
-struct Sum {
-  vec3 color;           // C
-  float transmittance;  // T
-  float alphas;         // A
-  float weight;         // of the owner in the colour
-  uint owner;           // 1 + the number of the shot with the largest weight; 0: no paint
+// The muzzle's offset from the camera's position.
+vec3 muzzleOf(Shot shot) {
+  return vec3(shot.cell - lists.camera_cell.xyz) + (shot.fraction - lists.camera_fraction.xyz);
+}
+
+vec3 colorOf(Shot shot) {
+  return vec3(unpackHalf2x16(shot.color_rg), unpackHalf2x16(shot.color_b_times).x);
+}
+
+// Composites one shot, at an offset `across` from its ray.
+void compositeShot(inout Sum sum, uint record, Shot shot, vec2 across, float pixel) {
+  composite(sum, across, pixel, splatSeed(shot.fraction, shot.direction), shot.range,
+            lists.camera_fraction.w, lists.per_fade, unpackHalf2x16(shot.color_b_times).y,
+            colorOf(shot), record + 1u);
+}
+
+// A point of a surface.
+struct Point {
+  vec3 from_camera;  // position relative to the camera, world axes, metres
+  vec3 normal;       // of its facet
+  float pixel;       // width of a pixel there, metres
 };
 
-// Composites one shot behind the sum, by steps 1 to 3 of the definition (effects/sspm/README.md),
-// if its muzzle sees the point.
-void composite(inout Sum sum, uint record, uint word, vec3 from_camera, vec3 normal) {
+// Composites a list's entry, if the shot's muzzle sees the point. Otherwise `blocked` becomes
+// 1 + the shot's record, unless it is set.
+void compositeEntry(inout Sum sum, inout uint blocked, uint entry, Point point) {
+  const uint record = entries[entry * 4u];
   const Shot shot = shots[record];
-  const vec3 origin = vec3(shot.cell - lists.camera_cell.xyz) + (shot.fraction - lists.camera_fraction.xyz);
-  const vec3 q = from_camera - origin;
+  const vec3 q = point.from_camera - muzzleOf(shot);
   const float along = dot(q, shot.direction);
-  const float across = length(cross(q, shot.direction));
-  if (along < 0.0 || across >= shot.range || dot(q, normal) >= 0.0) return;
-  if (!inSight(shot, word, q, along, normal)) return;
-  const float alpha = min(1.0, lists.camera_fraction.w / max(across, 1e-6));
-  const float fade = min(1.0, (1.0 - across / shot.range) * lists.per_fade);
-  const float weight = alpha * sum.transmittance;
-  const vec2 blue_times = unpackHalf2x16(shot.color_b_times);
-  sum.color += weight * vec3(unpackHalf2x16(shot.color_rg), blue_times.x);
-  sum.alphas += alpha * fade * blue_times.y;
-  sum.transmittance *= 1.0 - alpha;
-  if ((kWanted & 4u) != 0u && weight > sum.weight) {
-    sum.weight = weight;
-    sum.owner = shot.number;
+  const vec2 across = q * axesAcross(shot.direction);
+  if (along < 0.0 || length(across) >= shot.range || dot(q, point.normal) >= 0.0) return;
+  if (inSight(shot, entries[entry * 4u + 1u], q, along, across, point.normal)) {
+    compositeShot(sum, record, shot, across, point.pixel);
+  } else if (blocked == 0u) {
+    blocked = record + 1u;
   }
 }
 
@@ -206,52 +204,53 @@ uvec3 listOn(uint level, vec3 from_camera, int facing) {
   return uvec3(nextEntry(run.x, run.y, part), run.y, part);
 }
 
-// Whether older shots can still change the outputs: early ray termination.
-bool isOpen(Sum sum, float enough) {
-  return sum.transmittance >= 1.0 / 512.0 || sum.alphas < enough;
-}
-
 // Walk with one level. It needs no array of list heads.
-void walkOne(inout Sum sum, float enough, vec3 from_camera, vec3 normal) {
-  uvec3 head = listOn(0u, from_camera, facingOf(normal));
-  while (head.x < head.y && isOpen(sum, enough)) {
-    composite(sum, entries[head.x * 4u], entries[head.x * 4u + 1u], from_camera, normal);
+void walkOne(inout Sum sum, inout uint blocked, Point point, bool covered) {
+  uvec3 head = listOn(0u, point.from_camera, facingOf(point.normal));
+  while (head.x < head.y && isOpen(sum, covered)) {
+    compositeEntry(sum, blocked, head.x, point);
     head.x = nextEntry(head.x + 1u, head.y, head.z);
   }
 }
 
 // Walk with several levels: merges their lists by the shots' numbers, newest first.
-void walkAll(inout Sum sum, float enough, vec3 from_camera, vec3 normal) {
+void walkAll(inout Sum sum, inout uint blocked, Point point, bool covered) {
   uvec3 heads[kLevels];
   uint live = 0u;
   for (uint i = 0u; i < uint(lists.camera_cell.w); ++i) {
-    const uvec3 list = listOn(i, from_camera, facingOf(normal));
+    const uvec3 list = listOn(i, point.from_camera, facingOf(point.normal));
     if (list.x < list.y) heads[live++] = list;
   }
-  while (live > 0u && isOpen(sum, enough)) {
-    uint newest = 0u, record = entries[heads[0].x * 4u];
+  while (live > 0u && isOpen(sum, covered)) {
+    uint newest = 0u, number = shots[entries[heads[0].x * 4u]].number;
     for (uint i = 1u; i < live; ++i) {
-      const uint other = entries[heads[i].x * 4u];
-      if (shots[other].number > shots[record].number) {
-        record = other;
+      const uint other = shots[entries[heads[i].x * 4u]].number;
+      if (other > number) {
+        number = other;
         newest = i;
       }
     }
-    composite(sum, record, entries[heads[newest].x * 4u + 1u], from_camera, normal);
+    compositeEntry(sum, blocked, heads[newest].x, point);
     heads[newest].x = nextEntry(heads[newest].x + 1u, heads[newest].y, heads[newest].z);
     if (heads[newest].x >= heads[newest].y) heads[newest] = heads[--live];
   }
 }
 
-// Composites the shots at a point.
-// from_camera: its position relative to the camera, world axes, metres. normal: of its facet.
-// enough: sum of alphas from which on more alpha does not change the outputs.
-Sum walk(vec3 from_camera, vec3 normal, float enough) {
-  Sum sum = Sum(vec3(0.0), 1.0, 0.0, 0.0, 0u);
+// Composites the shots at a point. The sum's owner is 1 + a record.
+// covered: see isOpen(). blocked: gets 1 + the record of the newest shot that would paint the point
+// but does not see it; 0: none.
+Sum walk(Point point, bool covered, out uint blocked) {
+  Sum sum = kNothing;
+  blocked = 0u;
   if (kOneLevel) {
-    walkOne(sum, enough, from_camera, normal);
+    walkOne(sum, blocked, point, covered);
   } else {
-    walkAll(sum, enough, from_camera, normal);
+    walkAll(sum, blocked, point, covered);
   }
   return sum;
+}
+
+// 1 + the number of the shot of an owner; 0: none.
+uint numberOf(uint owner) {
+  return owner == 0u ? 0u : shots[owner - 1u].number;
 }

@@ -80,11 +80,12 @@ TEST_P(DefinitionTest, PerShotIsTheDefinition) {
     frame.render(kCrease, kDefinedWidth, kDefinedHeight, shots);
     const image::Image depth = frame.read("depth");
     const scene::View view = scene::viewOf(kCrease, {kDefinedWidth, kDefinedHeight});
+    const std::vector<PaintLayer> layers = layersOf(shots, settings, true);
     const double wrong =
         different(frame.read("paint"), frame.read("paint_coverage"), [&](uint32_t x, uint32_t y) {
           const double d = depth.at(x, y);
           return paintOf(scene::worldPosition(view, {x + 0.5, y + 0.5}, d), d,
-                         scene::pixelSize(view, d), shots, settings);
+                         scene::pixelSize(view, d), layers, settings);
         });
     EXPECT_LT(wrong, 0.001) << "round " << round;
   }

@@ -203,7 +203,7 @@ TEST(Oracle, PaintIsItsDefinition) {
   const Shot shot{.origin = {0, 0, 1}, .direction = {0, 0, -1}, .color = {1, 0.5f, 0}, .range = 0};
   const PaintSettings settings{.full = 0.05, .edgeFade = 0, .splatSharpness = 1};
   const auto at = [&](const glm::dvec3& place) {
-    return paintOf(place, 3, 1e-3, {&shot, 1}, settings);
+    return paintOf(place, 3, 1e-3, layersOf({&shot, 1}, settings, true), settings);
   };
   EXPECT_EQ(at({0, 0, 0}).coverage, 1);
   EXPECT_EQ(at({0, 0, 0}).paint, glm::dvec4(1, 0.5, 0, 1));
@@ -213,7 +213,8 @@ TEST(Oracle, PaintIsItsDefinition) {
   // In `surface` mode, facets that face away or that the muzzle does not see get no paint.
   const auto seen = [&](const glm::dvec3& facet, bool sees) {
     const Sight sight{.facet = facet, .sees = [&](const auto&) { return sees; }};
-    return paintOf({0, 0, 0}, 3, 1e-3, {&shot, 1}, settings, sight).coverage;
+    return paintOf({0, 0, 0}, 3, 1e-3, layersOf({&shot, 1}, settings, false), settings, sight)
+        .coverage;
   };
   EXPECT_EQ(seen({0, 0, 1}, true), 1);
   EXPECT_EQ(seen({0, 0, -1}, true), 0);

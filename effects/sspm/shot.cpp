@@ -1,0 +1,41 @@
+// SPDX-License-Identifier: MIT
+#include "shot.h"
+
+#include <bit>
+#include <cmath>
+
+namespace grisaille::sspm {
+
+bool areTwins(const Shot& a, const Shot& b) {
+  return std::ranges::equal(a.origin, b.origin) && std::ranges::equal(a.direction, b.direction) &&
+         a.range == b.range;
+}
+
+uint64_t twinHash(const Shot& shot) {
+  uint64_t hash = 14695981039346656037ull;
+  const auto mix = [&](uint64_t word) {
+    hash = (hash ^ word) * 0x9E3779B97F4A7C15ull;
+    hash ^= hash >> 29;
+  };
+  for (const double x : shot.origin) mix(std::bit_cast<uint64_t>(x));
+  for (const float x : shot.direction) mix(std::bit_cast<uint32_t>(x));
+  mix(std::bit_cast<uint32_t>(static_cast<float>(shot.range)));
+  return hash;
+}
+
+uint32_t splatSeed(const Shot& shot, uint32_t noiseSeed) {
+  constexpr uint32_t kOfFraction[] = {0x9e3779b1u, 0x85ebca77u, 0xc2b2ae3du};
+  constexpr uint32_t kOfDirection[] = {0x165667b1u, 0xd3a2646du, 0xfd7046c5u};
+  uint32_t bits = noiseSeed * 0x27d4eb2fu;
+  for (size_t axis = 0; axis < 3; ++axis) {
+    const double fraction = shot.origin[axis] - std::round(shot.origin[axis]);
+    bits ^= std::bit_cast<uint32_t>(static_cast<float>(fraction)) * kOfFraction[axis];
+    bits ^= std::bit_cast<uint32_t>(shot.direction[axis]) * kOfDirection[axis];
+  }
+  // lowbias32, as in the shader
+  bits = (bits ^ bits >> 16) * 0x7feb352du;
+  bits = (bits ^ bits >> 15) * 0x846ca68bu;
+  return bits ^ bits >> 16;
+}
+
+}  // namespace grisaille::sspm
