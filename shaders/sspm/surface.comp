@@ -21,7 +21,7 @@ void main() {
     const vec3 normal = textureLod(facet_normal, uv, 0.0).xyz;
     uint blocked;
     sum = walk(Point(fromCamera(at, depth), normal, pixelSize(depth)), (kWanted & 2u) != 0u, blocked);
-    sum.owner = numberOf(sum.owner);
+    if ((kWanted & 4u) != 0u) sum.owner = numberOf(sum.owner);
   }
   writePaint(pixel, sum);
 }

@@ -39,14 +39,14 @@ float sumOf(vec4 v) {
 }
 
 // Composites the owners of the samples around a pixel, newest first.
-// weights: of the samples, 0 if they are not on the pixel's plane.
-Sum compositeOwners(Corners corners, vec4 weights, Point point) {
-  const vec4 known = vec4(greaterThan(weights, vec4(0.0)));
-  uvec4 left = corners.number * uvec4(known);
+// weights: of the samples, 0 if they are not on the pixel's plane. served: some are.
+Sum compositeOwners(Corners corners, vec4 weights, bool served, Point point) {
+  const vec4 on_plane = vec4(greaterThan(weights, vec4(0.0)));
+  uvec4 left = corners.number * uvec4(on_plane);
   uint newest = max(max(left.x, left.y), max(left.z, left.w));
   // Samples that agree and have full alpha leave nothing to ask.
   const vec4 agree = vec4(equal(left, uvec4(newest))) * vec4(corners.full);
-  const bool plain = all(greaterThanEqual(agree, known));
+  const bool plain = served && all(greaterThanEqual(agree, on_plane));
   Sum sum = kNothing;
   while (newest > 0u && !plain && isOpen(sum, false)) {
     const vec4 its = weights * vec4(equal(left, uvec4(newest)));
@@ -55,10 +55,16 @@ Sum compositeOwners(Corners corners, vec4 weights, Point point) {
     const Shot shot = shots[record];
     const vec3 q = point.from_camera - muzzleOf(shot);
     const vec2 across = q * axesAcross(shot.direction);
-    // At a silhouette that hides the pixel from the muzzle, the larger part of the samples decides.
-    const float seen = dot(weights, vec4(greaterThanEqual(corners.number, uvec4(newest))));
-    const float hidden = dot(weights, vec4(lessThan(abs(corners.blocked - owner), vec4(0.5))));
-    if (seen >= hidden && length(across) < shot.range && dot(q, shot.direction) >= 0.0) {
+    const float along = dot(q, shot.direction);
+    // Samples of the pixel's plane tell whether its muzzle sees the pixel, unless it misses one.
+    bool known = served && all(greaterThan(abs(corners.blocked - owner), vec4(0.5)));
+    bool painted = length(across) < shot.range && along >= 0.0 && dot(q, point.normal) < 0.0;
+    // A loop, since a software driver executes both sides of a condition.
+    while (painted && !known) {
+      painted = inSight(shot, shot.root, q, along, across, point.normal);
+      known = true;
+    }
+    if (painted) {
       sum.strengths = max(sum.strengths, dot(its, corners.before) / sumOf(its));
       compositeShot(sum, record, shot, across, point.pixel);
     }
@@ -66,12 +72,12 @@ Sum compositeOwners(Corners corners, vec4 weights, Point point) {
     newest = max(max(left.x, left.y), max(left.z, left.w));
   }
   if (plain && newest > 0u) {
-    sum.owner = uint(max(max(corners.owner.x * known.x, corners.owner.y * known.y),
-                         max(corners.owner.z * known.z, corners.owner.w * known.w)));
+    sum.owner = uint(max(max(corners.owner.x * on_plane.x, corners.owner.y * on_plane.y),
+                         max(corners.owner.z * on_plane.z, corners.owner.w * on_plane.w)));
     sum.color = colorOf(shots[sum.owner - 1u]);
     sum.alpha = 1.0;
   }
-  sum.strengths = dot(weights, corners.strengths) / max(sumOf(weights), 1e-20);
+  if (served) sum.strengths = dot(weights, corners.strengths) / sumOf(weights);
   return sum;
 }
 
@@ -89,8 +95,8 @@ void upsamplePixel(Corners corners, ivec2 pixel, vec2 share) {
     weights[i] = on_plane ? weights[i] : 0.0;
   }
   const bool served = sumOf(weights) > 0.0;
-  // No sample on the plane, and no refinement: takes the nearest sample.
-  if (!served) weights = depth > 0.0 ? vec4(equal(vec4(0, 1, 2, 3), vec4(round(share.x) + 2.0 * round(share.y)))) : vec4(0.0);
+  // No sample on the plane, and no refinement: asks the owners of all samples.
+  if (!served) weights = vec4(depth > 0.0 ? 0.25 : 0.0);
   const vec4 known = vec4(greaterThan(weights, vec4(0.0)));
   const uvec4 numbers = corners.number * uvec4(known);
   const uint newest = max(max(numbers.x, numbers.y), max(numbers.z, numbers.w));
@@ -98,8 +104,8 @@ void upsamplePixel(Corners corners, ivec2 pixel, vec2 share) {
   if (depth > 0.0 && (kRefine >= 1u && !served || kRefine >= 2u && rim)) {
     rest[atomicAdd(rest_count, 1u)] = uint(pixel.x) | uint(pixel.y) << 16;
   } else {
-    Sum sum = compositeOwners(corners, weights, point);
-    sum.owner = numberOf(sum.owner);
+    Sum sum = compositeOwners(corners, weights, served, point);
+    if ((kWanted & 4u) != 0u) sum.owner = numberOf(sum.owner);
     writePaint(pixel, sum);
   }
 }
