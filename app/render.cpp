@@ -35,6 +35,7 @@ namespace {
 struct RenderOptions : EffectOptions {
   SceneOptions view;
   std::string timings, coverage, times;
+  double coverageSlope = 180;  // degrees
   ObjectOptions objects;
   uint32_t frames = 1;
 };
@@ -45,8 +46,7 @@ struct RenderJob : ChosenEffects {
   std::vector<double> times;  // of --times, seconds; empty: one picture, of view.pose
   SceneView view;
 
-  // Outputs that --coverage reads; none without --coverage.
-  std::optional<Owned> owned;
+  std::optional<Owned> owned;  // what --coverage measures; none without --coverage
 
   explicit RenderJob(const RenderOptions& options) : ChosenEffects(options) {
     if (!options.times.empty()) times = parseTimes(options.times);
@@ -72,8 +72,8 @@ struct RenderJob : ChosenEffects {
     owned = findOwned(chain.selection.effects());
     if (!owned) {
       throw Error(ErrorId::kEffectTakesNoObjects,
-                  "--coverage needs an active effect with an overlay, an owner output and objects "
-                  "with a colour");
+                  "--coverage needs an active effect whose objects have a colour and that draws on "
+                  "surfaces");
     }
   }
 
@@ -130,12 +130,12 @@ void writeTimings(const RenderOptions& options, gpu::Device& device) {
   if (!doubt.empty()) fmt::print(stderr, "warning: {}\n", doubt);
 }
 
-void writeCoverage(const RenderOptions& options, RenderJob& job, frame::Renderer& renderer) {
-  const auto shares =
-      colorShares(renderer.read(job.owned->owner), renderer.read(job.owned->overlay),
-                  renderer.read("depth"), renderer.read("facet_normal"), job.view.camera,
-                  job.chain.objects(job.owned->effect)->view(), *job.owned->colour);
-  writeText(options.coverage, coverageCsv(shares));
+void writeCoverage(const RenderOptions& options, RenderJob& job, SceneRays& rays) {
+  const Coverage coverage =
+      coverageOf(job.chain, *job.owned, rays, {.steepest = glm::radians(options.coverageSlope)});
+  writeText(options.coverage, coverageCsv(coverage.shares));
+  fmt::print(notesOf(options), "coverage of {:.6g} m2, at {} points\n", coverage.area,
+             coverage.points);
 }
 
 // `number`: of the frame, for numbered files.
@@ -211,9 +211,6 @@ void renderFrames(const RenderOptions& options, RenderJob& job, gpu::Device& dev
   const effect::StartedChain started(job.chain, device);
   std::vector<std::string> outputs;
   for (const OutputFiles& output : job.outputs) outputs.push_back(output.output);
-  if (job.owned) {
-    outputs.insert(outputs.end(), {job.owned->owner, job.owned->overlay, "depth", "facet_normal"});
-  }
   frame::Renderer renderer(device, job.view.scene);
   const frame::FrameDesc desc = {.camera = job.view.camera,
                                  .width = job.view.size.x,
@@ -232,7 +229,7 @@ void renderFrames(const RenderOptions& options, RenderJob& job, gpu::Device& dev
     writeOutputs(job, 0, renderer);
     printWritten(options, job, 1);
   }
-  if (job.owned) writeCoverage(options, job, renderer);
+  if (job.owned) writeCoverage(options, job, services.rays());
   options.objects.save(job.chain);
   if (renderer.report().waiting > 0) {
     fmt::print(stderr, "warning: {} objects are not drawn: the rays that they need were not cast\n",
@@ -293,10 +290,17 @@ void addRender(CLI::App& program) {
   command
       ->add_option(
           "--coverage", options->coverage,
-          "Write as CSV which share of the visible surface the objects of each colour cover; -: to "
+          "Write as CSV which share of the scene's surface the objects of each colour cover; -: to "
           "standard output")
       ->type_name("FILE.csv|-")
       ->excludes(times);
+  command
+      ->add_option("--coverage-slope", options->coverageSlope,
+                   "Only surfaces at most so many degrees from level count for --coverage: 45 for "
+                   "floors and ramps, 180 for all")
+      ->check(numberFrom(0, 180))
+      ->needs("--coverage")
+      ->capture_default_str();
   command->callback([options] { render(*options); });
 }
 

@@ -258,6 +258,16 @@ int grisaille_host_effect_report(const grisaille_host_effect* effect, grisaille_
   });
 }
 
+int grisaille_host_effect_draw_at(grisaille_host_effect* effect, const grisaille_point* points,
+                                  uint64_t count, grisaille_drawn* drawn) {
+  return guarded([&] {
+    grisaille_host_effect& one = present(effect, "effect");
+    if (count == 0) return;
+    const auto size = static_cast<size_t>(count);
+    one.drawAt({&present(points, "points"), size}, {&present(drawn, "drawn"), size});
+  });
+}
+
 int grisaille_host_effect_output(const grisaille_host_effect* effect, const char* key,
                                  grisaille_host_output* out) {
   return guarded([&] {

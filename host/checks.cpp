@@ -1,6 +1,10 @@
 // SPDX-License-Identifier: MIT
 #include "host/checks.h"
 
+#include <cmath>
+
+#include "core/objects/object.h"
+
 namespace grisaille::host {
 
 void checkStructSize(const void* bytes, uint32_t size, size_t own, std::span<const size_t> earlier,
@@ -28,6 +32,24 @@ void checkHandle(const void* handle, const char* name) {
 void checkEnum(uint32_t value, uint32_t count, const char* name) {
   if (value < count) return;
   throw Error(ErrorId::kHostValue, "{} is {}, over {}", name, value, count - 1);
+}
+
+void checkPoint(const grisaille_point& point, size_t index) {
+  const double* p = point.position;
+  const float* n = point.normal;
+  const bool within = std::ranges::all_of(
+      point.position, [](double x) { return std::abs(x) <= objects::kFarthestPoint; });
+  if (!within) {
+    throw Error(ErrorId::kHostValue, "points[{}].position is {}, {}, {}, out of -1e9 to 1e9", index,
+                p[0], p[1], p[2]);
+  }
+  if (!(std::abs(std::hypot(n[0], n[1], n[2]) - 1) <= 1e-3f)) {
+    throw Error(ErrorId::kHostValue, "points[{}].normal is {}, {}, {}, whose length is not 1",
+                index, n[0], n[1], n[2]);
+  }
+  if (point.reserved != 0) {
+    throw Error(ErrorId::kHostValue, "points[{}].reserved is {}, not 0", index, point.reserved);
+  }
 }
 
 void checkReserved(uint32_t value, const char* name) {

@@ -58,6 +58,8 @@ void checkHandle(const void* handle, const char* name);
 
 // Throws kHostValue unless value < count.
 void checkEnum(uint32_t value, uint32_t count, const char* name);
+// Throws kHostValue unless the point is within the limits of grisaille_point. `index`: its own.
+void checkPoint(const grisaille_point& point, size_t index);
 // Throws kHostValue unless value is 0.
 void checkReserved(uint32_t value, const char* name);
 

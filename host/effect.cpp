@@ -265,6 +265,13 @@ void grisaille_host_effect::dropped() {
   device.gpu->forgetTransients();
 }
 
+void grisaille_host_effect::drawAt(std::span<const grisaille_point> points,
+                                   std::span<grisaille_drawn> drawn) {
+  for (size_t i = 0; i < points.size(); ++i) host::checkPoint(points[i], i);
+  chain_.drawAt(chain_.selection.entries()[0],
+                {.points = points, .drawn = drawn, .rays = device.rays ? &device.rays : nullptr});
+}
+
 void grisaille_host_effect::recordInto(gpu::Commands& commands, const host::View& view,
                                        const host::Textures& textures, uint32_t reads,
                                        double patience) {

@@ -26,6 +26,8 @@ struct grisaille_host_effect {
   void prepare(const grisaille_host_prepare& how);
   // Forgets all that recordings have written: for a recording that the host has dropped.
   void dropped();
+  // Throws the errors of grisaille_host_effect_draw_at().
+  void drawAt(std::span<const grisaille_point> points, std::span<grisaille_drawn> drawn);
   const grisaille::effect::Report& report() const { return report_; }
   grisaille::gpu::NativeTexture output(std::string_view key, uint32_t& format) const;
 

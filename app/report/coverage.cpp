@@ -4,68 +4,44 @@
 #include <fmt/format.h>
 
 #include <algorithm>
-#include <glm/glm.hpp>
 #include <map>
 
-#include "core/scene/view.h"
-
 namespace grisaille::app {
-namespace {
-
-constexpr double kLeastCosine = 0.1;
-
-}  // namespace
 
 std::optional<Owned> findOwned(std::span<const effect::Effect* const> effects) {
   for (const effect::Effect* effect : effects) {
-    if (effect->objects() == nullptr) continue;
-    Owned owned{.effect = effect->desc->key, .overlay = {}, .owner = {}};
-    for (const grisaille_output_desc& output : effect->outputs()) {
-      const std::string name = owned.effect + "." + output.key;
-      if (output.role == GRISAILLE_ROLE_OVERLAY) owned.overlay = name;
-      if (output.role == GRISAILLE_ROLE_OWNER) owned.owner = name;
-    }
+    if (effect->objects() == nullptr || effect->desc->draw_at == nullptr) continue;
     for (const objects::Field& field : objects::fieldsOf(*effect->objects())) {
-      if (field.type == GRISAILLE_FIELD_COLOUR && owned.colour == nullptr) owned.colour = &field;
+      if (field.type == GRISAILLE_FIELD_COLOUR) return Owned{effect->desc->key, &field};
     }
-    if (!owned.overlay.empty() && !owned.owner.empty() && owned.colour != nullptr) return owned;
   }
   return std::nullopt;
 }
 
-std::vector<ColorShare> colorShares(const image::Image& owner, const image::Image& overlay,
-                                    const image::Image& depth, const image::Image& normal,
-                                    const scene::Camera& camera, const objects::View& objects,
-                                    const objects::Field& colour) {
-  const scene::View view = scene::viewOf(camera, {depth.width, depth.height});
-  std::map<std::string, double> areas;
-  double nobodys = 0, all = 0;
-  for (uint32_t y = 0; y < depth.height; ++y) {
-    for (uint32_t x = 0; x < depth.width; ++x) {
-      const double z = depth.at(x, y);
-      if (z <= 0) continue;
-      // The ray has a length of 1 along the view direction.
-      const glm::dvec3 ray = scene::rayAt(view, glm::dvec2(x + 0.5, y + 0.5)).direction;
-      const glm::dvec3 n(normal.at(x, y, 0), normal.at(x, y, 1), normal.at(x, y, 2));
-      const double length = glm::length(ray);
-      const double cosine = std::max(std::abs(glm::dot(n, ray)) / length, kLeastCosine);
-      const double scale = scene::depthScale(view, z);
-      const double area = scale * scale / (cosine * length);
-      const auto own = static_cast<size_t>(owner.at(x, y));
-      const double alpha = own == 0 || own > objects.count ? 0.0 : double{overlay.at(x, y, 3)};
-      if (alpha > 0) {
-        areas[objects::textOf(colour, objects.value(own - 1, colour))] += alpha * area;
-      }
-      nobodys += (1 - alpha) * area;
-      all += area;
-    }
+Coverage coverageOf(effect::Chain& chain, const Owned& owned, SceneRays& rays,
+                    const CoverageSpec& spec) {
+  const trace::SurfacePoints surface =
+      rays.surface({.count = spec.points, .steepest = spec.steepest, .seed = 1});
+  std::vector<grisaille_drawn> drawn(surface.points.size());
+  chain.drawAt(*chain.selection.find(owned.effect),
+               {.points = surface.points, .drawn = drawn, .rays = &rays});
+  const objects::View objects = chain.objects(owned.effect)->view();
+  std::map<uint64_t, double> byOwner;
+  for (const grisaille_drawn& one : drawn) byOwner[one.owner] += double{one.alpha};
+  std::map<std::string, double> byColor;
+  double painted = 0;
+  for (const auto& [owner, sum] : byOwner) {
+    if (owner == 0) continue;
+    const objects::Value value = objects.value(static_cast<size_t>(owner) - 1, *owned.colour);
+    byColor[objects::textOf(*owned.colour, value)] += sum;
+    painted += sum;
   }
-  std::vector<ColorShare> shares;
-  for (const auto& [color, area] : areas) shares.push_back({color, area / all});
-  std::stable_sort(shares.begin(), shares.end(),
-                   [](const ColorShare& a, const ColorShare& b) { return a.share > b.share; });
-  shares.push_back({"none", all > 0 ? nobodys / all : 1.0});
-  return shares;
+  const double all = std::max(static_cast<double>(drawn.size()), 1.0);
+  Coverage coverage = {.shares = {}, .points = drawn.size(), .area = surface.area};
+  for (const auto& [color, sum] : byColor) coverage.shares.push_back({color, sum / all});
+  std::ranges::stable_sort(coverage.shares, std::ranges::greater(), &ColorShare::share);
+  coverage.shares.push_back({"none", 1 - painted / all});
+  return coverage;
 }
 
 std::string coverageCsv(std::span<const ColorShare> shares) {

@@ -37,11 +37,19 @@ bool SceneRays::isReady() {
   return tracer_ != nullptr;
 }
 
-void SceneRays::cast(std::span<const grisaille_ray> rays, std::span<grisaille_hit> hits) {
+trace::RayTracer& SceneRays::ready() {
   wait();
   if (!isReady()) tracer_ = build();
   tracer_->follow();
-  tracer_->castRays(rays, hits);
+  return *tracer_;
+}
+
+void SceneRays::cast(std::span<const grisaille_ray> rays, std::span<grisaille_hit> hits) {
+  ready().castRays(rays, hits);
+}
+
+trace::SurfacePoints SceneRays::surface(const trace::SurfaceSpec& spec) {
+  return ready().surfacePoints(spec);
 }
 
 void PictureFiles::read(const char* path, grisaille_picture& out) {

@@ -32,9 +32,14 @@ class SceneRays : public effect::RayService {
   }
 
   void cast(std::span<const grisaille_ray> rays, std::span<grisaille_hit> hits) override;
+  // Points of the scene's surface in its current pose.
+  trace::SurfacePoints surface(const trace::SurfaceSpec& spec);
 
  private:
   using Tracer = std::unique_ptr<trace::RayTracer>;
+
+  // The tracer, built if necessary, with the scene's current pose.
+  trace::RayTracer& ready();
 
   Tracer build() const;
 

@@ -141,7 +141,16 @@ class Viewer {
   TuneRun tune_;
   TuneStatus tuning_;
   PassTimes times_;
+  // What a measured coverage depends on.
+  struct Measured {
+    std::string effect;
+    uint64_t values = 0, objects = 0, poses = 0;  // revisions
+    const scene::Scene* scene = nullptr;
+
+    bool operator==(const Measured&) const = default;
+  };
   std::vector<ColorShare> coverage_;
+  Measured measured_;
 
   std::string backend_, firstBackend_, layoutWritten_;
   int settle_ = 0;            // further frames to draw, for hover and for late updates

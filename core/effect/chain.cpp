@@ -115,6 +115,19 @@ Report Chain::record(const Selection::Entry& entry, FrameInputs inputs) {
   return one.instance->report();
 }
 
+void Chain::drawAt(const Selection::Entry& entry, PointInputs inputs) {
+  create();
+  Running& one = running_.find(entry.key())->second;
+  const objects::ObjectList* list = objects(entry.key());
+  if (list != nullptr) {
+    inputs.objects = list->view();
+    inputs.objectsKept = list->keptSince(one.seen);
+  }
+  inputs.values = entry.values.all();
+  one.instance->drawAt(inputs);
+  if (list != nullptr) one.seen = list->revision();
+}
+
 objects::ObjectList* Chain::objectsEvenIfAbsent(std::string_view effect) {
   Absent* absent = findAbsent(effect);
   if (absent == nullptr) return objects(effect);

@@ -58,6 +58,11 @@ class Chain {
   // Instance::record().
   Report record(const Selection::Entry& entry, FrameInputs inputs);
 
+  // Computes what an active effect draws at points of surfaces, outside a frame. Objects show that
+  // record() has placed. `inputs` has the points and the rays; the function fills in the others.
+  // Throws kEffectCreate and the errors of Instance::drawAt().
+  void drawAt(const Selection::Entry& entry, PointInputs inputs);
+
   // --- Plugins
 
   // Moves the chain to a fresh registry; call it while the old registry lives. All instances end.
@@ -77,7 +82,7 @@ class Chain {
  private:
   struct Running {
     std::unique_ptr<Instance> instance;
-    uint64_t seen = 0;  // revision of the objects in the last frame recorded without error
+    uint64_t seen = 0;  // revision of the objects in the last frame or points without error
   };
   // An effect that the registry does not have at present.
   struct Absent {

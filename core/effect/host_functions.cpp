@@ -208,7 +208,7 @@ struct HostFunctions {
                                    uint64_t count, grisaille_hit* hits) {
     bool offered = true;
     const grisaille_result result = serve(self, "cast_rays", [&](HostServices& s) {
-      if (s.commands_ == nullptr) misuse("it is called outside record()");
+      if (!s.casts_) misuse("it is called outside record() and draw_at()");
       offered = s.offered_.rays != nullptr;
       if (!offered) return;
       const auto given = array(rays, count, "rays");

@@ -66,22 +66,42 @@ const grisaille_frame* HostServices::openFrame(const FrameInputs& inputs) {
   frame_.view_block = {{block.buffer.value}, 0, block.offset, block.size};
   frame_.attachments = attachments_.data();
   frame_.outputs = outputs_.data();
-  objects_ = {.struct_size = sizeof(grisaille_objects),
-              .stride = takesObjects_ ? inputs.objects.table->object_size : 0,
-              .objects = inputs.objects.data,
-              .count = inputs.objects.count,
-              .kept = std::min(inputs.objectsKept, inputs.objects.count)};
-  frame_.objects = takesObjects_ ? &objects_ : nullptr;
+  frame_.objects = give(inputs.objects, inputs.objectsKept);
   frame_.patience = inputs.patience;
   offered_ = inputs.services;
   report_ = {};
   commands_ = inputs.commands;
   open();
+  casts_ = true;
   return &frame_;
 }
 
+const grisaille_points* HostServices::openPoints(const PointInputs& inputs) {
+  points_ = {.struct_size = sizeof(grisaille_points),
+             .reserved = 0,
+             .count = inputs.points.size(),
+             .points = inputs.points.data(),
+             .drawn = inputs.drawn.data(),
+             .values = inputs.values.data(),
+             .objects = give(inputs.objects, inputs.objectsKept)};
+  offered_ = {.rays = inputs.rays};
+  open();
+  casts_ = true;
+  return &points_;
+}
+
+const grisaille_objects* HostServices::give(const objects::View& objects, size_t kept) {
+  if (!takesObjects_) return nullptr;
+  objects_ = {.struct_size = sizeof(grisaille_objects),
+              .stride = objects.table->object_size,
+              .objects = objects.data,
+              .count = objects.count,
+              .kept = std::min(kept, objects.count)};
+  return &objects_;
+}
+
 void HostServices::close() {
-  inside_ = false;
+  inside_ = casts_ = false;
   gpu::Commands* commands = std::exchange(commands_, nullptr);
   if (!std::exchange(passOpen_, false)) return;
   if (misuse_.empty()) misuse_ = "it left a pass open";

@@ -30,11 +30,12 @@ class HostServices {
   // The table that the effect's create() gets; valid while this lives.
   const grisaille_host* table() const { return &host_; }
 
-  // Call open() or openFrame() before each of the effect's functions, and close() after it: only
-  // these functions may call services. open() forgets the faults of the previous call. openFrame()
-  // also frees the resources that the effect destroyed during the previous frame.
+  // Call open(), openFrame() or openPoints() before each of the effect's functions, and close()
+  // after it: only these functions may call services. open() forgets the faults of the previous
+  // call. openFrame() also frees the resources that the effect destroyed during the previous frame.
   void open();
   const grisaille_frame* openFrame(const FrameInputs& inputs);
+  const grisaille_points* openPoints(const PointInputs& inputs);
   void close();  // also ends a pass that the effect left open, which is a fault
 
   // The reason why the call between open() and close() failed, in one line; "" if it succeeded.
@@ -69,6 +70,9 @@ class HostServices {
   template <typename Handle>
   void destroyOwn(Kind<Handle>& kind) noexcept;
 
+  // Sets objects_ and returns it; null if the effect takes no objects.
+  const grisaille_objects* give(const objects::View& objects, size_t kept);
+
   // Returns label_. Recording reuses its containers between frames and allocates no memory.
   const std::string& labelled(const char* label);
 
@@ -83,8 +87,10 @@ class HostServices {
   Kind<gpu::Sampler> samplers_;
   Kind<gpu::ComputePipeline> pipelines_;
 
-  // State of the frame that is being recorded.
+  // State of the frame that is being recorded, or of the points.
   grisaille_frame frame_;
+  grisaille_points points_ = {};
+  bool casts_ = false;  // record() or draw_at() runs
   grisaille_objects objects_ = {};
   Services offered_;
   Report report_;

@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: MIT
 #include "core/effect/instance.h"
 
+#include <algorithm>
 #include <cstdio>
 #include <utility>
 
@@ -91,6 +92,40 @@ void Instance::record(const FrameInputs& inputs) {
     throw Error(services.failureId(ErrorId::kEffectRecord), "{} cannot record: {}",
                 state_->desc.key, failure);
   }
+}
+
+void Instance::drawAt(const PointInputs& inputs) {
+  const grisaille_effect_desc& desc = state_->desc;
+  if (desc.draw_at == nullptr) {
+    throw Error(ErrorId::kEffectDrawsNoPoints, "{} cannot tell what it draws at points", desc.key);
+  }
+  std::ranges::fill(inputs.drawn, grisaille_drawn{});
+  HostServices& services = state_->services;
+  const grisaille_points* points = services.openPoints(inputs);
+  grisaille_result result = GRISAILLE_FAILED;
+  try {
+    result = foreignCall(ErrorId::kEffectRecord, desc.key, "draw_at",
+                         [&] { return desc.draw_at(state_->effect, points); });
+  } catch (...) {
+    services.close();
+    throw;
+  }
+  services.close();
+  const std::string failure = services.failure(result);
+  if (!failure.empty()) {
+    throw Error(services.failureId(ErrorId::kEffectRecord), "{} cannot draw at points: {}",
+                desc.key, failure);
+  }
+  const auto inUnit = [](float x) { return x >= 0 && x <= 1; };
+  const auto wrong = std::ranges::find_if_not(inputs.drawn, [&](const grisaille_drawn& d) {
+    return std::ranges::all_of(d.colour, inUnit) && inUnit(d.alpha) &&
+           d.owner <= inputs.objects.count;
+  });
+  if (wrong == inputs.drawn.end()) return;
+  throw Error(ErrorId::kEffectRecord,
+              "{} draws at point {} the colour {}, {}, {} with alpha {} and owner {}", desc.key,
+              wrong - inputs.drawn.begin(), wrong->colour[0], wrong->colour[1], wrong->colour[2],
+              wrong->alpha, wrong->owner);
 }
 
 const Report& Instance::report() const {

@@ -61,6 +61,18 @@ struct FrameInputs {
   size_t objectsKept = 0;      // see grisaille_objects::kept
 };
 
+// The inputs of one drawAt(), valid during the call.
+struct PointInputs {
+  std::span<const grisaille_point> points;  // within the limits of grisaille_point
+  std::span<grisaille_drawn> drawn;         // one per point
+  RayService* rays = nullptr;               // null: not offered
+
+  // The chain fills these in.
+  std::span<const double> values = {};
+  objects::View objects = {};
+  size_t objectsKept = 0;
+};
+
 // What an effect reported in a frame.
 struct Report {
   uint64_t waiting = 0;  // pieces of work for a later frame; 0: the picture is complete
@@ -90,6 +102,11 @@ class Instance {
   // abandon the frame. Call it at most once between the device's begin() and submit(): resources
   // that the effect destroys in record() stay until the next call, because this frame may use them.
   void record(const FrameInputs& inputs);
+
+  // Computes what the effect draws at points of surfaces, between two frames. Throws
+  // kEffectDrawsNoPoints if the effect cannot tell, and kEffectRecord with the effect's message, or
+  // if a result is out of range.
+  void drawAt(const PointInputs& inputs);
 
   // What the effect reported in the last record().
   const Report& report() const;

@@ -305,6 +305,10 @@ void RayTracer::castRays(std::span<const grisaille_ray> rays, std::span<grisaill
   });
 }
 
+SurfacePoints RayTracer::surfacePoints(const SurfaceSpec& spec) const {
+  return trace::surfacePoints(impl_->traced, spec);
+}
+
 void RayTracer::addOcclusion(std::span<const Hit> hits, double radius, uint32_t seed, uint32_t from,
                              uint32_t to, std::span<OcclusionCounts> counts) const {
   forEach(hits.size(), [&](size_t i) {

@@ -20,6 +20,7 @@
 #include "core/scene/camera.h"
 #include "core/scene/scene.h"
 #include "core/trace/occlusion.h"
+#include "core/trace/surface_points.h"
 #include "grisaille/effect.h"
 
 namespace grisaille::trace {
@@ -83,6 +84,9 @@ class RayTracer {
   // hit depends only on its ray, bit for bit. Neighbours in the array that start and run close
   // together cost far less than others.
   void castRays(std::span<const grisaille_ray> rays, std::span<grisaille_hit> hits) const;
+
+  // Points spread over the scene's surfaces: see surface_points.h.
+  SurfacePoints surfacePoints(const SurfaceSpec& spec) const;
 
   // Casts the rays `from` ... `to` - 1 of each pixel, cosine-weighted about the interpolated
   // normal, and adds to `counts` how many travel `radius` metres unblocked. Rays below the facet

@@ -37,6 +37,10 @@ Surroundings RayTracer::surroundings(const glm::dvec3& /*point*/,
 void RayTracer::castRays(std::span<const grisaille_ray> /*rays*/,
                          std::span<grisaille_hit> /*hits*/) const {}
 
+SurfacePoints RayTracer::surfacePoints(const SurfaceSpec& /*spec*/) const {
+  return {};
+}
+
 void RayTracer::addOcclusion(std::span<const Hit> /*hits*/, double /*radius*/, uint32_t /*seed*/,
                              uint32_t /*from*/, uint32_t /*to*/,
                              std::span<OcclusionCounts> /*counts*/) const {}

@@ -186,6 +186,8 @@ Facet TracedScene::facet(const Triangle& triangle) const {
 }
 
 bool TracedScene::isHole(const Triangle& triangle, float u, float v) const {
+  const auto& mask = masks_[materialOf(triangle)];
+  if (!mask) return false;
   const uint32_t* index = &scene_.indices[triangle.firstIndex];
   const glm::vec2 texCoord = (1.0f - u - v) * scene_.texCoords[index[0]] +
                              u * scene_.texCoords[index[1]] + v * scene_.texCoords[index[2]];
@@ -195,7 +197,7 @@ bool TracedScene::isHole(const Triangle& triangle, float u, float v) const {
                           ? 1.0f
                           : (1.0f - u - v) * scene_.colours[index[0]].a +
                                 u * scene_.colours[index[1]].a + v * scene_.colours[index[2]].a;
-  return masks_[primitive.material]->isHole(texCoord, alpha);
+  return mask->isHole(texCoord, alpha);
 }
 
 bool TracedScene::isBack(const Triangle& triangle, const glm::dvec3& direction) const {

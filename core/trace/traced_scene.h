@@ -65,6 +65,8 @@ class TracedScene {
     return scene_.primitives[scene_.instances[triangle.instance].primitive].material;
   }
   Facet facet(const Triangle& triangle) const;
+  // Whether the place is a hole of a mask. u, v: weights of the second and the third corner.
+  bool isHole(const Triangle& triangle, float u, float v) const;
 
  private:
   // Triangles with the same mask and sidedness that all move or all stand still: one Embree
@@ -84,7 +86,6 @@ class TracedScene {
   void attach(uint32_t id, Bucket& bucket);
   void writeVertices(const Bucket& bucket, glm::vec3* vertices) const;
   void throwOnFailure(const char* what) const;
-  bool isHole(const Triangle& triangle, float u, float v) const;
   bool isBack(const Triangle& triangle, const glm::dvec3& direction) const;
   static void passHoles(const RTCFilterFunctionNArguments* args);
 

@@ -50,7 +50,7 @@ uint32_t CellTable::slotOf(const CellKey& key) const {
   return static_cast<uint32_t>(uint64_t{hashOf(key)} * slotCells_.size() >> 32);
 }
 
-Cell* CellTable::find(const CellKey& key) {
+const Cell* CellTable::find(const CellKey& key) const {
   for (uint32_t i = slotOf(key);; i = after(i)) {
     const uint32_t cell = slotCells_[i];
     if (cell == kFree) return nullptr;

@@ -6,6 +6,7 @@
 #include <cstdint>
 #include <deque>
 #include <glm/glm.hpp>
+#include <utility>
 #include <vector>
 
 #include "device_words.h"
@@ -82,7 +83,8 @@ class CellTable {
   // The cell of a key, created if missing. The reference is valid until the next call.
   Cell& at(const CellKey& key);
   // Null if missing.
-  Cell* find(const CellKey& key);
+  Cell* find(const CellKey& key) { return const_cast<Cell*>(std::as_const(*this).find(key)); }
+  const Cell* find(const CellKey& key) const;
   // Call it after each change of a cell's entries.
   void change(Cell& cell);
   // Removes the cells without entries.

@@ -4,12 +4,12 @@
 #include <glm/gtc/packing.hpp>
 
 #include <algorithm>
-#include <atomic>
 #include <bit>
 #include <chrono>
 #include <cmath>
-#include <thread>
 #include <utility>
+
+#include "threads.h"
 
 namespace grisaille::sspm {
 namespace {
@@ -17,23 +17,10 @@ namespace {
 constexpr size_t kMostWork = 64;    // shots under survey at the same time
 constexpr size_t kMostRays = 4096;  // per step, except for a single shot
 
-// Calls work(0) to work(count - 1), on all hardware threads if there is more than one call.
-void onAllThreads(size_t count, const std::function<void(size_t)>& work) {
-  std::atomic<size_t> next = 0;
-  const auto run = [&] {
-    for (size_t i = next++; i < count; i = next++) work(i);
-  };
-  std::vector<std::jthread> threads;
-  const size_t most = std::min<size_t>(std::thread::hardware_concurrency(), count);
-  while (threads.size() + 1 < most) threads.emplace_back(run);
-  run();
-}
-
 }  // namespace
 
-size_t PaintWorld::update(std::span<const Shot> shots, size_t kept, const PaintRules& rules,
-                          double patience, uint64_t limit, const CastRays& cast) {
-  const auto start = std::chrono::steady_clock::now();
+void PaintWorld::follow(std::span<const Shot> shots, size_t kept, const PaintRules& rules,
+                        uint64_t limit) {
   list_ = shots;
   const bool sameRange = rules.range == rules_.range;
   const bool same = rules == rules_;
@@ -46,7 +33,12 @@ size_t PaintWorld::update(std::span<const Shot> shots, size_t kept, const PaintR
   }
   states_.resize(shots.size());
   keepWithin(limit);
+}
 
+size_t PaintWorld::update(std::span<const Shot> shots, size_t kept, const PaintRules& rules,
+                          double patience, uint64_t limit, const CastRays& cast) {
+  const auto start = std::chrono::steady_clock::now();
+  follow(shots, kept, rules, limit);
   std::vector<uint32_t> unknown;
   askAgain(cast);
   while (step(cast, unknown)) {

@@ -43,8 +43,24 @@ class PaintWorld {
   // below. cast: casts the rays of the surveys. Returns the number of shots that are still pending.
   size_t update(std::span<const Shot> shots, size_t kept, const PaintRules& rules, double patience,
                 uint64_t limit, const CastRays& cast);
+  // The same without placing: forgets shots that have left the list, and notes the others as
+  // pending.
+  void follow(std::span<const Shot> shots, size_t kept, const PaintRules& rules, uint64_t limit);
   // Number of leading shots that the last update() gave up.
   size_t givenUp() const { return floor_; }
+
+  // A shot that reaches a point; its muzzle may not see the point.
+  struct Reach {
+    uint32_t shot = 0;  // index into the list
+    float times = 1;    // how often its alpha counts: see Placed::counted
+    // Offset of the point from the shot's ray, along the axes of its ShotFrame, metres.
+    glm::dvec2 across = glm::dvec2(0);
+  };
+  // Appends to `reaches` the newest placed shots, at most `most`, that are older than shot `below`,
+  // reach a point, and fire at the side of the surface that the normal points to. Newest first.
+  // Reads only: threads may call it between two update() or follow().
+  void reachesOf(const glm::dvec3& position, const glm::vec3& normal, uint32_t below, size_t most,
+                 std::vector<Reach>& reaches) const;
 
   // Writes the changes of update() on the device. Call it inside record(), outside passes.
   void upload(const plugin::Frame& frame, Uploader& uploader);
@@ -121,6 +137,9 @@ class PaintWorld {
   void giveUp(uint32_t floor);
   void takeUp();
 
+  // points.cpp
+  bool reach(const glm::dvec3& position, const glm::vec3& normal, Reach& reach) const;
+
   // hiding.cpp
   bool isHidden(uint32_t id, const Survey& survey, const CellGrid& grid);
   void join(uint32_t record, const ShotFrame& frame, const CellGrid& grid, const ShotMap& map,
@@ -128,7 +147,7 @@ class PaintWorld {
   size_t learn(Cell& cell, const CellGrid& grid, const SurfacePoint& point);
   void prune(Cell& cell);
 
-  std::span<const Shot> list_;  // during update()
+  std::span<const Shot> list_;  // of the last update() or follow(), as long as the host keeps it
   PaintRules rules_;
   std::deque<State> states_;       // one per shot
   std::vector<uint32_t> pending_;  // ascending

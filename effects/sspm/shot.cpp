@@ -3,6 +3,7 @@
 
 #include <bit>
 #include <cmath>
+#include <unordered_map>
 
 namespace grisaille::sspm {
 
@@ -21,6 +22,24 @@ uint64_t twinHash(const Shot& shot) {
   for (const float x : shot.direction) mix(std::bit_cast<uint32_t>(x));
   mix(std::bit_cast<uint32_t>(static_cast<float>(shot.range)));
   return hash;
+}
+
+std::vector<Layer> layersOf(std::span<const Shot> shots, size_t count) {
+  std::vector<Layer> layers;
+  std::unordered_multimap<uint64_t, size_t> placed;  // twinHash(): index into `layers`
+  for (size_t i = shots.size(); i > shots.size() - count; --i) {
+    const Shot& shot = shots[i - 1];
+    const auto [first, end] = placed.equal_range(twinHash(shot));
+    const auto twin = std::find_if(
+        first, end, [&](const auto& it) { return areTwins(shots[layers[it.second].shot], shot); });
+    if (twin != end) {
+      ++layers[twin->second].times;
+      continue;
+    }
+    placed.emplace(twinHash(shot), layers.size());
+    layers.push_back({.shot = i - 1});
+  }
+  return layers;
 }
 
 uint32_t splatSeed(const Shot& shot, uint32_t noiseSeed) {

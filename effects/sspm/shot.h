@@ -5,6 +5,8 @@
 #include <algorithm>
 #include <cfloat>
 #include <cstdint>
+#include <span>
+#include <vector>
 
 namespace grisaille::sspm {
 
@@ -24,6 +26,14 @@ struct Shot {
 bool areTwins(const Shot& a, const Shot& b);
 // The same for twins.
 uint64_t twinHash(const Shot& shot);
+
+// A shot as it is composited.
+struct Layer {
+  size_t shot = 0;  // index into the list
+  float times = 1;  // number of twins that it stands for, itself included
+};
+// The newest `count` shots of a list, newest first, without those that a newer twin stands for.
+std::vector<Layer> layersOf(std::span<const Shot> shots, size_t count);
 
 // The seed of a shot's splat; shaders/sspm/splat.glsl computes the same.
 // noiseSeed: the parameter.

@@ -5,11 +5,11 @@
 #include <cmath>
 #include <glm/glm.hpp>
 #include <limits>
-#include <unordered_map>
 
 #include "grisaille/effect.hpp"
 #include "paint_world.h"
 #include "parameters.h"
+#include "points.h"
 #include "shaders/sspm_per_shot.h"
 #include "shaders/sspm_per_shot_first.h"
 #include "shaders/sspm_per_shot_last.h"
@@ -22,7 +22,6 @@ namespace grisaille::sspm {
 namespace {
 
 constexpr uint32_t kGroup = 8;  // width and height of a group, threads; all shaders but rest.comp
-constexpr uint32_t kOctaves = 3;
 // shaders/sspm/rest.comp: pixels of the picture per thread, threads per group.
 constexpr uint32_t kRestShare = 32, kRestGroup = 64;
 // Largest picture, in pixels, for the list of rest.comp: 64 MiB of the 128 that every device binds.
@@ -83,9 +82,14 @@ int32_t wrapped(double cell) {
       static_cast<uint32_t>(std::fmod(cell, 4294967296.0) + (cell < 0 ? 4294967296.0 : 0.0)));
 }
 
+// Half the width of the splat step, in strength.
+float halfWidth(plugin::Values values) {
+  return 0.5f * (1 - values.get<float>(kSplatSharpness));
+}
+
 SplatBlock splatBlock(const plugin::Frame& frame) {
   return {.cells = static_cast<float>(1 / frame.value<double>(kSplatScale)),
-          .half_width = 0.5f * (1 - frame.value<float>(kSplatSharpness)),
+          .half_width = halfWidth(frame.values()),
           .octaves = kOctaves,
           .seed = frame.value<uint32_t>(kNoiseSeed)};
 }
@@ -110,6 +114,23 @@ class Sspm {
            (surface ? GRISAILLE_READS(GRISAILLE_FACET_NORMAL) : 0u);
   }
 
+  void drawAt(const plugin::Points& points) {
+    kept_ = std::min(kept_, points.objectsKept());
+    const std::span<const Shot> shots = points.objects<Shot>();
+    const PaintRules rules = rulesOf(points.values());
+    const Splat splat = {.scale = points.value<double>(kSplatScale),
+                         .halfWidth = halfWidth(points.values()),
+                         .seed = points.value<uint32_t>(kNoiseSeed)};
+    if (points.value<Mode>(kMode) == Mode::kPerShot) {
+      const size_t count = std::min(shots.size(), points.value<size_t>(kShotLimit));
+      drawPointsPerShot(shots, count, rules, splat, points.all(), points.drawn());
+      return;
+    }
+    world_.follow(shots, kept_, rules, limitOf(points.values()));
+    kept_ = shots.size();
+    drawPoints(world_, shots, rules, splat, caster(), points.all(), points.drawn());
+  }
+
   void record(const plugin::Frame& frame) {
     if (frame.value<Mode>(kMode) == Mode::kSurface) {
       recordSurface(frame);
@@ -119,6 +140,23 @@ class Sspm {
   }
 
  private:
+  static PaintRules rulesOf(plugin::Values values) {
+    return {.range = values.get<float>(kPaintRange),
+            .full = values.get<float>(kFull),
+            .fade = values.get<float>(kEdgeFade)};
+  }
+
+  // Most memory for paint, bytes.
+  static uint64_t limitOf(plugin::Values values) {
+    return values.get<uint64_t>(kMemory) * 1'000'000;
+  }
+
+  CastRays caster() {
+    return [this](std::span<const grisaille_ray> rays, std::span<grisaille_hit> hits) {
+      return host_.castRays(rays, hits);
+    };
+  }
+
   void recordPerShot(const plugin::Frame& frame) {
     // Keeps placed shots for a return to mode `surface`, up to the first change of the list.
     kept_ = std::min(kept_, frame.objectsKept());
@@ -154,23 +192,14 @@ class Sspm {
     });
   }
 
-  // The shots to draw, newest first. A shot stands for all others of its ray and range.
+  // The shots to draw, newest first.
   static std::vector<ShotBlock> shotBlocks(const plugin::Frame& frame) {
     const std::span<const Shot> all = frame.objects<Shot>();
     const size_t count = std::min(all.size(), frame.value<size_t>(kShotLimit));
     std::vector<ShotBlock> blocks;
-    std::unordered_multimap<uint64_t, std::pair<size_t, size_t>> drawn;  // ray: shot, block
-    for (size_t number = all.size(); number > all.size() - count; --number) {
-      const Shot& shot = all[number - 1];
-      const auto [first, end] = drawn.equal_range(twinHash(shot));
-      const auto twin = std::find_if(
-          first, end, [&](const auto& it) { return areTwins(all[it.second.first], shot); });
-      if (twin != end) {
-        ++blocks[twin->second.second].times;
-        continue;
-      }
-      drawn.emplace(twinHash(shot), std::pair(number - 1, blocks.size()));
-      blocks.push_back(shotBlock(frame, shot, number));
+    for (const Layer& layer : layersOf(all, count)) {
+      blocks.push_back(shotBlock(frame, all[layer.shot], layer.shot + 1));
+      blocks.back().times = layer.times;
     }
     return blocks;
   }
@@ -194,17 +223,10 @@ class Sspm {
   }
 
   void recordSurface(const plugin::Frame& frame) {
-    const PaintRules rules = {.range = frame.value<float>(kPaintRange),
-                              .full = frame.value<float>(kFull),
-                              .fade = frame.value<float>(kEdgeFade)};
-    const CastRays cast = [this](std::span<const grisaille_ray> rays,
-                                 std::span<grisaille_hit> hits) {
-      return host_.castRays(rays, hits);
-    };
     kept_ = std::min(kept_, frame.objectsKept());
     const std::span<const Shot> shots = frame.objects<Shot>();
-    const uint64_t limit = frame.value<uint64_t>(kMemory) * 1'000'000;
-    const size_t waiting = world_.update(shots, kept_, rules, frame.patience(), limit, cast);
+    const size_t waiting = world_.update(shots, kept_, rulesOf(frame.values()), frame.patience(),
+                                         limitOf(frame.values()), caster());
     kept_ = shots.size();
     frame.waiting(waiting);
     frame.givenUp(world_.givenUp());
@@ -350,7 +372,7 @@ class Sspm {
   uint64_t restWords_ = 0;
   PaintWorld world_;
   Uploader uploader_;
-  size_t kept_ = 0;  // leading shots of the list unchanged since world_.update()
+  size_t kept_ = 0;  // leading shots of the list unchanged since world_ followed it
 };
 
 constexpr auto kSspm =

@@ -23,6 +23,7 @@
 #include "core/frame/renderer.h"
 #include "lab/paint/shot.h"
 #include "tests/bench/command.h"
+#include "tests/bench/sspm_score.h"
 #include "tests/bench/subject.h"
 #include "tests/support/traced_rays.h"
 
@@ -32,6 +33,7 @@ namespace {
 using Clock = std::chrono::steady_clock;
 using Shots = std::vector<lab::Shot>;
 
+constexpr size_t kScoreShots = 10'000;
 constexpr double kRange = 0.25;  // of shots, metres: the default
 
 struct Options : CommonOptions {
@@ -382,6 +384,12 @@ void run(Options options) {
       "software "
       "driver that is the host's and\nthe device's share together.\n\n",
       options.width, options.height, std::thread::hardware_concurrency(), options.rounds);
+  for (const Place& place : places) {
+    if (place.counts.empty()) continue;
+    const size_t count = std::min(place.shots.size(), kScoreShots);
+    fmt::print("## {}: score\n\n", place.subject.name);
+    printScore(place.subject, registry, *place.rays, std::span(place.shots).first(count));
+  }
   std::vector<Curve> curves;
   for (const backends::Backend& backend : backends::all()) {
     if (!options.backend.empty() && options.backend != backend.name) continue;

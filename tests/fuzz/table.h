@@ -131,6 +131,7 @@ constexpr grisaille_effect_desc kEffect = {.struct_size = sizeof(grisaille_effec
                                            .record = record,
                                            .destroy = destroy,
                                            .guard_band = nullptr,
-                                           .objects = &kObjects};
+                                           .objects = &kObjects,
+                                           .draw_at = nullptr};
 
 }  // namespace grisaille::fuzz

@@ -260,6 +260,33 @@ TEST_P(Errors, OfParametersSizesAndOutputs) {
   expectError(grisaille_host_effect_output(one, "ao", &output), 5602, "struct_size is 0");
 }
 
+TEST_P(Errors, OfPoints) {
+  const host::Effect without(device_, {.effect = "ssao", .width = kSide, .height = kSide});
+  const host::Effect with(device_, {.effect = "sspm", .width = kSide, .height = kSide});
+  grisaille_host_effect* const one = with.handle();
+  const grisaille_point sound = {.position = {0, 0, 0}, .normal = {0, 1, 0}, .reserved = 0};
+  grisaille_drawn drawn[2] = {};
+  expectError(grisaille_host_effect_draw_at(nullptr, &sound, 1, drawn), 5601, "effect is null");
+  expectError(grisaille_host_effect_draw_at(one, nullptr, 1, drawn), 5601, "points is null");
+  expectError(grisaille_host_effect_draw_at(one, &sound, 1, nullptr), 5601, "drawn is null");
+  expectError(grisaille_host_effect_draw_at(without.handle(), &sound, 1, drawn), 3208, "ssao");
+  EXPECT_EQ(grisaille_host_effect_draw_at(one, nullptr, 0, nullptr), 0);
+  EXPECT_EQ(grisaille_host_effect_draw_at(one, &sound, 1, drawn), 0);
+  std::vector<grisaille_point> points(2, sound);
+  const auto refused = [&](const char* mention) {
+    expectError(grisaille_host_effect_draw_at(one, points.data(), 2, drawn), 5611, mention);
+    points[1] = sound;
+  };
+  points[1].position[2] = NAN;
+  refused("points[1].position is 0, 0, nan");
+  points[1].position[0] = 2e9;
+  refused("points[1].position is 2000000000");
+  points[1].normal[1] = 1.1f;
+  refused("points[1].normal is 0, 1.1, 0");
+  points[1].reserved = 1;
+  refused("points[1].reserved is 1");
+}
+
 TEST_P(Errors, OfObjects) {
   const host::Effect without(device_, {.effect = "ssao", .width = kSide, .height = kSide});
   expectError(grisaille_host_effect_set_objects(nullptr, nullptr, 0, 0), 5601, "effect is null");

@@ -8,6 +8,7 @@
 #include <filesystem>
 #include <fstream>
 #include <iomanip>
+#include <numbers>
 #include <numeric>
 
 #include "core/image/image.h"
@@ -298,6 +299,41 @@ TEST_P(Frames, ShotsPaintWhatTheHostsRaysFind) {
   effect.setObjects<sspm::Shot>(Shots{shot});
   EXPECT_GE(painted(origin, way).first, on);
   EXPECT_EQ(asked, second);
+}
+
+// The score of a floor of 4 x 4 m: the disc of a shot, without what another object shades.
+TEST_P(Frames, PointsTellWhatShotsCover) {
+  host::Effect effect(device_, {.effect = "sspm", .width = 96, .height = 72});
+  effect.set("edge_fade", 0.0);
+  uint64_t asked = 0;
+  device_.setRays(castWorld, &asked);
+  const host::Texture seen = depth(96, 72);
+  Shots shots = {shotAt({-1.2, 1, 1.2}, {-1.2, 0, 1.2}), shotAt({-1.2, 1, 1.3}, {-1.2, 0, 1.3})};
+  shots[0].range = shots[1].range = 0.5;
+  std::vector<grisaille_point> points;
+  for (int i = 0; i < 400 * 400; ++i) {
+    points.push_back({.position = {-2 + 0.01 * (i % 400 + 0.5), 0, -2 + 0.01 * (i / 400 + 0.5)},
+                      .normal = {0, 1, 0},
+                      .reserved = 0});
+  }
+  const auto shares = [&] {
+    std::array<double, 3> sums = {};
+    for (const grisaille_drawn& drawn : effect.drawAt(points)) {
+      sums[drawn.owner] += drawn.owner == 0 ? 0.01 * 0.01 : double{drawn.alpha} * 0.01 * 0.01;
+    }
+    return sums;
+  };
+  effect.setObjects<sspm::Shot>(shots);
+  EXPECT_NEAR(shares()[0], 16, 1e-6) << "no recording has placed the shots";
+  record(effect, seen);
+  const uint64_t placed = asked;
+  const auto [none, first, second] = shares();
+  EXPECT_GT(asked, placed);
+  const double disc = 0.25 * std::numbers::pi;
+  const double lens = 0.5 * std::acos(0.1) - 0.05 * std::sqrt(1 - 0.01);  // discs 0.1 m apart
+  EXPECT_NEAR(second, disc, 0.01);
+  EXPECT_NEAR(first, disc - lens, 0.01);
+  EXPECT_NEAR(none, 16 - 2 * disc + lens, 0.01);
 }
 
 // With little patience, shots wait for later recordings. What a limit leaves no room for is told.

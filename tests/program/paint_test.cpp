@@ -88,6 +88,28 @@ TEST_F(Paint, SharesAddUpToTheWhole) {
   EXPECT_NEAR(sum, 1, 1e-5);
 }
 
+// The score is that of the scene, not of the picture: the camera and its size change nothing. On
+// floors there is less paint of a shot at a wall.
+TEST_F(Paint, TheScoreIsThatOfTheSurface) {
+  ASSERT_EQ(render({"--add", "sspm=40,45,color=#ff0000", "--save", "sspm=s.json"}).status, 0);
+  const Outcome near = render({"--load", "sspm=s.json", "--coverage", "-"});
+  const Outcome far = render({"--load", "sspm=s.json", "--coverage", "-", "--camera",
+                              R"({"eye": [0, 3, -2], "target": [1, 3, -4], "fovy_degrees": 60})"});
+  ASSERT_EQ(near.status, 0) << near.err;
+  ASSERT_EQ(far.status, 0) << far.err;
+  EXPECT_EQ(far.out, near.out);
+  EXPECT_NE(near.err.find("coverage of "), std::string::npos) << near.err;
+  const Outcome floors =
+      render({"--load", "sspm=s.json", "--coverage", "-", "--coverage-slope", "30"});
+  ASSERT_EQ(floors.status, 0) << floors.err;
+  EXPECT_NE(floors.out, near.out);
+}
+
+TEST_F(Paint, TheSlopeOfTheScoreIsChecked) {
+  expectError({"--coverage-slope", "30"}, 5101, "--coverage");
+  expectError({"--coverage", "-", "--coverage-slope", "181"}, 5101, "--coverage-slope");
+}
+
 // Only the requested passes run: full resolution has a single pass.
 TEST_F(Paint, PassesAreThoseOfTheResolution) {
   const std::vector<std::string> one = {"surface"}, two = {"samples", "upsample"},

@@ -377,6 +377,17 @@ class Effect {
     return report;
   }
 
+  /// Computes what the effect draws at points of your scene's surfaces: see
+  /// grisaille_host_effect_draw_at().
+  /// @param points the points
+  /// @return one result per point, in the same order
+  std::vector<grisaille_drawn> drawAt(std::span<const grisaille_point> points) {
+    std::vector<grisaille_drawn> drawn(points.size());
+    require(
+        grisaille_host_effect_draw_at(effect_.get(), points.data(), points.size(), drawn.data()));
+    return drawn;
+  }
+
   /// Returns an output. The texture holds a result once you have recorded the effect. It stays the
   /// same texture until you resize or destroy the effect.
   /// @param key key of an output that you named when you created the effect

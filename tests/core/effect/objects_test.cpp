@@ -206,5 +206,63 @@ TEST_F(ObjectsTest, EffectsWithoutATableSeeNone) {
   EXPECT_EQ(record(chain, "plain", plain).waiting, 0u);
 }
 
+// Points tell of the list as frames do, and count as one: what they have seen is kept.
+TEST_F(ObjectsTest, PointsSeeTheListToo) {
+  const std::vector<grisaille_point> points(3, {{1, 2, 3}, {0, 1, 0}, 0});
+  std::vector<grisaille_drawn> drawn(3);
+  const auto draw = [&] {
+    chain.drawAt(chain.selection.entries()[0], {.points = points, .drawn = drawn});
+    return std::pair(std::lround(100 * drawn[2].colour[0]), std::lround(100 * drawn[2].colour[1]));
+  };
+  list.add(marks(5).view());
+  EXPECT_EQ(draw(), std::pair(5l, 0l));
+  EXPECT_EQ(drawn[0].owner, 5u);
+  EXPECT_EQ(kept(), 5u);
+  list.add(marks(2).view());
+  EXPECT_EQ(draw(), std::pair(7l, 5l));
+  list.undo();
+  list.undo();
+  EXPECT_EQ(draw(), std::pair(0l, 0l));
+}
+
+TEST_F(ObjectsTest, PointsAreDrawnWithRaysAndWithinTheirRange) {
+  struct Rays : RayService {
+    void cast(std::span<const grisaille_ray> rays, std::span<grisaille_hit>) override {
+      count += rays.size();
+    }
+    size_t count = 0;
+  } rays;
+  const std::vector<grisaille_point> points(2, {{1, 2, 3}, {0, 1, 0}, 0});
+  std::vector<grisaille_drawn> drawn(2);
+  Values& values = chain.selection.values("teller");
+  const auto draw = [&](RayService* service) {
+    chain.drawAt(chain.selection.entries()[0], {.points = points, .drawn = drawn, .rays = service});
+  };
+  values.set("casts", "two");
+  draw(nullptr);
+  EXPECT_EQ(drawn[0].colour[2], 0);
+  draw(&rays);
+  EXPECT_EQ(drawn[0].colour[2], 1);
+  EXPECT_EQ(rays.count, 2u);
+  values.set("casts", "none");
+  for (const char* wrong : {"alpha", "owner", "colour"}) {
+    values.set("draws", wrong);
+    EXPECT_ERROR(ErrorId::kEffectRecord, draw(nullptr));
+  }
+  values.set("draws", "well");
+  values.set("fails", "true");
+  EXPECT_ERROR(ErrorId::kEffectRecord, draw(nullptr));
+  values.set("fails", "false");
+  draw(nullptr);
+  EXPECT_EQ(drawn[1].alpha, 1);
+}
+
+TEST_F(InstanceTest, WhatHasNoDrawAtDrawsNoPoints) {
+  Chain plain{Selection(registry, std::vector<std::string>{"copy"})};
+  const StartedChain started(plain, *device);
+  EXPECT_ERROR(ErrorId::kEffectDrawsNoPoints,
+               plain.drawAt(plain.selection.entries()[0], {.points = {}, .drawn = {}}));
+}
+
 }  // namespace
 }  // namespace grisaille::effect

@@ -126,7 +126,8 @@ struct Table {
                                  .record = recordNothing,
                                  .destroy = destroyNothing,
                                  .guard_band = nullptr,
-                                 .objects = &objects};
+                                 .objects = &objects,
+                                 .draw_at = nullptr};
   grisaille_effect_desc second = [this] {
     grisaille_effect_desc desc = first;
     desc.key = "second";

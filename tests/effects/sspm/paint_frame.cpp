@@ -24,16 +24,26 @@ void PaintFrame::set(const Settings& settings) {
   for (const auto& [key, value] : settings) chain_.selection.values("sspm").set(key, value);
 }
 
-void PaintFrame::render(const scene::Camera& camera, uint32_t width, uint32_t height,
-                        std::span<const lab::Shot> shots, std::vector<std::string> outputs) {
+void PaintFrame::assign(std::span<const lab::Shot> shots) {
   objects::ObjectList& list = *chain_.objects("sspm");
   list.assign(objectsOf(list.table(), shots).view());
+}
+
+void PaintFrame::render(const scene::Camera& camera, uint32_t width, uint32_t height,
+                        std::span<const lab::Shot> shots, std::vector<std::string> outputs) {
+  assign(shots);
   renderer_.render({.camera = camera,
                     .width = width,
                     .height = height,
                     .chain = &chain_,
                     .outputs = outputs,
                     .services = {.rays = rays_}});
+}
+
+std::vector<grisaille_drawn> PaintFrame::drawAt(std::span<const grisaille_point> points) {
+  std::vector<grisaille_drawn> drawn(points.size());
+  chain_.drawAt(chain_.selection.entries()[0], {.points = points, .drawn = drawn, .rays = rays_});
+  return drawn;
 }
 
 frame::Pictures tracedPictures(const trace::RayTracer& tracer, const scene::Camera& camera,

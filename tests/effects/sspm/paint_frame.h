@@ -34,11 +34,15 @@ class PaintFrame {
   void setRays(effect::RayService* rays) { rays_ = rays; }
   void set(const Settings& settings);
 
+  // Replaces the list of shots without a frame.
+  void assign(std::span<const lab::Shot> shots);
   // The effect is told how many leading shots equal those of the previous call.
   void render(const scene::Camera& camera, uint32_t width, uint32_t height,
               std::span<const lab::Shot> shots,
               std::vector<std::string> outputs = {"paint", "paint_coverage", "depth"});
   image::Image read(const std::string& output) { return renderer_.read(output); }
+  // What the shots of the last render() draw at points of surfaces.
+  std::vector<grisaille_drawn> drawAt(std::span<const grisaille_point> points);
   uint64_t waiting() const { return renderer_.report().waiting; }
   uint64_t givenUp() const { return renderer_.report().givenUp; }
 

@@ -399,9 +399,44 @@ typedef struct grisaille_objects {
   uint32_t stride;     /**< bytes from one object to the next: grisaille_object_desc::object_size */
   const void* objects; /**< oldest first */
   uint64_t count;      /**< number of objects */
-  /** Leading objects unchanged since the last frame that this instance recorded without error. */
+  /** Leading objects unchanged since the last frame that this instance recorded without error, or
+   * since the last points if these came later. */
   uint64_t kept;
 } grisaille_objects;
+
+/**
+ * @}
+ * @defgroup effect_points Effect: points of surfaces
+ * What an effect draws on the scene's surfaces, whether or not a camera sees them.
+ * @{
+ */
+
+/** A point of a surface, on one of its sides. */
+typedef struct grisaille_point {
+  double position[3]; /**< world, metres, each from -1e9 to 1e9 */
+  float normal[3];    /**< of the triangle, towards that side: world, unit length */
+  uint32_t reserved;  /**< 0 */
+} grisaille_point;
+
+/** What an effect draws at a point. */
+typedef struct grisaille_drawn {
+  float colour[3]; /**< linear, each 0 to 1; 0 where `alpha` is 0 */
+  float alpha;     /**< straight alpha, 0 to 1 */
+  uint64_t owner;  /**< 1 + index of the object that shows; 0 where `alpha` is 0 */
+} grisaille_drawn;
+
+/** Points, valid during grisaille_effect_desc::draw_at. */
+typedef struct grisaille_points {
+  uint32_t struct_size;          /**< size of this struct in the host's version */
+  uint32_t reserved;             /**< 0 */
+  uint64_t count;                /**< number of points */
+  const grisaille_point* points; /**< `count` of them; neighbours lie close together */
+  grisaille_drawn* drawn;        /**< one result per point, preset to 0 */
+  const double* values;          /**< see grisaille_frame::values */
+  /** Null unless the effect's table declares objects; `kept` counts since the last frame, or the
+   * last points, whichever was later. */
+  const grisaille_objects* objects;
+} grisaille_points;
 
 /**
  * @}
@@ -540,7 +575,7 @@ typedef struct grisaille_host {
   void (*destroy_sampler)(const struct grisaille_host* self, grisaille_sampler sampler);
 
   /**
-   * Casts rays through the scene. Call it only inside record().
+   * Casts rays through the scene. Call it only inside record() and draw_at().
    * @param self this table
    * @param rays `count` rays
    * @param count number of rays
@@ -770,6 +805,17 @@ typedef struct grisaille_effect_desc {
   double (*guard_band)(const double* values);
 
   const grisaille_object_desc* objects; /**< the objects that users make; null: no objects */
+
+  /**
+   * Computes on the CPU what the effect's overlay shows at points of surfaces, whether or not a
+   * camera sees them. Null: the effect cannot tell. It leaves out objects that wait or are given
+   * up, as record() does, and places none of them: hosts record frames first. Call only
+   * grisaille_host::fail and grisaille_host::cast_rays inside it.
+   * @param instance the instance
+   * @param points the points; the effect writes `drawn`
+   * @return GRISAILLE_OK, or GRISAILLE_FAILED after grisaille_host::fail
+   */
+  grisaille_result (*draw_at)(void* instance, const grisaille_points* points);
 } grisaille_effect_desc;
 
 /** The table that a plugin exports. */

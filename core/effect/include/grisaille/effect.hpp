@@ -166,6 +166,18 @@ constexpr bool wants(uint32_t bits, Index output) {
   return (bits >> static_cast<uint32_t>(output) & 1u) != 0;
 }
 
+/// @cond
+template <typename T>
+std::span<const T> objectsOf(const grisaille_objects* list) {
+  if (list == nullptr) return {};
+  if (list->stride != sizeof(T)) throw Failure("the objects do not have the size of their type");
+  return {static_cast<const T*>(list->objects), static_cast<size_t>(list->count)};
+}
+inline size_t keptOf(const grisaille_objects* list) {
+  return list == nullptr ? 0 : static_cast<size_t>(list->kept);
+}
+/// @endcond
+
 /// A view of one frame, valid during record(). Every function that returns nothing or creates a
 /// resource may throw Failure.
 class Frame {
@@ -226,15 +238,11 @@ class Frame {
   /// @throws Failure the size of T differs from the table's object_size
   template <typename T>
   std::span<const T> objects() const {
-    const grisaille_objects* list = frame_->objects;
-    if (list == nullptr) return {};
-    if (list->stride != sizeof(T)) throw Failure("the objects do not have the size of their type");
-    return {static_cast<const T*>(list->objects), static_cast<size_t>(list->count)};
+    return objectsOf<T>(frame_->objects);
   }
-  /// @return number of leading objects unchanged since the last record() that did not throw
-  size_t objectsKept() const {
-    return frame_->objects == nullptr ? 0 : static_cast<size_t>(frame_->objects->kept);
-  }
+  /// @return number of leading objects unchanged since the last record() or drawAt() that did not
+  ///   throw
+  size_t objectsKept() const { return keptOf(frame_->objects); }
   /// @return seconds that the effect may spend in this frame on work that can wait; may be infinite
   double patience() const { return frame_->patience; }
   /// Reports how many pieces of work wait for a later frame. The host then renders again soon.
@@ -330,8 +338,52 @@ class Frame {
 };
 
 /// @}
+/// @addtogroup effect_points
+/// @{
+
+/// A view of points of surfaces, valid during drawAt().
+class Points {
+ public:
+  /// @param points the points that drawAt() gets
+  explicit Points(const grisaille_points* points) : points_(points) {}
+
+  /// @return the points
+  std::span<const grisaille_point> all() const {
+    return {points_->points, static_cast<size_t>(points_->count)};
+  }
+  /// @return one result per point, preset to 0
+  std::span<grisaille_drawn> drawn() const {
+    return {points_->drawn, static_cast<size_t>(points_->count)};
+  }
+  /// @return the values of all parameters
+  Values values() const { return Values(points_->values); }
+  /// @copydoc Frame::value()
+  template <typename T, typename Index>
+  T value(Index parameter) const {
+    return values().get<T>(parameter);
+  }
+  /// @copydoc Frame::objects()
+  template <typename T>
+  std::span<const T> objects() const {
+    return objectsOf<T>(points_->objects);
+  }
+  /// @return number of leading objects unchanged since the last record() or drawAt() that did not
+  ///   throw
+  size_t objectsKept() const { return keptOf(points_->objects); }
+
+ private:
+  const grisaille_points* points_;
+};
+
+/// @}
 /// @addtogroup effect_table
 /// @{
+
+/// A class with a function `drawAt(const Points&)`: see grisaille_effect_desc::draw_at.
+template <typename E>
+concept DrawsAtPoints = requires(E& effect, const Points& points) {
+  effect.drawAt(points);
+};
 
 /// A class with a static function `guardBand(Values)`: see grisaille_effect_desc::guard_band.
 template <typename E>
@@ -391,6 +443,19 @@ class Boundary {
     return guarded(held->host, [&] { held->effect.record(Frame(frame)); });
   }
 
+  static grisaille_result drawAt(void* instance, const grisaille_points* points) noexcept requires
+      DrawsAtPoints<E> {
+    Held* held = static_cast<Held*>(instance);
+    return guarded(held->host, [&] { held->effect.drawAt(Points(points)); });
+  }
+  static constexpr auto drawAtOrNull() -> decltype(grisaille_effect_desc::draw_at) {
+    if constexpr (DrawsAtPoints<E>) {
+      return drawAt;
+    } else {
+      return nullptr;
+    }
+  }
+
   static void destroy(void* instance) noexcept { delete static_cast<Held*>(instance); }
 
  private:
@@ -439,7 +504,8 @@ constexpr grisaille_effect_desc effect(const EffectSpec& spec) {
           .record = Boundary<E>::record,
           .destroy = Boundary<E>::destroy,
           .guard_band = Boundary<E>::guardBand,
-          .objects = spec.objects};
+          .objects = spec.objects,
+          .draw_at = Boundary<E>::drawAtOrNull()};
 }
 
 /// @}

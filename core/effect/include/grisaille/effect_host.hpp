@@ -207,7 +207,7 @@ class Host {
     return {host_, id};
   }
 
-  /// Casts rays through the scene. Call it only inside record().
+  /// Casts rays through the scene. Call it only inside record() and drawAt().
   /// @param rays the rays
   /// @param[out] hits one per ray
   /// @return false if the host does not cast rays

@@ -67,6 +67,7 @@ constexpr grisaille_effect_desc kEffect = {
     .destroy = destroy,
     .guard_band = nullptr,
     .objects = nullptr,
+    .draw_at = nullptr,
 };
 
 constexpr const grisaille_effect_desc* kEffects[] = {&kEffect};

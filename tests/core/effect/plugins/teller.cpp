@@ -15,10 +15,11 @@ namespace {
 namespace plugin = grisaille::plugin;
 using grisaille::tests::Mark;
 
-enum Parameter { kCasts, kWaits, kGivesUp, kPicture, kFails };
+enum Parameter { kCasts, kWaits, kGivesUp, kPicture, kFails, kDraws };
 
 constexpr const char* kCastKeys[] = {"none",          "two",      "nan_origin", "long_direction",
                                      "nan_direction", "no_reach", "nan_reach",  "null"};
+constexpr const char* kDrawKeys[] = {"well", "alpha", "owner", "colour"};
 constexpr const char* kPictureKeys[] = {"none", "last", "null"};
 constexpr grisaille_param_desc kParams[] = {
     plugin::enumParam({.key = "casts",
@@ -47,7 +48,12 @@ constexpr grisaille_param_desc kParams[] = {
                        .tooltip = "Which picture it reads: that of the last object, or a null path",
                        .keys = kPictureKeys,
                        .labels = kPictureKeys}),
-    plugin::boolParam({.key = "fails", .label = "Fails", .tooltip = "Fails in record()"})};
+    plugin::boolParam({.key = "fails", .label = "Fails", .tooltip = "Fails in both functions"}),
+    plugin::enumParam({.key = "draws",
+                       .label = "Draws",
+                       .tooltip = "What of the last point it draws beyond its range",
+                       .keys = kDrawKeys,
+                       .labels = kDrawKeys})};
 
 constexpr grisaille_output_desc kOutputs[] = {plugin::output(
     {.key = "told", .format = GRISAILLE_FORMAT_R32F, .tooltip = "What it was told"})};
@@ -127,6 +133,25 @@ class Teller {
   explicit Teller(plugin::Host host) : host_(host) {}
 
   static uint32_t reads(plugin::Values, uint32_t) noexcept { return 0; }
+
+  // Draws at each point: number of objects and of those kept, in hundredths; whether rays can be
+  // cast; the last object.
+  void drawAt(const plugin::Points& points) {
+    if (points.value<bool>(kFails)) throw plugin::Failure("told to fail");
+    const auto marks = points.objects<Mark>();
+    std::array<grisaille_hit, 2> hits = {};
+    const bool casts = cast(points.value<int32_t>(kCasts), hits);
+    for (grisaille_drawn& drawn : points.drawn()) {
+      drawn = {.colour = {0.01f * static_cast<float>(marks.size()),
+                          0.01f * static_cast<float>(points.objectsKept()), casts ? 1.0f : 0.0f},
+               .alpha = 1,
+               .owner = marks.size()};
+    }
+    const int32_t wrong = points.value<int32_t>(kDraws);
+    if (wrong == 1) points.drawn().back().alpha = NAN;
+    if (wrong == 2) points.drawn().back().owner = marks.size() + 1;
+    if (wrong == 3) points.drawn().back().colour[1] = 1.5f;
+  }
 
   void record(const plugin::Frame& frame) {
     if (frame.value<bool>(kFails)) throw plugin::Failure("told to fail");
