@@ -11,31 +11,45 @@
 
 namespace grisaille::host {
 
-// The maker of the effects' resources. Equal compute pipelines are one, as long as anybody uses it.
-class Pipelines final : public gpu::Maker {
+// Makes resources with another maker.
+class Forwarding : public gpu::Maker {
  public:
-  // `device` must outlive this.
-  explicit Pipelines(gpu::HostDevice& device) : device_(device) {}
+  // `to` must outlive this.
+  explicit Forwarding(gpu::Maker& to) : to_(to) {}
 
-  const gpu::DeviceInfo& info() const override { return device_.info(); }
-  gpu::Buffer createBuffer(const gpu::BufferDesc& desc) override {
-    return device_.createBuffer(desc);
-  }
+  const gpu::DeviceInfo& info() const override { return to_.info(); }
+  gpu::Buffer createBuffer(const gpu::BufferDesc& desc) override { return to_.createBuffer(desc); }
   gpu::Texture createTexture(const gpu::TextureDesc& desc) override {
-    return device_.createTexture(desc);
+    return to_.createTexture(desc);
   }
   gpu::Sampler createSampler(const gpu::SamplerDesc& desc) override {
-    return device_.createSampler(desc);
+    return to_.createSampler(desc);
   }
-  gpu::ComputePipeline createComputePipeline(const gpu::ComputePipelineDesc& desc) override;
+  gpu::ComputePipeline createComputePipeline(const gpu::ComputePipelineDesc& desc) override {
+    return to_.createComputePipeline(desc);
+  }
   gpu::GraphicsPipeline createGraphicsPipeline(const gpu::GraphicsPipelineDesc& desc) override {
-    return device_.createGraphicsPipeline(desc);
+    return to_.createGraphicsPipeline(desc);
   }
-  void destroy(gpu::Buffer buffer) override { device_.destroy(buffer); }
-  void destroy(gpu::Texture texture) override { device_.destroy(texture); }
-  void destroy(gpu::Sampler sampler) override { device_.destroy(sampler); }
+  void destroy(gpu::Buffer buffer) override { to_.destroy(buffer); }
+  void destroy(gpu::Texture texture) override { to_.destroy(texture); }
+  void destroy(gpu::Sampler sampler) override { to_.destroy(sampler); }
+  void destroy(gpu::ComputePipeline pipeline) override { to_.destroy(pipeline); }
+  void destroy(gpu::GraphicsPipeline pipeline) override { to_.destroy(pipeline); }
+
+ private:
+  gpu::Maker& to_;
+};
+
+// The maker of the effects' resources. Equal compute pipelines are one, as long as anybody uses it.
+class Pipelines final : public Forwarding {
+ public:
+  // `device` must outlive this.
+  explicit Pipelines(gpu::HostDevice& device) : Forwarding(device) {}
+
+  gpu::ComputePipeline createComputePipeline(const gpu::ComputePipelineDesc& desc) override;
+  using Forwarding::destroy;
   void destroy(gpu::ComputePipeline pipeline) override;
-  void destroy(gpu::GraphicsPipeline pipeline) override { device_.destroy(pipeline); }
 
  private:
   struct Shared {
@@ -45,7 +59,6 @@ class Pipelines final : public gpu::Maker {
     uint32_t users;
   };
 
-  gpu::HostDevice& device_;
   std::vector<Shared> shared_;
 };
 

@@ -202,6 +202,7 @@ class EffectCheck {
       renderer_.render({.camera = camera_,
                         .width = size.x,
                         .height = size.y,
+                        .surface = frame::Surface::kBaseColour,  // for effects that read the colour
                         .chain = &chain_,
                         .outputs = outputs,
                         .services = services_.all()});

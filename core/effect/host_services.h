@@ -90,7 +90,8 @@ class HostServices {
   Report report_;
   gpu::Commands* commands_ = nullptr;
   bool passOpen_ = false;
-  std::vector<grisaille_texture> attachments_;  // the effect may read these
+  std::vector<grisaille_texture> attachments_;  // the effect may read these, and those of inputs_
+  std::vector<grisaille_texture> inputs_;
   std::vector<grisaille_texture> outputs_;
   std::vector<uint32_t> writable_;      // transients and outputs
   std::vector<uint32_t> uniforms_;      // buffers

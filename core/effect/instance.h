@@ -52,6 +52,7 @@ struct FrameInputs {
   gpu::BufferRange viewBlock;
   std::array<gpu::Texture, GRISAILLE_ATTACHMENT_COUNT> attachments;
   std::span<const gpu::Texture> outputs;                      // one per output; null: not wanted
+  std::span<const gpu::Texture> named = {};                   // one per input; null: missing
   double patience = std::numeric_limits<double>::infinity();  // see grisaille_frame
   Services services = {};
 
