@@ -115,6 +115,12 @@ Report Chain::record(const Selection::Entry& entry, FrameInputs inputs) {
   return one.instance->report();
 }
 
+size_t Chain::resources() const {
+  size_t sum = 0;
+  for (const auto& [effect, one] : running_) sum += one.instance ? one.instance->resources() : 0;
+  return sum;
+}
+
 objects::ObjectList* Chain::objectsEvenIfAbsent(std::string_view effect) {
   Absent* absent = findAbsent(effect);
   if (absent == nullptr) return objects(effect);

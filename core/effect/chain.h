@@ -58,6 +58,9 @@ class Chain {
   // Instance::record().
   Report record(const Selection::Entry& entry, FrameInputs inputs);
 
+  // Number of resources that the instances have made and not destroyed.
+  size_t resources() const;
+
   // --- Plugins
 
   // Moves the chain to a fresh registry; call it while the old registry lives. All instances end.

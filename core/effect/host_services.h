@@ -44,6 +44,12 @@ class HostServices {
   // effect's fault; else `otherwise`.
   ErrorId failureId(ErrorId otherwise) const { return deviceFault_.value_or(otherwise); }
 
+  // Number of resources that the effect has made and not destroyed.
+  size_t resources() const {
+    return buffers_.own.size() + textures_.own.size() + samplers_.own.size() +
+           pipelines_.own.size();
+  }
+
   // What the effect reported in the last frame.
   const Report& report() const { return report_; }
 

@@ -93,6 +93,10 @@ void Instance::record(const FrameInputs& inputs) {
   }
 }
 
+size_t Instance::resources() const {
+  return state_->services.resources();
+}
+
 const Report& Instance::report() const {
   return state_->services.report();
 }

@@ -94,6 +94,8 @@ class Instance {
 
   // What the effect reported in the last record().
   const Report& report() const;
+  // Number of resources that the effect has made and not destroyed.
+  size_t resources() const;
 
  private:
   struct State;

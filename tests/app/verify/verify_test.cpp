@@ -57,9 +57,29 @@ TEST(Verify, TheProgramsOwnEffectsPassOnBothBackends) {
 
 TEST(Verify, FaultsAreNamedWithTheStep) {
   expectFault("nan", "opengl: nan: level = 1: nan.first holds 1 values that are not finite");
-  expectFault("leaves", "vulkan: leaves: 5184 of 5184 pixels of leaves.first are not written");
+  expectFault("leaves", "opengl: leaves: with its defaults: leaves.first: it is not written");
   expectFault("between", "opengl: between: with level=0.");
-  expectFault("range", "vulkan: range: level = 1: range.first holds 1 values outside 0 to 1");
+  expectFault("range", "opengl: range: level = 1: range.first holds 1 values outside 0 to 1");
+}
+
+// However many pictures show it, on both backends.
+TEST(Verify, OneCauseIsOneFault) {
+  for (const std::string name : {"nan", "leaves", "range", "clock", "leaks", "hoards"}) {
+    const Outcome outcome = verify(fs::path(PLUGINS) / ("verified_" + name + ".so"));
+    EXPECT_EQ(outcome.status, 1);
+    EXPECT_TRUE(holds(outcome.err, ": 1 faults in ")) << outcome.out << outcome.err;
+  }
+}
+
+TEST(Verify, WhatGrowsFromFrameToFrameIsAFault) {
+  expectFault("leaks", "opengl: leaks: the memory of the process grows by 16");
+  expectFault("hoards", "opengl: hoards: it keeps 16 more textures, buffers, samplers");
+}
+
+TEST(Verify, OutputsThatDependOnTheClockOrEarlierFramesAreAFault) {
+  expectFault("clock", "opengl: clock: 1 of 5184 values of clock.first: the output differs when");
+  expectFault("remembers",
+              "opengl: remembers: 1 of 5184 values of remembers.first: the output differs between");
 }
 
 TEST(Verify, WhatEndsTheProcessIsAFaultToo) {

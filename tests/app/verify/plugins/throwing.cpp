@@ -67,6 +67,9 @@ constexpr grisaille_effect_desc kEffect = {
     .destroy = destroy,
     .guard_band = nullptr,
     .objects = nullptr,
+    .needs = 0,
+    .input_count = 0,
+    .inputs = nullptr,
 };
 
 constexpr const grisaille_effect_desc* kEffects[] = {&kEffect};
