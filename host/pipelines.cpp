@@ -17,14 +17,14 @@ bool alike(std::span<const gpu::Specialization> a, std::span<const gpu::Speciali
 }
 
 // Notes the compute pipelines.
-class Lister final : public Forwarding {
+class Lister final : public gpu::ForwardingMaker {
  public:
-  using Forwarding::Forwarding;
+  using ForwardingMaker::ForwardingMaker;
 
   gpu::ComputePipeline createComputePipeline(const gpu::ComputePipelineDesc& desc) override {
     needed.push_back(
         {std::string(desc.label), desc.shader, {desc.constants.begin(), desc.constants.end()}});
-    return Forwarding::createComputePipeline(desc);
+    return ForwardingMaker::createComputePipeline(desc);
   }
 
   std::vector<NeededPipeline> needed;
@@ -61,7 +61,7 @@ gpu::ComputePipeline Pipelines::createComputePipeline(const gpu::ComputePipeline
                 .constants = {desc.constants.begin(), desc.constants.end()},
                 .pipeline = {},
                 .users = 1};
-  one.pipeline = Forwarding::createComputePipeline(desc);
+  one.pipeline = ForwardingMaker::createComputePipeline(desc);
   shared_.push_back(std::move(one));
   return shared_.back().pipeline;
 }
@@ -70,7 +70,7 @@ void Pipelines::destroy(gpu::ComputePipeline pipeline) {
   if (!pipeline) return;
   const auto found = std::ranges::find(shared_, pipeline, &Shared::pipeline);
   if (--found->users > 0) return;
-  Forwarding::destroy(pipeline);
+  ForwardingMaker::destroy(pipeline);
   shared_.erase(found);
 }
 

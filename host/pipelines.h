@@ -6,49 +6,20 @@
 #include <vector>
 
 #include "core/effect/values.h"
+#include "core/gpu/forwarding_maker.h"
 #include "core/gpu/host_device.h"
 #include "core/objects/object.h"
 
 namespace grisaille::host {
 
-// Makes resources with another maker.
-class Forwarding : public gpu::Maker {
- public:
-  // `to` must outlive this.
-  explicit Forwarding(gpu::Maker& to) : to_(to) {}
-
-  const gpu::DeviceInfo& info() const override { return to_.info(); }
-  gpu::Buffer createBuffer(const gpu::BufferDesc& desc) override { return to_.createBuffer(desc); }
-  gpu::Texture createTexture(const gpu::TextureDesc& desc) override {
-    return to_.createTexture(desc);
-  }
-  gpu::Sampler createSampler(const gpu::SamplerDesc& desc) override {
-    return to_.createSampler(desc);
-  }
-  gpu::ComputePipeline createComputePipeline(const gpu::ComputePipelineDesc& desc) override {
-    return to_.createComputePipeline(desc);
-  }
-  gpu::GraphicsPipeline createGraphicsPipeline(const gpu::GraphicsPipelineDesc& desc) override {
-    return to_.createGraphicsPipeline(desc);
-  }
-  void destroy(gpu::Buffer buffer) override { to_.destroy(buffer); }
-  void destroy(gpu::Texture texture) override { to_.destroy(texture); }
-  void destroy(gpu::Sampler sampler) override { to_.destroy(sampler); }
-  void destroy(gpu::ComputePipeline pipeline) override { to_.destroy(pipeline); }
-  void destroy(gpu::GraphicsPipeline pipeline) override { to_.destroy(pipeline); }
-
- private:
-  gpu::Maker& to_;
-};
-
 // The maker of the effects' resources. Equal compute pipelines are one, as long as anybody uses it.
-class Pipelines final : public Forwarding {
+class Pipelines final : public gpu::ForwardingMaker {
  public:
   // `device` must outlive this.
-  explicit Pipelines(gpu::HostDevice& device) : Forwarding(device) {}
+  explicit Pipelines(gpu::HostDevice& device) : ForwardingMaker(device) {}
 
   gpu::ComputePipeline createComputePipeline(const gpu::ComputePipelineDesc& desc) override;
-  using Forwarding::destroy;
+  using ForwardingMaker::destroy;
   void destroy(gpu::ComputePipeline pipeline) override;
 
  private:

@@ -63,9 +63,9 @@ SteadyCheck::Pictures SteadyCheck::read(frame::Renderer& renderer) const {
 }
 
 // The last of some frames of a new instance. `once`: the frame before must be equal to it.
-SteadyCheck::Pictures SteadyCheck::drawAfresh(bool once) {
-  chain_.end();
-  chain_.start(device_);
+SteadyCheck::Pictures SteadyCheck::drawAfresh(bool once, Variant variant) {
+  VariantMaker maker(device_, variant);
+  const effect::StartedChain started(chain_, maker);
   frame::Renderer renderer(device_, scene_);
   render(renderer, kFrames - 1);
   const Pictures before = read(renderer);
@@ -75,10 +75,32 @@ SteadyCheck::Pictures SteadyCheck::drawAfresh(bool once) {
                                      "differs between equal frames, which needs "
                                      "GRISAILLE_EFFECT_HISTORY: it depends on earlier frames, the "
                                      "clock, or memory that nothing wrote");
+  chain_.end();  // before the maker
   return same ? last : Pictures{};
 }
 
-bool SteadyCheck::compare(const Pictures& one, const Pictures& other, const std::string& fault) {
+// With shaders that do the same if they have no fault.
+void SteadyCheck::checkVariants(const Pictures& plain) {
+  report_.step(title_ + "running the threads of each workgroup in another order");
+  const bool steady = compare(plain, drawAfresh(false, Variant::kReversed),
+                              "depends on the order of threads: a race in shared memory or in a "
+                              "buffer, or atomics whose results are not sorted");
+  if (steady) {
+    report_.step(title_ + "counting the turns of loops");
+    compare(plain, drawAfresh(false, Variant::kCounted),
+            "depends on a loop that does not end within 50,000 turns", "loop");
+    report_.step(title_ + "leading indices out of range to other places");
+    compare(
+        drawAfresh(false, Variant::kFirst), drawAfresh(false, Variant::kLast),
+        "depends on an access out of range: an index past a storage buffer, or a texel outside of "
+        "an image or a fetched texture",
+        "range");
+  }
+  report_.conclude(title_ + "stays inside its buffers and images, in any order of threads");
+}
+
+bool SteadyCheck::compare(const Pictures& one, const Pictures& other, const std::string& fault,
+                          const char* cause) {
   bool all = true;
   for (size_t i = 0; i < outputs_.size(); ++i) {
     size_t different = 0;
@@ -91,7 +113,7 @@ bool SteadyCheck::compare(const Pictures& one, const Pictures& other, const std:
     report_.expect(different == 0,
                    fmt::format("{}{} of {} values of {}: the output {}", title_, different,
                                one[i].pixels.size(), outputs_[i], fault),
-                   outputs_[i] + fault);
+                   outputs_[i] + cause);
     all = all && different == 0;
   }
   return all;
@@ -100,8 +122,7 @@ bool SteadyCheck::compare(const Pictures& one, const Pictures& other, const std:
 // On a device without a driver: drivers and their validation keep memory of their own.
 void SteadyCheck::checkGrowth() {
   const std::unique_ptr<gpu::NullDevice> null = gpu::makeNullDevice();
-  chain_.end();
-  chain_.start(*null);
+  const effect::StartedChain started(chain_, *null);
   size_t moreResources = 0, moreBytes = 0;
   {
     frame::Renderer renderer(*null, scene_);
@@ -142,6 +163,7 @@ void SteadyCheck::run() {
               "that nothing wrote");
     }
     report_.conclude(title_ + "draws equal frames equally");
+    if (!first.empty() && device_.info().backend == "opengl") checkVariants(first);
     report_.step(title_ + "drawing many frames");
     checkGrowth();
   } catch (const Error& error) {

@@ -6,6 +6,7 @@
 #include <vector>
 
 #include "app/services/scene_services.h"
+#include "app/verify/shader_variants.h"
 #include "app/verify/verify.h"
 #include "core/effect/chain.h"
 #include "core/frame/renderer.h"
@@ -35,9 +36,11 @@ class SteadyCheck {
 
   void render(frame::Renderer& renderer, int frames);
   Pictures read(frame::Renderer& renderer) const;
-  Pictures drawAfresh(bool once);
-  // Returns whether the pictures are the same bit for bit.
-  bool compare(const Pictures& one, const Pictures& other, const std::string& fault);
+  Pictures drawAfresh(bool once, Variant variant = Variant::kPlain);
+  void checkVariants(const Pictures& plain);
+  // Returns whether the pictures are the same bit for bit. `cause`: which faults have one cause.
+  bool compare(const Pictures& one, const Pictures& other, const std::string& fault,
+               const char* cause = "unsteady");
   void checkGrowth();
 
   Report& report_;

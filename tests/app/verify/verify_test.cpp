@@ -64,7 +64,8 @@ TEST(Verify, FaultsAreNamedWithTheStep) {
 
 // However many pictures show it, on both backends.
 TEST(Verify, OneCauseIsOneFault) {
-  for (const std::string name : {"nan", "leaves", "range", "clock", "leaks", "hoards"}) {
+  for (const std::string name : {"nan", "leaves", "range", "clock", "leaks", "hoards", "reads_past",
+                                 "writes_beside", "races", "loops", "removed"}) {
     const Outcome outcome = verify(fs::path(PLUGINS) / ("verified_" + name + ".so"));
     EXPECT_EQ(outcome.status, 1);
     EXPECT_TRUE(holds(outcome.err, ": 1 faults in ")) << outcome.out << outcome.err;
@@ -74,6 +75,20 @@ TEST(Verify, OneCauseIsOneFault) {
 TEST(Verify, WhatGrowsFromFrameToFrameIsAFault) {
   expectFault("leaks", "opengl: leaks: the memory of the process grows by 16");
   expectFault("hoards", "opengl: hoards: it keeps 16 more textures, buffers, samplers");
+}
+
+TEST(Verify, FaultsOfShadersAreNamed) {
+  const std::string output = ".first: the output depends on ";
+  const auto expectHolds = [&](const std::string& name, const std::string& what) {
+    const Outcome outcome = verify(fs::path(PLUGINS) / ("verified_" + name + ".so"));
+    EXPECT_TRUE(holds(outcome.out, what)) << outcome.out;
+  };
+  expectHolds("reads_past", output + "an access out of range: an index past a storage buffer");
+  expectHolds("writes_beside", output + "an access out of range");
+  expectHolds("loops", output + "a loop that does not end");
+  expectHolds("races", output + "the order of threads: a race in shared memory");
+  expectFault("removed",
+              "opengl: removed: with its defaults: removed cannot record: dispatch: E1206");
 }
 
 TEST(Verify, OutputsThatDependOnTheClockOrEarlierFramesAreAFault) {
