@@ -219,6 +219,7 @@ void applyFrames(ApplyJob& job, LoadedFrame loaded, Warnings& warnings, gpu::Dev
                        .background = job.background,
                        .chain = &job.chain,
                        .outputs = names});
+      if (!renderer.leftOut().empty()) throw Error(renderer.leftOut().front().lacks);
       writeOutputs(job, number, loaded.camera, renderer);
     }
   }

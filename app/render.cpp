@@ -157,6 +157,16 @@ void printWritten(const RenderOptions& options, const RenderJob& job, int frames
   }
 }
 
+bool hasObjects(const effect::Chain& chain) {
+  return std::ranges::any_of(chain.objectLists(),
+                             [](const auto& list) { return list.second.size() > 0; });
+}
+
+// Throws what an effect lacks that is on but cannot run.
+void requireAll(const frame::Renderer& renderer) {
+  if (!renderer.leftOut().empty()) throw Error(renderer.leftOut().front().lacks);
+}
+
 // Renders and writes one frame after another with one renderer, so that effects with a history find
 // their frame before. A signal ends the sequence between two frames.
 void renderSequence(const RenderOptions& options, RenderJob& job, const frame::FrameDesc& desc,
@@ -173,6 +183,7 @@ void renderSequence(const RenderOptions& options, RenderJob& job, const frame::F
                      .text = fmt::format("frame {} of {}, {:.3f} s", done + 1, frames, seconds)});
       scene::pose(job.view.scene, {.animation = job.view.pose.animation, .seconds = seconds});
       renderer.render(desc);
+      requireAll(renderer);
       writeOutputs(job, done, renderer);
     }
   }
@@ -185,8 +196,7 @@ void renderSequence(const RenderOptions& options, RenderJob& job, const frame::F
 // Lets effects work on the objects that wait, and shows the progress. Frames of another size leave
 // the histories of effects as they are.
 void settleObjects(const frame::FrameDesc& desc, frame::Renderer& renderer) {
-  const auto& lists = desc.chain->objectLists();
-  if (std::ranges::all_of(lists, [](const auto& list) { return list.second.size() == 0; })) return;
+  if (!hasObjects(*desc.chain)) return;
   frame::FrameDesc small = desc;
   small.width = small.height = 16;
   small.patience = 0.5;
@@ -226,12 +236,14 @@ void renderFrames(const RenderOptions& options, RenderJob& job, gpu::Device& dev
     settleObjects(desc, renderer);
     if (!options.timings.empty()) device.takeTimes();  // those of its frames
     for (uint32_t i = 0; i < options.frames; ++i) renderer.render(desc);
+    requireAll(renderer);
     writeOutputs(job, 0, renderer);
     printWritten(options, job, 1);
   }
   if (job.owned) writeCoverage(options, job, services.rays());
   options.objects.save(job.chain);
-  if (renderer.report().waiting > 0) {
+  // Without objects, effects wait for more frames, which a history improves.
+  if (hasObjects(job.chain) && renderer.report().waiting > 0) {
     fmt::print(stderr, "warning: {} objects are not drawn: the rays that they need were not cast\n",
                renderer.report().waiting);
   }

@@ -7,6 +7,7 @@
 #include "shaders/host_clip_depth.h"
 #include "shaders/host_depth.h"
 #include "shaders/host_facet_normal.h"
+#include "shaders/host_motion.h"
 #include "shaders/host_normal.h"
 
 namespace grisaille::host {
@@ -15,6 +16,7 @@ namespace {
 #include "shaders/host_turns.h"
 
 GRISAILLE_CHECK_BLOCK_host_depth_Source(SourceBlock);
+GRISAILLE_CHECK_BLOCK_host_motion_Then(MotionBlock);
 
 struct KernelRow {
   const char* label;
@@ -24,17 +26,35 @@ constexpr KernelRow kRows[Kernels::kKernels] = {
     {"host depth", &grisaille_shader_host_depth},
     {"host clip depth", &grisaille_shader_host_clip_depth},
     {"host normal", &grisaille_shader_host_normal},
-    {"host facet normal", &grisaille_shader_host_facet_normal}};
+    {"host facet normal", &grisaille_shader_host_facet_normal},
+    {"host motion", &grisaille_shader_host_motion}};
 
 // Formats of the attachments, by grisaille_attachment. Clip depth has a colour format, because
 // storage images need one; shaders that sample it see no difference.
 constexpr gpu::Format kFormats[GRISAILLE_ATTACHMENT_COUNT] = {
     gpu::Format::kR32Float,    gpu::Format::kR32Float,    gpu::Format::kRgba16Float,
     gpu::Format::kRgba16Float, gpu::Format::kRgba16Float, gpu::Format::kR32Float,
-    gpu::Format::kRgba16Float, gpu::Format::kR32Float,    gpu::Format::kR32Float};
+    gpu::Format::kRgba16Float, gpu::Format::kR32Float,    gpu::Format::kR32Float,
+    gpu::Format::kRgba16Float};
 constexpr const char* kLabels[GRISAILLE_ATTACHMENT_COUNT] = {
     "clip depth", "depth",  "normal",    "base_colour", "facet_normal",
-    "back_depth", "motion", "thickness", "next_depth"};
+    "back_depth", "motion", "thickness", "next_depth",  "colour"};
+
+// Attachments that are copies of the host's textures, with their passes.
+struct Copied {
+  grisaille_attachment attachment;
+  const char* pass;
+};
+constexpr Copied kCopied[] = {{GRISAILLE_BASE_COLOUR, "host/base colour"},
+                              {GRISAILLE_THICKNESS, "host/thickness"},
+                              {GRISAILLE_COLOUR, "host/colour"}};
+
+bool has(uint32_t attachments, grisaille_attachment one) {
+  return (attachments & GRISAILLE_READS(one)) != 0;
+}
+
+// Format of the inputs that an effect reads by name.
+constexpr gpu::Format kNamedFormat = gpu::Format::kRgba16Float;
 
 // Not a grisaille_host_depth: the shader writes sky everywhere.
 constexpr int kNothing = -1;
@@ -79,10 +99,8 @@ gpu::Sampler Kernels::nearest() {
 }
 
 void Attachments::drop() {
-  for (gpu::Texture& target : targets_) {
-    device_.destroy(target);
-    target = {};
-  }
+  for (gpu::Texture& target : targets_) device_.destroy(std::exchange(target, {}));
+  for (gpu::Texture& target : named_) device_.destroy(std::exchange(target, {}));
 }
 
 void Attachments::resize(uint32_t width, uint32_t height) {
@@ -95,94 +113,122 @@ gpu::Format Attachments::formatOf(grisaille_attachment attachment) {
   return kFormats[attachment];
 }
 
-void Attachments::prepare(Kernels& kernels, uint32_t reads, bool normalsGiven, bool thickness) {
+void Attachments::prepare(Kernels& kernels, uint32_t reads, uint32_t given, bool named) {
   kernels.nearest();
   kernels.get(Kernels::kDepth);
-  if ((reads & GRISAILLE_READS(GRISAILLE_DEPTH)) != 0) kernels.get(Kernels::kClipDepth);
-  const bool facets = (reads & GRISAILLE_READS(GRISAILLE_FACET_NORMAL)) != 0;
-  const bool normals = (reads & GRISAILLE_READS(GRISAILLE_NORMAL)) != 0;
+  if (has(reads, GRISAILLE_DEPTH)) kernels.get(Kernels::kClipDepth);
+  const bool normals = has(reads, GRISAILLE_NORMAL), normalsGiven = has(given, GRISAILLE_NORMAL);
   if (normals && normalsGiven) kernels.get(Kernels::kNormal);
-  if (facets || (normals && !normalsGiven)) kernels.get(Kernels::kFacetNormal);
-  if ((reads & GRISAILLE_READS(GRISAILLE_BASE_COLOUR)) != 0) {
-    kernels.turn(kFormats[GRISAILLE_BASE_COLOUR]);
+  if (has(reads, GRISAILLE_FACET_NORMAL) || (normals && !normalsGiven)) {
+    kernels.get(Kernels::kFacetNormal);
   }
-  if (thickness) kernels.turn(kFormats[GRISAILLE_THICKNESS]);
+  for (const Copied& one : kCopied) {
+    if (has(reads & given, one.attachment)) kernels.turn(kFormats[one.attachment]);
+  }
+  if (has(reads & given, GRISAILLE_MOTION)) kernels.get(Kernels::kMotion);
+  if (named) kernels.turn(kNamedFormat);
+}
+
+void Attachments::fit(gpu::Texture& target, bool wanted, const char* label, gpu::Format format) {
+  if (wanted && !target) {
+    target = device_.createTexture(
+        {.label = label, .format = format, .width = width_, .height = height_, .usage = kComputed});
+  } else if (!wanted && target) {
+    device_.destroy(std::exchange(target, {}));
+  }
 }
 
 void Attachments::prepare(uint32_t reads, const Textures& textures) {
-  prepare(kernels_, reads, bool{textures.normal}, bool{textures.thickness});
-  reads |= GRISAILLE_READS(GRISAILLE_VIEW_DEPTH);  // all other attachments are computed with it
-  reads &= ~GRISAILLE_READS(GRISAILLE_MOTION);     // hosts give none
-  if (!textures.thickness) reads &= ~GRISAILLE_READS(GRISAILLE_THICKNESS);
-  if (!textures.nextDepth) reads &= ~GRISAILLE_READS(GRISAILLE_NEXT_DEPTH);
-  for (size_t i = 0; i < targets_.size(); ++i) {
-    const bool read = (reads & GRISAILLE_READS(i)) != 0;
-    if (read && !targets_[i]) {
-      targets_[i] = device_.createTexture({.label = kLabels[i],
-                                           .format = kFormats[i],
-                                           .width = width_,
-                                           .height = height_,
-                                           .usage = kComputed});
-    } else if (!read && targets_[i]) {
-      device_.destroy(std::exchange(targets_[i], {}));
-    }
+  // Attachments that an effect does without if the host has no texture for them.
+  constexpr uint32_t kOptional = GRISAILLE_READS(GRISAILLE_THICKNESS) |
+                                 GRISAILLE_READS(GRISAILLE_NEXT_DEPTH) |
+                                 GRISAILLE_READS(GRISAILLE_MOTION);
+  uint32_t given = 0;
+  for (size_t i = 0; i < textures.attachments.size(); ++i) {
+    if (textures.attachments[i]) given |= GRISAILLE_READS(i);
   }
+  const auto named = std::span(textures.named).first(textures.namedCount);
+  prepare(kernels_, reads, given,
+          std::ranges::any_of(named, [](gpu::Texture texture) { return bool{texture}; }));
+  reads |= GRISAILLE_READS(GRISAILLE_VIEW_DEPTH);  // all other attachments are computed with it
+  reads &= given | ~kOptional;
+  for (size_t i = 0; i < targets_.size(); ++i) {
+    fit(targets_[i], (reads & GRISAILLE_READS(i)) != 0, kLabels[i], kFormats[i]);
+  }
+  namedCount_ = named.size();
+  for (size_t i = 0; i < named.size(); ++i) fit(named_[i], bool{named[i]}, "input", kNamedFormat);
 }
 
 void Attachments::dispatch(gpu::Commands& commands, std::string_view label,
                            gpu::ComputePipeline pipeline, gpu::BufferRange source,
-                           std::array<gpu::Texture, 2> from, gpu::Texture to) {
-  const std::array bindings = {gpu::uniformBinding(0, source), gpu::imageBinding(0, to),
-                               gpu::textureBinding(0, {.texture = from[0]}, kernels_.nearest()),
-                               gpu::textureBinding(1, {.texture = from[1]}, kernels_.nearest())};
+                           std::array<gpu::Texture, 2> from, gpu::Texture to,
+                           gpu::BufferRange second) {
+  std::array<gpu::Binding, 5> bindings = {
+      gpu::uniformBinding(0, source), gpu::imageBinding(0, to),
+      gpu::textureBinding(0, {.texture = from[0]}, kernels_.nearest())};
+  size_t count = 3;
+  if (from[1]) {
+    bindings[count++] = gpu::textureBinding(1, {.texture = from[1]}, kernels_.nearest());
+  }
+  if (second.buffer) bindings[count++] = gpu::uniformBinding(1, second);
   commands.beginPass(label);
   commands.dispatch({.pipeline = pipeline,
-                     .bindings = std::span(bindings).first(from[1] ? 4 : 3),
+                     .bindings = std::span(bindings).first(count),
                      .groups = {groups(width_), groups(height_), 1}});
   commands.endPass();
 }
 
 void Attachments::record(gpu::Commands& commands, const SourceBlock& source,
-                         const Textures& textures) {
+                         const MotionBlock& motion, const Textures& textures) {
+  const auto& given = textures.attachments;
   const gpu::BufferRange block = commands.uniform(std::as_bytes(std::span(&source, 1)));
   const gpu::Texture depth = targets_[GRISAILLE_VIEW_DEPTH];
-  dispatch(commands, "host/depth", kernels_.get(Kernels::kDepth), block, {textures.depth, {}},
-           depth);
+  dispatch(commands, "host/depth", kernels_.get(Kernels::kDepth), block,
+           {given[GRISAILLE_DEPTH], {}}, depth);
   if (const gpu::Texture back = targets_[GRISAILLE_BACK_DEPTH]) {
     SourceBlock behind = source;
-    if (!textures.backDepth) behind.mode.x = kNothing;
+    const gpu::Texture from = given[GRISAILLE_BACK_DEPTH];
+    if (!from) behind.mode.x = kNothing;
     dispatch(commands, "host/back depth", kernels_.get(Kernels::kDepth),
              commands.uniform(std::as_bytes(std::span(&behind, 1))),
-             {textures.backDepth ? textures.backDepth : textures.depth, {}}, back);
+             {from ? from : given[GRISAILLE_DEPTH], {}}, back);
   }
   if (const gpu::Texture next = targets_[GRISAILLE_NEXT_DEPTH]) {
     dispatch(commands, "host/next depth", kernels_.get(Kernels::kDepth), block,
-             {textures.nextDepth, {}}, next);
+             {given[GRISAILLE_NEXT_DEPTH], {}}, next);
   }
   if (const gpu::Texture clip = targets_[GRISAILLE_DEPTH]) {
     dispatch(commands, "host/clip depth", kernels_.get(Kernels::kClipDepth), block, {depth, {}},
              clip);
   }
+  recordNormals(commands, block, given[GRISAILLE_NORMAL]);
+  if (const gpu::Texture to = targets_[GRISAILLE_MOTION]) {
+    dispatch(commands, "host/motion", kernels_.get(Kernels::kMotion), block,
+             {given[GRISAILLE_MOTION], depth}, to,
+             commands.uniform(std::as_bytes(std::span(&motion, 1))));
+  }
+  for (const Copied& one : kCopied) {
+    const gpu::Texture to = targets_[one.attachment];
+    if (to) copy(commands, block, given[one.attachment], to, kFormats[one.attachment], one.pass);
+  }
+  for (size_t i = 0; i < namedCount_; ++i) {
+    if (named_[i]) copy(commands, block, textures.named[i], named_[i], kNamedFormat, "host/input");
+  }
+}
+
+// `normals`: the host's; null: facet normals stand for them.
+void Attachments::recordNormals(gpu::Commands& commands, gpu::BufferRange source,
+                                gpu::Texture normals) {
+  const gpu::Texture depth = targets_[GRISAILLE_VIEW_DEPTH];
   const gpu::Texture normal = targets_[GRISAILLE_NORMAL], facet = targets_[GRISAILLE_FACET_NORMAL];
-  if (normal && textures.normal) {
-    dispatch(commands, "host/normal", kernels_.get(Kernels::kNormal), block,
-             {textures.normal, depth}, normal);
+  if (normal && normals) {
+    dispatch(commands, "host/normal", kernels_.get(Kernels::kNormal), source, {normals, depth},
+             normal);
   }
-  if (facet || (normal && !textures.normal)) {
-    const auto fill = [&](gpu::Texture target) {
-      dispatch(commands, "host/facet normal", kernels_.get(Kernels::kFacetNormal), block,
-               {depth, {}}, target);
-    };
-    if (facet) fill(facet);
-    if (normal && !textures.normal) fill(normal);
-  }
-  if (const gpu::Texture colour = targets_[GRISAILLE_BASE_COLOUR]) {
-    copy(commands, block, textures.baseColour, colour, kFormats[GRISAILLE_BASE_COLOUR],
-         "host/base colour");
-  }
-  if (const gpu::Texture thickness = targets_[GRISAILLE_THICKNESS]) {
-    copy(commands, block, textures.thickness, thickness, kFormats[GRISAILLE_THICKNESS],
-         "host/thickness");
+  for (const gpu::Texture target : {facet, normals ? gpu::Texture{} : normal}) {
+    if (!target) continue;
+    dispatch(commands, "host/facet normal", kernels_.get(Kernels::kFacetNormal), source,
+             {depth, {}}, target);
   }
 }
 

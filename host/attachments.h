@@ -4,6 +4,7 @@
 #pragma once
 
 #include <array>
+#include <span>
 #include <string_view>
 
 #include "core/gpu/host_device.h"
@@ -12,9 +13,14 @@
 
 namespace grisaille::host {
 
+constexpr size_t kMostInputs = 16;  // of an effect
+
 // The host's textures; all but depth may be null.
 struct Textures {
-  gpu::Texture depth, normal, backDepth, nextDepth, baseColour, thickness;
+  // By grisaille_attachment; GRISAILLE_DEPTH is depth of any kind.
+  std::array<gpu::Texture, GRISAILLE_ATTACHMENT_COUNT> attachments;
+  std::array<gpu::Texture, kMostInputs> named;  // by index in the effect's table of inputs
+  size_t namedCount = 0;                        // inputs of that table
 };
 
 // The pipelines that convert them, one set per device; each is created on first use.
@@ -25,7 +31,7 @@ class Kernels {
   Kernels(const Kernels&) = delete;
   Kernels& operator=(const Kernels&) = delete;
 
-  enum Kernel : uint8_t { kDepth, kClipDepth, kNormal, kFacetNormal, kKernels };
+  enum Kernel : uint8_t { kDepth, kClipDepth, kNormal, kFacetNormal, kMotion, kKernels };
   gpu::ComputePipeline get(Kernel kernel);
   // `format`: of the texture that the pipeline writes.
   gpu::ComputePipeline turn(gpu::Format format);
@@ -51,16 +57,17 @@ class Attachments {
   // The format of an attachment.
   static gpu::Format formatOf(grisaille_attachment attachment);
 
-  // Creates the pipelines that fill the attachments of `reads`. `normals`, `thickness`: whether the
-  // host gives these textures.
-  static void prepare(Kernels& kernels, uint32_t reads, bool normals, bool thickness);
+  // Creates the pipelines that fill the attachments of `reads` from the textures of `given`; both
+  // are combinations of GRISAILLE_READS. `named`: whether the effect reads inputs by name.
+  static void prepare(Kernels& kernels, uint32_t reads, uint32_t given, bool named);
 
   // Creates the missing attachments of `reads`, a combination of GRISAILLE_READS, and destroys the
   // others. Throws kOutOfDeviceMemory.
   void prepare(uint32_t reads, const Textures& textures);
 
   // Fills the prepared attachments. Call it outside a pass.
-  void record(gpu::Commands& commands, const SourceBlock& source, const Textures& textures);
+  void record(gpu::Commands& commands, const SourceBlock& source, const MotionBlock& motion,
+              const Textures& textures);
 
   // Copies a picture, and flips its rows if `source` says that the host's rows begin at the bottom.
   // `format` is the format of `to`. Call it outside a pass.
@@ -69,16 +76,23 @@ class Attachments {
 
   // Null for an attachment that was not prepared.
   gpu::Texture get(grisaille_attachment attachment) const { return targets_[attachment]; }
+  // One per input of the effect's table; null: missing.
+  std::span<const gpu::Texture> named() const { return std::span(named_).first(namedCount_); }
 
  private:
   void drop();
+  void fit(gpu::Texture& target, bool wanted, const char* label, gpu::Format format);
   void dispatch(gpu::Commands& commands, std::string_view label, gpu::ComputePipeline pipeline,
-                gpu::BufferRange source, std::array<gpu::Texture, 2> from, gpu::Texture to);
+                gpu::BufferRange source, std::array<gpu::Texture, 2> from, gpu::Texture to,
+                gpu::BufferRange second = {});
+  void recordNormals(gpu::Commands& commands, gpu::BufferRange source, gpu::Texture normals);
 
   gpu::HostDevice& device_;
   Kernels& kernels_;
   uint32_t width_ = 0, height_ = 0;
   std::array<gpu::Texture, GRISAILLE_ATTACHMENT_COUNT> targets_;
+  std::array<gpu::Texture, kMostInputs> named_;
+  size_t namedCount_ = 0;
 };
 
 }  // namespace grisaille::host

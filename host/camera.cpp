@@ -162,6 +162,11 @@ View viewOf(const grisaille_host_frame& frame, const glm::uvec2& size, uint32_t 
   readView(camera, seen);
   const Projection projection = projectionOf(camera);
   readPixels(projection, seen);
+  seen.jitter = {camera.jitter[0], camera.jitter[1]};
+  for (int i = 0; i < 2; ++i) {
+    if (std::abs(seen.jitter[i]) <= 1) continue;
+    refuse("jitter[{}] is {} pixels, not from -1 to 1", i, seen.jitter[i]);
+  }
   const Buffer buffer = bufferOf(projection, camera.clip);
   double far = 0;
   const double back = readPlanes(buffer, seen, far);
@@ -178,6 +183,24 @@ View viewOf(const grisaille_host_frame& frame, const glm::uvec2& size, uint32_t 
                  seen.orthographic ? 1 : 0, rows == GRISAILLE_HOST_ROWS_FROM_BOTTOM ? 1 : 0,
                  frame.normal_encoding | frame.normal_space << 1);
   return view;
+}
+
+MotionBlock motionOf(const grisaille_host_frame& frame, const scene::View& now,
+                     const scene::View* then) {
+  checkEnum(frame.motion_jittered, 2, "frame.motion_jittered");
+  for (const double scale : frame.motion_scale) {
+    if (std::isfinite(scale)) continue;
+    throw Error(ErrorId::kHostValue, "frame.motion_scale holds {}, must be finite", scale);
+  }
+  const scene::View& before = then != nullptr ? *then : now;
+  const glm::dvec2 added = frame.motion_jittered != 0 ? glm::dvec2(0) : before.jitter - now.jitter;
+  return {.then_from_view = glm::mat4(scene::thenFromView(before, now)),
+          .then_pixel_from_view =
+              glm::vec4(glm::dvec4(1.0 / before.scale, -before.offset / before.scale)),
+          .shift =
+              glm::vec4(glm::dvec4(frame.motion_scale[0], frame.motion_scale[1], added.x, added.y)),
+          .known = then != nullptr ? 1.0f : 0.0f,
+          .then_orthographic = before.orthographic ? 1.0f : 0.0f};
 }
 
 }  // namespace grisaille::host

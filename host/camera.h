@@ -18,6 +18,15 @@ struct SourceBlock {
   glm::ivec4 mode;
 };
 
+// The std140 block of shaders/host/motion.comp, which documents the fields.
+struct MotionBlock {
+  glm::mat4 then_from_view;
+  glm::vec4 then_pixel_from_view;
+  glm::vec4 shift;
+  float known;
+  float then_orthographic;
+};
+
 struct View {
   scene::View seen;    // what effects get
   SourceBlock source;  // for this view and the frame's textures
@@ -25,5 +34,10 @@ struct View {
 
 // Throws kHostCamera, kHostValue, kHostNull, kHostStruct.
 View viewOf(const grisaille_host_frame& frame, const glm::uvec2& size, uint32_t rows);
+
+// How to read frame.motion. `then`: the view of the previous frame; null: it is not known. Throws
+// kHostValue.
+MotionBlock motionOf(const grisaille_host_frame& frame, const scene::View& now,
+                     const scene::View* then);
 
 }  // namespace grisaille::host

@@ -26,9 +26,12 @@ T& present(T* given, const char* name) {
 template <typename Struct>
 constexpr std::array<size_t, 0> kEarlierSizes = {};
 template <>
-constexpr inline std::array<size_t, 3> kEarlierSizes<grisaille_host_frame> = {
+constexpr inline std::array<size_t, 4> kEarlierSizes<grisaille_host_frame> = {
     offsetof(grisaille_host_frame, thickness), offsetof(grisaille_host_frame, next_depth),
-    offsetof(grisaille_host_frame, patience)};
+    offsetof(grisaille_host_frame, patience), offsetof(grisaille_host_frame, colour)};
+template <>
+constexpr inline std::array<size_t, 1> kEarlierSizes<grisaille_host_camera> = {
+    offsetof(grisaille_host_camera, jitter)};
 template <>
 constexpr inline std::array<size_t, 1> kEarlierSizes<grisaille_host_vulkan> = {
     offsetof(grisaille_host_vulkan, pipeline_cache)};

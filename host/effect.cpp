@@ -141,6 +141,7 @@ void grisaille_host_effect::resize(uint32_t newWidth, uint32_t newHeight) {
   shown_ = std::move(shown);
   width = newWidth;
   height = newHeight;
+  before_.reset();
   attachments_.resize(width, height);
 }
 
@@ -153,26 +154,60 @@ grisaille::objects::ObjectList& grisaille_host_effect::objects() {
 
 host::Textures grisaille_host_effect::texturesOf(const grisaille_host_frame& frame,
                                                  uint32_t reads) const {
+  struct Given {
+    grisaille_attachment attachment;
+    const grisaille_host_texture* texture;
+    uint32_t channels;
+    const char* name;
+    const char* needed = nullptr;  // what an effect that reads it cannot do without
+  };
+  const Given all[] = {
+      {GRISAILLE_DEPTH, &host::present(frame.depth, "frame.depth"), 1, "frame.depth"},
+      {GRISAILLE_NORMAL, frame.normal, 3, "frame.normal"},
+      {GRISAILLE_BACK_DEPTH, frame.back_depth, 1, "frame.back_depth"},
+      {GRISAILLE_NEXT_DEPTH, frame.next_depth, 1, "frame.next_depth"},
+      {GRISAILLE_THICKNESS, frame.thickness, 1, "frame.thickness"},
+      {GRISAILLE_BASE_COLOUR, frame.base_colour, 3, "frame.base_colour", "base colours"},
+      {GRISAILLE_COLOUR, frame.colour, 3, "frame.colour", "the lit colour"},
+      {GRISAILLE_MOTION, frame.motion, 2, "frame.motion"}};
+  const grisaille_effect_desc& effect = *values().effect().desc;
   host::Textures textures;
-  textures.depth =
-      host::checked(&host::present(frame.depth, "frame.depth"), *this, 1, "frame.depth");
-  textures.normal = host::checked(frame.normal, *this, 3, "frame.normal");
-  textures.backDepth = host::checked(frame.back_depth, *this, 1, "frame.back_depth");
-  textures.nextDepth = host::checked(frame.next_depth, *this, 1, "frame.next_depth");
-  textures.thickness = host::checked(frame.thickness, *this, 1, "frame.thickness");
-  textures.baseColour = host::checked(frame.base_colour, *this, 3, "frame.base_colour");
-  const auto read = [&](grisaille_attachment a) { return (reads & GRISAILLE_READS(a)) != 0; };
-  if (!read(GRISAILLE_NORMAL)) textures.normal = {};
-  if (!read(GRISAILLE_BACK_DEPTH)) textures.backDepth = {};
-  if (!read(GRISAILLE_NEXT_DEPTH)) textures.nextDepth = {};
-  if (!read(GRISAILLE_THICKNESS)) textures.thickness = {};
-  if (!read(GRISAILLE_BASE_COLOUR)) {
-    textures.baseColour = {};
-  } else if (!textures.baseColour) {
-    throw Error(ErrorId::kHostMissing, "{} reads base colours, but frame.base_colour is null",
-                values().effect().desc->key);
+  for (const Given& one : all) {
+    const gpu::Texture texture = host::checked(one.texture, *this, one.channels, one.name);
+    const bool read = (reads & GRISAILLE_READS(one.attachment)) != 0;
+    if (read && !texture && one.needed != nullptr) {
+      throw Error(ErrorId::kHostMissing, "{} reads {}, but {} is null", effect.key, one.needed,
+                  one.name);
+    }
+    if (read && !texture && (effect.needs & GRISAILLE_READS(one.attachment)) != 0) {
+      throw Error(ErrorId::kHostMissing, "{} needs {}, which is null", effect.key, one.name);
+    }
+    if (read || one.attachment == GRISAILLE_DEPTH) textures.attachments[one.attachment] = texture;
   }
+  findNamed(frame, textures);
   return textures;
+}
+
+void grisaille_host_effect::findNamed(const grisaille_host_frame& frame,
+                                      host::Textures& textures) const {
+  if (frame.input_count > 0) host::present(frame.inputs, "frame.inputs");
+  const std::span given(frame.inputs, frame.input_count);
+  for (const grisaille_host_input& input : given) {
+    host::present(input.key, "the key of an input");
+    host::present(input.texture, "the texture of an input");
+  }
+  for (const grisaille_input_desc& input : values().effect().inputs()) {
+    const std::string_view key = input.key;
+    const auto found = std::ranges::find_if(
+        given, [&](const grisaille_host_input& one) { return key == one.key; });
+    gpu::Texture& texture = textures.named[textures.namedCount++];
+    if (found != given.end()) {
+      texture = host::checked(found->texture, *this, 1, input.key);
+    } else if ((input.flags & GRISAILLE_INPUT_REQUIRED) != 0) {
+      throw Error(ErrorId::kHostMissing, "{} needs the input {}, which frame.inputs lacks",
+                  values().effect().key(), key);
+    }
+  }
 }
 
 void grisaille_host_effect::record(const grisaille_host_frame& frame) {
@@ -185,22 +220,26 @@ void grisaille_host_effect::record(const grisaille_host_frame& frame) {
     throw Error(ErrorId::kHostValue, "frame.patience is {}, must be 0 or more", frame.patience);
   }
   const host::Textures textures = texturesOf(frame, reads);
+  const host::MotionBlock motion = host::motionOf(frame, view.seen, before_ ? &*before_ : nullptr);
   attachments_.prepare(reads, textures);
-  std::array<gpu::Texture, 6> read;
+  std::array<gpu::Texture, GRISAILLE_ATTACHMENT_COUNT + host::kMostInputs> read;
   size_t count = 0;
-  for (const gpu::Texture texture : {textures.depth, textures.normal, textures.backDepth,
-                                     textures.nextDepth, textures.baseColour, textures.thickness}) {
+  for (const gpu::Texture texture : textures.attachments) {
+    if (texture) read[count++] = texture;
+  }
+  for (const gpu::Texture texture : textures.named) {
     if (texture) read[count++] = texture;
   }
   gpu::Commands& commands =
       device.gpu->begin(frame.command_buffer, frame.number, std::span(read).first(count));
   try {
-    recordInto(commands, view, textures, reads, patience);
+    recordInto(commands, view, motion, textures, reads, patience);
   } catch (...) {
     device.gpu->end(shown_);
     throw;
   }
   device.gpu->end(shown_);
+  before_ = view.seen;
 }
 
 void grisaille_host_effect::release(std::vector<gpu::ComputePipeline>& pipelines) {
@@ -212,26 +251,28 @@ void grisaille_host_effect::prepare(const grisaille_host_prepare& how) {
   device.gpu->requireUsable();
   host::checkEnum(how.orthographic, 2, "how.orthographic");
   host::checkReserved(how.reserved, "how.reserved");
-  const auto given = [&](grisaille_attachment a) { return (how.inputs & GRISAILLE_READS(a)) != 0; };
-  // The library computes the others from depth; hosts give no motion.
-  constexpr uint32_t kOptional =
-      GRISAILLE_READS(GRISAILLE_NEXT_DEPTH) | GRISAILLE_READS(GRISAILLE_THICKNESS);
+  // The library computes the others from depth.
+  constexpr uint32_t kOptional = GRISAILLE_READS(GRISAILLE_NEXT_DEPTH) |
+                                 GRISAILLE_READS(GRISAILLE_THICKNESS) |
+                                 GRISAILLE_READS(GRISAILLE_MOTION);
   const uint32_t reads = values().effect().reads(values().all().data(), wanted_);
   const grisaille::objects::ObjectList* list = chain_.objects(values().effect().key());
-  const std::vector<host::NeededPipeline> needed = host::pipelinesOf(
-      values(), list != nullptr ? list->view() : grisaille::objects::View{},
-      {.width = width,
-       .height = height,
-       .wanted = wanted_,
-       .attachments = (~kOptional | how.inputs) & ~GRISAILLE_READS(GRISAILLE_MOTION),
-       .orthographic = how.orthographic != 0});
+  const std::vector<host::NeededPipeline> needed =
+      host::pipelinesOf(values(), list != nullptr ? list->view() : grisaille::objects::View{},
+                        {.width = width,
+                         .height = height,
+                         .wanted = wanted_,
+                         .attachments = (~kOptional | values().effect().desc->needs | how.inputs),
+                         .orthographic = how.orthographic != 0});
   // The library's own pipelines are the first step.
   const auto count = static_cast<uint32_t>(needed.size() + 1);
   const auto tell = [&](uint32_t done) {
     if (how.progress != nullptr) how.progress(how.context, done, count);
   };
-  host::Attachments::prepare(device.kernels, reads, given(GRISAILLE_NORMAL),
-                             given(GRISAILLE_THICKNESS));
+  constexpr uint32_t kNeeded =
+      GRISAILLE_READS(GRISAILLE_BASE_COLOUR) | GRISAILLE_READS(GRISAILLE_COLOUR);
+  host::Attachments::prepare(device.kernels, reads, how.inputs | kNeeded,
+                             values().effect().desc->input_count > 0);
   tell(1);
   std::vector<gpu::ComputePipeline> pipelines;
   pipelines.reserve(needed.size());
@@ -257,6 +298,7 @@ void grisaille_host_effect::dropped() {
   chain_.start(device.pipelines);
   chain_.create();
   report_ = {};
+  before_.reset();
   attachments_.resize(width, height);
   for (const Picture& picture : pictures_) {
     if (picture.made) device.gpu->forget(picture.made);
@@ -273,9 +315,10 @@ void grisaille_host_effect::drawAt(std::span<const grisaille_point> points,
 }
 
 void grisaille_host_effect::recordInto(gpu::Commands& commands, const host::View& view,
+                                       const host::MotionBlock& motion,
                                        const host::Textures& textures, uint32_t reads,
                                        double patience) {
-  attachments_.record(commands, view.source, textures);
+  attachments_.record(commands, view.source, motion, textures);
   const grisaille::frame::ViewBlock block = grisaille::frame::viewBlock(view.seen);
   const grisaille_view seen = grisaille::frame::effectView(view.seen);
   grisaille::effect::FrameInputs inputs;
@@ -289,6 +332,7 @@ void grisaille_host_effect::recordInto(gpu::Commands& commands, const host::View
     inputs.attachments[i] = attachments_.get(static_cast<grisaille_attachment>(i));
   }
   inputs.outputs = made_;
+  inputs.named = attachments_.named();
   if (device.rays) inputs.services.rays = &device.rays;
   if (device.pictures) inputs.services.pictures = &device.pictures;
   inputs.patience = patience;

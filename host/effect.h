@@ -2,6 +2,7 @@
 // The object behind grisaille_host_effect.
 #pragma once
 
+#include <optional>
 #include <span>
 #include <string_view>
 #include <vector>
@@ -44,7 +45,9 @@ struct grisaille_host_effect {
   void drop(std::vector<Picture>& pictures);
   void makePictures(std::vector<Picture>& pictures, uint32_t ofWidth, uint32_t ofHeight);
   grisaille::host::Textures texturesOf(const grisaille_host_frame& frame, uint32_t reads) const;
+  void findNamed(const grisaille_host_frame& frame, grisaille::host::Textures& textures) const;
   void recordInto(grisaille::gpu::Commands& commands, const grisaille::host::View& view,
+                  const grisaille::host::MotionBlock& motion,
                   const grisaille::host::Textures& textures, uint32_t reads, double patience);
 
   void release(std::vector<grisaille::gpu::ComputePipeline>& pipelines);
@@ -56,5 +59,6 @@ struct grisaille_host_effect {
   std::vector<Picture> pictures_;  // one per output
   std::vector<grisaille::gpu::Texture> made_, shown_;
   grisaille::host::Attachments attachments_;
+  std::optional<grisaille::scene::View> before_;           // of the last recording, at this size
   std::vector<grisaille::gpu::ComputePipeline> prepared_;  // kept until the next prepare()
 };

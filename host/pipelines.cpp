@@ -16,39 +16,18 @@ bool alike(std::span<const gpu::Specialization> a, std::span<const gpu::Speciali
       a, b, [](const auto& x, const auto& y) { return x.id == y.id && x.bits == y.bits; });
 }
 
-// A device without a driver that notes the compute pipelines.
-class Lister final : public gpu::Maker {
+// Notes the compute pipelines.
+class Lister final : public gpu::ForwardingMaker {
  public:
-  explicit Lister(gpu::NullDevice& device) : device_(device) {}
+  using ForwardingMaker::ForwardingMaker;
 
-  const gpu::DeviceInfo& info() const override { return device_.info(); }
-  gpu::Buffer createBuffer(const gpu::BufferDesc& desc) override {
-    return device_.createBuffer(desc);
-  }
-  gpu::Texture createTexture(const gpu::TextureDesc& desc) override {
-    return device_.createTexture(desc);
-  }
-  gpu::Sampler createSampler(const gpu::SamplerDesc& desc) override {
-    return device_.createSampler(desc);
-  }
   gpu::ComputePipeline createComputePipeline(const gpu::ComputePipelineDesc& desc) override {
     needed.push_back(
         {std::string(desc.label), desc.shader, {desc.constants.begin(), desc.constants.end()}});
-    return device_.createComputePipeline(desc);
+    return ForwardingMaker::createComputePipeline(desc);
   }
-  gpu::GraphicsPipeline createGraphicsPipeline(const gpu::GraphicsPipelineDesc& desc) override {
-    return device_.createGraphicsPipeline(desc);
-  }
-  void destroy(gpu::Buffer buffer) override { device_.destroy(buffer); }
-  void destroy(gpu::Texture texture) override { device_.destroy(texture); }
-  void destroy(gpu::Sampler sampler) override { device_.destroy(sampler); }
-  void destroy(gpu::ComputePipeline pipeline) override { device_.destroy(pipeline); }
-  void destroy(gpu::GraphicsPipeline pipeline) override { device_.destroy(pipeline); }
 
   std::vector<NeededPipeline> needed;
-
- private:
-  gpu::NullDevice& device_;
 };
 
 // Every ray meets a surface: work that waits for rays goes on, and needs its pipelines.
@@ -82,7 +61,7 @@ gpu::ComputePipeline Pipelines::createComputePipeline(const gpu::ComputePipeline
                 .constants = {desc.constants.begin(), desc.constants.end()},
                 .pipeline = {},
                 .users = 1};
-  one.pipeline = device_.createComputePipeline(desc);
+  one.pipeline = ForwardingMaker::createComputePipeline(desc);
   shared_.push_back(std::move(one));
   return shared_.back().pipeline;
 }
@@ -91,7 +70,7 @@ void Pipelines::destroy(gpu::ComputePipeline pipeline) {
   if (!pipeline) return;
   const auto found = std::ranges::find(shared_, pipeline, &Shared::pipeline);
   if (--found->users > 0) return;
-  device_.destroy(pipeline);
+  ForwardingMaker::destroy(pipeline);
   shared_.erase(found);
 }
 
@@ -132,6 +111,12 @@ std::vector<NeededPipeline> pipelinesOf(const effect::Values& values, const obje
     outputs.push_back(wanted ? texture(effect::formatOf(output.format)) : gpu::Texture{});
   }
   inputs.outputs = outputs;
+  std::vector<gpu::Texture> named;
+  for (const grisaille_input_desc& input : values.effect().inputs()) {
+    const bool required = (input.flags & GRISAILLE_INPUT_REQUIRED) != 0;
+    named.push_back(required ? texture(gpu::Format::kRgba16Float) : gpu::Texture{});
+  }
+  inputs.named = named;
   effect::Instance instance(lister, values.effect());
   gpu::Commands& commands = device->begin();
   inputs.commands = &commands;

@@ -6,36 +6,21 @@
 #include <vector>
 
 #include "core/effect/values.h"
+#include "core/gpu/forwarding_maker.h"
 #include "core/gpu/host_device.h"
 #include "core/objects/object.h"
 
 namespace grisaille::host {
 
 // The maker of the effects' resources. Equal compute pipelines are one, as long as anybody uses it.
-class Pipelines final : public gpu::Maker {
+class Pipelines final : public gpu::ForwardingMaker {
  public:
   // `device` must outlive this.
-  explicit Pipelines(gpu::HostDevice& device) : device_(device) {}
+  explicit Pipelines(gpu::HostDevice& device) : ForwardingMaker(device) {}
 
-  const gpu::DeviceInfo& info() const override { return device_.info(); }
-  gpu::Buffer createBuffer(const gpu::BufferDesc& desc) override {
-    return device_.createBuffer(desc);
-  }
-  gpu::Texture createTexture(const gpu::TextureDesc& desc) override {
-    return device_.createTexture(desc);
-  }
-  gpu::Sampler createSampler(const gpu::SamplerDesc& desc) override {
-    return device_.createSampler(desc);
-  }
   gpu::ComputePipeline createComputePipeline(const gpu::ComputePipelineDesc& desc) override;
-  gpu::GraphicsPipeline createGraphicsPipeline(const gpu::GraphicsPipelineDesc& desc) override {
-    return device_.createGraphicsPipeline(desc);
-  }
-  void destroy(gpu::Buffer buffer) override { device_.destroy(buffer); }
-  void destroy(gpu::Texture texture) override { device_.destroy(texture); }
-  void destroy(gpu::Sampler sampler) override { device_.destroy(sampler); }
+  using ForwardingMaker::destroy;
   void destroy(gpu::ComputePipeline pipeline) override;
-  void destroy(gpu::GraphicsPipeline pipeline) override { device_.destroy(pipeline); }
 
  private:
   struct Shared {
@@ -45,7 +30,6 @@ class Pipelines final : public gpu::Maker {
     uint32_t users;
   };
 
-  gpu::HostDevice& device_;
   std::vector<Shared> shared_;
 };
 

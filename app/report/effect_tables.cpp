@@ -87,14 +87,13 @@ nlohmann::ordered_json jsonOf(const objects::Table& table) {
   return json;
 }
 
-// The attachments that an effect reads with its defaults, for all outputs. If reads() fails, the
+// What an effect reads with its defaults, for all outputs. If reads() fails, the
 // error's text, so that the other effects are still listed.
 std::string readsText(const effect::Effect& effect) {
   std::vector<double> defaults;
   for (const grisaille_param_desc& param : effect.params()) defaults.push_back(param.default_value);
   try {
-    const uint32_t reads = effect.reads(defaults.data(), ~0u);
-    return fmt::format("{}", fmt::join(effect::attachmentNames(reads), ", "));
+    return fmt::format("{}", fmt::join(effect::readNames(effect, defaults.data()), ", "));
   } catch (const Error& error) {
     return error.detail();
   }

@@ -94,11 +94,14 @@ void Report::note(const std::string& text) {
   std::fflush(stdout);
 }
 
-void Report::expect(bool holds, const std::string& fault) {
+void Report::expect(bool holds, const std::string& fault, std::string_view cause) {
   ++checks_;
   if (holds) return;
+  if (!causes_.emplace(cause.empty() ? fault : cause).second) {
+    ++repeats_;
+    return;
+  }
   ++faults_;
-  if (faults_ - concludedFaults_ > kMostFaults) return;
   fmt::print("{}{}\n", kFault, oneLine(fault));
   std::fflush(stdout);
 }
@@ -106,8 +109,9 @@ void Report::expect(bool holds, const std::string& fault) {
 void Report::conclude(const std::string& what) {
   const size_t checks = checks_ - std::exchange(concludedChecks_, checks_);
   const size_t faults = faults_ - std::exchange(concludedFaults_, faults_);
-  if (faults > kMostFaults) note(fmt::format("{}: {} more", what, faults - kMostFaults));
-  if (faults > 0) return;
+  const size_t repeats = repeats_ - std::exchange(concludedRepeats_, repeats_);
+  if (repeats > 0) note(fmt::format("{}: the same fault {} more times", what, repeats));
+  if (faults + repeats > 0) return;
   fmt::print("{}{} ({} check{})\n", kOk, oneLine(what), checks, checks == 1 ? "" : "s");
   std::fflush(stdout);
 }

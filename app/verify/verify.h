@@ -4,7 +4,10 @@
 
 #include <chrono>
 #include <cstddef>
+#include <functional>
+#include <set>
 #include <string>
+#include <string_view>
 
 namespace grisaille::app {
 
@@ -28,21 +31,23 @@ class Report {
   void step(const std::string& what);
   void note(const std::string& text);
 
-  // Counts one check. If `holds` is false, prints `fault`, but at most kMostFaults lines until the
-  // next conclude().
-  void expect(bool holds, const std::string& fault);
+  // Counts one check. If `holds` is false, prints `fault`, unless a fault of the same cause was
+  // printed before, on any backend. `cause`: what the line says without place and number; "": the
+  // line itself.
+  void expect(bool holds, const std::string& fault, std::string_view cause = {});
   void fault(const std::string& text) { expect(false, text); }
 
-  // Ends a group of checks: prints an ok line if all passed, or the number of faults not printed.
+  // Ends a group of checks: prints an ok line if all passed, or how many failed of known causes.
   void conclude(const std::string& what);
   void end();
 
   size_t faults() const { return faults_; }
 
  private:
-  static constexpr size_t kMostFaults = 4;
-  size_t checks_ = 0, faults_ = 0;
-  size_t concludedChecks_ = 0, concludedFaults_ = 0;
+  size_t checks_ = 0, faults_ = 0, repeats_ = 0;
+  // At the last conclude().
+  size_t concludedChecks_ = 0, concludedFaults_ = 0, concludedRepeats_ = 0;
+  std::set<std::string, std::less<>> causes_;
 };
 
 // Runs all checks in this process. The plugin must load, and its tables must be valid. Then, on

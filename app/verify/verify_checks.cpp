@@ -14,6 +14,7 @@
 
 #include "app/services/placement.h"
 #include "app/services/scene_services.h"
+#include "app/verify/steady_check.h"
 #include "app/verify/verify.h"
 #include "backends/backends.h"
 #include "core/effect/registry.h"
@@ -95,6 +96,7 @@ class EffectCheck {
         messages_(messages),
         effect_(effect),
         title_(fmt::format("{}: {}: ", backend, effect.desc->key)),
+        scene_(scene),
         renderer_(device, scene),
         services_(scene),
         chain_(effect::Selection(registry, std::array{std::string(effect.key())})) {
@@ -118,6 +120,8 @@ class EffectCheck {
     for (const std::string& name : names_)
       draw("writing " + name + " alone", kSize, values, {name});
     report_.conclude(title_ + "writes each output alone");
+    SteadyCheck(report_, device_, scene_, services_, chain_, names_, title_).run();
+    heardNothing("drawing equal frames");
     checkCameras();
     checkExtremes();
     checkRandom();
@@ -143,11 +147,16 @@ class EffectCheck {
   }
 
   void step(const std::string& what) { report_.step(title_ + what); }
-  void expect(bool holds, const std::string& fault) { report_.expect(holds, title_ + fault); }
+  // `place`: which picture, "" without.
+  void expect(bool holds, const std::string& place, const std::string& fault,
+              std::string_view cause = {}) {
+    const std::string colon = place.empty() ? "" : ": ";
+    report_.expect(holds, title_ + place + colon + fault, cause.empty() ? fault : cause);
+  }
 
   void heardNothing(const std::string& what) {
     for (const std::string& text : messages_.take()) {
-      expect(false, fmt::format("{}: message of the driver or its validation: {}", what, text));
+      expect(false, what, "message of the driver or its validation: " + text);
     }
   }
 
@@ -156,7 +165,7 @@ class EffectCheck {
     try {
       chain_.end();
     } catch (const Error& error) {
-      expect(false, error.detail());
+      expect(false, "", error.detail());
     }
     heardNothing("destroying it");
   }
@@ -170,9 +179,9 @@ class EffectCheck {
       chain_.start(device_);
       chain_.create();
       created = true;
-      expect(true, "");
+      expect(true, "", "");
     } catch (const Error& error) {
-      expect(false, error.detail());
+      expect(false, "", error.detail());
     }
     heardNothing("creating it");
     return created;
@@ -184,13 +193,13 @@ class EffectCheck {
     try {
       for (uint32_t wanted = 1; wanted < 1u << names_.size(); wanted <<= 1) {
         const uint32_t reads = effect_.reads(values.all().data(), wanted);
-        expect(reads < 1u << GRISAILLE_ATTACHMENT_COUNT,
+        expect(reads < 1u << GRISAILLE_ATTACHMENT_COUNT, "",
                fmt::format("reads() returns {:#x}, which has bits of no attachment", reads));
-        expect(reads == effect_.reads(values.all().data(), wanted),
+        expect(reads == effect_.reads(values.all().data(), wanted), "",
                "reads() returns different attachments for the same values");
       }
     } catch (const Error& error) {
-      expect(false, error.detail());
+      expect(false, "", error.detail());
     }
   }
 
@@ -202,12 +211,13 @@ class EffectCheck {
       renderer_.render({.camera = camera_,
                         .width = size.x,
                         .height = size.y,
+                        .surface = frame::Surface::kBaseColour,  // for effects that read the colour
                         .chain = &chain_,
                         .outputs = outputs,
                         .services = services_.all()});
     } catch (const Error& error) {
       if (error.id() == ErrorId::kDeviceLost) throw;
-      expect(false, fmt::format("{}: {}", what, error.detail()));
+      expect(false, what, error.detail());
       heardNothing(what);
       return false;
     }
@@ -224,11 +234,16 @@ class EffectCheck {
         checkPicture(which, effect_.outputs()[static_cast<size_t>(index)], renderer_.read(name));
       } catch (const Error& error) {
         if (error.id() == ErrorId::kDeviceLost) throw;
-        expect(false, fmt::format("{} cannot be read: {}", which, error.detail()));
+        const bool unwritten = error.id() == ErrorId::kUninitialised;
+        expect(false, which, unwritten ? "it is not written" : "cannot be read: " + error.detail(),
+               unwritten ? notWritten(name) : "");
       }
     }
     heardNothing(what);
   }
+
+  // The cause of a fault.
+  static std::string notWritten(const std::string& output) { return output + " is not written"; }
 
   // Checks that all values are finite and in the range of the output's role.
   void checkPicture(const std::string& what, const grisaille_output_desc& output,
@@ -246,9 +261,13 @@ class EffectCheck {
       const auto objects = static_cast<float>(objects_);
       if (output.role == GRISAILLE_ROLE_OWNER && value > objects) ++nobodys;
     }
-    expect(odd == 0, fmt::format("{} holds {} values that are not finite", what, odd));
-    expect(outside == 0, fmt::format("{} holds {} values outside 0 to 1", what, outside));
-    expect(nobodys == 0, fmt::format("{} holds {} numbers that no object has", what, nobodys));
+    const std::string name = output.key;
+    const auto count = [&](size_t values, const char* fault) {
+      expect(values == 0, "", fmt::format("{} holds {} {}", what, values, fault), name + fault);
+    };
+    count(odd, "values that are not finite");
+    count(outside, "values outside 0 to 1");
+    count(nobodys, "numbers that no object has");
   }
 
   // Fills the output with the byte `before`, then renders. A texel of `left` stays 1 only if the
@@ -278,8 +297,9 @@ class EffectCheck {
       findLeft(names_[i], std::byte{0x3b}, values, left, texel);
       findLeft(names_[i], std::byte{0x27}, values, left, texel);
       const auto count = std::ranges::count(left, 1);
-      expect(count == 0,
-             fmt::format("{} of {} pixels of {} are not written", count, left.size(), names_[i]));
+      expect(count == 0, "",
+             fmt::format("{} of {} pixels of {} are not written", count, left.size(), names_[i]),
+             notWritten(names_[i]));
     }
     heardNothing("writing every pixel");
     report_.conclude(title_ + "writes every pixel");
@@ -344,6 +364,7 @@ class EffectCheck {
   const effect::Effect& effect_;
   const std::string title_;
   scene::Camera camera_ = scene::atriumCamera();
+  const scene::Scene& scene_;
   frame::Renderer renderer_;
   SceneServices services_;
   std::vector<std::string> names_;  // full names of the outputs

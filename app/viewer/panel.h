@@ -58,6 +58,7 @@ struct Status {
   std::optional<SideNumbers> apart;    // none: the sides show different kinds of values
   bool turned = false;                 // the right side is shown in turn
   std::string backend;                 // of the window
+  std::vector<frame::LeftOut> leftOut;
   TruthStatus truth;
   TuneStatus tune;
   std::optional<double> loading;  // share of the scene that is read, 0 ... 1

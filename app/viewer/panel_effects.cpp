@@ -38,8 +38,8 @@ std::string tooltipOf(const effect::Selection::Entry& entry, const grisaille_par
 
 std::string readsOf(const effect::Selection::Entry& entry) {
   try {
-    const uint32_t reads = entry.effect().reads(entry.values.all().data(), ~0u);
-    const std::string text = fmt::format("{}", fmt::join(effect::attachmentNames(reads), ", "));
+    const auto names = effect::readNames(entry.effect(), entry.values.all().data());
+    const std::string text = fmt::format("{}", fmt::join(names, ", "));
     return text.empty() ? "nothing" : text;
   } catch (const Error& error) {
     return error.detail();
@@ -103,6 +103,7 @@ void Panel::drawEffect(effect::Selection::Entry& entry, size_t index, const Stat
   tip(fmt::format("{}\nversion {}, {}\nreads {}\nwrites {}", desc.tooltip, desc.version,
                   entry.effect().path, readsOf(entry), writesOf(entry)));
   layout.note(key + ".tree", open ? "open" : "closed");
+  const auto leftOut = std::ranges::find(status.leftOut, key, &frame::LeftOut::effect);
   ImGui::SameLine(ImGui::GetContentRegionMax().x - arrows);
   std::optional<size_t> target;
   if (ImGui::ArrowButton("##up", ImGuiDir_Up) && index > 0) target = index - 1;
@@ -112,6 +113,10 @@ void Panel::drawEffect(effect::Selection::Entry& entry, size_t index, const Stat
   if (ImGui::ArrowButton("##down", ImGuiDir_Down)) target = index + 1;
   layout.note(key + ".down");
   tip("Runs later");
+  if (entry.on && leftOut != status.leftOut.end()) {
+    ImGui::TextDisabled("off: %s", leftOut->lacks.detail().c_str());
+    layout.note(key + ".lacks", leftOut->lacks.detail());
+  }
   if (open) {
     ImGui::Indent();
     drawParameters(entry);

@@ -25,6 +25,7 @@ GRISAILLE_CHECK_BLOCK_depths_Places(DepthsBlock);
 
 Kind kindOf(const grisaille_output_desc& output) {
   if (output.role == GRISAILLE_ROLE_OVERLAY) return Kind::kOverlay;
+  if (output.role == GRISAILLE_ROLE_COLOUR) return Kind::kLight;
   const gpu::Format format = effect::formatOf(output.format);
   return gpu::formatInfo(format).channels == 1 ? Kind::kNumber : Kind::kEncoded;
 }

@@ -105,6 +105,8 @@ class Stage {
   uint64_t waiting() const { return waiting_; }
   // Objects for which a limit leaves no room.
   uint64_t givenUp() const { return givenUp_; }
+  // The effects that are on but could not run in the last update().
+  const std::vector<frame::LeftOut>& leftOut() const { return renderer_.leftOut(); }
 
  private:
   struct Side {

@@ -230,6 +230,7 @@ Status Viewer::status() {
   status.coverage = coverage_;
   status.picture = place().size;
   status.givenUp = stage_ ? stage_->givenUp() : 0;
+  if (stage_) status.leftOut = stage_->leftOut();
   status.waiting = (stage_ ? stage_->waiting() : 0) + (other_ ? other_->waiting() : 0);
   status.backend = backend_;
   if (session_.split) status.sides = sideNames();

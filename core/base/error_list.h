@@ -87,7 +87,10 @@ GRISAILLE_ERROR(kEffectTakesNoObjects, 3205,
                 "name an active effect whose table declares objects, see `grisaille effects`")
 GRISAILLE_ERROR(kEffectFaulty, 3206, "repair the faults that the report above lists")
 GRISAILLE_ERROR(kEffectOutput, 3207, "run `grisaille effects --verify FILE` on the effect's plugin")
-GRISAILLE_ERROR(kEffectDrawsNoPoints, 3208,
+GRISAILLE_ERROR(kEffectLacks, 3208,
+                "give what the message names, run the effect that writes it before this one, or "
+                "leave this effect out")
+GRISAILLE_ERROR(kEffectDrawsNoPoints, 3209,
                 "name an active effect that draws on surfaces, such as sspm")
 // --- 33xx: parameter values
 GRISAILLE_ERROR(kParameterUnknown, 3301, "see `grisaille effects` for the keys")

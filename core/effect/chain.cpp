@@ -128,6 +128,12 @@ void Chain::drawAt(const Selection::Entry& entry, PointInputs inputs) {
   if (list != nullptr) one.seen = list->revision();
 }
 
+size_t Chain::resources() const {
+  size_t sum = 0;
+  for (const auto& [effect, one] : running_) sum += one.instance ? one.instance->resources() : 0;
+  return sum;
+}
+
 objects::ObjectList* Chain::objectsEvenIfAbsent(std::string_view effect) {
   Absent* absent = findAbsent(effect);
   if (absent == nullptr) return objects(effect);

@@ -63,6 +63,9 @@ class Chain {
   // Throws kEffectCreate and the errors of Instance::drawAt().
   void drawAt(const Selection::Entry& entry, PointInputs inputs);
 
+  // Number of resources that the instances have made and not destroyed.
+  size_t resources() const;
+
   // --- Plugins
 
   // Moves the chain to a fresh registry; call it while the old registry lives. All instances end.

@@ -344,9 +344,12 @@ struct HostFunctions {
 
   static gpu::Texture textureOf(const HostServices& s, uint32_t id, bool written) {
     const bool mine = s.textures_.own.contains(id) || holds(s.writable_, id);
-    const bool attachment = std::ranges::any_of(s.attachments_, [&](auto a) { return a.id == id; });
-    if (id == 0 || (!mine && !attachment)) misuse("texture {:#x} is not this effect's", id);
-    if (written && !mine) misuse("texture {:#x} is a read-only attachment", id);
+    const auto among = [&](const std::vector<grisaille_texture>& textures) {
+      return std::ranges::any_of(textures, [&](auto a) { return a.id == id; });
+    };
+    const bool given = among(s.attachments_) || among(s.inputs_);
+    if (id == 0 || (!mine && !given)) misuse("texture {:#x} is not this effect's", id);
+    if (written && !mine) misuse("texture {:#x} is a read-only attachment or input", id);
     return {id};
   }
 
@@ -413,7 +416,8 @@ grisaille_frame frameTable(HostServices* self) {
           .waiting = HostFunctions::waiting,
           .given_up = HostFunctions::givenUp,
           .guard = 0,
-          .reserved = 0};
+          .reserved = 0,
+          .inputs = nullptr};
 }
 
 }  // namespace grisaille::effect

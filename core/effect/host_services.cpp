@@ -44,10 +44,12 @@ const grisaille_frame* HostServices::openFrame(const FrameInputs& inputs) {
   destroyBuried(samplers_);
   destroyBuried(pipelines_);
   attachments_.clear();
+  inputs_.clear();
   outputs_.clear();
   writable_.clear();
   uniforms_.assign(1, inputs.viewBlock.buffer.value);
   for (const gpu::Texture texture : inputs.attachments) attachments_.push_back({texture.value});
+  for (const gpu::Texture texture : inputs.named) inputs_.push_back({texture.value});
   frame_.wanted = 0;
   for (const gpu::Texture texture : inputs.outputs) {
     if (texture) {
@@ -66,6 +68,7 @@ const grisaille_frame* HostServices::openFrame(const FrameInputs& inputs) {
   frame_.view_block = {{block.buffer.value}, 0, block.offset, block.size};
   frame_.attachments = attachments_.data();
   frame_.outputs = outputs_.data();
+  frame_.inputs = inputs_.data();
   frame_.objects = give(inputs.objects, inputs.objectsKept);
   frame_.patience = inputs.patience;
   offered_ = inputs.services;

@@ -45,6 +45,12 @@ class HostServices {
   // effect's fault; else `otherwise`.
   ErrorId failureId(ErrorId otherwise) const { return deviceFault_.value_or(otherwise); }
 
+  // Number of resources that the effect has made and not destroyed.
+  size_t resources() const {
+    return buffers_.own.size() + textures_.own.size() + samplers_.own.size() +
+           pipelines_.own.size();
+  }
+
   // What the effect reported in the last frame.
   const Report& report() const { return report_; }
 
@@ -96,7 +102,8 @@ class HostServices {
   Report report_;
   gpu::Commands* commands_ = nullptr;
   bool passOpen_ = false;
-  std::vector<grisaille_texture> attachments_;  // the effect may read these
+  std::vector<grisaille_texture> attachments_;  // the effect may read these, and those of inputs_
+  std::vector<grisaille_texture> inputs_;
   std::vector<grisaille_texture> outputs_;
   std::vector<uint32_t> writable_;      // transients and outputs
   std::vector<uint32_t> uniforms_;      // buffers

@@ -128,6 +128,10 @@ void Instance::drawAt(const PointInputs& inputs) {
               wrong->alpha, wrong->owner);
 }
 
+size_t Instance::resources() const {
+  return state_->services.resources();
+}
+
 const Report& Instance::report() const {
   return state_->services.report();
 }

@@ -52,6 +52,7 @@ struct FrameInputs {
   gpu::BufferRange viewBlock;
   std::array<gpu::Texture, GRISAILLE_ATTACHMENT_COUNT> attachments;
   std::span<const gpu::Texture> outputs;                      // one per output; null: not wanted
+  std::span<const gpu::Texture> named = {};                   // one per input; null: missing
   double patience = std::numeric_limits<double>::infinity();  // see grisaille_frame
   Services services = {};
 
@@ -110,6 +111,8 @@ class Instance {
 
   // What the effect reported in the last record().
   const Report& report() const;
+  // Number of resources that the effect has made and not destroyed.
+  size_t resources() const;
 
  private:
   struct State;

@@ -29,9 +29,9 @@ void checkAbi(const grisaille_plugin_desc& plugin) {
 }
 
 // Indexed by grisaille_attachment.
-constexpr std::array kAttachmentNames = {"depth",       "view_depth",   "normal",
-                                         "base_colour", "facet_normal", "back_depth",
-                                         "motion",      "thickness",    "next_depth"};
+constexpr std::array kAttachmentNames = {"depth",        "view_depth", "normal", "base_colour",
+                                         "facet_normal", "back_depth", "motion", "thickness",
+                                         "next_depth",   "colour"};
 static_assert(kAttachmentNames.size() == GRISAILLE_ATTACHMENT_COUNT);
 
 }  // namespace
@@ -41,6 +41,12 @@ std::vector<std::string> attachmentNames(uint32_t reads) {
   for (size_t a = 0; a < kAttachmentNames.size(); ++a) {
     if ((reads & GRISAILLE_READS(a)) != 0) names.emplace_back(kAttachmentNames[a]);
   }
+  return names;
+}
+
+std::vector<std::string> readNames(const Effect& effect, const double* values) {
+  std::vector<std::string> names = attachmentNames(effect.reads(values, ~0u));
+  for (const grisaille_input_desc& input : effect.inputs()) names.emplace_back(input.key);
   return names;
 }
 

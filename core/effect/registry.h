@@ -30,6 +30,7 @@ struct Effect {
   std::span<const grisaille_output_desc> outputs() const {
     return {desc->outputs, desc->output_count};
   }
+  std::span<const grisaille_input_desc> inputs() const { return {desc->inputs, desc->input_count}; }
   // Null: the effect takes no objects.
   const grisaille_object_desc* objects() const { return desc->objects; }
   // The attachments that the effect reads with these values for these outputs.
@@ -45,6 +46,10 @@ struct Effect {
     return share > 0 && share <= 1 ? share : 0;
   }
 };
+
+// What an effect reads with these values for all its outputs: the names of attachments, and the
+// keys of its inputs. Throws kEffectRecord.
+std::vector<std::string> readNames(const Effect& effect, const double* values);
 
 // The attachments' names for a combination of GRISAILLE_READS: "view_depth", ...
 std::vector<std::string> attachmentNames(uint32_t reads);

@@ -18,12 +18,14 @@ namespace {
 constexpr uint32_t kMaxEffects = 64;
 constexpr uint32_t kMaxParams = 256;
 constexpr uint32_t kMaxOutputs = 16;
+constexpr uint32_t kMaxInputs = 16;
 constexpr uint32_t kMaxEnumEntries = 64;
 constexpr uint32_t kParamFlags = GRISAILLE_PARAM_LOG | GRISAILLE_PARAM_ADVANCED |
                                  GRISAILLE_PARAM_SCENE_LENGTH | GRISAILLE_PARAM_LOOK;
 constexpr uint32_t kMaxFields = 64;
 constexpr uint32_t kMaxObjectSize = 4096;
-constexpr uint32_t kEffectFlags = GRISAILLE_EFFECT_DEFAULT;
+constexpr uint32_t kEffectFlags =
+    GRISAILLE_EFFECT_DEFAULT | GRISAILLE_EFFECT_HISTORY | GRISAILLE_EFFECT_JITTER;
 // Size of the struct in each version, this program's first.
 constexpr std::initializer_list<size_t> kEffectDescSizes = {sizeof(grisaille_effect_desc)};
 constexpr double kMaxWhole = 9007199254740992;  // 2^53: beyond it a double skips whole numbers
@@ -223,7 +225,7 @@ void checkOutput(const std::string& at, const grisaille_output_desc& output) {
   if (format < GRISAILLE_FORMAT_R8 || format > GRISAILLE_FORMAT_R32UI) {
     refuse(at + ".format", "is {}, which is not a grisaille_format", format);
   }
-  if (output.role > GRISAILLE_ROLE_TINT) {
+  if (output.role > GRISAILLE_ROLE_COLOUR) {
     refuse(at + ".role", "is {}, which is not a grisaille_role", output.role);
   }
   if (output.role == GRISAILLE_ROLE_VISIBILITY && format == GRISAILLE_FORMAT_R32UI) {
@@ -232,10 +234,57 @@ void checkOutput(const std::string& at, const grisaille_output_desc& output) {
   if (output.role == GRISAILLE_ROLE_OWNER && format != GRISAILLE_FORMAT_R32UI) {
     refuse(at + ".format", "is {}, must be GRISAILLE_FORMAT_R32UI for an owner", format);
   }
+  if (output.role == GRISAILLE_ROLE_COLOUR && format != GRISAILLE_FORMAT_RGBA16F) {
+    refuse(at + ".format", "is {}, must be GRISAILLE_FORMAT_RGBA16F for a colour", format);
+  }
   const bool coloured = output.role == GRISAILLE_ROLE_OVERLAY || output.role == GRISAILLE_ROLE_TINT;
   if (coloured && format != GRISAILLE_FORMAT_RGBA8 && format != GRISAILLE_FORMAT_RGBA16F &&
       format != GRISAILLE_FORMAT_RGBA32F) {
     refuse(at + ".format", "is {}, which does not have four channels", format);
+  }
+}
+
+bool isComposed(const grisaille_output_desc& output) {
+  return output.role != GRISAILLE_ROLE_NONE && output.role != GRISAILLE_ROLE_OWNER;
+}
+
+// Needs checked outputs.
+void checkColour(const std::string& at, const grisaille_effect_desc& effect) {
+  const std::span outputs(effect.outputs, effect.output_count);
+  const auto colour =
+      std::ranges::find(outputs, uint32_t{GRISAILLE_ROLE_COLOUR}, &grisaille_output_desc::role);
+  if (colour == outputs.end()) return;
+  for (size_t i = 0; i < outputs.size(); ++i) {
+    if (&outputs[i] == &*colour || !isComposed(outputs[i])) continue;
+    refuse(fmt::format("{}.outputs[{}].role", at, i),
+           "is {}, but outputs[{}] is the colour of the picture, which replaces all layers",
+           outputs[i].role, colour - outputs.begin());
+  }
+}
+
+// "key" or "key.key"
+void checkInput(const std::string& at, const grisaille_input_desc& input) {
+  checkStructSize(at, input.struct_size, {sizeof(grisaille_input_desc)});
+  checkFlags(at, input.flags, GRISAILLE_INPUT_REQUIRED);
+  checkLine(at + ".tooltip", input.tooltip);
+  checkLine(at + ".key", input.key);
+  const std::string_view key = input.key;
+  const size_t dot = key.find('.');
+  const bool sound = dot == std::string_view::npos
+                         ? isKey(key)
+                         : isKey(key.substr(0, dot)) && isKey(key.substr(dot + 1));
+  if (!sound) refuse(at + ".key", "is \"{}\", must be a key or EFFECT.OUTPUT", oneLine(key));
+}
+
+void checkInputs(const std::string& at, const grisaille_effect_desc& effect) {
+  if ((effect.needs >> GRISAILLE_ATTACHMENT_COUNT) != 0) {
+    refuse(at + ".needs", "is {:#x}, which has bits of no attachment", effect.needs);
+  }
+  checkCount(at + ".input_count", effect.input_count, 0, kMaxInputs);
+  if (effect.input_count > 0) checkPresent(at + ".inputs", effect.inputs);
+  for (uint32_t i = 0; i < effect.input_count; ++i) {
+    checkInput(fmt::format("{}.inputs[{}]", at, i), effect.inputs[i]);
+    checkUnique(at + ".inputs", ".key", i, [&](uint32_t n) { return effect.inputs[n].key; });
   }
 }
 
@@ -367,6 +416,8 @@ void checkEffect(const std::string& at, const grisaille_effect_desc* desc) {
     checkOutput(fmt::format("{}.outputs[{}]", at, i), effect.outputs[i]);
     checkUnique(at + ".outputs", ".key", i, [&](uint32_t n) { return effect.outputs[n].key; });
   }
+  checkColour(at, effect);
+  checkInputs(at, effect);
   if (effect.objects != nullptr) checkObjects(at + ".objects", *effect.objects);
 }
 

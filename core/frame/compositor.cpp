@@ -65,7 +65,7 @@ void Compositor::record(gpu::Commands& commands, const Composition& composition)
       .depth = glm::vec4(glm::dvec4(guard, guard, 1 / depthSize.x, 1 / depthSize.y))};
   const gpu::BufferRange uniform = commands.uniform(std::as_bytes(std::span(&block, 1)));
   gpu::Texture surface = composition.surface ? composition.surface : white_;
-  gpu::Texture clipDepth = composition.clipDepth;
+  gpu::Texture clipDepth = composition.clipDepth ? composition.clipDepth : white_;
   for (const Layer& layer : composition.layers) {
     const bool last = &layer == &composition.layers.back();
     const gpu::Texture to = last ? composition.target

@@ -19,8 +19,8 @@ struct Layer {
 
 struct Composition {
   uint32_t width = 0, height = 0;       // of the target, pixels
-  gpu::Texture surface;                 // colour of the surfaces; null: white
-  gpu::Texture clipDepth;               // shows where the background is
+  gpu::Texture surface = {};            // colour of the surfaces; null: white
+  gpu::Texture clipDepth = {};          // shows where the background is; null: nowhere
   uint32_t guard = 0;                   // pixels of clipDepth beyond each side of the picture
   glm::vec4 background = glm::vec4(0);  // linear light, straight alpha
   std::span<const Layer> layers;        // at least one, bottom first

@@ -12,6 +12,7 @@
 #include <string_view>
 #include <vector>
 
+#include "core/base/error.h"
 #include "core/effect/chain.h"
 #include "core/frame/attachments.h"
 #include "core/frame/compositor.h"
@@ -60,6 +61,15 @@ void checkOutput(std::string_view name, std::span<const effect::Effect* const> e
 // are signed.
 image::Transfer transferOf(std::string_view output);
 
+// An effect that is on but cannot run.
+struct LeftOut {
+  std::string effect;  // its key
+  Error lacks;         // kEffectLacks with the names of what it needs and does not get
+};
+
+struct FramePlan;
+struct PlannedEffect;
+
 class Renderer {
  public:
   // Draws the scene. Device and scene must outlive this. The scene may change only between frames,
@@ -72,8 +82,12 @@ class Renderer {
   Renderer& operator=(const Renderer&) = delete;
 
   // Creates the chain's missing instances, then records and submits one frame. If it throws, no
-  // frame stays open.
+  // frame stays open. Throws kEffectLacks if the frame asks for an output of an effect that cannot
+  // run.
   void render(const FrameDesc& desc);
+
+  // The effects that are on but could not run in the last frame, which was drawn without them.
+  const std::vector<LeftOut>& leftOut() const { return leftOut_; }
 
   // What the effects of the last frame reported, summed.
   const effect::Report& report() const { return report_; }
@@ -95,22 +109,34 @@ class Renderer {
   gpu::Texture texture(std::string_view output) const;
 
  private:
-  struct Plan;
   struct SceneView;
+  // The composed picture while the effects run.
+  struct Composing {
+    std::string picture = {};  // the target that holds it so far; "": nothing is composed yet
+    // The layers that are not in it yet.
+    std::vector<gpu::Texture> overlays = {};
+    std::vector<Layer> visibilities = {};
+  };
   struct Slot {
     gpu::Texture texture;
     gpu::TextureDesc desc;
     bool used = false;
   };
 
-  void record(gpu::Commands& commands, const FrameDesc& desc, const Plan& plan);
-  void recordAttachments(gpu::Commands& commands, const FrameDesc& desc, const Plan& plan,
+  void record(gpu::Commands& commands, const FrameDesc& desc, const FramePlan& plan);
+  void recordAttachments(gpu::Commands& commands, const FrameDesc& desc, const FramePlan& plan,
                          const SceneView& view);
-  void recordEffects(gpu::Commands& commands, const FrameDesc& desc, const Plan& plan,
+  void recordEffects(gpu::Commands& commands, const FrameDesc& desc, const FramePlan& plan,
                      const SceneView& picture, const SceneView& guarded);
   std::vector<gpu::Texture> outputTargets(const effect::Effect& effect, uint32_t wanted,
                                           const FrameDesc& desc);
-  void recordCompose(gpu::Commands& commands, const FrameDesc& desc, const Plan& plan);
+  void recordEffect(effect::Chain& chain, const effect::Selection::Entry& entry,
+                    const effect::FrameInputs& inputs);
+  void addLayers(const PlannedEffect& active, Surface surface, Composing& composing) const;
+  // Composes the layers that are not in the picture yet into the target `name`. Does nothing if the
+  // picture holds all of them.
+  void compose(gpu::Commands& commands, const FrameDesc& desc, const FramePlan& plan,
+               const std::string& name, Composing& composing);
   gpu::Texture target(const std::string& name, gpu::Format format, gpu::TextureUsage usage,
                       uint32_t width, uint32_t height);
   gpu::Texture find(std::string_view name) const;
@@ -122,6 +148,8 @@ class Renderer {
   std::map<std::string, std::string, std::less<>> outputs_;  // of the last frame: output to target
   Compositor compositor_;
   effect::Report report_;
+  std::vector<LeftOut> leftOut_;
+  uint64_t jitters_ = 0;  // frames with jitter
   FramesBefore before_;
   bool opaque_ = true;  // the background of the last frame
   Depth depth_;

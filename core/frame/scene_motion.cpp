@@ -106,13 +106,9 @@ void SceneMotion::recordCamera(gpu::Commands& commands, const scene::View& view,
                                gpu::BufferRange viewBlock, gpu::Texture depth,
                                const MotionTarget& to) {
   const scene::View& then = to.then ? *to.then : view;
-  // In double precision: the cameras may be far from the world's origin.
-  const glm::dmat3 turn = glm::transpose(then.worldFromView);
-  glm::dmat4 thenFromView(turn * view.worldFromView);
-  thenFromView[3] = glm::dvec4(turn * (view.eye - then.eye), 1);
   // In pixels of the picture inside the attachment.
   const glm::dvec2 origin = -then.offset / then.scale - to.guard;
-  const ThenBlock block = {.then_from_view = glm::mat4(thenFromView),
+  const ThenBlock block = {.then_from_view = glm::mat4(scene::thenFromView(then, view)),
                            .then_pixel_from_view = glm::vec4(glm::dvec4(1.0 / then.scale, origin)),
                            .known = to.then ? 1.0f : 0.0f,
                            .camera_moved = then == view ? 0.0f : 1.0f,

@@ -40,6 +40,8 @@ grisaille_view effectView(const scene::View& view) {
   std::memcpy(result.view_from_pixel, &place, sizeof(result.view_from_pixel));
   result.near_plane = view.nearPlane;
   result.far_plane = view.farPlane;
+  result.jitter[0] = view.jitter.x;
+  result.jitter[1] = view.jitter.y;
   return result;
 }
 

@@ -28,6 +28,13 @@ View widened(const View& view, uint32_t guard) {
   return wide;
 }
 
+glm::dmat4 thenFromView(const View& then, const View& now) {
+  const glm::dmat3 turn = glm::transpose(then.worldFromView);
+  glm::dmat4 matrix(turn * now.worldFromView);
+  matrix[3] = glm::dvec4(turn * (now.eye - then.eye), 1);
+  return matrix;
+}
+
 glm::dvec3 viewPosition(const View& view, const glm::dvec2& pixel, double viewDepth) {
   return {(pixel * view.scale + view.offset) * depthScale(view, viewDepth), -viewDepth};
 }

@@ -20,6 +20,9 @@ struct View {
   double nearPlane = 0.01;  // metres
   double farPlane = 0;      // metres; orthographic: above nearPlane; perspective: 0, infinite
   bool orthographic = false;
+  // Pixels, x to the right, y down: by how much `offset` shifts the picture for temporal
+  // antialiasing.
+  glm::dvec2 jitter = glm::dvec2(0);
 
   bool operator==(const View&) const = default;
 };
@@ -34,6 +37,10 @@ View viewOf(const Camera& camera, const glm::uvec2& size);
 
 // The view whose picture extends `guard` pixels further on each side.
 View widened(const View& view, uint32_t guard);
+
+// From the view space of `now` to that of `then`. In double precision: the cameras may be far from
+// the world's origin.
+glm::dmat4 thenFromView(const View& then, const View& now);
 
 // Metres that a pixel spans, per metre of `scale`: the view depth, or 1 if orthographic.
 inline double depthScale(const View& view, double viewDepth) {

@@ -4,7 +4,7 @@
 // GRISAILLE_MOTION of grisaille/effect.h. Surfaces that move are drawn over the result.
 #extension GL_GOOGLE_include_directive : require
 #include "common/view.glsl"
-#include "motion.glsl"
+#include "common/motion.glsl"
 
 layout(UNIFORM(1), std140) uniform Then {
   mat4 then_from_view;        // this frame's view space to the previous frame's

@@ -3,7 +3,7 @@
 // Motion of a surface that moves in the world, where it is the visible one.
 #extension GL_GOOGLE_include_directive : require
 #include "motion_draw.glsl"
-#include "motion.glsl"
+#include "common/motion.glsl"
 
 layout(location = 0) in vec4 now;  // clip x, y, w; view depth
 layout(location = 1) in vec4 then;

@@ -104,6 +104,12 @@ constexpr grisaille_object_desc kObjects = {.struct_size = sizeof(grisaille_obje
                                             .tooltip = "What one is",
                                             .fields = kFields.data()};
 
+constexpr std::array<grisaille_input_desc, 1> kInputs = {
+    {{.struct_size = sizeof(grisaille_input_desc),
+      .flags = 0,
+      .key = "ssao.ao",
+      .tooltip = "What it holds"}}};
+
 // Never called.
 inline uint32_t reads(const double*, uint32_t) {
   return 0;
@@ -132,6 +138,9 @@ constexpr grisaille_effect_desc kEffect = {.struct_size = sizeof(grisaille_effec
                                            .destroy = destroy,
                                            .guard_band = nullptr,
                                            .objects = &kObjects,
-                                           .draw_at = nullptr};
+                                           .draw_at = nullptr,
+                                           .needs = 0,
+                                           .input_count = kInputs.size(),
+                                           .inputs = kInputs.data()};
 
 }  // namespace grisaille::fuzz

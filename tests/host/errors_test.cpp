@@ -269,7 +269,7 @@ TEST_P(Errors, OfPoints) {
   expectError(grisaille_host_effect_draw_at(nullptr, &sound, 1, drawn), 5601, "effect is null");
   expectError(grisaille_host_effect_draw_at(one, nullptr, 1, drawn), 5601, "points is null");
   expectError(grisaille_host_effect_draw_at(one, &sound, 1, nullptr), 5601, "drawn is null");
-  expectError(grisaille_host_effect_draw_at(without.handle(), &sound, 1, drawn), 3208, "ssao");
+  expectError(grisaille_host_effect_draw_at(without.handle(), &sound, 1, drawn), 3209, "ssao");
   EXPECT_EQ(grisaille_host_effect_draw_at(one, nullptr, 0, nullptr), 0);
   EXPECT_EQ(grisaille_host_effect_draw_at(one, &sound, 1, drawn), 0);
   std::vector<grisaille_point> points(2, sound);

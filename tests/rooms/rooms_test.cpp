@@ -57,7 +57,8 @@ constexpr Room kRooms[] = {
     {"app/truth", "core/effect core/image core/scene core/trace"},
     {"app/process", "app/truth/interruption.h core/effect"},
     {"app/verify",
-     "app/process/child.h app/services backends/backends.h core/effect core/frame core/objects"},
+     "app/process/child.h app/services backends/backends.h core/effect core/frame core/gpu "
+     "core/objects"},
     {"app/study",
      "app/services app/settings app/truth core/effect core/frame core/gpu core/image core/objects "
      "core/scene core/trace grisaille"},
@@ -187,7 +188,10 @@ struct Example {
 };
 
 constexpr Example kExamples[] = {
-    {"core/frame/renderer.cpp", "\"ssao.ao\" the output"},
+    {"core/frame/frame_plan.cpp", "\"ssao.ao\" the output"},
+    {"core/effect/include/grisaille/effect.h", "\"ssao.ao\": an output of another effect"},
+    {"host/include/grisaille/host.h", "\"ssao.ao\" for another effect's output"},
+    {"host/include/grisaille/host.hpp", "\"ssao.ao\" for another effect's output"},
     {"core/effect/parameter_name.h", "in reports: \"ssao.radius\"."},
     {"core/effect/parameter_name.h", "// \"ssao.radius=0.5\""},
     {"core/effect/include/grisaille/effect.h", "a key: \"ssao\""},

@@ -65,7 +65,7 @@ extern "C" {
  * @{
  */
 
-#define GRISAILLE_HOST_VERSION 2u /**< grows when functions or fields are added */
+#define GRISAILLE_HOST_VERSION 3u /**< grows when functions or fields are added */
 
 /**
  * Returns the version of the library. It cannot fail. Any thread may call it.
@@ -485,7 +485,18 @@ typedef struct grisaille_host_camera {
    * within 1e9 m, the near one may lie behind the eye.
    */
   double projection[16];
+  /**
+   * Pixels, x to the right, y down: by how much `projection` shifts the picture for temporal
+   * antialiasing, each from -1 to 1; 0 without jitter.
+   */
+  double jitter[2];
 } grisaille_host_camera;
+
+/** A texture of yours that an effect reads by name: see grisaille_effect_desc::inputs. */
+typedef struct grisaille_host_input {
+  const char* key; /**< the input's key: "reactive", or "ssao.ao" for another effect's output */
+  const grisaille_host_texture* texture; /**< the texture */
+} grisaille_host_input;
 
 /** One frame, as an effect reads it. All textures have the effect's size. */
 typedef struct grisaille_host_frame {
@@ -520,6 +531,27 @@ typedef struct grisaille_host_frame {
    * as ray casts; 0: no limit. See grisaille_host_effect_report().
    */
   double patience;
+  /**
+   * The lit colour, linear when sampled: three channels, or four with straight alpha; null if the
+   * effect does not read it. To chain two effects that change the colour, wrap the first one's
+   * output and pass it to the second.
+   */
+  const grisaille_host_texture* colour;
+  /**
+   * Motion vectors in the first two channels: the surface's place in the previous frame minus its
+   * place now, in any unit. Null: unknown.
+   */
+  const grisaille_host_texture* motion;
+  /**
+   * Factors that convert `motion` to pixels, x to the right, y down. Texture coordinates: width and
+   * height; normalised device coordinates with y up: width / 2 and -height / 2; vectors from the
+   * previous place to the present one: with the opposite sign.
+   */
+  double motion_scale[2];
+  uint32_t
+      motion_jittered;  /**< 1: `motion` includes the difference of the jitters; 0: it does not */
+  uint32_t input_count; /**< number of `inputs` */
+  const grisaille_host_input* inputs; /**< textures that effects read by name; others are ignored */
 } grisaille_host_frame;
 
 /**
@@ -543,7 +575,8 @@ typedef struct grisaille_host_frame {
  * @retval 5607 The camera is wrong.
  * @retval 5605 A texture does not have the effect's size, or has too few channels.
  * @retval 5609 A texture belongs to another device.
- * @retval 5610 The effect reads base colours, but base_colour is null.
+ * @retval 5610 The effect reads base colours or the lit colour, but base_colour or colour is null,
+ *   or it needs motion or an input that the frame lacks.
  * @retval 5611 A field is not a value of its enum, or your function returned a wrong hit.
  * @retval 3203 The effect fails; the error line quotes its message.
  * @retval 1007 No device memory is left.
@@ -634,7 +667,7 @@ GRISAILLE_EXPORT int grisaille_host_effect_report(const grisaille_host_effect* e
  * @param points `count` points
  * @param count number of points
  * @param[out] drawn `count` results, one per point, in the same order
- * @retval 3208 The effect cannot tell what it draws at points.
+ * @retval 3209 The effect cannot tell what it draws at points.
  * @retval 5611 A point's position or normal is out of range, or your function returned a wrong hit.
  * @retval 3202 The effect fails; the error line quotes its message.
  * @retval 3203 The effect fails; the error line quotes its message.

@@ -243,7 +243,21 @@ struct Frame {
   const Texture* nextDepth = nullptr;
   /// seconds, see grisaille_host_frame::patience; 0: no limit
   double patience = 0;
+  const Texture* colour = nullptr;  ///< the lit colour, see grisaille_host_frame::colour; or null
+  const Texture* motion = nullptr;  ///< motion vectors, see grisaille_host_frame::motion; or null
+  double motionScale[2] = {1, 1};   ///< converts `motion` to pixels, x to the right, y down
+  bool motionJittered = false;      ///< whether `motion` includes the difference of the jitters
+  /// textures that effects read by name: see inputOf()
+  std::span<const grisaille_host_input> inputs = {};
 };
+
+/// Names a texture that an effect reads by name, for Frame::inputs.
+/// @param key the input's key: "reactive", or "ssao.ao" for another effect's output
+/// @param texture the texture
+/// @return the entry
+inline grisaille_host_input inputOf(const char* key, const Texture& texture) {
+  return {.key = key, .texture = texture.handle()};
+}
 
 /// @}
 /// @addtogroup host_effects
@@ -345,7 +359,13 @@ class Effect {
         .base_colour = handleOf(frame.baseColour),
         .thickness = handleOf(frame.thickness),
         .next_depth = handleOf(frame.nextDepth),
-        .patience = frame.patience};
+        .patience = frame.patience,
+        .colour = handleOf(frame.colour),
+        .motion = handleOf(frame.motion),
+        .motion_scale = {frame.motionScale[0], frame.motionScale[1]},
+        .motion_jittered = frame.motionJittered ? 1u : 0u,
+        .input_count = static_cast<uint32_t>(frame.inputs.size()),
+        .inputs = frame.inputs.data()};
     require(grisaille_host_effect_record(effect_.get(), &given));
   }
 

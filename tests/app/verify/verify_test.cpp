@@ -57,9 +57,44 @@ TEST(Verify, TheProgramsOwnEffectsPassOnBothBackends) {
 
 TEST(Verify, FaultsAreNamedWithTheStep) {
   expectFault("nan", "opengl: nan: level = 1: nan.first holds 1 values that are not finite");
-  expectFault("leaves", "vulkan: leaves: 5184 of 5184 pixels of leaves.first are not written");
+  expectFault("leaves", "opengl: leaves: with its defaults: leaves.first: it is not written");
   expectFault("between", "opengl: between: with level=0.");
-  expectFault("range", "vulkan: range: level = 1: range.first holds 1 values outside 0 to 1");
+  expectFault("range", "opengl: range: level = 1: range.first holds 1 values outside 0 to 1");
+}
+
+// However many pictures show it, on both backends.
+TEST(Verify, OneCauseIsOneFault) {
+  for (const std::string name : {"nan", "leaves", "range", "clock", "leaks", "hoards", "reads_past",
+                                 "writes_beside", "races", "loops", "removed"}) {
+    const Outcome outcome = verify(fs::path(PLUGINS) / ("verified_" + name + ".so"));
+    EXPECT_EQ(outcome.status, 1);
+    EXPECT_TRUE(holds(outcome.err, ": 1 faults in ")) << outcome.out << outcome.err;
+  }
+}
+
+TEST(Verify, WhatGrowsFromFrameToFrameIsAFault) {
+  expectFault("leaks", "opengl: leaks: the memory of the process grows by 16");
+  expectFault("hoards", "opengl: hoards: it keeps 16 more textures, buffers, samplers");
+}
+
+TEST(Verify, FaultsOfShadersAreNamed) {
+  const std::string output = ".first: the output depends on ";
+  const auto expectHolds = [&](const std::string& name, const std::string& what) {
+    const Outcome outcome = verify(fs::path(PLUGINS) / ("verified_" + name + ".so"));
+    EXPECT_TRUE(holds(outcome.out, what)) << outcome.out;
+  };
+  expectHolds("reads_past", output + "an access out of range: an index past a storage buffer");
+  expectHolds("writes_beside", output + "an access out of range");
+  expectHolds("loops", output + "a loop that does not end");
+  expectHolds("races", output + "the order of threads: a race in shared memory");
+  expectFault("removed",
+              "opengl: removed: with its defaults: removed cannot record: dispatch: E1206");
+}
+
+TEST(Verify, OutputsThatDependOnTheClockOrEarlierFramesAreAFault) {
+  expectFault("clock", "opengl: clock: 1 of 5184 values of clock.first: the output differs when");
+  expectFault("remembers",
+              "opengl: remembers: 1 of 5184 values of remembers.first: the output differs between");
 }
 
 TEST(Verify, WhatEndsTheProcessIsAFaultToo) {

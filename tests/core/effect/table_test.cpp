@@ -71,6 +71,9 @@ struct Table {
                                                       .format = GRISAILLE_FORMAT_RGBA8,
                                                       .role = GRISAILLE_ROLE_OVERLAY,
                                                       .tooltip = "Straight alpha"})};
+  grisaille_input_desc inputs[2] = {
+      plugin::input({.key = "ssao.ao", .tooltip = "1 = open", .required = true}),
+      plugin::input({.key = "mask", .tooltip = "1 = here"})};
   grisaille_field_desc fields[5] = {plugin::field({.key = "position",
                                                    .label = "Position",
                                                    .tooltip = "Where it is",
@@ -127,13 +130,19 @@ struct Table {
                                  .destroy = destroyNothing,
                                  .guard_band = nullptr,
                                  .objects = &objects,
-                                 .draw_at = nullptr};
+                                 .draw_at = nullptr,
+                                 .needs = GRISAILLE_READS(GRISAILLE_MOTION),
+                                 .input_count = 2,
+                                 .inputs = inputs};
   grisaille_effect_desc second = [this] {
     grisaille_effect_desc desc = first;
     desc.key = "second";
     desc.param_count = 0;
     desc.params = nullptr;
     desc.objects = nullptr;
+    desc.needs = 0;
+    desc.input_count = 0;
+    desc.inputs = nullptr;
     return desc;
   }();
   const grisaille_effect_desc* effects[2] = {&first, &second};
@@ -171,7 +180,7 @@ const std::vector<Fault>& faults() {
       {"effects[0].struct_size", [](Table& t) { t.first.struct_size += 8; }},
       {"effects[0].struct_size", [](Table& t) { t.first.struct_size = 4; }},
       {"effects[0].struct_size", [](Table& t) { t.first.struct_size -= 8; }},
-      {"effects[0].flags", [](Table& t) { t.first.flags |= 2; }},
+      {"effects[0].flags", [](Table& t) { t.first.flags |= 8; }},
       {"effects[0].key", [](Table& t) { t.first.key = nullptr; }},
       {"effects[0].key", [](Table& t) { t.first.key = ""; }},
       {"effects[0].key", [](Table& t) { t.first.key = "1st"; }},
@@ -289,7 +298,23 @@ const std::vector<Fault>& faults() {
        [](Table& t) { t.outputs[0].format = GRISAILLE_FORMAT_R32UI; }},
       {"effects[0].outputs[1].format",
        [](Table& t) { t.outputs[1].format = GRISAILLE_FORMAT_R32F; }},
-      {"effects[0].outputs[0].role", [](Table& t) { t.outputs[0].role = 5; }},
+      {"effects[0].outputs[0].role", [](Table& t) { t.outputs[0].role = 6; }},
+      {"effects[0].outputs[0].format", [](Table& t) { t.outputs[0].role = GRISAILLE_ROLE_COLOUR; }},
+      {"effects[0].outputs[1].role",
+       [](Table& t) {
+         t.outputs[0].role = GRISAILLE_ROLE_COLOUR;
+         t.outputs[0].format = GRISAILLE_FORMAT_RGBA16F;
+       }},
+      {"effects[0].needs",
+       [](Table& t) { t.first.needs = GRISAILLE_READS(GRISAILLE_ATTACHMENT_COUNT); }},
+      {"effects[0].input_count", [](Table& t) { t.first.input_count = 17; }},
+      {"effects[0].inputs", [](Table& t) { t.first.inputs = nullptr; }},
+      {"effects[0].inputs[0].struct_size", [](Table& t) { t.inputs[0].struct_size = 8; }},
+      {"effects[0].inputs[0].flags", [](Table& t) { t.inputs[0].flags = 2; }},
+      {"effects[0].inputs[0].key", [](Table& t) { t.inputs[0].key = "ssao."; }},
+      {"effects[0].inputs[0].key", [](Table& t) { t.inputs[0].key = "a.b.c"; }},
+      {"effects[0].inputs[1].key", [](Table& t) { t.inputs[1].key = "ssao.ao"; }},
+      {"effects[0].inputs[1].tooltip", [](Table& t) { t.inputs[1].tooltip = nullptr; }},
       {"effects[0].outputs[0].format", [](Table& t) { t.outputs[0].role = GRISAILLE_ROLE_TINT; }},
       {"effects[0].outputs[0].format", [](Table& t) { t.outputs[0].role = GRISAILLE_ROLE_OWNER; }},
       {"effects[0].outputs[0].key", [](Table& t) { t.outputs[0].key = "A"; }},

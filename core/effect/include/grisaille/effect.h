@@ -174,7 +174,18 @@ typedef enum grisaille_attachment {
    * A host without it leaves the texture's id at 0, although the effect reads it.
    */
   GRISAILLE_NEXT_DEPTH = 8,
-  GRISAILLE_ATTACHMENT_COUNT = 9 /**< number of attachments */
+  /**
+   * rgba16f: the lit colour of the picture so far, linear light with straight alpha: what the
+   * effects before this one in the chain make of it. The sky has the colour of the background.
+   * - The program `grisaille` has no lights: its colour is white or the base colour, with the
+   *   overlays of those effects, times their visibilities or tints.
+   * - A host of libgrisaille passes the colour that its renderer has lit.
+   *
+   * It has no guard band: sample it with coordinates of the picture. A host needs it for an effect
+   * that reads it.
+   */
+  GRISAILLE_COLOUR = 9,
+  GRISAILLE_ATTACHMENT_COUNT = 10 /**< number of attachments */
 } grisaille_attachment;
 
 /** The bit for a grisaille_attachment in the result of grisaille_effect_desc::reads. */
@@ -194,7 +205,9 @@ typedef enum grisaille_format {
 
 /**
  * How the composed picture uses an output. Overlays are composited first, in the chain's order;
- * then visibilities and tints multiply the result.
+ * then visibilities and tints multiply the result. An effect that reads #GRISAILLE_COLOUR divides
+ * the chain: it gets the picture of the effects before it, and the layers of later effects lie on
+ * the picture behind it.
  */
 typedef enum grisaille_role {
   GRISAILLE_ROLE_NONE = 0, /**< not composed: the user writes it to a file or views it on its own */
@@ -211,8 +224,36 @@ typedef enum grisaille_role {
    * The channels rgb, 0 to 1, multiply the light; 1 = open. Where the picture shows base colours, a
    * tint replaces the effect's visibilities. Four channels.
    */
-  GRISAILLE_ROLE_TINT = 4
+  GRISAILLE_ROLE_TINT = 4,
+  /**
+   * The colour of the picture, which replaces #GRISAILLE_COLOUR for everything behind the effect in
+   * the chain. RGBA16F: linear light with straight alpha. An effect has at most one, and then no
+   * other output that is composed.
+   */
+  GRISAILLE_ROLE_COLOUR = 5
 } grisaille_role;
+
+/** Further properties of an input. */
+typedef enum grisaille_input_flags {
+  /** The effect cannot run without the input; otherwise the texture's id is 0 if it is missing. */
+  GRISAILLE_INPUT_REQUIRED = 1
+} grisaille_input_flags;
+
+/**
+ * A texture that the effect reads by name, beside the attachments.
+ * - "ssao.ao": an output of another effect. The program passes it if that effect is on and runs
+ *   earlier in the chain.
+ * - A name without a dot, such as "reactive": a texture of the host's own, which only hosts of
+ *   libgrisaille pass.
+ *
+ * It has the picture's size and is read as floats, through a sampler.
+ */
+typedef struct grisaille_input_desc {
+  uint32_t struct_size; /**< sizeof(grisaille_input_desc) */
+  uint32_t flags;       /**< grisaille_input_flags combined, or 0 */
+  const char* key;      /**< a key, or two keys with a dot between them; unique in the effect */
+  const char* tooltip;  /**< one line: what the channels mean, with units and range */
+} grisaille_input_desc;
 
 /** One output. */
 typedef struct grisaille_output_desc {
@@ -623,6 +664,12 @@ typedef struct grisaille_view {
   double view_from_pixel[4];
   double near_plane; /**< metres */
   double far_plane;  /**< metres; perspective: 0, which means none */
+  /**
+   * Pixels, x to the right, y down: by how much the camera of this frame shifts the picture for
+   * temporal antialiasing, each at most 1. The camera above includes the shift, and
+   * GRISAILLE_MOTION the difference between two frames' shifts. 0 without jitter.
+   */
+  double jitter[2];
 } grisaille_view;
 
 /** One frame of one effect, valid during grisaille_effect_desc::record. */
@@ -637,7 +684,7 @@ typedef struct grisaille_frame {
   const grisaille_view* view;           /**< the camera */
   grisaille_range view_block;           /**< uniform buffer for shaders/common/view.glsl */
   const grisaille_texture* attachments; /**< by grisaille_attachment; id 0: not named by reads(), or
-                                           motion that the host lacks */
+                                           an attachment that the host lacks */
   const grisaille_texture* outputs;     /**< one per output, in the table's order */
 
   /**
@@ -735,7 +782,8 @@ typedef struct grisaille_frame {
    * a pixel of the picture to texture coordinates in an attachment.
    */
   uint32_t guard;
-  uint32_t reserved; /**< 0 */
+  uint32_t reserved;               /**< 0 */
+  const grisaille_texture* inputs; /**< by index in grisaille_effect_desc::inputs; id 0: missing */
 } grisaille_frame;
 
 /**
@@ -748,7 +796,18 @@ typedef struct grisaille_frame {
 /** Further properties of an effect. */
 typedef enum grisaille_effect_flags {
   /** The effect runs when the user names no effects. Only the program's own effects may use it. */
-  GRISAILLE_EFFECT_DEFAULT = 1
+  GRISAILLE_EFFECT_DEFAULT = 1,
+  /**
+   * The effect keeps a history: what it writes depends on the instance's earlier frames. Without
+   * the flag, equal frames must give equal outputs, bit for bit.
+   */
+  GRISAILLE_EFFECT_HISTORY = 2,
+  /**
+   * The effect wants a camera that shifts the picture by up to half a pixel, another way in each
+   * frame: see grisaille_view::jitter. The program does so while the effect runs; a host of
+   * libgrisaille may.
+   */
+  GRISAILLE_EFFECT_JITTER = 4
 } grisaille_effect_flags;
 
 /** One effect. */
@@ -816,6 +875,15 @@ typedef struct grisaille_effect_desc {
    * @return GRISAILLE_OK, or GRISAILLE_FAILED after grisaille_host::fail
    */
   grisaille_result (*draw_at)(void* instance, const grisaille_points* points);
+
+  /**
+   * GRISAILLE_READS() of the attachments without which the effect cannot run although a host may
+   * lack them, such as #GRISAILLE_MOTION, combined. The host then reports their names and does not
+   * run the effect. 0: the effect copes with an id of 0.
+   */
+  uint32_t needs;
+  uint32_t input_count;               /**< 0 to 16 */
+  const grisaille_input_desc* inputs; /**< textures read by name; `input_count` of them */
 } grisaille_effect_desc;
 
 /** The table that a plugin exports. */

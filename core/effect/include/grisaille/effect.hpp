@@ -217,6 +217,13 @@ class Frame {
   grisaille_texture attachment(grisaille_attachment attachment) const {
     return frame_->attachments[attachment];
   }
+  /// Returns a texture that the effect reads by name.
+  /// @param input index in the table of inputs, or an enum with the table's order
+  /// @return the texture; id 0 if it is missing
+  template <typename Index>
+  grisaille_texture input(Index input) const {
+    return frame_->inputs[static_cast<size_t>(input)];
+  }
   /// Returns whether an output is in use.
   /// @param output index in the table of outputs, or an enum with the table's order
   /// @return whether the effect must write it
@@ -415,6 +422,10 @@ struct EffectSpec {
   const grisaille_object_desc* objects = nullptr;  ///< objects that users make; null: no objects
   /// whether the effect runs when the user names no effects; only for the program's own effects
   bool runsByDefault = false;
+  bool keepsHistory = false;                          ///< see #GRISAILLE_EFFECT_HISTORY
+  bool wantsJitter = false;                           ///< see #GRISAILLE_EFFECT_JITTER
+  uint32_t needs = 0;                                 ///< see grisaille_effect_desc::needs
+  std::span<const grisaille_input_desc> inputs = {};  ///< textures read by name, 0 to 16 entries
 };
 
 /// @cond
@@ -492,7 +503,9 @@ constexpr grisaille_effect_desc effect(const EffectSpec& spec) {
   return {.struct_size = sizeof(grisaille_effect_desc),
           .param_count = static_cast<uint32_t>(spec.params.size()),
           .output_count = static_cast<uint32_t>(spec.outputs.size()),
-          .flags = spec.runsByDefault ? uint32_t{GRISAILLE_EFFECT_DEFAULT} : 0u,
+          .flags = (spec.runsByDefault ? uint32_t{GRISAILLE_EFFECT_DEFAULT} : 0u) |
+                   (spec.keepsHistory ? uint32_t{GRISAILLE_EFFECT_HISTORY} : 0u) |
+                   (spec.wantsJitter ? uint32_t{GRISAILLE_EFFECT_JITTER} : 0u),
           .key = spec.key,
           .label = spec.label,
           .version = spec.version,
@@ -505,7 +518,10 @@ constexpr grisaille_effect_desc effect(const EffectSpec& spec) {
           .destroy = Boundary<E>::destroy,
           .guard_band = Boundary<E>::guardBand,
           .objects = spec.objects,
-          .draw_at = Boundary<E>::drawAtOrNull()};
+          .draw_at = Boundary<E>::drawAtOrNull(),
+          .needs = spec.needs,
+          .input_count = static_cast<uint32_t>(spec.inputs.size()),
+          .inputs = spec.inputs.data()};
 }
 
 /// @}

@@ -217,6 +217,23 @@ constexpr grisaille_output_desc output(const Output& o) {
           .tooltip = o.tooltip};
 }
 
+/// A texture that an effect reads by name, for input().
+struct Input {
+  const char* key = nullptr;      ///< "effect.output", or a name that hosts use: "reactive"
+  const char* tooltip = nullptr;  ///< one line: what the channels mean, with units and range
+  bool required = false;          ///< whether the effect cannot run without it
+};
+
+/// Returns the table entry of an input.
+/// @param i the input
+/// @return the entry
+constexpr grisaille_input_desc input(const Input& i) {
+  return {.struct_size = sizeof(grisaille_input_desc),
+          .flags = i.required ? uint32_t{GRISAILLE_INPUT_REQUIRED} : 0u,
+          .key = i.key,
+          .tooltip = i.tooltip};
+}
+
 /// @}
 /// @addtogroup effect_objects
 /// @{

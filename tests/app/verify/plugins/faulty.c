@@ -6,6 +6,7 @@
 #include <math.h>
 #include <signal.h>
 #include <stdlib.h>
+#include <time.h>
 #include <unistd.h>
 
 #include "grisaille/effect.h"
@@ -17,11 +18,10 @@ static uint32_t reads(const double* values, uint32_t wanted) {
 }
 
 static grisaille_result create(const grisaille_host* host, void** out) {
-  (void)host;
 #if defined(FAULT_UNMADE)
   for (;;) pause();
 #endif
-  *out = NULL;
+  *out = (void*)host;
   return GRISAILLE_OK;
 }
 
@@ -44,12 +44,36 @@ static float valueAt(double level) {
   return 1;
 }
 
+/* Faults of every frame. */
+static grisaille_result harm(const grisaille_host* host, const grisaille_frame* frame,
+                             float* first) {
+  (void)host;
+  (void)frame;
+  (void)first;
+#if defined(FAULT_LEAKS)
+  if (malloc(1 << 20) == NULL) return GRISAILLE_FAILED;
+#elif defined(FAULT_CLOCK)
+  *first = (float)(time(NULL) % 64) / 64;
+#elif defined(FAULT_REMEMBERS)
+  *first = (float)(frame->index % 64) / 64;
+#elif defined(FAULT_HOARDS)
+  const grisaille_texture_desc desc = {.struct_size = sizeof(desc),
+                                       .format = GRISAILLE_FORMAT_R8,
+                                       .usage = GRISAILLE_TEXTURE_SAMPLED,
+                                       .width = 4,
+                                       .height = 4};
+  grisaille_texture made = {0};
+  return host->create_texture(host, &desc, &made);
+#endif
+  return GRISAILLE_OK;
+}
+
 static grisaille_result record(void* instance, const grisaille_frame* frame) {
   const uint64_t bytes = (uint64_t)frame->width * frame->height * sizeof(float);
-  const float first = valueAt(frame->values[0]);
+  float first = valueAt(frame->values[0]);
   grisaille_result result = GRISAILLE_OK;
   float* texels = NULL;
-  (void)instance;
+  if (harm(instance, frame, &first) != GRISAILLE_OK) return GRISAILLE_FAILED;
 #if defined(FAULT_LEAVES)
   return GRISAILLE_OK;
 #endif

@@ -68,6 +68,9 @@ constexpr grisaille_effect_desc kEffect = {
     .guard_band = nullptr,
     .objects = nullptr,
     .draw_at = nullptr,
+    .needs = 0,
+    .input_count = 0,
+    .inputs = nullptr,
 };
 
 constexpr const grisaille_effect_desc* kEffects[] = {&kEffect};

@@ -1,7 +1,8 @@
 // SPDX-License-Identifier: MIT
-#include "tests/decals/built.h"
+#include "tests/examples/built.h"
 
 #include <cmath>
+#include <map>
 #include <stdexcept>
 
 namespace grisaille::tests {
@@ -13,24 +14,32 @@ const TemporaryFolder& folder() {
   return kFolder;
 }
 
-}  // namespace
-
-std::string installedPrefix() {
-  return folder() / "prefix";
+// Runs a shell command in the folder.
+void runHere(const std::string& command) {
+  const Outcome outcome = runShell(command, folder().path());
+  if (outcome.status != 0) throw std::runtime_error(outcome.out + outcome.err);
 }
 
-const std::string& builtDecals() {
-  static const std::string kPlugins = [] {
-    const Outcome outcome =
-        runShell(CMAKE " --install " BUILD_FOLDER " --prefix prefix && cp -r " SOURCE_FOLDER
-                       "/examples/decals decals && " CMAKE
-                       " -G Ninja -S decals -B built -DCMAKE_PREFIX_PATH=$PWD/prefix && " CMAKE
-                       " --build built",
-                 folder().path());
-    if (outcome.status != 0) throw std::runtime_error(outcome.out + outcome.err);
-    return folder() / "built/lib/grisaille/effects";
+}  // namespace
+
+const std::string& installedPrefix() {
+  static const std::string kPrefix = [] {
+    runHere(CMAKE " --install " BUILD_FOLDER " --prefix prefix");
+    return folder() / "prefix";
   }();
-  return kPlugins;
+  return kPrefix;
+}
+
+const std::string& builtExample(const std::string& name) {
+  static std::map<std::string, std::string> plugins;
+  std::string& plugin = plugins[name];
+  if (plugin.empty()) {
+    runHere("cp -r " SOURCE_FOLDER "/examples/" + name + " . && " CMAKE " -G Ninja -S " + name +
+            " -B built_" + name + " -DCMAKE_PREFIX_PATH=" + installedPrefix() +
+            " && " CMAKE " --build built_" + name);
+    plugin = folder() / ("built_" + name + "/lib/grisaille/effects");
+  }
+  return plugin;
 }
 
 image::Image8 squares(const std::array<Colour, 4>& colours) {

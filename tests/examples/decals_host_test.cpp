@@ -5,7 +5,7 @@
 #include <glm/gtc/matrix_transform.hpp>
 
 #include "examples/decals/tables.h"
-#include "tests/decals/built.h"
+#include "tests/examples/built.h"
 #include "tests/host/hosts.h"
 #include "tests/host/seen.h"
 
@@ -67,7 +67,7 @@ GRISAILLE_IN_EVERY_HOST(DecalsHost);
 
 TEST_P(DecalsHost, DrawsTheObjectsThatItIsHanded) {
   const std::unique_ptr<Host> host = makeHost(GetParam());
-  host::Device device = host->device(builtDecals().c_str());
+  host::Device device = host->device(builtExample("decals").c_str());
   int asked = 0;
   device.setPictures(readSquares, &asked);
   host::Effect effect(device, {.effect = "decals", .width = kSide, .height = kSide});
@@ -102,7 +102,7 @@ TEST_P(DecalsHost, DrawsTheObjectsThatItIsHanded) {
 
 TEST_P(DecalsHost, FarFromTheOriginTheyAreAsSharp) {
   const std::unique_ptr<Host> host = makeHost(GetParam());
-  host::Device device = host->device(builtDecals().c_str());
+  host::Device device = host->device(builtExample("decals").c_str());
   int asked = 0;
   device.setPictures(readSquares, &asked);
   host::Effect effect(device, {.effect = "decals", .width = kSide, .height = kSide});

@@ -3,7 +3,7 @@
 // undone, deleted, saved and loaded.
 #include "tests/window/window_test.h"
 
-#include "tests/decals/built.h"
+#include "tests/examples/built.h"
 
 namespace grisaille::tests {
 namespace {
@@ -12,7 +12,7 @@ class DecalsWindow : public WindowTest {
  protected:
   void SetUp() override {
     GRISAILLE_NEEDS_INSTALLATION();
-    builtDecals();
+    builtExample("decals");
     writePng(squares({kRed, kRed, kRed, kRed}), folder_, "red.png");
     writePng(squares({kBlue, kBlue, kBlue, kBlue}), folder_, "blue.png");
   }
@@ -36,7 +36,7 @@ constexpr const char* kWindowCamera =
 
 TEST_P(DecalsWindow, ADecalIsPlacedEditedUndoneDeletedSavedAndLoaded) {
   DrivenViewer viewer(
-      folder_, {"--backend", GetParam(), "--size", kWindow, "--plugin-path", builtDecals(),
+      folder_, {"--backend", GetParam(), "--size", kWindow, "--plugin-path", builtExample("decals"),
                 "--effects", "decals", "--camera", kWindowCamera, "--view", "decals.decals"});
   type(viewer, "decals.next.picture", "red.png");
   viewer.key("Return");
@@ -84,9 +84,9 @@ TEST_P(DecalsWindow, ADecalIsPlacedEditedUndoneDeletedSavedAndLoaded) {
 TEST_P(DecalsWindow, APictureThatCannotBeReadIsToldInThePanel) {
   folder_.write("lost.json",
                 R"({"version": 1, "decals": [{"position": [0, 0, 0], "picture": "lost.png"}]})");
-  DrivenViewer viewer(folder_,
-                      {"--backend", GetParam(), "--size", kWindow, "--plugin-path", builtDecals(),
-                       "--effects", "decals", "--load", "decals=lost.json"});
+  DrivenViewer viewer(
+      folder_, {"--backend", GetParam(), "--size", kWindow, "--plugin-path", builtExample("decals"),
+                "--effects", "decals", "--load", "decals=lost.json"});
   viewer.until("a warning", [](const nlohmann::json& now) {
     return now.contains("message") &&
            now["message"]["value"].get<std::string>().find("lost.png") != std::string::npos;

@@ -6,53 +6,10 @@
 #include <cmath>
 #include <glm/glm.hpp>
 
-#include "tests/build/session.h"
-#include "tests/decals/built.h"
+#include "tests/examples/built.h"
 
 namespace grisaille::tests {
 namespace {
-
-namespace fs = std::filesystem;
-
-TEST(DecalsFolder, HasAtMost300Lines) {
-  size_t lines = 0;
-  for (const auto& entry : fs::directory_iterator(SOURCE_FOLDER "/examples/decals")) {
-    if (entry.path().extension() == ".md") continue;
-    lines += static_cast<size_t>(std::ranges::count(readFile(entry.path()), '\n'));
-  }
-  EXPECT_GT(lines, 200u);
-  EXPECT_LE(lines, 300u);
-}
-
-TEST(DecalsFolder, BuildsAnEffectWithoutAFault) {
-  GRISAILLE_NEEDS_INSTALLATION();
-  const TemporaryFolder folder;
-  const Outcome outcome =
-      runProgram({"effects", "--verify", builtDecals() + "/decals.so"}, folder.path());
-  EXPECT_EQ(outcome.status, 0) << outcome.out << outcome.err;
-  EXPECT_NE(outcome.out.find(" 0 faults"), std::string::npos) << outcome.out;
-}
-
-TEST(DecalsFolder, ReadmeRunsAndShowsItsPicture) {
-  GRISAILLE_NEEDS_INSTALLATION();
-  builtDecals();
-  const fs::path source = SOURCE_FOLDER;
-  const TemporaryFolder folder;
-  const std::string script =
-      folder.write("readme.sh", "export PATH='" + installedPrefix() + "/bin':\"$PATH\"\ncp -r '" +
-                                    (source / "examples/decals").string() + "' mine\ncd mine\n" +
-                                    sessionOf(source / "examples/decals/README.md"));
-  const Outcome outcome = runShell("bash " + script, folder.path());
-  ASSERT_EQ(outcome.status, 0) << outcome.out << outcome.err;
-  EXPECT_LT(image::shareOver(image::read(folder / "mine/decals.png"),
-                             image::read(source / "docs/pictures/decals.png"), 8.0 / 255),
-            0.002);
-  const Outcome table = runShell(
-      "GRISAILLE_EFFECT_PATH='" + builtDecals() + "' grisaille effects --markdown decals", ".");
-  EXPECT_NE(readFile(source / "examples/decals/README.md").find(table.out), std::string::npos)
-      << "lacks this table:\n"
-      << table.out;
-}
 
 // A tile of the atrium's floor, seen from above. Up is -z in the decal's picture and in the camera.
 constexpr const char* kAbove =
@@ -63,7 +20,7 @@ class Decals : public ::testing::TestWithParam<std::string> {
  protected:
   void SetUp() override {
     GRISAILLE_NEEDS_INSTALLATION();
-    builtDecals();
+    builtExample("decals");
     writePng(squares({kRed, kGreen, kBlue, kGrey}), folder_, "squares.png");
     writePng(squares({kRed, kRed, kRed, kRed}), folder_, "red.png");
     writePng(squares({kBlue, kBlue, kBlue, kBlue}), folder_, "blue.png");
@@ -75,7 +32,7 @@ class Decals : public ::testing::TestWithParam<std::string> {
                                     "--backend",
                                     backend,
                                     "--plugin-path",
-                                    builtDecals(),
+                                    builtExample("decals"),
                                     "--effects",
                                     "decals",
                                     "--camera",

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: MIT
-// Builds the example.
+// Builds the examples of effects.
 #pragma once
 
 #include <gtest/gtest.h>
@@ -12,11 +12,11 @@
 
 namespace grisaille::tests {
 
-// Folder of the plugin. The first call copies the example's project to a temporary folder and
-// builds it against an installation. Throws std::runtime_error if that fails.
-const std::string& builtDecals();
-// Prefix of the installation that the example was built against.
-std::string installedPrefix();
+// Folder of an example's plugin. The first call copies the example's project to a temporary folder
+// and builds it against an installation. Throws std::runtime_error if that fails.
+const std::string& builtExample(const std::string& name);
+// Prefix of the installation that examples are built against.
+const std::string& installedPrefix();
 
 using Colour = std::array<uint8_t, 4>;  // sRGB, straight alpha
 inline constexpr Colour kRed{200, 40, 30, 255}, kGreen{30, 160, 60, 255}, kBlue{20, 60, 220, 255},
