@@ -55,7 +55,8 @@ bool Controls::update(const Place& place, Stage* stage, double seconds, float pi
   stage_ = stage;
   sincePress_ += seconds;
   sinceMoved_ += seconds;
-  const glm::dvec3 eye = session_.camera.eye;
+  const scene::Camera before = session_.camera;
+  const uint64_t jumps = session_.jumps();
   // A burst of the wheel, or a drag in the panel, is one place of the history.
   if (drag_ == Drag::kNone && sinceMoved_ > kRest && !ImGui::IsAnyItemActive()) {
     session_.cameraHistory.note(session_.camera);
@@ -66,7 +67,8 @@ bool Controls::update(const Place& place, Stage* stage, double seconds, float pi
   drawAxes(place, pixelsAUnit);
   bool moves = updateMouse(place, seconds);
   if (!io.WantTextInput && !io.KeyCtrl && updateFlight(place, seconds)) moves = true;
-  if (session_.camera.eye != eye) sinceMoved_ = 0;
+  if (session_.camera.eye != before.eye) sinceMoved_ = 0;
+  steered_ = session_.camera != before && session_.jumps() == jumps;
   return moves;
 }
 
@@ -210,10 +212,10 @@ void Controls::updateViewKeys() {
   if (ImGui::GetIO().KeyAlt) {
     CameraHistory& history = session_.cameraHistory;
     if (isKeyPressed(GLFW_KEY_LEFT, true)) {
-      session_.camera = history.back(session_.camera).value_or(session_.camera);
+      session_.jumpTo(history.back(session_.camera).value_or(session_.camera));
     }
     if (isKeyPressed(GLFW_KEY_RIGHT, true)) {
-      session_.camera = history.forward(session_.camera).value_or(session_.camera);
+      session_.jumpTo(history.forward(session_.camera).value_or(session_.camera));
     }
   }
   if (isKeyPressed(GLFW_KEY_KP_ADD, true) || isKeyPressed(GLFW_KEY_EQUAL, true)) {

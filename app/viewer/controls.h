@@ -34,6 +34,8 @@ class Controls {
   std::optional<glm::ivec2> texel(const Place& place) const;
   bool rightSide(const Place& place) const;
 
+  // True if the last update() moved the camera by a drag, a wheel or a key that repeats.
+  bool steered() const { return steered_; }
   bool wantsFullScreen = false;
 
  private:
@@ -77,6 +79,7 @@ class Controls {
   double sincePlaced_ = 0;                                      // seconds
   Stage* stage_ = nullptr;                                      // of the present update()
   Pick pressed_;                                                // where the drag began
+  bool steered_ = false;
   bool aimed_ = false;  // the target has the distance of pressed_
   // Seconds since the last press of the left button, and since the camera last moved.
   double sincePress_ = 1e9, sinceMoved_ = 1e9;

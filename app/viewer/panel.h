@@ -52,6 +52,9 @@ struct Status {
   bool cursorRight = false;  // the cursor is on the right side
   glm::ivec2 cursorTexel = glm::ivec2(0);
   glm::uvec2 picture = glm::uvec2(0);  // pixels
+  bool halved = false;                 // drawn at half the resolution
+  uint32_t averaged = 0;               // frames in the picture
+  uint32_t toAverage = 1;              // once it rests
   uint64_t waiting = 0;                // objects still to be drawn
   uint64_t givenUp = 0;                // the oldest, for which a limit leaves no room
   std::array<std::string, 2> sides;    // what each side of a split picture shows
@@ -151,6 +154,7 @@ class Panel {
   // panel_views.cpp
   void drawViews(const Status& status, Requests& requests);
   void drawBackground();
+  void drawFineness(const Status& status);
   void drawViewChoice(const char* label, const char* id, std::string& output,
                       const std::vector<Viewable>& all);
   // panel_split.cpp

@@ -147,7 +147,12 @@ void Session::setScene(std::shared_ptr<scene::Scene> loaded, const std::string& 
 
 void Session::goTo(const scene::Camera& next) {
   cameraHistory.note(camera);
+  jumpTo(next);
+}
+
+void Session::jumpTo(const scene::Camera& next) {
   camera = next;
+  ++jumps_;
 }
 
 void Session::findSurfaces() {

@@ -114,6 +114,9 @@ class Session {
   CameraHistory cameraHistory;
   // Sets the camera; cameraHistory keeps where it was.
   void goTo(const scene::Camera& next);
+  // The same without cameraHistory. Neither counts as movement: see jumps().
+  void jumpTo(const scene::Camera& next);
+  uint64_t jumps() const { return jumps_; }  // number of calls so far
   // False if a surface is less than `clearance` metres beyond, or on, the way of the eye from
   // `from` to `to`. Knows no surfaces before findSurfaces(), nor in builds without rays.
   bool isFree(const glm::dvec3& from, const glm::dvec3& to, double clearance);
@@ -173,6 +176,7 @@ class Session {
   bool split = false;
   float line = 0.5f;  // of the split, as a share of the picture's width
   SplitSettings splitting;
+  Fineness fineness;
   frame::Surface surface = frame::Surface::kWhite;
   frame::Background background = frame::kGrey;
   float zoom = 1;                      // pixels per texel
@@ -296,6 +300,7 @@ class Session {
   std::string placer_;                                         // effect chosen last
   std::map<std::string, objects::Object, std::less<>> next_;   // by effect
   std::string leftBefore_ = "color", rightBefore_ = "normal";  // views before the comparison
+  uint64_t jumps_ = 0;
   bool firstScene_ = true;
   bool homeGiven_ = false;                // by --camera
   double aspect_ = 1;                     // of the picture when the scene was loaded

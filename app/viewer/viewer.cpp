@@ -98,6 +98,7 @@ void Viewer::showFrames() {
     if (window_->wait(patience())) settle_ = kSettleFrames;
     // Frames drawn before the truth is traced do not count as complete.
     const bool hurry = options_.frames > 0 && !truth_->running();
+    watchMotion();
     if (lookAround() || hurry) settle_ = std::max(settle_, 1);
     if (stage_ && retry_.wait > 0 && Clock::now() >= retry_.at) stage_->retry();
     if (turnSides()) settle_ = std::max(settle_, 1);
@@ -130,11 +131,21 @@ double Viewer::patience() {
   const bool busy =
       loading_.running() || !rebuild_.building().empty() || tune_.started() || portal_.running();
   double seconds = busy || truth_->running() ? kWaitInterval : kLookInterval;  // notices signals
+  if (inMotion_) {
+    const std::chrono::duration<double> left = restsAt_ - Clock::now();
+    seconds = std::clamp(left.count(), 0.0, seconds);
+  }
   if (session_.split && session_.splitting.way == SplitWay::kFlicker) {
     const std::chrono::duration<double> left = turnAt_ - Clock::now();
     seconds = std::clamp(left.count(), 0.0, seconds);
   }
   return seconds;
+}
+
+// A camera that stops for less than kRest still moves: a drag does not flicker between a coarse and
+// a fine picture.
+void Viewer::watchMotion() {
+  inMotion_ = session_.isPlaying() || Clock::now() < restsAt_;
 }
 
 // Checks scene loading, plugin builds, tune and truth. True if one of them has news.
@@ -205,6 +216,11 @@ void Viewer::frame(double seconds) {
   }
   moving_ =
       controls_.update(place(), stage_.get(), seconds, io.DisplayFramebufferScale.x, requests);
+  if (controls_.steered()) {
+    restsAt_ = Clock::now() +
+               std::chrono::duration_cast<Clock::duration>(std::chrono::duration<double>(kRest));
+  }
+  watchMotion();
   if (!ImGui::IsAnyItemActive()) session_.noteChanges();
   ImGui::Render();
   if (window_->hasMoreEvents()) settle_ = kSettleFrames;

@@ -51,11 +51,13 @@ class Viewer {
  private:
   using Clock = std::chrono::steady_clock;
   static constexpr int kSettleFrames = 3;  // ImGui shows hover effects a frame or two late
+  static constexpr double kRest = 0.25;    // seconds without motion until the picture rests
 
   // viewer.cpp
   void showFrames();
   void rescue();
   double patience();
+  void watchMotion();
   bool lookAround();
   void frame(double seconds);
   void perform(const Requests& requests);
@@ -147,7 +149,13 @@ class Viewer {
   int settle_ = 0;            // further frames to draw, for hover and for late updates
   bool moving_ = false;       // a held key or button moves the camera or sprays
   double updateSeconds_ = 0;  // duration of the stage's last update
-  bool turned_ = false;       // with SplitWay::kFlicker: the right side is shown
+  // The picture moves: by the camera, until restsAt_, or because the animation plays.
+  bool inMotion_ = false;
+  Clock::time_point restsAt_ = {};
+  // Duration of a frame of the whole resolution, and the number of the last such frames in a row.
+  double wholeSeconds_ = 0;
+  uint32_t wholeFrames_ = 0;
+  bool turned_ = false;  // with SplitWay::kFlicker: the right side is shown
   Clock::time_point turnAt_ = {};
   // How far the sides are apart, and of which content.
   struct Compared {
