@@ -39,7 +39,7 @@ class Controls {
   bool wantsFullScreen = false;
 
  private:
-  enum class Drag : uint8_t { kNone, kOrbit, kPan, kLook, kLine, kPlace };
+  enum class Drag : uint8_t { kNone, kOrbit, kPan, kLook, kLine, kPlace, kObject };
 
   // A point that the user sees. Where there is no surface: at the target's distance.
   struct Pick {
@@ -66,9 +66,15 @@ class Controls {
   void updateKeys(const Place& place, Requests& requests);
   void updateViewKeys();
   void updateBookmarkKeys();
+  // controls_objects.cpp
   void placeObject(const Place& place, glm::dvec2 offset, bool joins);
-  // Converts window pixels to texels of the picture, from its top left corner.
+  void chooseObject(const Place& place);
+  void dragObject(const Place& place);
+  void spray(const Place& place, double seconds);
+  void drawChosen(const Place& place, float pixelsAUnit);
+  // Converts pixels of the window to pixels of the picture, from its top left corner; and back.
   glm::dvec2 pointAt(const Place& place, glm::dvec2 at) const;
+  glm::dvec2 windowAt(const Place& place, glm::dvec2 point) const;
 
   Session& session_;
   Panel& panel_;
@@ -80,7 +86,8 @@ class Controls {
   Stage* stage_ = nullptr;                                      // of the present update()
   Pick pressed_;                                                // where the drag began
   bool steered_ = false;
-  bool aimed_ = false;  // the target has the distance of pressed_
+  bool carried_ = false;  // the drag has moved the selected object
+  bool aimed_ = false;    // the target has the distance of pressed_
   // Seconds since the last press of the left button, and since the camera last moved.
   double sincePress_ = 1e9, sinceMoved_ = 1e9;
   glm::dvec2 pressedAt_ = glm::dvec2(-1);  // cursor at that press

@@ -55,6 +55,7 @@ class Viewer {
 
   // viewer.cpp
   void showFrames();
+  void fitText();
   void rescue();
   double patience();
   void watchMotion();
@@ -62,8 +63,6 @@ class Viewer {
   void frame(double seconds);
   void perform(const Requests& requests);
   void performOpening(const Requests& requests);
-  void startTune(const TuneWish& wish);
-  bool lookAtTune();
   bool lookAtPortal();
   void openScene(const std::string& path);
   void openAny(const std::string& path);
@@ -72,6 +71,11 @@ class Viewer {
   void takeDropped();
   void noteSize();
   void keepState();
+  // viewer_runs.cpp
+  void startTune(const TuneWish& wish);
+  bool lookAtTune();
+  void startSequence();
+  bool lookAtSequence();
   // viewer_session.cpp
   std::optional<SavedSession> firstSession();
   bool keepsSession() const { return options_.frames == 0; }
@@ -140,12 +144,18 @@ class Viewer {
   std::string buildMessage_;
   std::string failedScene_;  // as in Status
   bool pictured_ = false;    // the scene has its thumbnail
+  ChildRun sequence_;
+  std::string sequenceText_;  // its last progress
   TuneRun tune_;
   TuneStatus tuning_;
   PassTimes times_;
   std::vector<ColorShare> coverage_;
 
   std::string backend_, firstBackend_, layoutWritten_;
+  double textScale_ = 0;  // of the last frame; 0: no frame yet
+  // Size that fitText() gave the window, and the width of the picture that it keeps, in its units.
+  glm::uvec2 textSize_ = glm::uvec2(0);
+  double textPicture_ = 0;
   int settle_ = 0;            // further frames to draw, for hover and for late updates
   bool moving_ = false;       // a held key or button moves the camera or sprays
   double updateSeconds_ = 0;  // duration of the stage's last update

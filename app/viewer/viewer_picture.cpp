@@ -255,6 +255,8 @@ Status Viewer::status() {
   status.failedScene = failedScene_;
   status.truth = truthStatus();
   status.tune = tuning_;
+  const ChildRun::State sequence = sequence_.state();
+  status.sequence = {sequence_.started(), sequence.done, sequence.text};
   status.rebuilding = rebuild_.building();
   status.buildMessage = buildMessage_;
   const auto texel = controls_.texel(place());
