@@ -28,33 +28,47 @@
 #include "core/base/error.h"
 #include "core/image/image.h"
 #include "core/scene/camera_matrices.h"
+#include "core/scene/camera_path.h"
 
 namespace grisaille::app {
 namespace {
 
 struct RenderOptions : EffectOptions {
   SceneOptions view;
-  std::string timings, coverage, times;
+  std::string timings, coverage, times, path;
   double coverageSlope = 180;  // degrees
   ObjectOptions objects;
   uint32_t frames = 1;
+  bool json = false;
+
+  bool isSequence() const { return !times.empty() || !path.empty(); }
+};
+
+// One frame of a sequence.
+struct SequenceFrame {
+  scene::Camera camera;
+  std::optional<double> seconds;  // of the animation; none: the scene keeps its pose
 };
 
 // The parsed command line, checked before any slow work starts.
 struct RenderJob : ChosenEffects {
   std::vector<OutputFiles> outputs;
-  std::vector<double> times;  // of --times, seconds; empty: one picture, of view.pose
+  std::vector<SequenceFrame> sequence;  // empty: one picture, of view.pose
   SceneView view;
 
   std::optional<Owned> owned;  // what --coverage measures; none without --coverage
 
   explicit RenderJob(const RenderOptions& options) : ChosenEffects(options) {
+    std::vector<double> times;
     if (!options.times.empty()) times = parseTimes(options.times);
+    scene::CameraPath path;
+    if (!options.path.empty()) path = scene::loadCameraPath(options.path);
     findOutputs(options);
     if (options.timings == "-" && options.coverage == "-") {
       throw Error(ErrorId::kUsage, "--timings and --coverage cannot both be standard output");
     }
-    requireDistinctOutputs(options);
+    const size_t alongPath = path.keys.empty() ? 0 : path.frames;
+    requireDistinctOutputs(options, times.empty() ? alongPath : times.size());
     for (const std::string& file : {options.timings, options.coverage}) {
       if (!file.empty() && file != "-") requireWritable(file);
     }
@@ -64,8 +78,10 @@ struct RenderJob : ChosenEffects {
     options.objects.check(chain);
     SceneOptions first = options.view;
     if (!times.empty()) first.pose.time = times.front();
+    if (!path.keys.empty()) first.camera = scene::cameraJson(path.keys.front());
     view = loadView(first);
     if (!times.empty()) requireWithin(view.scene, *view.pose.animation, times.back());
+    setSequence(times, path);
     fitToScene(chain.selection, view.scene);
     view.takePose();
     if (options.coverage.empty()) return;
@@ -79,28 +95,41 @@ struct RenderJob : ChosenEffects {
 
  private:
   void findOutputs(const RenderOptions& options);
-  void requireDistinctOutputs(const RenderOptions& options) const;
+  void requireDistinctOutputs(const RenderOptions& options, size_t frames) const;
+  void setSequence(const std::vector<double>& times, scene::CameraPath path);
 };
+
+// Along a path, the camera takes as many steps as there are times.
+void RenderJob::setSequence(const std::vector<double>& times, scene::CameraPath path) {
+  for (const double seconds : times) sequence.push_back({view.camera, seconds});
+  if (path.keys.empty()) return;
+  if (!times.empty()) path.frames = static_cast<uint32_t>(times.size());
+  const std::vector<scene::Camera> cameras = scene::camerasOf(path);
+  sequence.resize(cameras.size());
+  for (size_t i = 0; i < cameras.size(); ++i) sequence[i].camera = cameras[i];
+}
 
 void RenderJob::findOutputs(const RenderOptions& options) {
   for (const OutputFile& write : parseOutputFiles(options.writes)) {
     outputs.push_back({write.output, FileName(write.file)});
-    if (outputs.back().file.numbered() == !times.empty()) continue;
+    if (outputs.back().file.numbered() == options.isSequence()) continue;
     throw Error(ErrorId::kSequence, "'{}' {}", write.file,
-                times.empty() ? "has a frame number, but --times is not given"
-                              : "has no frame number, but --times writes a sequence");
+                options.isSequence()
+                    ? "has no frame number, but --times or --path writes a sequence"
+                    : "has a frame number, but neither --times nor --path is given");
   }
   if (!outputs.empty()) return;
-  outputs.push_back({"color", FileName(times.empty() ? "grisaille.png" : "grisaille.####.png")});
+  const char* name = options.isSequence() ? "grisaille.####.png" : "grisaille.png";
+  outputs.push_back({"color", FileName(name)});
 }
 
 // Compares the output files of all frames.
-void RenderJob::requireDistinctOutputs(const RenderOptions& options) const {
+void RenderJob::requireDistinctOutputs(const RenderOptions& options, size_t frames) const {
   std::vector<NamedOutput> files = options.objects.outputs();
   if (options.timings != "-") files.push_back({"--timings " + options.timings, options.timings});
   const std::string& coverage = options.coverage;
   if (coverage != "-") files.push_back({"--coverage " + coverage, coverage});
-  for (int i = 0; i < static_cast<int>(std::max(times.size(), size_t{1})); ++i) {
+  for (int i = 0; i < static_cast<int>(std::max(frames, size_t{1})); ++i) {
     for (const OutputFiles& output : outputs) {
       const std::string file = output.file.at(i);
       files.push_back({fmt::format("--write {}={}", output.output, file), file});
@@ -111,7 +140,7 @@ void RenderJob::requireDistinctOutputs(const RenderOptions& options) const {
 
 // Messages go to standard error when a table goes to standard output.
 std::FILE* notesOf(const RenderOptions& options) {
-  return options.timings == "-" || options.coverage == "-" ? stderr : stdout;
+  return options.timings == "-" || options.coverage == "-" || options.json ? stderr : stdout;
 }
 
 void writeText(const std::string& file, const std::string& text) {
@@ -169,19 +198,24 @@ void requireAll(const frame::Renderer& renderer) {
 
 // Renders and writes one frame after another with one renderer, so that effects with a history find
 // their frame before. A signal ends the sequence between two frames.
-void renderSequence(const RenderOptions& options, RenderJob& job, const frame::FrameDesc& desc,
+void renderSequence(const RenderOptions& options, RenderJob& job, frame::FrameDesc desc,
                     frame::Renderer& renderer) {
   const truth::Interruption interruption;
-  const auto frames = static_cast<int>(job.times.size());
+  const auto frames = static_cast<int>(job.sequence.size());
   int done = 0;
   {
-    truth::Progress progress("render", truth::usualProgress());
+    truth::Progress progress("render",
+                             options.json ? truth::ProgressStyle::kJson : truth::usualProgress());
     for (; done < frames && !truth::Interruption::asked(); ++done) {
-      const double seconds = job.times[static_cast<size_t>(done)];
+      const auto& [camera, seconds] = job.sequence[static_cast<size_t>(done)];
+      const std::string at = seconds ? fmt::format(", {:.3f} s", *seconds) : "";
       progress.show({.done = static_cast<double>(done),
                      .total = static_cast<double>(frames),
-                     .text = fmt::format("frame {} of {}, {:.3f} s", done + 1, frames, seconds)});
-      scene::pose(job.view.scene, {.animation = job.view.pose.animation, .seconds = seconds});
+                     .text = fmt::format("frame {} of {}{}", done + 1, frames, at)});
+      if (seconds) {
+        scene::pose(job.view.scene, {.animation = job.view.pose.animation, .seconds = *seconds});
+      }
+      job.view.camera = desc.camera = camera;
       renderer.render(desc);
       requireAll(renderer);
       writeOutputs(job, done, renderer);
@@ -230,7 +264,7 @@ void renderFrames(const RenderOptions& options, RenderJob& job, gpu::Device& dev
                                  .chain = &job.chain,
                                  .outputs = outputs,
                                  .services = services.all()};
-  if (!job.times.empty()) {
+  if (!job.sequence.empty()) {
     renderSequence(options, job, desc, renderer);
   } else {
     settleObjects(desc, renderer);
@@ -288,11 +322,19 @@ void addRender(CLI::App& program) {
                        "stands for the frame number, from 0. STEP may be a fraction: 0:4:1/24")
           ->type_name("FIRST:LAST:STEP")
           ->excludes("--time");
+  CLI::Option* path =
+      command
+          ->add_option("--path", options->path,
+                       "Render along a camera path: JSON with \"cameras\" and \"frames\"; with "
+                       "--times, as many frames as there are times")
+          ->type_name("FILE")
+          ->excludes("--camera");
   command
       ->add_option("--frames", options->frames,
                    "Number of frames to render; the last one is written")
       ->check(wholeNumberFrom(1, 1000000))
       ->excludes(times)
+      ->excludes(path)
       ->capture_default_str();
   command
       ->add_option("--timings", options->timings,
@@ -305,7 +347,8 @@ void addRender(CLI::App& program) {
           "Write as CSV which share of the scene's surface the objects of each colour cover; -: to "
           "standard output")
       ->type_name("FILE.csv|-")
-      ->excludes(times);
+      ->excludes(times)
+      ->excludes(path);
   command
       ->add_option("--coverage-slope", options->coverageSlope,
                    "Only surfaces at most so many degrees from level count for --coverage: 45 for "
@@ -313,6 +356,8 @@ void addRender(CLI::App& program) {
       ->check(numberFrom(0, 180))
       ->needs("--coverage")
       ->capture_default_str();
+  command->add_flag("--json", options->json,
+                    "Print the progress of a sequence as lines of JSON on standard output");
   command->callback([options] { render(*options); });
 }
 

@@ -41,7 +41,12 @@ std::vector<std::string> renderArguments(const RenderCommand& command) {
   arguments.insert(arguments.end(), command.pose.begin(), command.pose.end());
   scene::Camera camera = command.camera;
   camera.size = glm::uvec2(0);  // --size gives it
-  add("--camera", scene::cameraJson(camera));
+  if (command.path.empty()) {
+    add("--camera", scene::cameraJson(camera));
+  } else {
+    add("--path", command.path);
+  }
+  if (!command.times.empty()) add("--times", command.times);
   add("--size", fmt::format("{}x{}", command.size.x, command.size.y));
   if (!command.backend.empty()) add("--backend", command.backend);
   if (!command.device.empty()) add("--device", command.device);
@@ -58,9 +63,9 @@ std::vector<std::string> renderArguments(const RenderCommand& command) {
   return arguments;
 }
 
-std::string renderCommand(const RenderCommand& command) {
+std::string quotedLine(const std::vector<std::string>& arguments) {
   std::string line;
-  for (const std::string& argument : renderArguments(command)) {
+  for (const std::string& argument : arguments) {
     line += (line.empty() ? "" : " ") + shellQuoted(argument);
   }
   return line;

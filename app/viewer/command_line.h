@@ -17,8 +17,9 @@ struct RenderCommand {
   std::string scene = {};              // as of loadScene(); "": the default
   std::vector<std::string> pose = {};  // --animation and --time; empty: at rest
   scene::Camera camera = {};
-  glm::uvec2 size = glm::uvec2(1280, 720);     // pixels
-  std::string backend = {}, device = {};       // "": no option
+  std::string path = {}, times = {};        // of a sequence: --path instead of the camera, --times
+  glm::uvec2 size = glm::uvec2(1280, 720);  // pixels
+  std::string backend = {}, device = {};    // "": no option
   const effect::Selection* effects = nullptr;  // only those switched on; null: none
   std::string surface = "white";
   std::string background = {};  // "": no option
@@ -31,8 +32,11 @@ struct RenderCommand {
 // their defaults, and the lengths of the scene.
 std::vector<std::string> renderArguments(const RenderCommand& command);
 
-// renderArguments() as one line, quoted for a shell.
-std::string renderCommand(const RenderCommand& command);
+// Arguments as one line, quoted for a shell.
+std::string quotedLine(const std::vector<std::string>& arguments);
+inline std::string renderCommand(const RenderCommand& command) {
+  return quotedLine(renderArguments(command));
+}
 
 // Appends --effects with the effects that are on, and --set for each of their values that differs
 // from its default or is a length of the scene.

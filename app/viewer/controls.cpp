@@ -13,13 +13,10 @@
 namespace grisaille::app::viewer {
 namespace {
 
-constexpr double kSprayInterval = 1.0 / 20;  // seconds
-constexpr int kMostSprayed = 8;              // per frame
-constexpr double kSprayRadius = 12;          // pixels
-constexpr double kLineReach = 6;             // pixels on either side where a click grabs the line
-constexpr double kDoubleClick = 0.5;         // seconds between the presses, at most
-constexpr double kDoubleReach = 6;           // pixels between the presses, at most
-constexpr double kRest = 0.5;                // seconds without motion end a move of the camera
+constexpr double kLineReach = 6;      // pixels on either side where a click grabs the line
+constexpr double kDoubleClick = 0.5;  // seconds between the presses, at most
+constexpr double kDoubleReach = 6;    // pixels between the presses, at most
+constexpr double kRest = 0.5;         // seconds without motion end a move of the camera
 
 }  // namespace
 
@@ -27,6 +24,12 @@ glm::dvec2 Controls::pointAt(const Place& place, glm::dvec2 at) const {
   const glm::dvec2 size(place.size);
   return glm::dvec2(session_.centre) * size +
          (at - glm::dvec2(place.corner) + 0.5 - 0.5 * size) / static_cast<double>(session_.zoom);
+}
+
+glm::dvec2 Controls::windowAt(const Place& place, glm::dvec2 point) const {
+  const glm::dvec2 size(place.size);
+  return (point - glm::dvec2(session_.centre) * size) * static_cast<double>(session_.zoom) +
+         glm::dvec2(place.corner) - 0.5 + 0.5 * size;
 }
 
 std::optional<glm::ivec2> Controls::texel(const Place& place) const {
@@ -55,7 +58,8 @@ bool Controls::update(const Place& place, Stage* stage, double seconds, float pi
   stage_ = stage;
   sincePress_ += seconds;
   sinceMoved_ += seconds;
-  const glm::dvec3 eye = session_.camera.eye;
+  const scene::Camera before = session_.camera;
+  const uint64_t jumps = session_.jumps();
   // A burst of the wheel, or a drag in the panel, is one place of the history.
   if (drag_ == Drag::kNone && sinceMoved_ > kRest && !ImGui::IsAnyItemActive()) {
     session_.cameraHistory.note(session_.camera);
@@ -64,9 +68,11 @@ bool Controls::update(const Place& place, Stage* stage, double seconds, float pi
   if (!io.WantTextInput) updateKeys(place, requests);
   if (place.size.x == 0 || place.size.y == 0) return false;
   drawAxes(place, pixelsAUnit);
+  drawChosen(place, pixelsAUnit);
   bool moves = updateMouse(place, seconds);
   if (!io.WantTextInput && !io.KeyCtrl && updateFlight(place, seconds)) moves = true;
-  if (session_.camera.eye != eye) sinceMoved_ = 0;
+  if (session_.camera.eye != before.eye) sinceMoved_ = 0;
+  steered_ = session_.camera != before && session_.jumps() == jumps;
   return moves;
 }
 
@@ -87,6 +93,9 @@ void Controls::beginDrag(const Place& place) {
     const bool lined = session_.split && session_.splitting.way == SplitWay::kLine;
     if (lined && std::abs(cursor_.x - line) <= kLineReach) {
       drag_ = Drag::kLine;
+    } else if (ImGui::GetIO().KeyCtrl) {
+      drag_ = Drag::kObject;
+      chooseObject(place);
     } else if (session_.placing && !ImGui::GetIO().KeyAlt) {
       drag_ = Drag::kPlace;
       sincePlaced_ = 0;
@@ -114,7 +123,7 @@ void Controls::beginDrag(const Place& place) {
 }
 
 void Controls::drag(const Place& place, double seconds) {
-  constexpr ImGuiMouseButton kButtons[] = {0, 0, ImGuiMouseButton_Middle, ImGuiMouseButton_Right,
+  constexpr ImGuiMouseButton kButtons[] = {0, 0, ImGuiMouseButton_Middle, ImGuiMouseButton_Right, 0,
                                            0, 0};
   switch (drag_) {
     case Drag::kOrbit:
@@ -126,18 +135,12 @@ void Controls::drag(const Place& place, double seconds) {
       session_.line = std::clamp(
           static_cast<float>((cursor_.x - place.corner.x + 0.5) / place.size.x), 0.0f, 1.0f);
       break;
-    default: {
-      if (!session_.sprays()) break;
-      sincePlaced_ += seconds;
-      std::normal_distribution<double> off(0, kSprayRadius / 2);
-      for (int i = 0; i < kMostSprayed && sincePlaced_ >= kSprayInterval &&
-                      ImGui::IsMouseDown(ImGuiMouseButton_Left);
-           ++i, sincePlaced_ -= kSprayInterval) {
-        placeObject(place, {off(random_), off(random_)}, true);
-      }
-      sincePlaced_ = std::min(sincePlaced_, kSprayInterval);
+    case Drag::kObject:
+      dragObject(place);
       break;
-    }
+    default:
+      spray(place, seconds);
+      break;
   }
   if (!ImGui::IsMouseDown(kButtons[static_cast<size_t>(drag_)])) drag_ = Drag::kNone;
 }
@@ -167,6 +170,7 @@ void Controls::updateKeys(const Place& place, Requests& requests) {
   if (isKeyPressed(GLFW_KEY_ESCAPE)) {
     panel_.closeDialogs();
     ImGui::SetWindowFocus(nullptr);
+    session_.chooseNone();
   }
   updateBookmarkKeys();
   if (io.KeyCtrl) {
@@ -177,6 +181,7 @@ void Controls::updateKeys(const Place& place, Requests& requests) {
   }
   updateViewKeys();
   if (isKeyPressed(GLFW_KEY_F)) frameScene(place);
+  if (isKeyPressed(GLFW_KEY_DELETE)) session_.deleteChosen();
   if (io.WantCaptureKeyboard) return;  // the panel takes the keys
   if (isKeyPressed(GLFW_KEY_TAB)) panel_.takeFocus();
   if (isKeyPressed(GLFW_KEY_SPACE)) {
@@ -210,10 +215,10 @@ void Controls::updateViewKeys() {
   if (ImGui::GetIO().KeyAlt) {
     CameraHistory& history = session_.cameraHistory;
     if (isKeyPressed(GLFW_KEY_LEFT, true)) {
-      session_.camera = history.back(session_.camera).value_or(session_.camera);
+      session_.jumpTo(history.back(session_.camera).value_or(session_.camera));
     }
     if (isKeyPressed(GLFW_KEY_RIGHT, true)) {
-      session_.camera = history.forward(session_.camera).value_or(session_.camera);
+      session_.jumpTo(history.forward(session_.camera).value_or(session_.camera));
     }
   }
   if (isKeyPressed(GLFW_KEY_KP_ADD, true) || isKeyPressed(GLFW_KEY_EQUAL, true)) {
@@ -248,12 +253,6 @@ void Controls::updateBookmarkKeys() {
       }
     });
   }
-}
-
-void Controls::placeObject(const Place& place, glm::dvec2 offset, bool joins) {
-  const glm::dvec2 point = pointAt(place, cursor_ + offset);
-  if (point.x < 0 || point.y < 0 || point.x >= place.size.x || point.y >= place.size.y) return;
-  session_.attempt("object", [&] { session_.place(point, place.size, joins); });
 }
 
 }  // namespace grisaille::app::viewer

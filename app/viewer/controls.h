@@ -34,10 +34,12 @@ class Controls {
   std::optional<glm::ivec2> texel(const Place& place) const;
   bool rightSide(const Place& place) const;
 
+  // True if the last update() moved the camera by a drag, a wheel or a key that repeats.
+  bool steered() const { return steered_; }
   bool wantsFullScreen = false;
 
  private:
-  enum class Drag : uint8_t { kNone, kOrbit, kPan, kLook, kLine, kPlace };
+  enum class Drag : uint8_t { kNone, kOrbit, kPan, kLook, kLine, kPlace, kObject };
 
   // A point that the user sees. Where there is no surface: at the target's distance.
   struct Pick {
@@ -64,9 +66,15 @@ class Controls {
   void updateKeys(const Place& place, Requests& requests);
   void updateViewKeys();
   void updateBookmarkKeys();
+  // controls_objects.cpp
   void placeObject(const Place& place, glm::dvec2 offset, bool joins);
-  // Converts window pixels to texels of the picture, from its top left corner.
+  void chooseObject(const Place& place);
+  void dragObject(const Place& place);
+  void spray(const Place& place, double seconds);
+  void drawChosen(const Place& place, float pixelsAUnit);
+  // Converts pixels of the window to pixels of the picture, from its top left corner; and back.
   glm::dvec2 pointAt(const Place& place, glm::dvec2 at) const;
+  glm::dvec2 windowAt(const Place& place, glm::dvec2 point) const;
 
   Session& session_;
   Panel& panel_;
@@ -77,7 +85,9 @@ class Controls {
   double sincePlaced_ = 0;                                      // seconds
   Stage* stage_ = nullptr;                                      // of the present update()
   Pick pressed_;                                                // where the drag began
-  bool aimed_ = false;  // the target has the distance of pressed_
+  bool steered_ = false;
+  bool carried_ = false;  // the drag has moved the selected object
+  bool aimed_ = false;    // the target has the distance of pressed_
   // Seconds since the last press of the left button, and since the camera last moved.
   double sincePress_ = 1e9, sinceMoved_ = 1e9;
   glm::dvec2 pressedAt_ = glm::dvec2(-1);  // cursor at that press

@@ -166,7 +166,7 @@ void Controls::frameScene(const Place& place) {
   if (!session_.scene || place.size.y == 0) return;
   const double aspect = double{1} * place.size.x / place.size.y;
   scene::Camera next = session_.camera;
-  const auto selected = panel_.selectedPoint();
+  const auto selected = session_.chosenPoint();
   if (selected && next.target != *selected) {
     frameBall(next, *selected, kObjectRadii * session_.sceneRadius(), aspect);
   } else {

@@ -105,7 +105,8 @@ std::optional<Side> OtherBackend::side() const {
   return Side{texture_, kind_};
 }
 
-std::vector<float> OtherBackend::valueAt(glm::uvec2 texel) const {
+std::vector<float> OtherBackend::valueAt(glm::uvec2 pixel) const {
+  const glm::uvec2 texel = pixel / (stage_ ? stage_->scale() : 1);
   if (texel.x >= values_.width || texel.y >= values_.height) return {};
   const float* first =
       &values_.pixels[(size_t{texel.y} * values_.width + texel.x) * values_.channels];

@@ -40,7 +40,7 @@ class OtherBackend {
 
   // None before the first update() since forget(). Valid until the next update().
   std::optional<Side> side() const;
-  std::vector<float> valueAt(glm::uvec2 texel) const;
+  std::vector<float> valueAt(glm::uvec2 pixel) const;
   uint64_t revision() const { return revision_; }  // of the side's content; only grows
   uint64_t waiting() const { return stage_ ? stage_->waiting() : 0; }
 

@@ -39,6 +39,8 @@ constexpr struct {
     {"", ""},
     {"B", "left button places an object, or orbits again"},
     {"Space", "place an object in the middle of the picture"},
+    {"Ctrl + click, Ctrl + drag", "select an object in the picture; move it along surfaces"},
+    {"Delete", "delete the selected object"},
     {"Ctrl + Z, Ctrl + Shift + Z", "undo, redo"},
     {"", ""},
     {"V, Shift + V", "next view, previous view"},
@@ -145,6 +147,7 @@ Requests Panel::draw(const Status& status, glm::vec2 window) {
     if (section("Settings", false)) drawSettings(requests);
     if (section("Cost", false)) drawCost(status);
     if (section("Camera", false)) drawCamera();
+    if (section("Sequence", false)) drawSequence(status, requests);
     if (section("Scene", false)) drawScene(requests);
     ImGui::EndChild();
     drawReadout(status);
@@ -169,7 +172,7 @@ void Panel::drawSettings(Requests& requests) {
   ImGui::BeginDisabled(!session_.history.canRedo());
   if (button("Redo", "redo", session_.history.redoName().c_str())) session_.redo();
   ImGui::EndDisabled();
-  path("##settings", "settings path", settingsPath_);
+  path("##settings", "settings path", settingsPath_, {"Load", "Save"});
   ImGui::SameLine();
   if (button("Load", "load settings")) {
     session_.attempt("settings to load", [&] { session_.loadSettings(settingsPath_); });
@@ -182,9 +185,9 @@ void Panel::drawSettings(Requests& requests) {
     }
     layout.note("saved." + saved.name);
   }
-  path("##saved", "saved name", savedName_);
+  path("##saved", "saved name", savedName_, {"Save as"});
   ImGui::SameLine();
-  if (button("Save under this name", "save named", "Lists the settings here, in every session")) {
+  if (button("Save as", "save named", "Lists the settings under this name, in every session")) {
     session_.attempt("settings to save", [&] {
       Bookmarks::checkName(savedName_);
       std::filesystem::create_directories(configFolder() / "settings");
@@ -193,7 +196,7 @@ void Panel::drawSettings(Requests& requests) {
     listsFresh_ = false;
   }
   toggle("Light theme", "light theme", state_.layout.light);
-  path("##session", "session path", sessionPath_);
+  path("##session", "session path", sessionPath_, {"Open", "Save session"});
   ImGui::SameLine();
   if (button("Open##session", "open session",
              "Scene, camera, effects, values, objects and layout of a session file")) {
@@ -247,7 +250,7 @@ void Panel::drawCamera() {
     layout.note("bookmark." + entry.name);
     ImGui::PopID();
   }
-  path("##bookmark", "bookmark name", bookmarkName_);
+  path("##bookmark", "bookmark name", bookmarkName_, {"Bookmark"});
   ImGui::SameLine();
   if (button("Bookmark", "save bookmark")) {
     session_.attempt("bookmark", [&] { bookmarks_.save(bookmarkName_, session_.camera); });

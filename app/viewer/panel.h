@@ -6,6 +6,7 @@
 #include <imgui/imgui.h>
 
 #include <array>
+#include <initializer_list>
 #include <map>
 #include <optional>
 #include <string>
@@ -41,6 +42,13 @@ struct TuneStatus {
   TuneRun::Outcome outcome;  // of the last search
 };
 
+// State of the sequence that `grisaille render` makes.
+struct SequenceStatus {
+  bool running = false;
+  double done = 0;  // 0 ... 1
+  std::string text;
+};
+
 // State that the panel shows besides the session.
 struct Status {
   gpu::DeviceInfo device;
@@ -52,6 +60,9 @@ struct Status {
   bool cursorRight = false;  // the cursor is on the right side
   glm::ivec2 cursorTexel = glm::ivec2(0);
   glm::uvec2 picture = glm::uvec2(0);  // pixels
+  bool halved = false;                 // drawn at half the resolution
+  uint32_t averaged = 0;               // frames in the picture
+  uint32_t toAverage = 1;              // once it rests
   uint64_t waiting = 0;                // objects still to be drawn
   uint64_t givenUp = 0;                // the oldest, for which a limit leaves no room
   std::array<std::string, 2> sides;    // what each side of a split picture shows
@@ -61,6 +72,7 @@ struct Status {
   std::vector<frame::LeftOut> leftOut;
   TruthStatus truth;
   TuneStatus tune;
+  SequenceStatus sequence;
   std::optional<double> loading;  // share of the scene that is read, 0 ... 1
   std::string loadingPath;
   // Why the last scene could not be opened, and no scene has been since; "": none.
@@ -77,7 +89,7 @@ struct Requests {
   std::optional<std::string> backend;                   // that shall open the window
   std::optional<std::string> openSession, saveSession;  // files
   std::optional<TuneWish> tune;
-  bool cancelTune = false;
+  bool cancelTune = false, sequence = false, cancelSequence = false;
   bool rescan = false, picture = false, copyCommand = false, help = false, quit = false;
 };
 
@@ -99,9 +111,6 @@ class Panel {
   // Call between ImGui::NewFrame() and ImGui::Render(). `window`: size, in the window's units.
   Requests draw(const Status& status, glm::vec2 window);
 
-  // The point of the object that the user selected last; none: there is no such object.
-  std::optional<glm::dvec3> selectedPoint() const;
-
   // Width at the left of the window, in the window's units; 0 if hidden.
   float width(glm::vec2 window) const;
 
@@ -114,6 +123,7 @@ class Panel {
   }
 
   bool shown = true, help = false, wantsCoverage = false;
+  bool scrolls = false;  // after draw(): the newest message comes into sight in the next frame
   glm::uvec2 pictureSize = glm::uvec2(1920, 1080);  // of saved pictures
   bool pictureAsShown = true;                       // save at the size on the screen
   Layout layout;
@@ -140,6 +150,7 @@ class Panel {
                      double& value);
   // panel_cost.cpp
   void drawCost(const Status& status);
+  void drawCostGraph(const std::vector<PassStats>& rows, size_t passes, float top);
   void saveCost(const Status& status);
   // panel_tune.cpp
   void drawPresets(effect::Selection::Entry& entry);
@@ -152,6 +163,7 @@ class Panel {
   // panel_views.cpp
   void drawViews(const Status& status, Requests& requests);
   void drawBackground();
+  void drawFineness(const Status& status);
   void drawViewChoice(const char* label, const char* id, std::string& output,
                       const std::vector<Viewable>& all);
   // panel_split.cpp
@@ -163,6 +175,9 @@ class Panel {
   float heightBelow(const Status& status, glm::vec2 window);
   void drawReadout(const Status& status);
   void drawMessages();
+  // panel_sequence.cpp
+  void drawSequence(const Status& status, Requests& requests);
+  void drawPath();
   // panel_time.cpp
   void drawTime();
   void drawAnimationChoice();
@@ -189,8 +204,10 @@ class Panel {
   static constexpr float kItem = 0.58f;  // width of a control beside its name, of the panel's width
   bool button(const char* label, const char* id, const char* tooltip = "");
   bool toggle(const char* label, const char* id, bool& value, const char* tooltip = "");
-  // A text field for a path or a name. True if the user pressed Enter.
-  bool path(const char* label, const char* id, std::string& text);
+  // A text field for a path or a name, which leaves room for the buttons with these labels in its
+  // line. True if the user pressed Enter.
+  bool path(const char* label, const char* id, std::string& text,
+            std::initializer_list<const char*> buttons);
   // Shows a tooltip while the last item is hovered; wraps it to fit into the window.
   void tip(const std::string& text);
   // The label of a control with this id, and its width: `share` of the panel's, less for a long
@@ -214,12 +231,11 @@ class Panel {
   std::vector<SavedSettings> savedList_;
   bool listsFresh_ = false, wantsFocus_ = false;
   size_t messagesSeen_ = 0;
-  float readoutHeight_ = 0;                         // in the window's units
-  std::map<std::string, TuneWish> wishes_;          // by effect
-  std::map<std::string, std::string> objectPaths_;  // by effect
-  std::map<std::string, size_t> selected_;          // by effect: index of an object
-  std::string selectedLast_;                        // the effect of the object selected last
-  std::map<std::string, size_t> sizes_;             // by effect: number of objects last frame
+  std::string messageSeen_;                                    // the newest one
+  float readoutHeight_ = 0;                                    // in the window's units
+  std::map<std::string, TuneWish> wishes_;                     // by effect
+  std::map<std::string, std::string> objectPaths_;             // by effect
+  std::map<std::string, std::optional<size_t>> chosenBefore_;  // by effect: selected last frame
   std::optional<Draft> draft_;
   bool drafting_ = false;                                // the draft's control still has the focus
   std::string editing_;                                  // the field being edited; "": none

@@ -36,6 +36,16 @@ ImVec4 colourOf(size_t row, size_t passes, size_t rows) {
   return readable(kColours[row % kFrameColour]);
 }
 
+// A square of a line's colour, beside its name: as text, some of them would be faint.
+void drawSwatch(ImVec4 colour) {
+  const float side = 0.7f * ImGui::GetFontSize();
+  const ImVec2 at = ImGui::GetCursorScreenPos();
+  const float top = at.y + (ImGui::GetTextLineHeight() - side) / 2;
+  ImGui::GetWindowDrawList()->AddRectFilled(ImVec2(at.x, top), ImVec2(at.x + side, top + side),
+                                            ImGui::GetColorU32(colour));
+  ImGui::Dummy(ImVec2(side, ImGui::GetTextLineHeight()));
+}
+
 // A power of ten times 1, 2 or 5, at least `most`.
 float roundedUp(float most) {
   float step = 1e-3f;
@@ -53,10 +63,40 @@ void Panel::saveCost(const Status& status) {
   });
 }
 
+// The last frames, the newest at the right end. `top`: milliseconds of the whole height.
+void Panel::drawCostGraph(const std::vector<PassStats>& rows, size_t passes, float top) {
+  const ImVec2 size(ImGui::GetContentRegionAvail().x, kGraphHeight * ImGui::GetTextLineHeight());
+  const ImVec2 from = ImGui::GetCursorScreenPos();
+  ImDrawList& list = *ImGui::GetWindowDrawList();
+  list.AddRectFilled(from, ImVec2(from.x + size.x, from.y + size.y),
+                     ImGui::GetColorU32(ImGuiCol_FrameBg));
+  std::vector<ImVec2> points;
+  for (size_t i = 0; i < rows.size(); ++i) {
+    const std::vector<float>& recent = rows[i].recent;
+    points.clear();
+    const float step = size.x / static_cast<float>(PassTimes::kFramesKept - 1);
+    for (size_t k = 0; k < recent.size(); ++k) {
+      points.emplace_back(from.x + size.x - step * static_cast<float>(recent.size() - 1 - k),
+                          from.y + size.y * (1 - recent[k] / top));
+    }
+    list.AddPolyline(points.data(), static_cast<int>(points.size()),
+                     ImGui::GetColorU32(colourOf(i, passes, rows.size())), 0, 1.5f);
+  }
+  const std::string label = fmt::format("{:g} ms", top);
+  list.AddText(from, ImGui::GetColorU32(ImGuiCol_Text), label.c_str());
+  ImGui::Dummy(size);
+  layout.note("cost graph", label);
+}
+
 void Panel::drawCost(const Status& status) {
   const std::vector<PassStats> rows = rowsOf(status);
   const char* clock = gpu::clockName(status.device.clock);
   ImGui::TextDisabled("%s clock, last %zu frames", clock, status.whole.recent.size());
+  float most = 0;
+  for (const PassStats& row : rows) {
+    for (const float ms : row.recent) most = std::max(most, ms);
+  }
+  if (most > 0) drawCostGraph(rows, status.passes.size(), roundedUp(most));
   toggle("Render all the time", "continuous", session_.continuous,
          "Off: renders a frame only when something has changed");
   if (button("Save as CSV", "save cost", "The times of these frames, into the current folder")) {
@@ -67,43 +107,19 @@ void Panel::drawCost(const Status& status) {
   ImGui::TableSetupColumn("mean, ms", ImGuiTableColumnFlags_WidthFixed);
   ImGui::TableSetupColumn("p95, ms", ImGuiTableColumnFlags_WidthFixed);
   ImGui::TableHeadersRow();
-  float most = 0;
   for (size_t i = 0; i < rows.size(); ++i) {
     ImGui::TableNextRow();
     ImGui::TableNextColumn();
-    ImGui::TextColored(colourOf(i, status.passes.size(), rows.size()), "%s", rows[i].label.c_str());
+    drawSwatch(colourOf(i, status.passes.size(), rows.size()));
+    ImGui::SameLine();
+    ImGui::TextUnformatted(rows[i].label.c_str());
     ImGui::TableNextColumn();
     ImGui::Text("%.2f", rows[i].mean);
     layout.note("cost." + rows[i].label, fmt::format("{:.3f}", rows[i].mean));
     ImGui::TableNextColumn();
     ImGui::Text("%.2f", rows[i].p95);
-    for (const float ms : rows[i].recent) most = std::max(most, ms);
   }
   ImGui::EndTable();
-  if (!(most > 0)) return;
-  const float top = roundedUp(most);
-  const ImVec2 size(ImGui::GetContentRegionAvail().x, kGraphHeight * ImGui::GetTextLineHeight());
-  const ImVec2 from = ImGui::GetCursorScreenPos();
-  ImDrawList& list = *ImGui::GetWindowDrawList();
-  list.AddRectFilled(from, ImVec2(from.x + size.x, from.y + size.y),
-                     ImGui::GetColorU32(ImGuiCol_FrameBg));
-  std::vector<ImVec2> points;
-  for (size_t i = 0; i < rows.size(); ++i) {
-    const std::vector<float>& recent = rows[i].recent;
-    points.clear();
-    // The newest frame is at the right end.
-    const float step = size.x / static_cast<float>(PassTimes::kFramesKept - 1);
-    for (size_t k = 0; k < recent.size(); ++k) {
-      points.emplace_back(from.x + size.x - step * static_cast<float>(recent.size() - 1 - k),
-                          from.y + size.y * (1 - recent[k] / top));
-    }
-    list.AddPolyline(points.data(), static_cast<int>(points.size()),
-                     ImGui::GetColorU32(colourOf(i, status.passes.size(), rows.size())), 0, 1.5f);
-  }
-  const std::string label = fmt::format("{:g} ms", top);
-  list.AddText(from, ImGui::GetColorU32(ImGuiCol_Text), label.c_str());
-  ImGui::Dummy(size);
-  layout.note("cost graph", label);
 }
 
 }  // namespace grisaille::app::viewer

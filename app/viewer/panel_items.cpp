@@ -12,6 +12,7 @@ namespace {
 
 constexpr float kWidestTip = 36;    // font heights
 constexpr float kLeastItem = 0.4f;  // of the panel's width, beside its name
+constexpr float kLeastPath = 3;     // font heights, beside buttons
 
 }  // namespace
 
@@ -29,8 +30,15 @@ bool Panel::toggle(const char* label, const char* id, bool& value, const char* t
   return changed;
 }
 
-bool Panel::path(const char* label, const char* id, std::string& text) {
-  ImGui::SetNextItemWidth(ImGui::GetContentRegionAvail().x * kItem);
+bool Panel::path(const char* label, const char* id, std::string& text,
+                 std::initializer_list<const char*> buttons) {
+  const ImGuiStyle& style = ImGui::GetStyle();
+  const float whole = ImGui::GetContentRegionAvail().x;
+  float left = whole;
+  for (const char* button : buttons) {
+    left -= style.ItemSpacing.x + 2 * style.FramePadding.x + ImGui::CalcTextSize(button).x;
+  }
+  ImGui::SetNextItemWidth(std::clamp(left, kLeastPath * ImGui::GetFontSize(), whole));
   const bool entered = ImGui::InputText(label, &text, ImGuiInputTextFlags_EnterReturnsTrue);
   layout.note(id, text);
   return entered;

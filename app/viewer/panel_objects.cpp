@@ -74,11 +74,6 @@ void Panel::drawObjects(const Status& status) {
 void Panel::drawObjectsOf(const std::string& effect, const Status& status) {
   const objects::ObjectList& list = session_.listOf(effect);
   const objects::Table& table = list.table();
-  const size_t before = std::exchange(sizes_[effect], list.size());
-  if (session_.placing && list.size() == before + 1) {  // just placed
-    selected_[effect] = before;
-    selectedLast_ = effect;
-  }
   ImGui::Text("%s: %zu", table.label, list.size());
   tip(table.tooltip);
   layout.note(effect + ".objects", fmt::format("{}", list.size()));
@@ -115,16 +110,9 @@ void Panel::drawObjectsOf(const std::string& effect, const Status& status) {
   drawObjectFile(effect);
 }
 
-std::optional<glm::dvec3> Panel::selectedPoint() const {
-  const objects::ObjectList* list = session_.chain.objects(selectedLast_);
-  const auto found = selected_.find(selectedLast_);
-  if (list == nullptr || found == selected_.end() || found->second >= list->size()) return {};
-  return session_.pointOf(*list, found->second);
-}
-
 void Panel::drawObjectFile(const std::string& effect) {
   std::string& file = objectPaths_.try_emplace(effect, effect + ".json").first->second;
-  path("##objects", (effect + ".path").c_str(), file);
+  path("##objects", (effect + ".path").c_str(), file, {"Load", "Save"});
   ImGui::SameLine();
   if (button("Load", (effect + ".load").c_str())) {
     session_.attempt(effect + " to load", [&] { session_.loadObjects(effect, file); });
@@ -140,21 +128,23 @@ void Panel::drawObjectList(const std::string& effect) {
   layout.note(effect + ".list", open ? "open" : "closed");
   const objects::ObjectList& list = session_.listOf(effect);
   if (!open || list.size() == 0) return;
-  const auto found = selected_.find(effect);
+  const auto now = session_.chosen();
   std::optional<size_t> chosen;
-  if (found != selected_.end() && found->second < list.size()) chosen = found->second;
+  if (now && now->effect == effect) chosen = now->index;
+  const bool fresh = std::exchange(chosenBefore_[effect], chosen) != chosen;
   const float lines = std::min(kListLines, static_cast<float>(list.size()));
   ImGui::BeginChild("objects", ImVec2(0, lines * ImGui::GetTextLineHeightWithSpacing()));
   ImGuiListClipper clipper;
+  const float line = ImGui::GetTextLineHeightWithSpacing();
+  if (chosen && fresh) ImGui::SetScrollY((static_cast<float>(*chosen) - lines / 2) * line);
   clipper.Begin(static_cast<int>(list.size()));
   while (clipper.Step()) {
     for (int row = clipper.DisplayStart; row < clipper.DisplayEnd; ++row) {
       const auto index = static_cast<size_t>(row);
       ImGui::PushID(row);
       if (ImGui::Selectable("##row", chosen == index)) {
-        chosen = index;
-        selected_[effect] = index;
-        selectedLast_ = effect;
+        chosen = chosenBefore_[effect] = index;
+        session_.choose(effect, index);
       }
       layout.note(fmt::format("{}.object.{}", effect, index), chosen == index ? "true" : "false");
       const std::string name = nameOf(list, index);
@@ -192,20 +182,13 @@ void Panel::drawSelected(const std::string& effect, size_t index) {
       editing_.clear();
     }
   }
-  const auto move = [&](const char* label, const char* id, size_t to) {
-    if (!button(label, (effect + id).c_str())) return;
-    session_.changeObjects(effect, "order", false,
-                           [&](objects::ObjectList& list) { list.move(index, to); });
-    selected_[effect] = std::min(to, session_.listOf(effect).size() - 1);
-  };
-  move("Earlier", ".earlier", index == 0 ? 0 : index - 1);
-  ImGui::SameLine();
-  move("Later", ".later", index + 1 < session_.listOf(effect).size() ? index + 1 : index);
-  ImGui::SameLine();
-  if (button("Delete", (effect + ".delete").c_str())) {
-    session_.changeObjects(effect, "delete", false,
-                           [&](objects::ObjectList& list) { list.remove(index); });
+  if (button("Earlier", (effect + ".earlier").c_str()) && index > 0) {
+    session_.reorderChosen(index - 1);
   }
+  ImGui::SameLine();
+  if (button("Later", (effect + ".later").c_str())) session_.reorderChosen(index + 1);
+  ImGui::SameLine();
+  if (button("Delete", (effect + ".delete").c_str(), "(Delete)")) session_.deleteChosen();
   ImGui::Unindent();
 }
 

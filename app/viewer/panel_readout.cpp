@@ -6,6 +6,7 @@
 #include <algorithm>
 #include <cmath>
 #include <iterator>
+#include <utility>
 
 #include "app/truth/error_map.h"
 #include "app/viewer/panel.h"
@@ -14,7 +15,7 @@ namespace grisaille::app::viewer {
 namespace {
 
 constexpr float kMostReadout = 0.4f;  // of the panel's height
-constexpr float kMessageLines = 5;
+constexpr float kMessageLines = 5;    // most lines in sight
 
 // One line of text, or the legend of the difference colours.
 struct Line {
@@ -139,9 +140,16 @@ float Panel::heightBelow(const Status& status, glm::vec2 window) {
   readoutHeight_ = 0;
   for (const Line& line : linesOf(session_, status)) readoutHeight_ += heightOf(line, width);
   readoutHeight_ = std::min(readoutHeight_, kMostReadout * window.y);
-  const float spacing = ImGui::GetStyle().ItemSpacing.y;
-  const float separators = readoutHeight_ > 0 ? 4 * spacing + 2 : 2 * spacing + 1;
-  return readoutHeight_ + separators + kMessageLines * ImGui::GetTextLineHeightWithSpacing();
+  const float spacing = ImGui::GetStyle().ItemSpacing.y, separator = 2 * spacing + 1;
+  const float most = kMessageLines * ImGui::GetTextLineHeightWithSpacing();
+  float messages = 0;
+  for (auto one = session_.messages.rbegin(); one != session_.messages.rend() && messages < most;
+       ++one) {
+    messages += ImGui::CalcTextSize(one->text.c_str(), nullptr, false, width).y + spacing;
+  }
+  messages = std::min(messages, most);
+  return readoutHeight_ + messages + (readoutHeight_ > 0 ? separator : 0) +
+         (messages > 0 ? separator : 0);
 }
 
 void Panel::drawReadout(const Status& status) {
@@ -163,6 +171,8 @@ void Panel::drawReadout(const Status& status) {
 }
 
 void Panel::drawMessages() {
+  scrolls = false;
+  if (session_.messages.empty()) return messageSeen_.clear();
   ImGui::Separator();
   ImGui::BeginChild("messages");
   for (const Message& message : session_.messages) {
@@ -170,9 +180,16 @@ void Panel::drawMessages() {
     ImGui::TextWrapped("%s", message.text.c_str());
     if (message.error) ImGui::PopStyleColor();
   }
-  if (messagesSeen_ != session_.messages.size()) ImGui::SetScrollHereY(1);
-  messagesSeen_ = session_.messages.size();
-  if (!session_.messages.empty()) layout.note("message", session_.messages.back().text);
+  const std::string& last = session_.messages.back().text;
+  const bool fresh =
+      std::exchange(messagesSeen_, session_.messages.size()) != session_.messages.size() ||
+      messageSeen_ != last;
+  if (fresh) {
+    messageSeen_ = last;
+    ImGui::SetScrollHereY(1);
+    scrolls = true;
+  }
+  layout.note("message", last);
   const auto error = std::ranges::find(session_.messages.rbegin(), session_.messages.rend(), true,
                                        &Message::error);
   if (error != session_.messages.rend()) layout.note("error", 0, 0, 0, 0, error->text);

@@ -28,7 +28,7 @@ void Panel::drawScene(Requests& requests) {
              "A scene, settings, objects, a camera or a session (Ctrl+O)")) {
     requests.openDialog = true;
   }
-  bool open = path("##scene", "scene path", scenePath_);
+  bool open = path("##scene", "scene path", scenePath_, {"Open"});
   ImGui::SameLine();
   open |= button("Open", "open scene",
                  "A .glb or .gltf file, or a built-in scene; or drop a file on the window");

@@ -63,11 +63,14 @@ void Panel::drawPresets(effect::Selection::Entry& entry) {
     const auto index = static_cast<size_t>(&preset - own.presets.all.data());
     if (index % columns != 0) ImGui::SameLine(0, gap);
     const bool is = &preset == now;
-    if (is) ImGui::PushStyleColor(ImGuiCol_Button, ImGui::GetStyleColorVec4(ImGuiCol_ButtonActive));
+    if (is) {
+      ImGui::PushStyleColor(ImGuiCol_Button, ImGui::GetStyleColorVec4(ImGuiCol_ButtonActive));
+      ImGui::PushStyleColor(ImGuiCol_Text, IM_COL32_WHITE);  // on the accent, in both themes
+    }
     const std::string label =
         fmt::format("{}\n{:.3f}\n{:.2f} x", preset.name, preset.error, preset.cost);
     if (ImGui::Button(label.c_str(), ImVec2(width, height))) chosen = preset.name;
-    if (is) ImGui::PopStyleColor();
+    if (is) ImGui::PopStyleColor(2);
     tip(tooltipOf(preset, own.presets));
     layout.note(key + ".preset." + preset.name, is ? "true" : "false");
   }

@@ -40,6 +40,21 @@ void Panel::drawBackground() {
   }
 }
 
+void Panel::drawFineness(const Status& status) {
+  Fineness& fineness = session_.fineness;
+  toggle("Half resolution while it moves", "halves", fineness.halves,
+         fmt::format("Only where a frame takes over {:.0f} ms; sharp again once it rests",
+                     1000 * Fineness::kSlowFrame)
+             .c_str());
+  toggle("Converge while it rests", "converges", fineness.converges,
+         "Averages as many frames as effects with a History can, whatever its value. Off: as many "
+         "as the value says");
+  if (status.toAverage <= 1) return;
+  ImGui::TextDisabled("%u of %u frames averaged", std::min(status.averaged, status.toAverage),
+                      status.toAverage);
+  layout.note("averaged", fmt::format("{}", std::min(status.averaged, status.toAverage)));
+}
+
 void Panel::drawViews(const Status& status, Requests& requests) {
   drawViewChoice("View", "view", session_.left, session_.views(false));
   drawSplit(status);
@@ -54,6 +69,7 @@ void Panel::drawViews(const Status& status, Requests& requests) {
   layout.note("zoom", fmt::format("{}", session_.zoom));
   toggle("Value under the cursor", "inspect", session_.inspecting,
          "Shown at the bottom of the panel; of both sides, if the picture is split (I)");
+  drawFineness(status);
   toggle("Pause", "pause", session_.paused, "Keeps the picture as it is (P)");
   ImGui::SameLine();
   if (button("Step", "step", "Renders one frame (N)")) session_.step = true;

@@ -29,7 +29,8 @@ Screen::Shown Screen::wanted(const ScreenDesc& desc) const {
   Shown all{};
   all.block.place = desc.place.corner;
   all.block.size = empty ? glm::ivec2(0) : glm::ivec2(desc.place.size);
-  all.block.zoom = desc.zoom;
+  const auto scale = static_cast<float>(desc.scale);
+  all.block.zoom = desc.zoom * scale;
   const float beyond = 2 * width + 16;
   const bool lined = desc.split && desc.way == SplitWay::kLine;
   const bool right = desc.split && desc.way == SplitWay::kFlicker && desc.turned;
@@ -42,7 +43,7 @@ Screen::Shown Screen::wanted(const ScreenDesc& desc) const {
     return all;
   }
   // After a resize, the sides differ in size from `place` until the next frame.
-  all.block.centre = desc.centre * glm::vec2(desc.texels);
+  all.block.centre = desc.centre * glm::vec2(desc.size) / scale;
   all.sides = desc.sides;
   all.revision = desc.revision;
   return all;

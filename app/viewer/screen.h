@@ -16,16 +16,17 @@ namespace grisaille::app::viewer {
 struct ScreenDesc {
   glm::uvec2 pixels = glm::uvec2(0);  // of the window, over 0
   Place place;
-  std::array<Side, 2> sides = {};     // without a texture: the picture stays empty
-  bool keeps = false;                 // without a texture: shows the last picture instead
-  glm::uvec2 texels = glm::uvec2(0);  // of the sides
-  uint64_t revision = 0;              // changes with the content of the sides
+  std::array<Side, 2> sides = {};   // without a texture: the picture stays empty
+  bool keeps = false;               // without a texture: shows the last picture instead
+  glm::uvec2 size = glm::uvec2(0);  // of the sides' picture, pixels
+  uint32_t scale = 1;               // its pixels per texel of the sides, both ways
+  uint64_t revision = 0;            // changes with the content of the sides
   bool split = false;
   float line = 0.5f;  // of the split, as a share of the picture's width
   SplitWay way = SplitWay::kLine;
   bool turned = false;                 // with kFlicker: the right side is shown, else the left
   float full = 0.25f;                  // with kDifference: as in SplitSettings
-  float zoom = 1;                      // pixels per texel
+  float zoom = 1;                      // pixels of the window per pixel of the picture
   glm::vec2 centre = glm::vec2(0.5f);  // point in the middle, as a share of the picture
   float farDepth = 1;                  // metres, drawn as mid grey
   float lineWidth = 1;                 // pixels

@@ -147,7 +147,12 @@ void Session::setScene(std::shared_ptr<scene::Scene> loaded, const std::string& 
 
 void Session::goTo(const scene::Camera& next) {
   cameraHistory.note(camera);
+  jumpTo(next);
+}
+
+void Session::jumpTo(const scene::Camera& next) {
   camera = next;
+  ++jumps_;
 }
 
 void Session::findSurfaces() {
@@ -284,34 +289,6 @@ std::string Session::rescue(const fs::path& folder) {
   std::string command;
   for (const std::string& word : words) command += (command.empty() ? "" : " ") + shellQuoted(word);
   return command;
-}
-
-std::string Session::commandLine(glm::uvec2 size, const std::string& backend,
-                                 const std::string& device) {
-  RenderCommand command;
-  command.scene = scenePath;
-  command.pose = poseArguments(playback.pose);
-  command.camera = camera;
-  command.size = size;
-  command.backend = backend;
-  command.device = device;
-  command.effects = &chain.selection;
-  command.surface = nameOf(surface);
-  if (background != frame::kGrey) command.background = textOf(background);
-  command.pluginPaths = options_.pluginPaths;
-  for (const std::string& effect : effectsWithObjects()) {
-    const objects::ObjectList& list = listOf(effect);
-    if (list.size() == 0) continue;
-    // A hash of the content names the file: commands copied earlier keep their objects.
-    const std::string text = objects::jsonOf(list.view());
-    const fs::path file =
-        stateFolder() / fmt::format("{}-{:016x}.json", effect, std::hash<std::string>()(text));
-    fs::create_directories(stateFolder());
-    writeFileAtomically(file.string(), text);
-    command.loads.emplace_back(effect, file.string());
-  }
-  command.writes.emplace_back(isTruthView(left) ? comparedOutput() : left, "grisaille.png");
-  return renderCommand(command);
 }
 
 void Session::add(Message message) {

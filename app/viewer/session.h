@@ -18,6 +18,7 @@
 #include "app/settings/presets.h"
 #include "app/settings/settings.h"
 #include "app/viewer/camera_history.h"
+#include "app/viewer/command_line.h"
 #include "app/viewer/history.h"
 #include "app/viewer/session_file.h"
 #include "app/viewer/stage.h"
@@ -50,6 +51,16 @@ struct Playback {
   scene::Pose pose = {};
   bool playing = false;
   double speed = 1;  // seconds of the animation per second
+};
+
+// A sequence that the user sets up.
+struct Sequence {
+  static constexpr double kLongest = 400;  // seconds; scene::kMostPathFrames are a little more
+
+  std::vector<scene::Camera> keys = {};  // of the path; empty: the camera stays
+  double seconds = 4;                    // of the path, without an animation
+  bool animated = false;                 // takes as long as the animation, which plays once
+  std::string file = "walk.####.png";
 };
 
 // A search that the user requests: `grisaille tune` for one effect in the current view.
@@ -114,6 +125,9 @@ class Session {
   CameraHistory cameraHistory;
   // Sets the camera; cameraHistory keeps where it was.
   void goTo(const scene::Camera& next);
+  // The same without cameraHistory. Neither counts as movement: see jumps().
+  void jumpTo(const scene::Camera& next);
+  uint64_t jumps() const { return jumps_; }  // number of calls so far
   // False if a surface is less than `clearance` metres beyond, or on, the way of the eye from
   // `from` to `to`. Knows no surfaces before findSurfaces(), nor in builds without rays.
   bool isFree(const glm::dvec3& from, const glm::dvec3& to, double clearance);
@@ -128,7 +142,7 @@ class Session {
   // --- Time; session_time.cpp
   Playback playback;
   bool hasAnimations() const { return scene && !animationsOf(*scene).empty(); }
-  bool isPlaying() const { return playback.playing && !paused; }
+  bool isPlaying() const { return (playback.playing || preview_) && !paused; }
   double duration() const;     // of the animation, or at rest of the first one; seconds
   double frameNumber() const;  // of the current time, at Playback::kFrames
   double lastFrame() const;    // of the animation
@@ -173,6 +187,7 @@ class Session {
   bool split = false;
   float line = 0.5f;  // of the split, as a share of the picture's width
   SplitSettings splitting;
+  Fineness fineness;
   frame::Surface surface = frame::Surface::kWhite;
   frame::Background background = frame::kGrey;
   float zoom = 1;                      // pixels per texel
@@ -229,8 +244,25 @@ class Session {
   // Places the next object at a point of a picture of this size, both in texels, from the top left
   // corner. False: no surface to place it on.
   bool place(glm::dvec2 point, glm::uvec2 size, bool joins);
-  // Where an object is seen, world: its point or, if it was placed by a ray, what its ray meets.
-  glm::dvec3 pointOf(const objects::ObjectList& list, size_t index);
+  // The object that the user has selected.
+  struct Chosen {
+    std::string effect;
+    size_t index = 0;
+  };
+  // None: no object is selected, or it is no longer there.
+  std::optional<Chosen> chosen();
+  void choose(const std::string& effect, size_t index) { chosen_ = Chosen{effect, index}; }
+  void chooseNone() { chosen_.reset(); }
+  // The functions below do nothing without a selected object; each change is a step of undo.
+  void deleteChosen();
+  void reorderChosen(size_t index);  // its new index, at most the last one
+  // Moves it to where place() would place it. `joins`: as in changeObjects(). False: no surface.
+  bool moveChosen(glm::dvec2 point, glm::uvec2 size, bool joins);
+  // Selects the object whose point is nearest to `at` (world), up to `reach` metres away.
+  void chooseNear(const glm::dvec3& at, double reach);
+  // Where objects are seen, world: their points or, for those placed by a ray, what the rays meet.
+  std::vector<glm::dvec3> pointsOf(const objects::ObjectList& list, size_t first, size_t count);
+  std::optional<glm::dvec3> chosenPoint();  // of the selected object
   void clearObjects(const std::string& effect);
   void loadObjects(const std::string& effect, const std::string& path);
   void saveObjects(const std::string& effect, const std::string& path);
@@ -255,6 +287,17 @@ class Session {
   // files.
   std::string commandLine(glm::uvec2 size, const std::string& backend, const std::string& device);
 
+  // --- A sequence of pictures along a path of cameras, with the animation or without;
+  // session_commands.cpp
+  Sequence sequence;
+  double sequenceSeconds() const;  // its duration
+  uint32_t sequenceFrames() const;
+  // Writes the path to a file. Throws kUsage without a path and without an animation.
+  RenderCommand sequenceCommand(glm::uvec2 size, const std::string& backend,
+                                const std::string& device);
+  void previewSequence(bool on);  // moves the camera along the path; nothing without a path
+  bool isPreviewing() const { return preview_.has_value(); }
+
   // --- Messages
   std::deque<Message> messages;  // oldest first
   void say(std::string text, bool error = false) { add({std::move(text), error}); }
@@ -264,6 +307,9 @@ class Session {
   bool attempt(const std::string& about, const std::function<void()>& action);
 
  private:
+  RenderCommand command(glm::uvec2 size, const std::string& backend, const std::string& device);
+  std::string shownOutput() const;  // of the left side, as a file of it
+  void advancePreview(double seconds);
   void add(Message message);
   void forget(const std::string& about);
   void warn(const std::string& file, const std::string& text);
@@ -292,10 +338,13 @@ class Session {
   };
   std::optional<Arrival> arrival_;
   // Objects of a session for effects that are not loaded: kept for the next session file.
-  std::map<std::string, std::string> strangeObjects_;          // by effect
-  std::string placer_;                                         // effect chosen last
+  std::map<std::string, std::string> strangeObjects_;  // by effect
+  std::string placer_;                                 // effect chosen last
+  std::optional<Chosen> chosen_;
   std::map<std::string, objects::Object, std::less<>> next_;   // by effect
   std::string leftBefore_ = "color", rightBefore_ = "normal";  // views before the comparison
+  uint64_t jumps_ = 0;
+  std::optional<double> preview_;  // seconds of the sequence; none: no preview
   bool firstScene_ = true;
   bool homeGiven_ = false;                // by --camera
   double aspect_ = 1;                     // of the picture when the scene was loaded

@@ -133,6 +133,8 @@ void takeView(const json& view, SavedSession& session) {
   take(view, "full_colour", session.splitting.full, double{S::kLeastFull}, double{S::kMostFull});
   take(view, "turn_seconds", session.splitting.turn, S::kLeastTurn, S::kMostTurn);
   take(view, "right_backend", session.splitting.backend);
+  take(view, "halves_while_moving", session.fineness.halves);
+  take(view, "converges_at_rest", session.fineness.converges);
 }
 
 void takeTruth(const json& truth, TruthSettings& comparing) {
@@ -221,7 +223,9 @@ std::string sessionJson(const SavedSession& session, const fs::path& folder) {
                       {"compare_by", kWays[static_cast<size_t>(session.splitting.way)]},
                       {"full_colour", session.splitting.full},
                       {"turn_seconds", session.splitting.turn},
-                      {"right_backend", session.splitting.backend}};
+                      {"right_backend", session.splitting.backend},
+                      {"halves_while_moving", session.fineness.halves},
+                      {"converges_at_rest", session.fineness.converges}};
   document["truth"] = {{"on", session.comparing.on},
                        {"output", session.comparing.output},
                        {"rays", session.comparing.rays}};

@@ -51,6 +51,7 @@ struct SavedSession {
   bool split = false, inspecting = false;
   float line = 0.5f;
   SplitSettings splitting;
+  Fineness fineness;
   TruthSettings comparing;
   std::string backend;                // of the window; "": any
   std::optional<PanelLayout> layout;  // none: stays as it is

@@ -2,6 +2,7 @@
 // The session's objects: lists of objects that users place, as the effects' tables describe them.
 #include <fmt/format.h>
 
+#include <algorithm>
 #include <limits>
 #include <span>
 
@@ -65,25 +66,90 @@ bool Session::place(glm::dvec2 point, glm::uvec2 size, bool joins) {
   if (!object) return false;
   changeObjects(effect, fmt::format("{}, {}", table.key, joins ? "spray" : "one"), joins,
                 [&](objects::ObjectList& list) { list.add(*object); });
+  choose(effect, listOf(effect).size() - 1);
   return true;
 }
 
-glm::dvec3 Session::pointOf(const objects::ObjectList& list, size_t index) {
+std::vector<glm::dvec3> Session::pointsOf(const objects::ObjectList& list, size_t first,
+                                          size_t count) {
   const objects::Table& table = list.table();
-  const auto numbers = [&](uint32_t field) {
+  const auto numbers = [&](size_t index, uint32_t field) {
     const auto of = list.view().value(index, table.fields[field]).numbers;
     return glm::dvec3(of[0], of[1], of[2]);
   };
-  const glm::dvec3 point = numbers(table.point_field);
-  if (table.placement != GRISAILLE_PLACE_RAY || !services) return point;
-  const glm::vec3 unit(glm::normalize(numbers(table.direction_field)));
-  const grisaille_ray ray = {.origin = {point.x, point.y, point.z},
-                             .direction = {unit.x, unit.y, unit.z},
-                             .reach = std::numeric_limits<float>::infinity()};
-  grisaille_hit hit = {};
-  attempt("selection", [&] { services->rays().cast(std::span(&ray, 1), std::span(&hit, 1)); });
-  const bool meets = hit.kind == GRISAILLE_HIT_SURFACE;
-  return meets ? point + double{hit.distance} * glm::dvec3(unit) : point;
+  std::vector<glm::dvec3> points;
+  std::vector<grisaille_ray> rays;
+  for (size_t i = first; i < first + count; ++i) {
+    const glm::dvec3 point = numbers(i, table.point_field);
+    points.push_back(point);
+    if (table.placement != GRISAILLE_PLACE_RAY || !services) continue;
+    const glm::vec3 unit(glm::normalize(numbers(i, table.direction_field)));
+    rays.push_back({.origin = {point.x, point.y, point.z},
+                    .direction = {unit.x, unit.y, unit.z},
+                    .reach = std::numeric_limits<float>::infinity()});
+  }
+  std::vector<grisaille_hit> hits(rays.size());
+  if (!rays.empty()) attempt("selection", [&] { services->rays().cast(rays, hits); });
+  for (size_t i = 0; i < hits.size(); ++i) {
+    if (hits[i].kind != GRISAILLE_HIT_SURFACE) continue;
+    const auto& direction = rays[i].direction;
+    points[i] += double{hits[i].distance} * glm::dvec3(direction[0], direction[1], direction[2]);
+  }
+  return points;
+}
+
+std::optional<Session::Chosen> Session::chosen() {
+  if (!chosen_) return std::nullopt;
+  const objects::ObjectList* list = chain.objects(chosen_->effect);
+  return list != nullptr && chosen_->index < list->size() ? chosen_ : std::nullopt;
+}
+
+std::optional<glm::dvec3> Session::chosenPoint() {
+  const auto now = chosen();
+  if (!now) return std::nullopt;
+  return pointsOf(listOf(now->effect), now->index, 1).front();
+}
+
+void Session::chooseNear(const glm::dvec3& at, double reach) {
+  chosen_.reset();
+  double nearest = reach;
+  for (const std::string& effect : effectsWithObjects()) {
+    const std::vector<glm::dvec3> points = pointsOf(listOf(effect), 0, listOf(effect).size());
+    for (size_t i = 0; i < points.size(); ++i) {
+      const double distance = glm::length(points[i] - at);
+      if (distance > nearest) continue;  // of several in one place, the one on top
+      nearest = distance;
+      chosen_ = Chosen{effect, i};
+    }
+  }
+}
+
+void Session::deleteChosen() {
+  const auto now = chosen();
+  if (!now) return;
+  changeObjects(now->effect, "delete", false,
+                [&](objects::ObjectList& list) { list.remove(now->index); });
+}
+
+void Session::reorderChosen(size_t index) {
+  const auto now = chosen();
+  if (!now) return;
+  index = std::min(index, listOf(now->effect).size() - 1);
+  changeObjects(now->effect, "order", false,
+                [&](objects::ObjectList& list) { list.move(now->index, index); });
+  choose(now->effect, index);
+}
+
+bool Session::moveChosen(glm::dvec2 point, glm::uvec2 size, bool joins) {
+  const auto now = chosen();
+  if (!now) return false;
+  const objects::ObjectList& list = listOf(now->effect);
+  const auto moved =
+      placedAt(point, size, camera, services->rays(), list.table(), list.object(now->index));
+  if (!moved) return false;
+  changeObjects(now->effect, fmt::format("{}[{}], move", list.table().key, now->index), joins,
+                [&](objects::ObjectList& own) { own.set(now->index, *moved); });
+  return true;
 }
 
 void Session::clearObjects(const std::string& effect) {

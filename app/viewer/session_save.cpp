@@ -42,6 +42,7 @@ SavedSession Session::saved() {
   session.split = split;
   session.line = line;
   session.splitting = splitting;
+  session.fineness = fineness;
   session.comparing = comparing;
   session.inspecting = inspecting;
   return session;
@@ -82,6 +83,7 @@ void Session::takeViews(const SavedSession& session) {
   split = session.split;
   line = session.line;
   splitting = session.splitting;
+  fineness = session.fineness;
   inspecting = session.inspecting;
   comparing = session.comparing;
   held.reset();

@@ -50,7 +50,9 @@ void Session::play(bool on) {
 }
 
 void Session::advance(double seconds) {
-  if (!isPlaying()) return;
+  if (paused) return;
+  advancePreview(seconds);
+  if (!playback.playing) return;
   const double length = duration();
   const double next = playback.pose.seconds + seconds * playback.speed;
   attempt("pose", [&] { seek(length > 0 ? std::fmod(next, length) : 0); });

@@ -16,6 +16,8 @@ namespace grisaille::app::viewer {
 namespace {
 
 constexpr uint32_t kGroup = 8;
+constexpr uint32_t kMostAveraged = 1024;  // frames
+constexpr uint32_t kFailed = std::numeric_limits<uint32_t>::max();
 
 // Same layout as in shaders/viewer/depths.comp.
 struct DepthsBlock {
@@ -57,7 +59,36 @@ class Exchanged {
   effect::Selection own_;
 };
 
+// The parameter by which an effect that is on averages frames; null: it has none, or does not use
+// it now.
+const grisaille_param_desc* historyOf(const effect::Selection::Entry& entry) {
+  if (!entry.on) return nullptr;
+  for (const grisaille_param_desc& param : entry.effect().params()) {
+    const bool is = param.key == kHistory && param.type == GRISAILLE_PARAM_INT;
+    if (is && entry.values.isUsed(param)) return &param;
+  }
+  return nullptr;
+}
+
+// The selection with the longest average that each effect offers.
+effect::Selection converging(effect::Selection effects) {
+  for (effect::Selection::Entry& entry : effects.entries()) {
+    if (const auto* history = historyOf(entry)) entry.values.set(kHistory, history->hard_max);
+  }
+  return effects;
+}
+
 }  // namespace
+
+uint32_t framesAveraged(const effect::Selection& effects, bool converges) {
+  double most = 1;
+  for (const effect::Selection::Entry& entry : effects.entries()) {
+    const auto* history = historyOf(entry);
+    if (history == nullptr) continue;
+    most = std::max(most, converges ? history->hard_max : entry.values.get(kHistory));
+  }
+  return static_cast<uint32_t>(std::min(most, double{kMostAveraged}));
+}
 
 std::vector<Viewable> viewables(const effect::Selection& effects) {
   std::vector<Viewable> all = {{"color", "Final", Kind::kLight}};
@@ -80,7 +111,7 @@ std::vector<Viewable> viewables(const effect::Selection& effects) {
 }
 
 bool Stage::Wanted::operator==(const Wanted& o) const {
-  return camera == o.camera && size == o.size && surface == o.surface &&
+  return camera == o.camera && size == o.size && halves == o.halves && surface == o.surface &&
          background == o.background && revision == o.revision && left == o.left &&
          right == o.right && extra == o.extra && objects == o.objects && poses == o.poses;
 }
@@ -100,6 +131,7 @@ Stage::~Stage() {
 Stage::Wanted Stage::wanted(const StageDesc& desc, bool held) {
   Wanted all = {.camera = desc.camera,
                 .size = desc.size,
+                .halves = desc.halves,
                 .surface = desc.surface,
                 .background = desc.background,
                 .revision = held ? desc.heldRevision : desc.liveRevision,
@@ -111,9 +143,14 @@ Stage::Wanted Stage::wanted(const StageDesc& desc, bool held) {
   return all;
 }
 
+uint32_t Stage::framesWanted(const StageDesc& desc) {
+  return desc.averages ? framesAveraged(desc.chain->selection, desc.converges) : 1;
+}
+
 bool Stage::isStale(const StageDesc& desc) const {
   if (desc.size.x == 0 || desc.size.y == 0) return false;
   if (!done_ || waiting_ + heldWaiting_ > 0 || !(*done_ == wanted(desc, false))) return true;
+  if (frames_ < framesWanted(desc)) return true;
   return desc.held != nullptr && !(heldDone_ && *heldDone_ == wanted(desc, true));
 }
 
@@ -127,6 +164,14 @@ void Stage::render(const StageDesc& desc, glm::uvec2 size, std::span<const std::
                     .outputs = outputs,
                     .patience = desc.patience,
                     .services = services_.all()});
+}
+
+void Stage::renderLive(const StageDesc& desc, std::span<const std::string> outputs) {
+  std::optional<Exchanged> exchanged;
+  if (desc.averages && desc.converges) {
+    exchanged.emplace(*desc.chain, converging(desc.chain->selection));
+  }
+  render(desc, texelsOf(desc.size, scaleOf(desc)), outputs);
 }
 
 void Stage::makePipelines() {
@@ -146,21 +191,22 @@ void Stage::updateHeld(const StageDesc& desc) {
   heldDone_ = wanted(desc, true);
   heldWaiting_ = 0;
   const std::vector<std::string> outputs = {desc.right};
+  const glm::uvec2 texels = texelsOf(desc.size, scaleOf(desc));
   {
     const Exchanged exchanged(*desc.chain, *desc.held);
-    render(desc, desc.size, outputs);
+    render(desc, texels, outputs);
   }
   heldWaiting_ = renderer_.report().waiting;
-  if (heldSize_ != desc.size) {
+  if (heldSize_ != texels) {
     device_.destroy(held_);
     held_ = {};
     held_ =
         device_.createTexture({.label = "held",
                                .format = gpu::Format::kRgba32Float,
-                               .width = desc.size.x,
-                               .height = desc.size.y,
+                               .width = texels.x,
+                               .height = texels.y,
                                .usage = gpu::TextureUsage::kSampled | gpu::TextureUsage::kStorage});
-    heldSize_ = desc.size;
+    heldSize_ = texels;
   }
   makePipelines();
   gpu::Commands& commands = device_.begin();
@@ -172,7 +218,7 @@ void Stage::updateHeld(const StageDesc& desc) {
     commands.dispatch(
         {.pipeline = keep_,
          .bindings = bindings,
-         .groups = {(desc.size.x + kGroup - 1) / kGroup, (desc.size.y + kGroup - 1) / kGroup, 1}});
+         .groups = {(texels.x + kGroup - 1) / kGroup, (texels.y + kGroup - 1) / kGroup, 1}});
     commands.endPass();
   } catch (...) {
     device_.abandon();
@@ -185,7 +231,10 @@ void Stage::updateHeld(const StageDesc& desc) {
 void Stage::update(const StageDesc& desc) {
   if (!isStale(desc)) return;
   const bool held = desc.held != nullptr && !desc.right.empty();
-  done_ = wanted(desc, false);
+  const Wanted now = wanted(desc, false);
+  const uint32_t frames = done_ && *done_ == now ? frames_ + 1 : 1;
+  frames_ = kFailed;
+  done_ = now;
   // The held frame overwrites the live side's render targets.
   if (held && (heldWaiting_ > 0 || !heldDone_ || !(*heldDone_ == wanted(desc, true)))) {
     updateHeld(desc);
@@ -198,10 +247,12 @@ void Stage::update(const StageDesc& desc) {
   outputs.insert(outputs.end(), desc.extra.begin(), desc.extra.end());
   left_ = {};
   if (!held) right_ = {};
-  render(desc, desc.size, outputs);
+  renderLive(desc, outputs);
+  frames_ = frames;
   waiting_ = renderer_.report().waiting;
   givenUp_ = renderer_.report().givenUp;
   size_ = desc.size;
+  scale_ = scaleOf(desc);
   left_ = {
       renderer_.texture(desc.left), desc.left, kindOf(desc, desc.chain->selection, desc.left), {}};
   if (!held && !desc.right.empty()) {
@@ -216,30 +267,32 @@ gpu::Texture Stage::texture(bool right) const {
   return right && right_.texture ? right_.texture : left_.texture;
 }
 
-std::vector<float> Stage::valueAt(bool right, glm::uvec2 texel) {
+std::vector<float> Stage::valueAt(bool right, glm::uvec2 pixel) {
   Side& side = right && right_.texture ? right_ : left_;
-  if (!side.texture || texel.x >= size_.x || texel.y >= size_.y) return {};
+  if (!side.texture || pixel.x >= size_.x || pixel.y >= size_.y) return {};
+  const glm::uvec2 texel = pixel / scale_;
   if (!side.values) {
-    side.values =
-        side.texture == held_
-            ? frame::toImage(device_.read(held_), gpu::Format::kRgba32Float, size_.x, size_.y)
-            : renderer_.read(side.output);
+    side.values = side.texture == held_
+                      ? frame::toImage(device_.read(held_), gpu::Format::kRgba32Float, heldSize_.x,
+                                       heldSize_.y)
+                      : renderer_.read(side.output);
   }
   const image::Image& image = *side.values;
   const float* first = &image.pixels[(size_t{texel.y} * image.width + texel.x) * image.channels];
   return {first, first + image.channels};
 }
 
-std::vector<double> Stage::depthsAt(std::span<const glm::ivec2> texels) {
+std::vector<double> Stage::depthsAt(std::span<const glm::ivec2> pixels) {
   const frame::Renderer::Depth depth = renderer_.depth();
   if (!done_ || !depth.texture || !left_.texture) return {};
   makePipelines();
   DepthsBlock block{};
-  std::vector<bool> inside(texels.size());
-  for (size_t i = 0; i < texels.size(); ++i) {
-    inside[i] = glm::all(glm::greaterThanEqual(texels[i], glm::ivec2(0))) &&
-                glm::all(glm::lessThan(texels[i], glm::ivec2(size_)));
-    if (inside[i]) block.texels[i] = {texels[i] + glm::ivec2(depth.guard), 0, 0};
+  std::vector<bool> inside(pixels.size());
+  for (size_t i = 0; i < pixels.size(); ++i) {
+    inside[i] = glm::all(glm::greaterThanEqual(pixels[i], glm::ivec2(0))) &&
+                glm::all(glm::lessThan(pixels[i], glm::ivec2(size_)));
+    const glm::ivec2 texel = pixels[i] / static_cast<int>(scale_);
+    if (inside[i]) block.texels[i] = {texel + glm::ivec2(depth.guard), 0, 0};
   }
   gpu::Commands& commands = device_.begin();
   try {
@@ -257,8 +310,8 @@ std::vector<double> Stage::depthsAt(std::span<const glm::ivec2> texels) {
   device_.submit();
   const std::vector<std::byte> bytes = device_.read(gpu::BufferRange{depthsRead_});
   const scene::View view = scene::viewOf(done_->camera, done_->size);
-  std::vector<double> depths(texels.size(), std::numeric_limits<double>::infinity());
-  for (size_t i = 0; i < texels.size(); ++i) {
+  std::vector<double> depths(pixels.size(), std::numeric_limits<double>::infinity());
+  for (size_t i = 0; i < pixels.size(); ++i) {
     float value = 0;
     std::memcpy(&value, &bytes[i * sizeof(float)], sizeof(value));
     if (inside[i] && value > 0) depths[i] = scene::viewDepthOf(view, double{value});
@@ -267,14 +320,17 @@ std::vector<double> Stage::depthsAt(std::span<const glm::ivec2> texels) {
 }
 
 image::Image Stage::picture(const StageDesc& desc, const std::string& output) {
+  // What effects average is that of the frames before, also at another size.
+  if (!isStale(desc) && size_ == desc.size && left_.output == output) return renderer_.read(output);
   StageDesc whole = desc;
+  whole.halves = false;
   whole.patience = std::numeric_limits<double>::infinity();
   const std::vector<std::string> outputs = {output};
   done_.reset();
   ++revision_;
   left_ = {};
   if (right_.texture != held_) right_ = {};
-  render(whole, desc.size, outputs);
+  renderLive(whole, outputs);
   return renderer_.read(output);
 }
 

@@ -36,10 +36,20 @@ struct Viewable {
 // The viewable outputs of a frame with these effects, in order. Leaves out integer outputs.
 std::vector<Viewable> viewables(const effect::Selection& effects);
 
+// The key of the parameter by which effects average frames: their number, 1 for no average.
+constexpr std::string_view kHistory = "history";
+
+// The largest number of frames that an effect of the selection averages; 1: no effect does.
+// `converges`: as many as the effects can, whatever their values.
+uint32_t framesAveraged(const effect::Selection& effects, bool converges);
+
 // Inputs of the picture. A revision changes whenever the input that it belongs to changes.
 struct StageDesc {
   scene::Camera camera;
-  glm::uvec2 size = glm::uvec2(0);
+  glm::uvec2 size = glm::uvec2(0);  // pixels
+  bool halves = false;              // renders at half that size
+  // Renders the live settings as often as their effects average frames, as framesAveraged() counts.
+  bool averages = false, converges = false;
   frame::Surface surface = frame::Surface::kWhite;
   frame::Background background = frame::kGrey;
   effect::Chain* chain = nullptr;
@@ -73,17 +83,22 @@ class Stage {
   // Null before the first update().
   gpu::Texture texture(bool right) const;
   Kind kind(bool right) const { return (right ? right_ : left_).kind; }
-  glm::uvec2 size() const { return size_; }
-  uint64_t revision() const { return revision_; }  // of the picture's content
+  glm::uvec2 size() const { return size_; }  // of the last update's picture, pixels
+  uint32_t scale() const { return scale_; }  // pixels per texel, both ways: 1 or 2
+  glm::uvec2 texels() const { return texelsOf(size_, scale_); }  // size of the textures
+  uint64_t revision() const { return revision_; }                // of the picture's content
 
-  // The values of one texel, one per channel of the output. The first call after an update() waits
+  // How many frames of the present inputs are in the picture: more than 1 while effects average.
+  uint32_t frames() const { return frames_; }
+
+  // The values at one pixel, one per channel of the output. The first call after an update() waits
   // for the device.
-  std::vector<float> valueAt(bool right, glm::uvec2 texel);
+  std::vector<float> valueAt(bool right, glm::uvec2 pixel);
 
-  // The view depth in metres at texels of the last update's picture; infinite: sky, or a texel
-  // outside. Empty if nothing was rendered. At most kMostDepths texels. Waits for the device.
+  // The view depth in metres at pixels of the last update's picture; infinite: sky, or a pixel
+  // outside. Empty if nothing was rendered. At most kMostDepths pixels. Waits for the device.
   static constexpr size_t kMostDepths = 16;
-  std::vector<double> depthsAt(std::span<const glm::ivec2> texels);
+  std::vector<double> depthsAt(std::span<const glm::ivec2> pixels);
   // The camera of the last update; null: nothing was rendered.
   const scene::Camera* camera() const { return done_ ? &done_->camera : nullptr; }
 
@@ -119,6 +134,7 @@ class Stage {
   struct Wanted {
     scene::Camera camera;
     glm::uvec2 size;
+    bool halves;
     frame::Surface surface;
     frame::Background background;
     uint64_t revision;
@@ -130,6 +146,12 @@ class Stage {
     bool operator==(const Wanted& other) const;
   };
   static Wanted wanted(const StageDesc& desc, bool held);
+  static uint32_t scaleOf(const StageDesc& desc) { return desc.halves ? 2 : 1; }
+  static glm::uvec2 texelsOf(glm::uvec2 pixels, uint32_t scale) {
+    return (pixels + scale - 1u) / scale;
+  }
+  static uint32_t framesWanted(const StageDesc& desc);
+  void renderLive(const StageDesc& desc, std::span<const std::string> outputs);
   void render(const StageDesc& desc, glm::uvec2 size, std::span<const std::string> outputs);
   void updateHeld(const StageDesc& desc);
   void makePipelines();
@@ -141,6 +163,7 @@ class Stage {
   std::optional<Wanted> done_, heldDone_;  // inputs of the rendered sides
   Side left_, right_;
   glm::uvec2 size_ = glm::uvec2(0);
+  uint32_t scale_ = 1, frames_ = 0;
   uint64_t waiting_ = 0, heldWaiting_ = 0, givenUp_ = 0, revision_ = 0;
   gpu::Texture held_;  // a copy of the held settings' output
   glm::uvec2 heldSize_ = glm::uvec2(0);

@@ -14,29 +14,6 @@ namespace grisaille::app::viewer {
 using nlohmann::json;
 namespace {
 
-// The JSON objects of all complete lines, the newest last.
-std::vector<json> objectsOf(const std::string& written) {
-  std::vector<json> objects;
-  for (size_t from = 0; from < written.size();) {
-    const size_t end = written.find('\n', from);
-    if (end == std::string::npos) break;
-    json line = json::parse(written.begin() + static_cast<ptrdiff_t>(from),
-                            written.begin() + static_cast<ptrdiff_t>(end), nullptr, false);
-    if (line.is_object()) objects.push_back(std::move(line));
-    from = end + 1;
-  }
-  return objects;
-}
-
-// The last line that is not empty.
-std::string lastLine(const std::string& written) {
-  const size_t end = written.find_last_not_of("\r\n");
-  if (end == std::string::npos) return "";
-  const size_t before = written.find_last_of("\r\n", end);
-  const size_t from = before == std::string::npos ? 0 : before + 1;
-  return written.substr(from, end + 1 - from);
-}
-
 // "RMSE 0.1010 at 41.234 ms, 57 evaluations; on unseen cameras 0.1120"
 std::string resultOf(const json& found) {
   std::string text =
@@ -87,54 +64,21 @@ glm::uvec2 tuneSize(glm::uvec2 view) {
   return {side(view.x), side(view.y)};
 }
 
-void TuneRun::start(const TuneCommand& command) {
-  if (child_) return;
-  std::vector<std::string> words = program_;
-  const std::vector<std::string> arguments = tuneArguments(command);
-  words.insert(words.end(), arguments.begin(), arguments.end());
-  words.emplace_back("--json");
-  cancelled_ = false;
-  child_ = std::make_unique<Child>(std::move(words));
-}
-
 TuneRun::State TuneRun::state() const {
-  if (!child_) return {};
-  if (cancelled_) return {0, "cancelling"};
-  const std::vector<json> told = objectsOf(child_->out());
-  if (told.empty()) return {0, "starting"};
-  const json& last = told.back();
-  const std::string name = last.value("progress", "");
-  const std::string doing = name == "tune" || name.empty() ? "" : "tracing " + name + ": ";
-  return {last.value("share", 0.0), doing + last.value("text", "")};
-}
-
-void TuneRun::cancel() {
-  if (!child_) return;
-  cancelled_ = true;
-  child_->end();
+  const ChildRun::State now = run_.state();
+  const bool tunes = now.name == "tune" || now.name.empty();
+  return {now.done, (tunes ? "" : "tracing " + now.name + ": ") + now.text};
 }
 
 std::optional<TuneRun::Outcome> TuneRun::take() {
-  if (!child_ || child_->running()) return std::nullopt;
-  const Outcome outcome = outcomeOf(*child_);
-  child_.reset();
-  return outcome;
-}
-
-TuneRun::Outcome TuneRun::outcomeOf(const Child& ended) const {
-  if (cancelled_) return {.values = {}, .text = "cancelled", .warning = {}};
-  if (ended.status() != 0) {
-    const std::string why =
-        ended.status() < 0 ? "a signal ended it" : "it failed without a message";
-    const std::string told = lastLine(ended.err());
-    return {.values = {}, .text = told.empty() ? why : told, .warning = {}};
-  }
-  const std::vector<json> told = objectsOf(ended.out());
-  if (told.empty() || !told.back().contains("setting")) {
-    return {.values = {}, .text = "it printed no result", .warning = {}};
-  }
+  const auto ended = run_.take();
+  if (!ended) return std::nullopt;
+  if (!ended->failure.empty()) return Outcome{.values = {}, .text = ended->failure, .warning = {}};
   try {
-    const json& found = told.back();
+    const json found = json::parse(ended->last, nullptr, false);
+    if (!found.is_object() || !found.contains("setting")) {
+      return Outcome{.values = {}, .text = "it printed no result", .warning = {}};
+    }
     Outcome outcome{.values = std::vector<effect::ParameterValue>(),
                     .text = resultOf(found),
                     .warning = found.value("warning", "")};
@@ -144,7 +88,7 @@ TuneRun::Outcome TuneRun::outcomeOf(const Child& ended) const {
     }
     return outcome;
   } catch (const json::exception& error) {
-    return {.values = {}, .text = error.what(), .warning = {}};
+    return Outcome{.values = {}, .text = error.what(), .warning = {}};
   }
 }
 

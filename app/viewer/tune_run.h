@@ -3,13 +3,12 @@
 #pragma once
 
 #include <glm/glm.hpp>
-#include <memory>
 #include <optional>
 #include <string>
 #include <utility>
 #include <vector>
 
-#include "app/process/child.h"
+#include "app/viewer/child_run.h"
 #include "core/effect/selection.h"
 #include "core/scene/camera.h"
 
@@ -53,27 +52,19 @@ class TuneRun {
 
   // `program`: the program's path, and arguments before those of tuneArguments().
   explicit TuneRun(std::vector<std::string> program = {"/proc/self/exe"})
-      : program_(std::move(program)) {}
-  TuneRun(const TuneRun&) = delete;
-  TuneRun& operator=(const TuneRun&) = delete;
+      : run_(std::move(program)) {}
 
-  // Starts a run; does nothing while one is started(). Throws kUnexpected.
-  void start(const TuneCommand& command);
-  bool started() const { return child_ != nullptr; }  // until take() returns its outcome
+  // As those of ChildRun.
+  void start(const TuneCommand& command) { run_.start(tuneArguments(command)); }
+  bool started() const { return run_.started(); }
   State state() const;
-
-  // Ends the run; take() then returns the outcome "cancelled".
-  void cancel();
+  void cancel() { run_.cancel(); }
 
   // The outcome of a run that has ended, once; else none.
   std::optional<Outcome> take();
 
  private:
-  Outcome outcomeOf(const Child& ended) const;
-
-  std::vector<std::string> program_;
-  std::unique_ptr<Child> child_;
-  bool cancelled_ = false;
+  ChildRun run_;
 };
 
 }  // namespace grisaille::app::viewer

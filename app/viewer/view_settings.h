@@ -1,5 +1,6 @@
 // SPDX-License-Identifier: MIT
-// Settings of what the picture shows: the split into two sides, and the comparison with the truth.
+// Settings of what the picture shows: the split into two sides, the comparison with the truth, and
+// how finely it is drawn while it moves and while it rests.
 #pragma once
 
 #include <cstdint>
@@ -31,6 +32,20 @@ struct TruthSettings {
   std::string output = "";            // compared output; "": the first comparable one
   std::optional<double> radius = {};  // metres, over 0 to kFarthest; none: the effect's
   uint32_t rays = 256;                // per pixel, kLeastRays ... kMostRays
+};
+
+// How finely the picture is drawn.
+struct Fineness {
+  static constexpr double kSlowFrame = 0.05;  // seconds
+
+  // While the picture moves, draws it at half its resolution if a whole frame takes over
+  // kSlowFrame.
+  bool halves = true;
+  // While the picture rests, averages as many frames as an effect's `history` can, whatever its
+  // value. Else it averages as many as the value says.
+  bool converges = false;
+
+  bool operator==(const Fineness&) const = default;
 };
 
 }  // namespace grisaille::app::viewer

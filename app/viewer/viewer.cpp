@@ -43,7 +43,8 @@ Viewer::Viewer(const ViewerOptions& options)
       panel_(session_, state_, bookmarks_),
       controls_(session_, panel_, bookmarks_, state_) {
   std::error_code failed;
-  if (!fs::exists(stateFile(), failed)) {
+  const bool keptState = fs::exists(stateFile(), failed);
+  if (!keptState) {
     session_.say("Drag in the picture to orbit. F1 lists all keys, Ctrl+O opens a file.");
   }
   if (!stateMessage_.empty()) session_.say(stateMessage_, true);
@@ -54,6 +55,10 @@ Viewer::Viewer(const ViewerOptions& options)
     state_.height = options_.size.y;
   }
   openWindow();
+  if (options_.size.x == 0 && !keptState) {
+    const double unit = window_->unit();
+    window_->resize(glm::uvec2(glm::round(unit * glm::dvec2(state_.width, state_.height))));
+  }
   rebuild_.watch(session_.registry());
   openScene(session_.firstScene());
 }
@@ -98,6 +103,7 @@ void Viewer::showFrames() {
     if (window_->wait(patience())) settle_ = kSettleFrames;
     // Frames drawn before the truth is traced do not count as complete.
     const bool hurry = options_.frames > 0 && !truth_->running();
+    watchMotion();
     if (lookAround() || hurry) settle_ = std::max(settle_, 1);
     if (stage_ && retry_.wait > 0 && Clock::now() >= retry_.at) stage_->retry();
     if (turnSides()) settle_ = std::max(settle_, 1);
@@ -127,14 +133,26 @@ double Viewer::patience() {
   const bool stale = !session_.paused && isStale();
   const bool runs = moving_ || session_.continuous || session_.isPlaying();
   if (visible && (settle_ > 0 || stale || runs)) return 0;
-  const bool busy =
-      loading_.running() || !rebuild_.building().empty() || tune_.started() || portal_.running();
+  const bool busy = loading_.running() || !rebuild_.building().empty() || tune_.started() ||
+                    sequence_.started() || portal_.running();
   double seconds = busy || truth_->running() ? kWaitInterval : kLookInterval;  // notices signals
+  if (inMotion_) {
+    const std::chrono::duration<double> left = restsAt_ - Clock::now();
+    seconds = std::clamp(left.count(), 0.0, seconds);
+  }
   if (session_.split && session_.splitting.way == SplitWay::kFlicker) {
     const std::chrono::duration<double> left = turnAt_ - Clock::now();
     seconds = std::clamp(left.count(), 0.0, seconds);
   }
   return seconds;
+}
+
+// A camera that stops for less than kRest still moves: a drag does not flicker between a coarse and
+// a fine picture.
+void Viewer::watchMotion() {
+  const bool moved = inMotion_;
+  inMotion_ = session_.isPlaying() || Clock::now() < restsAt_;
+  if (moved && !inMotion_) settle_ = std::max(settle_, 1);  // the picture at rest
 }
 
 // Checks scene loading, plugin builds, tune and truth. True if one of them has news.
@@ -158,38 +176,32 @@ bool Viewer::lookAround() {
     }
   }
   news |= lookAtTune();
+  news |= lookAtSequence();
   news |= lookAtPortal();
   session_.attempt("truth", [&] { news |= truth_->look(); });
   return news || before != rebuild_.building();
 }
 
-void Viewer::startTune(const TuneWish& wish) {
-  session_.attempt("search", [&] {
-    tune_.start(session_.tuneCommand(wish, place().size, backend_, deviceName()));
-    tuning_ = {.effect = wish.effect, .running = true, .state = tune_.state(), .outcome = {}};
-  });
-}
-
-// True if the search has news.
-bool Viewer::lookAtTune() {
-  if (!tuning_.running) return false;
-  const auto outcome = tune_.take();
-  if (!outcome) {
-    const std::string before = std::exchange(tuning_.state, tune_.state()).text;
-    return tuning_.state.text != before;
-  }
-  tuning_.running = false;
-  tuning_.outcome = *outcome;
-  session_.attempt("search", [&] {
-    if (outcome->values) session_.takeTuned(tuning_.effect, *outcome->values);
-  });
-  return true;
+// Gives the text its size. If the user changes it, the window grows or shrinks with the panel, so
+// that the picture keeps its size, as far as the screen has room.
+void Viewer::fitText() {
+  context_.setLight(state_.layout.light);
+  const double text = state_.layout.textScale;
+  const double before = std::exchange(textScale_, text);
+  if (!context_.setScale(window_->scale() * static_cast<float>(text))) return;
+  screen_->fontChanged();
+  if (before == 0 || before == text || !panel_.shown) return;
+  // ImGui takes the new font with the next frame.
+  const double panel = state_.layout.panelWidth * ImGui::GetFontSize();
+  const double next = state_.layout.panelWidth * ImGui::GetIO().Fonts->Fonts[0]->FontSize;
+  const glm::uvec2 size = window_->size();
+  // A size that the screen cut short does not count.
+  if (size != textSize_) textPicture_ = std::max(size.x - panel, 0.0);
+  textSize_ = window_->resize({static_cast<uint32_t>(textPicture_ + next), size.y});
 }
 
 void Viewer::frame(double seconds) {
-  const float scale = window_->scale() * static_cast<float>(state_.layout.textScale);
-  context_.setLight(state_.layout.light);
-  if (context_.setScale(scale)) screen_->fontChanged();
+  fitText();
   takeDropped();
   session_.advance(seconds);
   window_->feedInterface();
@@ -198,6 +210,7 @@ void Viewer::frame(double seconds) {
   const ImGuiIO& io = ImGui::GetIO();
   const Status now = status();
   Requests requests = panel_.draw(now, {io.DisplaySize.x, io.DisplaySize.y});
+  if (panel_.scrolls) settle_ = std::max(settle_, 1);
   if (session_.split) {
     const float unit = 1 / io.DisplayFramebufferScale.x;
     drawSideLabels(session_, now, unit * glm::vec2(place().corner), unit * glm::vec2(place().size),
@@ -205,6 +218,11 @@ void Viewer::frame(double seconds) {
   }
   moving_ =
       controls_.update(place(), stage_.get(), seconds, io.DisplayFramebufferScale.x, requests);
+  if (controls_.steered()) {
+    restsAt_ = Clock::now() +
+               std::chrono::duration_cast<Clock::duration>(std::chrono::duration<double>(kRest));
+  }
+  watchMotion();
   if (!ImGui::IsAnyItemActive()) session_.noteChanges();
   ImGui::Render();
   if (window_->hasMoreEvents()) settle_ = kSettleFrames;
@@ -228,6 +246,8 @@ void Viewer::perform(const Requests& requests) {
   }
   if (requests.tune) startTune(*requests.tune);
   if (requests.cancelTune) tune_.cancel();
+  if (requests.sequence) startSequence();
+  if (requests.cancelSequence) sequence_.cancel();
   performOpening(requests);
   if (requests.openSession) {
     session_.attempt("session", [&] { openSession(*requests.openSession); });

@@ -51,17 +51,18 @@ class Viewer {
  private:
   using Clock = std::chrono::steady_clock;
   static constexpr int kSettleFrames = 3;  // ImGui shows hover effects a frame or two late
+  static constexpr double kRest = 0.25;    // seconds without motion until the picture rests
 
   // viewer.cpp
   void showFrames();
+  void fitText();
   void rescue();
   double patience();
+  void watchMotion();
   bool lookAround();
   void frame(double seconds);
   void perform(const Requests& requests);
   void performOpening(const Requests& requests);
-  void startTune(const TuneWish& wish);
-  bool lookAtTune();
   bool lookAtPortal();
   void openScene(const std::string& path);
   void openAny(const std::string& path);
@@ -70,6 +71,11 @@ class Viewer {
   void takeDropped();
   void noteSize();
   void keepState();
+  // viewer_runs.cpp
+  void startTune(const TuneWish& wish);
+  bool lookAtTune();
+  void startSequence();
+  bool lookAtSequence();
   // viewer_session.cpp
   std::optional<SavedSession> firstSession();
   bool keepsSession() const { return options_.frames == 0; }
@@ -138,6 +144,8 @@ class Viewer {
   std::string buildMessage_;
   std::string failedScene_;  // as in Status
   bool pictured_ = false;    // the scene has its thumbnail
+  ChildRun sequence_;
+  std::string sequenceText_;  // its last progress
   TuneRun tune_;
   TuneStatus tuning_;
   PassTimes times_;
@@ -153,10 +161,20 @@ class Viewer {
   Measured measured_;
 
   std::string backend_, firstBackend_, layoutWritten_;
+  double textScale_ = 0;  // of the last frame; 0: no frame yet
+  // Size that fitText() gave the window, and the width of the picture that it keeps, in its units.
+  glm::uvec2 textSize_ = glm::uvec2(0);
+  double textPicture_ = 0;
   int settle_ = 0;            // further frames to draw, for hover and for late updates
   bool moving_ = false;       // a held key or button moves the camera or sprays
   double updateSeconds_ = 0;  // duration of the stage's last update
-  bool turned_ = false;       // with SplitWay::kFlicker: the right side is shown
+  // The picture moves: by the camera, until restsAt_, or because the animation plays.
+  bool inMotion_ = false;
+  Clock::time_point restsAt_ = {};
+  // Duration of a frame of the whole resolution, and the number of the last such frames in a row.
+  double wholeSeconds_ = 0;
+  uint32_t wholeFrames_ = 0;
+  bool turned_ = false;  // with SplitWay::kFlicker: the right side is shown
   Clock::time_point turnAt_ = {};
   // How far the sides are apart, and of which content.
   struct Compared {

@@ -51,6 +51,11 @@ StageDesc Viewer::commonDesc() {
   desc.surface = session_.surface;
   desc.background = session_.background;
   desc.chain = &session_.chain;
+  // Numbers against the truth are those of the whole picture.
+  desc.halves = inMotion_ && session_.fineness.halves && wholeSeconds_ > Fineness::kSlowFrame &&
+                session_.comparedOutput().empty();
+  desc.averages = !inMotion_;
+  desc.converges = session_.fineness.converges;
   return desc;
 }
 
@@ -96,6 +101,8 @@ void Viewer::updateStage() {
     stage_->update(desc);
     updateOther();
     updateSeconds_ = std::chrono::duration<double>(Clock::now() - start).count();
+    wholeFrames_ = desc.halves ? 0 : wholeFrames_ + 1;
+    if (!desc.halves) wholeSeconds_ = updateSeconds_;
     if (panel_.wantsCoverage) updateCoverage();
     const std::string compared = session_.comparedOutput();
     if (compared.empty()) return;
@@ -175,7 +182,7 @@ void Viewer::compareSides() {
   const uint64_t revision = stage_->revision() + (other_ ? other_->revision() : 0);
   if (apart_ && apart_->sides == sides && apart_->revision == revision) return;
   apart_.reset();
-  apart_ = {sides, revision, difference_->compare(sides, stage_->size())};
+  apart_ = {sides, revision, difference_->compare(sides, stage_->texels())};
   settle_ = std::max(settle_, 1);  // the panel shows the new numbers
 }
 
@@ -220,7 +227,13 @@ Status Viewer::status() {
   for (const gpu::FrameTimes& frame : device_->takeTimes()) {
     const bool own = std::ranges::all_of(
         frame.passes, [](const gpu::PassTime& pass) { return pass.label.starts_with("viewer/"); });
-    if (!own) times_.add(frame);
+    if (own) continue;
+    times_.add(frame);
+    // A device works a few frames behind; a software driver's update has waited for it.
+    constexpr uint32_t kBehind = 4;
+    if (wholeFrames_ > kBehind) {
+      wholeSeconds_ = std::max(updateSeconds_, frame.wholeMilliseconds / 1000);
+    }
   }
   Status status;
   status.device = device_->info();
@@ -229,6 +242,9 @@ Status Viewer::status() {
   status.whole = times_.whole();
   status.coverage = coverage_;
   status.picture = place().size;
+  status.halved = stage_ && stage_->scale() > 1;
+  status.averaged = stage_ ? stage_->frames() : 0;
+  status.toAverage = framesAveraged(session_.chain.selection, session_.fineness.converges);
   status.givenUp = stage_ ? stage_->givenUp() : 0;
   if (stage_) status.leftOut = stage_->leftOut();
   status.waiting = (stage_ ? stage_->waiting() : 0) + (other_ ? other_->waiting() : 0);
@@ -243,6 +259,8 @@ Status Viewer::status() {
   status.failedScene = failedScene_;
   status.truth = truthStatus();
   status.tune = tuning_;
+  const ChildRun::State sequence = sequence_.state();
+  status.sequence = {sequence_.started(), sequence.done, sequence.text};
   status.rebuilding = rebuild_.building();
   status.buildMessage = buildMessage_;
   const auto texel = controls_.texel(place());
@@ -270,7 +288,8 @@ void Viewer::drawWindow() {
     desc.sides = {side(false), side(session_.split)};
   });
   if (stage_) {
-    desc.texels = stage_->size();
+    desc.size = stage_->size();
+    desc.scale = stage_->scale();
     desc.revision = stage_->revision() + truth_->revision();  // for one scene, all only grow
     if (other_) desc.revision += other_->revision();
   }
@@ -297,6 +316,7 @@ image::Image Viewer::pictureOf(const std::string& view) {
     return truth_->numbers(view);
   }
   StageDesc desc = stageDesc();
+  desc.halves = false;
   if (!panel_.pictureAsShown) desc.size = panel_.pictureSize;
   return stage_->picture(desc, desc.left);
 }
@@ -328,13 +348,14 @@ void Viewer::writeLayout() {
   if (options_.layoutFile.empty()) return;
   const Place where = place();
   const auto corner = glm::vec2(where.corner), end = corner + glm::vec2(where.size);
-  const bool done = settle_ == 0 && !session_.isPlaying() && stage_ && !isStale();
+  const bool done = settle_ == 0 && !inMotion_ && stage_ && !isStale();
   panel_.layout.note("picture", corner.x, corner.y, end.x, end.y,
                      retry_.wait > 0                    ? "failed"
                      : !stage_ && !failedScene_.empty() ? "empty"
                      : done                             ? "done"
                                                         : "stale");
   panel_.layout.note("camera", 0, 0, 0, 0, scene::cameraJson(session_.camera));
+  panel_.layout.note("scale", 0, 0, 0, 0, fmt::format("{}", stage_ ? stage_->scale() : 1));
   panel_.layout.note("drawn", 0, 0, 0, 0, fmt::format("{}", drawn_));
   panel_.layout.note("typing", 0, 0, 0, 0, ImGui::GetIO().WantTextInput ? "true" : "false");
   if (session_.comparing.on) {

@@ -140,6 +140,37 @@ void Window::moveTo(glm::ivec2 position) {
   glfwSetWindowPos(window_, position.x, position.y);
 }
 
+// Size of the screen's part that windows may take, without panels of the desktop.
+glm::uvec2 Window::room() const {
+  int count = 0;
+  GLFWmonitor** all = glfwGetMonitors(&count);
+  const glm::ivec2 at = position();
+  glm::uvec2 room(0);
+  for (int i = 0; i < count; ++i) {
+    glm::ivec2 corner(0), size(0);
+    glfwGetMonitorWorkarea(all[i], &corner.x, &corner.y, &size.x, &size.y);
+    const glm::ivec2 end = corner + size;
+    const bool here = at.x >= corner.x && at.y >= corner.y && at.x < end.x && at.y < end.y;
+    if (i == 0 || here) room = glm::uvec2(glm::max(size, glm::ivec2(1)));
+  }
+  return room;
+}
+
+glm::uvec2 Window::resize(glm::uvec2 size) {
+  const bool fills = isFullScreen() || glfwGetWindowAttrib(window_, GLFW_MAXIMIZED) != 0;
+  const glm::uvec2 most = room();
+  if (fills || most.x == 0) return this->size();
+  const glm::uvec2 next = glm::clamp(size, glm::uvec2(1), most);
+  glfwSetWindowSize(window_, static_cast<int>(next.x), static_cast<int>(next.y));
+  return next;
+}
+
+double Window::unit() const {
+  const glm::uvec2 units = size(), framebuffer = pixels();
+  if (units.x == 0 || framebuffer.x == 0) return 1;
+  return double{scale()} * units.x / framebuffer.x;
+}
+
 bool Window::closing() const {
   return glfwWindowShouldClose(window_) != 0;
 }

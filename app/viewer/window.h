@@ -42,6 +42,13 @@ class Window {
   float scale() const;          // the display's scale of text and sizes, 0.5 ... 4
   glm::ivec2 position() const;  // of its content, in the desktop's units
   void moveTo(glm::ivec2 position);
+  // Sets the size, in the desktop's units, at least 1 and at most the room of the screen that the
+  // window is on. Does nothing to a window that fills the screen. Returns the size that it asked
+  // for.
+  glm::uvec2 resize(glm::uvec2 size);
+  // Units of the desktop per unit of a display of the usual resolution: 1 where the desktop scales
+  // its units itself.
+  double unit() const;
   bool closing() const;
   void close();
   void setTitle(const std::string& title);
@@ -70,6 +77,7 @@ class Window {
     unsigned text = 0;                 // Unicode code point
   };
   void setCallbacks();
+  glm::uvec2 room() const;
   bool feed(const Event& event, std::vector<int>& touched);
 
   GLFWwindow* window_ = nullptr;

@@ -41,35 +41,45 @@ void setKey(CameraPath& path, const std::string& key, const json& value) {
 
 }  // namespace
 
+Camera cameraAt(const std::vector<Camera>& keys, double share) {
+  const size_t last = keys.size() - 1;
+  const double at = static_cast<double>(last) * share;
+  const size_t before = std::min(static_cast<size_t>(at), last - 1);
+  const double part = at - static_cast<double>(before);
+  const Camera &a = keys[before], &b = keys[before + 1];
+  Camera camera = part == 1 ? b : a;
+  camera.eye = glm::mix(a.eye, b.eye, part);
+  camera.target = glm::mix(a.target, b.target, part);
+  camera.fovyDegrees = glm::mix(a.fovyDegrees, b.fovyDegrees, part);
+  // Between cameras of two kinds, the kind changes at the key.
+  if (a.orthographicHeight > 0 && b.orthographicHeight > 0) {
+    camera.orthographicHeight = glm::mix(a.orthographicHeight, b.orthographicHeight, part);
+  }
+  camera.shift = glm::mix(a.shift, b.shift, part);
+  validate(camera);
+  return camera;
+}
+
 std::vector<Camera> camerasOf(const CameraPath& path) {
   if (path.keys.size() < 2) refuse("cameras holds fewer than two cameras");
   if (path.frames < 2 || path.frames > kMostPathFrames) {
     refuse(fmt::format("frames is not from 2 to {}", kMostPathFrames));
   }
   std::vector<Camera> cameras;
-  const size_t last = path.keys.size() - 1;
   for (uint32_t i = 0; i < path.frames; ++i) {
-    const double at = static_cast<double>(last) * i / (path.frames - 1);
-    const size_t before = std::min(static_cast<size_t>(at), last - 1);
-    const double share = at - static_cast<double>(before);
-    const Camera &a = path.keys[before], &b = path.keys[before + 1];
-    Camera camera = share == 1 ? b : a;
-    camera.eye = glm::mix(a.eye, b.eye, share);
-    camera.target = glm::mix(a.target, b.target, share);
-    camera.fovyDegrees = glm::mix(a.fovyDegrees, b.fovyDegrees, share);
-    // Between cameras of two kinds, the kind changes at the key.
-    if (a.orthographicHeight > 0 && b.orthographicHeight > 0) {
-      camera.orthographicHeight = glm::mix(a.orthographicHeight, b.orthographicHeight, share);
-    }
-    camera.shift = glm::mix(a.shift, b.shift, share);
     try {
-      validate(camera);
+      cameras.push_back(cameraAt(path.keys, double{1} * i / (path.frames - 1)));
     } catch (const Error& error) {
       throw Error(error.id(), "frame {}: {}", i, error.detail());
     }
-    cameras.push_back(camera);
   }
   return cameras;
+}
+
+std::string cameraPathJson(const CameraPath& path) {
+  std::string keys;
+  for (const Camera& key : path.keys) keys += (keys.empty() ? "\n " : ",\n ") + cameraJson(key);
+  return fmt::format("{{\"frames\": {},\n\"cameras\": [{}]}}\n", path.frames, keys);
 }
 
 CameraPath parseCameraPath(std::string_view text, const std::string& name) {

@@ -18,12 +18,19 @@ struct CameraPath {
   uint32_t frames = 2;       // 2 ... kMostPathFrames
 };
 
-// Returns one camera per frame. Frame 0 is the first key, the last frame the last key. Every pair
-// of neighbouring keys takes an equal share of the frames; between them eye, target and field of
-// view are interpolated linearly. Other fields come from the earlier key. Throws kCameraInvalid for
-// keys or frames out of range, and for a frame with an invalid camera (its eye may meet its
-// target); the message has the frame's number.
+// The camera after a share of the path, 0 ... 1. Every pair of neighbouring keys takes an equal
+// share; between them eye, target and field of view are interpolated linearly. Other fields come
+// from the earlier key. Throws kCameraInvalid for an invalid camera: its eye may meet its target.
+// keys: at least 2
+Camera cameraAt(const std::vector<Camera>& keys, double share);
+
+// Returns one camera per frame. Frame 0 is the first key, the last frame the last key. Throws
+// kCameraInvalid for keys or frames out of range, and for a frame with an invalid camera; the
+// message has the frame's number.
 std::vector<Camera> camerasOf(const CameraPath& path);
+
+// The text of a camera path file: parseCameraPath() reads it back to the same path, bit for bit.
+std::string cameraPathJson(const CameraPath& path);
 
 // Parses the text of a camera path file. Throws kCameraUnreadable, kCameraInvalid. `name` prefixes
 // the messages.

@@ -187,14 +187,49 @@ TEST_F(Time, MistakesAreNamed) {
   expectRefused(render({"--times", "0:1:1", "--frames", "2"}), "--times");
   expectRefused(render({"--times", "0:1:1", "--coverage", "-"}), "--times");
   expectRefused(render({"--times", "0:1:1", "--write", "ao=a.exr"}),
-                "E5507: 'a.exr' has no frame number, but --times writes a sequence");
+                "E5507: 'a.exr' has no frame number, but --times or --path writes a sequence");
   expectRefused(render({"--write", "ao=a.##.exr"}),
-                "E5507: 'a.##.exr' has a frame number, but --times is not given");
+                "E5507: 'a.##.exr' has a frame number, but neither --times nor --path is given");
   expectRefused(
       render({"--times", "0:1:1", "--write", "ao=a.##.exr", "--write", "depth=a.%02d.exr"}),
       "name the same file");
   std::filesystem::remove_all(folder_ / "cache");  // of the driver
   EXPECT_EQ(folder_.files(), (std::vector<std::string>{"a.glb"}));
+}
+
+// Each frame is the picture of its camera, and of its time if the animation plays, too.
+TEST_F(Time, ASequenceFollowsAPath) {
+  const std::string first = R"({"eye": [0, 2, 6], "target": [0, 0.5, 0], "fovy_degrees": 60})";
+  const std::string last = R"({"eye": [4, 2, 6], "target": [0, 0.5, 0], "fovy_degrees": 40})";
+  const std::string middle = R"({"eye": [2, 2, 6], "target": [0, 0.5, 0], "fovy_degrees": 50})";
+  folder_.write("p.json", "{\"frames\": 5, \"cameras\": [" + first + ", " + last + "]}");
+  const std::vector<std::string> common = {"render", "a.glb",     "--size",
+                                           "64x36",  "--effects", "ssao"};
+  const auto with = [&](std::vector<std::string> more) {
+    more.insert(more.begin(), common.begin(), common.end());
+    return more;
+  };
+  const Outcome outcome =
+      expectRuns(with({"--path", "p.json", "--json", "--write", "depth=p.##.exr"}));
+  const auto told = nlohmann::json::parse(outcome.out.substr(0, outcome.out.find('\n')));
+  EXPECT_EQ(told["progress"], "render");
+  expectRuns(with({"--path", "p.json", "--times", "0:1:1/2", "--write", "depth=t.##.exr"}));
+  EXPECT_FALSE(std::filesystem::exists(folder_ / "p.05.exr"));
+  EXPECT_FALSE(std::filesystem::exists(folder_ / "t.03.exr"));
+  const auto expectPicture = [&](const std::string& name, const std::string& camera,
+                                 std::vector<std::string> pose) {
+    pose.insert(pose.end(), {"--camera", camera, "--write", "depth=one.exr"});
+    expectRuns(with(pose));
+    EXPECT_EQ(pixels(name), pixels("one.exr")) << name;
+  };
+  expectPicture("p.00.exr", first, {});
+  expectPicture("p.02.exr", middle, {});
+  expectPicture("p.04.exr", last, {});
+  expectPicture("t.01.exr", middle, {"--time", "0.5"});
+  expectRefused(with({"--path", "p.json", "--camera", first}), "--camera");
+  expectRefused(with({"--path", "p.json", "--write", "depth=p.exr"}), "E5507");
+  expectRefused(with({"--path", "missing.json"}), "missing.json");
+  expectRefused(with({"--path", "p.json", "--times", "0:0:1"}), "frames is not from 2");
 }
 
 TEST_F(Time, AnInterruptedSequenceLeavesWholeFiles) {

@@ -7,6 +7,7 @@
 #include <unistd.h>
 #include <xcb/xcb.h>
 
+#include <cmath>
 #include <cstdlib>
 #include <cstring>
 #include <memory>
@@ -111,6 +112,14 @@ std::vector<uint32_t> Display::pixels(uint32_t x, uint32_t y, uint32_t width,
   std::memcpy(pixels.data(), xcb_get_image_data(image.get()), bytes);
   for (uint32_t& pixel : pixels) pixel &= 0xffffff;
   return pixels;
+}
+
+void Display::setScale(double scale) const {
+  const std::string text = "Xft.dpi:\t" + std::to_string(std::lround(96 * scale)) + "\n";
+  xcb_change_property(connection_, XCB_PROP_MODE_REPLACE, screenOf(connection_)->root,
+                      XCB_ATOM_RESOURCE_MANAGER, XCB_ATOM_STRING, 8,
+                      static_cast<uint32_t>(text.size()), text.c_str());
+  owned(xcb_get_input_focus_reply(connection_, xcb_get_input_focus(connection_), nullptr));  // sync
 }
 
 void Display::markIconified(bool iconified) const {

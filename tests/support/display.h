@@ -29,6 +29,10 @@ class Display {
   // Reads a rectangle of the screen: 0xRRGGBB per pixel, top row first.
   std::vector<uint32_t> pixels(uint32_t x, uint32_t y, uint32_t width, uint32_t height) const;
 
+  // Gives the screen a resolution of `scale` times the usual 96 dots per inch, for windows that are
+  // opened later.
+  void setScale(double scale) const;
+
   // Stands in for a window manager: marks every window as iconified, or none.
   void markIconified(bool iconified) const;
 

@@ -36,6 +36,7 @@ SavedSession whole() {
   session.split = session.inspecting = true;
   session.line = 0.25f;
   session.splitting = {.way = SplitWay::kFlicker, .full = 0.5f, .turn = 1, .backend = "vulkan"};
+  session.fineness = {.halves = false, .converges = true};
   session.comparing = {.on = true, .output = "ssao.ao", .radius = 0.3, .rays = 64};
   session.backend = "opengl";
   session.layout = {
@@ -56,6 +57,7 @@ TEST_F(SessionFile, ComesBackAsItWasSaved) {
   EXPECT_EQ(read.held, whole().held);
   EXPECT_EQ(read.objects, whole().objects);
   EXPECT_EQ(read.layout, whole().layout);
+  EXPECT_EQ(read.fineness, whole().fineness);
   EXPECT_EQ(scene::cameraJson(*read.camera), scene::cameraJson(*whole().camera));
   EXPECT_EQ(std::distance(fs::directory_iterator(file.parent_path()), {}), 1);
 }

@@ -32,6 +32,9 @@ TEST_F(CameraPathFiles, RunsFromKeyToKey) {
   // The first and last cameras equal the keys, to the bit.
   EXPECT_EQ(cameraJson(cameras.front()), cameraJson(path.keys.front()));
   EXPECT_EQ(cameraJson(cameras.back()), cameraJson(path.keys.back()));
+  const CameraPath again = parseCameraPath(cameraPathJson(path), "again");
+  EXPECT_EQ(again.keys, path.keys);
+  EXPECT_EQ(again.frames, path.frames);
 }
 
 TEST_F(CameraPathFiles, MistakesAreNamed) {
