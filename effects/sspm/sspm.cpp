@@ -236,11 +236,11 @@ class Sspm {
         plugin::uniform(1, frame.uniform(splatBlock(frame))),
         plugin::uniform(2, frame.uniform(listsBlock(frame))),
         plugin::storage(2, plugin::whole(world_.records().buffer())),
-        plugin::storage(3, plugin::whole(world_.blocks().buffer())),
         plugin::texture(0, frame.attachment(GRISAILLE_VIEW_DEPTH), nearest_),
         plugin::texture(1, frame.attachment(GRISAILLE_FACET_NORMAL), nearest_)};
     const Bindings lists = {plugin::storage(0, plugin::whole(world_.cells().slots().buffer())),
-                            plugin::storage(1, plugin::whole(world_.cells().words().buffer()))};
+                            plugin::storage(1, plugin::whole(world_.cells().words().buffer())),
+                            plugin::storage(3, plugin::whole(world_.blocks().buffer()))};
     Bindings outputs;
     addOutputs(frame, outputs);
     const auto resolution = frame.value<Resolution>(kResolution);

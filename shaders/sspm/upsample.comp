@@ -56,14 +56,10 @@ Sum compositeOwners(Corners corners, vec4 weights, bool served, Point point) {
     const vec3 q = point.from_camera - muzzleOf(shot);
     const vec2 across = q * axesAcross(shot.direction);
     const float along = dot(q, shot.direction);
-    // Samples of the pixel's plane tell whether its muzzle sees the pixel, unless it misses one.
-    bool known = served && all(greaterThan(abs(corners.blocked - owner), vec4(0.5)));
-    bool painted = length(across) < shot.range && along >= 0.0 && dot(q, point.normal) < 0.0;
-    // A loop, since a software driver executes both sides of a condition.
-    while (painted && !known) {
-      painted = inSight(shot, shot.root, q, along, across, point.normal);
-      known = true;
-    }
+    // At a silhouette that hides the pixel from the muzzle, the larger part of the samples decides.
+    const float seen = dot(weights, vec4(greaterThanEqual(corners.number, uvec4(newest))));
+    const float hidden = dot(weights, vec4(lessThan(abs(corners.blocked - owner), vec4(0.5))));
+    bool painted = seen >= hidden && length(across) < shot.range && along >= 0.0 && dot(q, point.normal) < 0.0;
     if (painted) {
       sum.strengths = max(sum.strengths, dot(its, corners.before) / sumOf(its));
       compositeShot(sum, record, shot, across, point.pixel);
