@@ -29,18 +29,18 @@ Coverage coverageOf(effect::Chain& chain, const Owned& owned, SceneRays& rays,
   std::map<uint64_t, double> byOwner;
   for (const grisaille_drawn& one : drawn) byOwner[one.owner] += double{one.alpha};
   std::map<std::string, double> byColor;
-  double painted = 0;
+  double covered = 0;
   for (const auto& [owner, sum] : byOwner) {
     if (owner == 0) continue;
     const objects::Value value = objects.value(static_cast<size_t>(owner) - 1, *owned.colour);
     byColor[objects::textOf(*owned.colour, value)] += sum;
-    painted += sum;
+    covered += sum;
   }
   const double all = std::max(static_cast<double>(drawn.size()), 1.0);
   Coverage coverage = {.shares = {}, .points = drawn.size(), .area = surface.area};
   for (const auto& [color, sum] : byColor) coverage.shares.push_back({color, sum / all});
   std::ranges::stable_sort(coverage.shares, std::ranges::greater(), &ColorShare::share);
-  coverage.shares.push_back({"none", 1 - painted / all});
+  coverage.shares.push_back({"none", 1 - covered / all});
   return coverage;
 }
 

@@ -91,7 +91,7 @@ GRISAILLE_ERROR(kEffectLacks, 3208,
                 "give what the message names, run the effect that writes it before this one, or "
                 "leave this effect out")
 GRISAILLE_ERROR(kEffectDrawsNoPoints, 3209,
-                "name an active effect that draws on surfaces, such as sspm")
+                "name an active effect that can tell what it draws on surfaces")
 // --- 33xx: parameter values
 GRISAILLE_ERROR(kParameterUnknown, 3301, "see `grisaille effects` for the keys")
 GRISAILLE_ERROR(kParameterRange, 3302, "give a value inside the range")

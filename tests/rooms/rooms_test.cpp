@@ -53,7 +53,8 @@ constexpr Room kRooms[] = {
     {"app/settings", "core/effect core/frame core/gpu"},
     {"app/services", "core/effect core/image core/objects core/scene core/trace grisaille"},
     {"app/report",
-     "app/settings core/effect core/gpu core/image core/objects core/scene grisaille"},
+     "app/services/scene_services.h app/settings core/effect core/gpu core/image core/objects "
+     "core/scene grisaille"},
     {"app/truth", "core/effect core/image core/scene core/trace"},
     {"app/process", "app/truth/interruption.h core/effect"},
     {"app/verify",

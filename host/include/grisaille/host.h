@@ -653,15 +653,14 @@ GRISAILLE_EXPORT int grisaille_host_effect_report(const grisaille_host_effect* e
  * Computes on the CPU what an effect draws at points of your scene's surfaces, whether or not a
  * camera sees them: keep score with it. Spread the points over the surfaces that count, in
  * proportion to their area: the share of the alpha with an owner is the share of that area that the
- * owner's paint covers. 100,000 points have a standard error of 0.0016 or less. Keep points that
+ * owner covers. 100,000 points have a standard error of 0.0016 or less. Keep points that
  * lie close together next to each other, which makes rays coherent.
  *
  * The effect draws the present objects with the present parameters, as recordings do, without the
  * fading of details that a camera's distance causes. Recordings place objects: those that wait, and
  * those that a limit gives up, draw nothing, see grisaille_host_effect_report(). The call casts
- * rays with the function of grisaille_host_device_set_rays(), in the same thread: `sspm` casts them
- * from muzzles to points, some tens of thousands in each call of your function. The call uses no
- * graphics API.
+ * rays with the function of grisaille_host_device_set_rays(), in the same thread, some tens of
+ * thousands in each call of your function. The call uses no graphics API.
  *
  * @param effect the effect
  * @param points `count` points
