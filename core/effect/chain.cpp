@@ -102,7 +102,8 @@ void Chain::end() {
   stop();
 }
 
-Report Chain::record(const Selection::Entry& entry, FrameInputs inputs) {
+template <typename Inputs, typename Call>
+void Chain::offer(const Selection::Entry& entry, Inputs& inputs, const Call& call) {
   Running& one = running_.find(entry.key())->second;
   const objects::ObjectList* list = objects(entry.key());
   if (list != nullptr) {
@@ -110,22 +111,22 @@ Report Chain::record(const Selection::Entry& entry, FrameInputs inputs) {
     inputs.objectsKept = list->keptSince(one.seen);
   }
   inputs.values = entry.values.all();
-  one.instance->record(inputs);
+  call(*one.instance);
   if (list != nullptr) one.seen = list->revision();
-  return one.instance->report();
+}
+
+Report Chain::record(const Selection::Entry& entry, FrameInputs inputs) {
+  Report report;
+  offer(entry, inputs, [&](Instance& instance) {
+    instance.record(inputs);
+    report = instance.report();
+  });
+  return report;
 }
 
 void Chain::drawAt(const Selection::Entry& entry, PointInputs inputs) {
   create();
-  Running& one = running_.find(entry.key())->second;
-  const objects::ObjectList* list = objects(entry.key());
-  if (list != nullptr) {
-    inputs.objects = list->view();
-    inputs.objectsKept = list->keptSince(one.seen);
-  }
-  inputs.values = entry.values.all();
-  one.instance->drawAt(inputs);
-  if (list != nullptr) one.seen = list->revision();
+  offer(entry, inputs, [&](Instance& instance) { instance.drawAt(inputs); });
 }
 
 size_t Chain::resources() const {

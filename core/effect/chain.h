@@ -95,6 +95,10 @@ class Chain {
     std::optional<objects::ObjectList> list = {};   // its objects, if there are any
   };
 
+  // Hands values and objects over to a call of the instance.
+  template <typename Inputs, typename Call>
+  void offer(const Selection::Entry& entry, Inputs& inputs, const Call& call);
+
   Absent* findAbsent(std::string_view effect);
   void loseList(const std::string& effect, objects::ObjectList list,
                 std::vector<std::string>& dropped);

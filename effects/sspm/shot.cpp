@@ -2,7 +2,6 @@
 #include "shot.h"
 
 #include <bit>
-#include <cmath>
 #include <unordered_map>
 
 namespace grisaille::sspm {
@@ -40,21 +39,6 @@ std::vector<Layer> layersOf(std::span<const Shot> shots, size_t count) {
     layers.push_back({.shot = i - 1});
   }
   return layers;
-}
-
-uint32_t splatSeed(const Shot& shot, uint32_t noiseSeed) {
-  constexpr uint32_t kOfFraction[] = {0x9e3779b1u, 0x85ebca77u, 0xc2b2ae3du};
-  constexpr uint32_t kOfDirection[] = {0x165667b1u, 0xd3a2646du, 0xfd7046c5u};
-  uint32_t bits = noiseSeed * 0x27d4eb2fu;
-  for (size_t axis = 0; axis < 3; ++axis) {
-    const double fraction = shot.origin[axis] - std::round(shot.origin[axis]);
-    bits ^= std::bit_cast<uint32_t>(static_cast<float>(fraction)) * kOfFraction[axis];
-    bits ^= std::bit_cast<uint32_t>(shot.direction[axis]) * kOfDirection[axis];
-  }
-  // lowbias32, as in the shader
-  bits = (bits ^ bits >> 16) * 0x7feb352du;
-  bits = (bits ^ bits >> 15) * 0x846ca68bu;
-  return bits ^ bits >> 16;
 }
 
 }  // namespace grisaille::sspm

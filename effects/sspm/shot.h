@@ -35,8 +35,4 @@ struct Layer {
 // The newest `count` shots of a list, newest first, without those that a newer twin stands for.
 std::vector<Layer> layersOf(std::span<const Shot> shots, size_t count);
 
-// The seed of a shot's splat; shaders/sspm/splat.glsl computes the same.
-// noiseSeed: the parameter.
-uint32_t splatSeed(const Shot& shot, uint32_t noiseSeed);
-
 }  // namespace grisaille::sspm

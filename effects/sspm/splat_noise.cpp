@@ -2,6 +2,7 @@
 #include "splat_noise.h"
 
 #include <algorithm>
+#include <bit>
 #include <cmath>
 
 namespace grisaille::sspm {
@@ -31,6 +32,18 @@ float valueNoise(const glm::dvec2& place, uint32_t seed) {
 }
 
 }  // namespace
+
+uint32_t splatSeed(const Shot& shot, uint32_t noiseSeed) {
+  constexpr uint32_t kOfFraction[] = {0x9e3779b1u, 0x85ebca77u, 0xc2b2ae3du};
+  constexpr uint32_t kOfDirection[] = {0x165667b1u, 0xd3a2646du, 0xfd7046c5u};
+  uint32_t bits = noiseSeed * 0x27d4eb2fu;
+  for (size_t axis = 0; axis < 3; ++axis) {
+    const double fraction = shot.origin[axis] - std::round(shot.origin[axis]);
+    bits ^= std::bit_cast<uint32_t>(static_cast<float>(fraction)) * kOfFraction[axis];
+    bits ^= std::bit_cast<uint32_t>(shot.direction[axis]) * kOfDirection[axis];
+  }
+  return hashBits(bits);
+}
 
 float Splat::noiseAt(uint32_t of, const glm::dvec2& across) const {
   const double t = double{unitOf(hashBits(of ^ 0x68bc21ebu))};

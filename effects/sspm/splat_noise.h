@@ -1,14 +1,20 @@
 // SPDX-License-Identifier: MIT
-// The splat step on the host: step 4 of the definition, as shaders/sspm/splat.glsl computes it for
-// a surface so close that no octave fades.
+// A shot's splat on the host: its seed and its noise, and step 4 of the definition, as
+// shaders/sspm/splat.glsl computes them for a surface so close that no octave fades.
 #pragma once
 
 #include <cstdint>
 #include <glm/glm.hpp>
 
+#include "shot.h"
+
 namespace grisaille::sspm {
 
 constexpr uint32_t kOctaves = 3;
+
+// The seed of a shot's splat.
+// noiseSeed: the parameter.
+uint32_t splatSeed(const Shot& shot, uint32_t noiseSeed);
 
 struct Splat {
   double scale = 0;     // splat_scale, metres

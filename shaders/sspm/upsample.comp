@@ -38,12 +38,21 @@ float sumOf(vec4 v) {
   return dot(v, vec4(1.0));
 }
 
+uint newestOf(uvec4 numbers) {
+  return max(max(numbers.x, numbers.y), max(numbers.z, numbers.w));
+}
+
+// Numbers of the owners of the samples that have a weight.
+uvec4 numbersOf(Corners corners, vec4 weights) {
+  return corners.number * uvec4(greaterThan(weights, vec4(0.0)));
+}
+
 // Composites the owners of the samples around a pixel, newest first.
 // weights: of the samples, 0 if they are not on the pixel's plane. served: some are.
 Sum compositeOwners(Corners corners, vec4 weights, bool served, Point point) {
   const vec4 on_plane = vec4(greaterThan(weights, vec4(0.0)));
-  uvec4 left = corners.number * uvec4(on_plane);
-  uint newest = max(max(left.x, left.y), max(left.z, left.w));
+  uvec4 left = numbersOf(corners, weights);
+  uint newest = newestOf(left);
   // Samples that agree and have full alpha leave nothing to ask.
   const vec4 agree = vec4(equal(left, uvec4(newest))) * vec4(corners.full);
   const bool plain = served && all(greaterThanEqual(agree, on_plane));
@@ -65,7 +74,7 @@ Sum compositeOwners(Corners corners, vec4 weights, bool served, Point point) {
       compositeShot(sum, record, shot, across, point.pixel);
     }
     left *= uvec4(notEqual(left, uvec4(newest)));
-    newest = max(max(left.x, left.y), max(left.z, left.w));
+    newest = newestOf(left);
   }
   if (plain && newest > 0u) {
     sum.owner = uint(max(max(corners.owner.x * on_plane.x, corners.owner.y * on_plane.y),
@@ -93,10 +102,9 @@ void upsamplePixel(Corners corners, ivec2 pixel, vec2 share) {
   const bool served = sumOf(weights) > 0.0;
   // No sample on the plane, and no refinement: asks the owners of all samples.
   if (!served) weights = vec4(depth > 0.0 ? 0.25 : 0.0);
-  const vec4 known = vec4(greaterThan(weights, vec4(0.0)));
-  const uvec4 numbers = corners.number * uvec4(known);
-  const uint newest = max(max(numbers.x, numbers.y), max(numbers.z, numbers.w));
-  const bool rim = any(lessThan(vec4(equal(numbers, uvec4(newest))), known));
+  const uvec4 numbers = numbersOf(corners, weights);
+  const vec4 agree = vec4(equal(numbers, uvec4(newestOf(numbers))));
+  const bool rim = any(lessThan(agree, vec4(greaterThan(weights, vec4(0.0)))));
   if (depth > 0.0 && (kRefine >= 1u && !served || kRefine >= 2u && rim)) {
     rest[atomicAdd(rest_count, 1u)] = uint(pixel.x) | uint(pixel.y) << 16;
   } else {

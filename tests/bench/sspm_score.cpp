@@ -39,15 +39,8 @@ double referenceShare(const trace::RayTracer& tracer, std::span<const lab::Shot>
     const glm::dvec3 position(point.position[0], point.position[1], point.position[2]);
     const glm::dvec3 normal(point.normal[0], point.normal[1], point.normal[2]);
     const auto sees = [&](const lab::Shot& shot) {
-      const glm::dvec3 start = position + 1e-4 * normal;
-      const glm::dvec3 back = glm::dvec3(shot.origin[0], shot.origin[1], shot.origin[2]) - start;
-      const glm::vec3 unit(glm::normalize(back));
-      const grisaille_ray ray = {.origin = {start.x, start.y, start.z},
-                                 .direction = {unit.x, unit.y, unit.z},
-                                 .reach = static_cast<float>(glm::length(back))};
-      grisaille_hit hit = {};
-      tracer.castRays({&ray, 1}, {&hit, 1});
-      return hit.kind == GRISAILLE_HIT_NONE;
+      return tests::sees(tracer, {shot.origin[0], shot.origin[1], shot.origin[2]}, position,
+                         normal);
     };
     const lab::oracle::Sight sight = {.facet = normal, .sees = sees};
     alphas[i] = lab::oracle::paintOf(position, 1, 1e-9, layers, {}, sight).paint.w;

@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: MIT
 #pragma once
 
+#include <glm/glm.hpp>
 #include <span>
 
 #include "core/effect/instance.h"
@@ -24,5 +25,18 @@ class TracedRays : public effect::RayService {
   trace::RayTracer tracer_;
   size_t count_ = 0;
 };
+
+// Whether nothing lies between a muzzle and a point of a surface.
+inline bool sees(const trace::RayTracer& tracer, const glm::dvec3& muzzle,
+                 const glm::dvec3& position, const glm::dvec3& normal) {
+  const glm::dvec3 start = position + 1e-4 * normal, back = muzzle - start;
+  const glm::vec3 unit(glm::normalize(back));
+  const grisaille_ray ray = {.origin = {start.x, start.y, start.z},
+                             .direction = {unit.x, unit.y, unit.z},
+                             .reach = static_cast<float>(glm::length(back))};
+  grisaille_hit hit = {};
+  tracer.castRays({&ray, 1}, {&hit, 1});
+  return hit.kind == GRISAILLE_HIT_NONE;
+}
 
 }  // namespace grisaille::tests

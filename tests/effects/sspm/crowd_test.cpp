@@ -200,6 +200,36 @@ TEST_P(CrowdTest, AMillionOnOneSpot) {
   }
 }
 
+// A shot counts its twins once, whatever led to the list: changed rules and undo count anew.
+TEST_P(CrowdTest, TwinsCountOnce) {
+  const scene::Scene scene = cornerScene();
+  TracedRays rays(scene);
+  std::mt19937 random(11);
+  std::vector<lab::Shot> shots;
+  for (int i = 0; i < 24; ++i) {
+    // Four rays in turn: the last shot of each stands for five others.
+    const double x = 0.15 * (i % 4) - 0.2;
+    shots.push_back(shotAt({x, 0.6, 1}, {x, 0.4, 0}, randomColor(random)));
+  }
+  const auto pictureOf = [&](PaintFrame& frame, const Settings& settings, size_t count) {
+    frame.set(settings);
+    frame.render(kCrease, kWidth, kHeight, std::span(shots).first(count));
+    return std::pair(frame.read("paint").pixels, frame.read("paint_coverage").pixels);
+  };
+  const auto settingsOf = [](const char* fade) {
+    return Settings{{"r0", "0.01"}, {"edge_fade", fade}};
+  };
+  PaintFrame frame(device(), scene);
+  frame.setRays(&rays);
+  for (const auto& [fade, count] : {std::pair("0.5", 24u), std::pair("0.3", 24u),
+                                    std::pair("0.3", 22u), std::pair("0.5", 24u)}) {
+    PaintFrame fresh(device(), scene);
+    fresh.setRays(&rays);
+    EXPECT_EQ(pictureOf(frame, settingsOf(fade), count), pictureOf(fresh, settingsOf(fade), count))
+        << fade << ", " << count;
+  }
+}
+
 // Every setting at the ends of its range, shots from far and near: finite results, and never a
 // hang.
 TEST_P(CrowdTest, ExtremesStayFinite) {

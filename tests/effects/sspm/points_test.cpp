@@ -190,19 +190,11 @@ TEST(PointsTest, TheListOfNowCounts) {
 double referenceAt(const trace::RayTracer& tracer, const glm::dvec3& position,
                    const glm::dvec3& normal, std::span<const lab::oracle::PaintLayer> shots,
                    const lab::oracle::PaintSettings& settings, float& green) {
-  const auto sees = [&](const lab::Shot& shot) {
-    const glm::dvec3 start = position + 1e-4 * normal;
-    const glm::dvec3 back = glm::dvec3(shot.origin[0], shot.origin[1], shot.origin[2]) - start;
-    const glm::vec3 unit(glm::normalize(back));
-    const grisaille_ray ray = {.origin = {start.x, start.y, start.z},
-                               .direction = {unit.x, unit.y, unit.z},
-                               .reach = static_cast<float>(glm::length(back))};
-    grisaille_hit hit = {};
-    tracer.castRays({&ray, 1}, {&hit, 1});
-    return hit.kind == GRISAILLE_HIT_NONE;
+  const auto sighted = [&](const lab::Shot& shot) {
+    return sees(tracer, {shot.origin[0], shot.origin[1], shot.origin[2]}, position, normal);
   };
   const auto pixel = lab::oracle::paintOf(position, 1, 1e-9, shots, settings,
-                                          lab::oracle::Sight{.facet = normal, .sees = sees});
+                                          lab::oracle::Sight{.facet = normal, .sees = sighted});
   green = static_cast<float>(pixel.paint.y);
   return pixel.paint.w;
 }
