@@ -9,7 +9,13 @@ namespace {
 
 constexpr uint32_t kFree = ~0u;
 constexpr size_t kSlotWords = 6;
+constexpr size_t kUnitWords = 4;  // of an entry on the device
 constexpr size_t kFirstSlots = 1024;
+
+// Capacity of the run on the device of a list with `count` entries.
+uint32_t unitsFor(size_t count) {
+  return count == 0 ? 0 : Runs::capacityFor(static_cast<uint32_t>(count));
+}
 
 }  // namespace
 
@@ -31,7 +37,7 @@ uint32_t hashOf(const CellKey& key) {
 void CellTable::clear() {
   cells_.clear();
   changed_.clear();
-  listBytes_ = 0;
+  listBytes_ = units_ = 0;
   slots_.clear();
   words_.clear();
   runs_.clear();
@@ -42,7 +48,8 @@ void CellTable::clear() {
 uint64_t CellTable::bytes() const {
   // An allocation takes 16 bytes more than its contents, on average.
   return listBytes_ + cells_.size() * (sizeof(Cell) + 2 * 16) +
-         slotCells_.size() * sizeof(uint32_t) + slots_.peakBytes() + words_.peakBytes();
+         slotCells_.size() * sizeof(uint32_t) + slots_.peakBytes(slotCells_.size() * kSlotWords) +
+         words_.peakBytes(units_ * kUnitWords);
 }
 
 // The first slot for a key: the hash as a share of all slots.
@@ -77,6 +84,9 @@ void CellTable::change(Cell& cell) {
       cell.entries.capacity() * sizeof(Entry) + cell.known.capacity() * sizeof(KnownPoint);
   listBytes_ = listBytes_ + bytes - cell.bytes;
   cell.bytes = static_cast<uint32_t>(bytes);
+  const uint32_t units = unitsFor(cell.entries.size());
+  units_ = units_ + units - cell.units;
+  cell.units = units;
   if (!std::exchange(cell.changed, true)) changed_.push_back(slotCells_[cell.slot]);
 }
 
@@ -98,6 +108,7 @@ void CellTable::removeEmpty() {
     if (!cell.entries.empty()) continue;
     if (cell.capacity > 0) runs_.give(cell.first, cell.capacity);
     listBytes_ -= cell.bytes;
+    units_ -= cell.units;
   }
   std::erase_if(cells_, [](const Cell& cell) { return cell.entries.empty(); });
   changed_.clear();
@@ -110,7 +121,7 @@ void CellTable::removeEmpty() {
 
 std::span<uint32_t> CellTable::reserve(Cell& cell) {
   const uint32_t count = static_cast<uint32_t>(cell.entries.size());
-  const uint32_t wanted = count == 0 ? 0 : Runs::capacityFor(count);
+  const uint32_t wanted = unitsFor(count);
   if (wanted != cell.capacity) {
     if (cell.capacity > 0) runs_.give(cell.first, cell.capacity);
     cell.first = count > 0 ? runs_.take(count) : 0;

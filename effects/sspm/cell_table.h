@@ -71,6 +71,7 @@ struct Cell {
   uint32_t first = 0;     // first entry of its run on the device
   uint32_t capacity = 0;  // entries of that run; 0: no run
   uint32_t bytes = 0;     // of its lists, on the host
+  uint32_t units = 0;     // entries that its run on the device will take
   bool changed = false;   // since the last upload
 };
 
@@ -131,6 +132,7 @@ class CellTable {
   std::vector<uint32_t> changed_;    // indices of changed cells
   bool rehashed_ = false;            // since the last upload
   uint64_t listBytes_ = 0;           // sum of Cell::bytes
+  uint64_t units_ = 0;               // sum of Cell::units
   DeviceWords slots_, words_;
   Runs runs_;
 };

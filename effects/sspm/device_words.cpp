@@ -48,8 +48,9 @@ uint64_t DeviceWords::bytes() const {
   return (deviceWords_ + payload_.capacity()) * sizeof(uint32_t) + runs_.capacity() * sizeof(Run);
 }
 
-uint64_t DeviceWords::peakBytes() const {
-  return bytes() + (size_ > deviceWords_ ? (size_ + size_ / 32) * sizeof(uint32_t) : 0);
+uint64_t DeviceWords::peakBytes(size_t words) const {
+  words = std::max(words, size_);
+  return bytes() + (words > deviceWords_ ? (words + words / 32) * sizeof(uint32_t) : 0);
 }
 
 Uploader::Uploader(const plugin::Host& host)

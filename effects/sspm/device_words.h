@@ -28,10 +28,11 @@ class DeviceWords {
   // must not overlap. Valid until the next call.
   std::span<uint32_t> write(size_t first, size_t count);
 
-  // Bytes on the device and of waiting changes. After the next upload the device may have `size()`
-  // plus a thirty-second; it then needs the old array too, until the frame has ended.
+  // Bytes on the device and of waiting changes.
   uint64_t bytes() const;
-  uint64_t peakBytes() const;
+  // The same at the next upload, if the array has at least `words` then: the device may take a
+  // thirty-second more, and needs the old array too until the frame has ended.
+  uint64_t peakBytes(size_t words = 0) const;
   uint64_t waitingBytes() const { return payload_.size() * sizeof(uint32_t); }
   grisaille_buffer buffer() const { return buffer_; }
 

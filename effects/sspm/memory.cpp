@@ -12,6 +12,7 @@ namespace {
 constexpr size_t kTwinBytes = 128;        // of a group of twins, with its node in the hash table
 constexpr uint64_t kWorkBytes = 4 << 20;  // of the surveys in work_
 constexpr size_t kSweepAt = 4096;         // entries of hidden shots
+constexpr size_t kSweepCells = 2048;      // at a time
 
 }  // namespace
 
@@ -62,20 +63,27 @@ bool PaintWorld::isGone(const Entry& entry) const {
   return record != kNone && placed_[record].hidden;
 }
 
-// Removes the entries of hidden shots once they are many, and cells without entries.
-void PaintWorld::sweep() {
-  if (hidden_ < kSweepAt || hidden_ < entries_ / 8) return;
-  size_t empty = 0;
-  for (Cell& cell : cells_.cells()) {
+// Removes the entries of hidden shots once they are many, and cells without entries: some cells at
+// a time. Returns whether more cells are to be swept.
+bool PaintWorld::sweep() {
+  if (swept_ == 0 && (hidden_ < kSweepAt || hidden_ < entries_ / 8)) return false;
+  auto& cells = cells_.cells();
+  const size_t end = std::min(swept_ + kSweepCells, cells.size());
+  for (; swept_ < end; ++swept_) {
+    Cell& cell = cells[swept_];
     const auto erased = cell.entries.eraseIf([&](const Entry& entry) {
       if (!isGone(entry)) return false;
       unlist(entry, 0);
       return true;
     });
     if (erased > 0) cells_.change(cell);
-    empty += cell.entries.empty() ? 1 : 0;
   }
-  if (empty > cells_.cells().size() / 8) cells_.removeEmpty();
+  if (swept_ < cells.size()) return true;
+  swept_ = 0;
+  const auto empty =
+      std::ranges::count_if(cells, [](const Cell& it) { return it.entries.empty(); });
+  if (static_cast<size_t>(empty) > cells.size() / 8) cells_.removeEmpty();
+  return false;
 }
 
 // Host and device together, also while arrays grow.
@@ -114,14 +122,23 @@ void PaintWorld::giveUp(uint32_t floor) {
   std::fill_n(gone.begin(), floor, true);
   forgetTwins(gone, floor);
   erase(gone);
+  if (floors_.empty() || floors_.back().shots < states_.size()) {
+    floors_.push_back({.shots = states_.size(), .before = floor_});
+  }
   floor_ = floor;
 }
 
-// Puts the shots that were given up back to pending.
-void PaintWorld::takeUp() {
-  const uint32_t end = std::min(std::exchange(floor_, 0), static_cast<uint32_t>(states_.size()));
-  std::vector<uint32_t> ids(end);
-  std::iota(ids.begin(), ids.end(), 0);
+// Puts those shots back to pending that were not given up before the list was longer than `shots`.
+void PaintWorld::takeUp(size_t shots) {
+  uint32_t floor = floor_;
+  for (; !floors_.empty() && floors_.back().shots > shots; floors_.pop_back()) {
+    floor = floors_.back().before;
+  }
+  const uint32_t end =
+      std::min(std::exchange(floor_, floor), static_cast<uint32_t>(states_.size()));
+  floor_ = std::min(floor_, end);
+  std::vector<uint32_t> ids(end - floor_);
+  std::iota(ids.begin(), ids.end(), floor_);
   pending_.insert(pending_.begin(), ids.begin(), ids.end());
 }
 

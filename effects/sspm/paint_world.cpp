@@ -14,8 +14,17 @@
 namespace grisaille::sspm {
 namespace {
 
-constexpr size_t kMostWork = 64;    // shots under survey at the same time
-constexpr size_t kMostRays = 4096;  // per step, except for a single shot
+constexpr size_t kMostWork = 64;      // shots under survey at the same time
+constexpr double kMostEffort = 4096;  // of a step, except for a single shot
+constexpr double kLeastEffort = 256;
+constexpr double kShotEffort = 128;     // of a shot in a step, beside its rays; rays
+constexpr double kPaceMemory = 0.9;     // share of the mean that each step leaves
+constexpr uint64_t kWaitingShare = 32;  // of the limit: what may wait for its upload
+constexpr uint64_t kReserveShare = 32;  // of the limit
+
+double secondsSince(std::chrono::steady_clock::time_point start) {
+  return std::chrono::duration<double>(std::chrono::steady_clock::now() - start).count();
+}
 
 }  // namespace
 
@@ -27,12 +36,14 @@ void PaintWorld::follow(std::span<const Shot> shots, size_t kept, const PaintRul
   rules_ = rules;
   // Maps depend only on the range. Hiding depends on the other rules too.
   forget(sameRange ? std::min({kept, shots.size(), states_.size()}) : 0, !same);
-  if (std::exchange(limit_, limit) < limit) takeUp();
+  if (std::exchange(limit_, limit) < limit) takeUp(0);
+  // What an undo brings back may need a little more memory than it had: new shots leave some.
+  if (shots.size() > states_.size()) reserve_ = limit / kReserveShare;
   for (size_t i = states_.size(); i < shots.size(); ++i) {
     pending_.push_back(static_cast<uint32_t>(i));
   }
   states_.resize(shots.size());
-  keepWithin(limit);
+  keepWithin(limit_ - reserve_);
 }
 
 size_t PaintWorld::update(std::span<const Shot> shots, size_t kept, const PaintRules& rules,
@@ -41,17 +52,33 @@ size_t PaintWorld::update(std::span<const Shot> shots, size_t kept, const PaintR
   follow(shots, kept, rules, limit);
   std::vector<uint32_t> unknown;
   askAgain(cast);
-  while (step(cast, unknown)) {
-    keepWithin(limit);
-    const std::chrono::duration<double> spent = std::chrono::steady_clock::now() - start;
-    if (spent.count() >= patience) break;
+  const auto left = [&] { return patience - secondsSince(start); };
+  while (step(pace_.effortIn(left()), cast, unknown)) {
+    keepWithin(limit_ - reserve_);
+    if (left() <= 0 || (std::isfinite(patience) && isUploadDue())) break;
   }
   if (!unknown.empty()) {
     pending_.insert(pending_.end(), unknown.begin(), unknown.end());
     std::ranges::sort(pending_);
   }
-  sweep();
+  while (sweep() && left() > 0) continue;
   return pending_.size() + work_.size() + partly_.size();
+}
+
+// Effort that takes about `seconds`.
+double PaintWorld::Pace::effortIn(double seconds) const {
+  const double most = effort > 0 ? seconds * effort / spent : kLeastEffort;
+  return std::clamp(most, kLeastEffort, kMostEffort);
+}
+
+void PaintWorld::Pace::note(double seconds, double done) {
+  spent = kPaceMemory * spent + seconds;
+  effort = kPaceMemory * effort + done;
+}
+
+// Whether changes wait that take much of the limit, which counts them until they are uploaded.
+bool PaintWorld::isUploadDue() const {
+  return records_.waitingBytes() + blocks_.waitingBytes() > limit_ / kWaitingShare;
 }
 
 void PaintWorld::upload(const plugin::Frame& frame, Uploader& uploader) {
@@ -68,6 +95,7 @@ void PaintWorld::clear() {
   records_.clear();
   entries_ = hidden_ = 0;
   floor_ = 0;
+  floors_.clear();
   states_.clear();
   pending_.clear();
   work_.clear();
@@ -103,8 +131,9 @@ void PaintWorld::forget(size_t count, bool allLost) {
     if (gone[id]) pending_.push_back(id);
   }
   std::ranges::sort(pending_);
+  if (count < states_.size()) reserve_ = 0;
   states_.resize(count);
-  takeUp();
+  takeUp(allLost ? 0 : count);
 }
 
 // Removes shots from everything.
@@ -138,16 +167,19 @@ void PaintWorld::erase(const std::vector<bool>& gone) {
 
 // Casts one round of rays for the newest pending shots. Returns false if no shot is pending, or if
 // the host casts no rays.
+// most: effort after which no further shot takes part; rays.
 // unknown: gets the shots of which the host cannot tell yet.
-bool PaintWorld::step(const CastRays& cast, std::vector<uint32_t>& unknown) {
+bool PaintWorld::step(double most, const CastRays& cast, std::vector<uint32_t>& unknown) {
+  const auto start = std::chrono::steady_clock::now();
   refill();
   if (work_.empty()) return false;
   std::vector<Work*> now;
-  size_t rays = 0;
+  double effort = 0;
   for (Work& work : work_) {
+    const double more = static_cast<double>(work.survey.rays().size()) + kShotEffort;
+    if (!now.empty() && effort + more > most) break;
     now.push_back(&work);
-    rays += work.survey.rays().size();
-    if (rays >= kMostRays) break;
+    effort += more;
   }
   if (!castFor(now, cast)) return false;
   for (Work* each : now) {
@@ -168,6 +200,7 @@ bool PaintWorld::step(const CastRays& cast, std::vector<uint32_t>& unknown) {
     work.id = kNone;
   }
   std::erase_if(work_, [](const Work& work) { return work.id == kNone; });
+  pace_.note(secondsSince(start), effort);
   return true;
 }
 

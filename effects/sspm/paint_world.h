@@ -38,7 +38,8 @@ class PaintWorld {
 
   // Places the shots of a list, newest first, and forgets shots that have left it.
   // shots: the list, oldest first. kept: number of leading shots unchanged since the previous call.
-  // patience: seconds after which it stops placing, but not before one step.
+  // patience: seconds after which it stops placing, but not before one step. If it is finite, it
+  // also stops where much waits for its upload.
   // limit: most memory, host and device together, bytes. It gives up the oldest shots to stay
   // below. cast: casts the rays of the surveys. Returns the number of shots that are still pending.
   size_t update(std::span<const Shot> shots, size_t kept, const PaintRules& rules, double patience,
@@ -99,6 +100,19 @@ class PaintWorld {
     std::vector<Share> shares = {};
     bool told = true;  // by the host, as far as it could
   };
+  // How fast steps go. Effort is counted in rays.
+  struct Pace {
+    double spent = 0;   // seconds, of the last steps
+    double effort = 0;  // of the same steps
+
+    double effortIn(double seconds) const;
+    void note(double seconds, double done);
+  };
+  // The value of floor_ before the list of this length raised it.
+  struct Floor {
+    size_t shots = 0;
+    uint32_t before = 0;
+  };
   // A group of twins.
   struct Twins {
     uint32_t newest = 0;
@@ -111,7 +125,8 @@ class PaintWorld {
   void clear();
   void forget(size_t count, bool allLost);
   void erase(const std::vector<bool>& gone);
-  bool step(const CastRays& cast, std::vector<uint32_t>& unknown);
+  bool step(double most, const CastRays& cast, std::vector<uint32_t>& unknown);
+  bool isUploadDue() const;
   void refill();
   bool castFor(std::span<Work* const> works, const CastRays& cast);
   void askAgain(const CastRays& cast);
@@ -131,11 +146,11 @@ class PaintWorld {
   void unlist(const Entry& entry, uint32_t to);
   void release(uint32_t record);
   bool isGone(const Entry& entry) const;
-  void sweep();
+  bool sweep();
   uint64_t bytes() const;
   void keepWithin(uint64_t limit);
   void giveUp(uint32_t floor);
-  void takeUp();
+  void takeUp(size_t shots);
 
   // points.cpp
   bool reach(const glm::dvec3& position, const glm::vec3& normal, Reach& reach) const;
@@ -159,11 +174,15 @@ class PaintWorld {
   std::vector<uint32_t> freeRecords_;
   DeviceWords records_, blocks_;
   Runs runs_;
-  uint32_t placing_ = kNone;  // record of the shot that place() works on
-  size_t entries_ = 0;        // of all cells
-  size_t hidden_ = 0;         // of these: entries of hidden shots
-  uint32_t floor_ = 0;        // shots below are given up
-  uint64_t limit_ = 0;
+  uint32_t placing_ = kNone;   // record of the shot that place() works on
+  size_t entries_ = 0;         // of all cells
+  size_t hidden_ = 0;          // of these: entries of hidden shots
+  size_t swept_ = 0;           // cells of an unfinished sweep; 0: none
+  uint32_t floor_ = 0;         // shots below are given up
+  std::vector<Floor> floors_;  // ascending
+  Pace pace_;
+  uint64_t limit_ = 0;    // bytes
+  uint64_t reserve_ = 0;  // of these: for the next undo
   std::vector<int32_t> levels_;
 };
 

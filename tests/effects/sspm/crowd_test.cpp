@@ -133,19 +133,25 @@ TEST_P(CrowdTest, TheNewestWinsOfAMillion) {
   expectNewest();
 }
 
+// Small splats all over the wall.
+std::vector<lab::Shot> speckles(int count) {
+  std::mt19937 random(7);
+  std::uniform_real_distribution<double> unit(0, 1);
+  std::vector<lab::Shot> shots;
+  for (int i = 0; i < count; ++i) {
+    const glm::dvec3 target(6 * unit(random) - 3, 4 * unit(random) - 2, 0);
+    const glm::dvec3 offset(unit(random) - 0.5, unit(random) - 0.5, 1);
+    shots.push_back(shotAt(target + offset, target, randomColor(random)));
+  }
+  return shots;
+}
+
 // When the memory is full, the oldest shots go: the picture is that of the others. What an undo or
 // a larger limit frees serves the oldest again.
 TEST_P(CrowdTest, TheOldestGoWhenTheMemoryIsFull) {
   const scene::Scene scene = wallScene();
   TracedRays rays(scene);
-  std::mt19937 random(7);
-  std::uniform_real_distribution<double> unit(0, 1);
-  std::vector<lab::Shot> shots;
-  for (int i = 0; i < 13'000; ++i) {
-    const glm::dvec3 target(6 * unit(random) - 3, 4 * unit(random) - 2, 0);
-    const glm::dvec3 offset(unit(random) - 0.5, unit(random) - 0.5, 1);
-    shots.push_back(shotAt(target + offset, target, randomColor(random)));
-  }
+  const std::vector<lab::Shot> shots = speckles(13'000);
   const Settings rules = {{"paint_range", "0.03"}, {"edge_fade", "0"}};
   PaintFrame limited(device(), scene), free(device(), scene);
   limited.setRays(&rays);
@@ -176,6 +182,34 @@ TEST_P(CrowdTest, TheOldestGoWhenTheMemoryIsFull) {
   EXPECT_EQ(givenUpOf(9'000), 0u);
   set("16");
   EXPECT_GT(givenUpOf(9'000), 0u);
+}
+
+// Undo is exact at the limit too: the shots that newer ones had pushed out are back.
+TEST_P(CrowdTest, UndoBringsBackWhatTheLimitTook) {
+  const scene::Scene scene = wallScene();
+  TracedRays rays(scene);
+  const std::vector<lab::Shot> shots = speckles(13'000);
+  PaintFrame frame(device(), scene);
+  frame.setRays(&rays);
+  frame.set({{"paint_range", "0.03"}, {"edge_fade", "0"}, {"memory", "16"}});
+  const auto pictureOf = [&](size_t count) {
+    frame.render(kWall, kWidth, kHeight, std::span(shots).first(count));
+    EXPECT_EQ(frame.waiting(), 0u);
+    return frame.read("paint").pixels;
+  };
+  size_t count = 12'000, tested = 0;
+  auto before = pictureOf(count);
+  for (; count + 100 <= shots.size(); count += 100) {
+    const size_t givenUp = frame.givenUp();
+    const auto after = pictureOf(count + 100);
+    if (frame.givenUp() > givenUp) {
+      ++tested;
+      EXPECT_EQ(pictureOf(count), before) << count;
+      EXPECT_EQ(frame.givenUp(), givenUp) << count;
+    }
+    before = pictureOf(count + 100);
+  }
+  EXPECT_GT(tested, 0u);
 }
 
 // All shots on one spot: the newest colour shows, even where its alpha is low.
