@@ -223,6 +223,17 @@ int grisaille_host_device_set_rays(grisaille_host_device* device, const grisaill
   });
 }
 
+int grisaille_host_device_set_depths(grisaille_host_device* device,
+                                     const grisaille_host_depths* depths) {
+  return guarded([&] {
+    grisaille_host_device& one = present(device, "device");
+    if (depths == nullptr) return one.depths.set({});
+    const grisaille_host_depths given = whole(depths, "depths");
+    checkReserved(given.reserved, "depths.reserved");
+    one.depths.set(given);
+  });
+}
+
 int grisaille_host_effect_resize(grisaille_host_effect* effect, uint32_t width, uint32_t height) {
   return guarded([&] {
     grisaille_host_effect& one = present(effect, "effect");

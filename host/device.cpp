@@ -7,6 +7,7 @@
 #include <cmath>
 #include <filesystem>
 #include <glm/glm.hpp>
+#include <limits>
 
 #include "host/checks.h"
 
@@ -43,6 +44,15 @@ void Rays::cast(std::span<const grisaille_ray> rays, std::span<grisaille_hit> hi
               "normal {}, {}, {}",
               wrong - hits.begin(), hits.size(), wrong->kind, wrong->distance, wrong->normal[0],
               wrong->normal[1], wrong->normal[2]);
+}
+
+void Depths::draw(const grisaille_depth_view& view, std::span<float> depth) {
+  std::ranges::fill(depth, std::numeric_limits<float>::quiet_NaN());
+  depths_.draw(depths_.context, &view, depth.data());
+  const auto wrong = std::ranges::find_if(depth, [](float metres) { return metres <= 0; });
+  if (wrong == depth.end()) return;
+  throw Error(ErrorId::kHostValue, "depth {} of {} from the host's function is {}, not over 0",
+              wrong - depth.begin(), depth.size(), *wrong);
 }
 
 void Pictures::read(const char* path, grisaille_picture& out) {

@@ -27,6 +27,19 @@ class Rays : public effect::RayService {
   grisaille_host_rays rays_ = {};
 };
 
+// Depth pictures by the host's function.
+class Depths : public effect::DepthService {
+ public:
+  void set(const grisaille_host_depths& depths) { depths_ = depths; }
+  explicit operator bool() const { return depths_.draw != nullptr; }
+
+  // Throws kHostValue if a depth is invalid.
+  void draw(const grisaille_depth_view& view, std::span<float> depth) override;
+
+ private:
+  grisaille_host_depths depths_ = {};
+};
+
 // Pictures that the host's function decodes.
 class Pictures : public effect::PictureService {
  public:
@@ -54,6 +67,7 @@ struct grisaille_host_device {
   grisaille::host::Pipelines pipelines;  // makes the resources of effects
   uint32_t textures = 0, effects = 0;    // numbers of live objects
   grisaille::host::Rays rays;
+  grisaille::host::Depths depths;
   grisaille::host::Pictures pictures;
 };
 

@@ -334,6 +334,7 @@ void grisaille_host_effect::recordInto(gpu::Commands& commands, const host::View
   inputs.outputs = made_;
   inputs.named = attachments_.named();
   if (device.rays) inputs.services.rays = &device.rays;
+  if (device.depths) inputs.services.depths = &device.depths;
   if (device.pictures) inputs.services.pictures = &device.pictures;
   inputs.patience = patience;
   report_ = chain_.record(chain_.selection.entries()[0], inputs);

@@ -2,6 +2,8 @@
 // The C functions of grisaille_host and grisaille_frame.
 #include <algorithm>
 #include <cmath>
+#include <iterator>
+#include <numeric>
 #include <stdexcept>
 #include <utility>
 
@@ -48,16 +50,40 @@ T& present(T* out) {
   return *out;
 }
 
+double lengthOf(const float (&v)[3]) {
+  return std::hypot(double{v[0]}, double{v[1]}, double{v[2]});
+}
+
 void checkRay(uint64_t index, const grisaille_ray& ray) {
   if (!std::ranges::all_of(ray.origin, [](double x) { return std::isfinite(x); })) {
     misuse("the origin of ray {} is not finite", index);
   }
-  const double length =
-      std::hypot(double{ray.direction[0]}, double{ray.direction[1]}, double{ray.direction[2]});
+  const double length = lengthOf(ray.direction);
   if (!(std::abs(length - 1) <= 1e-3)) {
     misuse("the direction of ray {} is {} long, not 1", index, length);
   }
   if (!(ray.reach > 0)) misuse("the reach of ray {} is {}, not over 0", index, ray.reach);
+}
+
+void checkDepthView(const grisaille_depth_view& view) {
+  if (!std::ranges::all_of(view.origin, [](double x) { return std::isfinite(x); })) {
+    misuse("the view's origin is not finite");
+  }
+  if (!(std::abs(lengthOf(view.direction) - 1) <= 1e-3)) {
+    misuse("the view's direction is {} long, not 1", lengthOf(view.direction));
+  }
+  if (!(std::abs(lengthOf(view.up) - 1) <= 1e-3)) {
+    misuse("the view's up is {} long, not 1", lengthOf(view.up));
+  }
+  const double leans =
+      std::inner_product(std::begin(view.up), std::end(view.up), std::begin(view.direction), 0.0);
+  if (!(std::abs(leans) <= 1e-3)) misuse("the view's up is not normal to its direction");
+  if (!(view.slope > 0) || !std::isfinite(view.slope)) {
+    misuse("the view's slope is {}, not over 0 and finite", view.slope);
+  }
+  if (view.size < 1 || view.size > 4096) {
+    misuse("the view's size is {}, not 1 to 4096", view.size);
+  }
 }
 
 }  // namespace
@@ -215,6 +241,20 @@ struct HostFunctions {
       const auto answers = array(hits, count, "hits");
       for (size_t i = 0; i < given.size(); ++i) checkRay(i, given[i]);
       s.offered_.rays->cast(given, answers);
+    });
+    return offered ? result : GRISAILLE_UNSUPPORTED;
+  }
+
+  static grisaille_result drawDepth(const grisaille_host* self, const grisaille_depth_view* view,
+                                    float* depth) {
+    bool offered = true;
+    const grisaille_result result = serve(self, "draw_depth", [&](HostServices& s) {
+      if (s.commands_ == nullptr) misuse("it is called outside record()");
+      offered = s.offered_.depths != nullptr;
+      if (!offered) return;
+      if (view == nullptr) misuse("its view is null");
+      checkDepthView(*view);
+      s.offered_.depths->draw(*view, array(depth, uint64_t{view->size} * view->size, "depth"));
     });
     return offered ? result : GRISAILLE_UNSUPPORTED;
   }
@@ -389,6 +429,7 @@ grisaille_host hostTable(HostServices* self) {
           .destroy_buffer = HostFunctions::destroyBuffer,
           .destroy_sampler = HostFunctions::destroySampler,
           .cast_rays = HostFunctions::castRays,
+          .draw_depth = HostFunctions::drawDepth,
           .read_picture = HostFunctions::readPicture};
 }
 

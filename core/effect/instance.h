@@ -27,6 +27,15 @@ class RayService {
   virtual void cast(std::span<const grisaille_ray> rays, std::span<grisaille_hit> hits) = 0;
 };
 
+// Draws depth pictures for effects.
+class DepthService {
+ public:
+  virtual ~DepthService() = default;
+
+  // See grisaille_host::draw_depth. The view is within its limits. Throws Error.
+  virtual void draw(const grisaille_depth_view& view, std::span<float> depth) = 0;
+};
+
 // Decodes picture files for effects.
 class PictureService {
  public:
@@ -39,6 +48,7 @@ class PictureService {
 // The services that the host offers; null: not offered.
 struct Services {
   RayService* rays = nullptr;
+  DepthService* depths = nullptr;
   PictureService* pictures = nullptr;
 };
 

@@ -91,6 +91,7 @@ uint64_t PaintWorld::bytes() const {
   uint64_t sum = cells_.bytes() + records_.peakBytes() + blocks_.peakBytes() + kWorkBytes;
   sum += placed_.capacity() * sizeof(Placed) + states_.size() * sizeof(State) +
          pending_.capacity() * sizeof(uint32_t) + twins_.size() * kTwinBytes;
+  if (looks_) sum += kMostLooks * Muzzle::kBytes;
   for (const Work& work : partly_) sum += work.survey.bytes() + work.cells.size() * sizeof(CellKey);
   return sum;
 }

@@ -47,13 +47,13 @@ void PaintWorld::follow(std::span<const Shot> shots, size_t kept, const PaintRul
 }
 
 size_t PaintWorld::update(std::span<const Shot> shots, size_t kept, const PaintRules& rules,
-                          double patience, uint64_t limit, const CastRays& cast) {
+                          double patience, uint64_t limit, const Sight& sight) {
   const auto start = std::chrono::steady_clock::now();
   follow(shots, kept, rules, limit);
   std::vector<uint32_t> unknown;
-  askAgain(cast);
+  askAgain(sight);
   const auto left = [&] { return patience - secondsSince(start); };
-  while (step(pace_.effortIn(left()), cast, unknown)) {
+  while (step(pace_.effortIn(left()), sight, unknown)) {
     keepWithin(limit_ - reserve_);
     if (left() <= 0 || (std::isfinite(patience) && isUploadDue())) break;
   }
@@ -165,11 +165,11 @@ void PaintWorld::erase(const std::vector<bool>& gone) {
   }
 }
 
-// Casts one round of rays for the newest pending shots. Returns false if no shot is pending, or if
-// the host casts no rays.
+// Asks one round of rays for the newest pending shots. Returns false if no shot is pending, or if
+// the host can tell nothing.
 // most: effort after which no further shot takes part; rays.
 // unknown: gets the shots of which the host cannot tell yet.
-bool PaintWorld::step(double most, const CastRays& cast, std::vector<uint32_t>& unknown) {
+bool PaintWorld::step(double most, const Sight& sight, std::vector<uint32_t>& unknown) {
   const auto start = std::chrono::steady_clock::now();
   refill();
   if (work_.empty()) return false;
@@ -181,7 +181,7 @@ bool PaintWorld::step(double most, const CastRays& cast, std::vector<uint32_t>& 
     now.push_back(&work);
     effort += more;
   }
-  if (!castFor(now, cast)) return false;
+  if (!askFor(now, sight)) return false;
   for (Work* each : now) {
     Work& work = *each;
     if (!work.told) {
@@ -205,7 +205,8 @@ bool PaintWorld::step(double most, const CastRays& cast, std::vector<uint32_t>& 
 }
 
 void PaintWorld::refill() {
-  while (work_.size() < kMostWork && !pending_.empty()) {
+  const size_t mostWork = looks_ ? kMostLooks : kMostWork;
+  while (work_.size() < mostWork && !pending_.empty()) {
     const uint32_t id = pending_.back();
     const Shot& shot = list_[id];
     // Places its twin first.
@@ -216,8 +217,13 @@ void PaintWorld::refill() {
   }
 }
 
-// Casts the rays of several surveys in one batch, then takes the hits of each survey and, once it
-// is complete, its map and shares. Returns false if the host casts no rays.
+// Answers the rays of several surveys, by the host's depth pictures if it draws any. Returns false
+// if the host can tell nothing.
+bool PaintWorld::askFor(std::span<Work* const> works, const Sight& sight) {
+  return lookFor(works, sight.draw) || castFor(works, sight.cast);
+}
+
+// Casts the rays of several surveys in one batch. Returns false if the host casts no rays.
 bool PaintWorld::castFor(std::span<Work* const> works, const CastRays& cast) {
   std::vector<grisaille_ray> rays;
   std::vector<size_t> first;
@@ -229,19 +235,49 @@ bool PaintWorld::castFor(std::span<Work* const> works, const CastRays& cast) {
   std::vector<grisaille_hit> hits(rays.size());
   if (!cast(rays, hits)) return false;
   onAllThreads(works.size(), [&](size_t i) {
-    Work& work = *works[i];
-    Survey& survey = work.survey;
-    work.told = survey.take(std::span(hits).subspan(first[i], survey.rays().size()));
-    if (!work.told || !survey.rays().empty() || survey.isRough()) return;
-    work.map = survey.map();
-    work.shares = sharesOf(survey.frame(), *work.grid, survey.patches());
+    Survey& survey = works[i]->survey;
+    works[i]->told = survey.take(std::span(hits).subspan(first[i], survey.rays().size()));
+    finish(*works[i]);
   });
   return true;
 }
 
-// Casts rays again for placed shots with unknown squares, and places the shots again if the host
-// can tell more.
-void PaintWorld::askAgain(const CastRays& cast) {
+// Completes the rough picture or the map of several surveys, by depth pictures. Returns false if
+// the host draws none.
+bool PaintWorld::lookFor(std::span<Work* const> works, const DrawDepth& draw) {
+  for (Work* work : works) {
+    if (work->muzzle) continue;
+    work->muzzle = Muzzle::look(work->survey.frame(), draw);
+    if (!work->muzzle) return false;
+    looks_ = true;
+  }
+  onAllThreads(works.size(), [&](size_t i) {
+    Work& work = *works[i];
+    work.told = work.muzzle->isKnown();
+    std::vector<grisaille_hit> hits;
+    while (work.told && !work.survey.rays().empty()) {
+      const auto rays = work.survey.rays();
+      hits.resize(rays.size());
+      std::ranges::transform(rays, hits.begin(),
+                             [&](const grisaille_ray& ray) { return work.muzzle->see(ray); });
+      work.told = work.survey.take(hits);
+    }
+    finish(work);
+  });
+  return true;
+}
+
+// Takes the map and the shares of a survey once it is complete.
+void PaintWorld::finish(Work& work) {
+  Survey& survey = work.survey;
+  if (!work.told || !survey.rays().empty() || survey.isRough()) return;
+  work.map = survey.map();
+  work.shares = sharesOf(survey.frame(), *work.grid, survey.patches());
+}
+
+// Asks again for placed shots with unknown squares, and places the shots again if the host can tell
+// more.
+void PaintWorld::askAgain(const Sight& sight) {
   std::deque<Work> asked = std::exchange(partly_, {});
   for (Work& work : asked) {
     const size_t before = work.survey.unknown();
@@ -249,7 +285,7 @@ void PaintWorld::askAgain(const CastRays& cast) {
     bool can = true, first = true, learned = false;
     while (can && !work.survey.rays().empty()) {
       Work* one = &work;
-      can = castFor(std::span(&one, 1), cast);
+      can = askFor(std::span(&one, 1), sight);
       learned = can && (learned || !first || work.survey.unknown() < before);
       first = false;
     }
@@ -257,6 +293,7 @@ void PaintWorld::askAgain(const CastRays& cast) {
       remove(work.id, work.cells);
       place(work);
     } else {
+      work.muzzle.reset();
       partly_.push_back(std::move(work));
     }
   }
@@ -317,6 +354,7 @@ void PaintWorld::place(Work& work) {
   work.cells.resize(shares.size());
   std::ranges::transform(shares, work.cells.begin(), &Share::key);
   joinTwins(id, work.cells);
+  work.muzzle.reset();
   if (partly) partly_.push_back(std::move(work));
 }
 

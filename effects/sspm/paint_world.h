@@ -12,6 +12,7 @@
 #include <vector>
 
 #include "cell_table.h"
+#include "muzzle.h"
 #include "shares.h"
 #include "survey.h"
 
@@ -20,6 +21,13 @@ namespace grisaille::sspm {
 // Casts rays and writes one hit for each. Returns false if the host casts no rays.
 using CastRays = std::function<bool(std::span<const grisaille_ray>, std::span<grisaille_hit>)>;
 
+// The host's ways to tell what a muzzle sees. Depth pictures come first.
+struct Sight {
+  CastRays cast;
+  DrawDepth draw;
+};
+
+constexpr size_t kMostLooks = 4;      // surveys with depth pictures at the same time
 constexpr uint32_t kMostLevels = 16;  // cell widths in use at the same time
 constexpr size_t kRecordWords = 16;   // of a shot: Shot in shaders/sspm/walk.glsl
 
@@ -41,9 +49,10 @@ class PaintWorld {
   // patience: seconds after which it stops placing, but not before one step. If it is finite, it
   // also stops where much waits for its upload.
   // limit: most memory, host and device together, bytes. It gives up the oldest shots to stay
-  // below. cast: casts the rays of the surveys. Returns the number of shots that are still pending.
+  // below. sight: answers the rays of the surveys. Returns the number of shots that are still
+  // pending.
   size_t update(std::span<const Shot> shots, size_t kept, const PaintRules& rules, double patience,
-                uint64_t limit, const CastRays& cast);
+                uint64_t limit, const Sight& sight);
   // The same without placing: forgets shots that have left the list, and notes the others as
   // pending.
   void follow(std::span<const Shot> shots, size_t kept, const PaintRules& rules, uint64_t limit);
@@ -93,6 +102,7 @@ class PaintWorld {
   struct Work {
     uint32_t id;
     Survey survey;
+    std::optional<Muzzle> muzzle = {};  // if the host draws depth pictures
     std::vector<CellKey> cells = {};    // in which it was placed
     std::optional<CellGrid> grid = {};  // once the rough picture is complete
     // What the survey found, once it is complete.
@@ -125,11 +135,14 @@ class PaintWorld {
   void clear();
   void forget(size_t count, bool allLost);
   void erase(const std::vector<bool>& gone);
-  bool step(double most, const CastRays& cast, std::vector<uint32_t>& unknown);
+  bool step(double most, const Sight& sight, std::vector<uint32_t>& unknown);
   bool isUploadDue() const;
   void refill();
+  bool askFor(std::span<Work* const> works, const Sight& sight);
   bool castFor(std::span<Work* const> works, const CastRays& cast);
-  void askAgain(const CastRays& cast);
+  bool lookFor(std::span<Work* const> works, const DrawDepth& draw);
+  static void finish(Work& work);
+  void askAgain(const Sight& sight);
   CellGrid gridFor(const ShotFrame& frame);
   void place(Work& work);
   void remove(uint32_t id, std::span<const CellKey> cells);
@@ -167,6 +180,7 @@ class PaintWorld {
   std::deque<State> states_;       // one per shot
   std::vector<uint32_t> pending_;  // ascending
   std::deque<Work> work_;          // under survey, newest first
+  bool looks_ = false;             // the host has drawn depth pictures
   std::deque<Work> partly_;        // placed, with squares of which the host cannot tell yet
   std::unordered_map<uint64_t, Twins> twins_;
   CellTable cells_;

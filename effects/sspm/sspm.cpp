@@ -157,6 +157,12 @@ class Sspm {
     };
   }
 
+  DrawDepth drawer() {
+    return [this](const grisaille_depth_view& view, std::span<float> depth) {
+      return host_.drawDepth(view, depth);
+    };
+  }
+
   void recordPerShot(const plugin::Frame& frame) {
     // Keeps placed shots for a return to mode `surface`, up to the first change of the list.
     kept_ = std::min(kept_, frame.objectsKept());
@@ -226,7 +232,7 @@ class Sspm {
     kept_ = std::min(kept_, frame.objectsKept());
     const std::span<const Shot> shots = frame.objects<Shot>();
     const size_t waiting = world_.update(shots, kept_, rulesOf(frame.values()), frame.patience(),
-                                         limitOf(frame.values()), caster());
+                                         limitOf(frame.values()), {caster(), drawer()});
     kept_ = shots.size();
     frame.waiting(waiting);
     frame.givenUp(world_.givenUp());

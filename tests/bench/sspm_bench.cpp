@@ -13,6 +13,7 @@
 #include <deque>
 #include <filesystem>
 #include <fstream>
+#include <limits>
 #include <memory>
 #include <random>
 #include <thread>
@@ -34,12 +35,14 @@ using Clock = std::chrono::steady_clock;
 using Shots = std::vector<lab::Shot>;
 
 constexpr size_t kScoreShots = 10'000;
-constexpr double kRange = 0.25;  // of shots, metres: the default
+constexpr double kRange = 0.25;    // of shots, metres: the default
+constexpr double kPatience = 0.5;  // seconds for placing shots in a frame
 
 struct Options : CommonOptions {
   std::vector<size_t> counts = {64, 1000, 10000, 100000};
   std::vector<size_t> wallCounts = {64, 1000, 10000, 100000, 1000000};
   std::vector<size_t> perShotCounts = {1, 4, 16, 64, 256};
+  uint32_t memory = 256;
   std::string out;
 };
 
@@ -125,17 +128,30 @@ class Painted {
   }
 
   // Milliseconds from the call until the device has finished.
-  double render(uint32_t width, uint32_t height) {
+  double render(uint32_t width, uint32_t height,
+                double patience = std::numeric_limits<double>::infinity()) {
     const auto start = Clock::now();
     renderer_.render({.camera = subject_.cameras[0],
                       .width = width,
                       .height = height,
                       .chain = &chain_,
                       .outputs = outputs_,
-                      .services = {.rays = &rays_}});
+                      .services = {.rays = &rays_},
+                      .patience = patience});
     device_.wait();
     return millisecondsSince(start);
   }
+
+  // Places the shots that wait, as `grisaille render` does, in frames of few pixels. Returns the
+  // milliseconds that these frames took.
+  double settle() {
+    double took = 0;
+    do {
+      took += render(64, 36, kPatience);
+    } while (renderer_.report().waiting > 0);
+    return took;
+  }
+  uint64_t givenUp() const { return renderer_.report().givenUp; }
 
   // Share of the pixels that have paint.
   double painted(uint32_t width, uint32_t height) {
@@ -174,6 +190,7 @@ struct Row {
   double range = 0, painted = 0;  // metres; share of the pixels
   std::vector<double> effect = {}, frame = {}, effectRatio = {}, frameRatio = {};
   double placeSeconds = 0, raysAShot = 0, memory = 0, bytesAShot = 0;
+  uint64_t givenUp = 0;  // shots, at the limit of memory
 };
 
 class Bench {
@@ -250,6 +267,7 @@ class Bench {
         std::make_unique<Painted>(*device_, place_.subject, registry_, *place_.rays));
     painted_.back()->values().set("mode", mode);
     painted_.back()->values().set("shot_limit", "65536");
+    painted_.back()->values().set("memory", std::to_string(options_.memory));
     painted_.back()->values().set("paint_range", fmt::format("{}", range));
     painted_.back()->render(options_.width, options_.height);
     const double idle = painted_.back()->render(64, 36);
@@ -259,7 +277,7 @@ class Bench {
     malloc_trim(0);  // otherwise memory freed by earlier runs would be reused unseen
     const double memory = residentMemory();  // includes the host's list of shots
     const size_t rays = place_.rays->count();
-    const double took = painted_.back()->render(64, 36) - idle;
+    const double took = painted_.back()->settle() - idle;
     // Until the device has finished with the frame that uploaded the paint.
     for (int i = 0; i < 4; ++i) painted_.back()->render(options_.width, options_.height);
     const auto each = static_cast<double>(count);
@@ -274,7 +292,8 @@ class Bench {
                      .placeSeconds = std::max(took, 0.0) / 1000,
                      .raysAShot = static_cast<double>(place_.rays->count() - rays) / each,
                      .memory = grown,
-                     .bytesAShot = grown * 1048576 / each});
+                     .bytesAShot = grown * 1048576 / each,
+                     .givenUp = painted_.back()->givenUp()});
   }
 
   Options options_;
@@ -289,16 +308,16 @@ void print(const std::vector<Row>& rows) {
   fmt::print(
       "| mode | shots | range, m | painted | paint, ms | paint, first row = 1 | frame, ms | frame, "
       "first row = 1 | "
-      "to place all, s | rays a shot | memory, MiB | bytes a shot |\n"
-      "|---|---|---|---|---|---|---|---|---|---|---|---|\n");
+      "to place all, s | rays a shot | memory, MiB | bytes a shot | given up |\n"
+      "|---|---|---|---|---|---|---|---|---|---|---|---|---|\n");
   for (const Row& row : rows) {
     fmt::print(
         "| {} | {} | {:.2f} | {:.0f} % | {:.2f} | {:.2f} | {:.2f} | {:.2f} | {:.2f} | {:.0f} | "
         "{:.0f} "
-        "| {:.0f} |\n",
+        "| {:.0f} | {} |\n",
         row.mode, row.shots, row.range, 100 * row.painted, median(row.effect),
         median(row.effectRatio), median(row.frame), median(row.frameRatio), row.placeSeconds,
-        row.raysAShot, row.memory, row.bytesAShot);
+        row.raysAShot, row.memory, row.bytesAShot, row.givenUp);
   }
 }
 
@@ -416,6 +435,7 @@ int main(int argc, char** argv) {
       ->expected(0, -1);
   program.add_option("--per-shot-counts", options.perShotCounts,
                      "Shots on Sponza in the mode per_shot");
+  program.add_option("--memory", options.memory, "Value of the parameter memory, MB");
   program.add_option("--out", options.out, "A folder for paint_cost.csv, .svg and .png");
   return grisaille::bench::runCommand(program, options, argc, argv,
                                       [&] { grisaille::bench::run(options); });

@@ -235,6 +235,28 @@ void castWorld(void* context, const grisaille_ray* rays, uint64_t count, grisail
   }
 }
 
+// Draws depth pictures of the world and counts them in `context`. It does not know the first one
+// yet.
+void drawWorld(void* context, const grisaille_depth_view* view, float* depth) {
+  if ((*static_cast<uint64_t*>(context))++ == 0) return;
+  const glm::dvec3 origin(view->origin[0], view->origin[1], view->origin[2]);
+  const glm::dvec3 way(view->direction[0], view->direction[1], view->direction[2]);
+  const glm::dvec3 up(view->up[0], view->up[1], view->up[2]), right = glm::cross(way, up);
+  const double half = 0.5 * view->size;
+  for (uint32_t y = 0; y < view->size; ++y) {
+    for (uint32_t x = 0; x < view->size; ++x) {
+      const double toRight = view->slope * (x + 0.5 - half) / half;
+      const double downwards = view->slope * (y + 0.5 - half) / half;
+      const glm::dvec3 along = way + toRight * right - downwards * up;
+      depth[y * view->size + x] = static_cast<float>(meet(origin, along).along);
+    }
+  }
+}
+
+void drawNonsense(void*, const grisaille_depth_view*, float* depth) {
+  depth[5] = -1;
+}
+
 void castNonsense(void*, const grisaille_ray*, uint64_t count, grisaille_hit* hits) {
   for (uint64_t i = 0; i < count; ++i) hits[i].kind = 7;
 }
@@ -299,6 +321,54 @@ TEST_P(Frames, ShotsPaintWhatTheHostsRaysFind) {
   effect.setObjects<sspm::Shot>(Shots{shot});
   EXPECT_GE(painted(origin, way).first, on);
   EXPECT_EQ(asked, second);
+}
+
+// Depth pictures tell the same as rays. A shot whose picture is not there yet waits for it.
+TEST_P(Frames, ShotsPaintWhatTheHostsDepthPicturesShow) {
+  host::Effect byRays(device_, {.effect = "sspm", .width = 96, .height = 72});
+  host::Effect byDepths(device_, {.effect = "sspm", .width = 96, .height = 72});
+  const host::Texture seen = depth(96, 72);
+  const Shots shots = {shotAt({0.3, 0.6, 2.5}, {0.2, 0.5, -0.2}),
+                       shotAt({-1, 1, 2}, {-0.8, 0, 0.2})};
+  const auto paintOf = [&](host::Effect& effect) {
+    effect.set("edge_fade", 0.0);
+    effect.setObjects<sspm::Shot>(shots);
+    record(effect, seen);
+    return host_->read(effect.output("paint"));
+  };
+  const auto apart = [](const std::vector<float>& a, const std::vector<float>& b) {
+    size_t count = 0;
+    for (size_t i = 3; i < a.size(); i += 4) count += a[i] != b[i] ? 1 : 0;
+    return count;
+  };
+  const std::vector<float> none = paintOf(byRays);
+  uint64_t rays = 0, pictures = 0;
+  device_.setRays(castWorld, &rays);
+  const std::vector<float> traced = paintOf(byRays);
+  EXPECT_GT(apart(traced, none), 50u);
+  const uint64_t cast = rays;
+  device_.setDepths(drawWorld, &pictures);
+  const std::vector<float> early = paintOf(byDepths);
+  EXPECT_GT(apart(early, traced), 10u);
+  EXPECT_LE(apart(paintOf(byDepths), traced), apart(traced, none) / 20);
+  EXPECT_EQ(rays, cast);
+  EXPECT_GT(pictures, 5u);
+  // A drawer of nonsense is refused.
+  device_.setDepths(drawNonsense, nullptr);
+  host::Effect refused(device_, {.effect = "sspm", .width = 96, .height = 72});
+  refused.setObjects<sspm::Shot>(shots);
+  host_->frame([&](void* commands, uint64_t number) {
+    EXPECT_THROW(refused.record({.number = number,
+                                 .commandBuffer = commands,
+                                 .camera = camera_,
+                                 .depth = seen,
+                                 .depthKind = GRISAILLE_HOST_DEPTH_VIEW}),
+                 host::Failure);
+    EXPECT_NE(std::string(grisaille_host_last_error()).find("depth 5 of"), std::string::npos)
+        << grisaille_host_last_error();
+  });
+  device_.setDepths(nullptr, nullptr);
+  device_.setRays(nullptr, nullptr);
 }
 
 // The score of a floor of 4 x 4 m: the disc of a shot, without what another object shades.

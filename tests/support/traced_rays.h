@@ -1,8 +1,12 @@
 // SPDX-License-Identifier: MIT
 #pragma once
 
+#include <algorithm>
+#include <cmath>
 #include <glm/glm.hpp>
+#include <limits>
 #include <span>
+#include <vector>
 
 #include "core/effect/instance.h"
 #include "core/trace/ray_tracer.h"
@@ -25,6 +29,58 @@ class TracedRays : public effect::RayService {
   trace::RayTracer tracer_;
   size_t count_ = 0;
 };
+
+// Draws an effect's depth pictures with the ray tracer, rounded as a depth buffer of 24 bits does
+// whose planes are 0.05 m and 500 m away.
+class TracedDepths : public effect::DepthService {
+ public:
+  explicit TracedDepths(const trace::RayTracer& tracer) : tracer_(tracer) {}
+  void draw(const grisaille_depth_view& view, std::span<float> depth) override;
+  // Number of pictures.
+  size_t count() const { return count_; }
+  // The next pictures that it does not know yet.
+  void setUnknown(size_t pictures) { unknown_ = pictures; }
+
+ private:
+  const trace::RayTracer& tracer_;
+  size_t count_ = 0, unknown_ = 0;
+};
+
+inline void TracedDepths::draw(const grisaille_depth_view& view, std::span<float> depth) {
+  ++count_;
+  if (unknown_ > 0) {
+    --unknown_;
+    std::ranges::fill(depth, std::numeric_limits<float>::quiet_NaN());
+    return;
+  }
+  const glm::vec3 way(view.direction[0], view.direction[1], view.direction[2]);
+  const glm::vec3 up(view.up[0], view.up[1], view.up[2]), right = glm::cross(way, up);
+  std::vector<grisaille_ray> rays(depth.size());
+  std::vector<grisaille_hit> hits(depth.size());
+  const auto middle = [&](size_t pixel) {
+    return view.slope *
+           (2 * (static_cast<float>(pixel) + 0.5f) / static_cast<float>(view.size) - 1);
+  };
+  for (size_t i = 0; i < rays.size(); ++i) {
+    const glm::vec3 unit =
+        glm::normalize(way + middle(i % view.size) * right - middle(i / view.size) * up);
+    rays[i] = {.origin = {view.origin[0], view.origin[1], view.origin[2]},
+               .direction = {unit.x, unit.y, unit.z},
+               .reach = std::numeric_limits<float>::infinity()};
+  }
+  tracer_.castRays(rays, hits);
+  constexpr double kNear = 0.05, kFar = 500, kSteps = 1 << 24;
+  for (size_t i = 0; i < rays.size(); ++i) {
+    const auto& unit = rays[i].direction;
+    const double metres =
+        double{hits[i].distance} * glm::dot(glm::vec3(unit[0], unit[1], unit[2]), way);
+    const double stored = (1 / kNear - 1 / metres) / (1 / kNear - 1 / kFar);
+    const double rounded = std::round(glm::clamp(stored, 0.0, 1.0) * kSteps) / kSteps;
+    depth[i] = hits[i].kind == GRISAILLE_HIT_SURFACE
+                   ? static_cast<float>(1 / (1 / kNear - rounded * (1 / kNear - 1 / kFar)))
+                   : std::numeric_limits<float>::infinity();
+  }
+}
 
 // Whether nothing lies between a muzzle and a point of a surface.
 inline bool sees(const trace::RayTracer& tracer, const glm::dvec3& muzzle,

@@ -262,6 +262,34 @@ typedef struct grisaille_host_rays {
 GRISAILLE_EXPORT int grisaille_host_device_set_rays(grisaille_host_device* device,
                                                     const grisaille_host_rays* rays);
 
+/** Your function that draws depth pictures of your scene. */
+typedef struct grisaille_host_depths {
+  uint32_t struct_size; /**< sizeof(grisaille_host_depths) */
+  uint32_t reserved;    /**< 0 */
+  void* context;        /**< your pointer, which the library passes to `draw` */
+  /**
+   * Draws a picture, as you draw a shadow map, and reads it back.
+   * grisaille_host_effect_record() calls it, in the same thread. The function must not call the
+   * library. You need not wait for the GPU: leave the values as they are, and the library asks for
+   * the same view in the next recording.
+   * @param context grisaille_host_depths::context
+   * @param view origin, direction and size of the picture
+   * @param[out] depth `size` x `size` values, see grisaille_host::draw_depth; preset to NaN, which
+   *   says that you do not know yet
+   */
+  void (*draw)(void* context, const grisaille_depth_view* view, float* depth);
+} grisaille_host_depths;
+
+/**
+ * Sets the function that draws depth pictures for the device's effects, from the next recording on.
+ * Effects take them instead of rays during recordings; grisaille_host_effect_draw_at() needs rays.
+ * @param device the device
+ * @param depths your function; null, the initial value: no function
+ * @return 0, or an error that any function may return
+ */
+GRISAILLE_EXPORT int grisaille_host_device_set_depths(grisaille_host_device* device,
+                                                      const grisaille_host_depths* depths);
+
 /** Your function that decodes the picture files that objects name. */
 typedef struct grisaille_host_pictures {
   uint32_t struct_size; /**< sizeof(grisaille_host_pictures) */

@@ -144,6 +144,16 @@ class Device {
     require(grisaille_host_device_set_rays(device_.get(), cast != nullptr ? &rays : nullptr));
   }
 
+  /// Sets the function that draws depth pictures for the device's effects, from the next recording
+  /// on.
+  /// @param draw see grisaille_host_depths::draw; null: no function
+  /// @param context passed to `draw`; it must outlive the recordings
+  void setDepths(decltype(grisaille_host_depths::draw) draw, void* context) const {
+    const grisaille_host_depths depths = {
+        .struct_size = sizeof(depths), .reserved = 0, .context = context, .draw = draw};
+    require(grisaille_host_device_set_depths(device_.get(), draw != nullptr ? &depths : nullptr));
+  }
+
   /// Sets the function that decodes pictures for the device's effects, from the next recording on.
   /// @param read see grisaille_host_pictures::read; null: no function
   /// @param context passed to `read`; it must outlive the recordings

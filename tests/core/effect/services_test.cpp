@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: MIT
 // Services of the host while an effect records: rays, pictures, patience, pending work.
 #include <cmath>
+#include <numeric>
 
 #include "tests/core/effect/instance_fixture.h"
 #include "tests/support/expect_error.h"
@@ -20,6 +21,16 @@ struct Answers : RayService {
     for (size_t i = 0; i < hits.size(); ++i) {
       hits[i] = {GRISAILLE_HIT_SURFACE, static_cast<float>(i + 1), {0, 1, 0}};
     }
+  }
+};
+
+// Draws depths that count up from 1.
+struct Counting : DepthService {
+  std::vector<grisaille_depth_view> asked;
+
+  void draw(const grisaille_depth_view& view, std::span<float> depth) override {
+    asked.push_back(view);
+    std::iota(depth.begin(), depth.end(), 1.0f);
   }
 };
 
@@ -123,6 +134,32 @@ TEST_F(ServicesTest, BadRaysAreRefusedByTheirPlace) {
   EXPECT_ERROR(ErrorId::kEffectRecord, told(inputs));
   rays.fails = false;
   EXPECT_EQ(told(inputs)[4], 1);
+}
+
+TEST_F(ServicesTest, DepthPicturesAreDrawnWhereThereIsAService) {
+  values.set("depth", "two");
+  EXPECT_EQ(told({})[12], 0);
+  Counting depths;
+  FrameInputs inputs;
+  inputs.services.depths = &depths;
+  const std::vector<float> texels = told(inputs);
+  EXPECT_EQ(texels[12], 1);
+  EXPECT_EQ(texels[13], 4);
+  ASSERT_EQ(depths.asked.size(), 1u);
+  EXPECT_EQ(depths.asked[0].origin[2], 3);
+  EXPECT_EQ(depths.asked[0].size, 2u);
+  for (const char* fault : {"nan_origin", "long_direction", "tilted_up", "long_up", "no_slope",
+                            "no_size", "large_size", "null"}) {
+    values.set("depth", fault);
+    try {
+      told(inputs);
+      ADD_FAILURE() << fault << " was drawn";
+    } catch (const Error& error) {
+      EXPECT_EQ(error.id(), ErrorId::kEffectRecord);
+      EXPECT_NE(error.detail().find("draw_depth"), std::string::npos) << error.what();
+    }
+    EXPECT_EQ(depths.asked.size(), 1u);
+  }
 }
 
 TEST_F(ServicesTest, PicturesAreReadWhereThereIsAServiceAndAnEffectGoesOnWithoutThem) {

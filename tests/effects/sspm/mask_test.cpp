@@ -50,14 +50,19 @@ Agreement compare(const Mask& mask, const image::Image& coverage) {
   return result;
 }
 
-class MaskTest : public BackendTest {};
+class MaskTest : public BackendTest {
+ protected:
+  void expectMasks(bool byDepths);
+};
 GRISAILLE_ON_EVERY_DEVICE(MaskTest);
 
-TEST_P(MaskTest, PaintLandsWhereTheMuzzleSees) {
+// byDepths: the host tells by depth pictures, not by rays, what a muzzle sees.
+void MaskTest::expectMasks(bool byDepths) {
   const std::filesystem::path shared = SHARED_FOLDER;
   if (!std::filesystem::exists(shared / "scenes/Sponza.glb")) GTEST_SKIP() << "Sponza is missing";
   const scene::Scene scene = scene::loadGltf(shared / "scenes/Sponza.glb");
   TracedRays rays(scene);
+  TracedDepths depths(rays.tracer());
   std::mt19937 random(11);
   std::uniform_real_distribution<double> unit(0, 1);
   Agreement sum;
@@ -67,7 +72,11 @@ TEST_P(MaskTest, PaintLandsWhereTheMuzzleSees) {
         scene::loadCamera(shared / "cameras" / (std::string(name) + ".json"));
     const std::vector<trace::Hit> hits = rays.tracer().castPrimary(camera, kMaskWidth, kMaskHeight);
     PaintFrame frame(device(), scene);
-    frame.setRays(&rays);
+    if (byDepths) {
+      frame.setDepths(&depths);
+    } else {
+      frame.setRays(&rays);
+    }
     for (int i = 0; i < 8; ++i) {
       // At any pixel of the picture, from anywhere around the camera.
       const auto x = static_cast<uint32_t>(kMaskWidth * (0.05 + 0.9 * unit(random)));
@@ -97,12 +106,22 @@ TEST_P(MaskTest, PaintLandsWhereTheMuzzleSees) {
       sum.stray += one.stray;
     }
   }
-  std::printf("%s: %zu px, intersection over union %.4f, %zu px astray, %zu rays a shot\n",
-              GetParam().label.c_str(), sum.traced, sum.iou(), sum.stray, rays.count() / shotCount);
+  std::printf("%s: %zu px, intersection over union %.4f, %zu px astray, %zu rays and %zu pictures "
+              "a shot\n",
+              GetParam().label.c_str(), sum.traced, sum.iou(), sum.stray, rays.count() / shotCount,
+              depths.count() / shotCount);
   EXPECT_GE(sum.iou(), 0.995);
   EXPECT_LE(rays.count(), 3000 * shotCount);
   // Paint may stray at edges thinner than the finest squares of a map.
-  EXPECT_LE(sum.stray, sum.both / 50000);
+  EXPECT_LE(sum.stray, sum.both / (byDepths ? 2000 : 50000));
+}
+
+TEST_P(MaskTest, PaintLandsWhereTheMuzzleSees) {
+  expectMasks(false);
+}
+
+TEST_P(MaskTest, PaintLandsWhereADepthPictureOfTheMuzzleShowsASurface) {
+  expectMasks(true);
 }
 
 }  // namespace

@@ -37,7 +37,7 @@ void PaintFrame::render(const scene::Camera& camera, uint32_t width, uint32_t he
                     .height = height,
                     .chain = &chain_,
                     .outputs = outputs,
-                    .services = {.rays = rays_}});
+                    .services = {.rays = rays_, .depths = depths_}});
 }
 
 std::vector<grisaille_drawn> PaintFrame::drawAt(std::span<const grisaille_point> points) {

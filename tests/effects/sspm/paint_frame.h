@@ -32,6 +32,8 @@ class PaintFrame {
 
   // nullptr: this host casts no rays.
   void setRays(effect::RayService* rays) { rays_ = rays; }
+  // nullptr, the initial value: this host draws no depth pictures.
+  void setDepths(effect::DepthService* depths) { depths_ = depths; }
   void set(const Settings& settings);
 
   // Replaces the list of shots without a frame.
@@ -52,6 +54,7 @@ class PaintFrame {
   effect::StartedChain started_;
   frame::Renderer renderer_;
   effect::RayService* rays_ = nullptr;
+  effect::DepthService* depths_ = nullptr;
 };
 
 // Depth from ray casts, which is exact on every rasteriser.

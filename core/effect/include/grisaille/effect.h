@@ -508,6 +508,15 @@ typedef struct grisaille_hit {
   float normal[3]; /**< the triangle's normal: world, unit length, towards the ray's origin */
 } grisaille_hit;
 
+/** A square depth picture, in perspective, as one draws a shadow map. */
+typedef struct grisaille_depth_view {
+  double origin[3];   /**< world, metres, finite */
+  float direction[3]; /**< towards the middle of the picture; world, unit length */
+  float up[3];        /**< upwards in the picture; world, unit length, normal to `direction` */
+  float slope;        /**< half the picture's width and height at a distance of 1; over 0 */
+  uint32_t size;      /**< width and height, pixels, 1 ... 4096 */
+} grisaille_depth_view;
+
 /** A picture that the host has decoded. */
 typedef struct grisaille_picture {
   uint32_t struct_size; /**< sizeof(grisaille_picture), set by the caller */
@@ -626,6 +635,18 @@ typedef struct grisaille_host {
    */
   grisaille_result (*cast_rays)(const struct grisaille_host* self, const grisaille_ray* rays,
                                 uint64_t count, grisaille_hit* hits);
+  /**
+   * Draws the first surface that a point sees in each direction. Call it only inside record().
+   * @param self this table
+   * @param view origin, direction and size of the picture
+   * @param[out] depth `size` x `size` values, by rows from the top, for the pixels' centres: the
+   *   distance of the first surface along the view's direction, metres; infinity: no surface; NaN:
+   *   the host does not know yet, and may know in a later frame
+   * @retval GRISAILLE_UNSUPPORTED The host does not draw depth pictures.
+   * @retval GRISAILLE_FAILED The view is outside the limits of grisaille_depth_view.
+   */
+  grisaille_result (*draw_depth)(const struct grisaille_host* self,
+                                 const grisaille_depth_view* view, float* depth);
   /**
    * Decodes a picture file, such as the value of a #GRISAILLE_FIELD_FILE. Call it only inside
    * record().

@@ -220,6 +220,18 @@ class Host {
     return true;
   }
 
+  /// Draws the first surface that a point sees in each direction. Call it only inside record().
+  /// @param view origin, direction and size of the picture
+  /// @param[out] depth `size` x `size` values, see grisaille_host::draw_depth
+  /// @return false if the host does not draw depth pictures
+  /// @throws Failure the view is outside the limits of grisaille_depth_view
+  bool drawDepth(const grisaille_depth_view& view, std::span<float> depth) const {
+    const grisaille_result result = host_->draw_depth(host_, &view, depth.data());
+    if (result == GRISAILLE_UNSUPPORTED) return false;
+    require(result, "a depth picture");
+    return true;
+  }
+
   /// Decodes a picture file. Call it only inside record().
   /// @param path path of the file
   /// @return the picture, or nullopt if the host does not decode pictures or cannot read the file;

@@ -6,6 +6,7 @@
 
 #include <array>
 #include <cmath>
+#include <string_view>
 #include <vector>
 
 #include "grisaille/effect.hpp"
@@ -15,10 +16,13 @@ namespace {
 namespace plugin = grisaille::plugin;
 using grisaille::tests::Mark;
 
-enum Parameter { kCasts, kWaits, kGivesUp, kPicture, kFails, kDraws };
+enum Parameter { kCasts, kWaits, kGivesUp, kPicture, kFails, kDraws, kDepth };
 
 constexpr const char* kCastKeys[] = {"none",          "two",      "nan_origin", "long_direction",
                                      "nan_direction", "no_reach", "nan_reach",  "null"};
+constexpr const char* kDepthKeys[] = {"none",       "two",     "nan_origin", "long_direction",
+                                      "tilted_up",  "long_up", "no_slope",   "no_size",
+                                      "large_size", "null"};
 constexpr const char* kDrawKeys[] = {"well", "alpha", "owner", "colour"};
 constexpr const char* kPictureKeys[] = {"none", "last", "null"};
 constexpr grisaille_param_desc kParams[] = {
@@ -53,7 +57,12 @@ constexpr grisaille_param_desc kParams[] = {
                        .label = "Draws",
                        .tooltip = "What of the last point it draws beyond its range",
                        .keys = kDrawKeys,
-                       .labels = kDrawKeys})};
+                       .labels = kDrawKeys}),
+    plugin::enumParam({.key = "depth",
+                       .label = "Depth",
+                       .tooltip = "Which depth picture of 2 x 2 pixels it asks for, or which fault",
+                       .keys = kDepthKeys,
+                       .labels = kDepthKeys})};
 
 constexpr grisaille_output_desc kOutputs[] = {plugin::output(
     {.key = "told", .format = GRISAILLE_FORMAT_R32F, .tooltip = "What it was told"})};
@@ -127,7 +136,7 @@ constexpr auto kMarks = plugin::objects<Mark>({.key = "marks",
 
 // Texels of the output: number of objects, number kept, patience, the last object's x, whether rays
 // can be cast, kind and distance of two hits, width and first byte of the picture, the frame's
-// index.
+// index, whether depth pictures are drawn, the last depth.
 class Teller {
  public:
   explicit Teller(plugin::Host host) : host_(host) {}
@@ -178,6 +187,9 @@ class Teller {
       told[10] = picture ? picture->rgba[0] : 0;
     }
     told[11] = static_cast<float>(frame.index());
+    std::array<float, 4> depth = {};
+    told[12] = draw(frame.value<int32_t>(kDepth), depth) ? 1 : 0;
+    told[13] = depth[3];
     if (frame.wanted(0)) frame.uploadTexture(frame.output(0), told);
   }
 
@@ -209,6 +221,21 @@ class Teller {
         rays[1].direction[2] = -1.0009f;
     }
     return host_.castRays(rays, hits);
+  }
+
+  bool draw(int32_t which, std::array<float, 4>& depth) const {
+    if (which == 0) return false;
+    grisaille_depth_view view = {
+        .origin = {1, 2, 3}, .direction = {0, 0, -1}, .up = {0, 1, 0}, .slope = 0.5f, .size = 2};
+    const std::string_view fault = kDepthKeys[which];
+    if (fault == "nan_origin") view.origin[1] = NAN;
+    if (fault == "long_direction") view.direction[2] = -1.0011f;
+    if (fault == "tilted_up") view.up[2] = 0.002f;
+    if (fault == "long_up") view.up[1] = 1.0011f;
+    if (fault == "no_slope") view.slope = 0;
+    if (fault == "no_size") view.size = 0;
+    if (fault == "large_size") view.size = 4097;
+    return host_.drawDepth(view, fault == "null" ? std::span<float>() : std::span(depth));
   }
 
   plugin::Host host_;
