@@ -40,7 +40,7 @@ Camera orthographic(Camera camera) {
   return camera;
 }
 // Centred, jittered, for one eye of a headset, a corner of a larger picture, and orthographic.
-std::vector<Camera> cameras() {
+std::vector<Camera> kinds() {
   return {kCamera,
           shifted(kCamera, 0.4 / kWidth, -0.3 / kHeight),
           shifted(kCamera, -0.11, 0.02),
@@ -65,7 +65,7 @@ Camera back(const image::ViewMatrices& matrices) {
 }
 
 TEST(CameraMatrices, ComeBackToTheCamera) {
-  for (const Camera& camera : cameras()) {
+  for (const Camera& camera : kinds()) {
     SCOPED_TRACE(cameraJson(camera));
     expectSame(back(matricesOf(camera, kWidth, kHeight)), camera);
   }
