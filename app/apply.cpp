@@ -297,8 +297,8 @@ void addPictures(CLI::App& command, ApplyOptions& options) {
       ->type_name("FILE");
   command
       .add_option("--thickness", options.thickness,
-                  "How thick the matter behind each surface is on average, metres, for "
-                  "ssao.backs=bodies: 0 for sheets, below 0 where it is unknown")
+                  "How thick the matter behind each surface is on average, metres: 0 for sheets, "
+                  "below 0 where it is unknown")
       ->type_name("FILE");
   command
       .add_option("--camera", options.camera,

@@ -91,10 +91,11 @@ TEST_F(ApplyOnce, OrthographicPicturesAreChecked) {
   const std::string depth = "apply --depth depth.exr ";
   const Outcome sound = grisaille(depth + "--normal normal.exr --write ao=again.exr");
   EXPECT_EQ(sound.err.find("warning"), std::string::npos) << sound.err;
-  expectError(depth + "--normal normal.exr --normal-space view --write ao=x.exr", "E5507",
+  expectError(depth + "--normal normal.exr --normal-space view --write ao=x.exr", "E5509",
               "normal");
   run(depth + "--write ao=facets.exr");
-  EXPECT_LT(image::compare(read("facets.exr"), read("ao.exr")).rmse, 0.1);
+  // Facets have no smooth shading, and none of leaves' details.
+  EXPECT_LT(image::compare(read("facets.exr"), read("ao.exr")).rmse, 0.12);
 }
 
 TEST_F(ApplyOnce, OrthographicDepthBuffersAreLinear) {
