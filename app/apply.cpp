@@ -32,7 +32,7 @@ namespace grisaille::app {
 namespace {
 
 struct ApplyOptions : EffectOptions {
-  std::string depth, normal, baseColour, camera, frames;
+  std::string depth, normal, baseColour, thickness, camera, frames;
   std::string depthKind = "view", depthChannel, normalChannels, normalSpace = "world",
               normalEncoding = "signed";
   // Metres. A near plane of 0 stands for the camera's.
@@ -48,7 +48,7 @@ frame::DepthKind kindOf(const std::string& name) {
 // The parsed command line, checked before any slow work starts.
 struct ApplyJob : ChosenEffects {
   const ApplyOptions& options;
-  FileName depth, normal, baseColour, camera;
+  FileName depth, normal, baseColour, thickness, camera;
   std::vector<OutputFiles> outputs;
   std::vector<int> frames;  // frame numbers; {0} if the file names are not numbered
 
@@ -58,6 +58,7 @@ struct ApplyJob : ChosenEffects {
         depth(given.depth),
         normal(given.normal),
         baseColour(given.baseColour),
+        thickness(given.thickness),
         camera(isInlineCamera(given.camera) ? "" : given.camera) {
     const auto writes = parseOutputFiles(options.writes);
     for (const OutputFile& write : writes) outputs.push_back({write.output, FileName(write.file)});
@@ -108,7 +109,7 @@ void ApplyJob::findFrames() {
   frames = !sequence                ? std::vector<int>{0}
            : options.frames.empty() ? depth.numbers()
                                     : parseFrames(options.frames);
-  for (const FileName* file : {&depth, &normal, &baseColour, &camera}) {
+  for (const FileName* file : {&depth, &normal, &baseColour, &thickness, &camera}) {
     if (file->numbered() && !sequence) {
       throw Error(ErrorId::kSequence, "'{}' has a frame number, but --depth is a single file",
                   file->at(frames[0]));
@@ -143,6 +144,19 @@ scene::Camera ApplyJob::cameraOf(int number, const image::Picture& picture,
                 options.depthKind);
   }
   if (options.near > 0) result.nearPlane = options.near;
+  if (result.orthographicHeight > 0) {
+    if (buffer && std::isinf(options.far) && options.camera.empty()) {
+      throw Error(ErrorId::kUsage,
+                  "--depth-kind {} needs a far plane for an orthographic camera; pass --far or "
+                  "--camera",
+                  options.depthKind);
+    }
+    if (buffer && !std::isinf(options.far)) result.farPlane = options.far;
+    if (!(result.farPlane > result.nearPlane)) {
+      throw Error(ErrorId::kUsage, "the near plane is at {} m, beyond the far plane at {} m",
+                  result.nearPlane, result.farPlane);
+    }
+  }
   if (!options.camera.empty()) checkCamera(result, picture, depth.at(number), warnings);
   return result;
 }
@@ -151,6 +165,17 @@ struct LoadedFrame {
   scene::Camera camera;
   frame::Pictures pictures;
 };
+
+// Moves the planes of an orthographic camera so that all surfaces lie between them: depth pictures
+// in metres have no planes, and surfaces beyond the planes would be sky.
+void includeSurfaces(scene::Camera& camera, const image::Image& viewDepth) {
+  if (!(camera.orthographicHeight > 0)) return;
+  for (const float depth : viewDepth.pixels) {
+    if (!(depth > 0)) continue;
+    camera.nearPlane = std::min(camera.nearPlane, double{depth} / 2);
+    camera.farPlane = std::max(camera.farPlane, double{depth} * 2);
+  }
+}
 
 LoadedFrame load(const ApplyJob& job, int number, Warnings& warnings) {
   const ApplyOptions& options = job.options;
@@ -162,10 +187,13 @@ LoadedFrame load(const ApplyJob& job, int number, Warnings& warnings) {
       .stored = stored, .integers = depth.integers, .kind = options.depthKind, .file = depthFile};
   frame::Pictures& pictures = loaded.pictures;
   checkStoredDepth(source);
-  pictures.viewDepth = frame::viewDepthOf(
-      stored,
-      {.kind = kindOf(options.depthKind), .near = loaded.camera.nearPlane, .far = options.far},
-      loaded.camera, depthFile);
+  const bool planes = options.depthKind.starts_with("clip") && loaded.camera.orthographicHeight > 0;
+  pictures.viewDepth = frame::viewDepthOf(stored,
+                                          {.kind = kindOf(options.depthKind),
+                                           .near = loaded.camera.nearPlane,
+                                           .far = planes ? loaded.camera.farPlane : options.far},
+                                          loaded.camera, depthFile);
+  if (!planes) includeSurfaces(loaded.camera, pictures.viewDepth);
   if (!options.normal.empty()) {
     pictures.normal =
         normalChannels(image::readPicture(normalFile), options.normalChannels, normalFile);
@@ -174,6 +202,10 @@ LoadedFrame load(const ApplyJob& job, int number, Warnings& warnings) {
     const std::string file = job.baseColour.at(number);
     pictures.baseColour = colourChannels(image::readPicture(file), file);
     checkBaseColour(pictures.baseColour, file, warnings);
+  }
+  if (!options.thickness.empty()) {
+    const std::string file = job.thickness.at(number);
+    pictures.thickness = thicknessChannel(image::readPicture(file), file);
   }
   frame::checkPictures(pictures);
   const Surfaces surfaces{.viewDepth = pictures.viewDepth, .camera = loaded.camera};
@@ -262,6 +294,11 @@ void addPictures(CLI::App& command, ApplyOptions& options) {
   command
       .add_option("--base-colour", options.baseColour,
                   "Base colours, linear, 0 to 1, for --surface base")
+      ->type_name("FILE");
+  command
+      .add_option("--thickness", options.thickness,
+                  "How thick the matter behind each surface is on average, metres: 0 for sheets, "
+                  "below 0 where it is unknown")
       ->type_name("FILE");
   command
       .add_option("--camera", options.camera,

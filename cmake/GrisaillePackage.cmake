@@ -1,32 +1,55 @@
 # SPDX-License-Identifier: MIT
-# Writes the files that find_package(Grisaille) needs: for the installation, and for the build
-# folder, which then serves as an installation prefix (its bin/ on the PATH is enough). Then
+# Writes the files that find_package(Grisaille) and pkg-config need: for the installation, and for the
+# build folder, which then serves as an installation prefix (its bin/ on the PATH is enough). Then
 # configures the Debian package.
 include(CMakePackageConfigHelpers)
 
-function(grisaille_write_config folder shaders functions prefix)
+# The targets of each component of find_package, beside those that all components share.
+set(sets GrisailleTargets GrisailleHostTargets GrisailleEffectTargets)
+if(GRISAILLE_PROGRAMS)
+  list(APPEND sets GrisailleProgramTargets)
+endif()
+
+function(grisaille_write_config folder shaders prefix)
   set(GRISAILLE_SHADERS ${shaders})
-  set(GRISAILLE_FUNCTIONS ${functions})
+  set(GRISAILLE_EFFECTS lib/grisaille/effects)
   configure_package_config_file(
     ${CMAKE_SOURCE_DIR}/cmake/GrisailleConfig.cmake.in ${folder}/GrisailleConfig.cmake
     INSTALL_DESTINATION lib/cmake/Grisaille INSTALL_PREFIX ${prefix}
-    PATH_VARS GRISAILLE_SHADERS GRISAILLE_FUNCTIONS NO_CHECK_REQUIRED_COMPONENTS_MACRO)
+    PATH_VARS GRISAILLE_SHADERS GRISAILLE_EFFECTS
+    NO_CHECK_REQUIRED_COMPONENTS_MACRO)
   write_basic_package_version_file(${folder}/GrisailleConfigVersion.cmake
     COMPATIBILITY SameMajorVersion)
 endfunction()
 
 set(here ${CMAKE_BINARY_DIR}/lib/cmake/Grisaille)
-grisaille_write_config(${here} ${CMAKE_SOURCE_DIR}/shaders ${CMAKE_SOURCE_DIR}/cmake
-  ${CMAKE_BINARY_DIR})
-export(EXPORT GrisailleTargets NAMESPACE Grisaille:: FILE ${here}/GrisailleTargets.cmake)
-
+grisaille_write_config(${here} ${CMAKE_SOURCE_DIR}/shaders ${CMAKE_BINARY_DIR})
 set(installed ${CMAKE_BINARY_DIR}/installed)
-grisaille_write_config(${installed} share/grisaille/shaders lib/cmake/Grisaille
-  ${CMAKE_INSTALL_PREFIX})
-install(FILES ${installed}/GrisailleConfig.cmake ${installed}/GrisailleConfigVersion.cmake
-              cmake/GrisailleShaders.cmake cmake/GrisailleEffect.cmake
-        DESTINATION lib/cmake/Grisaille)
-install(EXPORT GrisailleTargets NAMESPACE Grisaille:: DESTINATION lib/cmake/Grisaille)
+grisaille_write_config(${installed} share/grisaille/shaders ${CMAKE_INSTALL_PREFIX})
+foreach(functions GrisailleShaders GrisailleEffect)
+  configure_file(cmake/${functions}.cmake ${here}/${functions}.cmake COPYONLY)
+  configure_file(cmake/${functions}.cmake ${installed}/${functions}.cmake COPYONLY)
+endforeach()
+install(DIRECTORY ${installed}/ DESTINATION lib/cmake/Grisaille FILES_MATCHING PATTERN *.cmake)
+foreach(set IN LISTS sets)
+  export(EXPORT ${set} NAMESPACE Grisaille:: FILE ${here}/${set}.cmake)
+  install(EXPORT ${set} NAMESPACE Grisaille:: DESTINATION lib/cmake/Grisaille)
+endforeach()
+
+# For pkg-config. The static library has a file of its own beside the shared one, because a linker
+# takes the shared library where it finds both.
+function(grisaille_write_pc name libs private)
+  set(GRISAILLE_LIBS ${libs})
+  set(GRISAILLE_LIBS_PRIVATE ${private})
+  configure_file(${CMAKE_SOURCE_DIR}/cmake/grisaille.pc.in ${installed}/${name}.pc @ONLY)
+  install(FILES ${installed}/${name}.pc DESTINATION lib/pkgconfig)
+endfunction()
+set(needed "-lepoxy -lstdc++ -lm -ldl")
+grisaille_write_pc(grisaille -lgrisaille "${needed}")
+if(TARGET grisaille_host AND TARGET grisaille_static)
+  grisaille_write_pc(grisaille-static "-l:libgrisaille.a ${needed}" "")
+endif()
+
 install(DIRECTORY shaders/common DESTINATION share/grisaille/shaders)
 install(FILES LICENSE DESTINATION share/doc/grisaille RENAME copyright)
 

@@ -36,7 +36,7 @@ function(grisaille_precompile name header)
   else()
     add_library(${name} OBJECT ${sources})
   endif()
-  target_link_libraries(${name} PRIVATE fmt::fmt ${ARG_LINK})
+  target_link_libraries(${name} PRIVATE fmt::fmt-header-only ${ARG_LINK})
   target_precompile_headers(${name} PRIVATE
     $<$<COMPILE_LANGUAGE:CXX>:${CMAKE_SOURCE_DIR}/cmake/${header}> $<$<COMPILE_LANGUAGE:C>:<stddef.h$<ANGLE-R>>)
   if(CMAKE_CXX_COMPILER_ID STREQUAL "GNU")

@@ -182,12 +182,12 @@ int grisaille_host_effect_get(const grisaille_host_effect* effect, const char* k
 }
 
 int grisaille_host_effect_set_objects(grisaille_host_effect* effect, const void* objects,
-                                      uint32_t objectSize, uint64_t count) {
+                                      uint32_t object_size, uint64_t count) {
   return guarded([&] {
     objects::ObjectList& list = present(effect, "effect").objects();
-    if (objectSize != list.table().object_size) {
-      throw Error(ErrorId::kHostValue, "objectSize is {}, but the effect's table has {}",
-                  objectSize, list.table().object_size);
+    if (object_size != list.table().object_size) {
+      throw Error(ErrorId::kHostValue, "object_size is {}, but the effect's table has {}",
+                  object_size, list.table().object_size);
     }
     const auto* bytes = static_cast<const std::byte*>(objects);
     if (count > 0) present(bytes, "objects");

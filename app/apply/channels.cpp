@@ -75,6 +75,15 @@ std::optional<std::vector<size_t>> normalLayer(const image::Picture& picture) {
   return std::nullopt;
 }
 
+// The channels with this word in their names.
+std::vector<size_t> withWord(const image::Picture& picture, const std::string& word) {
+  std::vector<size_t> found;
+  for (size_t i = 0; i < picture.channels.size(); ++i) {
+    if (lower(picture.channels[i]).find(word) != std::string::npos) found.push_back(i);
+  }
+  return found;
+}
+
 }  // namespace
 
 image::Image depthChannel(const image::Picture& picture, const std::string& name,
@@ -82,12 +91,16 @@ image::Image depthChannel(const image::Picture& picture, const std::string& name
   if (!name.empty()) return pick(picture.image, {named(picture, name, file)});
   if (picture.channels.size() == 1) return picture.image;
   if (const auto z = find(picture, "Z")) return pick(picture.image, {*z});
-  std::vector<size_t> telling;
-  for (size_t i = 0; i < picture.channels.size(); ++i) {
-    if (lower(picture.channels[i]).find("depth") != std::string::npos) telling.push_back(i);
-  }
+  const std::vector<size_t> telling = withWord(picture, "depth");
   if (telling.size() != 1)
     refuse(picture, file, "no single channel is named Z or has \"depth\" in its name");
+  return pick(picture.image, telling);
+}
+
+image::Image thicknessChannel(const image::Picture& picture, const std::string& file) {
+  if (picture.channels.size() == 1) return picture.image;
+  const std::vector<size_t> telling = withWord(picture, "thickness");
+  if (telling.size() != 1) refuse(picture, file, "no single channel has \"thickness\" in its name");
   return pick(picture.image, telling);
 }
 

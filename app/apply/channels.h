@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: MIT
-// Picks the channels of a picture that hold depth, normal or colour.
+// Picks the channels of a picture that hold depth, normal, thickness or colour.
 #pragma once
 
 #include <string>
@@ -19,6 +19,10 @@ image::Image depthChannel(const image::Picture& picture, const std::string& name
 // picture of three or four channels. Throws as depthChannel() does.
 image::Image normalChannels(const image::Picture& picture, const std::string& names,
                             const std::string& file);
+
+// Returns the only channel, else the one with "thickness" in its name. Throws kPictureChannels if
+// no single channel is that one.
+image::Image thicknessChannel(const image::Picture& picture, const std::string& file);
 
 // Returns the first three channels. Throws kPictureChannels if there are fewer.
 image::Image colourChannels(const image::Picture& picture, const std::string& file);

@@ -6,6 +6,7 @@
 #include <optional>
 
 #include "app/apply/picture_checks.h"
+#include "core/scene/view.h"
 
 namespace grisaille::app {
 
@@ -16,6 +17,9 @@ class Facets {
   // The surface that a pixel shows, in view space, metres. Its depth must be above 0.
   glm::dvec3 position(uint32_t x, uint32_t y) const;
 
+  // The direction in which the camera sees that surface, in view space; of any length.
+  glm::dvec3 sight(uint32_t x, uint32_t y) const;
+
   // The facet's unit normal, in view space, towards the camera; none at the picture's border, at
   // edges and where the surface is curved strongly.
   std::optional<glm::dvec3> normal(uint32_t x, uint32_t y) const;
@@ -24,7 +28,7 @@ class Facets {
   double depth(uint32_t x, uint32_t y) const { return double{viewDepth_.at(x, y)}; }
 
   const image::Image& viewDepth_;
-  double scale_;   // size of a pixel at a view depth of 1
+  scene::View view_;
   uint32_t step_;  // distance of the neighbours, pixels
 };
 

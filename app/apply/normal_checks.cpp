@@ -15,7 +15,7 @@ namespace {
 struct Sample {
   glm::dvec3 stored = glm::dvec3(0);  // as in the file, decoded
   glm::dvec3 facet = glm::dvec3(0);   // view space; 0: the depth shows no clear facet
-  glm::dvec3 place = glm::dvec3(0);   // view space
+  glm::dvec3 sight = glm::dvec3(0);   // view space
 };
 
 template <typename... Args>
@@ -52,7 +52,7 @@ std::vector<Sample> samplesOf(const image::Image& normals, const Surfaces& surfa
       samples.push_back(
           {.stored = glm::dvec3(normals.at(x, y, 0), normals.at(x, y, 1), normals.at(x, y, 2)),
            .facet = facets.normal(x, y).value_or(glm::dvec3(0)),
-           .place = facets.position(x, y)});
+           .sight = facets.sight(x, y)});
     }
   }
   return samples;
@@ -199,7 +199,7 @@ void checkDirections(const std::vector<Sample>& samples, const NormalForm& form,
   const glm::dmat3 turn = glm::transpose(scene::worldFromView(camera));
   const Reading given{.view = form.view};
   const double away = shareOf(samples, [&](const Sample& s) {
-    return s.stored != glm::dvec3(0) && glm::dot(given(s.stored, turn), s.place) > 0;
+    return s.stored != glm::dvec3(0) && glm::dot(given(s.stored, turn), s.sight) > 0;
   });
   const Fit own = fitOf(given, samples, turn);
   const bool clear = own.samples >= 100 && own.samples * 20 >= samples.size();

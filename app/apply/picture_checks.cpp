@@ -8,6 +8,7 @@
 
 #include "core/base/error.h"
 #include "core/scene/camera_matrices.h"
+#include "core/scene/view.h"
 
 namespace grisaille::app {
 namespace {
@@ -141,7 +142,28 @@ void checkCamera(const scene::Camera& camera, const image::Picture& depth, const
   const double cosine = (turn[0][0] + turn[1][1] + turn[2][2] - 1) / 2;
   const double turned = glm::degrees(std::acos(std::clamp(cosine, -1.0, 1.0)));
   constexpr double kDegrees = 0.5;
-  if (turned < kDegrees && std::abs(camera.fovyDegrees - own.fovyDegrees) < kDegrees) return;
+  const bool parallel = camera.orthographicHeight > 0;
+  if (parallel != (own.orthographicHeight > 0)) {
+    warnings.once("camera", fmt::format("{}: --camera is {}, but not the camera in the file; leave "
+                                        "out --camera to take that of the file",
+                                        file, parallel ? "orthographic" : "perspective"));
+    return;
+  }
+  const glm::uvec2 size(depth.image.width, depth.image.height);
+  const scene::View given = scene::viewOf(camera, size), stored = scene::viewOf(own, size);
+  // Pixels by which the pictures' corners are shifted against each other.
+  const glm::dvec2 moved = (given.offset - stored.offset) / stored.scale;
+  const glm::dvec2 ended = moved + glm::dvec2(size) * (given.scale - stored.scale) / stored.scale;
+  constexpr double kShare = 0.01;  // of the picture
+  const bool shifted =
+      std::max(glm::length(moved), glm::length(ended)) > kShare * glm::length(glm::dvec2(size));
+  if (turned < kDegrees && std::abs(camera.fovyDegrees - own.fovyDegrees) < kDegrees) {
+    if (!shifted) return;
+    warnings.once("camera", fmt::format("{}: --camera shows another part than the camera in the "
+                                        "file; leave out --camera to take that of the file",
+                                        file));
+    return;
+  }
   warnings.once("camera",
                 fmt::format("{}: --camera is turned by {:.1f} degrees from the camera in the file, "
                             "and its angle of view is {:.1f} instead of {:.1f} degrees; leave out "

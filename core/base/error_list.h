@@ -157,6 +157,8 @@ GRISAILLE_ERROR(kPictureNormal, 5509,
                 "and --normal-channels say how they are stored")
 GRISAILLE_ERROR(kPictureAspect, 5510, "resample the picture to square pixels")
 GRISAILLE_ERROR(kPictureColour, 5511, "repair the picture: base colours are linear, from 0 to 1")
+GRISAILLE_ERROR(kPictureThickness, 5512,
+                "repair the picture: thickness is in metres, 0 for sheets, below 0 where unknown")
 GRISAILLE_ERROR(kSequence, 5507, "number the files with %04d or ####, the same frames in each")
 // --- 56xx: libgrisaille
 GRISAILLE_ERROR(kHostNull, 5601, "pass a pointer that is not null")

@@ -22,6 +22,15 @@ void checkSize(const Pictures& pictures, const image::Image& other, const char* 
               other.width, other.height, depth.width, depth.height);
 }
 
+void checkFinite(const image::Image& picture, ErrorId error, const char* name) {
+  const std::vector<float>& values = picture.pixels;
+  const auto odd = std::ranges::find_if(values, [](float v) { return !std::isfinite(v); });
+  if (odd == values.end()) return;
+  const auto pixel = static_cast<size_t>(odd - values.begin()) / picture.channels;
+  throw Error(error, "the {} at ({}, {}) is not finite", name, pixel % picture.width,
+              pixel / picture.width);
+}
+
 template <typename Texel>
 void upload(gpu::Commands& commands, gpu::Texture texture, const std::vector<Texel>& texels) {
   commands.upload(texture, 0, 0, std::as_bytes(std::span(texels)));
@@ -76,12 +85,9 @@ std::vector<glm::u8vec4> colourTexels(const image::Image& colour, const image::I
 void checkPictures(const Pictures& pictures) {
   checkSize(pictures, pictures.normal, "normal");
   checkSize(pictures, pictures.baseColour, "base colour");
-  const std::vector<float>& normals = pictures.normal.pixels;
-  const auto odd = std::ranges::find_if(normals, [](float n) { return !std::isfinite(n); });
-  if (odd == normals.end()) return;
-  const auto pixel = static_cast<size_t>(odd - normals.begin()) / 3;
-  throw Error(ErrorId::kPictureDepth, "the normal at ({}, {}) is not finite",
-              pixel % pictures.normal.width, pixel / pictures.normal.width);
+  checkSize(pictures, pictures.thickness, "thickness");
+  checkFinite(pictures.normal, ErrorId::kPictureDepth, "normal");
+  checkFinite(pictures.thickness, ErrorId::kPictureThickness, "thickness");
 }
 
 PictureAttachments::~PictureAttachments() {
@@ -127,6 +133,7 @@ void PictureAttachments::record(gpu::Commands& commands, const scene::View& view
   if (targets.baseColour) {
     upload(commands, targets.baseColour, colourTexels(pictures_.baseColour, depth));
   }
+  if (targets.thickness) upload(commands, targets.thickness, pictures_.thickness.pixels);
   if (targets.normal && given) {
     upload(commands, targets.normal, normalTexels(pictures_.normal, depth));
   }

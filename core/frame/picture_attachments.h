@@ -12,9 +12,11 @@ struct Pictures {
   image::Image viewDepth;   // one channel, metres, finite; 0: sky
   image::Image normal;      // three channels, world; if missing: facet normals from depth
   image::Image baseColour;  // three channels, linear
+  image::Image thickness;   // one channel, metres, finite; see GRISAILLE_THICKNESS
 };
 
-// Throws kPictureSize, and kPictureDepth for a normal that is not finite.
+// Throws kPictureSize, kPictureDepth for a normal and kPictureThickness for a thickness that is not
+// finite.
 void checkPictures(const Pictures& pictures);
 
 class PictureAttachments : public AttachmentSource {
@@ -33,6 +35,7 @@ class PictureAttachments : public AttachmentSource {
 
   // Pictures have no pixels beyond their border.
   bool goesBeyond() const override { return false; }
+  bool hasThickness() const override { return !pictures_.thickness.pixels.empty(); }
   // Clamps clip depth to 1, the near plane.
   void record(gpu::Commands& commands, const scene::View& view, gpu::BufferRange viewBlock,
               const AttachmentTargets& targets, std::string_view passes) override;

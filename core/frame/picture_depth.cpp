@@ -14,22 +14,24 @@ namespace {
 constexpr double kSky = 1e9;  // metres
 
 // View depth in metres of a depth buffer's value that is 1 at the near plane.
-double viewDepth(double reversed, double near, double far) {
+double viewDepth(double reversed, const DepthMeaning& meaning, bool orthographic) {
+  const double near = meaning.near, far = meaning.far;
   if (reversed <= 0) return 0;
+  if (orthographic) return far - reversed * (far - near);
   if (std::isinf(far)) return near / reversed;
   return near * far / (near + reversed * (far - near));
 }
 
-double metres(double value, const DepthMeaning& meaning, double ray) {
+double metres(double value, const DepthMeaning& meaning, double ray, bool orthographic) {
   switch (meaning.kind) {
     case DepthKind::kView:
       return value >= std::min(meaning.far, kSky) ? 0 : value;
     case DepthKind::kDistance:
       return value >= std::min(meaning.far, kSky) ? 0 : value / ray;
     case DepthKind::kClipReversed:
-      return viewDepth(value, meaning.near, meaning.far);
+      return viewDepth(value, meaning, orthographic);
     case DepthKind::kClip:
-      return viewDepth(1 - value, meaning.near, meaning.far);
+      return viewDepth(1 - value, meaning, orthographic);
   }
   return 0;
 }
@@ -50,7 +52,7 @@ image::Image viewDepthOf(const image::Image& depth, const DepthMeaning& meaning,
         throw Error(ErrorId::kPictureDepth, "{}: the depth at ({}, {}) is {}", name, x, y, value);
       }
       const glm::dvec3 direction = scene::rayAt(view, glm::dvec2(x, y) + 0.5).direction;
-      pixel = static_cast<float>(metres(value, meaning, glm::length(direction)));
+      pixel = static_cast<float>(metres(value, meaning, glm::length(direction), view.orthographic));
     }
   }
   return result;

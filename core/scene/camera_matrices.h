@@ -12,12 +12,14 @@ namespace grisaille::scene {
 image::ViewMatrices matricesOf(const Camera& camera, uint32_t width, uint32_t height);
 
 // Returns the camera of a picture from matrices of any renderer. Camera space may look either way
-// along z; NDC may start at -1 or 0, with y up or down. The size and near plane of the result keep
-// their defaults.
+// along z; NDC may start at -1 or 0, with y up or down. The projection may be orthographic, and its
+// axis may pass anywhere through the picture. Size, near and far plane of the result keep their
+// defaults.
 // width, height: size of the picture, pixels
 // name: for messages
-// Throws kPictureMatrices if the camera is not a pinhole whose axis passes through the centre of
-// the picture, if the pixels are not square, or if the picture is mirrored.
+// Throws kPictureMatrices if the matrices are no camera's, if the pixels are not square, if the
+// picture is mirrored or sheared, or if the axis is so far from the centre that NDC may start at
+// either -1 or 0.
 Camera cameraOf(const image::ViewMatrices& matrices, uint32_t width, uint32_t height,
                 const std::string& name);
 

@@ -52,6 +52,18 @@ TEST_F(Configure, PartsCanBeLeftOut) {
   EXPECT_EQ(outcome.status, 0) << outcome.out;
 }
 
+// What packages of the library alone need.
+TEST_F(Configure, TheLibraryAloneNeedsFewLibraries) {
+  const std::vector<std::string> others = {"embree",   "glfw3", "GTest",         "CLI11",
+                                           "TinyGLTF", "draco", "meshoptimizer", "TBB"};
+  for (const char* kind : {"ON", "OFF"}) {
+    const Outcome outcome =
+        configure(others, std::string("-DGRISAILLE_PROGRAMS=OFF -DBUILD_SHARED_LIBS=") + kind);
+    EXPECT_EQ(outcome.status, 0) << outcome.out;
+  }
+  EXPECT_NE(configure(others, "-DGRISAILLE_PROGRAMS=ON").status, 0);
+}
+
 TEST_F(Configure, TestsNeedAllParts) {
   const Outcome outcome = configure({}, "-DGRISAILLE_TESTS=ON -DGRISAILLE_VIEWER=OFF");
   EXPECT_NE(outcome.status, 0);

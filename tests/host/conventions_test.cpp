@@ -52,14 +52,7 @@ std::vector<float> depthOf(const Seen& seen, const Way& way, const glm::dmat4& p
                            double nearer) {
   std::vector<float> numbers;
   for (size_t i = 0; i < seen.view.size(); ++i) {
-    double value = seen.view[i];
-    if (way.depth == GRISAILLE_HOST_DEPTH_DISTANCE) value = seen.distance[i];
-    if (way.depth == GRISAILLE_HOST_DEPTH_BUFFER) {
-      const glm::dvec4 p = projection * glm::dvec4(0, 0, nearer - seen.view[i], 1);
-      value = way.clip.fromMinusOne ? (p.z / p.w + 1) / 2 : p.z / p.w;
-      if (seen.view[i] == 0) value = way.clip.reversed ? 0 : 1;
-    }
-    numbers.push_back(static_cast<float>(value));
+    numbers.push_back(depthValue(seen, i, way.depth, way.clip, projection, nearer));
   }
   return turned(numbers, seen, way.rows);
 }
@@ -94,13 +87,10 @@ class Conventions : public ::testing::TestWithParam<TestDevice> {
     host::Effect effect(device_,
                         {.effect = "ssao", .width = kWidth, .height = kHeight, .rows = way.rows});
     effect.set("radius", 0.6);
-    const double* view = &eye.viewFromWorld[0][0];
     if (way.clipYDown) {
       for (int column = 0; column < 4; ++column) projection[column][1] *= -1;
     }
-    const host::Camera camera(view, &projection[0][0],
-                              way.clip.fromMinusOne ? GRISAILLE_HOST_CLIP_MINUS_ONE_TO_ONE
-                                                    : GRISAILLE_HOST_CLIP_ZERO_TO_ONE);
+    const host::Camera camera = cameraOf(eye, projection, way.clip);
     host_->frame([&](void* commands, uint64_t number) {
       effect.record({.number = number,
                      .commandBuffer = commands,

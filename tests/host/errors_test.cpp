@@ -302,7 +302,7 @@ TEST_P(Errors, OfObjects) {
   expectError(grisaille_host_effect_set_objects(one, nullptr, size, 1), 5601, "objects is null");
   for (const uint32_t wrong : {0u, size - 8, size + 8}) {
     expectError(grisaille_host_effect_set_objects(one, shots.data(), wrong, 1), 5611,
-                "objectSize is " + std::to_string(wrong));
+                "object_size is " + std::to_string(wrong));
   }
   shots[2].range = -1;
   expectError(grisaille_host_effect_set_objects(one, shots.data(), size, 3), 3401,

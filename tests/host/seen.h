@@ -8,6 +8,8 @@
 #include <glm/gtc/matrix_transform.hpp>
 #include <vector>
 
+#include "grisaille/host.hpp"
+
 namespace grisaille::tests {
 
 struct Eye {
@@ -52,12 +54,28 @@ inline glm::dmat4 projectionOf(const Eye& eye, double aspect, const Clip& clip) 
   return matrix;
 }
 
+inline host::Camera cameraOf(const Eye& eye, const glm::dmat4& projection, const Clip& clip) {
+  return {
+      &eye.viewFromWorld[0][0], &projection[0][0],
+      clip.fromMinusOne ? GRISAILLE_HOST_CLIP_MINUS_ONE_TO_ONE : GRISAILLE_HOST_CLIP_ZERO_TO_ONE};
+}
+
 // Pictures with rows from the top.
 struct Seen {
   uint32_t width = 0, height = 0;
   std::vector<double> view, distance;  // metres; 0: sky
   std::vector<glm::dvec3> normal;      // world
 };
+
+// What a depth texture holds at pixel i, if `projection` drew it from `nearer` metres nearer.
+inline float depthValue(const Seen& seen, size_t i, grisaille_host_depth kind, const Clip& clip,
+                        const glm::dmat4& projection, double nearer = 0) {
+  if (kind == GRISAILLE_HOST_DEPTH_VIEW) return static_cast<float>(seen.view[i]);
+  if (kind == GRISAILLE_HOST_DEPTH_DISTANCE) return static_cast<float>(seen.distance[i]);
+  if (seen.view[i] == 0) return clip.reversed ? 0 : 1;
+  const glm::dvec4 p = projection * glm::dvec4(0, 0, nearer - seen.view[i], 1);
+  return static_cast<float>(clip.fromMinusOne ? (p.z / p.w + 1) / 2 : p.z / p.w);
+}
 
 // First hit of a ray, and its distance in lengths of the ray; 1e30: no hit. The floor is infinite.
 struct Met {

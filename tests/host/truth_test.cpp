@@ -165,13 +165,7 @@ class Truth : public ::testing::TestWithParam<TestDevice> {
     const Seen& seen = drawn.front;
     const glm::dmat4 projection = projectionOf(eye, double{1} * kWidth / kHeight, way.clip);
     const auto depthOf = [&](const Seen& of, size_t i) {
-      double value = way.depth == GRISAILLE_HOST_DEPTH_VIEW ? of.view[i] : of.distance[i];
-      if (way.depth == GRISAILLE_HOST_DEPTH_BUFFER) {
-        const glm::dvec4 p = projection * glm::dvec4(0, 0, -of.view[i], 1);
-        value = way.clip.fromMinusOne ? (p.z / p.w + 1) / 2 : p.z / p.w;
-        if (of.view[i] == 0) value = way.clip.reversed ? 0 : 1;
-      }
-      return static_cast<float>(value);
+      return depthValue(of, i, way.depth, way.clip, projection);
     };
     std::vector<float> depths, backs, nexts, normals;
     for (size_t i = 0; i < seen.view.size(); ++i) {
@@ -188,9 +182,7 @@ class Truth : public ::testing::TestWithParam<TestDevice> {
     host::Effect effect(device_, {.effect = "ssao", .width = kWidth, .height = kHeight});
     effect.set("radius", kRadius);
     effect.set("backs", "peeled");
-    const host::Camera camera(&eye.viewFromWorld[0][0], &projection[0][0],
-                              way.clip.fromMinusOne ? GRISAILLE_HOST_CLIP_MINUS_ONE_TO_ONE
-                                                    : GRISAILLE_HOST_CLIP_ZERO_TO_ONE);
+    const host::Camera camera = cameraOf(eye, projection, way.clip);
     host_->frame([&](void* commands, uint64_t number) {
       effect.record({.number = number,
                      .commandBuffer = commands,

@@ -20,8 +20,8 @@ namespace fs = std::filesystem;
 
 const fs::path kSource = SOURCE_FOLDER;
 
-// Needs one shell session with files between the commands: tests/build runs it.
-constexpr const char* kTutorial = "write_an_effect.md";
+// Need one shell session with files between the commands: tests/build runs them.
+const std::set<fs::path> kTutorials = {"write_an_effect.md", "embed.md"};
 
 // The lines of all ```sh blocks of a page, without comments.
 std::vector<std::string> commandsOf(const fs::path& page) {
@@ -56,7 +56,7 @@ std::vector<std::string> pagesWithCommands() {
   }
   std::vector<std::string> names;
   for (const fs::path& page : pages) {
-    if (page.filename() == kTutorial || commandsOf(page).empty()) continue;
+    if (kTutorials.contains(page.filename()) || commandsOf(page).empty()) continue;
     names.push_back(fs::relative(page, kSource).string());
   }
   return names;

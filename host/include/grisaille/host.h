@@ -426,14 +426,14 @@ GRISAILLE_EXPORT int grisaille_host_effect_resize(grisaille_host_effect* effect,
  * @param effect the effect
  * @param objects the objects, laid out as grisaille_effect_desc::objects says, oldest first; may be
  *   null if `count` is 0
- * @param objectSize bytes of one object
+ * @param object_size bytes of one object
  * @param count number of objects
  * @retval 3205 The effect takes no objects.
- * @retval 5611 `objectSize` differs from the effect's table.
+ * @retval 5611 `object_size` differs from the effect's table.
  * @retval 3401 The value of a field is wrong.
  */
 GRISAILLE_EXPORT int grisaille_host_effect_set_objects(grisaille_host_effect* effect,
-                                                       const void* objects, uint32_t objectSize,
+                                                       const void* objects, uint32_t object_size,
                                                        uint64_t count);
 
 /**

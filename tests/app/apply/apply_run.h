@@ -22,7 +22,7 @@ class ApplyOnce : public ::testing::Test {
   Outcome grisaille(const std::string& line) {
     std::istringstream words(line);
     std::vector<std::string> arguments;
-    for (std::string word; words >> word;) arguments.push_back(word == "@" ? kCamera : word);
+    for (std::string word; words >> word;) arguments.push_back(word == "@" ? camera_ : word);
     // Pictures hold nothing beyond their border, nor how thick bodies are.
     if (line.starts_with("apply ")) {
       arguments.insert(arguments.end(), {"--set", "ssao.radius=0.5"});
@@ -54,6 +54,7 @@ class ApplyOnce : public ::testing::Test {
   }
 
   TemporaryFolder folder_;
+  std::string camera_ = kCamera;
   std::vector<std::string> environment_;
 };
 

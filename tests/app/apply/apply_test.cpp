@@ -33,6 +33,94 @@ TEST_P(Apply, EqualsTheFrameThatThePicturesAreOf) {
   }
 }
 
+// The kinds of cameras: jittered, one eye of a headset, a corner of a larger picture, orthographic.
+constexpr const char* kKinds[] = {R"("fovy_degrees": 50, "shift": [0.003, -0.002])",
+                                  R"("fovy_degrees": 50, "shift": [-0.12, 0.03])",
+                                  R"("fovy_degrees": 30, "shift": [-0.5, -0.5])",
+                                  R"("orthographic_height": 4, "far": 60)",
+                                  R"("orthographic_height": 4, "far": 60, "shift": [0.2, -0.1])"};
+
+TEST_P(Apply, TakesEveryKindOfCamera) {
+  const std::string backend = " --check --backend " + GetParam().backend;
+  for (const char* kind : kKinds) {
+    SCOPED_TRACE(kind);
+    camera_ = std::string(R"({"eye": [-5, 2.6, 1.6], "target": [2, -0.6, -0.9], "near": 0.05, )") +
+              kind + "}";
+    render(backend);
+    run("apply --depth depth.exr --normal normal.exr --camera @ --write ao=again.exr" + backend);
+    // Planes that differ change the last bits of the depth: single samples may fall on the other
+    // side of an edge, here and below.
+    expectSame("again.exr", "ao.exr", 0.002);
+    // By the matrices in the file, which are floats.
+    run("apply --depth depth.exr --normal normal.exr --write ao=again.exr" + backend);
+    expectSame("again.exr", "ao.exr", 0.004);
+    image::Image open = read("ao.exr");
+    std::ranges::fill(open.pixels, 1.0f);
+    EXPECT_GT(image::shareOver(read("ao.exr"), open, 0.1), 0.05) << "no pixel is occluded";
+  }
+}
+
+// With the thickness of matter, the result is that of `render` with backs=bodies.
+TEST_P(Apply, TakesTheThicknessOfMatter) {
+  const std::string backend = " --check --backend " + GetParam().backend;
+  const std::string bodies = " --set ssao.backs=bodies";
+  run("render --camera @ --size 161x91 --write depth=depth.exr --write normal=normal.exr --write "
+      "thickness=thickness.exr --write ao=assumed.exr" +
+      backend);
+  const Outcome drawn = runProgram(
+      {"render", "--camera", camera_, "--size", "161x91", "--set", "ssao.guard_band=0", "--set",
+       "ssao.backs=bodies", "--write", "ao=ao.exr", "--backend", GetParam().backend},
+      folder_.path(), environment_);
+  ASSERT_EQ(drawn.status, 0) << drawn.err;
+  const std::string pictures = "apply --camera @ --depth depth.exr --normal normal.exr";
+  run(pictures + " --thickness thickness.exr --write ao=again.exr" + bodies + backend);
+  expectSame("again.exr", "ao.exr");
+  EXPECT_GT(image::shareOver(read("ao.exr"), read("assumed.exr"), 2.0 / 255), 0.01);
+  image::Image odd = read("thickness.exr");
+  odd.pixels[5] = std::numeric_limits<float>::quiet_NaN();
+  image::write(odd, folder_ / "odd.exr");
+  expectError(pictures + " --thickness odd.exr --write ao=x.exr", "E5512", "(5, 0) is not finite");
+  expectError(pictures + " --thickness normal.exr --write ao=x.exr", "E5505", "thickness");
+}
+
+// Normals from the depth are those of the facets, and normals in the wrong space are still noticed.
+TEST_F(ApplyOnce, OrthographicPicturesAreChecked) {
+  camera_ =
+      R"({"eye": [-5, 2.6, 1.6], "target": [2, -0.6, -0.9], "near": 0.05, "far": 60, "orthographic_height": 4})";
+  render();
+  const std::string depth = "apply --depth depth.exr ";
+  const Outcome sound = grisaille(depth + "--normal normal.exr --write ao=again.exr");
+  EXPECT_EQ(sound.err.find("warning"), std::string::npos) << sound.err;
+  expectError(depth + "--normal normal.exr --normal-space view --write ao=x.exr", "E5509",
+              "normal");
+  run(depth + "--write ao=facets.exr");
+  // Facets have no smooth shading, and none of leaves' details.
+  EXPECT_LT(image::compare(read("facets.exr"), read("ao.exr")).rmse, 0.12);
+}
+
+TEST_F(ApplyOnce, OrthographicDepthBuffersAreLinear) {
+  camera_ =
+      R"({"eye": [-5, 2.6, 1.6], "target": [2, -0.6, -0.9], "near": 0.5, "far": 60, "orthographic_height": 4})";
+  render();
+  image::Image clip = read("depth.exr"), reversed = clip;
+  for (size_t i = 0; i < clip.pixels.size(); ++i) {
+    const double z{clip.pixels[i]};
+    clip.pixels[i] = static_cast<float>(z > 0 ? (z - 0.5) / 59.5 : 1);
+    reversed.pixels[i] = static_cast<float>(z > 0 ? (60 - z) / 59.5 : 0);
+  }
+  image::write(clip, folder_ / "clip.exr");
+  image::write(reversed, folder_ / "reversed.exr");
+  for (const std::string kind : {"clip", "clip-reversed"}) {
+    const std::string file = kind == "clip" ? "clip.exr" : "reversed.exr";
+    run("apply --camera @ --depth " + file + " --depth-kind " + kind +
+        " --normal normal.exr --write ao=again.exr");
+    expectSame("again.exr", "ao.exr", 0.01);
+  }
+  // Files of image::write() hold no camera; the file of render does.
+  expectError("apply --depth depth.exr --depth-kind clip --near 0.5 --write ao=x.exr", "E5101",
+              "needs a far plane");
+}
+
 // Without --camera: the files store the matrices as floats, so single samples may fall on the other
 // side of an edge.
 TEST_F(ApplyOnce, TakesTheCameraFromTheDepthItself) {

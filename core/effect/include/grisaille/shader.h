@@ -1,7 +1,7 @@
 /* SPDX-License-Identifier: MIT */
 /**
  * @file
- * One compiled shader stage, as the CMake function `grisaille_add_shaders` writes it.
+ * One compiled shader stage, as the CMake function `grisaille_add_shader` writes it.
  *
  * A grisaille_shader holds the SPIR-V that Vulkan takes, the GLSL 4.50 that OpenGL takes, and the
  * shader's interface. All of it is static constant data of the plugin, and nobody frees it.
