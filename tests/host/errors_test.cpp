@@ -92,8 +92,8 @@ TEST_P(Errors, OfDevices) {
   opengl.frames_in_flight = 17;
   expectError(grisaille_host_device_opengl(&opengl, &made), 5611, "frames_in_flight is 17");
   opengl.frames_in_flight = 0;
-  opengl.reserved = 7;
-  expectError(grisaille_host_device_opengl(&opengl, &made), 5611, "reserved is 7");
+  opengl.flags = 7;
+  expectError(grisaille_host_device_opengl(&opengl, &made), 5611, "opengl.flags has the bits 0x6");
   opengl.struct_size = 3;
   expectError(grisaille_host_device_opengl(&opengl, &made), 5602, "struct_size is 3");
 
@@ -106,8 +106,8 @@ TEST_P(Errors, OfDevices) {
   expectError(grisaille_host_device_vulkan(&vulkan, &made), 5601, "vulkan.instance is null");
   vulkan.instance = vulkan.physical_device = &vulkan;
   expectError(grisaille_host_device_vulkan(&vulkan, &made), 5601, "vulkan.device is null");
-  vulkan.reserved = 1;
-  expectError(grisaille_host_device_vulkan(&vulkan, &made), 5611, "reserved is 1");
+  vulkan.flags = 8;
+  expectError(grisaille_host_device_vulkan(&vulkan, &made), 5611, "vulkan.flags has the bits 0x8");
 
   expectError(grisaille_host_device_destroy(device_.handle()), 5608, "1 textures and 0 effects");
   EXPECT_EQ(grisaille_host_device_destroy(nullptr), 0);
@@ -212,8 +212,25 @@ TEST_P(Errors, OfEffects) {
   outputs[0] = nullptr;
   expectRefused(desc, 5601, "an entry of desc.outputs");
   desc = effectDesc();
-  desc.reserved = 1;
-  expectRefused(desc, 5611, "desc.reserved");
+  desc.layers = 17;
+  expectRefused(desc, 5611, "desc.layers is 17");
+  desc = effectDesc();
+  desc.kept_sizes = 257;
+  expectRefused(desc, 5611, "desc.kept_sizes is 257");
+  desc = effectDesc();
+  desc.setting_count = 1;
+  expectRefused(desc, 5601, "desc.settings is null");
+  grisaille_host_setting setting = {.key = "radus", .text = "1"};
+  desc.settings = &setting;
+  expectRefused(desc, 3301, "radius");
+  setting = {.key = "radius", .text = "far"};
+  expectRefused(desc, 3303, "far");
+  setting = {.key = "radius", .text = "-1"};
+  expectRefused(desc, 3302, "radius");
+  setting = {.key = nullptr, .text = "1"};
+  expectRefused(desc, 5601, "the key of a setting");
+  setting = {.key = "radius", .text = nullptr};
+  expectRefused(desc, 5601, "the text of a setting");
   EXPECT_EQ(grisaille_host_effect_destroy(nullptr), 0);
 }
 

@@ -29,7 +29,7 @@ class OpenGlHost : public Host {
   }
 
   host::Device device(const char* effectFolder) override {
-    return host::Device::opengl(effectFolder);
+    return host::Device::opengl({.effectFolder = effectFolder});
   }
 
   host::Texture texture(const host::Device& device, Texels texels, uint32_t width, uint32_t height,
