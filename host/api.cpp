@@ -143,6 +143,7 @@ int grisaille_host_device_vulkan(const grisaille_host_vulkan* vulkan, grisaille_
     checkHandle(given.instance, "vulkan.instance");
     checkHandle(given.physical_device, "vulkan.physical_device");
     checkHandle(given.device, "vulkan.device");
+    std::unique_ptr<grisaille::vulkan::MemorySource> memory = memorySource(given.allocator);
     const grisaille::vulkan::HostHandles handles = {
         .instance = given.instance,
         .physicalDevice = given.physical_device,
@@ -152,12 +153,13 @@ int grisaille_host_device_vulkan(const grisaille_host_vulkan* vulkan, grisaille_
         .getInstanceProcAddr = given.get_instance_proc_addr,
         .pipelineCache = given.pipeline_cache,
         .callbacks = given.allocation_callbacks,
-        .memory = memorySource(given.allocator)};
+        .memory = memory.get()};
     return new grisaille_host_device(grisaille::vulkan::createHostDevice(handles),
                                      {.effectFolder = given.effect_folder,
                                       .framesInFlight = given.frames_in_flight,
                                       .flags = given.flags,
-                                      .log = log});
+                                      .log = log,
+                                      .memory = std::move(memory)});
   });
 }
 

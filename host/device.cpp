@@ -74,9 +74,10 @@ std::unique_ptr<grisaille::gpu::HostDevice> checkedIf(
 }  // namespace
 
 grisaille_host_device::grisaille_host_device(std::unique_ptr<grisaille::gpu::HostDevice> made,
-                                             const Spec& spec)
+                                             Spec spec)
     : log(spec.log),
       framesInFlight(spec.framesInFlight),
+      memory(std::move(spec.memory)),
       gpu(checkedIf((spec.flags & GRISAILLE_HOST_CHECK) != 0, std::move(made), log)),
       kernels(*gpu),
       pipelines(*gpu, log) {

@@ -152,6 +152,7 @@ grisaille_host_effect::grisaille_host_effect(grisaille_host_device& of,
     : device(of),
       layers(host::layersOf(desc)),
       rows_(desc.rows),
+      label_(fmt::format("grisaille: {}", &host::present(desc.effect, "desc.effect"))),
       pool_(of.pipelines, *of.gpu, host::keptSizesOf(desc)),
       commands_(pool_),
       attachments_(pool_, of.kernels) {
@@ -357,7 +358,7 @@ void grisaille_host_effect::record(const grisaille_host_frame& frame) {
     attachments_.prepare(reads, textures);
     if (recording.copies) prepareCopies();
     commands_.wrap(device.gpu->begin(frame.command_buffer, frame.number,
-                                     std::span(read).first(count), values().effect().key()));
+                                     std::span(read).first(count), label_));
     begun = true;
     report_ = {};
     for (uint32_t i = 0; i < layers; ++i) {

@@ -88,6 +88,7 @@ struct grisaille_host_effect {
   void release(std::vector<grisaille::gpu::ComputePipeline>& pipelines);
 
   const uint32_t rows_;
+  const std::string label_;  // of its recordings, for debuggers
   grisaille::host::Pool pool_;
   grisaille::host::PooledCommands commands_;
   // One per layer; each holds only this effect, with the same values and objects.

@@ -48,13 +48,13 @@ class Functions final : public vulkan::MemorySource {
 
 }  // namespace
 
-std::shared_ptr<vulkan::MemorySource> memorySource(const grisaille_host_allocator* allocator) {
+std::unique_ptr<vulkan::MemorySource> memorySource(const grisaille_host_allocator* allocator) {
   if (allocator == nullptr) return nullptr;
   const grisaille_host_allocator given = whole(allocator, "allocator");
   checkReserved(given.reserved, "allocator.reserved");
   if (given.allocate == nullptr) throw Error(ErrorId::kHostNull, "allocator.allocate is null");
   if (given.free == nullptr) throw Error(ErrorId::kHostNull, "allocator.free is null");
-  return std::make_shared<Functions>(given);
+  return std::make_unique<Functions>(given);
 }
 
 }  // namespace grisaille::host

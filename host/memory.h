@@ -10,6 +10,6 @@
 namespace grisaille::host {
 
 // Null without functions. Throws kHostNull, kHostStruct, kHostValue.
-std::shared_ptr<vulkan::MemorySource> memorySource(const grisaille_host_allocator* allocator);
+std::unique_ptr<vulkan::MemorySource> memorySource(const grisaille_host_allocator* allocator);
 
 }  // namespace grisaille::host

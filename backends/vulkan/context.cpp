@@ -62,7 +62,7 @@ void Context::open(const Candidate& chosen) {
   vk.vkGetDeviceQueue(device, queueFamily, 0, &queue);
 }
 
-void Context::describe(const Candidate& chosen, std::shared_ptr<MemorySource> source) {
+void Context::describe(const Candidate& chosen, MemorySource* source) {
   VkPhysicalDeviceMaintenance4Properties maintenance4{
       VK_STRUCTURE_TYPE_PHYSICAL_DEVICE_MAINTENANCE_4_PROPERTIES};
   VkPhysicalDeviceMaintenance3Properties maintenance3{
@@ -103,7 +103,7 @@ void Context::describe(const Candidate& chosen, std::shared_ptr<MemorySource> so
                           .maxAllocations = limits.maxMemoryAllocationCount,
                           .name = info.name};
   vkGetPhysicalDeviceMemoryProperties(physical, &of.memory);
-  memory.open(std::move(of), std::move(source));
+  memory.open(std::move(of), source);
 }
 
 void Context::setName(VkObjectType type, uint64_t object, std::string_view label) const {

@@ -50,7 +50,7 @@ class Context {
   // A public constructor delegates to this one, so that the destructor runs when it throws.
   Context(bool check, const gpu::MessageSink& message, backends::Window* window);
   void open(const Candidate& chosen);
-  void describe(const Candidate& chosen, std::shared_ptr<MemorySource> source = {});
+  void describe(const Candidate& chosen, MemorySource* source = nullptr);
   void setName(VkObjectType type, uint64_t object, std::string_view label) const;
 
   bool foreign_ = false;  // the device is another program's

@@ -160,8 +160,9 @@ void VulkanHostDevice::forget(gpu::Texture texture) {
 
 gpu::NativeTexture VulkanHostDevice::native(gpu::Texture texture) {
   const gpu::TextureView whole = resources_.resolve(gpu::TextureView{.texture = texture});
-  const VkImageView view = resources_.viewOf(whole, VK_IMAGE_VIEW_TYPE_2D);
   const TextureObject& object = resources_.get(texture);
+  const VkImageView view = resources_.viewOf(
+      whole, object.desc.layers > 1 ? VK_IMAGE_VIEW_TYPE_2D_ARRAY : VK_IMAGE_VIEW_TYPE_2D);
   return {.name = reinterpret_cast<uint64_t>(object.image),
           .view = reinterpret_cast<uint64_t>(view),
           .format = static_cast<uint32_t>(object.format),

@@ -26,14 +26,14 @@ VkMemoryPropertyFlags preferredOf(MemoryKind kind) {
 
 }  // namespace
 
-void Allocator::open(Device device, std::shared_ptr<MemorySource> source) {
+void Allocator::open(Device device, MemorySource* source) {
   device_ = std::move(device);
-  source_ = std::move(source);
+  source_ = source;
 }
 
 Memory Allocator::allocate(const Needing& needing, MemoryKind kind) {
   const Memory made = {
-      .where = source_ ? ofSource(needing, kind) : ofDriver(needing.requirements, kind),
+      .where = source_ != nullptr ? ofSource(needing, kind) : ofDriver(needing.requirements, kind),
       .size = needing.requirements.size,
       .kind = kind};
   (kind == MemoryKind::kDevice ? use_.deviceBytes : use_.hostBytes) += made.size;
@@ -43,7 +43,7 @@ Memory Allocator::allocate(const Needing& needing, MemoryKind kind) {
 
 void Allocator::free(const Memory& memory) {
   if (memory.where.memory == 0) return;
-  if (source_) {
+  if (source_ != nullptr) {
     source_->free(memory.where);
   } else {
     device_.vk->vkFreeMemory(device_.device, reinterpret_cast<VkDeviceMemory>(memory.where.memory),

@@ -47,8 +47,8 @@ class Allocator {
     std::string name;             // for messages
   };
 
-  // `source`: allocates instead of the driver; null: none.
-  void open(Device device, std::shared_ptr<MemorySource> source);
+  // `source`: allocates instead of the driver, and must outlive this; null: none.
+  void open(Device device, MemorySource* source);
 
   // Mapped unless `kind` is kDevice. Throws kOutOfDeviceMemory, kTooManyResources, kDeviceFailed,
   // and kHostValue if another program's function returns memory that does not fit.
@@ -63,7 +63,7 @@ class Allocator {
   ForeignMemory ofSource(const Needing& needing, MemoryKind kind);
 
   Device device_;
-  std::shared_ptr<MemorySource> source_;
+  MemorySource* source_ = nullptr;
   gpu::MemoryUse use_;
 };
 

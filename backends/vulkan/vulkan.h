@@ -53,7 +53,7 @@ struct HostHandles {
   void (*getInstanceProcAddr)() = nullptr;
   uint64_t pipelineCache = 0;       // a VkPipelineCache of the program; 0: none
   const void* callbacks = nullptr;  // VkAllocationCallbacks, which the device copies; null: none
-  std::shared_ptr<MemorySource> memory = {};  // null: the driver allocates
+  MemorySource* memory = nullptr;   // must outlive the device; null: the driver allocates
 };
 
 // Throws kHostDevice, kBackendMissing, kDeviceTooOld, kDeviceFailed.

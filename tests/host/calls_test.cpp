@@ -199,7 +199,8 @@ class Calls : public ::testing::TestWithParam<TestDevice> {
   const char* work() const { return isVulkan() ? "vkCmdDispatch" : "glDispatchCompute"; }
 
   host::Device device(Host& host, uint32_t framesInFlight, grisaille_host_state state) const {
-    if (!isVulkan()) return host::Device::opengl({.state = state, .framesInFlight = framesInFlight});
+    if (!isVulkan())
+      return host::Device::opengl({.state = state, .framesInFlight = framesInFlight});
     host::VulkanSpec spec = vulkanSpec(host);
     spec.framesInFlight = framesInFlight;
     spec.getInstanceProcAddr = reinterpret_cast<void (*)()>(&instanceProc);

@@ -79,9 +79,9 @@ struct VulkanSpec {
   uint32_t framesInFlight = 2;     ///< 1 to 16: see grisaille_host_vulkan::frames_in_flight
   /// PFN_vkGetInstanceProcAddr of your loader; null: the library loads libvulkan.so.1
   void (*getInstanceProcAddr)() = nullptr;
-  const char* effectFolder = nullptr;  ///< additional folder of trusted effects; or null
-  uint64_t pipelineCache = 0;          ///< VkPipelineCache of yours; 0: none
-  uint32_t flags = 0;                  ///< grisaille_host_flags combined, or 0
+  const char* effectFolder = nullptr;       ///< additional folder of trusted effects; or null
+  uint64_t pipelineCache = 0;               ///< VkPipelineCache of yours; 0: none
+  uint32_t flags = 0;                       ///< grisaille_host_flags combined, or 0
   const grisaille_host_log* log = nullptr;  ///< takes messages: see logOf(); null: none
   /// allocates memory; null: the driver does
   const grisaille_host_allocator* allocator = nullptr;
@@ -93,8 +93,8 @@ struct OpenGlSpec {
   const char* effectFolder = nullptr;  ///< additional folder of trusted effects; or null
   /// who restores the context's state
   grisaille_host_state state = GRISAILLE_HOST_STATE_RESTORED;
-  uint32_t framesInFlight = 0;  ///< see grisaille_host_opengl::frames_in_flight
-  uint32_t flags = 0;           ///< grisaille_host_flags combined, or 0
+  uint32_t framesInFlight = 0;              ///< see grisaille_host_opengl::frames_in_flight
+  uint32_t flags = 0;                       ///< grisaille_host_flags combined, or 0
   const grisaille_host_log* log = nullptr;  ///< takes messages: see logOf(); null: none
 };
 
@@ -103,10 +103,8 @@ struct OpenGlSpec {
 /// @param context passed to `write`; it must outlive the device
 /// @return the description
 inline grisaille_host_log logOf(decltype(grisaille_host_log::write) write, void* context) {
-  return {.struct_size = sizeof(grisaille_host_log),
-          .reserved = 0,
-          .context = context,
-          .write = write};
+  return {
+      .struct_size = sizeof(grisaille_host_log), .reserved = 0, .context = context, .write = write};
 }
 
 /// Owns a device. Destroy it after its textures and effects.
@@ -202,11 +200,11 @@ class Device {
 
 /// Describes one of your textures: see grisaille_host_texture_desc.
 struct TextureSpec {
-  uint64_t image = 0;   ///< Vulkan: number() of a VkImage; OpenGL: name of the texture
-  uint32_t format = 0;  ///< Vulkan: VkFormat; OpenGL: 0
-  uint32_t layout = 0;  ///< Vulkan: VkImageLayout before and after each recording; OpenGL: 0
-  uint32_t width = 0;   ///< pixels; OpenGL: 0 means the texture's width
-  uint32_t height = 0;  ///< pixels; OpenGL: 0 means the texture's height
+  uint64_t image = 0;       ///< Vulkan: number() of a VkImage; OpenGL: name of the texture
+  uint32_t format = 0;      ///< Vulkan: VkFormat; OpenGL: 0
+  uint32_t layout = 0;      ///< Vulkan: VkImageLayout before and after each recording; OpenGL: 0
+  uint32_t width = 0;       ///< pixels; OpenGL: 0 means the texture's width
+  uint32_t height = 0;      ///< pixels; OpenGL: 0 means the texture's height
   uint32_t firstLayer = 0;  ///< of an array: the first layer to read
   uint32_t layers = 1;      ///< number of layers from firstLayer on
 };
@@ -268,7 +266,7 @@ struct Frame {
   void* commandBuffer = nullptr;  ///< see grisaille_host_frame::command_buffer
   /// The camera that drew the frame; the first of as many as the effect has layers.
   const Camera& camera;
-  const Texture& depth;  ///< one channel, or a depth buffer
+  const Texture& depth;                                          ///< one channel, or a depth buffer
   grisaille_host_depth depthKind = GRISAILLE_HOST_DEPTH_BUFFER;  ///< meaning of `depth`
   const Texture* normal = nullptr;  ///< see normalEncoding; null: facet normals, from depth
   grisaille_host_normals normalSpace = GRISAILLE_HOST_NORMALS_WORLD;  ///< space of `normal`
