@@ -77,9 +77,10 @@ TEST_P(Manual, MessagesChecksAndMemory) {
                        grisaille_host_memory* out) -> int {
           return static_cast<Heap*>(context)->allocate(*request, *out);  // a VkResult
         },
-        .free = [](void* context, const grisaille_host_memory* memory) {
-          static_cast<Heap*>(context)->free(*memory);
-        }};
+        .free =
+            [](void* context, const grisaille_host_memory* memory) {
+              static_cast<Heap*>(context)->free(*memory);
+            }};
     spec.allocator = &functions;
     const gr::Device device = gr::Device::vulkan(spec);
     // manual: end
@@ -118,7 +119,10 @@ TEST_P(Manual, PartsAndLayersOfTextures) {
     // manual: begin
     gr::Effect ssao(device, {.effect = "ssao", .width = width, .height = height, .keptSizes = 7});
     // Each frame: the textures keep their size, and the picture fills their corner.
-    ssao.record({.number = frame, .commandBuffer = commands, .camera = camera, .depth = depth,
+    ssao.record({.number = frame,
+                 .commandBuffer = commands,
+                 .camera = camera,
+                 .depth = depth,
                  .rectangle = {0, 0, drawnWidth, drawnHeight}});
     // manual: end
   });
@@ -148,8 +152,13 @@ TEST(ManualPage, ShowsThisCode) {
                     code = readFile(folder / "tests/host/manual_test.cpp");
   const size_t first = page.find("## Messages and checks");
   ASSERT_NE(first, std::string::npos);
-  const std::string fence = "```", open = fence + "cpp\n", begin = "// manual: " "begin\n",
-                    end = "// manual: " "end\n";
+  const std::string fence = "```", open = fence + "cpp\n",
+                    begin =
+                        "// manual: "
+                        "begin\n",
+                    end =
+                        "// manual: "
+                        "end\n";
   const auto pieces = [](const std::string& text, size_t from, const std::string& before,
                          const std::string& after) {
     std::vector<std::string> found;
