@@ -3,6 +3,7 @@
 
 #include <algorithm>
 #include <array>
+#include <exception>
 #include <limits>
 #include <utility>
 
@@ -13,139 +14,6 @@ using grisaille::Error;
 using grisaille::ErrorId;
 namespace gpu = grisaille::gpu;
 namespace host = grisaille::host;
-
-namespace grisaille::host {
-namespace {
-
-constexpr uint32_t kLargestSide = 16384;  // pixels
-
-void checkSize(const grisaille_host_device& device, uint32_t width, uint32_t height) {
-  const uint32_t most = std::min(kLargestSide, device.gpu->info().capabilities.maxTextureSize);
-  if (width >= 1 && width <= most && height >= 1 && height <= most) return;
-  throw Error(ErrorId::kTextureSize, "{} x {} pixels are out of 1 to {}", width, height, most);
-}
-
-// What a texture must have.
-enum class Channels : uint8_t { kDepth, kAny, kTwo, kThree };
-
-bool has(const gpu::ForeignInfo& info, Channels channels) {
-  switch (channels) {
-    case Channels::kDepth:
-      return info.channels == 1;
-    case Channels::kAny:
-      return true;
-    case Channels::kTwo:
-      return info.channels >= 2;
-    case Channels::kThree:
-      return info.channels >= 3;
-  }
-  return false;
-}
-
-gpu::Texture checked(const grisaille_host_texture* texture, const grisaille_host_effect& effect,
-                     Channels channels, const char* name) {
-  if (texture == nullptr) return {};
-  if (&texture->device != &effect.device) {
-    throw Error(ErrorId::kHostForeign, "{} and the effect belong to different devices", name);
-  }
-  const gpu::ForeignInfo& info = texture->info;
-  if (info.width != effect.width || info.height != effect.height) {
-    throw Error(ErrorId::kHostTexture, "{} has {} x {} pixels, but the effect has {} x {}", name,
-                info.width, info.height, effect.width, effect.height);
-  }
-  if (info.layers < effect.layers) {
-    throw Error(ErrorId::kHostTexture, "{} has {} layers, but the effect has {}", name, info.layers,
-                effect.layers);
-  }
-  if (!has(info, channels)) {
-    constexpr const char* kTakes[] = {"1 channel, or a depth format", "any", "2 channels or more",
-                                      "3 channels or more"};
-    throw Error(ErrorId::kHostTexture, "{} has {} channels ({}), but takes {}", name, info.channels,
-                info.format, kTakes[static_cast<size_t>(channels)]);
-  }
-  return texture->texture;
-}
-
-// Two for octahedral normals.
-Channels ofNormals(uint32_t encoding) {
-  return encoding >= GRISAILLE_HOST_OCTAHEDRAL_SIGNED ? Channels::kTwo : Channels::kThree;
-}
-
-uint32_t indexOf(const effect::Effect& effect, std::string_view key) {
-  const auto outputs = effect.outputs();
-  for (uint32_t i = 0; i < outputs.size(); ++i) {
-    if (key == outputs[i].key) return i;
-  }
-  std::string all;
-  for (const grisaille_output_desc& output : outputs) {
-    all += (all.empty() ? "" : ", ") + std::string(output.key);
-  }
-  throw Error(ErrorId::kOutputUnknown, "effect {} has no output '{}'; it has {}", effect.key(),
-              oneLine(key), all);
-}
-
-effect::Chain chainOf(const grisaille_host_device& device, const grisaille_host_effect_desc& desc) {
-  const std::string keys[] = {&present(desc.effect, "desc.effect")};
-  return effect::Chain(effect::Selection(device.registry, keys));
-}
-
-// The number of layers of an effect.
-uint32_t layersOf(const grisaille_host_effect_desc& desc) {
-  constexpr uint32_t kMost = 16;
-  if (desc.layers > kMost) {
-    throw Error(ErrorId::kHostValue, "desc.layers is {}, over {}", desc.layers, kMost);
-  }
-  return std::max(desc.layers, 1u);
-}
-
-uint32_t keptSizesOf(const grisaille_host_effect_desc& desc) {
-  constexpr uint32_t kMost = 256;
-  if (desc.kept_sizes <= kMost) return desc.kept_sizes;
-  throw Error(ErrorId::kHostValue, "desc.kept_sizes is {}, over {}", desc.kept_sizes, kMost);
-}
-
-}  // namespace
-
-Wanted::Wanted(const grisaille_host_device& device, const grisaille_host_effect_desc& desc)
-    : chain(chainOf(device, desc)), layers(layersOf(desc)) {
-  effect::Values& values = chain.selection.entries()[0].values;
-  checkEnum(desc.rows, 2, "desc.rows");
-  copies = layers > 1 || desc.rows != GRISAILLE_HOST_ROWS_FROM_TOP;
-  if (desc.output_count > 0) present(desc.outputs, "desc.outputs");
-  for (uint32_t i = 0; i < desc.output_count; ++i) {
-    outputs |=
-        1u << indexOf(values.effect(), &present(desc.outputs[i], "an entry of desc.outputs"));
-  }
-  if (desc.output_count == 0) outputs = 1;
-  if (desc.setting_count > 0) present(desc.settings, "desc.settings");
-  for (uint32_t i = 0; i < desc.setting_count; ++i) {
-    const grisaille_host_setting& one = desc.settings[i];
-    values.set(&present(one.key, "the key of a setting"),
-               std::string_view(&present(one.text, "the text of a setting")));
-  }
-}
-
-gpu::MemoryUse memoryNeeded(const grisaille_host_device& device,
-                            const grisaille_host_effect_desc& desc,
-                            const grisaille_host_prepare& how) {
-  device.gpu->requireUsable();
-  checkPrepare(how);
-  const Wanted wanted(device, desc);
-  checkSize(device, desc.width, desc.height);
-  gpu::MemoryUse use = neededOf(*device.gpu, wanted.chain.selection.entries()[0].values, {},
-                                {.width = desc.width,
-                                 .height = desc.height,
-                                 .wanted = wanted.outputs,
-                                 .inputs = how.inputs,
-                                 .orthographic = how.orthographic != 0,
-                                 .copies = wanted.copies,
-                                 .layers = wanted.layers})
-                           .memory;
-  use.hostBytes *= device.framesInFlight;
-  return use;
-}
-
-}  // namespace grisaille::host
 
 grisaille_host_effect::grisaille_host_effect(grisaille_host_device& of,
                                              const grisaille_host_effect_desc& desc)
@@ -167,7 +35,7 @@ grisaille_host_effect::grisaille_host_effect(grisaille_host_device& of,
     chain.start(pool_);
     chain.create();
   }
-  if (copies({.x = 0, .y = 0, .width = desc.width, .height = desc.height})) prepareCopies();
+  if (rows_ != GRISAILLE_HOST_ROWS_FROM_TOP || layers > 1) prepareCopies();
   resize(desc.width, desc.height);
   ++device.effects;
 }
@@ -247,66 +115,6 @@ void grisaille_host_effect::setObjects(const grisaille::objects::View& objects) 
   objectTable();
   for (grisaille::effect::Chain& chain : chains_) {
     chain.objects(values().effect().key())->assign(objects);
-  }
-}
-
-host::Textures grisaille_host_effect::texturesOf(const grisaille_host_frame& frame,
-                                                 uint32_t reads) const {
-  struct Given {
-    grisaille_attachment attachment;
-    const grisaille_host_texture* texture;
-    host::Channels channels;
-    const char* name;
-    const char* needed = nullptr;  // what an effect that reads it cannot do without
-  };
-  const Given all[] = {
-      {GRISAILLE_DEPTH, &host::present(frame.depth, "frame.depth"), host::Channels::kDepth,
-       "frame.depth"},
-      {GRISAILLE_NORMAL, frame.normal, host::ofNormals(frame.normal_encoding), "frame.normal"},
-      {GRISAILLE_BACK_DEPTH, frame.back_depth, host::Channels::kDepth, "frame.back_depth"},
-      {GRISAILLE_NEXT_DEPTH, frame.next_depth, host::Channels::kDepth, "frame.next_depth"},
-      {GRISAILLE_THICKNESS, frame.thickness, host::Channels::kDepth, "frame.thickness"},
-      {GRISAILLE_BASE_COLOUR, frame.base_colour, host::Channels::kThree, "frame.base_colour",
-       "base colours"},
-      {GRISAILLE_COLOUR, frame.colour, host::Channels::kThree, "frame.colour", "the lit colour"},
-      {GRISAILLE_MOTION, frame.motion, host::Channels::kTwo, "frame.motion"}};
-  const grisaille_effect_desc& effect = *values().effect().desc;
-  host::Textures textures;
-  for (const Given& one : all) {
-    const gpu::Texture texture = host::checked(one.texture, *this, one.channels, one.name);
-    const bool read = (reads & GRISAILLE_READS(one.attachment)) != 0;
-    if (read && !texture && one.needed != nullptr) {
-      throw Error(ErrorId::kHostMissing, "{} reads {}, but {} is null", effect.key, one.needed,
-                  one.name);
-    }
-    if (read && !texture && (effect.needs & GRISAILLE_READS(one.attachment)) != 0) {
-      throw Error(ErrorId::kHostMissing, "{} needs {}, which is null", effect.key, one.name);
-    }
-    if (read || one.attachment == GRISAILLE_DEPTH) textures.attachments[one.attachment] = texture;
-  }
-  findNamed(frame, textures);
-  return textures;
-}
-
-void grisaille_host_effect::findNamed(const grisaille_host_frame& frame,
-                                      host::Textures& textures) const {
-  if (frame.input_count > 0) host::present(frame.inputs, "frame.inputs");
-  const std::span given(frame.inputs, frame.input_count);
-  for (const grisaille_host_input& input : given) {
-    host::present(input.key, "the key of an input");
-    host::present(input.texture, "the texture of an input");
-  }
-  for (const grisaille_input_desc& input : values().effect().inputs()) {
-    const std::string_view key = input.key;
-    const auto found = std::ranges::find_if(
-        given, [&](const grisaille_host_input& one) { return key == one.key; });
-    gpu::Texture& texture = textures.named[textures.namedCount++];
-    if (found != given.end()) {
-      texture = host::checked(found->texture, *this, host::Channels::kAny, input.key);
-    } else if ((input.flags & GRISAILLE_INPUT_REQUIRED) != 0) {
-      throw Error(ErrorId::kHostMissing, "{} needs the input {}, which frame.inputs lacks",
-                  values().effect().key(), key);
-    }
   }
 }
 
@@ -427,7 +235,12 @@ void grisaille_host_effect::prepare(const grisaille_host_prepare& how) {
 // the attachments, are created anew, and the pictures keep their identity.
 void grisaille_host_effect::dropped() {
   device.gpu->requireUsable();
-  end();
+  std::exception_ptr failed;
+  try {
+    end();
+  } catch (...) {
+    failed = std::current_exception();
+  }
   for (grisaille::effect::Chain& chain : chains_) {
     chain.start(pool_);
     chain.create();
@@ -437,6 +250,7 @@ void grisaille_host_effect::dropped() {
   attachments_.drop();
   pool_.clear();
   for (const gpu::Texture picture : shown_) device.gpu->forget(picture);
+  if (failed) std::rethrow_exception(failed);
 }
 
 void grisaille_host_effect::drawAt(std::span<const grisaille_point> points,

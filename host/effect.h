@@ -2,34 +2,15 @@
 // The object behind grisaille_host_effect.
 #pragma once
 
-#include <optional>
 #include <span>
+#include <string>
 #include <string_view>
 #include <vector>
 
 #include "core/effect/chain.h"
 #include "host/device.h"
 #include "host/pool.h"
-
-namespace grisaille::host {
-
-// An effect as a host describes it, before it exists. Throws the errors of
-// grisaille_host_effect_create().
-struct Wanted {
-  Wanted(const grisaille_host_device& device, const grisaille_host_effect_desc& desc);
-
-  effect::Chain chain;   // holds only this effect, with its values
-  uint32_t outputs = 0;  // by bit
-  uint32_t layers = 1;
-  bool copies = false;  // each output is a copy of what the effect writes
-};
-
-// The memory that the effect will take. Throws the errors of grisaille_host_memory_needed().
-gpu::MemoryUse memoryNeeded(const grisaille_host_device& device,
-                            const grisaille_host_effect_desc& desc,
-                            const grisaille_host_prepare& how);
-
-}  // namespace grisaille::host
+#include "host/wanted.h"
 
 struct grisaille_host_effect {
   // Throws the errors of grisaille_host_effect_create().

@@ -445,6 +445,37 @@ TEST_P(Errors, OfStructsFromOtherVersions) {
   });
 }
 
+// Descriptions as they were before their last fields.
+TEST_P(Errors, OfEarlierDescriptions) {
+  grisaille_host_effect_desc desc = effectDesc();
+  desc.struct_size = offsetof(grisaille_host_effect_desc, settings);
+  desc.setting_count = 7;  // not read
+  desc.kept_sizes = 1000;
+  grisaille_host_effect* effect = nullptr;
+  EXPECT_EQ(grisaille_host_effect_create(device_.handle(), &desc, &effect), 0)
+      << grisaille_host_last_error();
+  auto output = sized<grisaille_host_output>();
+  output.struct_size = offsetof(grisaille_host_output, layers);
+  output.layers = 77;
+  EXPECT_EQ(grisaille_host_effect_output(effect, "ao", &output), 0);
+  EXPECT_EQ(output.layers, 77u) << "not written";
+  EXPECT_EQ(output.width, kSide);
+  EXPECT_EQ(grisaille_host_effect_destroy(effect), 0);
+  const host::TextureSpec sound = host_->described();
+  auto texture = sized<grisaille_host_texture_desc>();
+  texture.struct_size = offsetof(grisaille_host_texture_desc, layers);
+  texture.image = sound.image;
+  texture.format = sound.format;
+  texture.layout = sound.layout;
+  texture.width = sound.width;
+  texture.height = sound.height;
+  texture.layers = 1000;  // not read
+  grisaille_host_texture* made = nullptr;
+  EXPECT_EQ(grisaille_host_texture_wrap(device_.handle(), &texture, &made), 0)
+      << grisaille_host_last_error();
+  EXPECT_EQ(grisaille_host_texture_destroy(made), 0);
+}
+
 TEST_P(Errors, OfCameras) {
   host::Effect effect(device_, {.effect = "ssao", .width = kSide, .height = kSide});
   const grisaille_host_camera sound = camera_;

@@ -9,6 +9,7 @@
 #include "core/image/image.h"
 #include "tests/host/hosts.h"
 #include "tests/host/seen.h"
+#include "tests/host/vulkan_host.h"
 
 namespace grisaille::tests {
 namespace {
@@ -407,6 +408,39 @@ TEST_P(Pictures, DepthBuffersOfAllFormatsComeToTheSame) {
     std::printf("%s: %s: rmse %.5f\n", GetParam().backend.c_str(), one.name, difference.rmse);
     EXPECT_EQ(difference.nonFinite, 0u);
     EXPECT_LT(difference.rmse, one.rmse) << one.name;
+  }
+}
+
+// Textures stay in the layout that the renderer leaves them in.
+TEST_P(Pictures, TexturesAreReadInTheirLayouts) {
+  if (GetParam().backend != "vulkan") GTEST_SKIP() << "OpenGL has no layouts";
+  const Eye eye = eyeOf();
+  const Clip clip = {.near = 1, .far = 12};
+  const host::Camera camera = cameraOf(eye, kWidth, kHeight, clip);
+  Numbers buffer;
+  for (const float metres : depthOf(eye, kWidth, kHeight)) {
+    buffer.push_back(metres > 0 ? (12 - 12 / metres) / 11 : 1.0f);
+  }
+  const auto shade = [&](Texels texels, uint32_t layout) {
+    useLayout(*host_, layout);
+    const auto depth = host_->texture(device_, texels, kWidth, kHeight, buffer);
+    host::Effect effect(device_, {.effect = "ssao", .width = kWidth, .height = kHeight});
+    for (int frame = 0; frame < 2; ++frame) {
+      host_->frame([&](void* commands, uint64_t number) {
+        effect.record(
+            {.number = number, .commandBuffer = commands, .camera = camera, .depth = depth});
+      });
+    }
+    return host_->read(effect.output("ao"));
+  };
+  constexpr uint32_t kGeneral = 1, kReadOnly = 1000314000, kAttachment = 1000314001;
+  for (const Texels texels : {Texels::kDepth32, Texels::kDepth32Stencil}) {
+    const Numbers expected = shade(texels, kGeneral);
+    EXPECT_LT(*std::ranges::min_element(expected), 0.9f) << "no pixel is occluded";
+    // Of depth attachments, written and read-only; for shaders; and the general names of both.
+    for (const uint32_t layout : {3u, 4u, 5u, kReadOnly, kAttachment}) {
+      EXPECT_EQ(shade(texels, layout), expected) << layout;
+    }
   }
 }
 

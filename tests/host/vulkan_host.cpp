@@ -12,8 +12,6 @@
 namespace grisaille::tests {
 namespace {
 
-constexpr VkImageLayout kLayout = VK_IMAGE_LAYOUT_GENERAL;
-
 struct Kind {
   VkFormat format;
   uint32_t channels;  // numbers of a texel
@@ -142,6 +140,8 @@ class VulkanHost : public Host {
   std::vector<float> read(const grisaille_host_output& output, uint32_t layer) override;
   int complaints() const override { return context_.complaints; }
 
+  VkImageLayout home = VK_IMAGE_LAYOUT_GENERAL;  // layout of new textures
+
  private:
   void begin() {
     VkCommandBufferBeginInfo info{};
@@ -191,12 +191,12 @@ host::Texture VulkanHost::texture(const host::Device& device, Texels texels, uin
     region.imageExtent = {width, height, 1};
     vkCmdCopyBufferToImage(commands_, buffer.buffer, image.image,
                            VK_IMAGE_LAYOUT_TRANSFER_DST_OPTIMAL, 1, &region);
-    turn(VK_IMAGE_LAYOUT_TRANSFER_DST_OPTIMAL, kLayout);
+    turn(VK_IMAGE_LAYOUT_TRANSFER_DST_OPTIMAL, home);
   });
   context_.destroy(buffer);
   described_ = {.image = host::number(image.image),
                 .format = static_cast<uint32_t>(kind.format),
-                .layout = kLayout,
+                .layout = static_cast<uint32_t>(home),
                 .width = width,
                 .height = height,
                 .layers = count};
@@ -245,6 +245,10 @@ std::unique_ptr<Host> makeVulkanHost(bool validate) {
 
 host::VulkanSpec vulkanSpec(const Host& host) {
   return dynamic_cast<const VulkanHost&>(host).spec();
+}
+
+void useLayout(Host& host, uint32_t layout) {
+  dynamic_cast<VulkanHost&>(host).home = static_cast<VkImageLayout>(layout);
 }
 
 }  // namespace grisaille::tests

@@ -842,6 +842,7 @@ GRISAILLE_EXPORT int grisaille_host_effect_memory(const grisaille_host_effect* e
  * the call is allowed, but never needed.
  * @param effect the effect
  * @retval 3202 The effect fails; the error line quotes its message.
+ * @retval 3203 The effect fails while it ends; the call has done its work nevertheless.
  * @retval 1007 No device memory is left.
  * @retval 5604 The device's context is not current.
  */
