@@ -4,12 +4,15 @@
 #include <array>
 #include <cstring>
 #include <new>
+#include <type_traits>
+#include <utility>
 
 #include "backends/opengl/opengl.h"
 #include "backends/vulkan/vulkan.h"
 #include "core/objects/object_file.h"
 #include "host/checks.h"
 #include "host/effect.h"
+#include "host/memory.h"
 
 namespace grisaille::host {
 namespace {
@@ -24,7 +27,7 @@ int note(ErrorId id, std::string_view line) noexcept {
 }
 
 template <typename Work>
-int guarded(Work&& work) noexcept {
+int caught(Work&& work) noexcept {
   try {
     try {
       work();
@@ -41,22 +44,76 @@ int guarded(Work&& work) noexcept {
   }
 }
 
-// Sets `out` to null before the work, so that it stays null after an error.
-template <typename Made, typename Make>
-int making(Made** out, Make&& make) noexcept {
-  return guarded([&] {
+// Tells the log of a failed call.
+template <typename Work>
+int guarded(const Log& log, Work&& work) noexcept {
+  const int result = caught(std::forward<Work>(work));
+  if (result != 0) log.write(GRISAILLE_HOST_ERROR, lastError.data());
+  return result;
+}
+
+// `of`: the device, texture or effect of the call; may be null.
+template <typename Object, typename Work>
+int guarded(const Object* of, Work&& work) noexcept {
+  if (of == nullptr) return caught(std::forward<Work>(work));
+  if constexpr (std::is_same_v<Object, grisaille_host_device>) {
+    return guarded(of->log, std::forward<Work>(work));
+  } else {
+    return guarded(of->device.log, std::forward<Work>(work));
+  }
+}
+
+// Sets `out` to null before the work, so that it stays null after an error. `of`: a log, or as in
+// guarded().
+template <typename Of, typename Made, typename Make>
+int making(const Of& of, Made** out, Make&& make) noexcept {
+  return guarded(of, [&] {
     present(out, "out") = nullptr;
     *out = make();
   });
 }
 
+// Ends the effect first: its errors go to the log, and it is destroyed nevertheless.
+void endQuietly(grisaille_host_effect& effect) {
+  guarded(&effect, [&] { effect.end(); });
+}
+void endQuietly(grisaille_host_texture&) {}
+
 template <typename Made>
 int ending(Made* made) noexcept {
-  return guarded([&] {
+  return guarded(made, [&] {
     if (made == nullptr) return;
     made->device.gpu->requireUsable();
+    endQuietly(*made);
     delete made;
   });
+}
+
+// The log of a device that is about to be created; none if its description is wrong, which the
+// creation then reports.
+template <typename Desc>
+Log logOf(const Desc* given) {
+  Log log;
+  caught([&] {
+    const Desc desc = whole(given, "desc");
+    if (desc.log != nullptr) log = Log(whole(desc.log, "log"));
+  });
+  return log;
+}
+
+void fill(const gpu::MemoryUse& use, grisaille_host_memory_use* out) {
+  grisaille_host_memory_use to = whole(out, "out");
+  to.device_bytes = use.deviceBytes;
+  to.host_bytes = use.hostBytes;
+  to.allocations = use.allocations;
+  std::memcpy(out, &to, std::min<size_t>(to.struct_size, sizeof(to)));
+}
+
+void checkLog(const grisaille_host_log* log) {
+  if (log == nullptr) return;
+  const grisaille_host_log given = whole(log, "log");
+  checkReserved(given.reserved, "log.reserved");
+  if (given.write == nullptr) throw Error(ErrorId::kHostNull, "log.write is null");
 }
 
 }  // namespace
@@ -74,9 +131,11 @@ const char* grisaille_host_last_error(void) {
 }
 
 int grisaille_host_device_vulkan(const grisaille_host_vulkan* vulkan, grisaille_host_device** out) {
-  return making(out, [&] {
+  const Log log = logOf(vulkan);
+  return making(log, out, [&] {
     const grisaille_host_vulkan given = whole(vulkan, "vulkan");
-    checkReserved(given.reserved, "vulkan.reserved");
+    checkFlags(given.flags, "vulkan.flags");
+    checkLog(given.log);
     if (given.frames_in_flight < 1 || given.frames_in_flight > 16) {
       throw Error(ErrorId::kHostValue, "vulkan.frames_in_flight is {}, out of 1 to 16",
                   given.frames_in_flight);
@@ -84,6 +143,7 @@ int grisaille_host_device_vulkan(const grisaille_host_vulkan* vulkan, grisaille_
     checkHandle(given.instance, "vulkan.instance");
     checkHandle(given.physical_device, "vulkan.physical_device");
     checkHandle(given.device, "vulkan.device");
+    std::unique_ptr<grisaille::vulkan::MemorySource> memory = memorySource(given.allocator);
     const grisaille::vulkan::HostHandles handles = {
         .instance = given.instance,
         .physicalDevice = given.physical_device,
@@ -91,16 +151,24 @@ int grisaille_host_device_vulkan(const grisaille_host_vulkan* vulkan, grisaille_
         .queueFamily = given.queue_family,
         .framesInFlight = given.frames_in_flight,
         .getInstanceProcAddr = given.get_instance_proc_addr,
-        .pipelineCache = given.pipeline_cache};
+        .pipelineCache = given.pipeline_cache,
+        .callbacks = given.allocation_callbacks,
+        .memory = memory.get()};
     return new grisaille_host_device(grisaille::vulkan::createHostDevice(handles),
-                                     given.effect_folder);
+                                     {.effectFolder = given.effect_folder,
+                                      .framesInFlight = given.frames_in_flight,
+                                      .flags = given.flags,
+                                      .log = log,
+                                      .memory = std::move(memory)});
   });
 }
 
 int grisaille_host_device_opengl(const grisaille_host_opengl* opengl, grisaille_host_device** out) {
-  return making(out, [&] {
+  const Log log = logOf(opengl);
+  return making(log, out, [&] {
     const grisaille_host_opengl given = whole(opengl, "opengl");
-    checkReserved(given.reserved, "opengl.reserved");
+    checkFlags(given.flags, "opengl.flags");
+    checkLog(given.log);
     checkEnum(given.state, 2, "opengl.state");
     if (given.frames_in_flight > 16) {
       throw Error(ErrorId::kHostValue, "opengl.frames_in_flight is {}, out of 0 to 16",
@@ -111,12 +179,15 @@ int grisaille_host_device_opengl(const grisaille_host_opengl* opengl, grisaille_
         .framesInFlight = given.frames_in_flight > 0 ? given.frames_in_flight : kUsualFrames,
         .keepsState = given.state == GRISAILLE_HOST_STATE_KEPT};
     return new grisaille_host_device(grisaille::opengl::createHostDevice(spec),
-                                     given.effect_folder);
+                                     {.effectFolder = given.effect_folder,
+                                      .framesInFlight = spec.framesInFlight,
+                                      .flags = given.flags,
+                                      .log = log});
   });
 }
 
 int grisaille_host_device_destroy(grisaille_host_device* device) {
-  return guarded([&] {
+  return guarded(device, [&] {
     if (device == nullptr) return;
     if (device->textures + device->effects > 0) {
       throw Error(ErrorId::kHostInUse, "{} textures and {} effects still exist", device->textures,
@@ -129,7 +200,7 @@ int grisaille_host_device_destroy(grisaille_host_device* device) {
 
 int grisaille_host_effects(const grisaille_host_device* device,
                            const grisaille_effect_desc* const** effects, uint32_t* count) {
-  return guarded([&] {
+  return guarded(device, [&] {
     const grisaille_host_device& of = present(device, "device");
     const grisaille_effect_desc* const*& list = present(effects, "effects");
     present(count, "count") = static_cast<uint32_t>(of.tables.size());
@@ -140,7 +211,7 @@ int grisaille_host_effects(const grisaille_host_device* device,
 int grisaille_host_texture_wrap(grisaille_host_device* device,
                                 const grisaille_host_texture_desc* desc,
                                 grisaille_host_texture** out) {
-  return making(out, [&] {
+  return making(device, out, [&] {
     return new grisaille_host_texture(present(device, "device"), whole(desc, "desc"));
   });
 }
@@ -152,7 +223,7 @@ int grisaille_host_texture_destroy(grisaille_host_texture* texture) {
 int grisaille_host_effect_create(grisaille_host_device* device,
                                  const grisaille_host_effect_desc* desc,
                                  grisaille_host_effect** out) {
-  return making(out, [&] {
+  return making(device, out, [&] {
     return new grisaille_host_effect(present(device, "device"), whole(desc, "desc"));
   });
 }
@@ -162,20 +233,18 @@ int grisaille_host_effect_destroy(grisaille_host_effect* effect) {
 }
 
 int grisaille_host_effect_set(grisaille_host_effect* effect, const char* key, double value) {
-  return guarded([&] { present(effect, "effect").values().set(&present(key, "key"), value); });
+  return guarded(effect, [&] { present(effect, "effect").set(&present(key, "key"), value); });
 }
 
 int grisaille_host_effect_set_text(grisaille_host_effect* effect, const char* key,
                                    const char* text) {
-  return guarded([&] {
-    present(effect, "effect")
-        .values()
-        .set(&present(key, "key"), std::string_view(&present(text, "text")));
+  return guarded(effect, [&] {
+    present(effect, "effect").set(&present(key, "key"), std::string_view(&present(text, "text")));
   });
 }
 
 int grisaille_host_effect_get(const grisaille_host_effect* effect, const char* key, double* value) {
-  return guarded([&] {
+  return guarded(effect, [&] {
     double& to = present(value, "value");
     to = present(effect, "effect").values().get(&present(key, "key"));
   });
@@ -183,28 +252,28 @@ int grisaille_host_effect_get(const grisaille_host_effect* effect, const char* k
 
 int grisaille_host_effect_set_objects(grisaille_host_effect* effect, const void* objects,
                                       uint32_t object_size, uint64_t count) {
-  return guarded([&] {
-    objects::ObjectList& list = present(effect, "effect").objects();
-    if (object_size != list.table().object_size) {
+  return guarded(effect, [&] {
+    const objects::Table& table = present(effect, "effect").objectTable();
+    if (object_size != table.object_size) {
       throw Error(ErrorId::kHostValue, "object_size is {}, but the effect's table has {}",
-                  object_size, list.table().object_size);
+                  object_size, table.object_size);
     }
     const auto* bytes = static_cast<const std::byte*>(objects);
     if (count > 0) present(bytes, "objects");
-    list.assign({&list.table(), bytes, static_cast<size_t>(count)});
+    effect->setObjects({&table, bytes, static_cast<size_t>(count)});
   });
 }
 
 int grisaille_host_effect_load_objects(grisaille_host_effect* effect, const char* path) {
-  return guarded([&] {
-    objects::ObjectList& list = present(effect, "effect").objects();
-    list.assign(objects::load(list.table(), &present(path, "path")).view());
+  return guarded(effect, [&] {
+    const objects::Table& table = present(effect, "effect").objectTable();
+    effect->setObjects(objects::load(table, &present(path, "path")).view());
   });
 }
 
 int grisaille_host_device_set_pictures(grisaille_host_device* device,
                                        const grisaille_host_pictures* pictures) {
-  return guarded([&] {
+  return guarded(device, [&] {
     grisaille_host_device& one = present(device, "device");
     if (pictures == nullptr) return one.pictures.set({});
     const grisaille_host_pictures given = whole(pictures, "pictures");
@@ -214,7 +283,7 @@ int grisaille_host_device_set_pictures(grisaille_host_device* device,
 }
 
 int grisaille_host_device_set_rays(grisaille_host_device* device, const grisaille_host_rays* rays) {
-  return guarded([&] {
+  return guarded(device, [&] {
     grisaille_host_device& one = present(device, "device");
     if (rays == nullptr) return one.rays.set({});
     const grisaille_host_rays given = whole(rays, "rays");
@@ -225,7 +294,7 @@ int grisaille_host_device_set_rays(grisaille_host_device* device, const grisaill
 
 int grisaille_host_device_set_depths(grisaille_host_device* device,
                                      const grisaille_host_depths* depths) {
-  return guarded([&] {
+  return guarded(device, [&] {
     grisaille_host_device& one = present(device, "device");
     if (depths == nullptr) return one.depths.set({});
     const grisaille_host_depths given = whole(depths, "depths");
@@ -235,7 +304,7 @@ int grisaille_host_device_set_depths(grisaille_host_device* device,
 }
 
 int grisaille_host_effect_resize(grisaille_host_effect* effect, uint32_t width, uint32_t height) {
-  return guarded([&] {
+  return guarded(effect, [&] {
     grisaille_host_effect& one = present(effect, "effect");
     one.device.gpu->requireUsable();
     one.resize(width, height);
@@ -243,12 +312,12 @@ int grisaille_host_effect_resize(grisaille_host_effect* effect, uint32_t width, 
 }
 
 int grisaille_host_effect_record(grisaille_host_effect* effect, const grisaille_host_frame* frame) {
-  return guarded([&] { present(effect, "effect").record(whole(frame, "frame")); });
+  return guarded(effect, [&] { present(effect, "effect").record(whole(frame, "frame")); });
 }
 
 int grisaille_host_effect_prepare(grisaille_host_effect* effect,
                                   const grisaille_host_prepare* how) {
-  return guarded([&] {
+  return guarded(effect, [&] {
     grisaille_host_prepare with = {};
     if (how != nullptr) with = whole(how, "how");
     present(effect, "effect").prepare(with);
@@ -256,11 +325,35 @@ int grisaille_host_effect_prepare(grisaille_host_effect* effect,
 }
 
 int grisaille_host_effect_dropped(grisaille_host_effect* effect) {
-  return guarded([&] { present(effect, "effect").dropped(); });
+  return guarded(effect, [&] { present(effect, "effect").dropped(); });
+}
+
+int grisaille_host_memory_needed(grisaille_host_device* device,
+                                 const grisaille_host_effect_desc* desc,
+                                 const grisaille_host_prepare* how,
+                                 grisaille_host_memory_use* out) {
+  return guarded(device, [&] {
+    const grisaille_host_device& of = present(device, "device");
+    const grisaille_host_effect_desc wanted = whole(desc, "desc");
+    grisaille_host_prepare with = {};
+    if (how != nullptr) with = whole(how, "how");
+    whole(out, "out");
+    fill(memoryNeeded(of, wanted, with), out);
+  });
+}
+
+int grisaille_host_device_memory(const grisaille_host_device* device,
+                                 grisaille_host_memory_use* out) {
+  return guarded(device, [&] { fill(present(device, "device").gpu->memory(), out); });
+}
+
+int grisaille_host_effect_memory(const grisaille_host_effect* effect,
+                                 grisaille_host_memory_use* out) {
+  return guarded(effect, [&] { fill(present(effect, "effect").memory(), out); });
 }
 
 int grisaille_host_effect_report(const grisaille_host_effect* effect, grisaille_host_report* out) {
-  return guarded([&] {
+  return guarded(effect, [&] {
     const effect::Report& report = present(effect, "effect").report();
     grisaille_host_report to = whole(out, "out");
     to.waiting = report.waiting;
@@ -271,7 +364,7 @@ int grisaille_host_effect_report(const grisaille_host_effect* effect, grisaille_
 
 int grisaille_host_effect_draw_at(grisaille_host_effect* effect, const grisaille_point* points,
                                   uint64_t count, grisaille_drawn* drawn) {
-  return guarded([&] {
+  return guarded(effect, [&] {
     grisaille_host_effect& one = present(effect, "effect");
     if (count == 0) return;
     const auto size = static_cast<size_t>(count);
@@ -281,7 +374,7 @@ int grisaille_host_effect_draw_at(grisaille_host_effect* effect, const grisaille
 
 int grisaille_host_effect_output(const grisaille_host_effect* effect, const char* key,
                                  grisaille_host_output* out) {
-  return guarded([&] {
+  return guarded(effect, [&] {
     const grisaille_host_effect& one = present(effect, "effect");
     grisaille_host_output to = whole(out, "out");
     uint32_t format = 0;
@@ -293,6 +386,7 @@ int grisaille_host_effect_output(const grisaille_host_effect* effect, const char
     to.height = one.height;
     to.image = texture.name;
     to.view = texture.view;
+    to.layers = one.layers;
     std::memcpy(out, &to, std::min<size_t>(to.struct_size, sizeof(to)));
   });
 }

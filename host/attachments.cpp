@@ -70,7 +70,9 @@ uint32_t groups(uint32_t pixels) {
 
 Kernels::~Kernels() {
   for (const gpu::ComputePipeline pipeline : kernels_) device_.destroy(pipeline);
-  for (const gpu::ComputePipeline pipeline : turns_) device_.destroy(pipeline);
+  for (const auto& ways : turns_) {
+    for (const gpu::ComputePipeline pipeline : ways) device_.destroy(pipeline);
+  }
   device_.destroy(nearest_);
 }
 
@@ -83,12 +85,13 @@ gpu::ComputePipeline Kernels::get(Kernel kernel) {
   return pipeline;
 }
 
-gpu::ComputePipeline Kernels::turn(gpu::Format format) {
-  gpu::ComputePipeline& pipeline = turns_[static_cast<size_t>(format)];
+gpu::ComputePipeline Kernels::turn(gpu::Format format, Way way) {
+  gpu::ComputePipeline& pipeline = turns_[static_cast<size_t>(format)][way];
   if (!pipeline) {
     const auto row = std::ranges::find(kTurns, format, &Turn::format);
+    const gpu::Specialization out = {.id = 0, .bits = way == kOut ? 1u : 0u};
     pipeline = device_.createComputePipeline(
-        {.label = "host turn", .shader = row->shader, .constants = {}});
+        {.label = "host turn", .shader = row->shader, .constants = {&out, 1}});
   }
   return pipeline;
 }
@@ -104,6 +107,7 @@ void Attachments::drop() {
 }
 
 void Attachments::resize(uint32_t width, uint32_t height) {
+  if (width == width_ && height == height_) return;
   drop();
   width_ = width;
   height_ = height;
@@ -123,10 +127,10 @@ void Attachments::prepare(Kernels& kernels, uint32_t reads, uint32_t given, bool
     kernels.get(Kernels::kFacetNormal);
   }
   for (const Copied& one : kCopied) {
-    if (has(reads & given, one.attachment)) kernels.turn(kFormats[one.attachment]);
+    if (has(reads & given, one.attachment)) kernels.turn(kFormats[one.attachment], Kernels::kIn);
   }
   if (has(reads & given, GRISAILLE_MOTION)) kernels.get(Kernels::kMotion);
-  if (named) kernels.turn(kNamedFormat);
+  if (named) kernels.turn(kNamedFormat, Kernels::kIn);
 }
 
 void Attachments::fit(gpu::Texture& target, bool wanted, const char* label, gpu::Format format) {
@@ -161,14 +165,19 @@ void Attachments::prepare(uint32_t reads, const Textures& textures) {
 
 void Attachments::dispatch(gpu::Commands& commands, std::string_view label,
                            gpu::ComputePipeline pipeline, gpu::BufferRange source,
-                           std::array<gpu::Texture, 2> from, gpu::Texture to,
-                           gpu::BufferRange second) {
+                           std::array<Layer, 2> from, Layer to, gpu::BufferRange second) {
+  const auto viewOf = [](const Layer& one) {
+    return gpu::TextureView{
+        .texture = one.texture, .mip = 0, .mipCount = 1, .layer = one.layer, .layerCount = 1};
+  };
+  gpu::Binding image = gpu::imageBinding(0, to.texture);
+  image.view = viewOf(to);
   std::array<gpu::Binding, 5> bindings = {
-      gpu::uniformBinding(0, source), gpu::imageBinding(0, to),
-      gpu::textureBinding(0, {.texture = from[0]}, kernels_.nearest())};
+      gpu::uniformBinding(0, source), image,
+      gpu::textureBinding(0, viewOf(from[0]), kernels_.nearest())};
   size_t count = 3;
-  if (from[1]) {
-    bindings[count++] = gpu::textureBinding(1, {.texture = from[1]}, kernels_.nearest());
+  if (from[1].texture) {
+    bindings[count++] = gpu::textureBinding(1, viewOf(from[1]), kernels_.nearest());
   }
   if (second.buffer) bindings[count++] = gpu::uniformBinding(1, second);
   commands.beginPass(label);
@@ -179,62 +188,71 @@ void Attachments::dispatch(gpu::Commands& commands, std::string_view label,
 }
 
 void Attachments::record(gpu::Commands& commands, const SourceBlock& source,
-                         const MotionBlock& motion, const Textures& textures) {
-  const auto& given = textures.attachments;
+                         const MotionBlock& motion, const Textures& textures, uint32_t layer) {
+  const auto given = [&](grisaille_attachment one) {
+    return Layer{.texture = textures.attachments[one], .layer = layer};
+  };
   const gpu::BufferRange block = commands.uniform(std::as_bytes(std::span(&source, 1)));
-  const gpu::Texture depth = targets_[GRISAILLE_VIEW_DEPTH];
+  const Layer depth = {.texture = targets_[GRISAILLE_VIEW_DEPTH]};
   dispatch(commands, "host/depth", kernels_.get(Kernels::kDepth), block,
-           {given[GRISAILLE_DEPTH], {}}, depth);
+           {given(GRISAILLE_DEPTH), {}}, depth);
   if (const gpu::Texture back = targets_[GRISAILLE_BACK_DEPTH]) {
     SourceBlock behind = source;
-    const gpu::Texture from = given[GRISAILLE_BACK_DEPTH];
-    if (!from) behind.mode.x = kNothing;
+    Layer from = given(GRISAILLE_BACK_DEPTH);
+    if (!from.texture) {
+      behind.mode.x = kNothing;
+      from = given(GRISAILLE_DEPTH);
+    }
     dispatch(commands, "host/back depth", kernels_.get(Kernels::kDepth),
-             commands.uniform(std::as_bytes(std::span(&behind, 1))),
-             {from ? from : given[GRISAILLE_DEPTH], {}}, back);
+             commands.uniform(std::as_bytes(std::span(&behind, 1))), {from, {}}, {back});
   }
   if (const gpu::Texture next = targets_[GRISAILLE_NEXT_DEPTH]) {
     dispatch(commands, "host/next depth", kernels_.get(Kernels::kDepth), block,
-             {given[GRISAILLE_NEXT_DEPTH], {}}, next);
+             {given(GRISAILLE_NEXT_DEPTH), {}}, {next});
   }
   if (const gpu::Texture clip = targets_[GRISAILLE_DEPTH]) {
     dispatch(commands, "host/clip depth", kernels_.get(Kernels::kClipDepth), block, {depth, {}},
-             clip);
+             {clip});
   }
-  recordNormals(commands, block, given[GRISAILLE_NORMAL]);
+  recordNormals(commands, block, given(GRISAILLE_NORMAL));
   if (const gpu::Texture to = targets_[GRISAILLE_MOTION]) {
     dispatch(commands, "host/motion", kernels_.get(Kernels::kMotion), block,
-             {given[GRISAILLE_MOTION], depth}, to,
+             {given(GRISAILLE_MOTION), depth}, {to},
              commands.uniform(std::as_bytes(std::span(&motion, 1))));
   }
   for (const Copied& one : kCopied) {
     const gpu::Texture to = targets_[one.attachment];
-    if (to) copy(commands, block, given[one.attachment], to, kFormats[one.attachment], one.pass);
+    if (!to) continue;
+    dispatch(commands, one.pass, kernels_.turn(kFormats[one.attachment], Kernels::kIn), block,
+             {given(one.attachment), {}}, {to});
   }
   for (size_t i = 0; i < namedCount_; ++i) {
-    if (named_[i]) copy(commands, block, textures.named[i], named_[i], kNamedFormat, "host/input");
+    if (!named_[i]) continue;
+    dispatch(commands, "host/input", kernels_.turn(kNamedFormat, Kernels::kIn), block,
+             {Layer{.texture = textures.named[i], .layer = layer}, {}}, {named_[i]});
   }
 }
 
-// `normals`: the host's; null: facet normals stand for them.
-void Attachments::recordNormals(gpu::Commands& commands, gpu::BufferRange source,
-                                gpu::Texture normals) {
-  const gpu::Texture depth = targets_[GRISAILLE_VIEW_DEPTH];
+// `normals`: the host's; no texture: facet normals stand for them.
+void Attachments::recordNormals(gpu::Commands& commands, gpu::BufferRange source, Layer normals) {
+  const Layer depth = {.texture = targets_[GRISAILLE_VIEW_DEPTH]};
   const gpu::Texture normal = targets_[GRISAILLE_NORMAL], facet = targets_[GRISAILLE_FACET_NORMAL];
-  if (normal && normals) {
+  const bool given = bool{normals.texture};
+  if (normal && given) {
     dispatch(commands, "host/normal", kernels_.get(Kernels::kNormal), source, {normals, depth},
-             normal);
+             {normal});
   }
-  for (const gpu::Texture target : {facet, normals ? gpu::Texture{} : normal}) {
+  for (const gpu::Texture target : {facet, given ? gpu::Texture{} : normal}) {
     if (!target) continue;
     dispatch(commands, "host/facet normal", kernels_.get(Kernels::kFacetNormal), source,
-             {depth, {}}, target);
+             {depth, {}}, {target});
   }
 }
 
-void Attachments::copy(gpu::Commands& commands, gpu::BufferRange source, gpu::Texture from,
-                       gpu::Texture to, gpu::Format format, std::string_view label) {
-  dispatch(commands, label, kernels_.turn(format), source, {from, {}}, to);
+void Attachments::copyOut(gpu::Commands& commands, gpu::BufferRange source, gpu::Texture from,
+                          gpu::Texture to, uint32_t layer, gpu::Format format) {
+  dispatch(commands, "host/turn", kernels_.turn(format, Kernels::kOut), source,
+           {Layer{.texture = from}, {}}, {.texture = to, .layer = layer});
 }
 
 }  // namespace grisaille::host

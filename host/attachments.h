@@ -7,7 +7,7 @@
 #include <span>
 #include <string_view>
 
-#include "core/gpu/host_device.h"
+#include "core/gpu/device.h"
 #include "grisaille/effect.h"
 #include "host/camera.h"
 
@@ -26,32 +26,35 @@ struct Textures {
 // The pipelines that convert them, one set per device; each is created on first use.
 class Kernels {
  public:
-  explicit Kernels(gpu::HostDevice& device) : device_(device) {}
+  explicit Kernels(gpu::Maker& device) : device_(device) {}
   ~Kernels();
   Kernels(const Kernels&) = delete;
   Kernels& operator=(const Kernels&) = delete;
 
   enum Kernel : uint8_t { kDepth, kClipDepth, kNormal, kFacetNormal, kMotion, kKernels };
   gpu::ComputePipeline get(Kernel kernel);
-  // `format`: of the texture that the pipeline writes.
-  gpu::ComputePipeline turn(gpu::Format format);
+  // Copies a texture of the host's to one of the library, or the other way. `format`: of the
+  // texture that the pipeline writes.
+  enum Way : uint8_t { kIn, kOut, kWays };
+  gpu::ComputePipeline turn(gpu::Format format, Way way);
   gpu::Sampler nearest();
 
  private:
-  gpu::HostDevice& device_;
+  gpu::Maker& device_;
   std::array<gpu::ComputePipeline, kKernels> kernels_;
-  std::array<gpu::ComputePipeline, 16> turns_;  // by format
+  std::array<std::array<gpu::ComputePipeline, kWays>, 16> turns_;  // by format
   gpu::Sampler nearest_;
 };
 
 class Attachments {
  public:
-  Attachments(gpu::HostDevice& device, Kernels& kernels) : device_(device), kernels_(kernels) {}
+  // Both must outlive this.
+  Attachments(gpu::Maker& device, Kernels& kernels) : device_(device), kernels_(kernels) {}
   ~Attachments() { drop(); }
   Attachments(const Attachments&) = delete;
   Attachments& operator=(const Attachments&) = delete;
 
-  // Sets the size and destroys the attachments of the old size.
+  // Sets the size. If it changes, destroys the attachments of the old size.
   void resize(uint32_t width, uint32_t height);
 
   // The format of an attachment.
@@ -65,14 +68,17 @@ class Attachments {
   // others. Throws kOutOfDeviceMemory.
   void prepare(uint32_t reads, const Textures& textures);
 
-  // Fills the prepared attachments. Call it outside a pass.
+  // Fills the prepared attachments from this layer of the textures. Call it outside a pass.
   void record(gpu::Commands& commands, const SourceBlock& source, const MotionBlock& motion,
-              const Textures& textures);
+              const Textures& textures, uint32_t layer);
 
-  // Copies a picture, and flips its rows if `source` says that the host's rows begin at the bottom.
-  // `format` is the format of `to`. Call it outside a pass.
-  void copy(gpu::Commands& commands, gpu::BufferRange source, gpu::Texture from, gpu::Texture to,
-            gpu::Format format, std::string_view label);
+  // Copies a picture to the place that `source` describes in a layer of a texture for the host.
+  // `format`: of both. Call it outside a pass.
+  void copyOut(gpu::Commands& commands, gpu::BufferRange source, gpu::Texture from, gpu::Texture to,
+               uint32_t layer, gpu::Format format);
+
+  // Destroys the attachments, so that recordings begin with new ones.
+  void drop();
 
   // Null for an attachment that was not prepared.
   gpu::Texture get(grisaille_attachment attachment) const { return targets_[attachment]; }
@@ -80,14 +86,18 @@ class Attachments {
   std::span<const gpu::Texture> named() const { return std::span(named_).first(namedCount_); }
 
  private:
-  void drop();
+  // A layer of a texture; no texture: none.
+  struct Layer {
+    gpu::Texture texture = {};
+    uint32_t layer = 0;
+  };
   void fit(gpu::Texture& target, bool wanted, const char* label, gpu::Format format);
   void dispatch(gpu::Commands& commands, std::string_view label, gpu::ComputePipeline pipeline,
-                gpu::BufferRange source, std::array<gpu::Texture, 2> from, gpu::Texture to,
+                gpu::BufferRange source, std::array<Layer, 2> from, Layer to,
                 gpu::BufferRange second = {});
-  void recordNormals(gpu::Commands& commands, gpu::BufferRange source, gpu::Texture normals);
+  void recordNormals(gpu::Commands& commands, gpu::BufferRange source, Layer normals);
 
-  gpu::HostDevice& device_;
+  gpu::Maker& device_;
   Kernels& kernels_;
   uint32_t width_ = 0, height_ = 0;
   std::array<gpu::Texture, GRISAILLE_ATTACHMENT_COUNT> targets_;

@@ -148,17 +148,49 @@ double readPlanes(const Buffer& buffer, scene::View& seen, double& far) {
   return 0;
 }
 
+// Flags of shaders/host/source.glsl.
+uint32_t encodingFlags(uint32_t encoding) {
+  constexpr uint32_t kUnsigned = 1, kOctahedral = 4;
+  const bool octahedral = encoding >= GRISAILLE_HOST_OCTAHEDRAL_SIGNED;
+  const bool isUnsigned =
+      encoding == GRISAILLE_HOST_UNSIGNED || encoding == GRISAILLE_HOST_OCTAHEDRAL_UNSIGNED;
+  return (isUnsigned ? kUnsigned : 0u) | (octahedral ? kOctahedral : 0u);
+}
+
 }  // namespace
 
-View viewOf(const grisaille_host_frame& frame, const glm::uvec2& size, uint32_t rows) {
-  const grisaille_host_camera camera = whole(frame.camera, "frame.camera");
+grisaille_host_rectangle rectangleOf(const grisaille_host_frame& frame, const glm::uvec2& size) {
+  const grisaille_host_rectangle& given = frame.rectangle;
+  if (given.x == 0 && given.y == 0 && given.width == 0 && given.height == 0) {
+    return {.x = 0, .y = 0, .width = size.x, .height = size.y};
+  }
+  const bool within = given.width > 0 && given.height > 0 && given.x < size.x && given.y < size.y &&
+                      given.width <= size.x - given.x && given.height <= size.y - given.y;
+  if (within) return given;
+  throw Error(ErrorId::kHostValue,
+              "frame.rectangle is {} x {} at {}, {}, and does not lie in the textures of {} x {}",
+              given.width, given.height, given.x, given.y, size.x, size.y);
+}
+
+View viewOf(const grisaille_host_frame& frame, uint32_t layer,
+            const grisaille_host_rectangle& place, uint32_t rows) {
+  // Cameras follow one another at the distance of their own version's size.
+  const grisaille_host_camera& first = present(frame.camera, "frame.camera");
+  const auto* bytes = reinterpret_cast<const std::byte*>(&first);
+  const auto* own =
+      reinterpret_cast<const grisaille_host_camera*>(bytes + size_t{layer} * first.struct_size);
+  if (layer > 0 && own->struct_size != first.struct_size) {
+    throw Error(ErrorId::kHostStruct, "frame.camera[{}].struct_size is {}, but that of [0] is {}",
+                layer, own->struct_size, first.struct_size);
+  }
+  const grisaille_host_camera camera = whole(own, "frame.camera");
   checkEnum(camera.clip, 2, "camera.clip");
   checkEnum(frame.depth_kind, 3, "frame.depth_kind");
   checkEnum(frame.normal_space, 2, "frame.normal_space");
-  checkEnum(frame.normal_encoding, 2, "frame.normal_encoding");
+  checkEnum(frame.normal_encoding, 4, "frame.normal_encoding");
   View view{};
   scene::View& seen = view.seen;
-  seen.size = size;
+  seen.size = {place.width, place.height};
   readView(camera, seen);
   const Projection projection = projectionOf(camera);
   readPixels(projection, seen);
@@ -181,7 +213,8 @@ View viewOf(const grisaille_host_frame& frame, const glm::uvec2& size, uint32_t 
   source.mode =
       glm::ivec4(reversed ? kReversedBuffer : static_cast<int>(frame.depth_kind),
                  seen.orthographic ? 1 : 0, rows == GRISAILLE_HOST_ROWS_FROM_BOTTOM ? 1 : 0,
-                 frame.normal_encoding | frame.normal_space << 1);
+                 encodingFlags(frame.normal_encoding) | frame.normal_space << 1);
+  source.place = {place.x, place.y, place.width, place.height};
   return view;
 }
 
@@ -192,7 +225,11 @@ MotionBlock motionOf(const grisaille_host_frame& frame, const scene::View& now,
     if (std::isfinite(scale)) continue;
     throw Error(ErrorId::kHostValue, "frame.motion_scale holds {}, must be finite", scale);
   }
-  const scene::View& before = then != nullptr ? *then : now;
+  // In pixels of this frame's size.
+  scene::View before = then != nullptr ? *then : now;
+  const glm::dvec2 zoom = glm::dvec2(before.size) / glm::dvec2(now.size);
+  before.scale *= zoom;
+  before.jitter /= zoom;
   const glm::dvec2 added = frame.motion_jittered != 0 ? glm::dvec2(0) : before.jitter - now.jitter;
   return {.then_from_view = glm::mat4(scene::thenFromView(before, now)),
           .then_pixel_from_view =

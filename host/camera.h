@@ -16,6 +16,7 @@ struct SourceBlock {
   glm::vec4 depth;
   glm::vec4 planes;
   glm::ivec4 mode;
+  glm::ivec4 place;
 };
 
 // The std140 block of shaders/host/motion.comp, which documents the fields.
@@ -32,8 +33,14 @@ struct View {
   SourceBlock source;  // for this view and the frame's textures
 };
 
-// Throws kHostCamera, kHostValue, kHostNull, kHostStruct.
-View viewOf(const grisaille_host_frame& frame, const glm::uvec2& size, uint32_t rows);
+// The part of the frame's textures that holds the picture. `size`: of the textures. Throws
+// kHostValue.
+grisaille_host_rectangle rectangleOf(const grisaille_host_frame& frame, const glm::uvec2& size);
+
+// The view of a layer, whose picture lies at `place`. Throws kHostCamera, kHostValue, kHostNull,
+// kHostStruct.
+View viewOf(const grisaille_host_frame& frame, uint32_t layer,
+            const grisaille_host_rectangle& place, uint32_t rows);
 
 // How to read frame.motion. `then`: the view of the previous frame; null: it is not known. Throws
 // kHostValue.

@@ -52,6 +52,18 @@ void checkPoint(const grisaille_point& point, size_t index) {
   }
 }
 
+void checkPrepare(const grisaille_host_prepare& how) {
+  checkEnum(how.orthographic, 2, "how.orthographic");
+  checkReserved(how.reserved, "how.reserved");
+}
+
+void checkFlags(uint32_t flags, const char* name) {
+  const uint32_t unknown = flags & ~uint32_t{GRISAILLE_HOST_CHECK};
+  if (unknown == 0) return;
+  throw Error(ErrorId::kHostValue, "{} has the bits {:#x}, which no flag of this version has", name,
+              unknown);
+}
+
 void checkReserved(uint32_t value, const char* name) {
   if (value != 0) throw Error(ErrorId::kHostValue, "{} is {}, not 0", name, value);
 }

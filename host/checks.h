@@ -26,18 +26,28 @@ T& present(T* given, const char* name) {
 template <typename Struct>
 constexpr std::array<size_t, 0> kEarlierSizes = {};
 template <>
-constexpr inline std::array<size_t, 4> kEarlierSizes<grisaille_host_frame> = {
+constexpr inline std::array<size_t, 5> kEarlierSizes<grisaille_host_frame> = {
     offsetof(grisaille_host_frame, thickness), offsetof(grisaille_host_frame, next_depth),
-    offsetof(grisaille_host_frame, patience), offsetof(grisaille_host_frame, colour)};
+    offsetof(grisaille_host_frame, patience), offsetof(grisaille_host_frame, colour),
+    offsetof(grisaille_host_frame, rectangle)};
+template <>
+constexpr inline std::array<size_t, 1> kEarlierSizes<grisaille_host_effect_desc> = {
+    offsetof(grisaille_host_effect_desc, settings)};
+template <>
+constexpr inline std::array<size_t, 1> kEarlierSizes<grisaille_host_texture_desc> = {
+    offsetof(grisaille_host_texture_desc, layers)};
+template <>
+constexpr inline std::array<size_t, 1> kEarlierSizes<grisaille_host_output> = {
+    offsetof(grisaille_host_output, layers)};
 template <>
 constexpr inline std::array<size_t, 1> kEarlierSizes<grisaille_host_camera> = {
     offsetof(grisaille_host_camera, jitter)};
 template <>
-constexpr inline std::array<size_t, 1> kEarlierSizes<grisaille_host_vulkan> = {
-    offsetof(grisaille_host_vulkan, pipeline_cache)};
+constexpr inline std::array<size_t, 2> kEarlierSizes<grisaille_host_vulkan> = {
+    offsetof(grisaille_host_vulkan, pipeline_cache), offsetof(grisaille_host_vulkan, log)};
 template <>
-constexpr inline std::array<size_t, 1> kEarlierSizes<grisaille_host_opengl> = {
-    offsetof(grisaille_host_opengl, frames_in_flight)};
+constexpr inline std::array<size_t, 2> kEarlierSizes<grisaille_host_opengl> = {
+    offsetof(grisaille_host_opengl, frames_in_flight), offsetof(grisaille_host_opengl, log)};
 
 // Checks a struct_size. `bytes`: the struct, whose bytes beyond `own` must be 0. Throws
 // kHostStruct.
@@ -63,6 +73,10 @@ void checkHandle(const void* handle, const char* name);
 void checkEnum(uint32_t value, uint32_t count, const char* name);
 // Throws kHostValue unless the point is within the limits of grisaille_point. `index`: its own.
 void checkPoint(const grisaille_point& point, size_t index);
+// Throws kHostValue if a field is out of range.
+void checkPrepare(const grisaille_host_prepare& how);
+// Throws kHostValue if `flags` has a bit that no grisaille_host_flags has.
+void checkFlags(uint32_t flags, const char* name);
 // Throws kHostValue unless value is 0.
 void checkReserved(uint32_t value, const char* name);
 

@@ -9,6 +9,7 @@
 #include <glm/glm.hpp>
 #include <limits>
 
+#include "core/gpu/checking_device.h"
 #include "host/checks.h"
 
 namespace grisaille::host {
@@ -71,13 +72,32 @@ void Pictures::read(const char* path, grisaille_picture& out) {
 
 }  // namespace grisaille::host
 
+namespace {
+
+std::unique_ptr<grisaille::gpu::HostDevice> checkedIf(
+    bool checks, std::unique_ptr<grisaille::gpu::HostDevice> device,
+    const grisaille::host::Log& log) {
+  if (!checks) return device;
+  return grisaille::gpu::makeCheckingHostDevice(std::move(device), log.sink());
+}
+
+}  // namespace
+
 grisaille_host_device::grisaille_host_device(std::unique_ptr<grisaille::gpu::HostDevice> made,
-                                             const char* effectFolder)
-    : gpu(std::move(made)), kernels(*gpu), pipelines(*gpu) {
+                                             Spec spec)
+    : log(spec.log),
+      framesInFlight(spec.framesInFlight),
+      memory(std::move(spec.memory)),
+      gpu(checkedIf((spec.flags & GRISAILLE_HOST_CHECK) != 0, std::move(made), log)),
+      kernels(*gpu),
+      pipelines(*gpu, log) {
   const auto own = grisaille::host::ownEffects();
   std::error_code failed;
   if (std::filesystem::is_directory(own, failed)) registry.scan(own);
-  if (effectFolder != nullptr) registry.scan(effectFolder);
+  if (spec.effectFolder != nullptr) registry.scan(spec.effectFolder);
+  for (const grisaille::effect::Refused& refused : registry.refused()) {
+    log.write(GRISAILLE_HOST_WARNING, refused.reason.what());
+  }
   for (const grisaille::effect::Effect& effect : registry.effects()) {
     tables.push_back(effect.desc);
   }
@@ -88,11 +108,18 @@ grisaille_host_texture::grisaille_host_texture(grisaille_host_device& of,
     : device(of) {
   device.gpu->requireUsable();
   grisaille::host::checkReserved(desc.reserved, "desc.reserved");
+  constexpr uint32_t kMostLayers = 16;
+  if (desc.layers > kMostLayers) {
+    throw grisaille::Error(grisaille::ErrorId::kHostValue, "desc.layers is {}, over {}",
+                           desc.layers, kMostLayers);
+  }
   texture = device.gpu->wrap({.name = desc.image,
                               .format = desc.format,
                               .layout = desc.layout,
                               .width = desc.width,
-                              .height = desc.height});
+                              .height = desc.height,
+                              .firstLayer = desc.first_layer,
+                              .layers = std::max(desc.layers, 1u)});
   info = device.gpu->foreign(texture);
   ++device.textures;
 }

@@ -5,11 +5,13 @@
 #include <memory>
 #include <vector>
 
+#include "backends/vulkan/vulkan.h"
 #include "core/effect/instance.h"
 #include "core/effect/registry.h"
 #include "core/gpu/host_device.h"
 #include "grisaille/host.h"
 #include "host/attachments.h"
+#include "host/log.h"
 #include "host/pipelines.h"
 
 namespace grisaille::host {
@@ -56,10 +58,21 @@ class Pictures : public effect::PictureService {
 }  // namespace grisaille::host
 
 struct grisaille_host_device {
-  // Loads the effects installed with the library and the effects in `effectFolder`, which may be
-  // null. Throws kPluginPath.
-  grisaille_host_device(std::unique_ptr<grisaille::gpu::HostDevice> made, const char* effectFolder);
+  // Properties that both APIs have.
+  struct Spec {
+    const char* effectFolder = nullptr;  // may be null
+    uint32_t framesInFlight = 1;
+    uint32_t flags = 0;  // grisaille_host_flags
+    grisaille::host::Log log;
+    std::unique_ptr<grisaille::vulkan::MemorySource> memory = nullptr;  // null: the driver's
+  };
 
+  // Loads the effects installed with the library and the effects in the folder. Throws kPluginPath.
+  grisaille_host_device(std::unique_ptr<grisaille::gpu::HostDevice> made, Spec spec);
+
+  const grisaille::host::Log log;
+  const uint32_t framesInFlight;
+  const std::unique_ptr<grisaille::vulkan::MemorySource> memory;  // of `gpu`
   grisaille::effect::Registry registry;
   std::vector<const grisaille_effect_desc*> tables;  // of the registry's effects
   std::unique_ptr<grisaille::gpu::HostDevice> gpu;

@@ -3,7 +3,9 @@
 
 #include <algorithm>
 #include <array>
+#include <exception>
 #include <limits>
+#include <utility>
 
 #include "core/frame/view_block.h"
 #include "host/checks.h"
@@ -13,59 +15,27 @@ using grisaille::ErrorId;
 namespace gpu = grisaille::gpu;
 namespace host = grisaille::host;
 
-namespace grisaille::host {
-namespace {
-
-constexpr uint32_t kLargestSide = 16384;  // pixels
-
-void checkSize(const grisaille_host_device& device, uint32_t width, uint32_t height) {
-  const uint32_t most = std::min(kLargestSide, device.gpu->info().capabilities.maxTextureSize);
-  if (width >= 1 && width <= most && height >= 1 && height <= most) return;
-  throw Error(ErrorId::kTextureSize, "{} x {} pixels are out of 1 to {}", width, height, most);
-}
-
-gpu::Texture checked(const grisaille_host_texture* texture, const grisaille_host_effect& effect,
-                     uint32_t channels, const char* name) {
-  if (texture == nullptr) return {};
-  if (&texture->device != &effect.device) {
-    throw Error(ErrorId::kHostForeign, "{} and the effect belong to different devices", name);
-  }
-  const gpu::ForeignInfo& info = texture->info;
-  if (info.width != effect.width || info.height != effect.height) {
-    throw Error(ErrorId::kHostTexture, "{} has {} x {} pixels, but the effect has {} x {}", name,
-                info.width, info.height, effect.width, effect.height);
-  }
-  if (info.channels < channels && !(info.depth && channels == 1)) {
-    throw Error(ErrorId::kHostTexture, "{} has {} channels, but needs {}", name, info.channels,
-                channels);
-  }
-  return texture->texture;
-}
-
-effect::Chain chainOf(const grisaille_host_device& device, const grisaille_host_effect_desc& desc) {
-  const std::string keys[] = {&present(desc.effect, "desc.effect")};
-  return effect::Chain(effect::Selection(device.registry, keys));
-}
-
-}  // namespace
-}  // namespace grisaille::host
-
 grisaille_host_effect::grisaille_host_effect(grisaille_host_device& of,
                                              const grisaille_host_effect_desc& desc)
     : device(of),
+      layers(host::layersOf(desc)),
       rows_(desc.rows),
-      chain_(host::chainOf(of, desc)),
-      attachments_(*of.gpu, of.kernels) {
+      label_(fmt::format("grisaille: {}", &host::present(desc.effect, "desc.effect"))),
+      pool_(of.pipelines, *of.gpu, host::keptSizesOf(desc)),
+      commands_(pool_),
+      attachments_(pool_, of.kernels) {
   of.gpu->requireUsable();
-  chain_.start(of.pipelines);
-  chain_.create();
-  host::checkEnum(desc.rows, 2, "desc.rows");
-  host::checkReserved(desc.reserved, "desc.reserved");
-  if (desc.output_count > 0) host::present(desc.outputs, "desc.outputs");
-  for (uint32_t i = 0; i < desc.output_count; ++i) {
-    wanted_ |= 1u << indexOf(&host::present(desc.outputs[i], "an entry of desc.outputs"));
+  for (uint32_t i = 0; i < layers; ++i) {
+    host::Wanted wanted(of, desc);
+    wanted_ = wanted.outputs;
+    chains_.push_back(std::move(wanted.chain));
   }
-  if (desc.output_count == 0) wanted_ = 1;
+  host::checkSize(of, desc.width, desc.height);
+  for (grisaille::effect::Chain& chain : chains_) {
+    chain.start(pool_);
+    chain.create();
+  }
+  if (rows_ != GRISAILLE_HOST_ROWS_FROM_TOP || layers > 1) prepareCopies();
   resize(desc.width, desc.height);
   ++device.effects;
 }
@@ -76,152 +46,100 @@ grisaille_host_effect::~grisaille_host_effect() {
   --device.effects;
 }
 
-uint32_t grisaille_host_effect::indexOf(std::string_view key) const {
-  const auto outputs = values().effect().outputs();
-  for (uint32_t i = 0; i < outputs.size(); ++i) {
-    if (key == outputs[i].key) return i;
-  }
-  std::string all;
-  for (const grisaille_output_desc& output : outputs) {
-    all += (all.empty() ? "" : ", ") + std::string(output.key);
-  }
-  throw Error(ErrorId::kOutputUnknown, "effect {} has no output '{}'; it has {}",
-              values().effect().desc->key, grisaille::oneLine(key), all);
+void grisaille_host_effect::end() {
+  for (grisaille::effect::Chain& chain : chains_) chain.end();
 }
 
-void grisaille_host_effect::drop(std::vector<Picture>& pictures) {
-  for (Picture& picture : pictures) {
-    if (picture.shown != picture.made) device.gpu->destroy(picture.shown);
-    device.gpu->destroy(picture.made);
-    picture = {};
-  }
+bool grisaille_host_effect::copies(const grisaille_host_rectangle& place) const {
+  return rows_ != GRISAILLE_HOST_ROWS_FROM_TOP || layers > 1 || place.width != width ||
+         place.height != height;
 }
 
-void grisaille_host_effect::makePictures(std::vector<Picture>& pictures, uint32_t ofWidth,
-                                         uint32_t ofHeight) {
+// Compiles what copies the outputs.
+void grisaille_host_effect::prepareCopies() {
   const auto outputs = values().effect().outputs();
   for (uint32_t i = 0; i < outputs.size(); ++i) {
     if ((wanted_ & (1u << i)) == 0) continue;
-    const gpu::TextureDesc desc = {
-        .label = outputs[i].key,
-        .format = grisaille::effect::formatOf(outputs[i].format),
-        .width = ofWidth,
-        .height = ofHeight,
-        .usage = gpu::TextureUsage::kStorage | gpu::TextureUsage::kSampled};
-    Picture& picture = pictures[i];
-    picture.made = device.gpu->createTexture(desc);
-    if (rows_ == GRISAILLE_HOST_ROWS_FROM_TOP) {
-      picture.shown = picture.made;
-    } else {
-      device.kernels.turn(desc.format);
-      picture.shown = device.gpu->createTexture(desc);
-    }
-    device.gpu->native(picture.shown);  // creates the texture's view now
+    device.kernels.turn(grisaille::effect::formatOf(outputs[i].format), host::Kernels::kOut);
   }
 }
 
-void grisaille_host_effect::resize(uint32_t newWidth, uint32_t newHeight) {
-  host::checkSize(device, newWidth, newHeight);
-  if (newWidth == width && newHeight == height) return;
-  std::vector<Picture> pictures(values().effect().outputs().size());
-  std::vector<gpu::Texture> made, shown;
+void grisaille_host_effect::drop(Pictures& pictures) {
+  for (gpu::Texture& picture : pictures) pool_.destroy(std::exchange(picture, {}));
+}
+
+grisaille_host_effect::Pictures grisaille_host_effect::makePictures(uint32_t ofWidth,
+                                                                    uint32_t ofHeight) {
+  const auto outputs = values().effect().outputs();
+  Pictures pictures(outputs.size());
   try {
-    makePictures(pictures, newWidth, newHeight);
-    for (const Picture& picture : pictures) {
-      made.push_back(picture.made);
-      if (picture.shown) shown.push_back(picture.shown);
+    for (uint32_t i = 0; i < outputs.size(); ++i) {
+      if ((wanted_ & (1u << i)) == 0) continue;
+      pictures[i] = pool_.createTexture(host::outputDesc(outputs[i], ofWidth, ofHeight, layers));
+      device.gpu->native(pictures[i]);  // creates the texture's view now
     }
   } catch (...) {
     drop(pictures);
     throw;
   }
+  return pictures;
+}
+
+void grisaille_host_effect::resize(uint32_t newWidth, uint32_t newHeight) {
+  host::checkSize(device, newWidth, newHeight);
+  if (newWidth == width && newHeight == height) return;
+  Pictures pictures = makePictures(newWidth, newHeight);
+  std::vector<gpu::Texture> shown;
+  for (const gpu::Texture picture : pictures) {
+    if (picture) shown.push_back(picture);
+  }
+  attachments_.drop();
   drop(pictures_);
+  pool_.clear();
   pictures_ = std::move(pictures);
-  made_ = std::move(made);
+  made_ = pictures_;
   shown_ = std::move(shown);
   width = newWidth;
   height = newHeight;
-  before_.reset();
-  attachments_.resize(width, height);
+  before_.clear();
 }
 
-grisaille::objects::ObjectList& grisaille_host_effect::objects() {
-  grisaille::objects::ObjectList* list = chain_.objects(values().effect().key());
-  if (list != nullptr) return *list;
+const grisaille::objects::Table& grisaille_host_effect::objectTable() {
+  const grisaille::objects::ObjectList* list = chains_[0].objects(values().effect().key());
+  if (list != nullptr) return list->table();
   throw Error(ErrorId::kEffectTakesNoObjects, "the table of {} declares no objects",
               values().effect().key());
 }
 
-host::Textures grisaille_host_effect::texturesOf(const grisaille_host_frame& frame,
-                                                 uint32_t reads) const {
-  struct Given {
-    grisaille_attachment attachment;
-    const grisaille_host_texture* texture;
-    uint32_t channels;
-    const char* name;
-    const char* needed = nullptr;  // what an effect that reads it cannot do without
-  };
-  const Given all[] = {
-      {GRISAILLE_DEPTH, &host::present(frame.depth, "frame.depth"), 1, "frame.depth"},
-      {GRISAILLE_NORMAL, frame.normal, 3, "frame.normal"},
-      {GRISAILLE_BACK_DEPTH, frame.back_depth, 1, "frame.back_depth"},
-      {GRISAILLE_NEXT_DEPTH, frame.next_depth, 1, "frame.next_depth"},
-      {GRISAILLE_THICKNESS, frame.thickness, 1, "frame.thickness"},
-      {GRISAILLE_BASE_COLOUR, frame.base_colour, 3, "frame.base_colour", "base colours"},
-      {GRISAILLE_COLOUR, frame.colour, 3, "frame.colour", "the lit colour"},
-      {GRISAILLE_MOTION, frame.motion, 2, "frame.motion"}};
-  const grisaille_effect_desc& effect = *values().effect().desc;
-  host::Textures textures;
-  for (const Given& one : all) {
-    const gpu::Texture texture = host::checked(one.texture, *this, one.channels, one.name);
-    const bool read = (reads & GRISAILLE_READS(one.attachment)) != 0;
-    if (read && !texture && one.needed != nullptr) {
-      throw Error(ErrorId::kHostMissing, "{} reads {}, but {} is null", effect.key, one.needed,
-                  one.name);
-    }
-    if (read && !texture && (effect.needs & GRISAILLE_READS(one.attachment)) != 0) {
-      throw Error(ErrorId::kHostMissing, "{} needs {}, which is null", effect.key, one.name);
-    }
-    if (read || one.attachment == GRISAILLE_DEPTH) textures.attachments[one.attachment] = texture;
+void grisaille_host_effect::setObjects(const grisaille::objects::View& objects) {
+  objectTable();
+  for (grisaille::effect::Chain& chain : chains_) {
+    chain.objects(values().effect().key())->assign(objects);
   }
-  findNamed(frame, textures);
-  return textures;
 }
 
-void grisaille_host_effect::findNamed(const grisaille_host_frame& frame,
-                                      host::Textures& textures) const {
-  if (frame.input_count > 0) host::present(frame.inputs, "frame.inputs");
-  const std::span given(frame.inputs, frame.input_count);
-  for (const grisaille_host_input& input : given) {
-    host::present(input.key, "the key of an input");
-    host::present(input.texture, "the texture of an input");
-  }
-  for (const grisaille_input_desc& input : values().effect().inputs()) {
-    const std::string_view key = input.key;
-    const auto found = std::ranges::find_if(
-        given, [&](const grisaille_host_input& one) { return key == one.key; });
-    gpu::Texture& texture = textures.named[textures.namedCount++];
-    if (found != given.end()) {
-      texture = host::checked(found->texture, *this, 1, input.key);
-    } else if ((input.flags & GRISAILLE_INPUT_REQUIRED) != 0) {
-      throw Error(ErrorId::kHostMissing, "{} needs the input {}, which frame.inputs lacks",
-                  values().effect().key(), key);
-    }
-  }
-}
+// One recording.
+struct grisaille_host_effect::Recording {
+  const grisaille_host_frame& frame;
+  const host::Textures& textures;
+  uint32_t reads;  // GRISAILLE_READS()
+  double patience;
+  bool copies;
+};
 
 void grisaille_host_effect::record(const grisaille_host_frame& frame) {
   device.gpu->requireUsable();
   const uint32_t reads = values().effect().reads(values().all().data(), wanted_);
-  const host::View view = host::viewOf(frame, {width, height}, rows_);
+  const grisaille_host_rectangle place = host::rectangleOf(frame, {width, height});
+  views_.clear();
+  for (uint32_t i = 0; i < layers; ++i) views_.push_back(host::viewOf(frame, i, place, rows_));
   const double patience =
       frame.patience == 0 ? std::numeric_limits<double>::infinity() : frame.patience;
   if (!(patience > 0)) {
     throw Error(ErrorId::kHostValue, "frame.patience is {}, must be 0 or more", frame.patience);
   }
   const host::Textures textures = texturesOf(frame, reads);
-  const host::MotionBlock motion = host::motionOf(frame, view.seen, before_ ? &*before_ : nullptr);
-  attachments_.prepare(reads, textures);
+  host::motionOf(frame, views_[0].seen, nullptr);  // checks the frame
   std::array<gpu::Texture, GRISAILLE_ATTACHMENT_COUNT + host::kMostInputs> read;
   size_t count = 0;
   for (const gpu::Texture texture : textures.attachments) {
@@ -230,16 +148,39 @@ void grisaille_host_effect::record(const grisaille_host_frame& frame) {
   for (const gpu::Texture texture : textures.named) {
     if (texture) read[count++] = texture;
   }
-  gpu::Commands& commands =
-      device.gpu->begin(frame.command_buffer, frame.number, std::span(read).first(count));
+  device.pipelines.setRecording(values().effect().desc->key);
+  const Recording recording = {.frame = frame,
+                               .textures = textures,
+                               .reads = reads,
+                               .patience = patience,
+                               .copies = copies(place)};
+  bool begun = false;
+  const auto end = [&] {
+    device.pipelines.setRecording(nullptr);
+    if (begun) device.gpu->end(shown_);
+    pool_.end();
+  };
   try {
-    recordInto(commands, view, motion, textures, reads, patience);
+    pool_.begin(place.width, place.height);
+    attachments_.resize(place.width, place.height);
+    attachments_.prepare(reads, textures);
+    if (recording.copies) prepareCopies();
+    commands_.wrap(device.gpu->begin(frame.command_buffer, frame.number,
+                                     std::span(read).first(count), label_));
+    begun = true;
+    report_ = {};
+    for (uint32_t i = 0; i < layers; ++i) {
+      recordLayer(recording, i);
+      pool_.takeBack();
+    }
   } catch (...) {
-    device.gpu->end(shown_);
+    end();
     throw;
   }
-  device.gpu->end(shown_);
-  before_ = view.seen;
+  end();
+  uploaded_ = std::max(uploaded_, commands_.uploaded());
+  before_.clear();
+  for (const host::View& view : views_) before_.push_back(view.seen);
 }
 
 void grisaille_host_effect::release(std::vector<gpu::ComputePipeline>& pipelines) {
@@ -249,21 +190,20 @@ void grisaille_host_effect::release(std::vector<gpu::ComputePipeline>& pipelines
 
 void grisaille_host_effect::prepare(const grisaille_host_prepare& how) {
   device.gpu->requireUsable();
-  host::checkEnum(how.orthographic, 2, "how.orthographic");
-  host::checkReserved(how.reserved, "how.reserved");
-  // The library computes the others from depth.
-  constexpr uint32_t kOptional = GRISAILLE_READS(GRISAILLE_NEXT_DEPTH) |
-                                 GRISAILLE_READS(GRISAILLE_THICKNESS) |
-                                 GRISAILLE_READS(GRISAILLE_MOTION);
+  host::checkPrepare(how);
   const uint32_t reads = values().effect().reads(values().all().data(), wanted_);
-  const grisaille::objects::ObjectList* list = chain_.objects(values().effect().key());
+  const grisaille::objects::ObjectList* list = chains_[0].objects(values().effect().key());
   const std::vector<host::NeededPipeline> needed =
-      host::pipelinesOf(values(), list != nullptr ? list->view() : grisaille::objects::View{},
-                        {.width = width,
-                         .height = height,
-                         .wanted = wanted_,
-                         .attachments = (~kOptional | values().effect().desc->needs | how.inputs),
-                         .orthographic = how.orthographic != 0});
+      host::neededOf(*device.gpu, values(),
+                     list != nullptr ? list->view() : grisaille::objects::View{},
+                     {.width = width,
+                      .height = height,
+                      .wanted = wanted_,
+                      .inputs = how.inputs,
+                      .orthographic = how.orthographic != 0,
+                      .copies = false,
+                      .layers = 1})
+          .pipelines;
   // The library's own pipelines are the first step.
   const auto count = static_cast<uint32_t>(needed.size() + 1);
   const auto tell = [&](uint32_t done) {
@@ -273,6 +213,7 @@ void grisaille_host_effect::prepare(const grisaille_host_prepare& how) {
       GRISAILLE_READS(GRISAILLE_BASE_COLOUR) | GRISAILLE_READS(GRISAILLE_COLOUR);
   host::Attachments::prepare(device.kernels, reads, how.inputs | kNeeded,
                              values().effect().desc->input_count > 0);
+  prepareCopies();
   tell(1);
   std::vector<gpu::ComputePipeline> pipelines;
   pipelines.reserve(needed.size());
@@ -290,45 +231,57 @@ void grisaille_host_effect::prepare(const grisaille_host_prepare& how) {
   prepared_ = std::move(pipelines);
 }
 
-// The effect's instance begins again: uploads of the dropped recording are lost. Its textures, and
+// The effect's instances begin again: uploads of the dropped recording are lost. Its textures, and
 // the attachments, are created anew, and the pictures keep their identity.
 void grisaille_host_effect::dropped() {
   device.gpu->requireUsable();
-  chain_.end();
-  chain_.start(device.pipelines);
-  chain_.create();
-  report_ = {};
-  before_.reset();
-  attachments_.resize(width, height);
-  for (const Picture& picture : pictures_) {
-    if (picture.made) device.gpu->forget(picture.made);
-    if (picture.shown && picture.shown != picture.made) device.gpu->forget(picture.shown);
+  std::exception_ptr failed;
+  try {
+    end();
+  } catch (...) {
+    failed = std::current_exception();
   }
-  device.gpu->forgetTransients();
+  for (grisaille::effect::Chain& chain : chains_) {
+    chain.start(pool_);
+    chain.create();
+  }
+  report_ = {};
+  before_.clear();
+  attachments_.drop();
+  pool_.clear();
+  for (const gpu::Texture picture : shown_) device.gpu->forget(picture);
+  if (failed) std::rethrow_exception(failed);
 }
 
 void grisaille_host_effect::drawAt(std::span<const grisaille_point> points,
                                    std::span<grisaille_drawn> drawn) {
   for (size_t i = 0; i < points.size(); ++i) host::checkPoint(points[i], i);
-  chain_.drawAt(chain_.selection.entries()[0],
-                {.points = points, .drawn = drawn, .rays = device.rays ? &device.rays : nullptr});
+  chains_[0].drawAt(
+      chains_[0].selection.entries()[0],
+      {.points = points, .drawn = drawn, .rays = device.rays ? &device.rays : nullptr});
 }
 
-void grisaille_host_effect::recordInto(gpu::Commands& commands, const host::View& view,
-                                       const host::MotionBlock& motion,
-                                       const host::Textures& textures, uint32_t reads,
-                                       double patience) {
-  attachments_.record(commands, view.source, motion, textures);
+void grisaille_host_effect::recordLayer(const Recording& recording, uint32_t layer) {
+  const host::View& view = views_[layer];
+  const host::MotionBlock motion =
+      host::motionOf(recording.frame, view.seen, before_.empty() ? nullptr : &before_[layer]);
+  attachments_.record(commands_, view.source, motion, recording.textures, layer);
+  const auto outputs = values().effect().outputs();
+  for (size_t i = 0; i < pictures_.size(); ++i) {
+    made_[i] = pictures_[i];
+    if (!pictures_[i] || !recording.copies) continue;
+    made_[i] = pool_.transient(host::outputDesc(outputs[i], view.seen.size.x, view.seen.size.y, 1));
+  }
   const grisaille::frame::ViewBlock block = grisaille::frame::viewBlock(view.seen);
   const grisaille_view seen = grisaille::frame::effectView(view.seen);
   grisaille::effect::FrameInputs inputs;
-  inputs.commands = &commands;
-  inputs.width = width;
-  inputs.height = height;
+  inputs.commands = &commands_;
+  inputs.width = view.seen.size.x;
+  inputs.height = view.seen.size.y;
   inputs.view = &seen;
-  inputs.viewBlock = commands.uniform(std::as_bytes(std::span(&block, 1)));
+  inputs.viewBlock = commands_.uniform(std::as_bytes(std::span(&block, 1)));
   for (size_t i = 0; i < inputs.attachments.size(); ++i) {
-    if ((reads & GRISAILLE_READS(i)) == 0) continue;
+    if ((recording.reads & GRISAILLE_READS(i)) == 0) continue;
     inputs.attachments[i] = attachments_.get(static_cast<grisaille_attachment>(i));
   }
   inputs.outputs = made_;
@@ -336,24 +289,32 @@ void grisaille_host_effect::recordInto(gpu::Commands& commands, const host::View
   if (device.rays) inputs.services.rays = &device.rays;
   if (device.depths) inputs.services.depths = &device.depths;
   if (device.pictures) inputs.services.pictures = &device.pictures;
-  inputs.patience = patience;
-  report_ = chain_.record(chain_.selection.entries()[0], inputs);
-  if (rows_ == GRISAILLE_HOST_ROWS_FROM_TOP) return;
-  const gpu::BufferRange source = commands.uniform(std::as_bytes(std::span(&view.source, 1)));
-  const auto outputs = values().effect().outputs();
+  inputs.patience = recording.patience;
+  const grisaille::effect::Report report =
+      chains_[layer].record(chains_[layer].selection.entries()[0], inputs);
+  report_.waiting += report.waiting;
+  report_.givenUp = std::max(report_.givenUp, report.givenUp);
+  if (!recording.copies) return;
+  const gpu::BufferRange source = commands_.uniform(std::as_bytes(std::span(&view.source, 1)));
   for (size_t i = 0; i < pictures_.size(); ++i) {
-    if (!pictures_[i].made) continue;
-    attachments_.copy(commands, source, pictures_[i].made, pictures_[i].shown,
-                      grisaille::effect::formatOf(outputs[i].format), "host/turn");
+    if (!pictures_[i]) continue;
+    attachments_.copyOut(commands_, source, made_[i], pictures_[i], layer,
+                         grisaille::effect::formatOf(outputs[i].format));
   }
 }
 
 gpu::NativeTexture grisaille_host_effect::output(std::string_view key, uint32_t& format) const {
-  const uint32_t index = indexOf(key);
+  const uint32_t index = host::indexOf(values().effect(), key);
   if ((wanted_ & (1u << index)) == 0) {
     throw Error(ErrorId::kOutputUnknown, "output '{}' was not named when effect {} was created",
                 key, values().effect().desc->key);
   }
   format = values().effect().outputs()[index].format;
-  return device.gpu->native(pictures_[index].shown);
+  return device.gpu->native(pictures_[index]);
+}
+
+gpu::MemoryUse grisaille_host_effect::memory() const {
+  gpu::MemoryUse use = pool_.use();
+  use.hostBytes = uploaded_ * device.framesInFlight;
+  return use;
 }

@@ -7,6 +7,7 @@
 #include "core/frame/view_block.h"
 #include "core/gpu/null_device.h"
 #include "host/attachments.h"
+#include "host/pool.h"
 
 namespace grisaille::host {
 namespace {
@@ -45,8 +46,61 @@ class SurfaceEverywhere final : public effect::RayService {
 
 // Time for work that can wait, such as the casting of rays.
 constexpr double kPatience = 0.1;  // seconds
+// Frames after which an effect creates nothing more.
+constexpr uint32_t kSimulated = 3;
+
+// A frame of the simulation.
+struct Frame {
+  gpu::Commands& commands;
+  Attachments& attachments;
+  const Textures& textures;
+  std::span<const gpu::Texture> made;  // outputs; null: not wanted
+  uint32_t layer;
+};
+
+void simulate(const effect::Values& values, const objects::View& objects, const Need& need,
+              uint32_t reads, const Frame& frame, effect::Instance& instance) {
+  scene::Camera camera;
+  camera.orthographicHeight = need.orthographic ? 1 : 0;
+  const scene::View seen = scene::viewOf(camera, {need.width, need.height});
+  const frame::ViewBlock block = frame::viewBlock(seen);
+  const grisaille_view view = frame::effectView(seen);
+  frame.attachments.record(frame.commands, {}, {}, frame.textures, frame.layer);
+  effect::FrameInputs inputs;
+  inputs.commands = &frame.commands;
+  inputs.width = need.width;
+  inputs.height = need.height;
+  inputs.view = &view;
+  inputs.viewBlock = frame.commands.uniform(std::as_bytes(std::span(&block, 1)));
+  inputs.values = values.all();
+  inputs.objects = objects;
+  SurfaceEverywhere rays;
+  inputs.services.rays = &rays;
+  inputs.patience = kPatience;
+  for (size_t i = 0; i < inputs.attachments.size(); ++i) {
+    if ((reads & GRISAILLE_READS(i)) == 0) continue;
+    inputs.attachments[i] = frame.attachments.get(static_cast<grisaille_attachment>(i));
+  }
+  inputs.outputs = frame.made;
+  inputs.named = frame.attachments.named();
+  instance.record(inputs);
+  if (!need.copies) return;
+  // The blocks that place the copies.
+  const SourceBlock place = {};
+  frame.commands.uniform(std::as_bytes(std::span(&place, 1)));
+}
 
 }  // namespace
+
+gpu::TextureDesc outputDesc(const grisaille_output_desc& output, uint32_t width, uint32_t height,
+                            uint32_t layers) {
+  return {.label = output.key,
+          .format = effect::formatOf(output.format),
+          .width = width,
+          .height = height,
+          .layers = layers,
+          .usage = gpu::TextureUsage::kStorage | gpu::TextureUsage::kSampled};
+}
 
 gpu::ComputePipeline Pipelines::createComputePipeline(const gpu::ComputePipelineDesc& desc) {
   const auto found = std::ranges::find_if(shared_, [&](const Shared& one) {
@@ -55,6 +109,12 @@ gpu::ComputePipeline Pipelines::createComputePipeline(const gpu::ComputePipeline
   if (found != shared_.end()) {
     ++found->users;
     return found->pipeline;
+  }
+  if (recording_ != nullptr) {
+    log_.write(GRISAILLE_HOST_INFO,
+               fmt::format("{} compiles '{}' in a recording: call grisaille_host_effect_prepare() "
+                           "before",
+                           recording_, desc.label));
   }
   shared_.reserve(shared_.size() + 1);
   Shared one = {.shader = desc.shader,
@@ -74,57 +134,80 @@ void Pipelines::destroy(gpu::ComputePipeline pipeline) {
   shared_.erase(found);
 }
 
-std::vector<NeededPipeline> pipelinesOf(const effect::Values& values, const objects::View& objects,
-                                        const Need& need) {
-  const std::unique_ptr<gpu::NullDevice> device = gpu::makeNullDevice();
-  Lister lister(*device);
-  const auto texture = [&](gpu::Format format) {
-    return device->createTexture(
-        {.label = "any",
-         .format = format,
-         .width = need.width,
-         .height = need.height,
-         .usage = gpu::TextureUsage::kStorage | gpu::TextureUsage::kSampled});
+Needed neededOf(const gpu::HostDevice& device, const effect::Values& values,
+                const objects::View& objects, const Need& need) {
+  const std::unique_ptr<gpu::NullDevice> null = gpu::makeNullDevice();
+  Lister lister(*null);
+  Needed needed;
+  Pool pool(lister, device, 0);
+  Kernels kernels(*null);
+  const auto given = [&](gpu::Format format) {
+    return null->createTexture({.label = "given",
+                                .format = format,
+                                .width = need.width,
+                                .height = need.height,
+                                .layers = need.layers,
+                                .usage = gpu::TextureUsage::kSampled});
   };
-  scene::Camera camera;
-  camera.orthographicHeight = need.orthographic ? 1 : 0;
-  const scene::View seen = scene::viewOf(camera, {need.width, need.height});
-  const frame::ViewBlock block = frame::viewBlock(seen);
-  const grisaille_view view = frame::effectView(seen);
-  effect::FrameInputs inputs;
-  inputs.width = need.width;
-  inputs.height = need.height;
-  inputs.view = &view;
-  inputs.values = values.all();
-  inputs.objects = objects;
-  SurfaceEverywhere rays;
-  inputs.services.rays = &rays;
-  inputs.patience = kPatience;
+  // The library computes the others from depth.
+  constexpr uint32_t kOptional =
+      GRISAILLE_READS(GRISAILLE_NEXT_DEPTH) | GRISAILLE_READS(GRISAILLE_THICKNESS) |
+      GRISAILLE_READS(GRISAILLE_MOTION) | GRISAILLE_READS(GRISAILLE_NORMAL) |
+      GRISAILLE_READS(GRISAILLE_BACK_DEPTH);
   const uint32_t reads = values.effect().reads(values.all().data(), need.wanted);
-  for (size_t i = 0; i < inputs.attachments.size(); ++i) {
-    if ((reads & need.attachments & GRISAILLE_READS(i)) == 0) continue;
-    inputs.attachments[i] = texture(Attachments::formatOf(static_cast<grisaille_attachment>(i)));
+  Textures textures;
+  const uint32_t present = need.inputs | values.effect().desc->needs | ~kOptional;
+  for (size_t i = 0; i < textures.attachments.size(); ++i) {
+    if ((reads & present & GRISAILLE_READS(i)) == 0 && i != GRISAILLE_DEPTH) continue;
+    textures.attachments[i] = given(Attachments::formatOf(static_cast<grisaille_attachment>(i)));
   }
-  std::vector<gpu::Texture> outputs;
-  for (const grisaille_output_desc& output : values.effect().outputs()) {
-    const bool wanted = (need.wanted & (1u << outputs.size())) != 0;
-    outputs.push_back(wanted ? texture(effect::formatOf(output.format)) : gpu::Texture{});
-  }
-  inputs.outputs = outputs;
-  std::vector<gpu::Texture> named;
   for (const grisaille_input_desc& input : values.effect().inputs()) {
     const bool required = (input.flags & GRISAILLE_INPUT_REQUIRED) != 0;
-    named.push_back(required ? texture(gpu::Format::kRgba16Float) : gpu::Texture{});
+    textures.named[textures.namedCount++] =
+        required ? given(gpu::Format::kRgba16Float) : gpu::Texture{};
   }
-  inputs.named = named;
-  effect::Instance instance(lister, values.effect());
-  gpu::Commands& commands = device->begin();
-  inputs.commands = &commands;
-  inputs.viewBlock = commands.uniform(std::as_bytes(std::span(&block, 1)));
-  instance.record(inputs);
-  device->submit();
-  instance.end();
-  return std::move(lister.needed);
+  const auto outputs = values.effect().outputs();
+  std::vector<gpu::Texture> shown, made(outputs.size());
+  for (size_t i = 0; i < outputs.size(); ++i) {
+    if ((need.wanted & (1u << i)) == 0) continue;
+    shown.push_back(
+        pool.createTexture(outputDesc(outputs[i], need.width, need.height, need.layers)));
+    made[i] = shown.back();
+  }
+  {
+    Attachments attachments(pool, kernels);
+    attachments.resize(need.width, need.height);
+    std::vector<std::unique_ptr<effect::Instance>> instances;
+    for (uint32_t i = 0; i < need.layers; ++i) {
+      instances.push_back(std::make_unique<effect::Instance>(pool, values.effect()));
+    }
+    PooledCommands commands(pool);
+    for (uint32_t frame = 0; frame < kSimulated; ++frame) {
+      pool.begin(need.width, need.height);
+      attachments.prepare(reads, textures);
+      commands.wrap(null->begin());
+      for (uint32_t layer = 0; layer < need.layers; ++layer) {
+        if (need.copies) {
+          for (size_t i = 0; i < outputs.size(); ++i) {
+            if ((need.wanted & (1u << i)) == 0) continue;
+            made[i] = pool.transient(outputDesc(outputs[i], need.width, need.height, 1));
+          }
+        }
+        simulate(values, objects, need, reads, {commands, attachments, textures, made, layer},
+                 *instances[layer]);
+        pool.takeBack();
+      }
+      null->submit();
+      pool.end();
+      needed.memory.hostBytes = std::max(needed.memory.hostBytes, commands.uploaded());
+    }
+    needed.memory.deviceBytes = pool.use().deviceBytes;
+    needed.memory.allocations = pool.use().allocations;
+    for (const auto& instance : instances) instance->end();
+  }
+  for (const gpu::Texture texture : shown) pool.destroy(texture);
+  needed.pipelines = std::move(lister.needed);
+  return needed;
 }
 
 }  // namespace grisaille::host

@@ -9,14 +9,18 @@
 #include "core/gpu/forwarding_maker.h"
 #include "core/gpu/host_device.h"
 #include "core/objects/object.h"
+#include "host/log.h"
 
 namespace grisaille::host {
 
 // The maker of the effects' resources. Equal compute pipelines are one, as long as anybody uses it.
 class Pipelines final : public gpu::ForwardingMaker {
  public:
-  // `device` must outlive this.
-  explicit Pipelines(gpu::HostDevice& device) : ForwardingMaker(device) {}
+  // Both must outlive this.
+  Pipelines(gpu::HostDevice& device, const Log& log) : ForwardingMaker(device), log_(log) {}
+
+  // The effect that records, for the log; null: none.
+  void setRecording(const char* effect) { recording_ = effect; }
 
   gpu::ComputePipeline createComputePipeline(const gpu::ComputePipelineDesc& desc) override;
   using ForwardingMaker::destroy;
@@ -30,6 +34,8 @@ class Pipelines final : public gpu::ForwardingMaker {
     uint32_t users;
   };
 
+  const Log& log_;
+  const char* recording_ = nullptr;
   std::vector<Shared> shared_;
 };
 
@@ -40,17 +46,29 @@ struct NeededPipeline {
   std::vector<gpu::Specialization> constants;
 };
 
-// What decides which pipelines an effect needs, apart from its parameters.
+// What decides what an effect needs, apart from its parameters.
 struct Need {
   uint32_t width, height;  // pixels
   uint32_t wanted;         // outputs, by bit
-  uint32_t attachments;    // GRISAILLE_READS() of those that the host gives
+  uint32_t inputs;         // GRISAILLE_READS() of the optional textures that the host gives
   bool orthographic;
+  bool copies;      // the outputs are copies of what the effect writes
+  uint32_t layers;  // at least 1
 };
 
-// Records a frame on a device without a driver, and returns the pipelines that the effect created.
-// Throws kEffectCreate, kEffectRecord.
-std::vector<NeededPipeline> pipelinesOf(const effect::Values& values, const objects::View& objects,
-                                        const Need& need);
+// The texture of an output.
+gpu::TextureDesc outputDesc(const grisaille_output_desc& output, uint32_t width, uint32_t height,
+                            uint32_t layers);
+
+// What an effect needs.
+struct Needed {
+  std::vector<NeededPipeline> pipelines;
+  gpu::MemoryUse memory;  // hostBytes: of one frame
+};
+
+// Records frames on a device without a driver. `device` tells the sizes of resources. Throws
+// kEffectCreate, kEffectRecord.
+Needed neededOf(const gpu::HostDevice& device, const effect::Values& values,
+                const objects::View& objects, const Need& need);
 
 }  // namespace grisaille::host

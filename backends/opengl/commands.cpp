@@ -81,16 +81,23 @@ void GlCommands::beginFrame(uint32_t slot) {
 }
 
 void GlCommands::endFrame() {
-  if (inPass_) glPopDebugGroup();
-  inPass_ = false;
+  closeGroups();
   transients_.endFrame([&](gpu::Texture texture) { resources_.destroy(texture); });
+}
+
+void GlCommands::openGroup(std::string_view label) {
+  const std::string_view name = label.substr(0, kMaxGroupLabel);
+  glPushDebugGroup(GL_DEBUG_SOURCE_APPLICATION, 0, static_cast<GLsizei>(name.size()), name.data());
+  ++groups_;
+}
+
+void GlCommands::closeGroups() {
+  for (; groups_ > 0; --groups_) glPopDebugGroup();
 }
 
 void GlCommands::beginPass(std::string_view label) {
   context_.makeCurrent();
-  const std::string_view name = label.substr(0, kMaxGroupLabel);
-  glPushDebugGroup(GL_DEBUG_SOURCE_APPLICATION, 0, static_cast<GLsizei>(name.size()), name.data());
-  inPass_ = true;
+  openGroup(label);
   timer_.beginPass(label);
 }
 
@@ -98,7 +105,7 @@ void GlCommands::endPass() {
   context_.makeCurrent();
   timer_.endPass();
   glPopDebugGroup();
-  inPass_ = false;
+  --groups_;
 }
 
 void GlCommands::render(const gpu::Render& render) {

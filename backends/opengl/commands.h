@@ -20,6 +20,10 @@ class GlCommands final : public gpu::Commands {
   // See UniformRing::prepare().
   void prepareSlots(uint32_t slots) { uniforms_.prepare(slots); }
   void endFrame();
+  // A debug group around passes.
+  void openGroup(std::string_view label);
+  // Closes all groups that are still open, also that of a pass whose recording failed.
+  void closeGroups();
 
   void beginPass(std::string_view label) override;
   void endPass() override;
@@ -44,7 +48,7 @@ class GlCommands final : public gpu::Commands {
   PassTimer& timer_;
   UniformRing uniforms_;
   gpu::TransientPool transients_;
-  bool inPass_ = false;
+  uint32_t groups_ = 0;  // number of open debug groups
 };
 
 }  // namespace grisaille::opengl

@@ -8,6 +8,7 @@
 #include "backends/opengl/adapters.h"
 #include "backends/opengl/commands.h"
 #include "backends/opengl/current_context.h"
+#include "backends/opengl/foreign.h"
 #include "backends/opengl/formats.h"
 #include "backends/opengl/host_state.h"
 #include "backends/opengl/info.h"
@@ -17,22 +18,6 @@
 
 namespace grisaille::opengl {
 namespace {
-
-int ofTexture(GLuint name, GLenum what) {
-  GLint value = 0;
-  glGetTextureParameteriv(name, what, &value);
-  return value;
-}
-
-int ofLevel(GLuint name, GLenum what) {
-  GLint value = 0;
-  glGetTextureLevelParameteriv(name, 0, what, &value);
-  return value;
-}
-
-bool sampledAsFloat(int type) {
-  return type == GL_FLOAT || type == GL_UNSIGNED_NORMALIZED || type == GL_SIGNED_NORMALIZED;
-}
 
 // Whether the GPU has finished the commands before a fence, as far as the driver knows. Does not
 // wait.
@@ -60,19 +45,29 @@ class GlHostDevice final : public gpu::HostDevice {
   const gpu::DeviceInfo& info() const override { return info_; }
 
   gpu::Buffer createBuffer(const gpu::BufferDesc& desc) override {
-    return resources_.createBuffer(desc);
+    const gpu::Buffer buffer = resources_.createBuffer(desc);
+    name(resources_.buffers.get(buffer).object, desc.label);
+    return buffer;
   }
   gpu::Texture createTexture(const gpu::TextureDesc& desc) override {
-    return resources_.createTexture(desc);
+    const gpu::Texture texture = resources_.createTexture(desc);
+    name(resources_.textures.get(texture).object, desc.label);
+    return texture;
   }
   gpu::Sampler createSampler(const gpu::SamplerDesc& desc) override {
-    return resources_.createSampler(desc);
+    const gpu::Sampler sampler = resources_.createSampler(desc);
+    name(resources_.samplers.get(sampler).object, desc.label);
+    return sampler;
   }
   gpu::ComputePipeline createComputePipeline(const gpu::ComputePipelineDesc& desc) override {
-    return resources_.computePipelines.add(buildCompute(desc));
+    ComputePipelineResource pipeline = buildCompute(desc);
+    name(pipeline.program, desc.label);
+    return resources_.computePipelines.add(std::move(pipeline));
   }
   gpu::GraphicsPipeline createGraphicsPipeline(const gpu::GraphicsPipelineDesc& desc) override {
-    return resources_.graphicsPipelines.add(buildGraphics(desc));
+    GraphicsPipelineResource pipeline = buildGraphics(desc);
+    name(pipeline.program, desc.label);
+    return resources_.graphicsPipelines.add(std::move(pipeline));
   }
   void destroy(gpu::Buffer buffer) override {
     if (buffer) resources_.destroy(buffer);
@@ -92,16 +87,19 @@ class GlHostDevice final : public gpu::HostDevice {
 
   gpu::Texture wrap(const gpu::ForeignTexture& texture) override;
   gpu::ForeignInfo foreign(gpu::Texture texture) override;
-  gpu::Commands& begin(void* commandBuffer, uint64_t frame,
-                       std::span<const gpu::Texture> reads) override;
+  gpu::Commands& begin(void* commandBuffer, uint64_t frame, std::span<const gpu::Texture> reads,
+                       std::string_view label) override;
   void end(std::span<const gpu::Texture> writes) override;
   void forget(gpu::Texture) override {}  // commands run at once: nothing can be dropped
-  void forgetTransients() override {}
+  gpu::MemoryUse memory() const override { return resources_.use(); }
+  uint64_t bytesOf(const gpu::TextureDesc& desc) const override { return opengl::bytesOf(desc); }
+  uint64_t bytesOf(const gpu::BufferDesc& desc) const override { return desc.size; }
   gpu::NativeTexture native(gpu::Texture texture) override;
   void requireUsable() const override;
 
  private:
   void turnTo(uint64_t frame);
+  static void name(const Object& object, std::string_view label);
 
   const HostSpec spec_;
   void* current_;  // the context
@@ -124,45 +122,11 @@ void GlHostDevice::requireUsable() const {
 }
 
 gpu::Texture GlHostDevice::wrap(const gpu::ForeignTexture& texture) {
-  const auto name = static_cast<GLuint>(texture.name);
-  if (texture.name != name || glIsTexture(name) == GL_FALSE) {
-    throw Error(ErrorId::kHostTexture, "{} names no texture", texture.name);
-  }
-  if (ofTexture(name, GL_TEXTURE_TARGET) != GL_TEXTURE_2D) {
-    throw Error(ErrorId::kHostTexture, "texture {} is not a 2D texture", name);
-  }
-  const bool depth = ofLevel(name, GL_TEXTURE_DEPTH_SIZE) > 0;
-  if (!sampledAsFloat(ofLevel(name, depth ? GL_TEXTURE_DEPTH_TYPE : GL_TEXTURE_RED_TYPE))) {
-    throw Error(ErrorId::kHostTexture, "texture {} is not sampled as floats", name);
-  }
-  const auto width = static_cast<uint32_t>(ofLevel(name, GL_TEXTURE_WIDTH));
-  const auto height = static_cast<uint32_t>(ofLevel(name, GL_TEXTURE_HEIGHT));
-  const bool given = texture.width != 0 || texture.height != 0;
-  if (given && (texture.width != width || texture.height != height)) {
-    throw Error(ErrorId::kHostTexture, "texture {} has {} x {} pixels, not {} x {}", name, width,
-                height, texture.width, texture.height);
-  }
-  TextureResource resource;
-  resource.object = Object::foreign(name);
-  resource.desc = {.format = gpu::Format::kRgba32Float,
-                   .width = width,
-                   .height = height,
-                   .usage = gpu::TextureUsage::kSampled};
-  return resources_.textures.add(std::move(resource));
+  return resources_.textures.add(wrapForeign(texture));
 }
 
 gpu::ForeignInfo GlHostDevice::foreign(gpu::Texture texture) {
-  const TextureResource& resource = resources_.textures.get(texture);
-  const GLuint name = resource.object.name();
-  uint32_t channels = 0;
-  for (const GLenum size :
-       {GL_TEXTURE_RED_SIZE, GL_TEXTURE_GREEN_SIZE, GL_TEXTURE_BLUE_SIZE, GL_TEXTURE_ALPHA_SIZE}) {
-    if (ofLevel(name, size) > 0) ++channels;
-  }
-  return {.width = resource.desc.width,
-          .height = resource.desc.height,
-          .channels = channels,
-          .depth = ofLevel(name, GL_TEXTURE_DEPTH_SIZE) > 0};
+  return describeForeign(resources_.textures.get(texture));
 }
 
 // Starts a frame in a slot whose last frame the GPU has finished. Without one, adds a slot: the
@@ -186,14 +150,20 @@ void GlHostDevice::turnTo(uint64_t frame) {
   commands_.beginFrame(slot_);
 }
 
+// Names an object among those of the program.
+void GlHostDevice::name(const Object& object, std::string_view label) {
+  if (!label.empty()) object.label(fmt::format("grisaille: {}", label));
+}
+
 gpu::Commands& GlHostDevice::begin(void* commandBuffer, uint64_t frame,
-                                   std::span<const gpu::Texture>) {
+                                   std::span<const gpu::Texture>, std::string_view label) {
   if (commandBuffer != nullptr) {
     throw Error(ErrorId::kHostFrame, "OpenGL takes no command buffer, but one was given");
   }
   turnTo(frame);
   if (!spec_.keepsState) state_.save();
   HostState::prepare();
+  if (!label.empty()) commands_.openGroup(label);
   glMemoryBarrier(GL_ALL_BARRIER_BITS);
   return commands_;
 }
@@ -204,6 +174,7 @@ void GlHostDevice::end(std::span<const gpu::Texture> writes) {
   }
   resources_.barriers();
   glMemoryBarrier(GL_ALL_BARRIER_BITS);
+  commands_.closeGroups();
   commands_.prepareSlots(static_cast<uint32_t>(fences_.size()));
   GLsync& fence = fences_[slot_];
   glDeleteSync(fence);

@@ -36,14 +36,6 @@ GLint minFilter(gpu::Filter filter, gpu::Filter mipFilter) {
   return filter == gpu::Filter::kNearest ? GL_NEAREST_MIPMAP_LINEAR : GL_LINEAR_MIPMAP_LINEAR;
 }
 
-uint64_t bytesOf(const gpu::TextureDesc& desc) {
-  uint64_t bytes = 0;
-  for (uint32_t mip = 0; mip < desc.mips; ++mip) {
-    bytes += uint64_t{std::max(1u, desc.width >> mip)} * std::max(1u, desc.height >> mip);
-  }
-  return bytes * desc.layers * gpu::formatInfo(desc.format).texelBytes;
-}
-
 // The barrier bits after a shader writes a texture: they cover every use that the texture allows. A
 // later read of another kind finds the texture in a read state and issues no barrier.
 GLbitfield textureBits(gpu::TextureUsage usage) {
@@ -81,6 +73,14 @@ bool isArray(GLuint texture) {
 
 }  // namespace
 
+uint64_t bytesOf(const gpu::TextureDesc& desc) {
+  uint64_t bytes = 0;
+  for (uint32_t mip = 0; mip < desc.mips; ++mip) {
+    bytes += uint64_t{std::max(1u, desc.width >> mip)} * std::max(1u, desc.height >> mip);
+  }
+  return bytes * desc.layers * gpu::formatInfo(desc.format).texelBytes;
+}
+
 void allocateStorage(const char* kind, std::string_view label, uint64_t bytes,
                      const std::function<void()>& allocate) {
   const QuietDebugOutput quiet;
@@ -101,6 +101,8 @@ gpu::Buffer Resources::createBuffer(const gpu::BufferDesc& desc) {
   });
   buffer.object.label(desc.label);
   const gpu::Buffer handle = buffers.add(std::move(buffer));
+  use_.deviceBytes += desc.size;
+  ++use_.allocations;
   tracker.add(handle);
   return handle;
 }
@@ -115,7 +117,10 @@ gpu::Buffer Resources::createMapped(uint64_t size, std::byte*& memory) {
     memory = static_cast<std::byte*>(glMapNamedBufferRange(buffer.object.name(), 0, bytes, kFlags));
   });
   buffer.object.label("uniforms");
-  return buffers.add(std::move(buffer));
+  const gpu::Buffer handle = buffers.add(std::move(buffer));
+  use_.hostBytes += size;
+  ++use_.allocations;
+  return handle;
 }
 
 gpu::Texture Resources::createTexture(const gpu::TextureDesc& desc) {
@@ -142,6 +147,8 @@ gpu::Texture Resources::createTexture(const gpu::TextureDesc& desc) {
   });
   texture.object.label(desc.label);
   const gpu::Texture handle = textures.add(std::move(texture));
+  use_.deviceBytes += bytesOf(desc);
+  ++use_.allocations;
   tracker.add(handle, desc.mips, desc.layers);
   return handle;
 }
@@ -164,12 +171,18 @@ gpu::Sampler Resources::createSampler(const gpu::SamplerDesc& desc) {
 }
 
 void Resources::destroy(gpu::Buffer buffer) {
-  buffers.remove(buffer);
+  const BufferResource removed = buffers.remove(buffer);
+  use_.deviceBytes -= removed.size;
+  --use_.allocations;
   tracker.remove(buffer);
 }
 
 void Resources::destroy(gpu::Texture texture) {
   const TextureResource removed = textures.remove(texture);
+  if (!removed.foreign) {
+    use_.deviceBytes -= bytesOf(removed.desc);
+    --use_.allocations;
+  }
   tracker.remove(texture);
   std::erase_if(framebuffers_, [&](const auto& entry) {
     return std::any_of(entry.first.begin(), entry.first.end(),

@@ -10,6 +10,7 @@
 
 #include "backends/opengl/objects.h"
 #include "core/gpu/handle_pool.h"
+#include "core/gpu/host_device.h"
 #include "core/gpu/state_tracker.h"
 #include "core/gpu/types.h"
 
@@ -30,7 +31,8 @@ struct CachedView {
 struct TextureResource {
   Object object;
   gpu::TextureDesc desc;          // its label is not kept
-  std::vector<CachedView> views;  // made when first bound
+  std::vector<CachedView> views;  // made when first bound; of a foreign texture, with it
+  bool foreign = false;           // another program's texture, or a view of one
 };
 
 struct SamplerResource {
@@ -66,6 +68,8 @@ using FramebufferKey = std::array<Attachment, gpu::kMaxColorTargets + 1>;
 void allocateStorage(const char* kind, std::string_view label, uint64_t bytes,
                      const std::function<void()>& allocate);
 
+uint64_t bytesOf(const gpu::TextureDesc& desc);
+
 class Resources {
  public:
   // All throw kOutOfDeviceMemory and kTooManyResources; kTextureSize for a texture over the limit.
@@ -75,6 +79,9 @@ class Resources {
 
   void destroy(gpu::Buffer buffer);
   void destroy(gpu::Texture texture);
+
+  // Bytes that OpenGL is asked for at present. Drivers add some, and tell nobody how much.
+  const gpu::MemoryUse& use() const { return use_; }
 
   // Creates a buffer that stays mapped for writing. Barriers need not cover it.
   gpu::Buffer createMapped(uint64_t size, std::byte*& memory);
@@ -101,6 +108,7 @@ class Resources {
   uint32_t barrierBits(const gpu::Transition& transition) const;
 
   std::map<FramebufferKey, Object> framebuffers_;
+  gpu::MemoryUse use_;
 };
 
 }  // namespace grisaille::opengl

@@ -52,14 +52,34 @@ VkClearColorValue clearColor(const std::array<float, 4>& clear, gpu::Format form
 
 }  // namespace
 
-void Recorder::begin(Recording& recording, VkCommandBuffer commands) {
+void Recorder::begin(Recording& recording, VkCommandBuffer commands, std::string_view group) {
   recording_ = &recording;
   commands_ = commands;
   pending_ = false;
+  labels_ = 0;
+  if (!group.empty()) openLabel(group);
 }
 
-void Recorder::clearTransients(uint64_t count) {
-  transients_.clear([&](gpu::Texture texture) { resources_.retire(texture, count); });
+void Recorder::end() {
+  while (labels_ > 0) closeLabel();
+  recording_ = nullptr;
+}
+
+// Copies the label to an array: recording allocates nothing.
+void Recorder::openLabel(std::string_view label) {
+  if (context_.debug().beginLabel == nullptr) return;
+  std::array<char, 128> text = {};
+  std::copy_n(label.begin(), std::min(label.size(), text.size() - 1), text.begin());
+  VkDebugUtilsLabelEXT info{VK_STRUCTURE_TYPE_DEBUG_UTILS_LABEL_EXT};
+  info.pLabelName = text.data();
+  context_.debug().beginLabel(commands(), &info);
+  ++labels_;
+}
+
+void Recorder::closeLabel() {
+  if (labels_ == 0) return;
+  context_.debug().endLabel(commands());
+  --labels_;
 }
 
 void Recorder::endFrame(uint64_t count) {
@@ -75,15 +95,11 @@ void Recorder::submitAndWait() {
 void Recorder::beginPass(std::string_view label) {
   if (recording_->timer.wall()) submitAndWait();
   recording_->timer.beginPass(commands(), label);
-  if (context_.debug().beginLabel == nullptr) return;
-  const std::string text(label);
-  VkDebugUtilsLabelEXT info{VK_STRUCTURE_TYPE_DEBUG_UTILS_LABEL_EXT};
-  info.pLabelName = text.c_str();
-  context_.debug().beginLabel(commands(), &info);
+  openLabel(label);
 }
 
 void Recorder::endPass() {
-  if (context_.debug().endLabel != nullptr) context_.debug().endLabel(commands());
+  closeLabel();
   if (recording_->timer.wall()) submitAndWait();
   recording_->timer.endPass(commands());
 }

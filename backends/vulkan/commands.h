@@ -16,15 +16,15 @@ class Recorder : public gpu::Commands {
   Recorder(Context& context, Resources& resources, std::function<void()> drain)
       : context_(context), resources_(resources), drain_(std::move(drain)) {}
 
-  void begin(Recording& recording, VkCommandBuffer commands);
-  void end() { recording_ = nullptr; }
+  // `group`: label around all passes; "": none.
+  void begin(Recording& recording, VkCommandBuffer commands, std::string_view group = "");
+  // Closes the labels that are still open: of a pass, if its recording failed.
+  void end();
   bool recording() const { return recording_ != nullptr; }
 
   // Makes the transient textures available again. `count`: the last frame's, as in
   // Resources::retire().
   void endFrame(uint64_t count);
-  // Destroys the transient textures, with the same `count`.
-  void clearTransients(uint64_t count);
 
   void beginPass(std::string_view label) override;
   void endPass() override;
@@ -47,6 +47,8 @@ class Recorder : public gpu::Commands {
 
   VkCommandBuffer commands() const { return commands_; }
   void submitAndWait();
+  void openLabel(std::string_view label);
+  void closeLabel();
 
   Targets targetsOf(const gpu::Render& render);
   gpu::TextureView targetView(gpu::TextureView view);
@@ -65,6 +67,7 @@ class Recorder : public gpu::Commands {
   Recording* recording_ = nullptr;  // null: not recording
   VkCommandBuffer commands_ = VK_NULL_HANDLE;
   bool pending_ = false;  // commands are recorded that are not submitted
+  uint32_t labels_ = 0;   // number of open debug labels
 };
 
 }  // namespace grisaille::vulkan

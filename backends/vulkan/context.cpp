@@ -29,7 +29,11 @@ Context::Context(const HostHandles& host)
       foreign_(true),
       instance_(host) {
   volkLoadDeviceTable(&vk, device);
-  describe(foreignCandidate(physical, queueFamily));
+  if (host.callbacks != nullptr) {
+    foreignCallbacks_ = *static_cast<const VkAllocationCallbacks*>(host.callbacks);
+    callbacks = &foreignCallbacks_;
+  }
+  describe(foreignCandidate(physical, queueFamily), host.memory);
 }
 
 Context::~Context() {
@@ -58,7 +62,7 @@ void Context::open(const Candidate& chosen) {
   vk.vkGetDeviceQueue(device, queueFamily, 0, &queue);
 }
 
-void Context::describe(const Candidate& chosen) {
+void Context::describe(const Candidate& chosen, MemorySource* source) {
   VkPhysicalDeviceMaintenance4Properties maintenance4{
       VK_STRUCTURE_TYPE_PHYSICAL_DEVICE_MAINTENANCE_4_PROPERTIES};
   VkPhysicalDeviceMaintenance3Properties maintenance3{
@@ -66,9 +70,7 @@ void Context::describe(const Candidate& chosen) {
   VkPhysicalDeviceProperties2 all{
       VK_STRUCTURE_TYPE_PHYSICAL_DEVICE_PROPERTIES_2, &maintenance3, {}};
   vkGetPhysicalDeviceProperties2(physical, &all);
-  vkGetPhysicalDeviceMemoryProperties(physical, &memory_);
   properties = all.properties;
-  maxAllocationBytes_ = maintenance3.maxMemoryAllocationSize;
 
   info.backend = "vulkan";
   info.name = chosen.listed.name;
@@ -83,7 +85,7 @@ void Context::describe(const Candidate& chosen) {
       std::min({limits.maxImageDimension2D, limits.maxFramebufferWidth, limits.maxFramebufferHeight,
                 limits.maxViewportDimensions[0], limits.maxViewportDimensions[1]});
   able.maxTextureLayers = limits.maxImageArrayLayers;
-  able.maxBufferBytes = std::min(maintenance4.maxBufferSize, maxAllocationBytes_);
+  able.maxBufferBytes = std::min(maintenance4.maxBufferSize, maintenance3.maxMemoryAllocationSize);
   able.maxStorageRange = limits.maxStorageBufferRange;
   able.maxUniformRange = limits.maxUniformBufferRange;
   able.uniformAlignment = static_cast<uint32_t>(limits.minUniformBufferOffsetAlignment);
@@ -93,57 +95,19 @@ void Context::describe(const Candidate& chosen) {
   enableFeatures(physical, enabled);
   able.maxAnisotropy =
       enabled.v10.features.samplerAnisotropy != 0 ? limits.maxSamplerAnisotropy : 1;
-}
 
-VkDeviceMemory Context::allocate(const VkMemoryRequirements& requirements, MemoryKind kind) {
-  const VkMemoryPropertyFlags required =
-      kind == MemoryKind::kDevice
-          ? 0
-          : VK_MEMORY_PROPERTY_HOST_VISIBLE_BIT | VK_MEMORY_PROPERTY_HOST_COHERENT_BIT;
-  const VkMemoryPropertyFlags preferred =
-      kind == MemoryKind::kDevice     ? VK_MEMORY_PROPERTY_DEVICE_LOCAL_BIT
-      : kind == MemoryKind::kReadback ? VK_MEMORY_PROPERTY_HOST_CACHED_BIT
-                                      : 0;
-  const auto find = [&](VkMemoryPropertyFlags flags) {
-    uint32_t type = 0;
-    while (type < memory_.memoryTypeCount &&
-           ((requirements.memoryTypeBits >> type & 1u) == 0 ||
-            (memory_.memoryTypes[type].propertyFlags & flags) != flags)) {
-      ++type;
-    }
-    return type;
-  };
-  uint32_t type = find(required | preferred);
-  if (type == memory_.memoryTypeCount) type = find(required);
-  if (type == memory_.memoryTypeCount) {
-    throw Error(ErrorId::kDeviceFailed, "{} has no memory type that fits the resource", info.name);
-  }
-  const uint64_t heap = memory_.memoryHeaps[memory_.memoryTypes[type].heapIndex].size;
-  if (requirements.size > std::min(heap, maxAllocationBytes_)) {
-    throw Error(ErrorId::kOutOfDeviceMemory, "{} bytes are more than {} allocates at once",
-                requirements.size, info.name);
-  }
-  if (allocations_ >= properties.limits.maxMemoryAllocationCount) {
-    throw Error(ErrorId::kTooManyResources, "{} allows {} memory allocations", info.name,
-                properties.limits.maxMemoryAllocationCount);
-  }
-  VkMemoryAllocateInfo allocation{VK_STRUCTURE_TYPE_MEMORY_ALLOCATE_INFO};
-  allocation.allocationSize = requirements.size;
-  allocation.memoryTypeIndex = type;
-  VkDeviceMemory memory = VK_NULL_HANDLE;
-  check(vk.vkAllocateMemory(device, &allocation, nullptr, &memory), "vkAllocateMemory");
-  ++allocations_;
-  return memory;
-}
-
-void Context::free(VkDeviceMemory memory) {
-  if (memory == VK_NULL_HANDLE) return;
-  vk.vkFreeMemory(device, memory, nullptr);
-  --allocations_;
+  Allocator::Device of = {.vk = &vk,
+                          .device = device,
+                          .callbacks = callbacks,
+                          .maxBytes = maintenance3.maxMemoryAllocationSize,
+                          .maxAllocations = limits.maxMemoryAllocationCount,
+                          .name = info.name};
+  vkGetPhysicalDeviceMemoryProperties(physical, &of.memory);
+  memory.open(std::move(of), source);
 }
 
 void Context::setName(VkObjectType type, uint64_t object, std::string_view label) const {
-  const std::string text(label);
+  const std::string text = fmt::format("{}{}", foreign_ ? "grisaille: " : "", label);
   VkDebugUtilsObjectNameInfoEXT named{VK_STRUCTURE_TYPE_DEBUG_UTILS_OBJECT_NAME_INFO_EXT};
   named.objectType = type;
   named.objectHandle = object;

@@ -8,16 +8,10 @@
 #include <string_view>
 
 #include "backends/vulkan/instance.h"
+#include "backends/vulkan/memory.h"
 #include "backends/vulkan/surface.h"
 
 namespace grisaille::vulkan {
-
-// The kind of memory to allocate.
-enum class MemoryKind {
-  kDevice,    // device-local
-  kUpload,    // mapped, written by the host
-  kReadback,  // mapped, read by the host; cached if the device has a cached type
-};
 
 class Context {
  public:
@@ -28,11 +22,8 @@ class Context {
   Context(const Context&) = delete;
   Context& operator=(const Context&) = delete;
 
-  // Throws kOutOfDeviceMemory, kTooManyResources.
-  VkDeviceMemory allocate(const VkMemoryRequirements& requirements, MemoryKind kind);
-  void free(VkDeviceMemory memory);
-
-  // Names an object for debuggers and validation messages.
+  // Names an object for debuggers and validation messages. In another program, names begin with
+  // "grisaille: ".
   template <typename Object>
   void name(VkObjectType type, Object object, std::string_view label) const {
     if (debug().setName != nullptr && !label.empty()) {
@@ -52,20 +43,20 @@ class Context {
   uint32_t timestampBits = 0;  // valid bits of the queue's timestamps; 0: it has none
   VkPhysicalDeviceProperties properties{};
   gpu::DeviceInfo info;
+  const VkAllocationCallbacks* callbacks = nullptr;  // another program's; null: none
+  Allocator memory;
 
  private:
   // A public constructor delegates to this one, so that the destructor runs when it throws.
   Context(bool check, const gpu::MessageSink& message, backends::Window* window);
   void open(const Candidate& chosen);
-  void describe(const Candidate& chosen);
+  void describe(const Candidate& chosen, MemorySource* source = nullptr);
   void setName(VkObjectType type, uint64_t object, std::string_view label) const;
 
   bool foreign_ = false;  // the device is another program's
   Instance instance_;
   std::optional<Surface> surface_;
-  VkPhysicalDeviceMemoryProperties memory_{};
-  uint64_t maxAllocationBytes_ = 0;
-  uint32_t allocations_ = 0;
+  VkAllocationCallbacks foreignCallbacks_{};
 };
 
 }  // namespace grisaille::vulkan

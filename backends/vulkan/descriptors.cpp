@@ -58,7 +58,7 @@ VkDescriptorImageInfo imageInfo(Resources& resources, const gpu::Binding& bindin
 
 DescriptorPools::~DescriptorPools() {
   for (const VkDescriptorPool pool : pools_) {
-    context_.vk.vkDestroyDescriptorPool(context_.device, pool, nullptr);
+    context_.vk.vkDestroyDescriptorPool(context_.device, pool, context_.callbacks);
   }
 }
 
@@ -74,7 +74,7 @@ void DescriptorPools::addPool() {
   info.pPoolSizes = sizes.data();
   pools_.reserve(pools_.size() + 1);
   VkDescriptorPool pool = VK_NULL_HANDLE;
-  check(context_.vk.vkCreateDescriptorPool(context_.device, &info, nullptr, &pool),
+  check(context_.vk.vkCreateDescriptorPool(context_.device, &info, context_.callbacks, &pool),
         "vkCreateDescriptorPool");
   pools_.push_back(pool);
 }

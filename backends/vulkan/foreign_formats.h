@@ -8,6 +8,7 @@ namespace grisaille::vulkan {
 
 struct ForeignFormat {
   VkFormat format;
+  const char* name;            // "VK_FORMAT_D16_UNORM"
   uint32_t channels;           // 1 ... 4
   VkImageAspectFlags aspects;  // all aspects of the format: barriers must name each
 
@@ -17,8 +18,11 @@ struct ForeignFormat {
 // Throws kHostTexture if the format is not in the table.
 const ForeignFormat& foreignFormat(VkFormat format);
 
-// Creates a view of the texture. The caller owns the view, the other program owns the image. Throws
-// kHostTexture, kOutOfDeviceMemory.
+// The aspects that a barrier to or from this layout names.
+VkImageAspectFlags aspectsIn(VkImageLayout layout, const ForeignFormat& format);
+
+// Creates a view of each layer of the texture. The caller owns the view, the other program owns the
+// image. Throws kHostTexture, kOutOfDeviceMemory.
 TextureObject makeForeign(Context& context, const gpu::ForeignTexture& texture);
 
 }  // namespace grisaille::vulkan

@@ -33,11 +33,13 @@ class VulkanHostDevice final : public Making<gpu::HostDevice> {
   }
   gpu::Texture wrap(const gpu::ForeignTexture& texture) override;
   gpu::ForeignInfo foreign(gpu::Texture texture) override;
-  gpu::Commands& begin(void* commandBuffer, uint64_t frame,
-                       std::span<const gpu::Texture> reads) override;
+  gpu::Commands& begin(void* commandBuffer, uint64_t frame, std::span<const gpu::Texture> reads,
+                       std::string_view label) override;
   void end(std::span<const gpu::Texture> writes) override;
   void forget(gpu::Texture texture) override;
-  void forgetTransients() override { recorder_.clearTransients(lastUse()); }
+  gpu::MemoryUse memory() const override { return context_.memory.use(); }
+  uint64_t bytesOf(const gpu::TextureDesc& desc) const override { return resources_.bytesOf(desc); }
+  uint64_t bytesOf(const gpu::BufferDesc& desc) const override { return resources_.bytesOf(desc); }
   gpu::NativeTexture native(gpu::Texture texture) override;
   void requireUsable() const override {}
 
@@ -48,6 +50,7 @@ class VulkanHostDevice final : public Making<gpu::HostDevice> {
   }
   void turnTo(uint64_t frame);
   void hand(bool toUs);
+  void addForeign(const TextureObject& object);
 
   std::vector<std::unique_ptr<Recording>> recordings_;  // one per frame in flight
   Recorder recorder_;
@@ -65,8 +68,10 @@ gpu::ForeignInfo VulkanHostDevice::foreign(gpu::Texture texture) {
   const ForeignFormat& format = foreignFormat(object.format);
   return {.width = object.desc.width,
           .height = object.desc.height,
+          .layers = object.desc.layers,
           .channels = format.channels,
-          .depth = format.depth()};
+          .depth = format.depth(),
+          .format = fmt::format("{} ({})", format.name, static_cast<int>(format.format))};
 }
 
 // Starts a frame: reuses the memory of the frame recordings_.size() before, which has finished.
@@ -101,16 +106,15 @@ void VulkanHostDevice::hand(bool toUs) {
   context_.vk.vkCmdPipelineBarrier2(commands_, &info);
 }
 
-gpu::Commands& VulkanHostDevice::begin(void* commandBuffer, uint64_t frame,
-                                       std::span<const gpu::Texture> reads) {
-  if (commandBuffer == nullptr) throw Error(ErrorId::kHostFrame, "the command buffer is null");
-  turnTo(frame);
-  commands_ = static_cast<VkCommandBuffer>(commandBuffer);
-  foreign_.clear();
-  for (const gpu::Texture texture : reads) {
-    const TextureObject& object = resources_.get(texture);
-    const auto twin = std::ranges::find(foreign_, object.image, &VkImageMemoryBarrier2::image);
-    if (twin != foreign_.end()) continue;
+// Wrappers of one image may share layers: each layer gets one barrier.
+void VulkanHostDevice::addForeign(const TextureObject& object) {
+  const VkImageAspectFlags aspects = aspectsIn(object.home, foreignFormat(object.format));
+  for (uint32_t i = 0; i < object.desc.layers; ++i) {
+    const uint32_t layer = object.firstLayer + i;
+    const bool twin = std::ranges::any_of(foreign_, [&](const VkImageMemoryBarrier2& other) {
+      return other.image == object.image && other.subresourceRange.baseArrayLayer == layer;
+    });
+    if (twin) continue;
     VkImageMemoryBarrier2 barrier{VK_STRUCTURE_TYPE_IMAGE_MEMORY_BARRIER_2};
     barrier.srcStageMask = barrier.dstStageMask = VK_PIPELINE_STAGE_2_ALL_COMMANDS_BIT;
     barrier.srcAccessMask = VK_ACCESS_2_MEMORY_WRITE_BIT;
@@ -119,11 +123,21 @@ gpu::Commands& VulkanHostDevice::begin(void* commandBuffer, uint64_t frame,
     barrier.newLayout = layoutOf(Access::kSampled);
     barrier.srcQueueFamilyIndex = barrier.dstQueueFamilyIndex = VK_QUEUE_FAMILY_IGNORED;
     barrier.image = object.image;
-    barrier.subresourceRange = {foreignFormat(object.format).aspects, 0, 1, 0, 1};
+    barrier.subresourceRange = {aspects, 0, 1, layer, 1};
     foreign_.push_back(barrier);
   }
+}
+
+gpu::Commands& VulkanHostDevice::begin(void* commandBuffer, uint64_t frame,
+                                       std::span<const gpu::Texture> reads,
+                                       std::string_view label) {
+  if (commandBuffer == nullptr) throw Error(ErrorId::kHostFrame, "the command buffer is null");
+  turnTo(frame);
+  commands_ = static_cast<VkCommandBuffer>(commandBuffer);
+  foreign_.clear();
+  for (const gpu::Texture texture : reads) addForeign(resources_.get(texture));
   hand(true);
-  recorder_.begin(*recordings_[frame % recordings_.size()], commands_);
+  recorder_.begin(*recordings_[frame % recordings_.size()], commands_, label);
   return recorder_;
 }
 
@@ -146,8 +160,9 @@ void VulkanHostDevice::forget(gpu::Texture texture) {
 
 gpu::NativeTexture VulkanHostDevice::native(gpu::Texture texture) {
   const gpu::TextureView whole = resources_.resolve(gpu::TextureView{.texture = texture});
-  const VkImageView view = resources_.viewOf(whole, VK_IMAGE_VIEW_TYPE_2D);
   const TextureObject& object = resources_.get(texture);
+  const VkImageView view = resources_.viewOf(
+      whole, object.desc.layers > 1 ? VK_IMAGE_VIEW_TYPE_2D_ARRAY : VK_IMAGE_VIEW_TYPE_2D);
   return {.name = reinterpret_cast<uint64_t>(object.image),
           .view = reinterpret_cast<uint64_t>(view),
           .format = static_cast<uint32_t>(object.format),

@@ -107,7 +107,7 @@ Instance::Instance(bool check, gpu::MessageSink message, std::span<const char* c
 Instance::Instance(const HostHandles& host)
     : instance_(static_cast<VkInstance>(host.instance)), foreign_(true) {
   loadLibrary(reinterpret_cast<PFN_vkGetInstanceProcAddr>(host.getInstanceProcAddr));
-  load(false);
+  load(true);  // finds nothing unless the program enabled the extension
 }
 
 void Instance::load(bool debugUtils) {

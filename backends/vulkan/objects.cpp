@@ -55,6 +55,17 @@ void checkImageFits(const Context& context, const VkImageCreateInfo& info,
   }
 }
 
+VkBufferCreateInfo bufferInfo(uint64_t size, VkBufferUsageFlags usage) {
+  VkBufferCreateInfo info{VK_STRUCTURE_TYPE_BUFFER_CREATE_INFO};
+  info.size = size;
+  info.usage = usage;
+  return info;
+}
+
+VkDeviceMemory memoryOf(const Memory& memory) {
+  return reinterpret_cast<VkDeviceMemory>(memory.where.memory);
+}
+
 VkSamplerAddressMode addressMode(gpu::Address address) {
   switch (address) {
     case gpu::Address::kRepeat:
@@ -77,22 +88,17 @@ BufferObject makeBuffer(Context& context, std::string_view label, uint64_t size,
   }
   BufferObject object;
   object.size = size;
-  VkBufferCreateInfo info{VK_STRUCTURE_TYPE_BUFFER_CREATE_INFO};
-  info.size = size;
-  info.usage = usage;
-  check(vk.vkCreateBuffer(context.device, &info, nullptr, &object.buffer), "vkCreateBuffer");
+  const VkBufferCreateInfo info = bufferInfo(size, usage);
+  check(vk.vkCreateBuffer(context.device, &info, context.callbacks, &object.buffer),
+        "vkCreateBuffer");
   try {
-    VkMemoryRequirements requirements{};
-    vk.vkGetBufferMemoryRequirements(context.device, object.buffer, &requirements);
-    object.memory = context.allocate(requirements, kind);
-    check(vk.vkBindBufferMemory(context.device, object.buffer, object.memory, 0),
+    Needing needing = {.buffer = object.buffer, .label = label};
+    vk.vkGetBufferMemoryRequirements(context.device, object.buffer, &needing.requirements);
+    object.memory = context.memory.allocate(needing, kind);
+    check(vk.vkBindBufferMemory(context.device, object.buffer, memoryOf(object.memory),
+                                object.memory.where.offset),
           "vkBindBufferMemory");
-    if (kind != MemoryKind::kDevice) {
-      void* mapped = nullptr;
-      check(vk.vkMapMemory(context.device, object.memory, 0, VK_WHOLE_SIZE, 0, &mapped),
-            "vkMapMemory");
-      object.mapped = static_cast<std::byte*>(mapped);
-    }
+    object.mapped = static_cast<std::byte*>(object.memory.where.mapped);
   } catch (...) {
     release(context, object);
     throw;
@@ -110,12 +116,13 @@ TextureObject makeTexture(Context& context, const gpu::TextureDesc& desc) {
   object.desc.label = {};
   object.format = info.format;
   object.seen = aspectOf(desc.format);
-  check(vk.vkCreateImage(context.device, &info, nullptr, &object.image), "vkCreateImage");
+  check(vk.vkCreateImage(context.device, &info, context.callbacks, &object.image), "vkCreateImage");
   try {
-    VkMemoryRequirements requirements{};
-    vk.vkGetImageMemoryRequirements(context.device, object.image, &requirements);
-    object.memory = context.allocate(requirements, MemoryKind::kDevice);
-    check(vk.vkBindImageMemory(context.device, object.image, object.memory, 0),
+    Needing needing = {.image = object.image, .label = desc.label};
+    vk.vkGetImageMemoryRequirements(context.device, object.image, &needing.requirements);
+    object.memory = context.memory.allocate(needing, MemoryKind::kDevice);
+    check(vk.vkBindImageMemory(context.device, object.image, memoryOf(object.memory),
+                               object.memory.where.offset),
           "vkBindImageMemory");
   } catch (...) {
     release(context, object);
@@ -123,6 +130,24 @@ TextureObject makeTexture(Context& context, const gpu::TextureDesc& desc) {
   }
   context.name(VK_OBJECT_TYPE_IMAGE, object.image, desc.label);
   return object;
+}
+
+uint64_t bufferBytes(const Context& context, uint64_t size, VkBufferUsageFlags usage) {
+  const VkBufferCreateInfo info = bufferInfo(size, usage);
+  VkDeviceBufferMemoryRequirements of{VK_STRUCTURE_TYPE_DEVICE_BUFFER_MEMORY_REQUIREMENTS};
+  of.pCreateInfo = &info;
+  VkMemoryRequirements2 found{VK_STRUCTURE_TYPE_MEMORY_REQUIREMENTS_2};
+  context.vk.vkGetDeviceBufferMemoryRequirements(context.device, &of, &found);
+  return found.memoryRequirements.size;
+}
+
+uint64_t textureBytes(const Context& context, const gpu::TextureDesc& desc) {
+  const VkImageCreateInfo info = imageInfo(desc);
+  VkDeviceImageMemoryRequirements of{VK_STRUCTURE_TYPE_DEVICE_IMAGE_MEMORY_REQUIREMENTS};
+  of.pCreateInfo = &info;
+  VkMemoryRequirements2 found{VK_STRUCTURE_TYPE_MEMORY_REQUIREMENTS_2};
+  context.vk.vkGetDeviceImageMemoryRequirements(context.device, &of, &found);
+  return found.memoryRequirements.size;
 }
 
 SamplerObject makeSampler(Context& context, const gpu::SamplerDesc& desc) {
@@ -141,7 +166,7 @@ SamplerObject makeSampler(Context& context, const gpu::SamplerDesc& desc) {
   info.maxAnisotropy = std::max(1.0f, anisotropy);
   info.maxLod = VK_LOD_CLAMP_NONE;
   SamplerObject object;
-  check(context.vk.vkCreateSampler(context.device, &info, nullptr, &object.sampler),
+  check(context.vk.vkCreateSampler(context.device, &info, context.callbacks, &object.sampler),
         "vkCreateSampler");
   context.name(VK_OBJECT_TYPE_SAMPLER, object.sampler, desc.label);
   return object;
@@ -160,10 +185,11 @@ VkImageView viewOf(Context& context, TextureObject& texture, const gpu::TextureV
   info.image = texture.image;
   info.viewType = type;
   info.format = texture.format;
-  info.subresourceRange = {texture.seen, range.mip, range.mipCount, range.layer, range.layerCount};
+  info.subresourceRange = {texture.seen, range.mip, range.mipCount,
+                           texture.firstLayer + range.layer, range.layerCount};
   TextureObject::View made{.range = range, .type = type, .view = VK_NULL_HANDLE};
   texture.views.reserve(texture.views.size() + 1);
-  check(context.vk.vkCreateImageView(context.device, &info, nullptr, &made.view),
+  check(context.vk.vkCreateImageView(context.device, &info, context.callbacks, &made.view),
         "vkCreateImageView");
   texture.views.push_back(made);
   return made.view;
@@ -179,22 +205,22 @@ VkBufferImageCopy copyRegion(const gpu::TextureDesc& desc, uint32_t mip, uint32_
 }
 
 void release(Context& context, BufferObject& object) {
-  context.vk.vkDestroyBuffer(context.device, object.buffer, nullptr);
-  context.free(object.memory);
+  context.vk.vkDestroyBuffer(context.device, object.buffer, context.callbacks);
+  context.memory.free(object.memory);
   object = {};
 }
 
 void release(Context& context, TextureObject& object) {
   for (const TextureObject::View& made : object.views) {
-    context.vk.vkDestroyImageView(context.device, made.view, nullptr);
+    context.vk.vkDestroyImageView(context.device, made.view, context.callbacks);
   }
-  if (!object.foreign) context.vk.vkDestroyImage(context.device, object.image, nullptr);
-  context.free(object.memory);
+  if (!object.foreign) context.vk.vkDestroyImage(context.device, object.image, context.callbacks);
+  context.memory.free(object.memory);
   object = {};
 }
 
 void release(Context& context, SamplerObject& object) {
-  context.vk.vkDestroySampler(context.device, object.sampler, nullptr);
+  context.vk.vkDestroySampler(context.device, object.sampler, context.callbacks);
   object = {};
 }
 

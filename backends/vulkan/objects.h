@@ -12,7 +12,7 @@ namespace grisaille::vulkan {
 
 struct BufferObject {
   VkBuffer buffer = VK_NULL_HANDLE;
-  VkDeviceMemory memory = VK_NULL_HANDLE;
+  Memory memory;
   uint64_t size = 0;            // bytes
   std::byte* mapped = nullptr;  // null for MemoryKind::kDevice
 };
@@ -25,13 +25,14 @@ struct TextureObject {
   };
 
   VkImage image = VK_NULL_HANDLE;
-  VkDeviceMemory memory = VK_NULL_HANDLE;
+  Memory memory;
   VkFormat format = VK_FORMAT_UNDEFINED;
   VkImageAspectFlags seen = 0;  // aspects that views show
   // Another program's image. The layer neither releases nor tracks it. It is in the layout `home`
   // between recordings.
   bool foreign = false;
   VkImageLayout home = VK_IMAGE_LAYOUT_UNDEFINED;
+  uint32_t firstLayer = 0;  // of a foreign image: the layer that is layer 0 here
   gpu::TextureDesc desc;    // its label is not kept
   std::vector<View> views;  // created on first use
 };
@@ -44,6 +45,10 @@ BufferObject makeBuffer(Context& context, std::string_view label, uint64_t size,
                         VkBufferUsageFlags usage, MemoryKind kind);
 TextureObject makeTexture(Context& context, const gpu::TextureDesc& desc);
 SamplerObject makeSampler(Context& context, const gpu::SamplerDesc& desc);
+
+// Bytes of memory that an object takes.
+uint64_t bufferBytes(const Context& context, uint64_t size, VkBufferUsageFlags usage);
+uint64_t textureBytes(const Context& context, const gpu::TextureDesc& desc);
 
 // Returns the cached view, or creates it. `range` has no zero counts.
 VkImageView viewOf(Context& context, TextureObject& texture, const gpu::TextureView& range,

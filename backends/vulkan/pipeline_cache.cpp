@@ -95,7 +95,7 @@ PipelineCache::PipelineCache(Context& context, CacheFile file, VkPipelineCache f
     info.initialDataSize = data.size();
     info.pInitialData = data.data();
   }
-  check(context_.vk.vkCreatePipelineCache(context_.device, &info, nullptr, &cache_),
+  check(context_.vk.vkCreatePipelineCache(context_.device, &info, context_.callbacks, &cache_),
         "vkCreatePipelineCache");
 }
 
@@ -105,7 +105,7 @@ PipelineCache::~PipelineCache() {
   } catch (const std::exception&) {
     // Without the file, the next run compiles the shaders again.
   }
-  context_.vk.vkDestroyPipelineCache(context_.device, cache_, nullptr);
+  context_.vk.vkDestroyPipelineCache(context_.device, cache_, context_.callbacks);
 }
 
 void PipelineCache::save() const {

@@ -14,10 +14,10 @@ class Module {
     VkShaderModuleCreateInfo info{VK_STRUCTURE_TYPE_SHADER_MODULE_CREATE_INFO};
     info.codeSize = shader.spirv_words * sizeof(uint32_t);
     info.pCode = shader.spirv;
-    check(context.vk.vkCreateShaderModule(context.device, &info, nullptr, &module_),
+    check(context.vk.vkCreateShaderModule(context.device, &info, context.callbacks, &module_),
           fmt::format("vkCreateShaderModule of {}", shader.name), ErrorId::kShaderRefused);
   }
-  ~Module() { context_.vk.vkDestroyShaderModule(context_.device, module_, nullptr); }
+  ~Module() { context_.vk.vkDestroyShaderModule(context_.device, module_, context_.callbacks); }
   Module(const Module&) = delete;
   Module& operator=(const Module&) = delete;
 
@@ -87,13 +87,15 @@ void makeLayouts(Context& context, PipelineObject& object) {
   VkDescriptorSetLayoutCreateInfo set{VK_STRUCTURE_TYPE_DESCRIPTOR_SET_LAYOUT_CREATE_INFO};
   set.bindingCount = static_cast<uint32_t>(list.size());
   set.pBindings = list.data();
-  check(context.vk.vkCreateDescriptorSetLayout(context.device, &set, nullptr, &object.setLayout),
+  check(context.vk.vkCreateDescriptorSetLayout(context.device, &set, context.callbacks,
+                                               &object.setLayout),
         "vkCreateDescriptorSetLayout");
   VkPipelineLayoutCreateInfo layout{VK_STRUCTURE_TYPE_PIPELINE_LAYOUT_CREATE_INFO};
   layout.setLayoutCount = 1;
   layout.pSetLayouts = &object.setLayout;
-  check(context.vk.vkCreatePipelineLayout(context.device, &layout, nullptr, &object.layout),
-        "vkCreatePipelineLayout");
+  check(
+      context.vk.vkCreatePipelineLayout(context.device, &layout, context.callbacks, &object.layout),
+      "vkCreatePipelineLayout");
 }
 
 VkFormat attributeFormat(gpu::AttributeFormat format) {
@@ -184,7 +186,7 @@ void makeCompute(Context& context, VkPipelineCache cache, const gpu::ComputePipe
   VkComputePipelineCreateInfo info{VK_STRUCTURE_TYPE_COMPUTE_PIPELINE_CREATE_INFO};
   info.stage = module.stage(VK_SHADER_STAGE_COMPUTE_BIT, constants.info);
   info.layout = object.layout;
-  check(context.vk.vkCreateComputePipelines(context.device, cache, 1, &info, nullptr,
+  check(context.vk.vkCreateComputePipelines(context.device, cache, 1, &info, context.callbacks,
                                             &object.pipeline),
         fmt::format("compiling {}", desc.shader->name), ErrorId::kShaderRefused);
 }
@@ -221,7 +223,7 @@ void makeGraphics(Context& context, VkPipelineCache cache, const gpu::GraphicsPi
   info.pColorBlendState = &fixed.blend;
   info.pDynamicState = &fixed.dynamic;
   info.layout = object.layout;
-  check(context.vk.vkCreateGraphicsPipelines(context.device, cache, 1, &info, nullptr,
+  check(context.vk.vkCreateGraphicsPipelines(context.device, cache, 1, &info, context.callbacks,
                                              &object.pipeline),
         fmt::format("compiling {} and {}", desc.vertex->name,
                     desc.fragment != nullptr ? desc.fragment->name : "no fragment shader"),
@@ -259,9 +261,9 @@ PipelineObject makePipeline(Context& context, VkPipelineCache cache,
 }
 
 void release(Context& context, PipelineObject& object) {
-  context.vk.vkDestroyPipeline(context.device, object.pipeline, nullptr);
-  context.vk.vkDestroyPipelineLayout(context.device, object.layout, nullptr);
-  context.vk.vkDestroyDescriptorSetLayout(context.device, object.setLayout, nullptr);
+  context.vk.vkDestroyPipeline(context.device, object.pipeline, context.callbacks);
+  context.vk.vkDestroyPipelineLayout(context.device, object.layout, context.callbacks);
+  context.vk.vkDestroyDescriptorSetLayout(context.device, object.setLayout, context.callbacks);
   object = {};
 }
 

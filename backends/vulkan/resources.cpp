@@ -131,6 +131,14 @@ gpu::BufferRange Resources::resolve(gpu::BufferRange range) {
   return range;
 }
 
+uint64_t Resources::bytesOf(const gpu::TextureDesc& desc) const {
+  return textureBytes(context_, desc);
+}
+
+uint64_t Resources::bytesOf(const gpu::BufferDesc& desc) const {
+  return bufferBytes(context_, desc.size, usageOf(desc.usage));
+}
+
 VkImageView Resources::viewOf(const gpu::TextureView& view, VkImageViewType type) {
   return vulkan::viewOf(context_, textures_.get(view.texture), view, type);
 }

@@ -53,6 +53,9 @@ class Resources {
   // Replaces the range's zero size by all remaining bytes. Throws kStaleHandle, kBindingRange.
   gpu::BufferRange resolve(gpu::BufferRange range);
 
+  uint64_t bytesOf(const gpu::TextureDesc& desc) const;
+  uint64_t bytesOf(const gpu::BufferDesc& desc) const;
+
   // `view` must be resolved.
   VkImageView viewOf(const gpu::TextureView& view, VkImageViewType type);
 

@@ -7,7 +7,7 @@ namespace grisaille::vulkan {
 
 PassTimer::~PassTimer() {
   for (const VkQueryPool pool : pools_) {
-    context_.vk.vkDestroyQueryPool(context_.device, pool, nullptr);
+    context_.vk.vkDestroyQueryPool(context_.device, pool, context_.callbacks);
   }
 }
 
@@ -40,7 +40,8 @@ void PassTimer::stamp(VkCommandBuffer commands) {
     info.queryCount = kPoolStamps;
     pools_.reserve(pools_.size() + 1);
     VkQueryPool made = VK_NULL_HANDLE;
-    check(vk.vkCreateQueryPool(context_.device, &info, nullptr, &made), "vkCreateQueryPool");
+    check(vk.vkCreateQueryPool(context_.device, &info, context_.callbacks, &made),
+          "vkCreateQueryPool");
     pools_.push_back(made);
   }
   if (query == 0) vk.vkCmdResetQueryPool(commands, pools_[pool], 0, kPoolStamps);

@@ -187,10 +187,15 @@ struct HostFunctions {
 
   // Creates a resource and stores its id in `own` and `out`.
   template <typename Id, typename Make>
-  static void give(std::unordered_set<uint32_t>& own, Id& out, Make&& make) {
-    own.reserve(own.size() + 1);  // nothing may throw once the resource exists
-    out.id = make().value;
-    own.insert(out.id);
+  static void give(std::vector<uint32_t>& own, Id& out, Make&& make) {
+    own.push_back(0);  // nothing may throw once the resource exists
+    try {
+      out.id = make().value;
+    } catch (...) {
+      own.pop_back();
+      throw;
+    }
+    own.back() = out.id;
   }
 
   // Linear search: the lists are short.
@@ -220,7 +225,7 @@ struct HostFunctions {
     if (id == 0) return;
     serve(self, service, [&](HostServices& s) {
       using Handle = typename decltype((s.*kind).buried)::value_type;
-      if ((s.*kind).own.erase(id) == 0) {
+      if (std::erase((s.*kind).own, id) == 0) {
         if (s.misuse_.empty()) s.misuse_ = fmt::format("{}: it does not own {:#x}", service, id);
       } else if (s.commands_ != nullptr) {
         (s.*kind).buried.push_back({id});
@@ -293,7 +298,7 @@ struct HostFunctions {
     return record(self, "dispatch", [&](HostServices& s) {
       const grisaille_dispatch& d = checked(work);
       if (!s.passOpen_) throw Error(ErrorId::kPassMissing, "{} dispatches outside a pass", s.key_);
-      if (!s.pipelines_.own.contains(d.pipeline.id)) {
+      if (!holds(s.pipelines_.own, d.pipeline.id)) {
         misuse("pipeline {:#x} is not this effect's", d.pipeline.id);
       }
       s.bindings_.clear();
@@ -334,7 +339,7 @@ struct HostFunctions {
   static grisaille_result uploadBuffer(const grisaille_frame* self, grisaille_buffer buffer,
                                        uint64_t offset, const void* data, uint64_t bytes) {
     return record(self, "upload_buffer", [&](HostServices& s) {
-      if (!s.buffers_.own.contains(buffer.id)) misuse("{:#x} is not this effect's", buffer.id);
+      if (!holds(s.buffers_.own, buffer.id)) misuse("{:#x} is not this effect's", buffer.id);
       s.commands_->upload(gpu::Buffer{buffer.id}, offset, bytesOf(data, bytes));
     });
   }
@@ -375,7 +380,7 @@ struct HostFunctions {
 
   static gpu::BufferRange rangeOf(const HostServices& s, const grisaille_range& range) {
     const uint32_t id = range.buffer.id;
-    if (id == 0 || (!s.buffers_.own.contains(id) && !holds(s.uniforms_, id))) {
+    if (id == 0 || (!holds(s.buffers_.own, id) && !holds(s.uniforms_, id))) {
       misuse("buffer {:#x} is not this effect's", id);
     }
     if (range.reserved != 0) misuse("a range's reserved field is {}, not 0", range.reserved);
@@ -383,7 +388,7 @@ struct HostFunctions {
   }
 
   static gpu::Texture textureOf(const HostServices& s, uint32_t id, bool written) {
-    const bool mine = s.textures_.own.contains(id) || holds(s.writable_, id);
+    const bool mine = holds(s.textures_.own, id) || holds(s.writable_, id);
     const auto among = [&](const std::vector<grisaille_texture>& textures) {
       return std::ranges::any_of(textures, [&](auto a) { return a.id == id; });
     };
@@ -400,7 +405,7 @@ struct HostFunctions {
       case GRISAILLE_SLOT_STORAGE:
         return gpu::storageBinding(b.slot, rangeOf(s, b.range));
       case GRISAILLE_SLOT_TEXTURE: {
-        if (!s.samplers_.own.contains(b.sampler.id)) {
+        if (!holds(s.samplers_.own, b.sampler.id)) {
           misuse("sampler {:#x} is not this effect's", b.sampler.id);
         }
         const gpu::TextureView view = {

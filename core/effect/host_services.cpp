@@ -128,7 +128,9 @@ std::string HostServices::failure(grisaille_result result) const {
 
 template <typename Handle>
 void HostServices::destroyBuried(Kind<Handle>& kind) {
-  for (const Handle handle : std::exchange(kind.buried, {})) device_.destroy(handle);
+  kind.freed.clear();
+  kind.freed.swap(kind.buried);
+  for (const Handle handle : kind.freed) device_.destroy(handle);
 }
 
 template <typename Handle>

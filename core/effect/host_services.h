@@ -7,7 +7,6 @@
 #include <optional>
 #include <string>
 #include <string_view>
-#include <unordered_set>
 #include <vector>
 
 #include "core/effect/instance.h"
@@ -62,8 +61,10 @@ class HostServices {
 
   template <typename Handle>
   struct Kind {
-    std::unordered_set<uint32_t> own;  // the instance owns these; the C id is the handle's value
-    std::vector<Handle> buried;        // to free after the frame, which may still use them
+    // Vectors: a frame that makes and destroys as many as the one before allocates nothing.
+    std::vector<uint32_t> own;   // the instance owns these; the C id is the handle's value
+    std::vector<Handle> buried;  // to free after the frame, which may still use them
+    std::vector<Handle> freed;   // by destroyBuried(), which may throw
   };
 
   void noteDeviceFault(ErrorId id) {

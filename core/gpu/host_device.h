@@ -7,21 +7,32 @@
 
 namespace grisaille::gpu {
 
-// A texture of the program, as a native object of its API: one level, one layer, one sample.
+// A texture of the program, as a native object of its API: one level, one sample.
 struct ForeignTexture {
   uint64_t name = 0;    // a VkImage, or an OpenGL texture's name
   uint32_t format = 0;  // a VkFormat; OpenGL: not used
   uint32_t layout = 0;  // a VkImageLayout, before and after every recording; OpenGL: not used
   uint32_t width = 0;   // pixels; OpenGL: 0 takes the size of the texture
   uint32_t height = 0;
+  uint32_t firstLayer = 0;  // of an array
+  uint32_t layers = 1;      // from firstLayer on
 };
 
-// Properties of a wrapped foreign texture.
+// Properties of a wrapped foreign texture. Layer 0 is the program's firstLayer.
 struct ForeignInfo {
   uint32_t width = 0;  // pixels
   uint32_t height = 0;
+  uint32_t layers = 1;
   uint32_t channels = 0;  // 1 ... 4 colour channels
   bool depth = false;
+  std::string format = {};  // for messages: "VK_FORMAT_D32_SFLOAT (126)"
+};
+
+// Memory that a device holds.
+struct MemoryUse {
+  uint64_t deviceBytes = 0;  // of textures and buffers that the GPU alone uses
+  uint64_t hostBytes = 0;    // of buffers that the CPU writes and the GPU reads
+  uint32_t allocations = 0;
 };
 
 // A texture of the layer, as a native object of the program's API.
@@ -41,18 +52,24 @@ class HostDevice : public Maker {
 
   // Begins a recording into the program's command buffer (OpenGL: null). `frame` is the program's
   // frame number and never decreases: on Vulkan, the recordings of frame n have finished when frame
-  // n + frames_in_flight begins. `reads` are the foreign textures that this recording reads. Throws
-  // kHostFrame.
-  virtual Commands& begin(void* commandBuffer, uint64_t frame, std::span<const Texture> reads) = 0;
+  // n + frames_in_flight begins. `reads` are the foreign textures that this recording reads.
+  // `label` names the recording in debuggers. Throws kHostFrame.
+  virtual Commands& begin(void* commandBuffer, uint64_t frame, std::span<const Texture> reads,
+                          std::string_view label) = 0;
 
   // Ends the recording: all later commands of the program see its writes, and may read the textures
   // `writes`. Call it also after a recording that threw.
   virtual void end(std::span<const Texture> writes) = 0;
 
   // Makes the contents of a texture undefined, as of a new one: for a recording that the program
-  // dropped instead of submitting it. forgetTransients() does so for all transient textures.
+  // dropped instead of submitting it.
   virtual void forget(Texture texture) = 0;
-  virtual void forgetTransients() = 0;
+
+  // The memory that the device's resources take now.
+  virtual MemoryUse memory() const = 0;
+  // Bytes of device memory that a resource would take.
+  virtual uint64_t bytesOf(const TextureDesc& desc) const = 0;
+  virtual uint64_t bytesOf(const BufferDesc& desc) const = 0;
 
   virtual NativeTexture native(Texture texture) = 0;
 

@@ -152,7 +152,7 @@ Buffer Context::makeBuffer(VkDeviceSize bytes, VkBufferUsageFlags usage) {
 }
 
 Image Context::makeImage(VkFormat format, uint32_t width, uint32_t height,
-                         VkImageUsageFlags usage) {
+                         VkImageUsageFlags usage, uint32_t layers) {
   const bool depth = (usage & VK_IMAGE_USAGE_DEPTH_STENCIL_ATTACHMENT_BIT) != 0;
   Image image;
   image.format = format;
@@ -161,7 +161,8 @@ Image Context::makeImage(VkFormat format, uint32_t width, uint32_t height,
   info.imageType = VK_IMAGE_TYPE_2D;
   info.format = format;
   info.extent = {width, height, 1};
-  info.mipLevels = info.arrayLayers = 1;
+  info.mipLevels = 1;
+  info.arrayLayers = layers;
   info.samples = VK_SAMPLE_COUNT_1_BIT;
   info.usage = usage;
   check(vkCreateImage(device, &info, nullptr, &image.image), "vkCreateImage");
@@ -208,7 +209,7 @@ void transition(VkCommandBuffer commands, VkImage image, VkImageAspectFlags aspe
   barrier.newLayout = after;
   barrier.srcQueueFamilyIndex = barrier.dstQueueFamilyIndex = VK_QUEUE_FAMILY_IGNORED;
   barrier.image = image;
-  barrier.subresourceRange = {aspect, 0, 1, 0, 1};
+  barrier.subresourceRange = {aspect, 0, 1, 0, VK_REMAINING_ARRAY_LAYERS};
   VkDependencyInfo info{VK_STRUCTURE_TYPE_DEPENDENCY_INFO};
   info.imageMemoryBarrierCount = 1;
   info.pImageMemoryBarriers = &barrier;

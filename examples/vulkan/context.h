@@ -37,7 +37,9 @@ class Context {
   Context& operator=(const Context&) = delete;
 
   Buffer makeBuffer(VkDeviceSize bytes, VkBufferUsageFlags usage);  // mapped
-  Image makeImage(VkFormat format, uint32_t width, uint32_t height, VkImageUsageFlags usage);
+  // The view shows the first layer.
+  Image makeImage(VkFormat format, uint32_t width, uint32_t height, VkImageUsageFlags usage,
+                  uint32_t layers = 1);
   VkShaderModule makeShader(std::span<const uint32_t> code);
   void destroy(Buffer& buffer);
   void destroy(Image& image);
@@ -57,7 +59,7 @@ class Context {
   VkDebugUtilsMessengerEXT messenger_ = VK_NULL_HANDLE;
 };
 
-// Changes an image's layout. A full barrier: later commands wait for all earlier ones and see their
+// Changes the layout of all layers of an image. A full barrier: later commands wait for all earlier ones and see their
 // writes.
 void transition(VkCommandBuffer commands, VkImage image, VkImageAspectFlags aspect,
                 VkImageLayout before, VkImageLayout after);

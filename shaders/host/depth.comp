@@ -23,9 +23,9 @@ float ofMetres(float metres) {
 }
 
 void main() {
-  const ivec2 pixel = ivec2(gl_GlobalInvocationID.xy), size = imageSize(view_depth);
-  if (any(greaterThanEqual(pixel, size))) return;
-  const float given = texelFetch(depths, texelOf(pixel, size.y), 0).x;
+  const ivec2 pixel = ivec2(gl_GlobalInvocationID.xy);
+  if (any(greaterThanEqual(pixel, source.place.zw))) return;
+  const float given = texelFetch(depths, texelOf(pixel), 0).x;
   float metres = 0.0;
   if (source.mode.x == kBuffer) metres = ofBuffer(1.0 - given);
   if (source.mode.x == kBufferReversed) metres = ofBuffer(given);

@@ -21,8 +21,8 @@ layout(IMAGE(0), rgba16f) writeonly uniform image2D motion;
 const float kSame = 0.1;  // pixels by which motion may differ from the camera's at rest
 
 void main() {
-  const ivec2 pixel = ivec2(gl_GlobalInvocationID.xy), size = imageSize(motion);
-  if (any(greaterThanEqual(pixel, size))) return;
+  const ivec2 pixel = ivec2(gl_GlobalInvocationID.xy);
+  if (any(greaterThanEqual(pixel, source.place.zw))) return;
   const float depth = texelFetch(view_depth, pixel, 0).x;
   vec4 result = vec4(0.0);
   if (depth > 0.0 && then.known > 0.0) {
@@ -33,7 +33,7 @@ void main() {
     const float scale = then.then_orthographic > 0.0 ? 1.0 : -before.z;
     const vec2 resting =
         before.xy * (then.then_pixel_from_view.xy / scale) + then.then_pixel_from_view.zw - at;
-    const vec2 moved = texelFetch(vectors, texelOf(pixel, size.y), 0).xy * then.shift.xy + then.shift.zw;
+    const vec2 moved = texelFetch(vectors, texelOf(pixel), 0).xy * then.shift.xy + then.shift.zw;
     const bool rests = distance(moved, resting) < kSame;
     result = motionOf(moved, -before.z, depth, rests ? kResting : kMoving);
   }

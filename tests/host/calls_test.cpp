@@ -6,9 +6,12 @@
 
 #include <epoxy/gl.h>
 
+#include <algorithm>
+#include <iterator>
 #include <map>
 #include <string>
 #include <string_view>
+#include <vector>
 
 #include "effects/sspm/shot.h"
 #include "examples/vulkan/context.h"
@@ -151,6 +154,7 @@ PFN_vkGetDeviceProcAddr realDeviceProc = nullptr;
   X(vkDeviceWaitIdle)            \
   X(vkQueueSubmit)               \
   X(vkQueueSubmit2)              \
+  X(vkFreeMemory)                \
   X(vkCmdDispatch)
 
 // The pipeline cache of the last call.
@@ -165,6 +169,46 @@ VKAPI_ATTR VkResult VKAPI_CALL createPipelines(VkDevice device, VkPipelineCache 
   note("vkCreateComputePipelines");
   usedCache = cache;
   return realCreatePipelines(device, cache, count, infos, allocator, pipelines);
+}
+
+// Names and open labels, as a debugger shows them.
+std::vector<std::string> names, labels;
+size_t openLabels = 0, deepestLabels = 0;
+PFN_vkSetDebugUtilsObjectNameEXT realSetName = nullptr;
+PFN_vkCmdBeginDebugUtilsLabelEXT realBeginLabel = nullptr;
+PFN_vkCmdEndDebugUtilsLabelEXT realEndLabel = nullptr;
+
+VKAPI_ATTR VkResult VKAPI_CALL setName(VkDevice device, const VkDebugUtilsObjectNameInfoEXT* info) {
+  names.emplace_back(info->pObjectName);
+  return realSetName(device, info);
+}
+VKAPI_ATTR void VKAPI_CALL beginLabel(VkCommandBuffer commands, const VkDebugUtilsLabelEXT* info) {
+  if (!counting) labels.emplace_back(info->pLabelName);
+  deepestLabels = std::max(deepestLabels, ++openLabels);
+  realBeginLabel(commands, info);
+}
+VKAPI_ATTR void VKAPI_CALL endLabel(VkCommandBuffer commands) {
+  --openLabels;
+  realEndLabel(commands);
+}
+
+// While it is set, barriers change layouts alone: they make nothing wait.
+bool withoutWaits = false;
+PFN_vkCmdPipelineBarrier2 realBarrier = nullptr;
+
+VKAPI_ATTR void VKAPI_CALL barrier(VkCommandBuffer commands, const VkDependencyInfo* info) {
+  if (!withoutWaits) return realBarrier(commands, info);
+  std::vector<VkImageMemoryBarrier2> images(
+      info->pImageMemoryBarriers, info->pImageMemoryBarriers + info->imageMemoryBarrierCount);
+  for (VkImageMemoryBarrier2& image : images) {
+    image.srcStageMask = image.dstStageMask = VK_PIPELINE_STAGE_2_NONE;
+    image.srcAccessMask = image.dstAccessMask = VK_ACCESS_2_NONE;
+  }
+  VkDependencyInfo weak{};
+  weak.sType = VK_STRUCTURE_TYPE_DEPENDENCY_INFO;
+  weak.imageMemoryBarrierCount = static_cast<uint32_t>(images.size());
+  weak.pImageMemoryBarriers = images.data();
+  realBarrier(commands, &weak);
 }
 
 VKAPI_ATTR PFN_vkVoidFunction VKAPI_CALL deviceProc(VkDevice device, const char* name) {
@@ -183,11 +227,27 @@ VKAPI_ATTR PFN_vkVoidFunction VKAPI_CALL deviceProc(VkDevice device, const char*
     realCreatePipelines = reinterpret_cast<PFN_vkCreateComputePipelines>(real);
     return reinterpret_cast<PFN_vkVoidFunction>(&createPipelines);
   }
+  if (std::string_view(name) == "vkCmdPipelineBarrier2") {
+    realBarrier = reinterpret_cast<PFN_vkCmdPipelineBarrier2>(real);
+    return reinterpret_cast<PFN_vkVoidFunction>(&barrier);
+  }
   return real;
 }
 
 VKAPI_ATTR PFN_vkVoidFunction VKAPI_CALL instanceProc(VkInstance instance, const char* name) {
   const PFN_vkVoidFunction real = vkGetInstanceProcAddr(instance, name);
+  if (real == nullptr) return nullptr;
+  const auto hook = [&](const char* function, auto& own, auto* replacement) -> PFN_vkVoidFunction {
+    if (std::string_view(name) != function) return nullptr;
+    own = reinterpret_cast<std::remove_reference_t<decltype(own)>>(real);
+    return reinterpret_cast<PFN_vkVoidFunction>(replacement);
+  };
+  for (const PFN_vkVoidFunction found :
+       {hook("vkSetDebugUtilsObjectNameEXT", realSetName, &setName),
+        hook("vkCmdBeginDebugUtilsLabelEXT", realBeginLabel, &beginLabel),
+        hook("vkCmdEndDebugUtilsLabelEXT", realEndLabel, &endLabel)}) {
+    if (found != nullptr) return found;
+  }
   if (std::string_view(name) != "vkGetDeviceProcAddr") return real;
   realDeviceProc = reinterpret_cast<PFN_vkGetDeviceProcAddr>(real);
   return reinterpret_cast<PFN_vkVoidFunction>(&deviceProc);
@@ -199,7 +259,8 @@ class Calls : public ::testing::TestWithParam<TestDevice> {
   const char* work() const { return isVulkan() ? "vkCmdDispatch" : "glDispatchCompute"; }
 
   host::Device device(Host& host, uint32_t framesInFlight, grisaille_host_state state) const {
-    if (!isVulkan()) return host::Device::opengl(nullptr, state, framesInFlight);
+    if (!isVulkan())
+      return host::Device::opengl({.state = state, .framesInFlight = framesInFlight});
     host::VulkanSpec spec = vulkanSpec(host);
     spec.framesInFlight = framesInFlight;
     spec.getInstanceProcAddr = reinterpret_cast<void (*)()>(&instanceProc);
@@ -260,6 +321,177 @@ TEST_P(Calls, RecordingNeitherCreatesNorWaits) {
     made.erase(work());
     EXPECT_TRUE(made.empty()) << framesInFlight << " frames in flight: " << summary(made);
     EXPECT_EQ(SANITIZED ? 0 : allocations_, 0u) << framesInFlight << " frames in flight";
+  }
+}
+
+// Stereo, and a resolution that changes each frame, once every size has been seen.
+TEST_P(Calls, StereoAndDynamicResolutionNeitherCreateNorWait) {
+  for (uint32_t framesInFlight = 1; framesInFlight <= 16; ++framesInFlight) {
+    const std::unique_ptr<Host> host = makeHost(GetParam(), false);
+    const host::Device device = this->device(*host, framesInFlight, GRISAILLE_HOST_STATE_KEPT);
+    if (!isVulkan()) installGl();
+    const Eye eyes[] = {{.angle = 0.8, .shift = {-0.05, 0}}, {.angle = 0.8, .shift = {0.05, 0}}};
+    const glm::dmat4 view(1), left = projectionOf(eyes[0], 1.5, {}),
+                              right = projectionOf(eyes[1], 1.5, {});
+    const host::Camera cameras[] = {{&view[0][0], &left[0][0]}, {&view[0][0], &right[0][0]}};
+    const host::Texture depth =
+        host->texture(device, Texels::kFloat1, kWidth, kHeight,
+                      std::vector<float>(size_t{2} * kWidth * kHeight, 2.0f), 2);
+    constexpr grisaille_host_rectangle kParts[] = {
+        {0, 0, 48, 32}, {0, 0, 45, 30}, {4, 2, 36, 24}, {0, 8, 24, 16}};
+    host::Effect effect(device, {.effect = "ssao",
+                                 .width = kWidth,
+                                 .height = kHeight,
+                                 .outputs = {"ao", "bent_normal"},
+                                 .layers = 2,
+                                 .keptSizes = 3});
+    effect.set("history", 8);
+    effect.set("resolution", "half");
+    calls = {{work(), 0}};
+    size_t allocations = 0;
+    // The effect gives up what several recordings of a size have not used, and the device frees it
+    // when the frames in flight have finished.
+    const uint32_t warm = 6 * std::size(kParts) + framesInFlight;
+    for (uint32_t i = 0; i < warm + 2 * framesInFlight + 5; ++i) {
+      host->frame([&](void* commands, uint64_t number) {
+        const AllocationCount count;
+        counting = i >= warm;
+        effect.record({.number = number,
+                       .commandBuffer = commands,
+                       .camera = cameras[0],
+                       .depth = depth,
+                       .depthKind = GRISAILLE_HOST_DEPTH_VIEW,
+                       .rectangle = kParts[i % std::size(kParts)]});
+        counting = false;
+        if (i >= warm) allocations += count.soFar();
+      });
+      if (!isVulkan()) glFinish();  // the GPU is not behind
+    }
+    EXPECT_EQ(host->complaints(), 0);
+    EXPECT_GT(calls[work()], 0u) << "calls are not counted";
+    calls.erase(work());
+    EXPECT_TRUE(calls.empty()) << framesInFlight << " frames in flight: " << summary(calls);
+    EXPECT_EQ(SANITIZED ? 0 : allocations, 0u) << framesInFlight << " frames in flight";
+  }
+}
+
+// With the host's functions, the library allocates and frees no memory of its own.
+TEST_P(Calls, TheHostsFunctionsReplaceTheDriversMemory) {
+  if (!isVulkan()) GTEST_SKIP() << "OpenGL's drivers allocate";
+  const std::unique_ptr<Host> host = makeHost(GetParam(), false);
+  host::VulkanSpec spec = vulkanSpec(*host);
+  const auto device = static_cast<VkDevice>(spec.device);
+  const grisaille_host_allocator functions = {
+      .struct_size = sizeof(grisaille_host_allocator),
+      .reserved = 0,
+      .context = device,
+      .allocate = [](void* of, const grisaille_host_memory_request* request,
+                     grisaille_host_memory* out) -> int {
+        // Software drivers have one memory type, which is mapped.
+        VkMemoryAllocateInfo info{};
+        info.sType = VK_STRUCTURE_TYPE_MEMORY_ALLOCATE_INFO;
+        info.allocationSize = request->size;
+        VkDeviceMemory memory = VK_NULL_HANDLE;
+        const VkResult made = vkAllocateMemory(static_cast<VkDevice>(of), &info, nullptr, &memory);
+        if (made != VK_SUCCESS) return made;
+        out->memory = host::number(memory);
+        return vkMapMemory(static_cast<VkDevice>(of), memory, 0, VK_WHOLE_SIZE, 0, &out->mapped);
+      },
+      .free =
+          [](void* of, const grisaille_host_memory* memory) {
+            vkFreeMemory(static_cast<VkDevice>(of),
+                         reinterpret_cast<VkDeviceMemory>(memory->memory), nullptr);
+          }};
+  spec.getInstanceProcAddr = reinterpret_cast<void (*)()>(&instanceProc);
+  spec.allocator = &functions;
+  calls.clear();
+  counting = true;
+  {
+    const host::Device made = host::Device::vulkan(spec);
+    const glm::dmat4 view(1), projection = projectionOf({.angle = 1}, 1.5, {});
+    const host::Texture depth = host->texture(made, Texels::kFloat1, kWidth, kHeight,
+                                              std::vector<float>(kWidth * kHeight, 2.0f));
+    host::Effect effect(made, {.effect = "ssao", .width = kWidth, .height = kHeight});
+    host->frame([&](void* commands, uint64_t number) {
+      effect.record({.number = number,
+                     .commandBuffer = commands,
+                     .camera = host::Camera(&view[0][0], &projection[0][0]),
+                     .depth = depth,
+                     .depthKind = GRISAILLE_HOST_DEPTH_VIEW});
+    });
+  }
+  counting = false;
+  EXPECT_GT(calls["vkCreateImage"], 0u) << "calls are not counted";
+  EXPECT_EQ(calls["vkAllocateMemory"], 0u);
+  EXPECT_EQ(calls["vkFreeMemory"], 0u);
+  EXPECT_EQ(calls["vkMapMemory"], 0u);
+}
+
+// Shows a plain surface, in a host whose instance has VK_EXT_debug_utils.
+void showPlain(Host& host, int frames) {
+  host::VulkanSpec spec = vulkanSpec(host);
+  spec.getInstanceProcAddr = reinterpret_cast<void (*)()>(&instanceProc);
+  const host::Device device = host::Device::vulkan(spec);
+  const glm::dmat4 view(1), projection = projectionOf({.angle = 1}, 1.5, {});
+  const host::Texture depth = host.texture(device, Texels::kFloat1, kWidth, kHeight,
+                                           std::vector<float>(kWidth * kHeight, 2.0f));
+  host::Effect effect(device, {.effect = "ssao", .width = kWidth, .height = kHeight});
+  effect.set("history", 4);
+  for (int i = 0; i < frames; ++i) {
+    host.frame([&](void* commands, uint64_t number) {
+      const AllocationCount count;
+      counting = i > 0;
+      effect.record({.number = number,
+                     .commandBuffer = commands,
+                     .camera = host::Camera(&view[0][0], &projection[0][0]),
+                     .depth = depth,
+                     .depthKind = GRISAILLE_HOST_DEPTH_VIEW});
+      counting = false;
+    });
+  }
+}
+
+TEST_P(Calls, VulkanLabelsAndNamesAreShown) {
+  if (!isVulkan()) GTEST_SKIP() << "see Services.OpenGlGroupsAndNamesAreShown";
+  const std::unique_ptr<Host> host = makeHost(GetParam(), true);
+  names.clear();
+  labels.clear();
+  openLabels = deepestLabels = 0;
+  showPlain(*host, 1);
+  const auto has = [](const std::vector<std::string>& texts, const char* text) {
+    return std::ranges::find(texts, text) != texts.end();
+  };
+  ASSERT_FALSE(labels.empty());
+  EXPECT_EQ(labels[0], "grisaille: ssao");
+  EXPECT_TRUE(has(labels, "host/depth"));
+  EXPECT_TRUE(has(labels, "ssao/occlusion"));
+  EXPECT_EQ(deepestLabels, 2u);
+  EXPECT_EQ(openLabels, 0u) << "a label stays open";
+  EXPECT_TRUE(has(names, "grisaille: ao"));
+  EXPECT_TRUE(has(names, "grisaille: upload"));
+  EXPECT_TRUE(std::ranges::all_of(
+      names, [](const std::string& name) { return name.starts_with("grisaille: "); }));
+  EXPECT_EQ(host->complaints(), 0);
+}
+
+// Silence of synchronization validation means something: it complains of the library's commands
+// when their barriers make nothing wait.
+TEST_P(Calls, WithoutBarriersTheValidationComplains) {
+  if (!isVulkan()) GTEST_SKIP() << "OpenGL has no such validation";
+  for (const bool without : {false, true}) {
+    const std::unique_ptr<Host> host = makeHost(GetParam(), true);
+    testing::internal::CaptureStderr();
+    withoutWaits = without;
+    showPlain(*host, 2);
+    withoutWaits = false;
+    const std::string told = testing::internal::GetCapturedStderr();
+    if (without) {
+      EXPECT_NE(told.find("SYNC-HAZARD"), std::string::npos) << told;
+      EXPECT_GT(host->complaints(), 0);
+    } else {
+      EXPECT_EQ(told, "");
+      EXPECT_EQ(host->complaints(), 0);
+    }
   }
 }
 

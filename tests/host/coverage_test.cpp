@@ -29,10 +29,10 @@ std::set<std::string> functionsOf(const std::string& header) {
 TEST(HostHeader, EveryFunctionIsTested) {
   const auto names =
       functionsOf(readFile(fs::path(SOURCE_FOLDER) / "host/include/grisaille/host.h"));
-  ASSERT_EQ(names.size(), 24u);
+  ASSERT_EQ(names.size(), 27u);
   std::string tests;
   for (const auto& entry : fs::directory_iterator(fs::path(SOURCE_FOLDER) / "tests/host")) {
-    tests += readFile(entry.path());
+    if (entry.is_regular_file()) tests += readFile(entry.path());
   }
   for (const std::string& name : names) {
     EXPECT_NE(tests.find(name + "("), std::string::npos) << name;

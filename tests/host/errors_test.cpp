@@ -92,8 +92,8 @@ TEST_P(Errors, OfDevices) {
   opengl.frames_in_flight = 17;
   expectError(grisaille_host_device_opengl(&opengl, &made), 5611, "frames_in_flight is 17");
   opengl.frames_in_flight = 0;
-  opengl.reserved = 7;
-  expectError(grisaille_host_device_opengl(&opengl, &made), 5611, "reserved is 7");
+  opengl.flags = 7;
+  expectError(grisaille_host_device_opengl(&opengl, &made), 5611, "opengl.flags has the bits 0x6");
   opengl.struct_size = 3;
   expectError(grisaille_host_device_opengl(&opengl, &made), 5602, "struct_size is 3");
 
@@ -106,8 +106,8 @@ TEST_P(Errors, OfDevices) {
   expectError(grisaille_host_device_vulkan(&vulkan, &made), 5601, "vulkan.instance is null");
   vulkan.instance = vulkan.physical_device = &vulkan;
   expectError(grisaille_host_device_vulkan(&vulkan, &made), 5601, "vulkan.device is null");
-  vulkan.reserved = 1;
-  expectError(grisaille_host_device_vulkan(&vulkan, &made), 5611, "reserved is 1");
+  vulkan.flags = 8;
+  expectError(grisaille_host_device_vulkan(&vulkan, &made), 5611, "vulkan.flags has the bits 0x8");
 
   expectError(grisaille_host_device_destroy(device_.handle()), 5608, "1 textures and 0 effects");
   EXPECT_EQ(grisaille_host_device_destroy(nullptr), 0);
@@ -212,8 +212,25 @@ TEST_P(Errors, OfEffects) {
   outputs[0] = nullptr;
   expectRefused(desc, 5601, "an entry of desc.outputs");
   desc = effectDesc();
-  desc.reserved = 1;
-  expectRefused(desc, 5611, "desc.reserved");
+  desc.layers = 17;
+  expectRefused(desc, 5611, "desc.layers is 17");
+  desc = effectDesc();
+  desc.kept_sizes = 257;
+  expectRefused(desc, 5611, "desc.kept_sizes is 257");
+  desc = effectDesc();
+  desc.setting_count = 1;
+  expectRefused(desc, 5601, "desc.settings is null");
+  grisaille_host_setting setting = {.key = "radus", .text = "1"};
+  desc.settings = &setting;
+  expectRefused(desc, 3301, "radius");
+  setting = {.key = "radius", .text = "far"};
+  expectRefused(desc, 3303, "far");
+  setting = {.key = "radius", .text = "-1"};
+  expectRefused(desc, 3302, "radius");
+  setting = {.key = nullptr, .text = "1"};
+  expectRefused(desc, 5601, "the key of a setting");
+  setting = {.key = "radius", .text = nullptr};
+  expectRefused(desc, 5601, "the text of a setting");
   EXPECT_EQ(grisaille_host_effect_destroy(nullptr), 0);
 }
 
@@ -426,6 +443,37 @@ TEST_P(Errors, OfStructsFromOtherVersions) {
     later.known.struct_size = 1 << 20;
     expectError(record(&later), 5602, "struct_size is 1048576");
   });
+}
+
+// Descriptions as they were before their last fields.
+TEST_P(Errors, OfEarlierDescriptions) {
+  grisaille_host_effect_desc desc = effectDesc();
+  desc.struct_size = offsetof(grisaille_host_effect_desc, settings);
+  desc.setting_count = 7;  // not read
+  desc.kept_sizes = 1000;
+  grisaille_host_effect* effect = nullptr;
+  EXPECT_EQ(grisaille_host_effect_create(device_.handle(), &desc, &effect), 0)
+      << grisaille_host_last_error();
+  auto output = sized<grisaille_host_output>();
+  output.struct_size = offsetof(grisaille_host_output, layers);
+  output.layers = 77;
+  EXPECT_EQ(grisaille_host_effect_output(effect, "ao", &output), 0);
+  EXPECT_EQ(output.layers, 77u) << "not written";
+  EXPECT_EQ(output.width, kSide);
+  EXPECT_EQ(grisaille_host_effect_destroy(effect), 0);
+  const host::TextureSpec sound = host_->described();
+  auto texture = sized<grisaille_host_texture_desc>();
+  texture.struct_size = offsetof(grisaille_host_texture_desc, layers);
+  texture.image = sound.image;
+  texture.format = sound.format;
+  texture.layout = sound.layout;
+  texture.width = sound.width;
+  texture.height = sound.height;
+  texture.layers = 1000;  // not read
+  grisaille_host_texture* made = nullptr;
+  EXPECT_EQ(grisaille_host_texture_wrap(device_.handle(), &texture, &made), 0)
+      << grisaille_host_last_error();
+  EXPECT_EQ(grisaille_host_texture_destroy(made), 0);
 }
 
 TEST_P(Errors, OfCameras) {

@@ -13,19 +13,34 @@
 
 namespace grisaille::tests {
 
-enum class Texels : uint8_t { kFloat1, kFloat4, kUnorm8x4, kDepth24 };
+enum class Texels : uint8_t {
+  kFloat1,
+  kFloat4,
+  kHalf4,
+  kUnorm8x4,
+  kUnorm16x2,
+  kUnorm10x3,  // RGB10A2; three numbers a texel
+  kDepth16,
+  kDepth24,  // without stencil
+  kDepth24Stencil,
+  kDepth32,
+  kDepth32Stencil,
+};
 
 class Host {
  public:
   virtual ~Host() = default;
 
   // `effectFolder`: folder of further effects; null: none.
-  virtual host::Device device(const char* effectFolder = nullptr) = 0;
+  virtual host::Device device(const char* effectFolder = nullptr, uint32_t flags = 0,
+                              const grisaille_host_log* log = nullptr) = 0;
 
   // Creates a texture of the host and wraps it. `numbers` holds the channels of each texel, with
-  // rows in memory order. The texture lives as long as the host.
+  // rows in memory order, and layers one after the other. The texture lives as long as the host. It
+  // is an array if `layers` is over 0.
   virtual host::Texture texture(const host::Device& device, Texels texels, uint32_t width,
-                                uint32_t height, const std::vector<float>& numbers) = 0;
+                                uint32_t height, const std::vector<float>& numbers,
+                                uint32_t layers = 0) = 0;
   // The description that wraps the last texture.
   virtual host::TextureSpec described() const = 0;
 
@@ -35,8 +50,8 @@ class Host {
   // Records a frame, and drops its commands. OpenGL runs them at once.
   virtual void drop(const std::function<void(void*, uint64_t)>& record) = 0;
 
-  // Waits, then reads the numbers of an output, with rows in memory order.
-  virtual std::vector<float> read(const grisaille_host_output& output) = 0;
+  // Waits, then reads the numbers of a layer of an output, with rows in memory order.
+  virtual std::vector<float> read(const grisaille_host_output& output, uint32_t layer = 0) = 0;
 
   // Number of messages from the API's own validation.
   virtual int complaints() const = 0;

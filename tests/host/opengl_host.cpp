@@ -3,6 +3,7 @@
 
 #include <epoxy/gl.h>
 
+#include <algorithm>
 #include <cstdio>
 
 #include "examples/opengl/window.h"
@@ -17,6 +18,37 @@ void onMessage(GLenum, GLenum type, GLuint, GLenum, GLsizei, const GLchar* text,
   ++*static_cast<int*>(const_cast<void*>(count));
 }
 
+struct Kind {
+  GLenum internal, given;
+};
+
+Kind kindOf(Texels texels) {
+  switch (texels) {
+    case Texels::kFloat1:
+      return {GL_R32F, GL_RED};
+    case Texels::kFloat4:
+      return {GL_RGBA32F, GL_RGBA};
+    case Texels::kHalf4:
+      return {GL_RGBA16F, GL_RGBA};
+    case Texels::kUnorm8x4:
+      return {GL_RGBA8, GL_RGBA};
+    case Texels::kUnorm16x2:
+      return {GL_RG16, GL_RG};
+    case Texels::kUnorm10x3:
+      return {GL_RGB10_A2, GL_RGB};
+    case Texels::kDepth16:
+      return {GL_DEPTH_COMPONENT16, GL_DEPTH_COMPONENT};
+    case Texels::kDepth24:
+      return {GL_DEPTH_COMPONENT24, GL_DEPTH_COMPONENT};
+    case Texels::kDepth24Stencil:
+      return {GL_DEPTH24_STENCIL8, GL_DEPTH_COMPONENT};
+    case Texels::kDepth32:
+      return {GL_DEPTH_COMPONENT32F, GL_DEPTH_COMPONENT};
+    default:
+      return {GL_DEPTH32F_STENCIL8, GL_DEPTH_COMPONENT};
+  }
+}
+
 class OpenGlHost : public Host {
  public:
   OpenGlHost() {
@@ -28,26 +60,27 @@ class OpenGlHost : public Host {
     glDeleteTextures(static_cast<GLsizei>(textures_.size()), textures_.data());
   }
 
-  host::Device device(const char* effectFolder) override {
-    return host::Device::opengl(effectFolder);
+  host::Device device(const char* effectFolder, uint32_t flags,
+                      const grisaille_host_log* log) override {
+    return host::Device::opengl({.effectFolder = effectFolder, .flags = flags, .log = log});
   }
 
   host::Texture texture(const host::Device& device, Texels texels, uint32_t width, uint32_t height,
-                        const std::vector<float>& numbers) override {
+                        const std::vector<float>& numbers, uint32_t layers) override {
     GLuint name = 0;
-    glCreateTextures(GL_TEXTURE_2D, 1, &name);
+    glCreateTextures(layers > 0 ? GL_TEXTURE_2D_ARRAY : GL_TEXTURE_2D, 1, &name);
     textures_.push_back(name);
-    const GLenum format = texels == Texels::kFloat1     ? GL_R32F
-                          : texels == Texels::kFloat4   ? GL_RGBA32F
-                          : texels == Texels::kUnorm8x4 ? GL_RGBA8
-                                                        : GL_DEPTH24_STENCIL8;
-    const GLenum given = texels == Texels::kFloat1    ? GL_RED
-                         : texels == Texels::kDepth24 ? GL_DEPTH_COMPONENT
-                                                      : GL_RGBA;
+    const Kind kind = kindOf(texels);
     const auto w = static_cast<GLsizei>(width), h = static_cast<GLsizei>(height);
-    glTextureStorage2D(name, 1, format, w, h);
-    glTextureSubImage2D(name, 0, 0, 0, w, h, given, GL_FLOAT, numbers.data());
-    described_ = {.image = name};
+    if (layers > 0) {
+      const auto count = static_cast<GLsizei>(layers);
+      glTextureStorage3D(name, 1, kind.internal, w, h, count);
+      glTextureSubImage3D(name, 0, 0, 0, 0, w, h, count, kind.given, GL_FLOAT, numbers.data());
+    } else {
+      glTextureStorage2D(name, 1, kind.internal, w, h);
+      glTextureSubImage2D(name, 0, 0, 0, w, h, kind.given, GL_FLOAT, numbers.data());
+    }
+    described_ = {.image = name, .layers = std::max(layers, 1u)};
     return {device, described_};
   }
   host::TextureSpec described() const override { return described_; }
@@ -60,11 +93,13 @@ class OpenGlHost : public Host {
     record(nullptr, frame_);
   }
 
-  std::vector<float> read(const grisaille_host_output& output) override {
+  std::vector<float> read(const grisaille_host_output& output, uint32_t layer) override {
     const bool one = output.native_format == GL_R16F || output.native_format == GL_R32F;
     std::vector<float> numbers(size_t{output.width} * output.height * (one ? 1 : 4));
-    glGetTextureImage(static_cast<GLuint>(output.image), 0, one ? GL_RED : GL_RGBA, GL_FLOAT,
-                      static_cast<GLsizei>(numbers.size() * sizeof(float)), numbers.data());
+    glGetTextureSubImage(static_cast<GLuint>(output.image), 0, 0, 0, static_cast<GLint>(layer),
+                         static_cast<GLsizei>(output.width), static_cast<GLsizei>(output.height), 1,
+                         one ? GL_RED : GL_RGBA, GL_FLOAT,
+                         static_cast<GLsizei>(numbers.size() * sizeof(float)), numbers.data());
     return numbers;
   }
 

@@ -12,27 +12,81 @@
 namespace grisaille::tests {
 namespace {
 
-constexpr VkImageLayout kLayout = VK_IMAGE_LAYOUT_GENERAL;
-
 struct Kind {
   VkFormat format;
-  VkImageAspectFlags aspects, copied;
-  uint32_t channels, bytes;  // of a channel
+  uint32_t channels;  // numbers of a texel
+  VkImageAspectFlags aspects = VK_IMAGE_ASPECT_COLOR_BIT, copied = VK_IMAGE_ASPECT_COLOR_BIT;
 };
 
 Kind kindOf(Texels texels) {
-  constexpr VkImageAspectFlags kColour = VK_IMAGE_ASPECT_COLOR_BIT;
+  constexpr VkImageAspectFlags kDepth = VK_IMAGE_ASPECT_DEPTH_BIT,
+                               kBoth = kDepth | VK_IMAGE_ASPECT_STENCIL_BIT;
   switch (texels) {
     case Texels::kFloat1:
-      return {VK_FORMAT_R32_SFLOAT, kColour, kColour, 1, 4};
+      return {VK_FORMAT_R32_SFLOAT, 1};
     case Texels::kFloat4:
-      return {VK_FORMAT_R32G32B32A32_SFLOAT, kColour, kColour, 4, 4};
+      return {VK_FORMAT_R32G32B32A32_SFLOAT, 4};
+    case Texels::kHalf4:
+      return {VK_FORMAT_R16G16B16A16_SFLOAT, 4};
     case Texels::kUnorm8x4:
-      return {VK_FORMAT_R8G8B8A8_UNORM, kColour, kColour, 4, 1};
+      return {VK_FORMAT_R8G8B8A8_UNORM, 4};
+    case Texels::kUnorm16x2:
+      return {VK_FORMAT_R16G16_UNORM, 2};
+    case Texels::kUnorm10x3:
+      return {VK_FORMAT_A2B10G10R10_UNORM_PACK32, 3};
+    case Texels::kDepth16:
+      return {VK_FORMAT_D16_UNORM, 1, kDepth, kDepth};
+    case Texels::kDepth24:
+      return {VK_FORMAT_X8_D24_UNORM_PACK32, 1, kDepth, kDepth};
+    case Texels::kDepth24Stencil:
+      return {VK_FORMAT_D24_UNORM_S8_UINT, 1, kBoth, kDepth};
+    case Texels::kDepth32:
+      return {VK_FORMAT_D32_SFLOAT, 1, kDepth, kDepth};
     default:
-      return {VK_FORMAT_D32_SFLOAT_S8_UINT, VK_IMAGE_ASPECT_DEPTH_BIT | VK_IMAGE_ASPECT_STENCIL_BIT,
-              VK_IMAGE_ASPECT_DEPTH_BIT, 1, 4};
+      return {VK_FORMAT_D32_SFLOAT_S8_UINT, 1, kBoth, kDepth};
   }
+}
+
+// The texels as a buffer holds them that is copied to an image.
+std::vector<std::byte> encoded(Texels texels, uint32_t channels,
+                               const std::vector<float>& numbers) {
+  std::vector<std::byte> bytes;
+  const auto add = [&](auto word) {
+    const auto* from = reinterpret_cast<const std::byte*>(&word);
+    bytes.insert(bytes.end(), from, from + sizeof(word));
+  };
+  const auto steps = [](float number, uint32_t most) {
+    return static_cast<uint32_t>(std::lround(double{number} * most));
+  };
+  for (size_t i = 0; i < numbers.size(); i += channels) {
+    uint32_t packed = 3u << 30;  // RGB10A2
+    for (size_t c = 0; c < channels; ++c) {
+      const float number = numbers[i + c];
+      switch (texels) {
+        case Texels::kHalf4:
+          add(glm::packHalf1x16(number));
+          break;
+        case Texels::kUnorm8x4:
+          add(static_cast<uint8_t>(steps(number, 255)));
+          break;
+        case Texels::kUnorm16x2:
+        case Texels::kDepth16:
+          add(static_cast<uint16_t>(steps(number, 65535)));
+          break;
+        case Texels::kUnorm10x3:
+          packed |= steps(number, 1023) << 10 * c;
+          break;
+        case Texels::kDepth24:
+        case Texels::kDepth24Stencil:
+          add(steps(number, (1u << 24) - 1));
+          break;
+        default:
+          add(number);
+      }
+    }
+    if (texels == Texels::kUnorm10x3) add(packed);
+  }
+  return bytes;
 }
 
 class VulkanHost : public Host {
@@ -61,14 +115,17 @@ class VulkanHost : public Host {
             .queueFamily = context_.family,
             .framesInFlight = 1};
   }
-  host::Device device(const char* effectFolder) override {
+  host::Device device(const char* effectFolder, uint32_t flags,
+                      const grisaille_host_log* log) override {
     host::VulkanSpec with = spec();
     with.effectFolder = effectFolder;
+    with.flags = flags;
+    with.log = log;
     return host::Device::vulkan(with);
   }
 
   host::Texture texture(const host::Device& device, Texels texels, uint32_t width, uint32_t height,
-                        const std::vector<float>& numbers) override;
+                        const std::vector<float>& numbers, uint32_t layers) override;
   host::TextureSpec described() const override { return described_; }
 
   void frame(const std::function<void(void*, uint64_t)>& record) override {
@@ -80,8 +137,10 @@ class VulkanHost : public Host {
     record(commands_, frame_);
     example::check(vkEndCommandBuffer(commands_), "vkEndCommandBuffer");
   }
-  std::vector<float> read(const grisaille_host_output& output) override;
+  std::vector<float> read(const grisaille_host_output& output, uint32_t layer) override;
   int complaints() const override { return context_.complaints; }
+
+  VkImageLayout home = VK_IMAGE_LAYOUT_GENERAL;  // layout of new textures
 
  private:
   void begin() {
@@ -110,41 +169,41 @@ class VulkanHost : public Host {
 };
 
 host::Texture VulkanHost::texture(const host::Device& device, Texels texels, uint32_t width,
-                                  uint32_t height, const std::vector<float>& numbers) {
+                                  uint32_t height, const std::vector<float>& numbers,
+                                  uint32_t layers) {
   const Kind kind = kindOf(texels);
+  const uint32_t count = std::max(layers, 1u);
   VkImageUsageFlags usage = VK_IMAGE_USAGE_SAMPLED_BIT | VK_IMAGE_USAGE_TRANSFER_DST_BIT;
-  if (texels == Texels::kDepth24) usage |= VK_IMAGE_USAGE_DEPTH_STENCIL_ATTACHMENT_BIT;
+  if (kind.copied == VK_IMAGE_ASPECT_DEPTH_BIT)
+    usage |= VK_IMAGE_USAGE_DEPTH_STENCIL_ATTACHMENT_BIT;
   const example::Image& image =
-      images_.emplace_back(context_.makeImage(kind.format, width, height, usage));
-  example::Buffer buffer =
-      context_.makeBuffer(numbers.size() * kind.bytes, VK_BUFFER_USAGE_TRANSFER_SRC_BIT);
-  if (kind.bytes == 4) {
-    std::memcpy(buffer.mapped, numbers.data(), numbers.size() * sizeof(float));
-  } else {
-    auto* bytes = static_cast<uint8_t*>(buffer.mapped);
-    for (const float number : numbers) *bytes++ = static_cast<uint8_t>(std::lround(number * 255));
-  }
+      images_.emplace_back(context_.makeImage(kind.format, width, height, usage, count));
+  const std::vector<std::byte> bytes = encoded(texels, kind.channels, numbers);
+  example::Buffer buffer = context_.makeBuffer(bytes.size(), VK_BUFFER_USAGE_TRANSFER_SRC_BIT);
+  std::memcpy(buffer.mapped, bytes.data(), bytes.size());
   submit([&] {
-    example::transition(commands_, image.image, kind.aspects, VK_IMAGE_LAYOUT_UNDEFINED,
-                        VK_IMAGE_LAYOUT_TRANSFER_DST_OPTIMAL);
+    const auto turn = [&](VkImageLayout from, VkImageLayout to) {
+      example::transition(commands_, image.image, kind.aspects, from, to);
+    };
+    turn(VK_IMAGE_LAYOUT_UNDEFINED, VK_IMAGE_LAYOUT_TRANSFER_DST_OPTIMAL);
     VkBufferImageCopy region{};
-    region.imageSubresource = {kind.copied, 0, 0, 1};
+    region.imageSubresource = {kind.copied, 0, 0, count};
     region.imageExtent = {width, height, 1};
     vkCmdCopyBufferToImage(commands_, buffer.buffer, image.image,
                            VK_IMAGE_LAYOUT_TRANSFER_DST_OPTIMAL, 1, &region);
-    example::transition(commands_, image.image, kind.aspects, VK_IMAGE_LAYOUT_TRANSFER_DST_OPTIMAL,
-                        kLayout);
+    turn(VK_IMAGE_LAYOUT_TRANSFER_DST_OPTIMAL, home);
   });
   context_.destroy(buffer);
   described_ = {.image = host::number(image.image),
                 .format = static_cast<uint32_t>(kind.format),
-                .layout = kLayout,
+                .layout = static_cast<uint32_t>(home),
                 .width = width,
-                .height = height};
+                .height = height,
+                .layers = count};
   return {device, described_};
 }
 
-std::vector<float> VulkanHost::read(const grisaille_host_output& output) {
+std::vector<float> VulkanHost::read(const grisaille_host_output& output, uint32_t layer) {
   const bool half = output.native_format == VK_FORMAT_R16_SFLOAT ||
                     output.native_format == VK_FORMAT_R16G16B16A16_SFLOAT;
   if (!half && output.native_format != VK_FORMAT_R32_SFLOAT) {
@@ -160,7 +219,7 @@ std::vector<float> VulkanHost::read(const grisaille_host_output& output) {
     example::transition(commands_, image, VK_IMAGE_ASPECT_COLOR_BIT, layout,
                         VK_IMAGE_LAYOUT_TRANSFER_SRC_OPTIMAL);
     VkBufferImageCopy region{};
-    region.imageSubresource = {VK_IMAGE_ASPECT_COLOR_BIT, 0, 0, 1};
+    region.imageSubresource = {VK_IMAGE_ASPECT_COLOR_BIT, 0, layer, 1};
     region.imageExtent = {output.width, output.height, 1};
     vkCmdCopyImageToBuffer(commands_, image, VK_IMAGE_LAYOUT_TRANSFER_SRC_OPTIMAL, buffer.buffer, 1,
                            &region);
@@ -186,6 +245,10 @@ std::unique_ptr<Host> makeVulkanHost(bool validate) {
 
 host::VulkanSpec vulkanSpec(const Host& host) {
   return dynamic_cast<const VulkanHost&>(host).spec();
+}
+
+void useLayout(Host& host, uint32_t layout) {
+  dynamic_cast<VulkanHost&>(host).home = static_cast<VkImageLayout>(layout);
 }
 
 }  // namespace grisaille::tests

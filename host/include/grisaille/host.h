@@ -19,7 +19,7 @@
  * - 9002: out of memory,
  * - 1005 or 1006, if it calls the graphics API: the driver failed, or lost the device.
  *
- * The library throws no exception and prints nothing.
+ * The library throws no exception and prints nothing. It tells a grisaille_host_log what happens.
  *
  * @par Structs
  * A struct begins with struct_size: set it to the size of the struct. Set unused fields to 0. Later
@@ -65,7 +65,7 @@ extern "C" {
  * @{
  */
 
-#define GRISAILLE_HOST_VERSION 3u /**< grows when functions or fields are added */
+#define GRISAILLE_HOST_VERSION 4u /**< grows when functions or fields are added */
 
 /**
  * Returns the version of the library. It cannot fail. Any thread may call it.
@@ -82,6 +82,29 @@ GRISAILLE_EXPORT uint32_t grisaille_host_version(void);
  */
 GRISAILLE_EXPORT const char* grisaille_host_last_error(void);
 
+/** How grave a line of the log is. */
+typedef enum grisaille_host_level {
+  GRISAILLE_HOST_INFO = 0, /**< what the library did, such as compiling a shader in a recording */
+  GRISAILLE_HOST_WARNING = 1, /**< what it left out, such as a plugin that does not fit */
+  GRISAILLE_HOST_ERROR =
+      2 /**< the line of a call that failed, or a fault of #GRISAILLE_HOST_CHECK */
+} grisaille_host_level;
+
+/** Your function that takes the library's messages about a device. */
+typedef struct grisaille_host_log {
+  uint32_t struct_size; /**< sizeof(grisaille_host_log) */
+  uint32_t reserved;    /**< 0 */
+  void* context;        /**< your pointer, which the library passes to `write` */
+  /**
+   * Takes one message. The library calls it inside your calls, in the same thread, also for a
+   * device whose creation fails. The function must not call the library.
+   * @param context grisaille_host_log::context
+   * @param level a grisaille_host_level
+   * @param text one line of UTF-8 without a newline, valid during the call
+   */
+  void (*write)(void* context, uint32_t level, const char* text);
+} grisaille_host_log;
+
 /**
  * @}
  * @defgroup host_devices libgrisaille: devices
@@ -92,13 +115,80 @@ GRISAILLE_EXPORT const char* grisaille_host_last_error(void);
 /** The library's device on your Vulkan device or OpenGL context. */
 typedef struct grisaille_host_device grisaille_host_device;
 
+/** Further properties of a device. */
+typedef enum grisaille_host_flags {
+  /**
+   * Checks every command of the effects and of the library before the graphics API gets it, for
+   * example that a shader reads no texture that was never written. A fault of an effect is error
+   * 3203 of its recording, which quotes the number and the words of the fault. Resources that were
+   * not destroyed are told to the log. It costs CPU time and memory; results stay the same.
+   */
+  GRISAILLE_HOST_CHECK = 1
+} grisaille_host_flags;
+
+/** A Vulkan buffer or image that needs memory. */
+typedef struct grisaille_host_memory_request {
+  uint32_t struct_size;      /**< sizeof(grisaille_host_memory_request) */
+  uint32_t memory_type_bits; /**< VkMemoryRequirements::memoryTypeBits */
+  uint64_t size;             /**< bytes */
+  uint64_t alignment;        /**< bytes: `grisaille_host_memory::offset` is a multiple */
+  uint32_t required_flags;   /**< VkMemoryPropertyFlags that the memory type must have */
+  uint32_t preferred_flags;  /**< VkMemoryPropertyFlags that it should have */
+  uint64_t buffer;           /**< VkBuffer, or 0 */
+  uint64_t image;            /**< VkImage with optimal tiling, or 0 */
+  const char* label;         /**< what the memory is for: "depth"; valid during the call */
+} grisaille_host_memory_request;
+
+/** Memory for one buffer or image. */
+typedef struct grisaille_host_memory {
+  uint32_t struct_size; /**< sizeof(grisaille_host_memory), set by the library */
+  uint32_t reserved;    /**< 0 */
+  uint64_t memory;      /**< VkDeviceMemory, which other resources may share */
+  uint64_t offset;      /**< bytes from the start of `memory` */
+  /**
+   * Address of the first byte; null if the memory is not mapped. Memory whose required flags have
+   * VK_MEMORY_PROPERTY_HOST_VISIBLE_BIT must stay mapped.
+   */
+  void* mapped;
+  void* handle; /**< yours, such as a VmaAllocation; the library does not use it */
+} grisaille_host_memory;
+
+/**
+ * Your functions that allocate Vulkan device memory. All memory of the library then comes from
+ * them; it calls vkAllocateMemory() nowhere. vmaAllocateMemory() and vmaFreeMemory() fit, with
+ * VMA_ALLOCATION_CREATE_MAPPED_BIT for mapped memory.
+ */
+typedef struct grisaille_host_allocator {
+  uint32_t struct_size; /**< sizeof(grisaille_host_allocator) */
+  uint32_t reserved;    /**< 0 */
+  void* context;        /**< your pointer, which the library passes to both functions */
+  /**
+   * Allocates memory, to which the library binds the buffer or image. The library calls it inside
+   * your calls, in the same thread. The function must not call the library.
+   * @param context grisaille_host_allocator::context
+   * @param request what needs memory
+   * @param[out] out the memory, preset to 0
+   * @return VK_SUCCESS, or a VkResult: VK_ERROR_OUT_OF_DEVICE_MEMORY becomes error 1007, others
+   *   1005. Memory that does not fit the request is error 5611.
+   */
+  int (*allocate)(void* context, const grisaille_host_memory_request* request,
+                  grisaille_host_memory* out);
+  /**
+   * Frees memory, after the library has destroyed the buffer or image. It is called like
+   * `allocate`, and until the device is destroyed.
+   * @param context grisaille_host_allocator::context
+   * @param memory what `allocate` returned
+   */
+  void (*free)(void* context, const grisaille_host_memory* memory);
+} grisaille_host_allocator;
+
 /** Your Vulkan device. */
 typedef struct grisaille_host_vulkan {
   uint32_t struct_size;  /**< sizeof(grisaille_host_vulkan) */
   uint32_t queue_family; /**< family of the queue that you submit to; it supports compute */
   /** 1 to 16. When you record frame n, the GPU has finished frame n - frames_in_flight. */
   uint32_t frames_in_flight;
-  uint32_t reserved;     /**< 0 */
+  uint32_t flags;        /**< grisaille_host_flags combined, or 0 */
   void* instance;        /**< VkInstance */
   void* physical_device; /**< VkPhysicalDevice */
   void* device;          /**< VkDevice */
@@ -110,6 +200,14 @@ typedef struct grisaille_host_vulkan {
    * own pipelines. Not externally synchronized. 0: the library keeps a cache in memory.
    */
   uint64_t pipeline_cache;
+  const grisaille_host_log* log;             /**< takes messages; null: they are lost */
+  const grisaille_host_allocator* allocator; /**< allocates memory; null: the driver does */
+  /**
+   * Null, or your VkAllocationCallbacks, which the library passes to every function that creates,
+   * allocates, destroys or frees. It copies the struct; the functions must stay callable until the
+   * device is destroyed.
+   */
+  const void* allocation_callbacks;
 } grisaille_host_vulkan;
 
 /** Who restores the state of an OpenGL context. */
@@ -135,7 +233,8 @@ typedef struct grisaille_host_opengl {
    * library never waits: if the GPU is further behind, the recording allocates.
    */
   uint32_t frames_in_flight;
-  uint32_t reserved; /**< 0 */
+  uint32_t flags;                /**< grisaille_host_flags combined, or 0 */
+  const grisaille_host_log* log; /**< takes messages; null: they are lost */
 } grisaille_host_opengl;
 
 /**
@@ -145,7 +244,8 @@ typedef struct grisaille_host_opengl {
  * @param vulkan your Vulkan device
  * @param[out] out the device; null after an error
  * @retval 5603 The device lacks version 1.3, a feature, or compute support in the queue family.
- * @retval 5611 frames_in_flight is out of range.
+ * @retval 5611 frames_in_flight is out of range, flags has an unknown bit, or your function
+ * returned memory that does not fit.
  * @retval 1001 The library finds no Vulkan loader.
  * @retval 1004 The loader is older than 1.3.
  * @retval 3106 The library cannot read effect_folder.
@@ -159,7 +259,8 @@ GRISAILLE_EXPORT int grisaille_host_device_vulkan(const grisaille_host_vulkan* v
  * @param opengl your OpenGL context
  * @param[out] out the device; null after an error
  * @retval 5604 No context is current.
- * @retval 5611 `state` is not a grisaille_host_state, or frames_in_flight is out of range.
+ * @retval 5611 `state` is not a grisaille_host_state, frames_in_flight is out of range, or flags
+ *   has an unknown bit.
  * @retval 1004 The context is older than 4.5, or OpenGL ES.
  * @retval 3106 The library cannot read effect_folder.
  */
@@ -186,6 +287,25 @@ GRISAILLE_EXPORT int grisaille_host_effects(const grisaille_host_device* device,
                                             const grisaille_effect_desc* const** effects,
                                             uint32_t* count);
 
+/** Memory that a device or an effect takes. */
+typedef struct grisaille_host_memory_use {
+  uint32_t struct_size;  /**< sizeof(grisaille_host_memory_use), set by the caller */
+  uint32_t allocations;  /**< number of allocations */
+  uint64_t device_bytes; /**< textures and buffers that only the GPU uses */
+  uint64_t host_bytes;   /**< buffers that the CPU writes and the GPU reads */
+} grisaille_host_memory_use;
+
+/**
+ * Returns the memory that a device holds now: that of its effects, and upload buffers that they
+ * share, one set for each frame in flight. Vulkan: the bytes that it has allocated. OpenGL: the
+ * bytes that it has asked for, to which drivers add some.
+ * @param device the device
+ * @param[out] out the memory; set its `struct_size` before the call
+ * @retval 5602 `out->struct_size` is not the size of a version of the struct.
+ */
+GRISAILLE_EXPORT int grisaille_host_device_memory(const grisaille_host_device* device,
+                                                  grisaille_host_memory_use* out);
+
 /**
  * @}
  * @defgroup host_scene libgrisaille: textures, rays, pictures
@@ -197,22 +317,28 @@ GRISAILLE_EXPORT int grisaille_host_effects(const grisaille_host_device* device,
 typedef struct grisaille_host_texture grisaille_host_texture;
 
 /**
- * Describes a single-sampled 2D texture. The library reads its first level and layer. It samples
- * the texture as floats; a depth buffer, with or without stencil, works too.
+ * Describes a single-sampled 2D texture, or layers of a 2D array. The library reads the first
+ * level. It samples the texture as floats; a depth buffer, with or without stencil, works too: D16,
+ * D24, D32 (OpenGL), D32F, and those with stencil.
  */
 typedef struct grisaille_host_texture_desc {
   uint32_t struct_size; /**< sizeof(grisaille_host_texture_desc) */
   uint32_t format;      /**< Vulkan: VkFormat; OpenGL: 0 */
-  /** Vulkan: VkImageLayout of the image before and after each recording; OpenGL: 0 */
+  /**
+   * Vulkan: VkImageLayout of the image before and after each recording: general, read-only, or that
+   * of an attachment; not one of transfers or presentation. OpenGL: 0
+   */
   uint32_t layout;
-  uint32_t width;    /**< pixels; OpenGL: 0 means the texture's width */
-  uint32_t height;   /**< pixels; OpenGL: 0 means the texture's height */
-  uint32_t reserved; /**< 0 */
+  uint32_t width;       /**< pixels; OpenGL: 0 means the texture's width */
+  uint32_t height;      /**< pixels; OpenGL: 0 means the texture's height */
+  uint32_t first_layer; /**< of an array: the first layer to read; else 0 */
   /**
    * Vulkan: VkImage with VK_IMAGE_USAGE_SAMPLED_BIT, owned by the queue's family (exclusive
    * sharing) or shared by all families (concurrent sharing). OpenGL: name of the texture.
    */
   uint64_t image;
+  uint32_t layers;   /**< number of layers from first_layer on; 0: 1 */
+  uint32_t reserved; /**< 0 */
 } grisaille_host_texture_desc;
 
 /**
@@ -220,7 +346,8 @@ typedef struct grisaille_host_texture_desc {
  * @param device the device
  * @param desc describes the texture
  * @param[out] out the wrapped texture; null after an error
- * @retval 5605 The library cannot sample the texture as described.
+ * @retval 5605 The library cannot sample the texture as described; the line names the format, the
+ *   layout or the size. OpenGL: an array must have immutable storage.
  * @retval 1007 No device memory is left.
  * @retval 5604 The device's context is not current.
  */
@@ -333,6 +460,12 @@ typedef enum grisaille_host_rows {
   GRISAILLE_HOST_ROWS_FROM_BOTTOM = 1 /**< OpenGL's order, unless glClipControl changed it */
 } grisaille_host_rows;
 
+/** The value of a parameter, as text. */
+typedef struct grisaille_host_setting {
+  const char* key;  /**< key of the parameter: "radius" */
+  const char* text; /**< as for grisaille_host_effect_set_text(): "0.5" */
+} grisaille_host_setting;
+
 /** Describes an effect. */
 typedef struct grisaille_host_effect_desc {
   uint32_t struct_size;  /**< sizeof(grisaille_host_effect_desc) */
@@ -340,13 +473,26 @@ typedef struct grisaille_host_effect_desc {
   uint32_t height;       /**< pixels; see `width` */
   uint32_t rows;         /**< a grisaille_host_rows, of the input textures and of the outputs */
   uint32_t output_count; /**< number of `outputs`; 0: only the effect's first output */
-  uint32_t reserved;     /**< 0 */
-  const char* effect;    /**< the effect's key: "ssao" */
-  const char* const* outputs; /**< keys of the wanted outputs: "ao" */
+  /**
+   * 2 to 16: the views that each recording draws, such as 2 for stereo. Layer n of every output
+   * comes from layer n of every texture and camera n, as if from an effect of its own. 0 or 1: one
+   * view, and outputs that are no arrays.
+   */
+  uint32_t layers;
+  const char* effect;                     /**< the effect's key: "ssao" */
+  const char* const* outputs;             /**< keys of the wanted outputs: "ao" */
+  const grisaille_host_setting* settings; /**< values that differ from the defaults; or null */
+  uint32_t setting_count;                 /**< number of `settings` */
+  /**
+   * 0 to 256: the sizes of grisaille_host_frame::rectangle, beside the present one, for which the
+   * effect keeps its memory, for a resolution that changes each frame. It gives up the size that it
+   * has not used for the longest time. A recording at a size that it keeps allocates nothing.
+   */
+  uint32_t kept_sizes;
 } grisaille_host_effect_desc;
 
 /**
- * Creates an effect with default parameter values and without objects.
+ * Creates an effect without objects, with default parameter values but for `settings`.
  * @param device the device
  * @param desc describes the effect
  * @param[out] out the effect; null after an error
@@ -354,7 +500,10 @@ typedef struct grisaille_host_effect_desc {
  * @retval 5102 The effect has no output with one of the keys.
  * @retval 3202 The effect fails; the error line quotes its message.
  * @retval 1105 The width or the height is out of range.
- * @retval 5611 `rows` is not a grisaille_host_rows.
+ * @retval 5611 `rows` is not a grisaille_host_rows, or `layers` or `kept_sizes` is out of range.
+ * @retval 3301 The effect has no parameter with the key of a setting.
+ * @retval 3302 The value of a setting is out of the parameter's range.
+ * @retval 3303 The value of a setting is not of the parameter's type.
  * @retval 1007 No device memory is left.
  * @retval 1008 The driver refuses a shader.
  * @retval 5604 The device's context is not current.
@@ -487,8 +636,16 @@ typedef enum grisaille_host_normals {
 
 /** How texels encode the components of normals. */
 typedef enum grisaille_host_encoding {
-  GRISAILLE_HOST_SIGNED = 0,  /**< components from -1 to 1, as sampled */
-  GRISAILLE_HOST_UNSIGNED = 1 /**< (component + 1) / 2 */
+  GRISAILLE_HOST_SIGNED = 0,   /**< components from -1 to 1, as sampled */
+  GRISAILLE_HOST_UNSIGNED = 1, /**< (component + 1) / 2 */
+  /**
+   * Octahedral in the first two channels, each from -1 to 1: with n the normal over the sum of the
+   * absolute values of its components, n.xy, or (1 - abs(n.yx)) * sign(n.xy) where n.z < 0 (Meyer
+   * et al. 2010). For RG16_SNORM, RG16F.
+   */
+  GRISAILLE_HOST_OCTAHEDRAL_SIGNED = 2,
+  /** The same as (x + 1) / 2: for RG16, RG8, RGB10A2 and other unsigned formats. */
+  GRISAILLE_HOST_OCTAHEDRAL_UNSIGNED = 3
 } grisaille_host_encoding;
 
 /**
@@ -526,6 +683,17 @@ typedef struct grisaille_host_input {
   const grisaille_host_texture* texture; /**< the texture */
 } grisaille_host_input;
 
+/**
+ * A part of the effect's textures, in texels, from the corner of texel (0, 0): the top left one
+ * with #GRISAILLE_HOST_ROWS_FROM_TOP, else the bottom left one, as for glViewport().
+ */
+typedef struct grisaille_host_rectangle {
+  uint32_t x;      /**< texels from the corner */
+  uint32_t y;      /**< texels from the corner */
+  uint32_t width;  /**< texels */
+  uint32_t height; /**< texels */
+} grisaille_host_rectangle;
+
 /** One frame, as an effect reads it. All textures have the effect's size. */
 typedef struct grisaille_host_frame {
   uint32_t struct_size;     /**< sizeof(grisaille_host_frame) */
@@ -534,9 +702,10 @@ typedef struct grisaille_host_frame {
   uint32_t normal_encoding; /**< a grisaille_host_encoding */
   uint64_t number; /**< frame number; never decreases; the same for all recordings of a frame */
   void* command_buffer; /**< Vulkan: VkCommandBuffer, recording, outside a render pass; else null */
-  const grisaille_host_camera* camera;  /**< the camera that drew the frame */
+  /** The camera that drew the frame; as many as the effect has layers, all of one struct_size. */
+  const grisaille_host_camera* camera;
   const grisaille_host_texture* depth;  /**< one channel, or a depth buffer */
-  const grisaille_host_texture* normal; /**< three channels; null: facet normals, from depth */
+  const grisaille_host_texture* normal; /**< see normal_encoding; null: facet normals, from depth */
   /**
    * Depth of the nearest surface at or behind the visible one that faces away, in the units of
    * `depth`; null: unknown.
@@ -580,6 +749,13 @@ typedef struct grisaille_host_frame {
       motion_jittered;  /**< 1: `motion` includes the difference of the jitters; 0: it does not */
   uint32_t input_count; /**< number of `inputs` */
   const grisaille_host_input* inputs; /**< textures that effects read by name; others are ignored */
+  /**
+   * The part of all textures that holds the picture: a viewport, or the part that a dynamic
+   * resolution draws. The effect reads and writes this part alone; the camera, motion and the
+   * effect's results are as of a picture of its size. Other texels of the outputs keep their
+   * contents, which are undefined until a recording writes them. All 0: the whole textures.
+   */
+  grisaille_host_rectangle rectangle;
 } grisaille_host_frame;
 
 /**
@@ -590,7 +766,8 @@ typedef struct grisaille_host_frame {
  * leaves it in that layout. It leaves an output in the layout that grisaille_host_effect_output()
  * returns. The output must have that layout at the next recording.
  *
- * From the second frame on, the call allocates nothing while size and parameters stay the same.
+ * From the second frame on, the call allocates nothing while size and parameters stay the same; see
+ * grisaille_host_effect_desc::kept_sizes for sizes that change.
  *
  * Vulkan: submit the command buffers in the order of recording, each once and as a whole, or call
  * grisaille_host_effect_dropped(). The call changes the compute pipeline and descriptor set 0 of
@@ -601,11 +778,13 @@ typedef struct grisaille_host_frame {
  * @retval 5606 The frame's number decreases, or command_buffer is null for Vulkan or not null for
  *   OpenGL.
  * @retval 5607 The camera is wrong.
- * @retval 5605 A texture does not have the effect's size, or has too few channels.
+ * @retval 5605 A texture does not have the effect's size or layers, or the number of channels that
+ *   the field takes; the line names its format.
  * @retval 5609 A texture belongs to another device.
  * @retval 5610 The effect reads base colours or the lit colour, but base_colour or colour is null,
  *   or it needs motion or an input that the frame lacks.
- * @retval 5611 A field is not a value of its enum, or your function returned a wrong hit.
+ * @retval 5611 A field is not a value of its enum, the rectangle does not lie in the textures, or
+ *   your function returned a wrong hit.
  * @retval 3203 The effect fails; the error line quotes its message.
  * @retval 1007 No device memory is left.
  * @retval 1008 The driver refuses a shader.
@@ -648,6 +827,42 @@ GRISAILLE_EXPORT int grisaille_host_effect_prepare(grisaille_host_effect* effect
                                                    const grisaille_host_prepare* how);
 
 /**
+ * Tells how much memory an effect will take, before you create it. Nothing is created.
+ * @param device the device
+ * @param desc describes the effect; objects and what rays find may take more
+ * @param how the recordings; null: perspective, with depth alone
+ * @param[out] out the memory that grisaille_host_effect_memory() returns after some recordings at
+ *   the whole size, within 2 %; set its `struct_size` before the call. Each kept size may take as
+ *   much again.
+ * @retval 5602 `out->struct_size` is not the size of a version of the struct.
+ * @retval 5611 A field is out of range.
+ * @retval 3201 No effect has this key.
+ * @retval 5102 The effect has no output with one of the keys.
+ * @retval 1105 The width or the height is out of range.
+ * @retval 3202 The effect fails; the error line quotes its message.
+ * @retval 3203 The effect fails; the error line quotes its message.
+ * @retval 3301 The effect has no parameter with the key of a setting.
+ * @retval 3302 The value of a setting is out of the parameter's range.
+ * @retval 3303 The value of a setting is not of the parameter's type.
+ * @retval 5604 The device's context is not current.
+ */
+GRISAILLE_EXPORT int grisaille_host_memory_needed(grisaille_host_device* device,
+                                                  const grisaille_host_effect_desc* desc,
+                                                  const grisaille_host_prepare* how,
+                                                  grisaille_host_memory_use* out);
+
+/**
+ * Returns the memory that an effect takes now: its outputs, what it keeps, and what recordings have
+ * needed. `host_bytes` is its part of the device's upload buffers: what its largest recording has
+ * copied, times the frames in flight.
+ * @param effect the effect
+ * @param[out] out the memory; set its `struct_size` before the call
+ * @retval 5602 `out->struct_size` is not the size of a version of the struct.
+ */
+GRISAILLE_EXPORT int grisaille_host_effect_memory(const grisaille_host_effect* effect,
+                                                  grisaille_host_memory_use* out);
+
+/**
  * Forgets what recordings of an effect have written. Call it for each effect with a recording in a
  * command buffer that you drop instead of submitting, before you record one of them again, in the
  * same frame or in a later one. The effect keeps its parameters, objects and output textures; it
@@ -655,6 +870,7 @@ GRISAILLE_EXPORT int grisaille_host_effect_prepare(grisaille_host_effect* effect
  * the call is allowed, but never needed.
  * @param effect the effect
  * @retval 3202 The effect fails; the error line quotes its message.
+ * @retval 3203 The effect fails while it ends; the call has done its work nevertheless.
  * @retval 1007 No device memory is left.
  * @retval 5604 The device's context is not current.
  */
@@ -711,8 +927,10 @@ typedef struct grisaille_host_output {
   uint32_t layout;        /**< Vulkan: VkImageLayout after a recording; OpenGL: 0 */
   uint32_t width;         /**< pixels */
   uint32_t height;        /**< pixels */
-  uint64_t image; /**< Vulkan: VkImage, which you may sample and copy; OpenGL: texture name */
-  uint64_t view;  /**< Vulkan: VkImageView; OpenGL: 0 */
+  uint64_t image;    /**< Vulkan: VkImage, which you may sample and copy; OpenGL: texture name */
+  uint64_t view;     /**< Vulkan: VkImageView of all layers; OpenGL: 0 */
+  uint32_t layers;   /**< 1: a 2D texture; more: a 2D array */
+  uint32_t reserved; /**< 0 */
 } grisaille_host_output;
 
 /**

@@ -79,9 +79,33 @@ struct VulkanSpec {
   uint32_t framesInFlight = 2;     ///< 1 to 16: see grisaille_host_vulkan::frames_in_flight
   /// PFN_vkGetInstanceProcAddr of your loader; null: the library loads libvulkan.so.1
   void (*getInstanceProcAddr)() = nullptr;
-  const char* effectFolder = nullptr;  ///< additional folder of trusted effects; or null
-  uint64_t pipelineCache = 0;          ///< VkPipelineCache of yours; 0: none
+  const char* effectFolder = nullptr;       ///< additional folder of trusted effects; or null
+  uint64_t pipelineCache = 0;               ///< VkPipelineCache of yours; 0: none
+  uint32_t flags = 0;                       ///< grisaille_host_flags combined, or 0
+  const grisaille_host_log* log = nullptr;  ///< takes messages: see logOf(); null: none
+  /// allocates memory; null: the driver does
+  const grisaille_host_allocator* allocator = nullptr;
+  const void* allocationCallbacks = nullptr;  ///< VkAllocationCallbacks of yours; null: none
 };
+
+/// Your OpenGL context, which is current, for Device::opengl().
+struct OpenGlSpec {
+  const char* effectFolder = nullptr;  ///< additional folder of trusted effects; or null
+  /// who restores the context's state
+  grisaille_host_state state = GRISAILLE_HOST_STATE_RESTORED;
+  uint32_t framesInFlight = 0;              ///< see grisaille_host_opengl::frames_in_flight
+  uint32_t flags = 0;                       ///< grisaille_host_flags combined, or 0
+  const grisaille_host_log* log = nullptr;  ///< takes messages: see logOf(); null: none
+};
+
+/// Describes your function that takes messages.
+/// @param write see grisaille_host_log::write
+/// @param context passed to `write`; it must outlive the device
+/// @return the description
+inline grisaille_host_log logOf(decltype(grisaille_host_log::write) write, void* context) {
+  return {
+      .struct_size = sizeof(grisaille_host_log), .reserved = 0, .context = context, .write = write};
+}
 
 /// Owns a device. Destroy it after its textures and effects.
 class Device {
@@ -93,13 +117,16 @@ class Device {
     const grisaille_host_vulkan given = {.struct_size = sizeof(grisaille_host_vulkan),
                                          .queue_family = spec.queueFamily,
                                          .frames_in_flight = spec.framesInFlight,
-                                         .reserved = 0,
+                                         .flags = spec.flags,
                                          .instance = spec.instance,
                                          .physical_device = spec.physicalDevice,
                                          .device = spec.device,
                                          .get_instance_proc_addr = spec.getInstanceProcAddr,
                                          .effect_folder = spec.effectFolder,
-                                         .pipeline_cache = spec.pipelineCache};
+                                         .pipeline_cache = spec.pipelineCache,
+                                         .log = spec.log,
+                                         .allocator = spec.allocator,
+                                         .allocation_callbacks = spec.allocationCallbacks};
     Device made;
     grisaille_host_device* device = nullptr;
     require(grisaille_host_device_vulkan(&given, &device));
@@ -108,18 +135,15 @@ class Device {
   }
 
   /// Creates a device on the OpenGL context that is current in this thread.
-  /// @param effectFolder additional folder of effects, which the library trusts; or null
-  /// @param state who restores the context's state
-  /// @param framesInFlight see grisaille_host_opengl::frames_in_flight
+  /// @param spec your OpenGL context
   /// @return the device
-  static Device opengl(const char* effectFolder = nullptr,
-                       grisaille_host_state state = GRISAILLE_HOST_STATE_RESTORED,
-                       uint32_t framesInFlight = 0) {
+  static Device opengl(const OpenGlSpec& spec = {}) {
     const grisaille_host_opengl given = {.struct_size = sizeof(grisaille_host_opengl),
-                                         .state = static_cast<uint32_t>(state),
-                                         .effect_folder = effectFolder,
-                                         .frames_in_flight = framesInFlight,
-                                         .reserved = 0};
+                                         .state = static_cast<uint32_t>(spec.state),
+                                         .effect_folder = spec.effectFolder,
+                                         .frames_in_flight = spec.framesInFlight,
+                                         .flags = spec.flags,
+                                         .log = spec.log};
     Device made;
     grisaille_host_device* device = nullptr;
     require(grisaille_host_device_opengl(&given, &device));
@@ -164,6 +188,14 @@ class Device {
         grisaille_host_device_set_pictures(device_.get(), read != nullptr ? &pictures : nullptr));
   }
 
+  /// @return the memory that the device holds now
+  grisaille_host_memory_use memory() const {
+    grisaille_host_memory_use use{};
+    use.struct_size = sizeof(use);
+    require(grisaille_host_device_memory(device_.get(), &use));
+    return use;
+  }
+
   /// @return the C handle, which this object keeps owning
   grisaille_host_device* handle() const { return device_.get(); }
 
@@ -178,11 +210,13 @@ class Device {
 
 /// Describes one of your textures: see grisaille_host_texture_desc.
 struct TextureSpec {
-  uint64_t image = 0;   ///< Vulkan: number() of a VkImage; OpenGL: name of the texture
-  uint32_t format = 0;  ///< Vulkan: VkFormat; OpenGL: 0
-  uint32_t layout = 0;  ///< Vulkan: VkImageLayout before and after each recording; OpenGL: 0
-  uint32_t width = 0;   ///< pixels; OpenGL: 0 means the texture's width
-  uint32_t height = 0;  ///< pixels; OpenGL: 0 means the texture's height
+  uint64_t image = 0;       ///< Vulkan: number() of a VkImage; OpenGL: name of the texture
+  uint32_t format = 0;      ///< Vulkan: VkFormat; OpenGL: 0
+  uint32_t layout = 0;      ///< Vulkan: VkImageLayout before and after each recording; OpenGL: 0
+  uint32_t width = 0;       ///< pixels; OpenGL: 0 means the texture's width
+  uint32_t height = 0;      ///< pixels; OpenGL: 0 means the texture's height
+  uint32_t firstLayer = 0;  ///< of an array: the first layer to read
+  uint32_t layers = 1;      ///< number of layers from firstLayer on
 };
 
 /// Owns the wrapper of one of your textures; you keep ownership of the texture itself.
@@ -198,8 +232,10 @@ class Texture {
                                               .layout = spec.layout,
                                               .width = spec.width,
                                               .height = spec.height,
-                                              .reserved = 0,
-                                              .image = spec.image};
+                                              .first_layer = spec.firstLayer,
+                                              .image = spec.image,
+                                              .layers = spec.layers,
+                                              .reserved = 0};
     grisaille_host_texture* texture = nullptr;
     require(grisaille_host_texture_wrap(device.handle(), &desc, &texture));
     texture_.reset(texture);
@@ -238,10 +274,11 @@ struct Camera : grisaille_host_camera {
 struct Frame {
   uint64_t number = 0;            ///< see grisaille_host_frame::number
   void* commandBuffer = nullptr;  ///< see grisaille_host_frame::command_buffer
-  const Camera& camera;           ///< the camera that drew the frame
-  const Texture& depth;           ///< one channel, or a depth buffer
+  /// The camera that drew the frame; the first of as many as the effect has layers.
+  const Camera& camera;
+  const Texture& depth;                                          ///< one channel, or a depth buffer
   grisaille_host_depth depthKind = GRISAILLE_HOST_DEPTH_BUFFER;  ///< meaning of `depth`
-  const Texture* normal = nullptr;  ///< three channels; null: facet normals, from depth
+  const Texture* normal = nullptr;  ///< see normalEncoding; null: facet normals, from depth
   grisaille_host_normals normalSpace = GRISAILLE_HOST_NORMALS_WORLD;  ///< space of `normal`
   grisaille_host_encoding normalEncoding = GRISAILLE_HOST_SIGNED;     ///< encoding of `normal`
   /// see grisaille_host_frame::back_depth; null: unknown
@@ -259,6 +296,9 @@ struct Frame {
   bool motionJittered = false;      ///< whether `motion` includes the difference of the jitters
   /// textures that effects read by name: see inputOf()
   std::span<const grisaille_host_input> inputs = {};
+  /// the part of the textures that holds the picture, see grisaille_host_frame::rectangle; all 0:
+  /// the whole textures
+  grisaille_host_rectangle rectangle = {};
 };
 
 /// Names a texture that an effect reads by name, for Frame::inputs.
@@ -282,7 +322,49 @@ struct EffectSpec {
   grisaille_host_rows rows = GRISAILLE_HOST_ROWS_FROM_TOP;
   /// keys of the wanted outputs; empty: only the effect's first output
   std::initializer_list<const char*> outputs = {};
+  uint32_t layers = 1;  ///< views of a recording: see grisaille_host_effect_desc::layers
+  /// values of parameters that differ from the defaults
+  std::span<const grisaille_host_setting> settings = {};
+  uint32_t keptSizes = 0;  ///< see grisaille_host_effect_desc::kept_sizes
 };
+
+/// Converts a description to that of host.h, which points to its strings and arrays.
+/// @param spec the description
+/// @return the same in C
+inline grisaille_host_effect_desc descOf(const EffectSpec& spec) {
+  return {.struct_size = sizeof(grisaille_host_effect_desc),
+          .width = spec.width,
+          .height = spec.height,
+          .rows = static_cast<uint32_t>(spec.rows),
+          .output_count = static_cast<uint32_t>(spec.outputs.size()),
+          .layers = spec.layers,
+          .effect = spec.effect,
+          .outputs = spec.outputs.begin(),
+          .settings = spec.settings.data(),
+          .setting_count = static_cast<uint32_t>(spec.settings.size()),
+          .kept_sizes = spec.keptSizes};
+}
+
+/// Tells how much memory an effect will take: see grisaille_host_memory_needed().
+/// @param device the device
+/// @param spec describes the effect
+/// @param inputs GRISAILLE_READS() of the optional textures that the frames have
+/// @param orthographic whether cameras are orthographic
+/// @return the memory
+inline grisaille_host_memory_use memoryNeeded(const Device& device, const EffectSpec& spec,
+                                              uint32_t inputs = 0, bool orthographic = false) {
+  const grisaille_host_effect_desc desc = descOf(spec);
+  const grisaille_host_prepare how = {.struct_size = sizeof(grisaille_host_prepare),
+                                      .orthographic = orthographic ? 1u : 0u,
+                                      .inputs = inputs,
+                                      .reserved = 0,
+                                      .context = nullptr,
+                                      .progress = nullptr};
+  grisaille_host_memory_use use{};
+  use.struct_size = sizeof(use);
+  require(grisaille_host_memory_needed(device.handle(), &desc, &how, &use));
+  return use;
+}
 
 /// Owns an effect with its parameters, its objects and its outputs.
 class Effect {
@@ -291,15 +373,7 @@ class Effect {
   /// @param device the device
   /// @param spec describes the effect
   Effect(const Device& device, const EffectSpec& spec) {
-    const grisaille_host_effect_desc desc = {
-        .struct_size = sizeof(grisaille_host_effect_desc),
-        .width = spec.width,
-        .height = spec.height,
-        .rows = static_cast<uint32_t>(spec.rows),
-        .output_count = static_cast<uint32_t>(spec.outputs.size()),
-        .reserved = 0,
-        .effect = spec.effect,
-        .outputs = spec.outputs.begin()};
+    const grisaille_host_effect_desc desc = descOf(spec);
     grisaille_host_effect* effect = nullptr;
     require(grisaille_host_effect_create(device.handle(), &desc, &effect));
     effect_.reset(effect);
@@ -375,7 +449,8 @@ class Effect {
         .motion_scale = {frame.motionScale[0], frame.motionScale[1]},
         .motion_jittered = frame.motionJittered ? 1u : 0u,
         .input_count = static_cast<uint32_t>(frame.inputs.size()),
-        .inputs = frame.inputs.data()};
+        .inputs = frame.inputs.data(),
+        .rectangle = frame.rectangle};
     require(grisaille_host_effect_record(effect_.get(), &given));
   }
 
@@ -398,6 +473,14 @@ class Effect {
   /// Forgets what recordings have written, for one that you drop instead of submitting: see
   /// grisaille_host_effect_dropped().
   void dropped() { require(grisaille_host_effect_dropped(effect_.get())); }
+
+  /// @return the memory that the effect takes now
+  grisaille_host_memory_use memory() const {
+    grisaille_host_memory_use use{};
+    use.struct_size = sizeof(use);
+    require(grisaille_host_effect_memory(effect_.get(), &use));
+    return use;
+  }
 
   /// @return what the effect reported in its last recording
   grisaille_host_report report() const {
