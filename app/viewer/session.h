@@ -317,6 +317,7 @@ class Session {
   // The effect whose objects a file holds; "": none.
   std::string ownerOf(const std::string& path);
   void fitToScene();
+  bool readsMatter() const;
   void resume(const SavedSession& last, bool sameScene);
   void applyGiven();
   void takeViews(const SavedSession& session);

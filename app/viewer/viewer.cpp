@@ -54,13 +54,13 @@ Viewer::Viewer(const ViewerOptions& options)
     state_.width = options_.size.x;
     state_.height = options_.size.y;
   }
+  openScene(session_.firstScene());  // is read while the window opens
   openWindow();
   if (options_.size.x == 0 && !keptState) {
     const double unit = window_->unit();
     window_->resize(glm::uvec2(glm::round(unit * glm::dvec2(state_.width, state_.height))));
   }
   rebuild_.watch(session_.registry());
-  openScene(session_.firstScene());
 }
 
 Viewer::~Viewer() {

@@ -138,7 +138,7 @@ class Viewer {
   std::unique_ptr<TruthView> truth_;
   Panel panel_;
   Controls controls_;
-  SceneLoading loading_;
+  SceneLoading loading_{WindowLibrary::wake};
   Rebuild rebuild_;
   Portal portal_;
   std::string buildMessage_;
