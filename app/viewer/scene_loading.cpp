@@ -36,7 +36,7 @@ void SceneLoading::start(const std::string& path) {
       if (*cancelled) throw Error(ErrorId::kSceneUnreadable, "{}: cancelled", path);
       *progress = share;
     };
-    return std::make_shared<scene::Scene>(scene::loadScene(path, report));
+    return std::make_shared<scene::Scene>(scene::readScene(path, report));
   });
 }
 

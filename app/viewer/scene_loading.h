@@ -36,7 +36,7 @@ class SceneLoading {
   void cancel();
 
   // The scene, once; null while it is still being read or nothing was started. Throws the errors of
-  // scene::loadScene().
+  // scene::readScene().
   std::shared_ptr<scene::Scene> take();
 
  private:

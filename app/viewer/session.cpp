@@ -51,9 +51,10 @@ Session::Session(SessionOptions options, const std::optional<SavedSession>& last
           [this](std::string_view effect) { return chain.objectsEvenIfAbsent(effect); }),
       options_(std::move(options)) {
   const Settings settings = options_.config.empty() ? Settings{} : readSettings(options_.config);
-  const SavedSession kept = last.value_or(SavedSession{});
+  SavedSession kept = last.value_or(SavedSession{});
   const bool sameScene = options_.scene.empty() || sceneKey(options_.scene) == sceneKey(kept.scene);
   if (last) resume(kept, sameScene);
+  if (!sameScene) kept.sequence.keys.clear();  // the path belongs to its scene
   if (!last || !options_.config.empty()) {
     apply(asked(options_, settings), options_.presets);
   } else {
@@ -131,7 +132,6 @@ void Session::setScene(std::shared_ptr<scene::Scene> loaded, const std::string& 
   extent = glm::length(scene->bounds.max - scene->bounds.min);
   suitableRadius_ = suitableRadius(*scene);
   fitToScene();
-  printChosen(chain.selection, {}, "the scene");
   ++revision;
   ++heldRevision;
   zoom = 1;
@@ -329,9 +329,13 @@ bool Session::attempt(const std::string& about, const std::function<void()>& act
   } catch (const fs::filesystem_error& error) {
     failure = Error(ErrorId::kFileUnwritable, "{}", error.what()).what();
   }
+  conclude(about, failure);
+  return failure.empty();
+}
+
+void Session::conclude(const std::string& about, const std::string& failure) {
   forget(about);
   if (!failure.empty()) add({failure, true, about});
-  return failure.empty();
 }
 
 }  // namespace grisaille::app::viewer
