@@ -23,10 +23,12 @@ TEST_P(TasksTest, Paint) {
   // spray.
   viewer.key("Escape b");
   viewer.click(viewer.at("picture", 0.3, 0.5));
-  viewer.untilValue("sspm.objects", "1");
+  viewer.untilDrawn();
   const std::string camera = viewer.value("camera");
   // 3. Open the section Objects and choose the Colour of the next shots.
   openOnly(viewer, "section Objects");
+  viewer.untilValue("sspm.objects", "1");
+  EXPECT_EQ(viewer.value("sspm.placing"), "true");
   const std::string colour = viewer.value("sspm.next.color");
   viewer.drag(viewer.at("sspm.next.color", 0.05, 0.5), viewer.at("sspm.next.color", 0.15, 0.5));
   viewer.untilChanged("sspm.next.color", colour);
