@@ -49,7 +49,8 @@ class Drag {
     if ((status.data.data32[1] & 1u) == 0) throw std::runtime_error("the window takes no file");
     send("XdndDrop", 0, XCB_CURRENT_TIME, 0, 0);
     const auto finished = until("XdndFinished", list);
-    if ((finished.data.data32[1] & 1u) == 0) throw std::runtime_error("the drop was not taken");
+    // Bit 0 by the protocol; GLFW tells the number of bytes instead.
+    if (finished.data.data32[1] == 0) throw std::runtime_error("the drop was not taken");
   }
 
  private:

@@ -68,7 +68,7 @@ class WindowTest : public testing::TestWithParam<std::string> {
   static void fill(DrivenViewer& viewer, const std::string& field, const std::string& text) {
     viewer.clickText(field);
     viewer.key("ctrl+a");
-    viewer.type(text);
+    viewer.type("'" + text + "'");
     viewer.key("Return");
     viewer.untilValue(field, text);
   }
