@@ -18,6 +18,7 @@
 #include "app/options/scene_options.h"
 #include "app/options/sequence.h"
 #include "app/options/start_device.h"
+#include "app/options/video.h"
 #include "app/report/coverage.h"
 #include "app/report/timings.h"
 #include "app/services/scene_lengths.h"
@@ -35,7 +36,7 @@ namespace {
 
 struct RenderOptions : EffectOptions {
   SceneOptions view;
-  std::string timings, coverage, times, path;
+  std::string timings, coverage, times, path, video;
   double coverageSlope = 180;  // degrees
   ObjectOptions objects;
   uint32_t frames = 1;
@@ -54,6 +55,7 @@ struct SequenceFrame {
 struct RenderJob : ChosenEffects {
   std::vector<OutputFiles> outputs;
   std::vector<SequenceFrame> sequence;  // empty: one picture, of view.pose
+  double rate = 24;                     // frames of the sequence a second
   SceneView view;
 
   std::optional<Owned> owned;  // what --coverage measures; none without --coverage
@@ -71,6 +73,13 @@ struct RenderJob : ChosenEffects {
     requireDistinctOutputs(options, times.empty() ? alongPath : times.size());
     for (const std::string& file : {options.timings, options.coverage}) {
       if (!file.empty() && file != "-") requireWritable(file);
+    }
+    if (!options.video.empty()) {
+      if (!outputs.front().file.at(0).ends_with(".png")) {
+        throw Error(ErrorId::kUsage, "--video needs .png files of the first output");
+      }
+      requireVideo(options.video);
+      requireWritable(options.video);
     }
     for (const OutputFiles& output : outputs) {
       frame::checkOutput(output.output, chain.selection.effects());
@@ -102,6 +111,9 @@ struct RenderJob : ChosenEffects {
 // Along a path, the camera takes as many steps as there are times.
 void RenderJob::setSequence(const std::vector<double>& times, scene::CameraPath path) {
   for (const double seconds : times) sequence.push_back({view.camera, seconds});
+  if (times.size() > 1) {
+    rate = static_cast<double>(times.size() - 1) / (times.back() - times.front());
+  }
   if (path.keys.empty()) return;
   if (!times.empty()) path.frames = static_cast<uint32_t>(times.size());
   const std::vector<scene::Camera> cameras = scene::camerasOf(path);
@@ -127,6 +139,7 @@ void RenderJob::findOutputs(const RenderOptions& options) {
 void RenderJob::requireDistinctOutputs(const RenderOptions& options, size_t frames) const {
   std::vector<NamedOutput> files = options.objects.outputs();
   if (options.timings != "-") files.push_back({"--timings " + options.timings, options.timings});
+  if (!options.video.empty()) files.push_back({"--video " + options.video, options.video});
   const std::string& coverage = options.coverage;
   if (coverage != "-") files.push_back({"--coverage " + coverage, coverage});
   for (int i = 0; i < static_cast<int>(std::max(frames, size_t{1})); ++i) {
@@ -184,6 +197,8 @@ void printWritten(const RenderOptions& options, const RenderJob& job, int frames
     const std::string last = frames > 1 ? " to " + output.file.at(frames - 1) : "";
     if (frames > 0) fmt::print(notesOf(options), "wrote {}{}\n", first, last);
   }
+  const bool all = frames == static_cast<int>(job.sequence.size());
+  if (!options.video.empty() && all) fmt::print(notesOf(options), "wrote {}\n", options.video);
 }
 
 bool hasObjects(const effect::Chain& chain) {
@@ -219,6 +234,13 @@ void renderSequence(const RenderOptions& options, RenderJob& job, frame::FrameDe
       renderer.render(desc);
       requireAll(renderer);
       writeOutputs(job, done, renderer);
+    }
+    if (done == frames && !options.video.empty()) {
+      progress.show({.done = static_cast<double>(done),
+                     .total = static_cast<double>(frames),
+                     .text = "video by ffmpeg"});
+      writeVideo({.files = job.outputs.front().file, .count = frames, .rate = job.rate},
+                 options.video);
     }
   }
   printWritten(options, job, done);
@@ -356,9 +378,20 @@ void addRender(CLI::App& program) {
       ->check(numberFrom(0, 180))
       ->needs("--coverage")
       ->capture_default_str();
+  command
+      ->add_option("--video", options->video,
+                   "After a sequence, make a video of the .png files of the first output: runs "
+                   "ffmpeg, which chooses the format by the ending; at the rate of --times, else "
+                   "24 frames a second")
+      ->type_name("FILE.mp4");
   command->add_flag("--json", options->json,
                     "Print the progress of a sequence as lines of JSON on standard output");
-  command->callback([options] { render(*options); });
+  command->callback([options] {
+    if (!options->video.empty() && !options->isSequence()) {
+      throw Error(ErrorId::kUsage, "--video needs --times or --path");
+    }
+    render(*options);
+  });
 }
 
 }  // namespace grisaille::app

@@ -91,6 +91,17 @@ std::string FileName::at(int number) const {
   return fmt::format("{}{:0{}}{}", before_, number, width_, after_);
 }
 
+std::string FileName::pattern() const {
+  std::string text;
+  const auto add = [&](const std::string& part) {
+    for (const char c : part) text += c == '%' ? "%%" : std::string(1, c);
+  };
+  add(before_);
+  if (numbered()) text += fmt::format("%0{}d", width_);
+  add(after_);
+  return text;
+}
+
 std::vector<int> FileName::numbers() const {
   const fs::path folder = fs::path(before_ + "x").parent_path();
   const std::string before = before_.substr(before_.rfind('/') + 1);

@@ -19,6 +19,9 @@ class FileName {
   // The name of one frame's file; the same for all frames if the name is not numbered.
   std::string at(int number) const;
 
+  // The name for ffmpeg: %0Nd stands for the frame number, and %% for '%'.
+  std::string pattern() const;
+
   // The numbers of the files that exist, ascending. Throws kSequence if no file exists.
   std::vector<int> numbers() const;
 

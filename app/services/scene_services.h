@@ -1,5 +1,6 @@
 // SPDX-License-Identifier: MIT
-// Services of the program for effects: ray casts through the scene, and decoded picture files.
+// Services of the program for effects: ray casts through the scene, and decoded picture files; and
+// the scene's matter, which all renderers of the scene share.
 #pragma once
 
 #include <functional>
@@ -11,6 +12,7 @@
 
 #include "core/effect/instance.h"
 #include "core/image/image.h"
+#include "core/scene/bodies.h"
 #include "core/trace/ray_tracer.h"
 
 namespace grisaille::app {
@@ -70,13 +72,15 @@ class PictureFiles : public effect::PictureService {
 class SceneServices {
  public:
   explicit SceneServices(const scene::Scene& scene, Warn warn = printWarning)
-      : rays_(scene), pictures_(std::move(warn)) {}
+      : rays_(scene), matter_(scene), pictures_(std::move(warn)) {}
 
   effect::Services all() { return {.rays = &rays_, .pictures = &pictures_}; }
   SceneRays& rays() { return rays_; }
+  scene::SceneMatter& matter() { return matter_; }
 
  private:
   SceneRays rays_;
+  scene::SceneMatter matter_;
   PictureFiles pictures_;
 };
 

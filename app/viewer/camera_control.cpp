@@ -80,6 +80,10 @@ void orbit(scene::Camera& camera, const glm::dvec3& pivot, glm::dvec2 dragPixels
   take(camera, moved);
 }
 
+bool isOfFingers(glm::dvec2 notches) {
+  return notches.x != 0 || 2 * notches.y != std::round(2 * notches.y);
+}
+
 void pan(scene::Camera& camera, glm::dvec2 dragPixels, double heightPixels) {
   // Metres per pixel at the target's depth.
   const double tall = camera.orthographicHeight > 0

@@ -26,6 +26,11 @@ void setTargetDistance(scene::Camera& camera, double metres);
 void orbit(scene::Camera& camera, const glm::dvec3& pivot, glm::dvec2 dragPixels,
            double heightPixels);
 
+// Whether fingers on a touchpad moved by `notches`, to the right and up, rather than a wheel:
+// wheels turn by whole or half notches up and down; fingers move by any amount, to any side. X11
+// tells whole notches of both.
+bool isOfFingers(glm::dvec2 notches);
+
 // Moves eye and target parallel to the picture plane. A point at the target's depth stays under the
 // cursor.
 void pan(scene::Camera& camera, glm::dvec2 dragPixels, double heightPixels);

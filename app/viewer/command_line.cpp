@@ -60,6 +60,7 @@ std::vector<std::string> renderArguments(const RenderCommand& command) {
   if (!command.background.empty()) add("--background", command.background);
   for (const auto& [effect, file] : command.loads) add("--load", effect + "=" + file);
   for (const auto& [output, file] : command.writes) add("--write", output + "=" + file);
+  if (!command.video.empty()) add("--video", command.video);
   return arguments;
 }
 

@@ -26,6 +26,7 @@ struct RenderCommand {
   // --load as effect and file; --write as output and file.
   std::vector<std::pair<std::string, std::string>> loads = {}, writes = {};
   std::vector<std::string> pluginPaths = {};
+  std::string video = {};  // of a sequence; "": none
 };
 
 // The program's name and its arguments, unquoted. --set names only the parameters that differ from

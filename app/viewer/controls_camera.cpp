@@ -91,8 +91,7 @@ double Controls::distanceAhead(const Place& place) {
 void Controls::scroll(const Place& place) {
   const ImGuiIO& io = ImGui::GetIO();
   const glm::dvec2 notches(io.MouseWheelH, io.MouseWheel);
-  // Wheels turn by whole or half notches; fingers on a touchpad move by any amount, to any side.
-  const bool fingers = notches.x != 0 || 2 * notches.y != std::round(2 * notches.y);
+  const bool fingers = isOfFingers(notches);
   if (io.KeyCtrl) return magnify(place, notches.y);
   if (drag_ == Drag::kLook) {
     session_.speed = steppedSpeed(session_.speed, notches.y);

@@ -4,6 +4,7 @@
 #include <fmt/format.h>
 
 #include <algorithm>
+#include <cmath>
 
 #include "app/viewer/panel.h"
 #include "core/base/atomic_file.h"
@@ -20,7 +21,9 @@ const std::array<ImVec4, 7> kColours = {{{0.90f, 0.62f, 0.00f, 1},
                                          {0.84f, 0.37f, 0.00f, 1},
                                          {0.80f, 0.47f, 0.65f, 1}}};
 constexpr size_t kFrameColour = 6;
+constexpr size_t kRounds = 3;      // of the passes' colours, each nearer to the text's colour
 constexpr float kGraphHeight = 7;  // lines of text
+constexpr float kDot = 2;          // half the side of a single frame's square
 
 // Passes, their sum, the frame. A sum of one pass is left out.
 std::vector<PassStats> rowsOf(const Status& status) {
@@ -33,7 +36,11 @@ std::vector<PassStats> rowsOf(const Status& status) {
 ImVec4 colourOf(size_t row, size_t passes, size_t rows) {
   if (row + 1 == rows) return readable(kColours[kFrameColour]);
   if (row >= passes) return ImGui::GetStyleColorVec4(ImGuiCol_Text);
-  return readable(kColours[row % kFrameColour]);
+  const ImVec4 own = readable(kColours[row % kFrameColour]);
+  const ImVec4 text = ImGui::GetStyleColorVec4(ImGuiCol_Text);
+  const float share = static_cast<float>(row / kFrameColour % kRounds) / kRounds;
+  return {std::lerp(own.x, text.x, share), std::lerp(own.y, text.y, share),
+          std::lerp(own.z, text.z, share), 1};
 }
 
 // A square of a line's colour, beside its name: as text, some of them would be faint.
@@ -79,8 +86,13 @@ void Panel::drawCostGraph(const std::vector<PassStats>& rows, size_t passes, flo
       points.emplace_back(from.x + size.x - step * static_cast<float>(recent.size() - 1 - k),
                           from.y + size.y * (1 - recent[k] / top));
     }
-    list.AddPolyline(points.data(), static_cast<int>(points.size()),
-                     ImGui::GetColorU32(colourOf(i, passes, rows.size())), 0, 1.5f);
+    const ImU32 colour = ImGui::GetColorU32(colourOf(i, passes, rows.size()));
+    list.AddPolyline(points.data(), static_cast<int>(points.size()), colour, 0, 1.5f);
+    // A line of one frame has no length.
+    if (points.size() == 1) {
+      list.AddRectFilled(ImVec2(points[0].x - 2 * kDot, points[0].y - kDot),
+                         ImVec2(points[0].x, points[0].y + kDot), colour);
+    }
   }
   const std::string label = fmt::format("{:g} ms", top);
   list.AddText(from, ImGui::GetColorU32(ImGuiCol_Text), label.c_str());
@@ -91,7 +103,8 @@ void Panel::drawCostGraph(const std::vector<PassStats>& rows, size_t passes, flo
 void Panel::drawCost(const Status& status) {
   const std::vector<PassStats> rows = rowsOf(status);
   const char* clock = gpu::clockName(status.device.clock);
-  ImGui::TextDisabled("%s clock, last %zu frames", clock, status.whole.recent.size());
+  const size_t frames = status.whole.recent.size();
+  ImGui::TextDisabled("%s clock, last %zu frame%s", clock, frames, frames == 1 ? "" : "s");
   float most = 0;
   for (const PassStats& row : rows) {
     for (const float ms : row.recent) most = std::max(most, ms);

@@ -221,6 +221,7 @@ void Panel::drawSceneLength(effect::Selection::Entry& entry, const grisaille_par
   };
   if (!entry.values.given(param.key)) {
     if (scenes == tables) return;
+    ImGui::AlignTextToFramePadding();  // as the button beside it
     ImGui::TextDisabled("chosen for the scene");
     ImGui::SameLine();
     if (choice(fmt::format("Table's {}", tables), "of the table")) {

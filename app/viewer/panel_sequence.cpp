@@ -33,6 +33,7 @@ void Panel::drawPath() {
   }
   if (removed) keys.erase(keys.begin() + static_cast<ptrdiff_t>(*removed));
   if (earlier) std::swap(keys[*earlier], keys[*earlier - 1]);
+  ImGui::BeginDisabled(keys.size() >= Sequence::kMostKeys);
   if (button("Add this camera", "path add", "The next camera of the path is the present one")) {
     keys.push_back(session_.camera);
   }
@@ -45,6 +46,7 @@ void Panel::drawPath() {
     }
     ImGui::EndCombo();
   }
+  ImGui::EndDisabled();
   layout.note("path bookmark", fmt::format("{}", keys.size()));
 }
 
@@ -59,7 +61,7 @@ void Panel::drawSequence(const Status& status, Requests& requests) {
   ImGui::BeginDisabled(animated);
   double seconds = session_.sequenceSeconds();
   if (ImGui::InputDouble(fit("Seconds", "sequence seconds").c_str(), &seconds, 0, 0, "%.6g")) {
-    sequence.seconds = std::clamp(seconds, 1 / Playback::kFrames, Sequence::kLongest);
+    sequence.seconds = std::clamp(seconds, Sequence::kShortest, Sequence::kLongest);
   }
   layout.note("sequence seconds", fmt::format("{}", seconds));
   ImGui::EndDisabled();
@@ -72,6 +74,13 @@ void Panel::drawSequence(const Status& status, Requests& requests) {
   ImGui::InputText(fit("Files", "sequence file").c_str(), &sequence.file);
   layout.note("sequence file", sequence.file);
   tip("#### stands for the number of the frame. As large as saved pictures: see View");
+  toggle("Make a video", "sequence filmed", sequence.filmed,
+         "Runs the program ffmpeg, if it is installed, on the .png files");
+  if (sequence.filmed) {
+    ImGui::InputText(fit("Video", "sequence video").c_str(), &sequence.video);
+    layout.note("sequence video", sequence.video);
+    tip("The ending chooses the format: .mp4, .webm, .gif and what else ffmpeg knows");
+  }
   const SequenceStatus& now = status.sequence;
   if (now.running) {
     ImGui::ProgressBar(static_cast<float>(now.done));

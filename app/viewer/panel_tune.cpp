@@ -21,6 +21,28 @@ void drawQuiet(const std::string& text) {
   ImGui::PopStyleColor();
 }
 
+// Words after a comma begin a new line if they do not fit. ImGui's own wrapping would also cut
+// numbers at their point.
+void drawQuietPieces(const std::string& text) {
+  const float gap = ImGui::CalcTextSize(" ").x;
+  for (size_t from = 0; from < text.size();) {
+    const size_t comma = text.find(", ", from);
+    const size_t end = comma == std::string::npos ? text.size() : comma + 1;
+    const std::string piece = text.substr(from, end - from);
+    const float width = ImGui::CalcTextSize(piece.c_str()).x;
+    if (from > 0) {
+      ImGui::SameLine(0, gap);
+      if (width > ImGui::GetContentRegionAvail().x) ImGui::NewLine();
+    }
+    if (width > ImGui::GetContentRegionAvail().x) {
+      drawQuiet(piece);
+    } else {
+      ImGui::TextDisabled("%s", piece.c_str());
+    }
+    from = end + 1;
+  }
+}
+
 std::string tooltipOf(const Preset& preset, const Presets& presets) {
   std::string values;
   for (const auto& [key, text] : preset.values) {
@@ -40,8 +62,11 @@ void Panel::drawPresets(effect::Selection::Entry& entry) {
   }
   if (own.presets.all.empty()) return;
   const Preset* const now = presetOf(entry.values, own.presets);
-  drawQuiet("Preset: " + (now != nullptr ? now->name + ", " + priceOf(*now)
-                                         : "custom; error and cost of the others:"));
+  if (now != nullptr) {
+    drawQuietPieces(fmt::format("Preset: {}, {}", now->name, priceOf(*now)));
+  } else {
+    drawQuiet("Preset: custom; error and cost of the others:");
+  }
   layout.note(key + ".presets", now != nullptr ? now->name : "custom");
   // Tight, so that one row holds the usual five.
   const ImVec2 padding(ImGui::GetStyle().FramePadding.x / 4, ImGui::GetStyle().FramePadding.y);

@@ -24,12 +24,19 @@ void SceneLoading::start(const std::string& path) {
   path_ = path;
   progress_ = std::make_shared<std::atomic<double>>(0);
   cancelled_ = std::make_shared<std::atomic<bool>>(false);
-  result_ = std::async(std::launch::async, [path, progress = progress_, cancelled = cancelled_] {
+  ended_ = std::make_shared<std::atomic<bool>>(false);
+  result_ = std::async(std::launch::async, [path, progress = progress_, cancelled = cancelled_,
+                                            ended = ended_, wake = wake_] {
+    // Also at an error. The future is ready only after this.
+    const std::shared_ptr<void> end(nullptr, [&](void*) {
+      *ended = true;
+      wake();
+    });
     const auto report = [&](double share) {
       if (*cancelled) throw Error(ErrorId::kSceneUnreadable, "{}: cancelled", path);
       *progress = share;
     };
-    return std::make_shared<scene::Scene>(scene::loadScene(path, report));
+    return std::make_shared<scene::Scene>(scene::readScene(path, report));
   });
 }
 
@@ -44,9 +51,7 @@ void SceneLoading::cancel() {
 }
 
 std::shared_ptr<scene::Scene> SceneLoading::take() {
-  if (!result_.valid() || result_.wait_for(std::chrono::seconds(0)) != std::future_status::ready) {
-    return nullptr;
-  }
+  if (!result_.valid() || !*ended_) return nullptr;
   return result_.get();
 }
 

@@ -3,6 +3,7 @@
 #pragma once
 
 #include <atomic>
+#include <functional>
 #include <future>
 #include <memory>
 #include <optional>
@@ -18,6 +19,8 @@ std::string sceneLabel(const std::string& path);
 
 class SceneLoading {
  public:
+  // `wake` is called on the reading thread once take() has a result.
+  explicit SceneLoading(std::function<void()> wake) : wake_(std::move(wake)) {}
   ~SceneLoading();  // cancels, and waits for the threads
 
   bool running() const { return result_.valid(); }
@@ -33,15 +36,16 @@ class SceneLoading {
   void cancel();
 
   // The scene, once; null while it is still being read or nothing was started. Throws the errors of
-  // scene::loadScene().
+  // scene::readScene().
   std::shared_ptr<scene::Scene> take();
 
  private:
+  std::function<void()> wake_;
   std::string path_;
   using Result = std::future<std::shared_ptr<scene::Scene>>;
 
   std::shared_ptr<std::atomic<double>> progress_ = std::make_shared<std::atomic<double>>(0);
-  std::shared_ptr<std::atomic<bool>> cancelled_;  // of result_
+  std::shared_ptr<std::atomic<bool>> cancelled_, ended_;  // of result_
   Result result_;
   std::vector<Result> ending_;  // of cancelled readings
 };

@@ -51,9 +51,10 @@ Session::Session(SessionOptions options, const std::optional<SavedSession>& last
           [this](std::string_view effect) { return chain.objectsEvenIfAbsent(effect); }),
       options_(std::move(options)) {
   const Settings settings = options_.config.empty() ? Settings{} : readSettings(options_.config);
-  const SavedSession kept = last.value_or(SavedSession{});
+  SavedSession kept = last.value_or(SavedSession{});
   const bool sameScene = options_.scene.empty() || sceneKey(options_.scene) == sceneKey(kept.scene);
   if (last) resume(kept, sameScene);
+  if (!sameScene) kept.sequence.keys.clear();  // the path belongs to its scene
   if (!last || !options_.config.empty()) {
     apply(asked(options_, settings), options_.presets);
   } else {
@@ -120,6 +121,8 @@ void Session::setScene(std::shared_ptr<scene::Scene> loaded, const std::string& 
   playback = {};
   services = std::make_unique<SceneServices>(
       *scene, [this](const std::string& file, const std::string& warning) { warn(file, warning); });
+  // Found while this thread looks for a camera.
+  if (readsMatter()) services->matter().prepare();
   for (const std::string& note : scene->notes) say("note: " + note);
   aspect_ = double{1} * std::max(size.x, 1u) / std::max(size.y, 1u);
   const bool first = std::exchange(firstScene_, false);
@@ -129,7 +132,6 @@ void Session::setScene(std::shared_ptr<scene::Scene> loaded, const std::string& 
   extent = glm::length(scene->bounds.max - scene->bounds.min);
   suitableRadius_ = suitableRadius(*scene);
   fitToScene();
-  printChosen(chain.selection, {}, "the scene");
   ++revision;
   ++heldRevision;
   zoom = 1;
@@ -143,6 +145,16 @@ void Session::setScene(std::shared_ptr<scene::Scene> loaded, const std::string& 
   }
   arrive();
   cameraHistory.begin(camera);
+}
+
+// Whether the first frame will ask for solid bodies. If this is wrong, that frame is only later.
+bool Session::readsMatter() const {
+  constexpr uint32_t kOfMatter = GRISAILLE_READS(GRISAILLE_BACK_DEPTH) |
+                                 GRISAILLE_READS(GRISAILLE_NEXT_DEPTH) |
+                                 GRISAILLE_READS(GRISAILLE_THICKNESS);
+  return std::ranges::any_of(chain.selection.entries(), [](const effect::Selection::Entry& entry) {
+    return entry.on && (entry.effect().reads(entry.values.all().data(), ~0u) & kOfMatter) != 0;
+  });
 }
 
 void Session::goTo(const scene::Camera& next) {
@@ -317,9 +329,13 @@ bool Session::attempt(const std::string& about, const std::function<void()>& act
   } catch (const fs::filesystem_error& error) {
     failure = Error(ErrorId::kFileUnwritable, "{}", error.what()).what();
   }
+  conclude(about, failure);
+  return failure.empty();
+}
+
+void Session::conclude(const std::string& about, const std::string& failure) {
   forget(about);
   if (!failure.empty()) add({failure, true, about});
-  return failure.empty();
 }
 
 }  // namespace grisaille::app::viewer

@@ -53,16 +53,6 @@ struct Playback {
   double speed = 1;  // seconds of the animation per second
 };
 
-// A sequence that the user sets up.
-struct Sequence {
-  static constexpr double kLongest = 400;  // seconds; scene::kMostPathFrames are a little more
-
-  std::vector<scene::Camera> keys = {};  // of the path; empty: the camera stays
-  double seconds = 4;                    // of the path, without an animation
-  bool animated = false;                 // takes as long as the animation, which plays once
-  std::string file = "walk.####.png";
-};
-
 // A search that the user requests: `grisaille tune` for one effect in the current view.
 struct TuneWish {
   static constexpr uint32_t kMostEvaluations = 100000;
@@ -301,6 +291,8 @@ class Session {
   // --- Messages
   std::deque<Message> messages;  // oldest first
   void say(std::string text, bool error = false) { add({std::move(text), error}); }
+  // The end of what attempt() began in the background. failure: "": it succeeded
+  void conclude(const std::string& about, const std::string& failure);
   // Calls `action`, and adds a message if it throws Error or a file system error. Rethrows only
   // kDeviceLost. `about` names what is tried, "settings": each call removes the error of the last
   // one about the same. True if the action succeeded.
@@ -317,6 +309,7 @@ class Session {
   // The effect whose objects a file holds; "": none.
   std::string ownerOf(const std::string& path);
   void fitToScene();
+  bool readsMatter() const;
   void resume(const SavedSession& last, bool sameScene);
   void applyGiven();
   void takeViews(const SavedSession& session);

@@ -85,6 +85,7 @@ RenderCommand Session::sequenceCommand(glm::uvec2 size, const std::string& backe
         fmt::format("0:{}:1/{}", (sequenceFrames() - 1) / Playback::kFrames, Playback::kFrames);
   }
   all.writes.emplace_back(shownOutput(), sequence.file);
+  if (sequence.filmed) all.video = sequence.video;
   return all;
 }
 

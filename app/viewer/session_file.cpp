@@ -147,6 +147,36 @@ void takeTruth(const json& truth, TruthSettings& comparing) {
   comparing.rays = static_cast<uint32_t>(rays);
 }
 
+void takeSequence(const json& object, Sequence& sequence) {
+  with(object, "cameras", [&](const json& list) {
+    if (!list.is_array() || list.size() > Sequence::kMostKeys) {
+      refuseSession(fmt::format("'cameras' is not an array of at most {}", Sequence::kMostKeys));
+    }
+    for (const json& camera : list) {
+      if (!camera.is_object()) refuseSession("'cameras' holds something else than objects");
+      sequence.keys.push_back(scene::cameraFromJson(camera, "sequence"));
+    }
+  });
+  take(object, "seconds", sequence.seconds, Sequence::kShortest, Sequence::kLongest);
+  take(object, "with_animation", sequence.animated);
+  take(object, "files", sequence.file);
+  take(object, "video", sequence.video);
+  take(object, "makes_video", sequence.filmed);
+}
+
+ordered_json jsonOf(const Sequence& sequence) {
+  ordered_json cameras = ordered_json::array();
+  for (const scene::Camera& camera : sequence.keys) {
+    cameras.push_back(ordered_json::parse(scene::cameraJson(camera)));
+  }
+  return {{"cameras", cameras},
+          {"seconds", sequence.seconds},
+          {"with_animation", sequence.animated},
+          {"files", sequence.file},
+          {"video", sequence.video},
+          {"makes_video", sequence.filmed}};
+}
+
 PanelLayout layoutOf(const json& layout) {
   PanelLayout panel;
   take(layout, "light", panel.light);
@@ -190,6 +220,8 @@ SavedSession sessionOf(const json& document, const fs::path& folder) {
   });
   within(document, "view", [&](const json& view) { takeView(view, session); });
   within(document, "truth", [&](const json& truth) { takeTruth(truth, session.comparing); });
+  within(document, "sequence",
+         [&](const json& sequence) { takeSequence(sequence, session.sequence); });
   take(document, "backend", session.backend);
   within(document, "panel", [&](const json& panel) { session.layout = layoutOf(panel); });
   return session;
@@ -230,6 +262,7 @@ std::string sessionJson(const SavedSession& session, const fs::path& folder) {
                        {"output", session.comparing.output},
                        {"rays", session.comparing.rays}};
   if (session.comparing.radius) document["truth"]["radius"] = *session.comparing.radius;
+  document["sequence"] = jsonOf(session.sequence);
   document["backend"] = session.backend;
   if (session.layout) {
     document["panel"] = {{"light", session.layout->light},

@@ -53,6 +53,7 @@ struct SavedSession {
   SplitSettings splitting;
   Fineness fineness;
   TruthSettings comparing;
+  Sequence sequence;
   std::string backend;                // of the window; "": any
   std::optional<PanelLayout> layout;  // none: stays as it is
 };

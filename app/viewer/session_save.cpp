@@ -45,6 +45,7 @@ SavedSession Session::saved() {
   session.fineness = fineness;
   session.comparing = comparing;
   session.inspecting = inspecting;
+  session.sequence = sequence;
   return session;
 }
 
@@ -86,6 +87,7 @@ void Session::takeViews(const SavedSession& session) {
   fineness = session.fineness;
   inspecting = session.inspecting;
   comparing = session.comparing;
+  sequence = session.sequence;
   held.reset();
   if (session.held) {
     held.emplace(*registry_).restore(*session.held);

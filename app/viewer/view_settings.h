@@ -1,11 +1,14 @@
 // SPDX-License-Identifier: MIT
-// Settings of what the picture shows: the split into two sides, the comparison with the truth, and
-// how finely it is drawn while it moves and while it rests.
+// Settings of what the picture shows: the split into two sides, the comparison with the truth, how
+// finely it is drawn while it moves and while it rests, and the sequence along a path of cameras.
 #pragma once
 
 #include <cstdint>
 #include <optional>
 #include <string>
+#include <vector>
+
+#include "core/scene/camera.h"
 
 namespace grisaille::app::viewer {
 
@@ -46,6 +49,21 @@ struct Fineness {
   bool converges = false;
 
   bool operator==(const Fineness&) const = default;
+};
+
+// A sequence that the user sets up.
+struct Sequence {
+  static constexpr double kShortest = 1.0 / 24;  // seconds: two frames
+  static constexpr double kLongest = 400;  // seconds; scene::kMostPathFrames are a little more
+
+  static constexpr size_t kMostKeys = 10000;
+
+  std::vector<scene::Camera> keys = {};  // of the path; empty: the camera stays
+  double seconds = 4;                    // of the path, without an animation
+  bool animated = false;                 // takes as long as the animation, which plays once
+  std::string file = "walk.####.png";
+  bool filmed = false;  // ffmpeg makes a video of the files
+  std::string video = "walk.mp4";
 };
 
 }  // namespace grisaille::app::viewer

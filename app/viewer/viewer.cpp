@@ -8,6 +8,7 @@
 
 #include "app/truth/interruption.h"
 #include "app/viewer/side_labels.h"
+#include "core/base/note.h"
 #include "core/scene/built_in.h"
 
 namespace grisaille::app::viewer {
@@ -42,9 +43,13 @@ Viewer::Viewer(const ViewerOptions& options)
                                            : fs::path(options.bookmarks)),
       panel_(session_, state_, bookmarks_),
       controls_(session_, panel_, bookmarks_, state_) {
+  setNoteListener([notes = notes_](const std::string& line) {
+    const std::lock_guard lock(notes->mutex);
+    notes->lines.push_back(line);
+  });
   std::error_code failed;
   const bool keptState = fs::exists(stateFile(), failed);
-  if (!keptState) {
+  if (!keptState && keepsSession()) {
     session_.say("Drag in the picture to orbit. F1 lists all keys, Ctrl+O opens a file.");
   }
   if (!stateMessage_.empty()) session_.say(stateMessage_, true);
@@ -54,13 +59,13 @@ Viewer::Viewer(const ViewerOptions& options)
     state_.width = options_.size.x;
     state_.height = options_.size.y;
   }
+  openScene(session_.firstScene());  // is read while the window opens
   openWindow();
   if (options_.size.x == 0 && !keptState) {
     const double unit = window_->unit();
     window_->resize(glm::uvec2(glm::round(unit * glm::dvec2(state_.width, state_.height))));
   }
   rebuild_.watch(session_.registry());
-  openScene(session_.firstScene());
 }
 
 Viewer::~Viewer() {
@@ -174,6 +179,12 @@ bool Viewer::lookAround() {
       again.rescan = true;
       perform(again);
     }
+  }
+  {
+    const std::lock_guard lock(notes_->mutex);
+    for (const std::string& line : notes_->lines) session_.say("note: " + line);
+    news |= !notes_->lines.empty();
+    notes_->lines.clear();
   }
   news |= lookAtTune();
   news |= lookAtSequence();
@@ -374,7 +385,9 @@ void Viewer::noteSize() {
   state_.height = std::min(size.y, 16384u);
 }
 
+// A run of so many frames leaves no trace.
 void Viewer::keepState() {
+  if (!keepsSession()) return;
   noteSize();
   saveState(state_, stateFile());
 }

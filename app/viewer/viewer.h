@@ -5,6 +5,7 @@
 
 #include <chrono>
 #include <memory>
+#include <mutex>
 #include <optional>
 #include <string>
 
@@ -120,7 +121,14 @@ class Viewer {
   Status status();
   void writeLayout();
 
+  // Lines of note(), from any thread, that the panel has not shown yet.
+  struct Notes {
+    std::mutex mutex;
+    std::vector<std::string> lines;
+  };
+
   ViewerOptions options_;
+  std::shared_ptr<Notes> notes_ = std::make_shared<Notes>();
   std::string stateMessage_;
   ViewerState state_;
   bool setsAside_ = false;  // keepSession() keeps the file that is there under another name
@@ -138,7 +146,7 @@ class Viewer {
   std::unique_ptr<TruthView> truth_;
   Panel panel_;
   Controls controls_;
-  SceneLoading loading_;
+  SceneLoading loading_{WindowLibrary::wake};
   Rebuild rebuild_;
   Portal portal_;
   std::string buildMessage_;
@@ -146,6 +154,7 @@ class Viewer {
   bool pictured_ = false;    // the scene has its thumbnail
   ChildRun sequence_;
   std::string sequenceText_;  // its last progress
+  std::string sequenceFile_;  // that it writes
   TuneRun tune_;
   TuneStatus tuning_;
   PassTimes times_;

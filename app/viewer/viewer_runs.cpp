@@ -36,6 +36,8 @@ void Viewer::startSequence() {
     const std::vector<std::string> words =
         renderArguments(session_.sequenceCommand(size, backend_, deviceName()));
     sequence_.start({words.begin() + 1, words.end()});  // without the program's name
+    const Sequence& sequence = session_.sequence;
+    sequenceFile_ = sequence.filmed ? sequence.video : sequence.file;
     session_.say(quotedLine(words));
   });
 }
@@ -48,10 +50,11 @@ bool Viewer::lookAtSequence() {
     const std::string before = std::exchange(sequenceText_, sequence_.state().text);
     return sequenceText_ != before;
   }
-  session_.attempt("sequence", [&] {
-    if (!ended->failure.empty()) throw Error(ErrorId::kSequence, "{}", ended->failure);
-  });
-  if (ended->failure.empty()) session_.say("the sequence is written: " + session_.sequence.file);
+  // The command's own error has its number.
+  session_.conclude("sequence", ended->failure.empty() || ended->failure.starts_with("error ")
+                                    ? ended->failure
+                                    : "the sequence: " + ended->failure);
+  if (ended->failure.empty()) session_.say("the sequence is written: " + sequenceFile_);
   return true;
 }
 

@@ -33,6 +33,10 @@ WindowLibrary::WindowLibrary() {
     throw Error(ErrorId::kNoDisplay, "cannot open a window: {}", lastError());
 }
 
+void WindowLibrary::wake() {
+  glfwPostEmptyEvent();
+}
+
 WindowLibrary::~WindowLibrary() {
   glfwTerminate();
 }

@@ -22,6 +22,8 @@ class WindowLibrary {
  public:
   WindowLibrary();
   ~WindowLibrary();
+  // Ends a Window::wait(). From any thread, while a WindowLibrary lives.
+  static void wake();
   WindowLibrary(const WindowLibrary&) = delete;
   WindowLibrary& operator=(const WindowLibrary&) = delete;
 };

@@ -71,9 +71,9 @@ struct Renderer::SceneView {
   }
 };
 
-Renderer::Renderer(gpu::Device& device, const scene::Scene& scene)
+Renderer::Renderer(gpu::Device& device, const scene::Scene& scene, scene::SceneMatter* matter)
     : device_(device),
-      scene_(std::make_unique<SceneAttachments>(device, scene)),
+      scene_(std::make_unique<SceneAttachments>(device, scene, matter)),
       source_(*scene_),
       compositor_(device) {}
 

@@ -20,6 +20,7 @@
 #include "core/frame/frames_before.h"
 #include "core/gpu/device.h"
 #include "core/image/image.h"
+#include "core/scene/bodies.h"
 #include "core/scene/camera.h"
 #include "core/scene/scene.h"
 
@@ -73,8 +74,9 @@ struct PlannedEffect;
 class Renderer {
  public:
   // Draws the scene. Device and scene must outlive this. The scene may change only between frames,
-  // by scene::pose().
-  Renderer(gpu::Device& device, const scene::Scene& scene);
+  // by scene::pose(). matter: that of the scene, must outlive this; null: found by the first frame
+  // that needs it
+  Renderer(gpu::Device& device, const scene::Scene& scene, scene::SceneMatter* matter = nullptr);
   // Takes the attachments from `source`. Device and source must outlive this.
   Renderer(gpu::Device& device, AttachmentSource& source);
   ~Renderer();

@@ -15,10 +15,12 @@ class SceneAttachments : public AttachmentSource {
   static constexpr std::string_view kBackPasses = "back ", kNextPasses = "next ";
 
   // Device and scene must outlive this. The scene may change only between calls, by scene::pose().
-  SceneAttachments(gpu::Device& device, const scene::Scene& scene)
+  // matter: as for SceneResources
+  SceneAttachments(gpu::Device& device, const scene::Scene& scene,
+                   scene::SceneMatter* matter = nullptr)
       : device_(device),
         poses_(scene.poses),
-        scene_(device, scene),
+        scene_(device, scene, matter),
         motion_(device, scene, scene_) {}
   ~SceneAttachments() override;
 

@@ -45,9 +45,12 @@ gpu::Address address(scene::Wrap wrap) {
 
 }  // namespace
 
-SceneResources::SceneResources(gpu::Device& device, const scene::Scene& scene)
+SceneResources::SceneResources(gpu::Device& device, const scene::Scene& scene,
+                               scene::SceneMatter* matter)
     : device_(device),
       scene_(scene),
+      ownMatter_(scene),
+      matter_(matter != nullptr ? *matter : ownMatter_),
       textures_(scene.textures.size()),
       primitiveBounds_(scene::primitiveBounds(scene)),
       boundsPoses_(scene.poses) {}
@@ -104,18 +107,9 @@ gpu::Buffer SceneResources::indices(gpu::Commands& commands) {
                       gpu::BufferUsage::kIndex);
 }
 
-const scene::Matter& SceneResources::matter() {
-  if (matter_) return *matter_;
-  if (scene_.rig == nullptr) return matter_.emplace(scene::matterOf(scene_));
-  // At rest: a picture of a pose must not depend on the poses that were drawn before it.
-  scene::Scene rest = scene_;
-  scene::pose(rest, {});
-  return matter_.emplace(scene::matterOf(rest));
-}
-
 gpu::Buffer SceneResources::thickness(gpu::Commands& commands) {
   if (!thickness_) {
-    const std::vector<float> values = scene::vertexThickness(scene_, matter());
+    const std::vector<float> values = scene::vertexThickness(scene_, matter_.get());
     vertexBuffer(commands, thickness_, "thickness", std::as_bytes(std::span(values)),
                  gpu::BufferUsage::kVertex);
   }
@@ -123,7 +117,7 @@ gpu::Buffer SceneResources::thickness(gpu::Commands& commands) {
 }
 
 float SceneResources::chordScale(uint32_t primitive, const glm::dmat3& linear) {
-  return static_cast<float>(scene::chordScale(matter().areas[primitive], linear));
+  return static_cast<float>(scene::chordScale(matter_.get().areas[primitive], linear));
 }
 
 const SceneResources::FarSides& SceneResources::farSides(gpu::Commands& commands) {
@@ -134,7 +128,7 @@ const SceneResources::FarSides& SceneResources::farSides(gpu::Commands& commands
     return material.doubleSided && !material.masked;
   };
   if (std::ranges::none_of(scene_.primitives, twoSided)) return *farSides_;
-  const std::vector<bool>& bodies = matter().bodies;
+  const std::vector<bool>& bodies = matter_.get().bodies;
   std::vector<uint32_t> ordered = scene_.indices, others;
   for (size_t i = 0; i < scene_.primitives.size(); ++i) {
     const scene::Primitive& primitive = scene_.primitives[i];

@@ -41,7 +41,9 @@ struct SceneTargets {
 class SceneResources {
  public:
   // Device and scene must outlive this. The scene may change only between draws, by scene::pose().
-  SceneResources(gpu::Device& device, const scene::Scene& scene);
+  // matter: that of the scene, must outlive this; null: found by the first draw that needs it
+  SceneResources(gpu::Device& device, const scene::Scene& scene,
+                 scene::SceneMatter* matter = nullptr);
   ~SceneResources();
   SceneResources(const SceneResources&) = delete;
   SceneResources& operator=(const SceneResources&) = delete;
@@ -96,7 +98,6 @@ class SceneResources {
                            std::span<const std::byte> bytes, gpu::BufferUsage usage);
   gpu::Buffer posed(gpu::Commands& commands, PosedVertices& vertices, const char* label,
                     const std::vector<glm::vec3>& values);
-  const scene::Matter& matter();
   gpu::Buffer thickness(gpu::Commands& commands);
   // The factor on that thickness for an instance of a primitive.
   float chordScale(uint32_t primitive, const glm::dmat3& linear);
@@ -107,9 +108,10 @@ class SceneResources {
 
   gpu::Device& device_;
   const scene::Scene& scene_;
+  scene::SceneMatter ownMatter_;
+  scene::SceneMatter& matter_;
   PosedVertices positions_, normals_;
   gpu::Buffer texCoords_, colours_, thickness_, indices_;
-  std::optional<scene::Matter> matter_;              // of the scene at rest
   std::optional<FarSides> farSides_;                 // of the first draw with SceneTargets::front
   std::array<gpu::GraphicsPipeline, 72> pipelines_;  // by Variant::fragment()
   std::vector<DeviceTexture> textures_;

@@ -3,6 +3,7 @@
 
 #include <algorithm>
 #include <array>
+#include <bit>
 #include <cmath>
 #include <cstring>
 #include <limits>
@@ -13,6 +14,8 @@
 #include <set>
 #include <span>
 #include <utility>
+
+#include "core/scene/rig.h"
 
 namespace grisaille::scene {
 namespace {
@@ -36,19 +39,21 @@ struct Mesh {
 
 // For each vertex, the lowest vertex at the same position.
 std::vector<uint32_t> weld(const std::vector<glm::vec3>& positions) {
-  std::vector<uint32_t> order(positions.size());
-  std::iota(order.begin(), order.end(), 0u);
-  const auto key = [&](uint32_t i) {
-    return std::array{positions[i].x, positions[i].y, positions[i].z};
-  };
-  std::ranges::sort(order, [&](uint32_t a, uint32_t b) {
-    const auto first = key(a), second = key(b);
-    return first != second ? first < second : a < b;
-  });
+  constexpr uint32_t kFree = std::numeric_limits<uint32_t>::max();
+  std::vector<uint32_t> table(std::bit_ceil(2 * positions.size() + 1), kFree);
+  const size_t mask = table.size() - 1;
   std::vector<uint32_t> welded(positions.size());
-  for (size_t i = 0; i < order.size(); ++i) {
-    const bool same = i > 0 && key(order[i]) == key(order[i - 1]);
-    welded[order[i]] = same ? welded[order[i - 1]] : order[i];
+  for (uint32_t i = 0; i < positions.size(); ++i) {
+    size_t slot = 0;
+    for (int axis = 0; axis < 3; ++axis) {
+      const float coordinate = positions[i][axis] + 0.0f;  // 0 and -0 are equal
+      slot = (slot ^ std::bit_cast<uint32_t>(coordinate)) * 0x9e3779b97f4a7c15;
+      slot ^= slot >> 32;
+    }
+    slot &= mask;
+    while (table[slot] != kFree && positions[table[slot]] != positions[i]) slot = (slot + 1) & mask;
+    if (table[slot] == kFree) table[slot] = i;
+    welded[i] = table[slot];
   }
   return welded;
 }
@@ -69,8 +74,31 @@ std::set<Object> objectsOf(const Scene& scene) {
   return objects;
 }
 
+// Edges in the order of their vertices, `low` first. Those of the same vertices keep their order.
+std::vector<Edge> ordered(const std::vector<Edge>& edges, size_t vertices) {
+  std::vector<size_t> starts(vertices + 1);  // of each `low`
+  for (const Edge& edge : edges) ++starts[edge.low + 1];
+  std::partial_sum(starts.begin(), starts.end(), starts.begin());
+  std::vector<Edge> sorted(edges.size());
+  std::vector<size_t> next = starts;
+  for (const Edge& edge : edges) sorted[next[edge.low]++] = edge;
+  for (size_t low = 0; low < vertices; ++low) {
+    const auto begin = sorted.begin() + static_cast<ptrdiff_t>(starts[low]);
+    const auto end = sorted.begin() + static_cast<ptrdiff_t>(starts[low + 1]);
+    std::sort(begin, end, [](const Edge& a, const Edge& b) {
+      return a.high != b.high ? a.high < b.high : a.triangle < b.triangle;
+    });
+  }
+  return sorted;
+}
+
 Mesh meshOf(const Scene& scene, const Object& object, const std::vector<uint32_t>& welded) {
   Mesh mesh;
+  size_t most = 0;  // triangles
+  for (const uint32_t number : object) most += scene.primitives[number].indexCount / 3;
+  mesh.triangles.reserve(most);
+  mesh.primitives.reserve(most);
+  mesh.edges.reserve(3 * most);
   for (const uint32_t number : object) {
     const Primitive& primitive = scene.primitives[number];
     if (scene.materials[primitive.material].masked) continue;
@@ -89,9 +117,7 @@ Mesh meshOf(const Scene& scene, const Object& object, const std::vector<uint32_t
       }
     }
   }
-  std::ranges::sort(mesh.edges, {}, [](const Edge& edge) {
-    return std::array{edge.low, edge.high, edge.triangle};
-  });
+  mesh.edges = ordered(mesh.edges, welded.size());
   return mesh;
 }
 
@@ -177,24 +203,6 @@ bool enclosesMatter(const std::vector<Corners>& part) {
   return sum >= kLeast * kPoints;
 }
 
-// Sets of triangles that grow together.
-class Parts {
- public:
-  explicit Parts(size_t triangles) : parent_(triangles) {
-    std::iota(parent_.begin(), parent_.end(), 0u);
-  }
-  uint32_t of(uint32_t triangle) {
-    while (parent_[triangle] != triangle) {
-      triangle = parent_[triangle] = parent_[parent_[triangle]];
-    }
-    return triangle;
-  }
-  void join(uint32_t a, uint32_t b) { parent_[of(a)] = of(b); }
-
- private:
-  std::vector<uint32_t> parent_;
-};
-
 // Calls `use` for each run of edges between the same vertices.
 template <typename Use>
 void forEachRun(const std::vector<Edge>& edges, Use&& use) {
@@ -207,6 +215,37 @@ void forEachRun(const std::vector<Edge>& edges, Use&& use) {
   }
 }
 
+// The parts of a mesh, numbered in the order of their first triangles.
+struct Parts {
+  std::vector<uint32_t> of;  // that of each triangle
+  uint32_t count = 0;
+};
+
+// Triangles that share an edge belong together.
+Parts partsOf(const Mesh& mesh) {
+  std::vector<uint32_t> parent(mesh.triangles.size());
+  std::iota(parent.begin(), parent.end(), 0u);
+  const auto root = [&](uint32_t triangle) {
+    while (parent[triangle] != triangle) {
+      triangle = parent[triangle] = parent[parent[triangle]];
+    }
+    return triangle;
+  };
+  forEachRun(mesh.edges, [&](std::span<const Edge> run) {
+    for (const Edge& edge : run) {
+      const uint32_t a = root(edge.triangle), b = root(run.front().triangle);
+      parent[std::max(a, b)] = std::min(a, b);
+    }
+  });
+  // A root comes before the other triangles of its part.
+  Parts parts{.of = std::vector<uint32_t>(mesh.triangles.size())};
+  for (uint32_t i = 0; i < mesh.triangles.size(); ++i) {
+    const uint32_t own = root(i);
+    parts.of[i] = own == i ? parts.count++ : parts.of[own];
+  }
+  return parts;
+}
+
 }  // namespace
 
 Matter matterOf(const Scene& scene) {
@@ -217,28 +256,25 @@ Matter matterOf(const Scene& scene) {
   std::vector<glm::dvec3> areas(scene.primitives.size(), glm::dvec3(0));
   for (const Object& object : objectsOf(scene)) {
     const Mesh mesh = meshOf(scene, object, welded);
-    Parts parts(mesh.triangles.size());
-    forEachRun(mesh.edges, [&](std::span<const Edge> run) {
-      for (const Edge& edge : run) parts.join(edge.triangle, run.front().triangle);
-    });
-    std::vector<bool> openPart(mesh.triangles.size());
+    const Parts parts = partsOf(mesh);
+    std::vector<bool> openPart(parts.count);
     forEachRun(mesh.edges, [&](std::span<const Edge> run) {
       const auto ascending = std::ranges::count_if(run, &Edge::ascends);
       if (static_cast<size_t>(ascending) * 2 != run.size())
-        openPart[parts.of(run.front().triangle)] = true;
+        openPart[parts.of[run.front().triangle]] = true;
     });
-    std::vector<Bulk> bulks(mesh.triangles.size());       // by part
+    std::vector<Bulk> bulks(parts.count);
     std::map<uint32_t, std::vector<uint32_t>> openParts;  // numbers of their triangles in the scene
     for (uint32_t i = 0; i < mesh.triangles.size(); ++i) {
       inPart[mesh.triangles[i]] = true;
-      const uint32_t part = parts.of(i);
+      const uint32_t part = parts.of[i];
       bulks[part].add(cornersOf(scene, mesh.triangles[i]));
       if (openPart[part]) openParts[part].push_back(mesh.triangles[i]);
     }
     constexpr uint32_t kNone = std::numeric_limits<uint32_t>::max();
-    std::vector<uint32_t> counted(mesh.triangles.size(), kNone);  // by part: last primitive with it
+    std::vector<uint32_t> counted(parts.count, kNone);  // by part: last primitive with it
     for (uint32_t i = 0; i < mesh.triangles.size(); ++i) {
-      const uint32_t part = parts.of(i), primitive = mesh.primitives[i];
+      const uint32_t part = parts.of[i], primitive = mesh.primitives[i];
       float& chord = chords[mesh.triangles[i]];
       chord = std::min(chord, static_cast<float>(bulks[part].meanChord()));
       if (std::exchange(counted[part], primitive) != primitive) {
@@ -263,6 +299,21 @@ Matter matterOf(const Scene& scene) {
     }
   }
   return matter;
+}
+
+void SceneMatter::prepare() {
+  if (matter_ || finding_.valid() || scene_.rig != nullptr) return;
+  finding_ = std::async(std::launch::async, [this] { return matterOf(scene_); });
+}
+
+const Matter& SceneMatter::get() {
+  if (matter_) return *matter_;
+  if (finding_.valid()) return matter_.emplace(finding_.get());
+  if (scene_.rig == nullptr) return matter_.emplace(matterOf(scene_));
+  // A picture of a pose must not depend on the poses that were drawn before it.
+  Scene rest = scene_;
+  pose(rest, {});
+  return matter_.emplace(matterOf(rest));
 }
 
 double chordScale(const glm::dvec3& areas, const glm::dmat3& linear) {

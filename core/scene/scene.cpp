@@ -110,10 +110,14 @@ void requireFileOrName(const std::string& path) {
 
 }  // namespace
 
-Scene loadScene(const std::string& path, const std::function<void(double)>& progress) {
+Scene readScene(const std::string& path, const std::function<void(double)>& progress) {
   if (const BuiltIn* builtIn = findBuiltIn(path)) return builtIn->make();
   requireFileOrName(path);
-  Scene scene = loadGltf(path, progress);
+  return loadGltf(path, progress);
+}
+
+Scene loadScene(const std::string& path, const std::function<void(double)>& progress) {
+  Scene scene = readScene(path, progress);
   for (const std::string& line : scene.notes) note(fmt::format("{}: {}", path, line));
   return scene;
 }

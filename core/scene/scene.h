@@ -107,7 +107,10 @@ void writeGlb(const Scene& scene, const std::string& path);
 Scene makeAtrium();
 
 // The scene that a user names: a built-in one (see built_in.h), the atrium where `path` is empty,
-// or else the file at `path`, read as loadGltf() reads it. Hands Scene::notes to note().
+// or else the file at `path`, read as loadGltf() reads it. Scene::notes are for the caller to tell.
+Scene readScene(const std::string& path, const std::function<void(double)>& progress = {});
+
+// readScene() that hands Scene::notes to note().
 Scene loadScene(const std::string& path, const std::function<void(double)>& progress = {});
 
 // The camera of a user who names none: the scene's own, or else framingCamera() for a picture of

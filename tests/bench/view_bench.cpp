@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: MIT
-// Measures what the viewer costs besides the scene: CPU time of its panel, and of an idle window on
-// a display (Xvfb) that the benchmark starts.
+// Measures what the viewer costs besides the scene: CPU time of its panel, of an idle window, and
+// the time from the program's start to the first picture, on a display (Xvfb) that the benchmark
+// starts.
 #include <fcntl.h>
 #include <fmt/format.h>
 #include <imgui/imgui.h>
@@ -9,8 +10,12 @@
 #include <unistd.h>
 
 #include <algorithm>
+#include <chrono>
+#include <cstdlib>
 #include <ctime>
+#include <filesystem>
 #include <fstream>
+#include <set>
 #include <string>
 #include <thread>
 #include <vector>
@@ -20,6 +25,7 @@
 #include "app/viewer/panel.h"
 #include "core/gpu/null_device.h"
 #include "tests/bench/command.h"
+#include "tests/program/run.h"
 #include "tests/support/display.h"
 
 namespace grisaille::bench {
@@ -28,6 +34,7 @@ namespace {
 namespace viewer = app::viewer;
 
 constexpr glm::uvec2 kWindow(1600, 1400);
+constexpr glm::uvec2 kFirstSize(1280, 900);
 constexpr int kFramesARound = 300;
 constexpr int kIdleSeconds = 10;
 
@@ -145,7 +152,76 @@ void idleCost(const std::string& backend) {
   fmt::print("| {} | {:.2f} % |\n", backend, 100 * used / kIdleSeconds);
 }
 
-void run(const CommonOptions& options) {
+struct ViewOptions : CommonOptions {
+  std::string scene = tests::sponza();
+};
+
+// Whether the right half of the window shows a scene: it is of one colour before.
+bool showsScene(const tests::Display& display) {
+  std::set<uint32_t> colours;
+  for (const uint32_t y : {kFirstSize.y / 8, kFirstSize.y / 5, kFirstSize.y * 7 / 8}) {
+    const auto row = display.pixels(kFirstSize.x / 2, y, kFirstSize.x / 2, 1);
+    colours.insert(row.begin(), row.end());
+  }
+  return colours.size() > 40;
+}
+
+// Seconds from the start of the program to the first picture, without a last session.
+double firstPicture(const std::string& backend, const std::string& scene,
+                    const std::string& folder) {
+  const tests::Display display(kFirstSize.x, kFirstSize.y);
+  const auto start = std::chrono::steady_clock::now();
+  const std::chrono::duration<double> most(60);
+  const pid_t child = fork();
+  if (child == 0) {
+    const int nowhere = open("/dev/null", O_WRONLY);
+    dup2(nowhere, 1);
+    setenv("XDG_STATE_HOME", folder.c_str(), 1);
+    setenv("DBUS_SESSION_BUS_ADDRESS", "", 1);
+    const std::string size = fmt::format("{}x{}", kFirstSize.x, kFirstSize.y);
+    execl(PROGRAM, "grisaille", "view", scene.c_str(), "--fresh", "--backend", backend.c_str(),
+          "--size", size.c_str(), nullptr);
+    _exit(127);
+  }
+  std::chrono::duration<double> took(0);
+  while (took < most && !showsScene(display)) {
+    std::this_thread::sleep_for(std::chrono::milliseconds(3));
+    took = std::chrono::steady_clock::now() - start;
+  }
+  kill(child, SIGKILL);
+  waitpid(child, nullptr, 0);
+  return took.count();
+}
+
+void firstPictures(const ViewOptions& options) {
+  const tests::TemporaryFolder folder;
+  fmt::print(
+      "\nFrom the start to the first picture, {}x{}, {}; {} runs a row after one that "
+      "compiles the shaders:\n\n",
+      kFirstSize.x, kFirstSize.y,
+      options.scene.empty() ? "the atrium"
+                            : std::filesystem::path(options.scene).filename().string(),
+      options.rounds);
+  fmt::print(
+      "| backend | median, s | least | most | load of the machine before, after |\n"
+      "|---|---|---|---|---|\n");
+  for (const std::string backend : {"opengl", "vulkan"}) {
+    if (!options.backend.empty() && options.backend != backend) continue;
+    firstPicture(backend, options.scene, folder.path());
+    double before = 0, after = 0;
+    getloadavg(&before, 1);
+    std::vector<double> times;
+    for (uint32_t i = 0; i < options.rounds; ++i) {
+      times.push_back(firstPicture(backend, options.scene, folder.path()));
+    }
+    getloadavg(&after, 1);
+    std::ranges::sort(times);
+    fmt::print("| {} | {:.2f} | {:.2f} | {:.2f} | {:.1f}, {:.1f} |\n", backend,
+               times[times.size() / 2], times.front(), times.back(), before, after);
+  }
+}
+
+void run(const ViewOptions& options) {
   fmt::print("The panel at {}x{}, both effects unfolded, with the help; no device.\n\n", kWindow.x,
              kWindow.y);
   panelCost(options.rounds);
@@ -154,14 +230,17 @@ void run(const CommonOptions& options) {
   for (const char* backend : {"opengl", "vulkan"}) {
     if (options.backend.empty() || options.backend == backend) idleCost(backend);
   }
+  firstPictures(options);
 }
 
 }  // namespace
 }  // namespace grisaille::bench
 
 int main(int argc, char** argv) {
-  grisaille::bench::CommonOptions options;
+  grisaille::bench::ViewOptions options;
+  options.rounds = 5;
   CLI::App program("What the viewer costs besides the scene, as Markdown");
+  program.add_option("--scene", options.scene, "Scene of the first picture; default: Sponza");
   return grisaille::bench::runCommand(program, options, argc, argv,
                                       [&] { grisaille::bench::run(options); });
 }

@@ -232,6 +232,36 @@ TEST_F(Time, ASequenceFollowsAPath) {
   expectRefused(with({"--path", "p.json", "--times", "0:0:1"}), "frames is not from 2");
 }
 
+// With the ffmpeg of the machine, where it is there.
+TEST_F(Time, ASequenceBecomesAVideo) {
+  const auto with = [](const std::string& video, const std::string& file = "color=f.##.png") {
+    return std::vector<std::string>{"render",  "a.glb",   "--size",  "65x36", "--effects", "",
+                                    "--times", "0:1:1/8", "--write", file,    "--video",   video};
+  };
+  expectRefused(with("v.mp4", "depth=f.##.exr"), "--video needs .png");
+  expectRefused(with("video"), "E5512");
+  expectRefused({"render", "a.glb", "--video", "v.mp4"}, "--video needs --times or --path");
+  const Outcome missing =
+      runProgram(with("v.mp4"), folder_.path(),
+                 {"XDG_CACHE_HOME=" + (folder_ / "cache"), "PATH=" + folder_.path().string()});
+  EXPECT_NE(missing.err.find("E5512"), std::string::npos) << missing.err;
+  EXPECT_FALSE(std::filesystem::exists(folder_ / "f.00.png"));  // before any slow work
+  if (runShell("ffmpeg -version", folder_.path()).status != 0) GTEST_SKIP() << "no ffmpeg";
+  folder_.write("f.09.png", "of a longer sequence, and no picture");
+  const Outcome outcome = expectRuns(with("v.mp4"));
+  EXPECT_NE(outcome.out.find("wrote v.mp4"), std::string::npos) << outcome.out;
+  const Outcome told = runShell(
+      "ffprobe -v error -count_frames -show_entries "
+      "stream=width,height,r_frame_rate,nb_read_frames "
+      "-of csv=p=0 v.mp4",
+      folder_.path());
+  EXPECT_EQ(told.out, "66,36,8/1,9\n") << told.err;
+  EXPECT_TRUE(std::filesystem::exists(folder_ / "f.08.png"));
+  // A format that ffmpeg does not know.
+  expectRefused(with("v.nothing"), "E5512");
+  EXPECT_FALSE(std::filesystem::exists(folder_ / "v.nothing"));
+}
+
 TEST_F(Time, AnInterruptedSequenceLeavesWholeFiles) {
   const Outcome outcome = runShell(
       "grisaille render a.glb --size 96x54 --times 0:2:1/20000 --write depth=d.####.exr 2> err & "

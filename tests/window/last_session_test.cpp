@@ -1,7 +1,6 @@
 // SPDX-License-Identifier: MIT
 // Sessions: what the user has set comes back at the next start, or from a file.
 #include <filesystem>
-#include <sstream>
 
 #include "tests/support/animated_gltf.h"
 #include "tests/window/window_test.h"
@@ -19,38 +18,19 @@ class LastSessionTest : public WindowTest {
     all.insert(all.end(), more.begin(), more.end());
     return all;
   }
-  // Lengths that the scene chose are told.
-  static void quits(DrivenViewer& viewer) {
-    const Outcome outcome = viewer.quit();
-    EXPECT_EQ(outcome.status, 0) << outcome.err;
-    std::istringstream lines(outcome.err);
-    for (std::string line; std::getline(lines, line);)
-      EXPECT_TRUE(line.starts_with("note: ")) << line;
-  }
   static nlohmann::json kept(const DrivenViewer& viewer) {
-    nlohmann::json values;
-    for (const char* name :
-         {"camera", "ssao.on", "sspm.on", "ssao.kernel_size", "ssao.intensity", "ssao.radius",
-          "sspm.objects", "view", "split", "view right", "base", "section View"}) {
-      values[name] = viewer.value(name);
-    }
-    return values;
+    return valuesOf(viewer, {"camera", "ssao.on", "sspm.on", "ssao.kernel_size", "ssao.intensity",
+                             "ssao.radius", "sspm.objects", "view", "split", "view right", "base",
+                             "section View"});
   }
   // Sets something of each kind. Returns it as kept() does.
-  static nlohmann::json change(DrivenViewer& viewer) {
-    const std::string camera = viewer.value("camera");
-    viewer.key("Left");
-    viewer.untilChanged("camera", camera);
-    viewer.key("space");
-    viewer.untilValue("sspm.objects", "1");
-    viewer.drag(viewer.at("ssao.intensity", 0.5, 0.5), viewer.at("ssao.intensity", 0.8, 0.5));
-    viewer.untilChanged("ssao.intensity", "1");
+  static nlohmann::json changeAll(DrivenViewer& viewer) {
+    change(viewer);
     viewer.click("base");
     viewer.untilValue("base", "true");
     viewer.key("Escape x v");
     viewer.untilValue("split", "true");
-    viewer.send("mousemove 5 5");
-    viewer.untilDrawn();
+    rest(viewer);
     return kept(viewer);
   }
 };
@@ -61,8 +41,8 @@ TEST_P(LastSessionTest, EverythingComesBackUnlessTheCommandLineSaysOtherwise) {
   {
     DrivenViewer viewer(folder_,
                         bare({"carving", "--effects", "ssao,sspm", "--set", "ssao.kernel_size=6"}));
-    before = change(viewer);
-    quits(viewer);
+    before = changeAll(viewer);
+    expectQuits(viewer);
   }
   {
     DrivenViewer viewer(folder_, bare());
@@ -70,7 +50,7 @@ TEST_P(LastSessionTest, EverythingComesBackUnlessTheCommandLineSaysOtherwise) {
     viewer.key("ctrl+z");  // what comes back is no step of undo
     viewer.untilDrawn();
     EXPECT_EQ(kept(viewer), before);
-    quits(viewer);
+    expectQuits(viewer);
   }
   {
     // What is named wins, the rest comes back.
@@ -79,7 +59,7 @@ TEST_P(LastSessionTest, EverythingComesBackUnlessTheCommandLineSaysOtherwise) {
     wanted["ssao.intensity"] = "3";
     wanted["view"] = "depth";
     EXPECT_EQ(kept(viewer), wanted);
-    quits(viewer);
+    expectQuits(viewer);
   }
   {
     // Camera and objects belong to their scene.
@@ -87,14 +67,14 @@ TEST_P(LastSessionTest, EverythingComesBackUnlessTheCommandLineSaysOtherwise) {
     EXPECT_EQ(viewer.value("ssao.on"), "false");
     EXPECT_EQ(viewer.value("sspm.objects"), "0");
     EXPECT_NE(viewer.value("camera"), before["camera"]);
-    quits(viewer);
+    expectQuits(viewer);
   }
   EXPECT_TRUE(fs::exists(folder_ / "state/grisaille/session-before.json"));
   DrivenViewer viewer(folder_, bare({"carving", "--fresh", "--set", "ssao.kernel_size=6"}));
   EXPECT_EQ(viewer.value("sspm.objects"), "");
   EXPECT_EQ(viewer.value("ssao.intensity"), "1");
   EXPECT_EQ(viewer.value("split"), "false");
-  quits(viewer);
+  expectQuits(viewer);
 }
 
 TEST_P(LastSessionTest, AFileIsSavedAndOpened) {
@@ -102,9 +82,31 @@ TEST_P(LastSessionTest, AFileIsSavedAndOpened) {
   {
     DrivenViewer viewer(folder_,
                         bare({"carving", "--effects", "ssao,sspm", "--set", "ssao.kernel_size=6"}));
-    before = change(viewer);
+    before = changeAll(viewer);
+    // A path of two cameras.
     viewer.click("section View");
     viewer.untilValue("section View", "closed");
+    viewer.click("section Effects");
+    viewer.untilValue("section Effects", "closed");
+    viewer.click("section Sequence");
+    viewer.untilThere("path add");
+    viewer.click("path add");
+    viewer.untilValue("path bookmark", "1");
+    viewer.key("Escape Right");
+    viewer.untilChanged("camera", before["camera"]);
+    viewer.click("path add");
+    viewer.untilValue("path bookmark", "2");
+    viewer.click("path.0");
+    viewer.untilValue("camera", before["camera"]);
+    fill(viewer, "sequence seconds", "2.5");
+    fill(viewer, "sequence file", "tour.###.png");
+    viewer.click("sequence filmed");
+    viewer.untilValue("sequence filmed", "true");
+    fill(viewer, "sequence video", "tour.webm");
+    viewer.click("section Sequence");
+    viewer.untilValue("section Sequence", "closed");
+    viewer.click("section Effects");
+    viewer.untilValue("section Effects", "open");
     viewer.click("section Settings");
     viewer.untilThere("save session");
     viewer.click("save session");
@@ -121,7 +123,7 @@ TEST_P(LastSessionTest, AFileIsSavedAndOpened) {
     EXPECT_EQ(viewer.value("sspm.objects"), "1");
     viewer.key("Escape ctrl+z");
     viewer.untilValue("ssao.on", "false");
-    quits(viewer);
+    expectQuits(viewer);
   }
   // On another machine, from the command line.
   before["section View"] = "closed";
@@ -131,7 +133,26 @@ TEST_P(LastSessionTest, AFileIsSavedAndOpened) {
   EXPECT_EQ(viewer.value("ssao.intensity"), before["ssao.intensity"]);
   EXPECT_EQ(viewer.value("sspm.objects"), "1");
   EXPECT_EQ(viewer.value("section View"), "closed");
-  quits(viewer);
+  // The path, its pictures and its video.
+  viewer.click("section Effects");
+  viewer.untilValue("section Effects", "closed");
+  viewer.click("section Sequence");
+  viewer.untilValue("path bookmark", "2");
+  EXPECT_EQ(valuesOf(viewer, {"sequence seconds", "sequence file", "sequence video"}),
+            nlohmann::json({{"sequence seconds", "2.5"},
+                            {"sequence file", "tour.###.png"},
+                            {"sequence video", "tour.webm"}}));
+  viewer.click("path.1");
+  viewer.untilChanged("camera", before["camera"]);
+  viewer.click("path.0");
+  viewer.untilValue("camera", before["camera"]);
+  expectQuits(viewer);
+  // It is the last session now. Another scene does not take the path over.
+  DrivenViewer other(folder_, bare({"leaves"}));
+  other.untilThere("path bookmark");
+  EXPECT_EQ(other.value("path bookmark"), "0");
+  EXPECT_EQ(other.value("sequence file"), "tour.###.png");
+  expectQuits(other);
 }
 
 TEST_P(LastSessionTest, AnAnimationAndItsTimeComeBack) {
@@ -142,13 +163,13 @@ TEST_P(LastSessionTest, AnAnimationAndItsTimeComeBack) {
                                        "--animation", "0", "--time", "0.25"}));
     EXPECT_EQ(viewer.value("time"), "0.25");
     camera = viewer.value("camera");
-    quits(viewer);
+    expectQuits(viewer);
   }
   DrivenViewer viewer(folder_, bare());
   EXPECT_EQ(viewer.value("animation"), "0");
   EXPECT_EQ(viewer.value("time"), "0.25");
   EXPECT_EQ(viewer.value("camera"), camera);
-  quits(viewer);
+  expectQuits(viewer);
 }
 
 TEST_P(LastSessionTest, ABrokenSessionIsKeptAndTold) {
@@ -158,7 +179,7 @@ TEST_P(LastSessionTest, ABrokenSessionIsKeptAndTold) {
     DrivenViewer viewer(folder_, bare({"carving", "--set", "ssao.kernel_size=6"}));
     EXPECT_NE(viewer.value("error").find("E5109"), std::string::npos) << viewer.value("error");
     EXPECT_NE(viewer.value("error").find("effects"), std::string::npos) << viewer.value("error");
-    quits(viewer);
+    expectQuits(viewer);
   }
   EXPECT_TRUE(fs::exists(folder_ / "state/grisaille/session.json.damaged"));
   const Outcome outcome = runProgram(

@@ -3,7 +3,6 @@
 // cancelled.
 #include <filesystem>
 #include <optional>
-#include <sstream>
 #include <thread>
 
 #include "app/process/child.h"
@@ -21,15 +20,6 @@ class OpenTest : public WindowTest {
   std::vector<std::string> wide(const std::string& scene) const {
     return {scene,  "--backend", GetParam(),          "--size", "1280x720", "--effects",
             "ssao", "--set",     "ssao.kernel_size=2"};
-  }
-  // Lengths that the scene chose are told.
-  static void quits(DrivenViewer& viewer) {
-    const Outcome outcome = viewer.quit();
-    EXPECT_EQ(outcome.status, 0) << outcome.err;
-    std::istringstream lines(outcome.err);
-    for (std::string line; std::getline(lines, line);) {
-      EXPECT_TRUE(line.starts_with("note: ")) << line;
-    }
   }
   static void untilScene(DrivenViewer& viewer, const std::string& camera) {
     viewer.untilChanged("camera", camera);
@@ -76,14 +66,14 @@ TEST_P(OpenTest, TheDialogCompletesAPathAndListsFolders) {
   viewer.key("Escape Escape");
   viewer.until("a closed dialog",
                [](const nlohmann::json& now) { return !now.contains("open path"); });
-  quits(viewer);
+  expectQuits(viewer);
 }
 
 TEST_P(OpenTest, AMissingSceneSaysWhatAndWhyAndWhatElseThereIs) {
   const std::string scene = folder_.write("moves.glb", animatedGlb());
   {
     DrivenViewer viewer(folder_, wide(scene));
-    quits(viewer);
+    expectQuits(viewer);
   }
   EXPECT_EQ(std::distance(fs::directory_iterator(folder_ / "state/grisaille/thumbnails"), {}), 1);
   DrivenViewer viewer(folder_, wide("missing.glb"));
@@ -97,7 +87,7 @@ TEST_P(OpenTest, AMissingSceneSaysWhatAndWhyAndWhatElseThereIs) {
     return !now.contains("failure") && now["picture"]["value"] == "done";
   });
   EXPECT_NE(viewer.value("time"), "");
-  quits(viewer);
+  expectQuits(viewer);
 }
 
 TEST_P(OpenTest, AFolderWithoutPermissionAndABrokenSceneAreNoCrash) {
@@ -121,7 +111,7 @@ TEST_P(OpenTest, AFolderWithoutPermissionAndABrokenSceneAreNoCrash) {
   });
   viewer.key("Escape Escape Left");
   viewer.untilChanged("camera", camera);
-  quits(viewer);
+  expectQuits(viewer);
 }
 
 TEST_P(OpenTest, LoadingIsCancelled) {
@@ -145,7 +135,7 @@ TEST_P(OpenTest, LoadingIsCancelled) {
   viewer.type(sponza());
   viewer.key("Return");
   untilScene(viewer, camera);
-  quits(viewer);
+  expectQuits(viewer);
 }
 
 // A session bus of its own, with a portal that answers with one file.
@@ -194,7 +184,7 @@ TEST_P(OpenTest, TheDesktopsDialogIsUsedWhereThereIsOne) {
       EXPECT_EQ(viewer.value("camera"), camera);
     }
     EXPECT_EQ(viewer.layout().contains("open path"), false);
-    quits(viewer);
+    expectQuits(viewer);
   }
 }
 
@@ -202,11 +192,11 @@ TEST_P(OpenTest, TheFirstStartSaysHowToBegin) {
   {
     DrivenViewer viewer(folder_, wide("carving"));
     EXPECT_NE(viewer.value("message").find("F1"), std::string::npos) << viewer.value("message");
-    quits(viewer);
+    expectQuits(viewer);
   }
   DrivenViewer viewer(folder_, wide("carving"));
   EXPECT_EQ(viewer.value("message").find("F1"), std::string::npos) << viewer.value("message");
-  quits(viewer);
+  expectQuits(viewer);
 }
 
 }  // namespace

@@ -67,5 +67,33 @@ TEST_P(PluginTest, AnEditedSourceIsBuiltAndLoaded) {
   expectQuits(viewer);
 }
 
+class LackTest : public WindowTest {};
+GRISAILLE_IN_WINDOWS(LackTest);
+
+// The picture is drawn without an effect that lacks an input; the panel says what is missing.
+TEST_P(LackTest, AnEffectThatLacksAnInputIsOffWithTheReason) {
+  DrivenViewer viewer(folder_, {"--backend", GetParam(), "--size", kWindow, "--effects",
+                                "needy,moody", "--plugin-path", MOODY});
+  viewer.untilThere("needy.lacks");
+  EXPECT_NE(viewer.value("needy.lacks").find("moody.all"), std::string::npos)
+      << viewer.value("needy.lacks");
+  EXPECT_EQ(viewer.value("needy.on"), "true");
+  EXPECT_EQ(viewer.value("error"), "");
+  EXPECT_EQ(viewer.value("picture"), "done");
+  // Its input comes too late; one place earlier it is there.
+  viewer.click("moody.up");
+  viewer.until("no lack", [](const nlohmann::json& now) { return !now.contains("needy.lacks"); });
+  viewer.click("moody.on");
+  viewer.untilThere("needy.lacks");
+  // A picture of the effect itself fails with the number.
+  const Outcome outcome =
+      runProgram({"render", "--backend", GetParam(), "--size", "16x16", "--plugin-path", MOODY,
+                  "--effects", "needy", "--write", "needy.all=a.exr"},
+                 folder_.path());
+  EXPECT_EQ(outcome.status, 1);
+  EXPECT_NE(outcome.err.find("E3208"), std::string::npos) << outcome.err;
+  expectQuits(viewer);
+}
+
 }  // namespace
 }  // namespace grisaille::tests

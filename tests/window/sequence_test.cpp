@@ -2,37 +2,20 @@
 // A path of cameras in the viewer: recorded, moved along, and rendered to numbered files.
 #include <fmt/format.h>
 
+#include <cstdlib>
+
 #include "tests/support/animated_gltf.h"
 #include "tests/window/window_test.h"
 
 namespace grisaille::tests {
 namespace {
 
-class SequenceTest : public WindowTest {
- protected:
-  // Only the section of the sequence is open.
-  static void makeRoom(DrivenViewer& viewer) {
-    for (const char* section : {"section Effects", "section View", "section Objects"}) {
-      if (viewer.value(section) != "open") continue;
-      viewer.click(section);
-      viewer.untilValue(section, "closed");
-    }
-    viewer.click("section Sequence");
-    viewer.untilValue("section Sequence", "open");
-  }
-  static void fill(DrivenViewer& viewer, const std::string& field, const std::string& text) {
-    viewer.clickText(field);
-    viewer.key("ctrl+a");
-    viewer.type(text);
-    viewer.key("Return");
-    viewer.untilValue(field, text);
-  }
-};
+using SequenceTest = WindowTest;
 GRISAILLE_IN_WINDOWS(SequenceTest);
 
 TEST_P(SequenceTest, APathIsRecordedAndRendered) {
   DrivenViewer viewer(folder_, arguments({"--effects", "ssao", "--view", "depth"}));
-  makeRoom(viewer);
+  openOnly(viewer, "section Sequence");
   const std::string first = viewer.value("camera");
   viewer.click("path add");
   viewer.untilValue("path bookmark", "1");
@@ -74,11 +57,60 @@ TEST_P(SequenceTest, APathIsRecordedAndRendered) {
 }
 
 // The camera rests; the animation plays once.
+// ffmpeg is a stand-in, which writes down what it is given.
+TEST_P(SequenceTest, AVideoIsMadeOfThePictures) {
+  namespace fs = std::filesystem;
+  folder_.write("ffmpeg",
+                "#!/bin/sh\n[ -e fail ] && echo 'no such codec' >&2 && exit 1\n"
+                "printf '%s\\n' \"$@\" > given\nfor last; do :; done\n"
+                "echo video > \"${last#file:}\"\n");
+  fs::permissions(folder_ / "ffmpeg", fs::perms::owner_all);
+  DrivenViewer viewer(folder_, arguments({"carving", "--effects", "ssao"}),
+                      {"PATH=" + folder_.path().string() + ":" + std::getenv("PATH")});
+  openOnly(viewer, "section Sequence");
+  viewer.click("path add");
+  viewer.untilValue("path bookmark", "1");
+  const std::string first = viewer.value("camera");
+  viewer.key("Escape Right");
+  viewer.untilChanged("camera", first);
+  viewer.click("path add");
+  viewer.untilValue("path bookmark", "2");
+  fill(viewer, "sequence seconds", "0.125");
+  fill(viewer, "sequence file", "a b.##.png");
+  viewer.click("sequence filmed");
+  viewer.untilValue("sequence filmed", "true");
+  fill(viewer, "sequence video", "a b.mp4");
+  const auto render = [&](const std::string& end) {
+    viewer.click("sequence render");
+    viewer.until(end, [&](const nlohmann::json& now) {
+      const char* name = end.starts_with("error") ? "error" : "message";
+      return now.contains(name) &&
+             now[name]["value"].get<std::string>().find(end) != std::string::npos;
+    });
+    viewer.untilThere("sequence render");
+  };
+  folder_.write("fail", "");
+  render("error E5512: a b.mp4: ffmpeg fails: no such codec");
+  EXPECT_FALSE(fs::exists(folder_ / "a b.mp4"));
+  EXPECT_TRUE(fs::exists(folder_ / "a b.03.png"));
+  fs::remove(folder_ / "fail");
+  render("is written: a b.mp4");
+  EXPECT_EQ(viewer.value("error"), "");
+  EXPECT_EQ(readFile(folder_ / "a b.mp4"), "video\n");
+  const std::string given = readFile(folder_ / "given");
+  EXPECT_NE(given.find("-framerate\n24\n"), std::string::npos) << given;
+  EXPECT_NE(given.find("-i\nfile:a b.%02d.png\n-frames:v\n4\n"), std::string::npos) << given;
+  for (const std::string& file : folder_.files()) {
+    EXPECT_EQ(file.find(".part"), std::string::npos) << file;
+  }
+  expectQuits(viewer);
+}
+
 TEST_P(SequenceTest, AnAnimationIsRenderedAndCancelled) {
   folder_.write("a.glb", animatedGlb());
   DrivenViewer viewer(folder_, {"a.glb", "--backend", GetParam(), "--size", kWindow, "--effects",
                                 "ssao", "--view", "depth", "--set", "ssao.radius=0.3"});
-  makeRoom(viewer);
+  openOnly(viewer, "section Sequence");
   viewer.click("sequence animated");
   viewer.untilValue("sequence animated", "true");
   EXPECT_EQ(viewer.value("sequence frames"), "49");

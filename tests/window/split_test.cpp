@@ -23,12 +23,6 @@ class SplitTest : public WindowTest {
     const std::string text = viewer.value("split numbers"), key = "RMSE ";
     return std::stod(text.substr(text.find(key) + key.size()));
   }
-  static void choose(DrivenViewer& viewer, const std::string& combo, const std::string& item) {
-    viewer.click(combo);
-    viewer.untilThere(combo + "." + item);
-    viewer.click(combo + "." + item);
-    viewer.send("mousemove 5 5");
-  }
   // Waits until a window of this backend shows the picture, and gives it the keys.
   static void untilBackend(DrivenViewer& viewer, const std::string& backend) {
     viewer.untilValue("backend", backend);
@@ -58,8 +52,7 @@ TEST_P(SplitTest, HeldSettingsAreComparedByNumbersAndColours) {
   viewer.key("Escape shift+x");
   viewer.untilValue("split way", "difference");
   EXPECT_TRUE(holds(viewer.value("split legend"), "-0.25 A is darker")) << viewer.layout().dump();
-  viewer.send("mousemove 5 5");
-  viewer.untilDrawn();
+  rest(viewer);
   const auto rect = viewer.layout()["picture"]["rect"].get<std::vector<uint32_t>>();
   const uint32_t width = rect[2] - rect[0], height = rect[3] - rect[1];
   ASSERT_EQ(live.width, width);
@@ -147,14 +140,10 @@ TEST_P(SplitTest, ASideCanBeOfAnotherBackend) {
 
 TEST_P(SplitTest, AnotherBackendKeepsEverything) {
   DrivenViewer viewer(folder_, arguments({"--effects", "ssao,sspm", "--split", "normal"}));
-  viewer.key("Left Left space");
-  viewer.untilValue("sspm.objects", "1");
-  viewer.drag(viewer.at("ssao.intensity", 0.5, 0.5), viewer.at("ssao.intensity", 0.8, 0.5));
-  viewer.untilChanged("ssao.intensity", "1");
+  change(viewer);
   viewer.click("section View");
   viewer.untilValue("section View", "closed");
-  viewer.send("mousemove 5 5");
-  viewer.untilDrawn();
+  rest(viewer);
   const auto kept = [&] {
     nlohmann::json all = viewer.layout();
     for (const char* changing : {"drawn", "backend", "message", "focus", "tooltip", "value none"}) {

@@ -32,6 +32,52 @@ class WindowTest : public testing::TestWithParam<std::string> {
     EXPECT_EQ(outcome.status, 0) << outcome.err;
     EXPECT_EQ(outcome.err, "");
   }
+  // Moves the pointer to where it hovers over nothing.
+  static void rest(DrivenViewer& viewer) {
+    viewer.send("mousemove 5 5");
+    viewer.untilDrawn();
+  }
+  // Turns the camera, shoots through the middle, and drags ssao.intensity.
+  static void change(DrivenViewer& viewer) {
+    const std::string camera = viewer.value("camera");
+    viewer.key("Left Left");
+    viewer.untilChanged("camera", camera);
+    viewer.key("space");
+    viewer.untilValue("sspm.objects", "1");
+    viewer.drag(viewer.at("ssao.intensity", 0.5, 0.5), viewer.at("ssao.intensity", 0.8, 0.5));
+    viewer.untilChanged("ssao.intensity", "1");
+  }
+  // The values of controls, by name.
+  static nlohmann::json valuesOf(const DrivenViewer& viewer,
+                                 std::initializer_list<const char*> names) {
+    nlohmann::json values;
+    for (const char* name : names) values[name] = viewer.value(name);
+    return values;
+  }
+  // Closes the sections that are open at first, and opens another one.
+  static void openOnly(DrivenViewer& viewer, const std::string& section) {
+    for (const char* other : {"section Effects", "section View", "section Objects"}) {
+      if (viewer.value(other) != "open" || other == section) continue;
+      viewer.click(other);
+      viewer.untilValue(other, "closed");
+    }
+    if (viewer.value(section) == "open") return;
+    viewer.click(section);
+    viewer.untilValue(section, "open");
+  }
+  static void fill(DrivenViewer& viewer, const std::string& field, const std::string& text) {
+    viewer.clickText(field);
+    viewer.key("ctrl+a");
+    viewer.type("'" + text + "'");
+    viewer.key("Return");
+    viewer.untilValue(field, text);
+  }
+  static void choose(DrivenViewer& viewer, const std::string& combo, const std::string& item) {
+    viewer.click(combo);
+    viewer.untilThere(combo + "." + item);
+    viewer.click(combo + "." + item);
+    rest(viewer);
+  }
   // Camera and size of the displayed picture, as arguments of `grisaille render`.
   static std::vector<std::string> view(const DrivenViewer& viewer) {
     const auto rect = viewer.layout()["picture"]["rect"].get<std::vector<int>>();

@@ -383,5 +383,15 @@ TEST(CameraControl, StaysSoundWhateverIsDone) {
   }
 }
 
+// GLFW tells halves and wholes of wheels, and on Wayland fractions of fingers.
+TEST(Touchpad, FingersMoveByFractionsAndToTheSide) {
+  for (const glm::dvec2 wheel : {glm::dvec2(0, 1), {0, -3}, {0, 0.5}, {0, -1.5}}) {
+    EXPECT_FALSE(isOfFingers(wheel)) << wheel.y;
+  }
+  for (const glm::dvec2 fingers : {glm::dvec2(0, 0.1), {0, -1.3}, {1, 0}, {-0.2, 0.5}}) {
+    EXPECT_TRUE(isOfFingers(fingers)) << fingers.x << ", " << fingers.y;
+  }
+}
+
 }  // namespace
 }  // namespace grisaille::app::viewer

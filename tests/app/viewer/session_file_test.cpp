@@ -38,6 +38,13 @@ SavedSession whole() {
   session.splitting = {.way = SplitWay::kFlicker, .full = 0.5f, .turn = 1, .backend = "vulkan"};
   session.fineness = {.halves = false, .converges = true};
   session.comparing = {.on = true, .output = "ssao.ao", .radius = 0.3, .rays = 64};
+  session.sequence = {.keys = {scene::atriumCamera(), scene::atriumCamera()},
+                      .seconds = 2.5,
+                      .animated = true,
+                      .file = "a.##.png",
+                      .filmed = true,
+                      .video = "a.webm"};
+  session.sequence.keys[1].eye.y += 1.0 / 3;
   session.backend = "opengl";
   session.layout = {
       .textScale = 1.25, .light = true, .panelWidth = 30, .sections = {{"Cost", true}}};
@@ -58,6 +65,11 @@ TEST_F(SessionFile, ComesBackAsItWasSaved) {
   EXPECT_EQ(read.objects, whole().objects);
   EXPECT_EQ(read.layout, whole().layout);
   EXPECT_EQ(read.fineness, whole().fineness);
+  ASSERT_EQ(read.sequence.keys.size(), 2u);
+  EXPECT_EQ(read.sequence.keys[1].eye, whole().sequence.keys[1].eye);
+  EXPECT_EQ(read.sequence.seconds, 2.5);
+  EXPECT_TRUE(read.sequence.animated && read.sequence.filmed);
+  EXPECT_EQ(read.sequence.file + read.sequence.video, "a.##.pnga.webm");
   EXPECT_EQ(scene::cameraJson(*read.camera), scene::cameraJson(*whole().camera));
   EXPECT_EQ(std::distance(fs::directory_iterator(file.parent_path()), {}), 1);
 }
@@ -94,6 +106,11 @@ TEST_F(SessionFile, ABrokenFileIsRefused) {
                                   R"({"grisaille_session": 1, "view": {"compare_by": "eye"}})",
                                   R"({"grisaille_session": 1, "view": {"surface": "red"}})",
                                   R"({"grisaille_session": 1, "truth": {"rays": 1}})",
+                                  R"({"grisaille_session": 1, "sequence": []})",
+                                  R"({"grisaille_session": 1, "sequence": {"cameras": [1]}})",
+                                  R"({"grisaille_session": 1, "sequence": {"cameras": {}}})",
+                                  R"({"grisaille_session": 1, "sequence": {"seconds": 0}})",
+                                  R"({"grisaille_session": 1, "sequence": {"files": 3}})",
                                   R"({"grisaille_session": 1, "panel": {"panel_width": 0}})",
                                   R"({"grisaille_session": 1, "panel": {"sections": {"a": 1}}})"};
   for (const std::string& content : contents) {

@@ -1,7 +1,7 @@
 /* SPDX-License-Identifier: MIT
  *
- * An effect that cannot record a frame while the file that $MOODY names exists. Otherwise it says
- * that all is visible. */
+ * moody cannot record a frame while the file that $MOODY names exists. Otherwise it says that all
+ * is visible. needy is the same, and reads moody's output by name. */
 #include <stdlib.h>
 #include <unistd.h>
 
@@ -83,8 +83,31 @@ static const grisaille_effect_desc kEffect = {
     .destroy = destroy,
 };
 
-static const grisaille_effect_desc* const kEffects[] = {&kEffect};
+static const grisaille_input_desc kInputs[] = {{
+    .struct_size = sizeof(grisaille_input_desc),
+    .flags = GRISAILLE_INPUT_REQUIRED,
+    .key = "moody.all",
+    .tooltip = "What moody says",
+}};
+
+static const grisaille_effect_desc kNeedy = {
+    .struct_size = sizeof(grisaille_effect_desc),
+    .output_count = 1,
+    .key = "needy",
+    .label = "Needy",
+    .version = "1.0.0",
+    .tooltip = "Needs moody",
+    .outputs = kOutputs,
+    .reads = reads,
+    .create = create,
+    .record = record,
+    .destroy = destroy,
+    .input_count = 1,
+    .inputs = kInputs,
+};
+
+static const grisaille_effect_desc* const kEffects[] = {&kEffect, &kNeedy};
 
 GRISAILLE_EXPORT const grisaille_plugin_desc grisaille_plugin = {
-    GRISAILLE_MAGIC, GRISAILLE_ABI_MAJOR, GRISAILLE_ABI_MINOR, sizeof(grisaille_plugin_desc), 1, 0,
+    GRISAILLE_MAGIC, GRISAILLE_ABI_MAJOR, GRISAILLE_ABI_MINOR, sizeof(grisaille_plugin_desc), 2, 0,
     kEffects};
