@@ -9,6 +9,7 @@
 #include <fstream>
 #include <iterator>
 #include <nlohmann/json.hpp>
+#include <optional>
 #include <string>
 #include <utility>
 #include <vector>
@@ -16,6 +17,7 @@
 #include "core/base/atomic_file.h"
 #include "core/base/error.h"
 #include "core/base/regular_file.h"
+#include "core/objects/plain_file.h"
 
 namespace grisaille::objects {
 namespace {
@@ -275,10 +277,17 @@ void save(const View& objects, const std::string& path) {
 }
 
 Objects load(const Table& table, const std::string& path) {
+  std::ifstream file = openRegularFile(path, ErrorId::kObjectFileUnreadable);
+  std::error_code failed;
+  const uintmax_t bytes = std::filesystem::file_size(path, failed);
+  if (!failed) {
+    if (std::optional<Objects> plain = readPlainFile(table, file, bytes)) return std::move(*plain);
+  }
   return parse(table, readRegularFile(path, ErrorId::kObjectFileUnreadable), path);
 }
 
 Objects parse(const Table& table, std::string_view text, const std::string& name) {
+  if (std::optional<Objects> plain = readPlainFile(table, text)) return std::move(*plain);
   try {
     return parsed(table, text);
   } catch (const Error& error) {
