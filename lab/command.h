@@ -9,6 +9,7 @@ namespace grisaille::lab {
 
 void addClaims(CLI::App& program);
 void addPaintMask(CLI::App& program);
+void addSoak(CLI::App& program);
 void addStability(CLI::App& program);
 
 }  // namespace grisaille::lab

@@ -11,6 +11,7 @@ void addCommands(CLI::App& program) {
   grisaille::lab::addStability(program);
   grisaille::lab::addClaims(program);
   grisaille::lab::addPaintMask(program);
+  grisaille::lab::addSoak(program);
   for (CLI::App* command : program.get_subcommands({})) {
     grisaille::app::refuseEmptyValues(*command);
   }

@@ -114,7 +114,7 @@ void ObjectOptions::load(effect::Chain& chain) const {
   for (const std::string& text : loads) {
     const ForEffect one = parse(text, kFileForm);
     objects::ObjectList& list = listOf(chain, one.effect);
-    list.add(objects::load(list.table(), one.text).view());
+    list.add(objects::load(list.table(), one.text));
   }
 }
 

@@ -157,10 +157,11 @@ void Session::clearObjects(const std::string& effect) {
 }
 
 void Session::loadObjects(const std::string& effect, const std::string& path) {
-  const objects::Objects loaded = objects::load(listOf(effect).table(), path);
+  objects::Objects loaded = objects::load(listOf(effect).table(), path);
+  const size_t count = loaded.size();
   changeObjects(effect, "load", false,
-                [&](objects::ObjectList& list) { list.replace(loaded.view()); });
-  say(fmt::format("{} {} from {}", loaded.size(), loaded.table().key, path));
+                [&](objects::ObjectList& list) { list.replace(std::move(loaded)); });
+  say(fmt::format("{} {} from {}", count, listOf(effect).table().key, path));
 }
 
 void Session::saveObjects(const std::string& effect, const std::string& path) {

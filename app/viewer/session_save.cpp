@@ -2,6 +2,7 @@
 // The session's file: what it saves, and how it takes another one over.
 #include <algorithm>
 #include <filesystem>
+#include <utility>
 
 #include "app/settings/background.h"
 #include "app/viewer/session.h"
@@ -10,6 +11,15 @@
 
 namespace grisaille::app::viewer {
 namespace fs = std::filesystem;
+namespace {
+
+bool same(const objects::View& a, const objects::View& b) {
+  size_t i = 0;
+  while (i < a.count && i < b.count && a.object(i) == b.object(i)) ++i;
+  return i == a.count && i == b.count;
+}
+
+}  // namespace
 
 std::string sceneKey(const std::string& path) {
   if (const scene::BuiltIn* builtIn = scene::findBuiltIn(path)) return builtIn->name;
@@ -110,11 +120,11 @@ void Session::takeObjects(const SavedSession& session, bool undoable) {
     objects::ObjectList* list = chain.objects(effect);
     const bool taken =
         list != nullptr && attempt("objects of the session", [&, key = effect, &text = text] {
-          const objects::Objects all = objects::parse(list->table(), text, "the session's " + key);
-          if (!undoable) return list->assign(all.view());
-          if (objects::jsonOf(all.view()) == objects::jsonOf(list->view())) return;
+          objects::Objects all = objects::parse(list->table(), text, "the session's " + key);
+          if (!undoable) return list->assign(std::move(all));
+          if (same(all.view(), list->view())) return;
           changeObjects(key, "session", false,
-                        [&](objects::ObjectList& own) { own.replace(all.view()); });
+                        [&](objects::ObjectList& own) { own.replace(std::move(all)); });
         });
     if (!taken) strangeObjects_[effect] = text;
   }

@@ -123,7 +123,11 @@ void Viewer::showFrames() {
     settle_ = std::max(settle_ - 1, 0);
     frame(since.count());
     ++drawn_;
-    if (stage_ && !isStale()) noteThumbnail();
+    if (stage_ && !isStale()) {
+      noteThumbnail();
+      // A long list of objects takes seconds to write, which the first picture need not wait for.
+      if (std::exchange(keepsLater_, false)) session_.attempt("session", [&] { keepSession(); });
+    }
     if (stage_ && !isStale() && !truth_->running()) ++complete_;
     const std::chrono::duration<double> took = Clock::now() - now;
     if (took.count() < kLeastFrame) {
@@ -331,7 +335,7 @@ void Viewer::takeScene() {
     times_.clear();
     state_.noteRecent(path);
     keepState();
-    session_.attempt("session", [&] { keepSession(); });
+    keepsLater_ = true;
     nameWindow();
     settle_ = kSettleFrames;
   };

@@ -152,6 +152,7 @@ class Viewer {
   std::string buildMessage_;
   std::string failedScene_;  // as in Status
   bool pictured_ = false;    // the scene has its thumbnail
+  bool keepsLater_ = false;  // the session is kept once the scene's picture is complete
   ChildRun sequence_;
   std::string sequenceText_;  // its last progress
   std::string sequenceFile_;  // that it writes

@@ -136,6 +136,8 @@ GRISAILLE_ERROR(kUnstable, 5304, "see the cases in bold in the table in --out")
 GRISAILLE_ERROR(kNothingToSee, 5305,
                 "give cameras that see occluders (--camera, --validate), a larger --radius, or "
                 "--random 0")
+GRISAILLE_ERROR(kSoakFault, 5306,
+                "run it again with the same --seed; the lines above name the faults")
 // --- 54xx: new effects
 GRISAILLE_ERROR(kProjectName, 5401, "give 1 to 40 of a-z, 0-9 and _, beginning with a letter")
 GRISAILLE_ERROR(kProjectFolder, 5402, "name a folder that is empty or does not exist")

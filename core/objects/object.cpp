@@ -83,8 +83,8 @@ void checkText(const Field& field, const std::string& text) {
 template <typename T>
 void store(std::byte* object, const Field& field, const Numbers& numbers) {
   for (size_t i = 0; i < componentsOf(field); ++i) {
-    // -0 becomes 0: a file may omit it as the default.
-    const T value = static_cast<T>(numbers[i] + 0.0);
+    // -0, which a tiny double may round to, becomes 0: a file may omit it as the default.
+    const T value = static_cast<T>(numbers[i]) + T{0};
     std::memcpy(object + field.offset + i * sizeof(T), &value, sizeof(T));
   }
 }
@@ -179,15 +179,16 @@ Value& Object::at(const Table& table, std::string_view key) {
   return values[static_cast<size_t>(&fieldOf(table, key) - table.fields)];
 }
 
-Value View::value(size_t index, const Field& field) const {
+Numbers View::numbers(size_t index, const Field& field) const {
   const std::byte* object = data + index * table->object_size;
-  if (isText(field)) {
-    const char* text = nullptr;
-    std::memcpy(&text, object + field.offset, sizeof(text));
-    return {.numbers = {}, .text = text != nullptr ? text : ""};
-  }
-  return {.numbers = isDouble(field) ? load<double>(object, field) : load<float>(object, field),
-          .text = {}};
+  return isDouble(field) ? load<double>(object, field) : load<float>(object, field);
+}
+
+Value View::value(size_t index, const Field& field) const {
+  if (!isText(field)) return {.numbers = numbers(index, field), .text = {}};
+  const char* text = nullptr;
+  std::memcpy(&text, data + index * table->object_size + field.offset, sizeof(text));
+  return {.numbers = {}, .text = text != nullptr ? text : ""};
 }
 
 Object View::object(size_t index) const {
@@ -203,13 +204,13 @@ Objects& Objects::operator=(const Objects& other) {
   return *this;
 }
 
-// `valueOf(i)` returns the value of field i.
-template <typename ValueOf>
-void Objects::write(std::string_view name, ValueOf&& valueOf) {
+// `putField(object, i)` puts the value of field i; `object`: byte offset.
+template <typename PutField>
+void Objects::write(std::string_view name, PutField&& putField) {
   const size_t before = bytes_.size();
   bytes_.resize(before + table_->object_size);
   try {
-    for (size_t i = 0; i < table_->field_count; ++i) put(before, table_->fields[i], valueOf(i));
+    for (size_t i = 0; i < table_->field_count; ++i) putField(before, i);
   } catch (const Error& error) {
     bytes_.resize(before);
     const size_t index = first_ + before / table_->object_size;
@@ -223,14 +224,23 @@ void Objects::write(std::string_view name, ValueOf&& valueOf) {
 }
 
 void Objects::append(const Object& object, std::string_view name) {
-  write(name, [&](size_t i) -> const Value& { return object.values[i]; });
+  write(name, [&](size_t at, size_t i) {
+    const Field& field = table_->fields[i];
+    const Value& value = object.values[i];
+    if (isText(field)) return putText(at, field, value.text);
+    putNumbers(at, field, value.numbers);
+  });
 }
 
 void Objects::append(const View& view) {
   const size_t before = bytes_.size();
   try {
     for (size_t n = 0; n < view.count; ++n) {
-      write({}, [&](size_t i) { return view.value(n, table_->fields[i]); });
+      write({}, [&](size_t at, size_t i) {
+        const Field& field = table_->fields[i];
+        if (isText(field)) return putText(at, field, view.value(n, field).text);
+        putNumbers(at, field, view.numbers(n, field));
+      });
     }
   } catch (...) {
     bytes_.resize(before);
@@ -238,17 +248,17 @@ void Objects::append(const View& view) {
   }
 }
 
-void Objects::put(size_t object, const Field& field, const Value& value) {
+void Objects::putNumbers(size_t object, const Field& field, const Numbers& numbers) {
   std::byte* at = bytes_.data() + object;
-  if (isText(field)) {
-    checkText(field, value.text);
-    const char* text = texts_.insert(value.text).first->c_str();
-    std::memcpy(at + field.offset, &text, sizeof(text));
-  } else if (isDouble(field)) {
-    store<double>(at, field, checkedNumbers(field, value.numbers));
-  } else {
-    store<float>(at, field, checkedNumbers(field, value.numbers));
-  }
+  const Numbers good = checkedNumbers(field, numbers);
+  if (isDouble(field)) return store<double>(at, field, good);
+  store<float>(at, field, good);
+}
+
+void Objects::putText(size_t object, const Field& field, const std::string& text) {
+  checkText(field, text);
+  const char* kept = texts_.insert(text).first->c_str();
+  std::memcpy(bytes_.data() + object + field.offset, &kept, sizeof(kept));
 }
 
 }  // namespace grisaille::objects

@@ -72,6 +72,8 @@ struct View {
   size_t count = 0;
 
   Value value(size_t index, const Field& field) const;
+  // The same for a field that is not a text. Unused numbers are 0.
+  std::array<double, 3> numbers(size_t index, const Field& field) const;
   Object object(size_t index) const;
 };
 
@@ -97,9 +99,13 @@ class Objects {
   void reserve(size_t count) { bytes_.reserve(count * table_->object_size); }
 
  private:
-  template <typename ValueOf>
-  void write(std::string_view name, ValueOf&& valueOf);
-  void put(size_t object, const Field& field, const Value& value);  // `object`: byte offset
+  friend class ObjectList;  // takes the bytes over
+
+  template <typename PutField>
+  void write(std::string_view name, PutField&& putField);
+  // `object`: byte offset. Both check the value.
+  void putNumbers(size_t object, const Field& field, const std::array<double, 3>& numbers);
+  void putText(size_t object, const Field& field, const std::string& text);
 
   const Table* table_;
   size_t first_;

@@ -4,11 +4,12 @@
 #include <fmt/format.h>
 
 #include <algorithm>
+#include <array>
 #include <charconv>
 #include <filesystem>
 #include <fstream>
-#include <iterator>
 #include <nlohmann/json.hpp>
+#include <optional>
 #include <string>
 #include <utility>
 #include <vector>
@@ -16,12 +17,12 @@
 #include "core/base/atomic_file.h"
 #include "core/base/error.h"
 #include "core/base/regular_file.h"
+#include "core/objects/plain_file.h"
 
 namespace grisaille::objects {
 namespace {
 
 using nlohmann::json;
-using Text = fmt::memory_buffer;
 
 constexpr int kVersion = 1;
 
@@ -199,51 +200,65 @@ Objects parsed(const Table& table, std::string_view text) {
   return reader.take();
 }
 
+template <typename T>
+void putDigits(std::string& text, T value) {
+  std::array<char, 32> digits;
+  text.append(digits.data(), fmt::format_to(digits.data(), "{}", value));
+}
+
 // Writes the fewest digits that read back as the same float. If reading them as a double and then
 // rounding gives another float, writes the digits of the double.
-void putNumber(Text& text, const Field& field, double value) {
+void putNumber(std::string& text, const Field& field, double value) {
   const bool isFloat =
       field.type == GRISAILLE_FIELD_COLOUR || field.type == GRISAILLE_FIELD_DIRECTION;
   if (isFloat) {
     const auto single = static_cast<float>(value);
     const size_t before = text.size();
-    fmt::format_to(std::back_inserter(text), "{}", single);
+    putDigits(text, single);
     double read = 0;
     std::from_chars(text.data() + before, text.data() + text.size(), read);
     if (static_cast<float>(read) == single) return;
     text.resize(before);
   }
-  fmt::format_to(std::back_inserter(text), "{}", value);
+  putDigits(text, value);
 }
 
-void putField(Text& text, const Field& field, const Value& value) {
-  text.push_back('"');
-  text.append(std::string_view(field.key));
-  text.append(std::string_view("\": "));
-  if (isText(field)) {
-    text.append(json(value.text).dump());
-    return;
-  }
+void putNumbers(std::string& text, const Field& field, const std::array<double, 3>& numbers) {
   const size_t count = componentsOf(field);
-  if (count == 3) text.push_back('[');
+  if (count == 3) text += '[';
   for (size_t i = 0; i < count; ++i) {
-    if (i > 0) text.append(std::string_view(", "));
-    putNumber(text, field, value.numbers[i]);
+    if (i > 0) text += ", ";
+    putNumber(text, field, numbers[i]);
   }
-  if (count == 3) text.push_back(']');
+  if (count == 3) text += ']';
 }
 
-void putObject(Text& text, const View& objects, size_t index) {
+// `defaults`: an object of default values.
+void putObject(std::string& text, const View& objects, size_t index, const Object& defaults) {
   bool first = true;
-  text.push_back('{');
-  for (const Field& field : fieldsOf(*objects.table)) {
-    const Value value = objects.value(index, field);
+  text += '{';
+  for (size_t i = 0; i < defaults.values.size(); ++i) {
+    const Field& field = objects.table->fields[i];
+    const Value& usual = defaults.values[i];
     const bool required = (field.flags & GRISAILLE_FIELD_REQUIRED) != 0;
-    if (!required && value == defaultOf(field)) continue;
-    if (!std::exchange(first, false)) text.append(std::string_view(", "));
-    putField(text, field, value);
+    const size_t before = text.size();
+    text += first ? "\"" : ", \"";
+    text += field.key;
+    text += "\": ";
+    bool omitted = false;
+    if (isText(field)) {
+      const std::string own = objects.value(index, field).text;
+      omitted = !required && own == usual.text;
+      if (!omitted) text += json(own).dump();
+    } else {
+      const std::array<double, 3> own = objects.numbers(index, field);
+      omitted = !required && own == usual.numbers;
+      if (!omitted) putNumbers(text, field, own);
+    }
+    if (omitted) text.resize(before);
+    first = first && omitted;
   }
-  text.push_back('}');
+  text += '}';
 }
 
 }  // namespace
@@ -258,15 +273,13 @@ void checkEnding(const std::string& path) {
 }
 
 std::string jsonOf(const View& objects) {
-  Text text;
-  fmt::format_to(std::back_inserter(text), "{{\"version\": {}, \"{}\": [", kVersion,
-                 objects.table->key);
+  std::string text = fmt::format("{{\"version\": {}, \"{}\": [", kVersion, objects.table->key);
+  const Object defaults(*objects.table);
   for (size_t i = 0; i < objects.count; ++i) {
-    text.append(std::string_view(i == 0 ? "\n" : ",\n"));
-    putObject(text, objects, i);
+    text += i == 0 ? "\n" : ",\n";
+    putObject(text, objects, i, defaults);
   }
-  text.append(std::string_view("\n]}\n"));
-  return fmt::to_string(text);
+  return text + "\n]}\n";
 }
 
 void save(const View& objects, const std::string& path) {
@@ -275,10 +288,17 @@ void save(const View& objects, const std::string& path) {
 }
 
 Objects load(const Table& table, const std::string& path) {
+  std::ifstream file = openRegularFile(path, ErrorId::kObjectFileUnreadable);
+  std::error_code failed;
+  const uintmax_t bytes = std::filesystem::file_size(path, failed);
+  if (!failed) {
+    if (std::optional<Objects> plain = readPlainFile(table, file, bytes)) return std::move(*plain);
+  }
   return parse(table, readRegularFile(path, ErrorId::kObjectFileUnreadable), path);
 }
 
 Objects parse(const Table& table, std::string_view text, const std::string& name) {
+  if (std::optional<Objects> plain = readPlainFile(table, text)) return std::move(*plain);
   try {
     return parsed(table, text);
   } catch (const Error& error) {

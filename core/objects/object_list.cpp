@@ -43,15 +43,21 @@ size_t sameBytes(const View& a, const View& b) {
 
 // Checks the objects from index `first` on and returns their bytes, with texts that this list owns.
 ObjectList::Bytes ObjectList::sound(const View& objects, size_t first) {
-  const size_t size = table_->object_size;
   Objects checked(*table_, first);
   checked.reserve(objects.count - first);
-  checked.append(View{objects.table, objects.data + first * size, objects.count - first});
-  Bytes bytes(checked.view().data, checked.view().data + checked.size() * size);
+  checked.append(
+      View{objects.table, objects.data + first * table_->object_size, objects.count - first});
+  return taken(std::move(checked));
+}
+
+// The bytes of checked objects, with texts that this list owns.
+ObjectList::Bytes ObjectList::taken(Objects&& objects) {
+  Bytes bytes = std::move(objects.bytes_);
+  const View view = viewOf(*table_, bytes);
   for (const Field& field : fieldsOf(*table_)) {
-    for (size_t i = 0; isText(field) && i < checked.size(); ++i) {
-      const char* text = texts_.insert(checked.view().value(i, field).text).first->c_str();
-      std::memcpy(bytes.data() + i * size + field.offset, &text, sizeof(text));
+    for (size_t i = 0; isText(field) && i < view.count; ++i) {
+      const char* text = texts_.insert(view.value(i, field).text).first->c_str();
+      std::memcpy(bytes.data() + i * table_->object_size + field.offset, &text, sizeof(text));
     }
   }
   return bytes;
@@ -73,15 +79,23 @@ bool ObjectList::adopt(const Table& table) {
 void ObjectList::add(const Object& object) {
   Objects one(*table_);
   one.append(object);
-  add(one.view());
+  add(std::move(one));
 }
 
 void ObjectList::add(const View& objects) {
-  if (objects.count > 0) splice(size(), 0, objects);
+  if (objects.count > 0) splice(size(), 0, sound(objects, 0));
+}
+
+void ObjectList::add(Objects&& objects) {
+  if (objects.size() > 0) splice(size(), 0, taken(std::move(objects)));
 }
 
 void ObjectList::replace(const View& objects) {
-  if (objects.count > 0 || size() > 0) splice(0, size(), objects);
+  if (objects.count > 0 || size() > 0) splice(0, size(), sound(objects, 0));
+}
+
+void ObjectList::replace(Objects&& objects) {
+  if (objects.size() > 0 || size() > 0) splice(0, size(), taken(std::move(objects)));
 }
 
 void ObjectList::requireIndex(size_t index) const {
@@ -95,16 +109,16 @@ void ObjectList::set(size_t index, const Object& object) {
   Objects one(*table_);
   one.append(object);
   if (one.view().object(0) == this->object(index)) return;
-  splice(index, 1, one.view());
+  splice(index, 1, taken(std::move(one)));
 }
 
 void ObjectList::remove(size_t index) {
   requireIndex(index);
-  splice(index, 1, {table_, nullptr, 0});
+  splice(index, 1, {});
 }
 
 void ObjectList::clear() {
-  replace({table_, nullptr, 0});
+  if (size() > 0) splice(0, size(), {});
 }
 
 void ObjectList::move(size_t from, size_t to) {
@@ -119,16 +133,13 @@ void ObjectList::move(size_t from, size_t to) {
   }
   Objects moved(*table_);
   for (const Object& object : range) moved.append(object);
-  splice(first, range.size(), moved.view());
+  splice(first, range.size(), taken(std::move(moved)));
 }
 
-void ObjectList::splice(size_t at, size_t removed, const View& added) {
-  Bytes fresh = sound(added, 0);
+void ObjectList::splice(size_t at, size_t removed, Bytes added) {
   makeRoom(steps_, done_ + 1);
   makeRoom(kept_, kept_.size() + 1);
-  makeRoom(bytes_, bytes_.size() + fresh.size());
-  Step step{.at = at, .inserted = removed, .other = std::move(fresh)};
-  step.other.reserve(std::max(step.other.size(), removed * table_->object_size));
+  Step step{.at = at, .inserted = removed, .other = std::move(added)};
   exchange(step);
   steps_.erase(steps_.begin() + static_cast<std::ptrdiff_t>(done_), steps_.end());
   steps_.push_back(std::move(step));
@@ -136,16 +147,22 @@ void ObjectList::splice(size_t at, size_t removed, const View& added) {
   noteChange(at);
 }
 
-// Swaps the objects in the list with the objects in the step.
+// Swaps the objects in the list with the objects in the step. If memory runs out, it throws before
+// it changes anything.
 void ObjectList::exchange(Step& step) {
   const size_t size = table_->object_size;
-  const auto first = bytes_.begin() + static_cast<std::ptrdiff_t>(step.at * size);
-  const auto last = first + static_cast<std::ptrdiff_t>(step.inserted * size);
-  Bytes out(first, last);
   const size_t inserted = step.other.size() / size;
-  const auto gap = bytes_.erase(first, last);
-  bytes_.insert(gap, step.other.begin(), step.other.end());
-  step.other = std::move(out);
+  if (step.inserted == this->size()) {  // a list that is swapped whole need not be copied
+    bytes_.swap(step.other);
+  } else {
+    makeRoom(bytes_, bytes_.size() + step.other.size());
+    const auto first = bytes_.begin() + static_cast<std::ptrdiff_t>(step.at * size);
+    const auto last = first + static_cast<std::ptrdiff_t>(step.inserted * size);
+    Bytes out(first, last);
+    const auto gap = bytes_.erase(first, last);
+    bytes_.insert(gap, step.other.begin(), step.other.end());
+    step.other = std::move(out);
+  }
   step.inserted = inserted;
 }
 
@@ -168,29 +185,50 @@ void ObjectList::redo() {
 }
 
 void ObjectList::assign(const View& objects) {
-  const size_t size = table_->object_size, before = this->size();
-  makeRoom(kept_, kept_.size() + 1);
-  size_t kept = 0;
   if (hasTexts(*table_)) {
-    // Start with an empty set of texts: texts that only the steps used would accumulate.
-    ObjectList fresh(*table_);
-    fresh.bytes_ = fresh.sound(objects, 0);
-    kept = sameObjects(view(), fresh.view());
-    bytes_ = std::move(fresh.bytes_);
-    texts_ = std::move(fresh.texts_);
+    Objects checked(*table_);
+    checked.append(objects);
+    return assign(std::move(checked));
+  }
+  // The leading objects that the list already holds are checked.
+  const size_t held = sameBytes(view(), objects);
+  assign(held, sound(objects, held));
+}
+
+void ObjectList::assign(Objects&& objects) {
+  if (!hasTexts(*table_)) return assign(0, std::move(objects.bytes_));
+  // Start with an empty set of texts: texts that only the steps used would accumulate.
+  ObjectList fresh(*table_);
+  fresh.bytes_ = fresh.taken(std::move(objects));
+  const size_t kept = sameObjects(view(), fresh.view());
+  makeRoom(kept_, kept_.size() + 1);
+  const size_t before = size();
+  bytes_ = std::move(fresh.bytes_);
+  texts_ = std::move(fresh.texts_);
+  endSteps(before, kept);
+}
+
+// Replaces the objects after the first `held`, which stay, by `fresh`. Objects without texts.
+void ObjectList::assign(size_t held, Bytes fresh) {
+  const size_t size = table_->object_size, before = this->size();
+  const View after{table_, bytes_.data() + held * size, before - held};
+  const size_t kept = held + sameBytes(after, viewOf(*table_, fresh));
+  makeRoom(kept_, kept_.size() + 1);
+  if (held == 0) {
+    bytes_ = std::move(fresh);
   } else {
-    // The leading objects that the list already holds are checked.
-    const size_t held = sameBytes(view(), objects);
-    const Bytes fresh = sound(objects, held);
-    kept = held +
-           sameBytes({table_, bytes_.data() + held * size, before - held}, viewOf(*table_, fresh));
     makeRoom(bytes_, held * size + fresh.size());
     bytes_.resize(held * size);
     bytes_.insert(bytes_.end(), fresh.begin(), fresh.end());
   }
+  endSteps(before, kept);
+}
+
+// `before`: the list's size before it was assigned, of which the first `kept` stay.
+void ObjectList::endSteps(size_t before, size_t kept) {
   steps_.clear();
   done_ = 0;
-  if (kept < before || this->size() > before) noteChange(kept);
+  if (kept < before || size() > before) noteChange(kept);
 }
 
 void ObjectList::noteChange(size_t kept) {

@@ -34,6 +34,10 @@ class ObjectList {
   void add(const View& objects);
   // Replaces all objects of the list.
   void replace(const View& objects);
+  // The same for objects of a table of the same layout, which are taken over without a second
+  // check.
+  void add(Objects&& objects);
+  void replace(Objects&& objects);
   // set() and remove() throw kObjectIndex if the index is out of range.
   void set(size_t index, const Object& object);
 
@@ -51,6 +55,7 @@ class ObjectList {
 
   // Same as replace(), but not a step: it clears all steps.
   void assign(const View& objects);
+  void assign(Objects&& objects);
 
   // Oldest first; valid until the next change.
   View view() const { return {table_, bytes_.data(), size()}; }
@@ -80,10 +85,13 @@ class ObjectList {
   };
 
   void requireIndex(size_t index) const;
-  void splice(size_t at, size_t removed, const View& added);
+  void splice(size_t at, size_t removed, Bytes added);
   void exchange(Step& step);
   void noteChange(size_t kept);
   Bytes sound(const View& objects, size_t first);
+  Bytes taken(Objects&& objects);
+  void assign(size_t held, Bytes fresh);
+  void endSteps(size_t before, size_t kept);
 
   const Table* table_;
   Bytes bytes_;

@@ -24,6 +24,7 @@
 #include "core/frame/renderer.h"
 #include "lab/paint/shot.h"
 #include "tests/bench/command.h"
+#include "tests/bench/sspm_edits.h"
 #include "tests/bench/sspm_score.h"
 #include "tests/bench/subject.h"
 #include "tests/support/traced_rays.h"
@@ -43,6 +44,7 @@ struct Options : CommonOptions {
   std::vector<size_t> wallCounts = {64, 1000, 10000, 100000, 1000000};
   std::vector<size_t> perShotCounts = {1, 4, 16, 64, 256};
   uint32_t memory = 256;
+  std::vector<size_t> editCounts = {1000, 10000};
   std::string out;
 };
 
@@ -90,7 +92,9 @@ Shots randomShots(const Subject& subject, const trace::RayTracer& tracer, size_t
 
 // Where shots are fired, and how many.
 struct Place {
-  Place(Subject theSubject, std::vector<size_t> theCounts, std::vector<size_t> thePerShotCounts)
+  // `extra`: counts of shots for other measurements.
+  Place(Subject theSubject, std::vector<size_t> theCounts, std::vector<size_t> thePerShotCounts,
+        const std::vector<size_t>& extra)
       : subject(std::move(theSubject)),
         counts(std::move(theCounts)),
         perShotCounts(std::move(thePerShotCounts)),
@@ -98,6 +102,7 @@ struct Place {
     size_t most = 0;
     for (const size_t count : counts) most = std::max(most, count);
     for (const size_t count : perShotCounts) most = std::max(most, count);
+    for (const size_t count : extra) most = std::max(most, count);
     shots = randomShots(subject, rays->tracer(), most);
   }
 
@@ -385,10 +390,13 @@ void measure(const std::string& backend, const Place& place, const effect::Regis
 }
 
 void run(Options options) {
-  for (auto* counts : {&options.counts, &options.wallCounts}) std::erase(*counts, 0);
+  for (auto* counts : {&options.counts, &options.wallCounts, &options.editCounts}) {
+    std::erase(*counts, 0);
+  }
   std::deque<Place> places;  // a deque, since rays refer to their scene by address
-  places.emplace_back(loadSubject(), options.counts, options.perShotCounts);
-  places.emplace_back(wallSubject(), options.wallCounts, std::vector<size_t>{});
+  places.emplace_back(loadSubject(), options.counts, options.perShotCounts, options.editCounts);
+  places.emplace_back(wallSubject(), options.wallCounts, std::vector<size_t>{},
+                      std::vector<size_t>{});
   effect::Registry registry;
   registry.scan(EFFECTS_FOLDER);
   fmt::print(
@@ -416,6 +424,11 @@ void run(Options options) {
       for (const Place& place : places) {
         measure(backend.name, place, registry, options, curves);
       }
+      if (!options.editCounts.empty()) {
+        const Place& sponza = places.front();
+        printEdits(backend.name, sponza.subject, registry, *sponza.rays, sponza.shots,
+                   options.editCounts, options.width, options.height);
+      }
     } catch (const Error& error) {
       if (error.id() != ErrorId::kBackendMissing && error.id() != ErrorId::kNoDevice) throw;
       fmt::print("## {}\n\nNot here: {}\n\n", backend.name, error.detail());
@@ -436,6 +449,10 @@ int main(int argc, char** argv) {
   program.add_option("--per-shot-counts", options.perShotCounts,
                      "Shots on Sponza in the mode per_shot");
   program.add_option("--memory", options.memory, "Value of the parameter memory, MB");
+  program
+      .add_option("--edit-counts", options.editCounts,
+                  "Shots on Sponza, of which a parameter changes")
+      ->expected(0, -1);
   program.add_option("--out", options.out, "A folder for paint_cost.csv, .svg and .png");
   return grisaille::bench::runCommand(program, options, argc, argv,
                                       [&] { grisaille::bench::run(options); });

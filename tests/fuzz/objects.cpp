@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: MIT
 // Object files, and single objects in the form of the command line.
 #include "core/objects/object_file.h"
+#include "core/objects/plain_file.h"
 #include "tests/fuzz/fuzz.h"
 #include "tests/fuzz/table.h"
 
@@ -27,6 +28,13 @@ void checkFile(std::string_view text) {
   const bool good = accepted({ErrorId::kObjectFileInvalid, ErrorId::kObjectFileVersion},
                              [&] { all = objects::load(kObjects, path); });
   if (good) requireSound(all.view());
+  // The fast reader reads no other objects than the general one, which alone takes a byte order
+  // mark.
+  const std::optional<objects::Objects> plain = objects::readPlainFile(kObjects, text);
+  if (plain) {
+    requireSame(objects::parse(kObjects, "\xEF\xBB\xBF" + std::string(text), "text").view(),
+                plain->view());
+  }
 }
 
 void checkOne(std::string_view text) {

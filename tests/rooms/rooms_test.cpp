@@ -74,9 +74,12 @@ constexpr Room kRooms[] = {
      "grisaille shaders"},
     {"lab",
      "app/options app/process/program.h app/report/machine.h app/settings app/truth "
-     "backends/backends.h core/image lab/claims lab/paint lab/stability"},
+     "backends/backends.h core/image lab/claims lab/paint lab/soak lab/stability"},
     {"lab/paint", "core/effect core/objects core/trace"},
     {"lab/oracle", "core/image core/scene lab/paint"},
+    {"lab/soak",
+     "app/services app/settings app/truth core/effect core/frame core/gpu core/objects core/scene "
+     "lab/paint"},
     {"lab/stability",
      "app/services app/truth core/effect core/frame core/gpu core/image core/scene core/trace "
      "lab/oracle lab/paint"},

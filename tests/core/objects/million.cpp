@@ -67,10 +67,10 @@ void measure(const std::string& path) {
   }
   save(list.view(), path);
   stopwatch.note("save");
-  const Objects loaded = load(kPlainDecals, path);
+  Objects loaded = load(kPlainDecals, path);
   stopwatch.note("load");
   ObjectList again(kPlainDecals);
-  again.add(loaded.view());
+  again.add(std::move(loaded));
   stopwatch.note("add");
   fmt::print("file    {} MiB\n", std::filesystem::file_size(path) >> 20);
   if (!sameObjects(again.view(), list.view())) fmt::print("the objects are not the same\n");

@@ -77,6 +77,7 @@ struct Both {
     State longer = model.state();
     for (const Object& object : stateOf(added.view())) longer.push_back(object);
     if (added.size() > 0) model.change(longer);
+    if (random() % 2 == 0) return list.add(Objects(added));
     list.add(added.view());
   }
   void set(const Object& object) {
@@ -112,6 +113,7 @@ struct Both {
     state.resize(std::min<size_t>(state.size(), random() % 8), Object(table));
     for (const Object& object : stateOf(added.view())) state.push_back(object);
     model.assign(state);
+    if (random() % 2 == 0) return list.assign(objectsOf(state, table));
     list.assign(objectsOf(state, table).view());
   }
   void refuse(const Objects& objects) {
@@ -143,7 +145,11 @@ struct Both {
         break;
       case 1:
         if (!model.state().empty() || objects.size() > 0) model.change(stateOf(objects.view()));
-        list.replace(objects.view());
+        if (random() % 2 == 0) {
+          list.replace(Objects(objects));
+        } else {
+          list.replace(objects.view());
+        }
         break;
       case 2:
       case 3:
@@ -282,6 +288,21 @@ TEST(ObjectList, ClearingAndUndoingMovesNoObject) {
   list.undo();
   EXPECT_EQ(list.view().data, data);
   EXPECT_TRUE(sameObjects(list.view(), objects.view()));
+}
+
+TEST(ObjectList, TakesOverLoadedObjectsWithoutACopy) {
+  std::mt19937_64 random(7);
+  Objects objects = randomObjects(random, 1000, kPlainDecals);
+  const Objects same(objects);
+  const std::byte* data = objects.view().data;
+  ObjectList list(kPlainDecals);
+  list.add(std::move(objects));
+  EXPECT_EQ(list.view().data, data);
+  list.undo();
+  EXPECT_EQ(list.size(), 0u);
+  list.redo();
+  EXPECT_EQ(list.view().data, data);
+  EXPECT_TRUE(sameObjects(list.view(), same.view()));
 }
 
 TEST(ObjectList, MayBeGivenItsOwnObjects) {

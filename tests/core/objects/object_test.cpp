@@ -216,6 +216,18 @@ TEST(Objects, LieInMemoryAsTheTableSays) {
   }
 }
 
+TEST(Objects, HoldNoNegativeZero) {
+  Objects objects(kDecals);
+  Object object(kDecals);
+  object.values[kPosition].numbers = {-0.0, 1, 2};
+  object.values[kDirection].numbers = {-1, 0, 1e300};  // -1e-300 as a float is -0
+  object.values[kColour].numbers = {-0.0, 0, 0};
+  objects.append(object);
+  for (const size_t field : {kPosition, kDirection, kColour}) {
+    EXPECT_FALSE(std::signbit(objects.view().numbers(0, kDecalFields[field])[0])) << field;
+  }
+}
+
 TEST(Objects, ARefusalNamesObjectAndFieldAndAppendsNothing) {
   std::mt19937_64 random(5);
   Objects objects = randomObjects(random, 3);

@@ -1,0 +1,179 @@
+// SPDX-License-Identifier: MIT
+#include "tests/bench/sspm_edits.h"
+
+#include <fmt/format.h>
+
+#include <algorithm>
+#include <array>
+#include <chrono>
+#include <cmath>
+#include <limits>
+#include <utility>
+
+#include "backends/backends.h"
+#include "core/effect/chain.h"
+#include "core/frame/renderer.h"
+
+namespace grisaille::bench {
+namespace {
+
+using Clock = std::chrono::steady_clock;
+
+constexpr double kPatience = 0.03;   // seconds a frame for placing, as in the viewer
+constexpr double kSoon = 2;          // seconds after which a part of the picture is looked at
+constexpr float kSame = 2.0f / 255;  // of a channel
+
+struct Change {
+  const char* parameter;
+  const char* from;  // the default
+  const char* to;
+};
+constexpr std::array<Change, 3> kChanges = {
+    {{"paint_range", "0.25", "0.35"}, {"r0", "1", "0.15"}, {"edge_fade", "0.5", "0.2"}}};
+
+class Edited {
+ public:
+  Edited(gpu::Device& device, const Subject& subject, const effect::Registry& registry,
+         tests::TracedRays& rays, std::span<const lab::Shot> shots, glm::uvec2 size)
+      : device_(device),
+        subject_(subject),
+        rays_(rays),
+        size_(size),
+        chain_(effect::Selection(registry, std::array<std::string, 2>{"ssao", "sspm"})),
+        started_(chain_, device),
+        renderer_(device, subject.scene) {
+    objects::ObjectList& list = *chain_.objects("sspm");
+    list.assign(objectsOf(list.table(), shots));
+    complete();
+  }
+
+  effect::Values& values() { return chain_.selection.values("sspm"); }
+
+  // Returns the number of shots that wait.
+  uint64_t render(double patience) {
+    renderer_.render({.camera = subject_.cameras[0],
+                      .width = size_.x,
+                      .height = size_.y,
+                      .chain = &chain_,
+                      .outputs = outputs_,
+                      .patience = patience,
+                      .services = {.rays = &rays_}});
+    device_.wait();
+    return renderer_.report().waiting;
+  }
+
+  // The picture with all shots in their places.
+  image::Image complete() {
+    while (render(std::numeric_limits<double>::infinity()) > 0) {
+    }
+    return picture();
+  }
+
+  image::Image picture() { return renderer_.read("color"); }
+
+ private:
+  gpu::Device& device_;
+  const Subject& subject_;
+  tests::TracedRays& rays_;
+  const glm::uvec2 size_;
+  effect::Chain chain_;
+  effect::StartedChain started_;
+  frame::Renderer renderer_;
+  const std::vector<std::string> outputs_ = {"color"};
+};
+
+bool differ(const image::Image& a, const image::Image& b, size_t pixel) {
+  for (size_t c = 0; c < a.channels; ++c) {
+    const size_t i = pixel * a.channels + c;
+    if (std::abs(std::min(a.pixels[i], 1.0f) - std::min(b.pixels[i], 1.0f)) > kSame) return true;
+  }
+  return false;
+}
+
+// Share of the pixels that a change alters which `now` shows as they will be.
+double shareRight(const image::Image& before, const image::Image& now, const image::Image& after) {
+  size_t altered = 0, right = 0;
+  for (size_t i = 0; i < size_t{after.width} * after.height; ++i) {
+    if (!differ(before, after, i)) continue;
+    ++altered;
+    if (!differ(now, after, i)) ++right;
+  }
+  return altered == 0 ? 1 : static_cast<double>(right) / static_cast<double>(altered);
+}
+
+struct EditRow {
+  double nextFrame = 0, all = 0;  // milliseconds from the change
+  size_t frames = 0;              // until all shots are in their places
+  double rightNext = 1, rightSoon = 1;
+};
+
+EditRow measureEdit(Edited& edited, const Change& change) {
+  const image::Image before = edited.complete();
+  EditRow row;
+  // Once for the times, once more for the pictures: reading a picture takes time.
+  const auto play = [&](const auto& eachFrame) {
+    edited.values().set(change.parameter, change.to);
+    const auto start = Clock::now();
+    for (bool waits = true; waits;) {
+      waits = edited.render(kPatience) > 0;
+      const std::chrono::duration<double> passed = Clock::now() - start;
+      if (!eachFrame(passed.count())) return;
+    }
+  };
+  play([&](double seconds) {
+    if (row.frames++ == 0) row.nextFrame = 1000 * seconds;
+    row.all = 1000 * seconds;
+    return true;
+  });
+  const image::Image after = edited.complete();
+  if (row.frames > 1) {
+    edited.values().set(change.parameter, change.from);
+    edited.complete();
+    bool first = true;
+    play([&](double) {
+      if (std::exchange(first, false)) row.rightNext = shareRight(before, edited.picture(), after);
+      return false;
+    });
+  }
+  if (row.all > 1000 * kSoon) {
+    edited.values().set(change.parameter, change.from);
+    edited.complete();
+    play([&](double seconds) {
+      if (seconds < kSoon) return true;
+      row.rightSoon = shareRight(before, edited.picture(), after);
+      return false;
+    });
+  }
+  edited.values().set(change.parameter, change.from);
+  return row;
+}
+
+}  // namespace
+
+void printEdits(const std::string& backend, const Subject& subject,
+                const effect::Registry& registry, tests::TracedRays& rays,
+                std::span<const lab::Shot> shots, std::span<const size_t> counts, uint32_t width,
+                uint32_t height) {
+  const auto device = backends::create(backend, {});
+  fmt::print(
+      "## {}, {}: a changed parameter\n\nFrom the change to the next frame, and to the frame in "
+      "which no shot waits, with {:.0f} ms a frame for\nplacing. Right: of the pixels that the "
+      "change alters, those within 2/255 of the last picture.\n\n"
+      "| shots | parameter | change | next frame, ms | all shots, ms | frames | right in the next "
+      "frame | right after {:.0f} s |\n|---|---|---|---|---|---|---|---|\n",
+      subject.name, backend, 1000 * kPatience, kSoon);
+  for (const size_t count : counts) {
+    if (count > shots.size()) continue;
+    Edited edited(*device, subject, registry, rays, shots.first(count), {width, height});
+    for (const Change& change : kChanges) {
+      const EditRow row = measureEdit(edited, change);
+      fmt::print("| {} | {} | {} to {} | {:.0f} | {:.0f} | {} | {:.1f} % | {:.1f} % |\n", count,
+                 change.parameter, change.from, change.to, row.nextFrame, row.all, row.frames,
+                 100 * row.rightNext, 100 * row.rightSoon);
+      std::fflush(stdout);
+    }
+  }
+  fmt::print("\n");
+}
+
+}  // namespace grisaille::bench
