@@ -32,7 +32,7 @@ class Functions final : public vulkan::MemorySource {
     return result;
   }
 
-  void free(const vulkan::ForeignMemory& memory) override {
+  void release(const vulkan::ForeignMemory& memory) override {
     const grisaille_host_memory given = {.struct_size = sizeof(given),
                                          .reserved = 0,
                                          .memory = memory.memory,

@@ -2,6 +2,7 @@
 #include "host/pool.h"
 
 #include <algorithm>
+#include <utility>
 
 namespace grisaille::host {
 namespace {

@@ -44,7 +44,7 @@ Memory Allocator::allocate(const Needing& needing, MemoryKind kind) {
 void Allocator::free(const Memory& memory) {
   if (memory.where.memory == 0) return;
   if (source_ != nullptr) {
-    source_->free(memory.where);
+    source_->release(memory.where);
   } else {
     device_.vk->vkFreeMemory(device_.device, reinterpret_cast<VkDeviceMemory>(memory.where.memory),
                              device_.callbacks);
@@ -113,7 +113,7 @@ ForeignMemory Allocator::ofSource(const Needing& needing, MemoryKind kind) {
   if (where.offset % request.alignment != 0) wrong = "an offset that is not aligned";
   if (kind != MemoryKind::kDevice && where.mapped == nullptr) wrong = "memory that is not mapped";
   if (wrong == nullptr) return where;
-  if (where.memory != 0) source_->free(where);
+  if (where.memory != 0) source_->release(where);
   throw Error(ErrorId::kHostValue,
               "the host's memory function returned {} (memory {:#x}, offset {}) for '{}', {} bytes "
               "with an alignment of {}",

@@ -38,7 +38,7 @@ class MemorySource {
 
   // Returns a VkResult.
   virtual int allocate(const ForeignMemoryRequest& request, ForeignMemory& out) = 0;
-  virtual void free(const ForeignMemory& memory) = 0;
+  virtual void release(const ForeignMemory& memory) = 0;
 };
 
 // Another program's Vulkan handles. `getInstanceProcAddr`, a PFN_vkGetInstanceProcAddr, is the

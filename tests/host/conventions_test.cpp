@@ -136,7 +136,7 @@ std::vector<Way> everyWay() {
                   .clip = {.near = kNear, .far = kFar, .fromMinusOne = true}});
   ways.push_back({.name = "depth and stencil",
                   .depth = kBuffer,
-                  .depthTexels = Texels::kDepth24Stencil,
+                  .depthTexels = Texels::kDepth32Stencil,
                   .clip = kFinite});
   ways.push_back({.name = "clip y down", .depth = kBuffer, .clip = kFinite, .clipYDown = true});
   ways.push_back({.name = "normals in view space", .space = GRISAILLE_HOST_NORMALS_VIEW});

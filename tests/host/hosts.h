@@ -41,6 +41,8 @@ class Host {
   virtual host::Texture texture(const host::Device& device, Texels texels, uint32_t width,
                                 uint32_t height, const std::vector<float>& numbers,
                                 uint32_t layers = 0) = 0;
+  // Whether the device has textures of this kind: some lack depth of 24 bits.
+  virtual bool has(Texels texels) const = 0;
   // The description that wraps the last texture.
   virtual host::TextureSpec described() const = 0;
 

@@ -83,6 +83,7 @@ class OpenGlHost : public Host {
     described_ = {.image = name, .layers = std::max(layers, 1u)};
     return {device, described_};
   }
+  bool has(Texels) const override { return true; }
   host::TextureSpec described() const override { return described_; }
 
   void frame(const std::function<void(void*, uint64_t)>& record) override {

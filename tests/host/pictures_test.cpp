@@ -399,16 +399,20 @@ TEST_P(Pictures, DepthBuffersOfAllFormatsComeToTheSame) {
     const char* name;
     double rmse;
   };
+  size_t tried = 0;
   for (const Case& one :
        {Case{Texels::kDepth16, "D16", 0.02}, Case{Texels::kDepth24, "D24", 0.005},
         Case{Texels::kDepth24Stencil, "D24S8", 0.005}, Case{Texels::kDepth32, "D32F", 0.005},
         Case{Texels::kDepth32Stencil, "D32FS8", 0.005}}) {
+    if (!host_->has(one.texels)) continue;
+    ++tried;
     const image::Difference difference =
         image::compare(shade(one.texels, buffer, GRISAILLE_HOST_DEPTH_BUFFER), expected);
     std::printf("%s: %s: rmse %.5f\n", GetParam().backend.c_str(), one.name, difference.rmse);
     EXPECT_EQ(difference.nonFinite, 0u);
     EXPECT_LT(difference.rmse, one.rmse) << one.name;
   }
+  EXPECT_GE(tried, 3u);
 }
 
 // Textures stay in the layout that the renderer leaves them in.

@@ -126,6 +126,11 @@ class VulkanHost : public Host {
 
   host::Texture texture(const host::Device& device, Texels texels, uint32_t width, uint32_t height,
                         const std::vector<float>& numbers, uint32_t layers) override;
+  bool has(Texels texels) const override {
+    VkFormatProperties properties{};
+    vkGetPhysicalDeviceFormatProperties(context_.physical, kindOf(texels).format, &properties);
+    return (properties.optimalTilingFeatures & VK_FORMAT_FEATURE_SAMPLED_IMAGE_BIT) != 0;
+  }
   host::TextureSpec described() const override { return described_; }
 
   void frame(const std::function<void(void*, uint64_t)>& record) override {
