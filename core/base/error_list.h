@@ -162,7 +162,7 @@ GRISAILLE_ERROR(kPictureColour, 5511, "repair the picture: base colours are line
 GRISAILLE_ERROR(kPictureThickness, 5512,
                 "repair the picture: thickness is in metres, 0 for sheets, below 0 where unknown")
 GRISAILLE_ERROR(kSequence, 5507, "number the files with %04d or ####, the same frames in each")
-GRISAILLE_ERROR(kVideo, 5512,
+GRISAILLE_ERROR(kVideo, 5513,
                 "install ffmpeg, or give a name with an ending that it knows, such as .mp4; the "
                 "numbered pictures are kept")
 // --- 56xx: libgrisaille

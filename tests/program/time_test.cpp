@@ -239,12 +239,12 @@ TEST_F(Time, ASequenceBecomesAVideo) {
                                     "--times", "0:1:1/8", "--write", file,    "--video",   video};
   };
   expectRefused(with("v.mp4", "depth=f.##.exr"), "--video needs .png");
-  expectRefused(with("video"), "E5512");
+  expectRefused(with("video"), "E5513");
   expectRefused({"render", "a.glb", "--video", "v.mp4"}, "--video needs --times or --path");
   const Outcome missing =
       runProgram(with("v.mp4"), folder_.path(),
                  {"XDG_CACHE_HOME=" + (folder_ / "cache"), "PATH=" + folder_.path().string()});
-  EXPECT_NE(missing.err.find("E5512"), std::string::npos) << missing.err;
+  EXPECT_NE(missing.err.find("E5513"), std::string::npos) << missing.err;
   EXPECT_FALSE(std::filesystem::exists(folder_ / "f.00.png"));  // before any slow work
   if (runShell("ffmpeg -version", folder_.path()).status != 0) GTEST_SKIP() << "no ffmpeg";
   folder_.write("f.09.png", "of a longer sequence, and no picture");
@@ -258,7 +258,7 @@ TEST_F(Time, ASequenceBecomesAVideo) {
   EXPECT_EQ(told.out, "66,36,8/1,9\n") << told.err;
   EXPECT_TRUE(std::filesystem::exists(folder_ / "f.08.png"));
   // A format that ffmpeg does not know.
-  expectRefused(with("v.nothing"), "E5512");
+  expectRefused(with("v.nothing"), "E5513");
   EXPECT_FALSE(std::filesystem::exists(folder_ / "v.nothing"));
 }
 

@@ -90,7 +90,7 @@ TEST_P(SequenceTest, AVideoIsMadeOfThePictures) {
     viewer.untilThere("sequence render");
   };
   folder_.write("fail", "");
-  render("error E5512: a b.mp4: ffmpeg fails: no such codec");
+  render("error E5513: a b.mp4: ffmpeg fails: no such codec");
   EXPECT_FALSE(fs::exists(folder_ / "a b.mp4"));
   EXPECT_TRUE(fs::exists(folder_ / "a b.03.png"));
   fs::remove(folder_ / "fail");
