@@ -75,9 +75,10 @@ Sight orthographicOf(const glm::dmat4& ndc, const glm::dmat4& view, const glm::d
 // The NDC of the picture's centre: 0 if NDC runs from -1 to 1, 0.5 if it runs from 0 to 1. Takes
 // the range in which the optical axis is closer to the centre.
 double middleOf(const glm::dvec2& axis, const std::string& name) {
-  constexpr double kClose = 0.1;  // of half the picture
+  constexpr double kClose = 0.1;       // of half the picture
+  constexpr double kRounding = 1.001;  // the axis of a corner is as close in both; floats round it
   const double fromZero = glm::length(axis - 0.5) / 0.5;
-  if (glm::length(axis) <= fromZero) return 0;
+  if (glm::length(axis) <= kRounding * fromZero) return 0;
   if (fromZero <= kClose) return 0.5;
   refuse(name,
          "the view axis passes through ({:.4f}, {:.4f}) of NDC, which does not tell whether NDC "
