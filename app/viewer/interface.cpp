@@ -62,6 +62,11 @@ void setStyle(float scale, bool light) {
   style.WindowRounding = style.FrameRounding = style.GrabRounding = 3;
   style.WindowBorderSize = 0;
   style.Colors[ImGuiCol_WindowBg].w = 1;
+  // Nothing but the picture, white or black, lies behind a title.
+  ImVec4& title = style.Colors[ImGuiCol_TitleBgActive];
+  const ImVec4& ground = style.Colors[ImGuiCol_WindowBg];
+  title = {std::lerp(ground.x, title.x, title.w), std::lerp(ground.y, title.y, title.w),
+           std::lerp(ground.z, title.z, title.w), 1};
   // Hints and reasons are read, too.
   style.Colors[ImGuiCol_TextDisabled] =
       light ? ImVec4(0.38f, 0.38f, 0.38f, 1) : ImVec4(0.62f, 0.62f, 0.62f, 1);

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: MIT
-#include "app/options/video.h"
+#include "app/video.h"
 
 #include <unistd.h>
 
