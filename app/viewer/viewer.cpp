@@ -17,6 +17,7 @@ namespace {
 
 constexpr double kLookInterval = 0.5;      // seconds between two checks of watched files
 constexpr double kWaitInterval = 0.05;     // seconds between two checks of background work
+constexpr double kFirstPatience = 0.3;     // seconds to place objects in a scene's first frame
 constexpr double kLeastFrame = 1.0 / 120;  // seconds, if the display does not limit the rate
 
 fs::path stateFile() {
@@ -329,6 +330,16 @@ void Viewer::takeScene() {
     stage_.reset();
     if (other_) other_->forget();
     session_.setScene(scene, path, place().size);
+    // The first picture shows the newest objects. Effects place them by rays, and the time for that
+    // must not pass while the rays' scene is built.
+    const bool holds = std::ranges::any_of(session_.effectsWithObjects(), [&](const auto& effect) {
+      return session_.listOf(effect).size() > 0;
+    });
+    if (holds) {
+      session_.services->rays().prepare();
+      session_.services->rays().wait();
+      updateSeconds_ = kFirstPatience;
+    }
     retry_ = {};
     pictured_ = false;
     stage_ = std::make_unique<Stage>(*device_, *session_.scene, *session_.services, session_.chain);

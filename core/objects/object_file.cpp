@@ -279,7 +279,8 @@ std::string jsonOf(const View& objects) {
     text += i == 0 ? "\n" : ",\n";
     putObject(text, objects, i, defaults);
   }
-  return text + "\n]}\n";
+  text += "\n]}\n";
+  return text;
 }
 
 void save(const View& objects, const std::string& path) {

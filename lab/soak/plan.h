@@ -14,9 +14,9 @@ namespace grisaille::lab::soak {
 
 struct Plan {
   double minutes = 10;    // over 0
-  size_t before = 1000;   // shots that are in their places when it begins
+  size_t before = 5000;   // shots that are in their places when it begins
   size_t shots = 20'000;  // fired at an even rate over that time
-  uint32_t memory = 64;   // limit of the effect, MB
+  uint32_t memory = 32;   // limit of the effect, MB
   uint32_t seed = 1;
   glm::uvec2 size = {640, 360};  // of the largest picture, pixels
 };

@@ -30,10 +30,11 @@ namespace {
 namespace fs = std::filesystem;
 using Clock = std::chrono::steady_clock;
 
-constexpr double kReach = 1;         // of the camera from its eye, metres
-constexpr double kPatience = 0.03;   // seconds a frame for work that can wait, as in the viewer
-constexpr double kLimit = 2;         // a quiet frame takes at most so many medians
-constexpr size_t kLeastFrames = 10;  // quiet ones of a size, for a median
+constexpr double kReach = 1;  // of the camera from its eye, metres
+// Seconds a frame for placing shots: of a spray; and of all shots anew, as in the viewer.
+constexpr double kSprayPatience = 0.004, kAnewPatience = 0.03;
+constexpr double kLimit = 2;                      // a quiet frame takes at most so many medians
+constexpr size_t kLeastFrames = 10;               // quiet ones of a size, for a median
 constexpr double kGrowth = 0.05, kGrowthMiB = 8;  // of memory after the limit
 
 double secondsSince(Clock::time_point start) {
@@ -92,7 +93,7 @@ class Soak {
     do {
       render(0, std::numeric_limits<double>::infinity());
     } while (renderer_.report().waiting > 0);
-    for (size_ = sizes_.size(); size_-- > 0;) render(0, kPatience);  // memory of every size
+    for (size_ = sizes_.size(); size_-- > 0;) render(0, kAnewPatience);  // memory of every size
     size_ = 0;
     begin_ = Clock::now();
   }
@@ -203,7 +204,7 @@ class Soak {
   void draw(double now, Kind kind) {
     const double processor = processorSeconds();
     const Clock::time_point start = Clock::now();
-    render(now, kPatience);
+    render(now, placing_ ? kAnewPatience : kSprayPatience);
     outcome_.frames.push_back({.kind = kind,
                                .second = now,
                                .size = sizes_[size_],

@@ -77,7 +77,8 @@ Outcome even() {
     const double took = i < 50 ? 10 : 4;
     outcome.frames.push_back(
         {.kind = Kind::kQuiet, .second = 0.01 * i, .size = size, .wall = took, .processor = took});
-    outcome.samples.push_back({.second = 1.0 * i, .shots = 5, .memory = 100, .givenUp = i > 9u});
+    outcome.samples.push_back(
+        {.second = 1.0 * i, .shots = 5, .memory = 100, .givenUp = i > 9 ? 1u : 0u});
   }
   return outcome;
 }
