@@ -9,10 +9,10 @@ namespace grisaille::frame {
 
 // The pictures of one frame, all of one size. A picture without pixels is missing.
 struct Pictures {
-  image::Image viewDepth;   // one channel, metres, finite; 0: sky
-  image::Image normal;      // three channels, world; if missing: facet normals from depth
-  image::Image baseColour;  // three channels, linear
-  image::Image thickness;   // one channel, metres, finite; see GRISAILLE_THICKNESS
+  image::Image viewDepth;       // one channel, metres, finite; 0: sky
+  image::Image normal;          // three channels, world; if missing: facet normals from depth
+  image::Image baseColour;      // three channels, linear
+  image::Image thickness = {};  // one channel, metres, finite; see GRISAILLE_THICKNESS
 };
 
 // Throws kPictureSize, kPictureDepth for a normal and kPictureThickness for a thickness that is not
