@@ -16,9 +16,11 @@ class FinenessTest : public WindowTest {
     return {"--backend", GetParam(), "--size",         "1300x1680", "--effects",
             "ssao",      "--preset", "ssao=reference", "--view",    "ssao.ao"};
   }
-  // The same scale of the picture in successive frames counts once.
+  // Until the camera has moved and rests. The same scale of the picture in successive frames counts
+  // once.
   static std::vector<std::string> scalesDuring(DrivenViewer& viewer, const std::string& words) {
     std::vector<std::string> scales = {viewer.value("scale")};
+    const std::string before = viewer.value("camera");
     auto sent =
         std::async(std::launch::async, [&] { return std::system(("xdotool " + words).c_str()); });
     const auto look = [&] {
@@ -29,7 +31,8 @@ class FinenessTest : public WindowTest {
     EXPECT_EQ(sent.get(), 0);
     viewer.until("rest", [&](const nlohmann::json& now) {
       look();
-      return now["picture"]["value"] == "done" && now["scale"]["value"] == "1";
+      return now["camera"]["value"] != before && now["picture"]["value"] == "done" &&
+             now["scale"]["value"] == "1";
     });
     return scales;
   }
