@@ -257,6 +257,13 @@ TEST_P(Errors, OfParametersSizesAndOutputs) {
   expectError(grisaille_host_device_set_rays(device_.handle(), &rays), 5611, "rays.reserved");
   rays.struct_size = 1;
   expectError(grisaille_host_device_set_rays(device_.handle(), &rays), 5602, "struct_size is 1");
+  auto depths = sized<grisaille_host_depths>();
+  depths.reserved = 1;
+  expectError(grisaille_host_device_set_depths(nullptr, &depths), 5601, "device is null");
+  expectError(grisaille_host_device_set_depths(device_.handle(), &depths), 5611, "depths.reserved");
+  depths.struct_size = 1;
+  expectError(grisaille_host_device_set_depths(device_.handle(), &depths), 5602,
+              "struct_size is 1");
   expectError(grisaille_host_device_set_pictures(nullptr, nullptr), 5601, "device is null");
   auto pictures = sized<grisaille_host_pictures>();
   pictures.reserved = 1;
