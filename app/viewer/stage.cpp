@@ -118,7 +118,10 @@ bool Stage::Wanted::operator==(const Wanted& o) const {
 
 Stage::Stage(gpu::Device& device, const scene::Scene& scene, SceneServices& services,
              effect::Chain& chain)
-    : device_(device), services_(services), renderer_(device, scene, &services.matter()), started_(chain, device) {}
+    : device_(device),
+      services_(services),
+      renderer_(device, scene, &services.matter()),
+      started_(chain, device) {}
 
 Stage::~Stage() {
   device_.destroy(held_);

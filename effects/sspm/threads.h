@@ -12,8 +12,8 @@
 
 namespace grisaille::sspm {
 
-// Calls work(0) to work(count - 1), on all hardware threads if there is more than one call. If calls
-// throw, it makes no further ones, and throws the first exception.
+// Calls work(0) to work(count - 1), on all hardware threads if there is more than one call. If
+// calls throw, it makes no further ones, and throws the first exception.
 template <typename Work>
 void onAllThreads(size_t count, const Work& work) {
   std::atomic<size_t> next = 0;

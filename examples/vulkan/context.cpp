@@ -151,8 +151,8 @@ Buffer Context::makeBuffer(VkDeviceSize bytes, VkBufferUsageFlags usage) {
   return buffer;
 }
 
-Image Context::makeImage(VkFormat format, uint32_t width, uint32_t height,
-                         VkImageUsageFlags usage, uint32_t layers) {
+Image Context::makeImage(VkFormat format, uint32_t width, uint32_t height, VkImageUsageFlags usage,
+                         uint32_t layers) {
   const bool depth = (usage & VK_IMAGE_USAGE_DEPTH_STENCIL_ATTACHMENT_BIT) != 0;
   Image image;
   image.format = format;

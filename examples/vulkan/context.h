@@ -59,8 +59,8 @@ class Context {
   VkDebugUtilsMessengerEXT messenger_ = VK_NULL_HANDLE;
 };
 
-// Changes the layout of all layers of an image. A full barrier: later commands wait for all earlier ones and see their
-// writes.
+// Changes the layout of all layers of an image. A full barrier: later commands wait for all earlier
+// ones and see their writes.
 void transition(VkCommandBuffer commands, VkImage image, VkImageAspectFlags aspect,
                 VkImageLayout before, VkImageLayout after);
 

@@ -59,8 +59,8 @@ double splatNoise(const PaintLayer& layer, const glm::dvec3& q, double pixelSize
   const glm::dvec3 w(layer.shot.direction[0], layer.shot.direction[1], layer.shot.direction[2]);
   const double s = w.z >= 0 ? 1 : -1, a = -1 / (s + w.z), b = w.x * w.y * a;
   const glm::dvec3 right(1 + s * w.x * w.x * a, s * b, -s * w.x), up(b, s + w.y * w.y * a, -w.y);
-  // A direction of floats is not exactly a unit vector, nor are the axes exactly across it: far from
-  // the muzzle, what lies along the ray would leak into them.
+  // A direction of floats is not exactly a unit vector, nor are the axes exactly across it: far
+  // from the muzzle, what lies along the ray would leak into them.
   const glm::dvec3 beside = q - glm::dot(q, w) / glm::dot(w, w) * w;
   const glm::dvec2 across(glm::dot(beside, right), glm::dot(beside, up));
   const double t = unitOf(hash(layer.seed ^ 0x68bc21ebu));

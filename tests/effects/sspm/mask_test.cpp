@@ -106,10 +106,11 @@ void MaskTest::expectMasks(bool byDepths) {
       sum.stray += one.stray;
     }
   }
-  std::printf("%s: %zu px, intersection over union %.4f, %zu px astray, %zu rays and %zu pictures "
-              "a shot\n",
-              GetParam().label.c_str(), sum.traced, sum.iou(), sum.stray, rays.count() / shotCount,
-              depths.count() / shotCount);
+  std::printf(
+      "%s: %zu px, intersection over union %.4f, %zu px astray, %zu rays and %zu pictures "
+      "a shot\n",
+      GetParam().label.c_str(), sum.traced, sum.iou(), sum.stray, rays.count() / shotCount,
+      depths.count() / shotCount);
   EXPECT_GE(sum.iou(), 0.995);
   EXPECT_LE(rays.count(), 3000 * shotCount);
   // Paint may stray at edges thinner than the finest squares of a map.
