@@ -30,8 +30,8 @@
 //     {name = "few", set = [..]},      also: presets = ["ssao=fast"], under the run's values and
 //   ]                                  over the claim's; camera; against = "NAME", a run that
 //                                      replaces the truth; shots = 8, the number of shots, which
-//                                      repeat those of the claim; noise = "screen", splats fixed to
-//                                      the screen
+//                                      repeat those of the claim, each turn from a millimetre
+//                                      farther back; noise = "screen", splats fixed to the screen
 //   expect = ["few.noise > 2 * many.noise"]    see expectation.h
 //   picture = {show = "output", crop = [x, y, width, height], zoom = 2, low = 0, high = 1}
 //

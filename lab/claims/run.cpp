@@ -176,7 +176,12 @@ void ClaimsRunner::Stage::start() {
     if (objects::ObjectList* list = run.chain.objects("sspm"); list != nullptr) {
       std::vector<Shot> shots;
       for (uint32_t i = 0; i < desc.shots; ++i) {
-        shots.push_back(claim_.shots[i % claim_.shots.size()]);
+        Shot& shot = shots.emplace_back(claim_.shots[i % claim_.shots.size()]);
+        // Shots of one ray are drawn as one. Each turn fires from a millimetre farther back.
+        const auto turn = static_cast<double>(i / claim_.shots.size());
+        for (size_t axis = 0; axis < 3; ++axis) {
+          shot.origin[axis] -= 1e-3 * turn * double{shot.direction[axis]};
+        }
       }
       list->assign(objectsOf(list->table(), shots).view());
     }
