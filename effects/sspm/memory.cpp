@@ -12,6 +12,7 @@ namespace {
 constexpr size_t kTwinBytes = 128;        // of a group of twins, with its node in the hash table
 constexpr uint64_t kWorkBytes = 4 << 20;  // of the surveys in work_
 constexpr size_t kSweepAt = 4096;         // entries of hidden shots
+constexpr uint64_t kReserveShare = 32;    // of the limit
 constexpr size_t kSweepCells = 2048;      // at a time
 
 }  // namespace
@@ -98,7 +99,8 @@ uint64_t PaintWorld::bytes() const {
 
 // Gives up the oldest shots until the rest fits: first those that are not placed and older than
 // all that are, then the oldest tenth.
-void PaintWorld::keepWithin(uint64_t limit) {
+void PaintWorld::keepWithin() {
+  const uint64_t limit = limit_ - (reserves_ ? limit_ / kReserveShare : 0);
   std::vector<uint32_t> ids;
   while (bytes() > limit) {
     ids.clear();

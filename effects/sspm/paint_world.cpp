@@ -20,7 +20,6 @@ constexpr double kLeastEffort = 256;
 constexpr double kShotEffort = 128;     // of a shot in a step, beside its rays; rays
 constexpr double kPaceMemory = 0.9;     // share of the mean that each step leaves
 constexpr uint64_t kWaitingShare = 32;  // of the limit: what may wait for its upload
-constexpr uint64_t kReserveShare = 32;  // of the limit
 
 double secondsSince(std::chrono::steady_clock::time_point start) {
   return std::chrono::duration<double>(std::chrono::steady_clock::now() - start).count();
@@ -38,12 +37,12 @@ void PaintWorld::follow(std::span<const Shot> shots, size_t kept, const PaintRul
   forget(sameRange ? std::min({kept, shots.size(), states_.size()}) : 0, !same);
   if (std::exchange(limit_, limit) < limit) takeUp(0);
   // What an undo brings back may need a little more memory than it had: new shots leave some.
-  if (shots.size() > states_.size()) reserve_ = limit / kReserveShare;
+  if (shots.size() > states_.size()) reserves_ = true;
   for (size_t i = states_.size(); i < shots.size(); ++i) {
     pending_.push_back(static_cast<uint32_t>(i));
   }
   states_.resize(shots.size());
-  keepWithin(limit_ - reserve_);
+  keepWithin();
 }
 
 size_t PaintWorld::update(std::span<const Shot> shots, size_t kept, const PaintRules& rules,
@@ -54,7 +53,7 @@ size_t PaintWorld::update(std::span<const Shot> shots, size_t kept, const PaintR
   askAgain(sight);
   const auto left = [&] { return patience - secondsSince(start); };
   while (step(pace_.effortIn(left()), sight, unknown)) {
-    keepWithin(limit_ - reserve_);
+    keepWithin();
     if (left() <= 0 || (std::isfinite(patience) && isUploadDue())) break;
   }
   if (!unknown.empty()) {
@@ -131,7 +130,7 @@ void PaintWorld::forget(size_t count, bool allLost) {
     if (gone[id]) pending_.push_back(id);
   }
   std::ranges::sort(pending_);
-  if (count < states_.size()) reserve_ = 0;
+  if (count < states_.size()) reserves_ = false;
   states_.resize(count);
   takeUp(allLost ? 0 : count);
 }

@@ -161,7 +161,7 @@ class PaintWorld {
   bool isGone(const Entry& entry) const;
   bool sweep();
   uint64_t bytes() const;
-  void keepWithin(uint64_t limit);
+  void keepWithin();
   void giveUp(uint32_t floor);
   void takeUp(size_t shots);
 
@@ -195,8 +195,8 @@ class PaintWorld {
   uint32_t floor_ = 0;         // shots below are given up
   std::vector<Floor> floors_;  // ascending
   Pace pace_;
-  uint64_t limit_ = 0;    // bytes
-  uint64_t reserve_ = 0;  // of these: for the next undo
+  uint64_t limit_ = 0;     // bytes
+  bool reserves_ = false;  // leaves a part of the limit to the next undo
   std::vector<int32_t> levels_;
 };
 

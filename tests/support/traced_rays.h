@@ -38,21 +38,14 @@ class TracedDepths : public effect::DepthService {
   void draw(const grisaille_depth_view& view, std::span<float> depth) override;
   // Number of pictures.
   size_t count() const { return count_; }
-  // The next pictures that it does not know yet.
-  void setUnknown(size_t pictures) { unknown_ = pictures; }
 
  private:
   const trace::RayTracer& tracer_;
-  size_t count_ = 0, unknown_ = 0;
+  size_t count_ = 0;
 };
 
 inline void TracedDepths::draw(const grisaille_depth_view& view, std::span<float> depth) {
   ++count_;
-  if (unknown_ > 0) {
-    --unknown_;
-    std::ranges::fill(depth, std::numeric_limits<float>::quiet_NaN());
-    return;
-  }
   const glm::vec3 way(view.direction[0], view.direction[1], view.direction[2]);
   const glm::vec3 up(view.up[0], view.up[1], view.up[2]), right = glm::cross(way, up);
   std::vector<grisaille_ray> rays(depth.size());

@@ -182,6 +182,10 @@ TEST_P(CrowdTest, TheOldestGoWhenTheMemoryIsFull) {
   EXPECT_EQ(givenUpOf(9'000), 0u);
   set("16");
   EXPECT_GT(givenUpOf(9'000), 0u);
+  set("1000");
+  EXPECT_EQ(givenUpOf(10'000), 0u);
+  set("16");
+  EXPECT_GT(givenUpOf(10'000), 0u);
 }
 
 // Undo is exact at the limit too: the shots that newer ones had pushed out are back.
