@@ -114,7 +114,7 @@ void MaskTest::expectMasks(bool byDepths) {
   EXPECT_GE(sum.iou(), 0.995);
   EXPECT_LE(rays.count(), 3000 * shotCount);
   // Paint may stray at edges thinner than the finest squares of a map.
-  EXPECT_LE(sum.stray, sum.both / (byDepths ? 2000 : 50000));
+  EXPECT_LE(sum.stray, sum.both / 50000);
 }
 
 TEST_P(MaskTest, PaintLandsWhereTheMuzzleSees) {
