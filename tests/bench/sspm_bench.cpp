@@ -141,8 +141,8 @@ class Painted {
                       .height = height,
                       .chain = &chain_,
                       .outputs = outputs_,
-                      .services = {.rays = &rays_},
-                      .patience = patience});
+                      .patience = patience,
+                      .services = {.rays = &rays_}});
     device_.wait();
     return millisecondsSince(start);
   }

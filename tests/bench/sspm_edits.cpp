@@ -19,7 +19,7 @@ namespace {
 
 using Clock = std::chrono::steady_clock;
 
-constexpr double kPatience = 0.03;   // seconds a frame for placing, as in the viewer
+constexpr double kEditPatience = 0.03;   // seconds a frame for placing, as in the viewer
 constexpr double kSoon = 2;          // seconds after which a part of the picture is looked at
 constexpr float kSame = 2.0f / 255;  // of a channel
 
@@ -115,7 +115,7 @@ EditRow measureEdit(Edited& edited, const Change& change) {
     edited.values().set(change.parameter, change.to);
     const auto start = Clock::now();
     for (bool waits = true; waits;) {
-      waits = edited.render(kPatience) > 0;
+      waits = edited.render(kEditPatience) > 0;
       const std::chrono::duration<double> passed = Clock::now() - start;
       if (!eachFrame(passed.count())) return;
     }
@@ -161,7 +161,7 @@ void printEdits(const std::string& backend, const Subject& subject,
       "change alters, those within 2/255 of the last picture.\n\n"
       "| shots | parameter | change | next frame, ms | all shots, ms | frames | right in the next "
       "frame | right after {:.0f} s |\n|---|---|---|---|---|---|---|---|\n",
-      subject.name, backend, 1000 * kPatience, kSoon);
+      subject.name, backend, 1000 * kEditPatience, kSoon);
   for (const size_t count : counts) {
     if (count > shots.size()) continue;
     Edited edited(*device, subject, registry, rays, shots.first(count), {width, height});
