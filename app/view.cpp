@@ -64,7 +64,8 @@ void addView(CLI::App& program) {
       ->transform(CLI::CheckedTransformer(
           std::map<std::string, viewer::SplitWay>{{"line", viewer::SplitWay::kLine},
                                                   {"difference", viewer::SplitWay::kDifference},
-                                                  {"flicker", viewer::SplitWay::kFlicker}}));
+                                                  {"flicker", viewer::SplitWay::kFlicker}})
+                      .description("{line,difference,flicker}"));
   command->add_option("--split-backend", session.splitBackend,
                       "Backend that renders the right side; default: the window's");
   command->add_flag("--compare-truth", session.compareTruth,

@@ -116,6 +116,20 @@ void checkLog(const grisaille_host_log* log) {
   if (given.write == nullptr) throw Error(ErrorId::kHostNull, "log.write is null");
 }
 
+// Sets functions of a device that the host implements, or none if `functions` is null.
+// name: of the parameter.
+template <typename Services, typename Functions>
+int setFunctions(grisaille_host_device* device, Services grisaille_host_device::*services,
+                 const Functions* functions, const char* name) noexcept {
+  return guarded(device, [&] {
+    Services& to = present(device, "device").*services;
+    if (functions == nullptr) return to.set({});
+    const Functions given = whole(functions, name);
+    checkReserved(given.reserved, (std::string(name) + ".reserved").c_str());
+    to.set(given);
+  });
+}
+
 }  // namespace
 }  // namespace grisaille::host
 
@@ -273,34 +287,16 @@ int grisaille_host_effect_load_objects(grisaille_host_effect* effect, const char
 
 int grisaille_host_device_set_pictures(grisaille_host_device* device,
                                        const grisaille_host_pictures* pictures) {
-  return guarded(device, [&] {
-    grisaille_host_device& one = present(device, "device");
-    if (pictures == nullptr) return one.pictures.set({});
-    const grisaille_host_pictures given = whole(pictures, "pictures");
-    checkReserved(given.reserved, "pictures.reserved");
-    one.pictures.set(given);
-  });
+  return setFunctions(device, &grisaille_host_device::pictures, pictures, "pictures");
 }
 
 int grisaille_host_device_set_rays(grisaille_host_device* device, const grisaille_host_rays* rays) {
-  return guarded(device, [&] {
-    grisaille_host_device& one = present(device, "device");
-    if (rays == nullptr) return one.rays.set({});
-    const grisaille_host_rays given = whole(rays, "rays");
-    checkReserved(given.reserved, "rays.reserved");
-    one.rays.set(given);
-  });
+  return setFunctions(device, &grisaille_host_device::rays, rays, "rays");
 }
 
 int grisaille_host_device_set_depths(grisaille_host_device* device,
                                      const grisaille_host_depths* depths) {
-  return guarded(device, [&] {
-    grisaille_host_device& one = present(device, "device");
-    if (depths == nullptr) return one.depths.set({});
-    const grisaille_host_depths given = whole(depths, "depths");
-    checkReserved(given.reserved, "depths.reserved");
-    one.depths.set(given);
-  });
+  return setFunctions(device, &grisaille_host_device::depths, depths, "depths");
 }
 
 int grisaille_host_effect_resize(grisaille_host_effect* effect, uint32_t width, uint32_t height) {

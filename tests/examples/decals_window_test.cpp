@@ -29,7 +29,7 @@ class DecalsWindow : public WindowTest {
     viewer.type("'" + text + "'");
   }
 };
-GRISAILLE_IN_A_WINDOW(DecalsWindow, "opengl");
+GRISAILLE_IN_WINDOWS(DecalsWindow);
 
 constexpr const char* kWindowCamera =
     R"({"eye": [-1.5, 2, -1.5], "target": [-1.5, 0, -1.5], "up": [0, 0, -1], "fovy_degrees": 30})";

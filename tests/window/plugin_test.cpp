@@ -10,7 +10,7 @@ namespace {
 namespace fs = std::filesystem;
 
 using PluginTest = WindowTest;
-GRISAILLE_IN_A_WINDOW(PluginTest, "opengl");
+GRISAILLE_IN_WINDOWS(PluginTest);
 
 TEST_P(PluginTest, ARescanFindsWhatIsNew) {
   fs::create_directory(folder_ / "more");

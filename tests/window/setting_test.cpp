@@ -8,7 +8,7 @@ namespace grisaille::tests {
 namespace {
 
 using SettingTest = WindowTest;
-GRISAILLE_IN_A_WINDOW(SettingTest, "vulkan");
+GRISAILLE_IN_WINDOWS(SettingTest);
 
 TEST_P(SettingTest, ADraggedSliderIsTheRenderedSetting) {
   DrivenViewer viewer(folder_, arguments({"--effects", "ssao", "--view", "ssao.ao"}));

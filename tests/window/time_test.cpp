@@ -34,7 +34,7 @@ class TimeTest : public WindowTest {
     return folder_ / "r.exr";
   }
 };
-GRISAILLE_IN_A_WINDOW(TimeTest, "vulkan");
+GRISAILLE_IN_WINDOWS(TimeTest);
 
 TEST_P(TimeTest, ThePictureIsThatOfTheTimeLine) {
   DrivenViewer driven(folder_, viewer({"--view", "depth", "--animation", "move", "--time", "0.5"}));

@@ -41,7 +41,7 @@ class TruthTest : public WindowTest {
   }
   static double rmse(const DrivenViewer& viewer) { return std::stod(viewer.value("rmse")); }
 };
-GRISAILLE_IN_A_WINDOW(TruthTest, "vulkan");
+GRISAILLE_IN_WINDOWS(TruthTest);
 
 TEST_P(TruthTest, WhatIsShownIsTheError) {
   DrivenViewer viewer(folder_, arguments(), environment());

@@ -39,7 +39,7 @@ class TuneTest : public WindowTest {
     viewer.untilValue(control, text);
   }
 };
-GRISAILLE_IN_A_WINDOW(TuneTest, "opengl");
+GRISAILLE_IN_WINDOWS(TuneTest);
 
 TEST_P(TuneTest, APresetIsOneStep) {
   const toml::table file = toml::parse_file(EFFECTS_FOLDER "/ssao.presets.toml");

@@ -105,10 +105,4 @@ class WindowTest : public testing::TestWithParam<std::string> {
   INSTANTIATE_TEST_SUITE_P(Backends, Suite, testing::Values("opengl", "vulkan"), \
                            [](const auto& of) { return of.param; })
 
-// For suites that test the panel, not the window or the picture: every backend draws the panel by
-// the same code, and a window takes seconds.
-#define GRISAILLE_IN_A_WINDOW(Suite, backend)                         \
-  INSTANTIATE_TEST_SUITE_P(Backends, Suite, testing::Values(backend), \
-                           [](const auto& of) { return of.param; })
-
 }  // namespace grisaille::tests

@@ -22,9 +22,11 @@
  * The library throws no exception and prints nothing. It tells a grisaille_host_log what happens.
  *
  * @par Structs
- * A struct begins with struct_size: set it to the size of the struct. Set unused fields to 0. Later
- * versions append fields. The library takes the struct of an earlier version, with 0 in the fields
- * that it lacks, and that of a later version if all bytes beyond the fields that it knows are 0.
+ * A struct that may grow begins with struct_size: set it to the size of the struct. Set unused
+ * fields to 0. Later versions append fields. The library takes the struct of an earlier version,
+ * with 0 in the fields that it lacks, and that of a later version if all bytes beyond the fields
+ * that it knows are 0. The other structs never change, since you pass arrays of them, or since they
+ * are as small as a rectangle: a later version that needs more adds a struct.
  *
  * @par Ownership
  * Destroy every object that you create; destroy effects and textures before their device. The
@@ -65,7 +67,7 @@ extern "C" {
  * @{
  */
 
-#define GRISAILLE_HOST_VERSION 4u /**< grows when functions or fields are added */
+#define GRISAILLE_HOST_VERSION 1u /**< grows when functions or fields are added */
 
 /**
  * Returns the version of the library. It cannot fail. Any thread may call it.
