@@ -61,10 +61,10 @@ void addView(CLI::App& program) {
       ->add_option("--split-as", session.splitWay,
                    "Compare both sides by a line, by their difference, or in turn; default: line")
       ->type_name("WAY")
-      ->transform(CLI::CheckedTransformer(
-          std::map<std::string, viewer::SplitWay>{{"line", viewer::SplitWay::kLine},
-                                                  {"difference", viewer::SplitWay::kDifference},
-                                                  {"flicker", viewer::SplitWay::kFlicker}})
+      ->transform(CLI::CheckedTransformer(std::map<std::string, viewer::SplitWay>{
+                                              {"line", viewer::SplitWay::kLine},
+                                              {"difference", viewer::SplitWay::kDifference},
+                                              {"flicker", viewer::SplitWay::kFlicker}})
                       .description("{line,difference,flicker}"));
   command->add_option("--split-backend", session.splitBackend,
                       "Backend that renders the right side; default: the window's");

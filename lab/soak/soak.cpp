@@ -2,6 +2,7 @@
 #include "lab/soak/soak.h"
 
 #include <fmt/format.h>
+#include <malloc.h>
 #include <sys/resource.h>
 #include <unistd.h>
 
@@ -214,6 +215,7 @@ class Soak {
   }
 
   void sample(double now) {
+    malloc_trim(0);  // the allocator keeps freed memory, more or less of it by chance
     outcome_.samples.push_back({.second = now,
                                 .shots = list().size(),
                                 .memory = residentMemory(),

@@ -19,9 +19,9 @@ namespace {
 
 using Clock = std::chrono::steady_clock;
 
-constexpr double kEditPatience = 0.03;   // seconds a frame for placing, as in the viewer
-constexpr double kSoon = 2;          // seconds after which a part of the picture is looked at
-constexpr float kSame = 2.0f / 255;  // of a channel
+constexpr double kEditPatience = 0.03;  // seconds a frame for placing, as in the viewer
+constexpr double kSoon = 2;             // seconds after which a part of the picture is looked at
+constexpr float kSame = 2.0f / 255;     // of a channel
 
 struct Change {
   const char* parameter;
