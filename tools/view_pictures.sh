@@ -23,6 +23,7 @@ printf 'Xft.dpi: %d\n' "$(awk "BEGIN {print int(96 * $scale + 0.5)}")" | xrdb -m
 other=vulkan
 [[ $backend == vulkan ]] && other=opengl
 for page in view view_tasks; do
+  # shellcheck disable=SC2016  # the backticks are those of a block in Markdown
   sed -n '/^```sh$/,/^```$/{/^```/d;p}' "$root/docs/manual/$page.md" | grep -E '^(printf .* > [a-z_]+\.json|grisaille (render|scene) |grisaille view .*--capture )' |
     sed -E "/^grisaille view/{s/ --size [0-9]+x[0-9]+/ --size $size/; s/ --backend [a-z]+//; s/ --split-backend [a-z]+/ --split-backend $other/; s/\$/ --backend $backend --fresh/}"
 done >commands.sh

@@ -9,7 +9,7 @@ namespace grisaille::sspm {
 
 enum class Mode : uint8_t { kSurface, kPerShot };
 enum class Resolution : uint8_t { kFull, kHalf, kQuarter };
-enum class Refine : uint8_t { kNothing, kEdges, kRims };
+enum class Refine : uint8_t { kNothing, kRims };
 
 enum Parameter {
   kMode,
@@ -31,8 +31,8 @@ constexpr const char* kModeKeys[] = {"surface", "per_shot"};
 constexpr const char* kModeLabels[] = {"On surfaces", "Per shot"};
 constexpr const char* kResolutionKeys[] = {"full", "half", "quarter"};
 constexpr const char* kResolutionLabels[] = {"Full", "Half", "Quarter"};
-constexpr const char* kRefineKeys[] = {"nothing", "edges", "rims"};
-constexpr const char* kRefineLabels[] = {"Nothing", "Edges", "Edges and rims"};
+constexpr const char* kRefineKeys[] = {"nothing", "rims"};
+constexpr const char* kRefineLabels[] = {"Nothing", "Edges and rims"};
 
 constexpr grisaille_param_desc kParams[] = {
     plugin::enumParam({.key = "mode",
@@ -135,11 +135,11 @@ constexpr grisaille_param_desc kParams[] = {
     plugin::enumParam({.key = "refine",
                        .label = "Refine",
                        .tooltip = "Below full resolution, which other pixels are computed too: "
-                                  "none; those without a sample on their plane; or these and the "
-                                  "rims of paint, where the samples differ",
+                                  "none; or those without a sample on their plane, and the rims of "
+                                  "paint, where the samples differ",
                        .keys = kRefineKeys,
                        .labels = kRefineLabels,
-                       .defaultValue = 2}),
+                       .defaultValue = 1}),
     plugin::intParam({.key = "memory",
                       .label = "Memory",
                       .unit = "MB",

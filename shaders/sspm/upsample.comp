@@ -13,7 +13,7 @@
 
 layout(local_size_x = 8, local_size_y = 8) in;
 layout(constant_id = 2) const uint kStep = 2;    // pixels
-layout(constant_id = 3) const uint kRefine = 2;  // the parameter `refine`: nothing, edges, rims
+layout(constant_id = 3) const uint kRefine = 1;  // the parameter `refine`: nothing, rims
 layout(TEXTURE(0)) uniform sampler2D view_depth;
 layout(TEXTURE(1)) uniform sampler2D facet_normal;
 layout(TEXTURE(2)) uniform sampler2D samples;  // outputs of samples.comp
@@ -105,7 +105,7 @@ void upsamplePixel(Corners corners, ivec2 pixel, vec2 share) {
   const uvec4 numbers = numbersOf(corners, weights);
   const vec4 agree = vec4(equal(numbers, uvec4(newestOf(numbers))));
   const bool rim = any(lessThan(agree, vec4(greaterThan(weights, vec4(0.0)))));
-  if (depth > 0.0 && (kRefine >= 1u && !served || kRefine >= 2u && rim)) {
+  if (depth > 0.0 && kRefine != 0u && (!served || rim)) {
     rest[atomicAdd(rest_count, 1u)] = uint(pixel.x) | uint(pixel.y) << 16;
   } else {
     Sum sum = compositeOwners(corners, weights, served, point);

@@ -116,7 +116,6 @@ TEST_F(Paint, PassesAreThoseOfTheResolution) {
                                  three = {"samples", "upsample", "rest"};
   for (const auto& [resolution, refine, passes] : {std::tuple("full", "rims", one),
                                                    {"half", "rims", three},
-                                                   {"half", "edges", three},
                                                    {"quarter", "rims", three},
                                                    {"quarter", "nothing", two}}) {
     const Outcome outcome = render({"--add", "sspm=40,45,color=#ff0000", "--timings", "t.csv",

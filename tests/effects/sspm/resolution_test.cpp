@@ -82,7 +82,7 @@ TEST_P(ResolutionTest, AwayFromEdgesAndRimsItIsFullResolution) {
   const std::vector<lab::Shot> shots = someShots(40);
   const Shown full = look(scene, kCrease, {{"edge_fade", "0"}}, shots);
   for (const auto& [resolution, step] : {std::pair("half", 2u), std::pair("quarter", 4u)}) {
-    for (const char* refine : {"nothing", "edges", "rims"}) {
+    for (const char* refine : {"nothing", "rims"}) {
       SCOPED_TRACE(fmt::format("{} {}", resolution, refine));
       const Shown less =
           look(scene, kCrease, {{"edge_fade", "0"}, {"resolution", resolution}, {"refine", refine}},
@@ -106,7 +106,7 @@ TEST_P(ResolutionTest, AwayFromEdgesAndRimsItIsFullResolution) {
   }
 }
 
-// Each step of refinement is closer to full resolution, and half is closer than a quarter.
+// With refinement it is closer to full resolution, and half is closer than a quarter.
 TEST_P(ResolutionTest, WhatIsAskedMoreIsNearer) {
   const scene::Scene scene = cornerScene();
   const std::vector<lab::Shot> shots = someShots(40);
@@ -119,10 +119,8 @@ TEST_P(ResolutionTest, WhatIsAskedMoreIsNearer) {
           full, look(scene, kCrease,
                      {{"edge_fade", "0"}, {"resolution", resolution}, {"refine", refine}}, shots));
     };
-    const double nothing = far("nothing"), edges = far("edges");
     rims[i] = far("rims");
-    EXPECT_LE(edges, nothing) << resolution;
-    EXPECT_LT(rims[i], edges) << resolution;
+    EXPECT_LT(rims[i], far("nothing")) << resolution;
   }
   EXPECT_LT(rims[0], rims[1]);
   EXPECT_LT(rims[0], 0.01);
