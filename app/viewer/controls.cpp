@@ -49,13 +49,14 @@ bool Controls::rightSide(const Place& place) const {
          cursor_.x - place.corner.x + 0.5 > double{session_.line} * place.size.x;
 }
 
-bool Controls::update(const Place& place, Stage* stage, double seconds, float pixelsAUnit,
-                      Requests& requests) {
+bool Controls::update(const Place& place, Stage* stage, const FingerMove& fingers, double seconds,
+                      float pixelsAUnit, Requests& requests) {
   const ImGuiIO& io = ImGui::GetIO();
   const glm::dvec2 now = glm::dvec2(io.MousePos.x, io.MousePos.y) * double{pixelsAUnit};
   moved_ = cursor_.x < 0 ? glm::dvec2(0) : now - cursor_;
   cursor_ = now;
   stage_ = stage;
+  fingers_ = fingers;
   sincePress_ += seconds;
   sinceMoved_ += seconds;
   const scene::Camera before = session_.camera;
@@ -84,6 +85,7 @@ bool Controls::updateMouse(const Place& place, double seconds) {
     drag(place, seconds);
   }
   if (!io.WantCaptureMouse && (io.MouseWheel != 0 || io.MouseWheelH != 0)) scroll(place);
+  if (!io.WantCaptureMouse && fingers_.scale != 1) pinch(place);
   return drag_ == Drag::kPlace && session_.sprays();
 }
 

@@ -91,8 +91,8 @@ double Controls::distanceAhead(const Place& place) {
 void Controls::scroll(const Place& place) {
   const ImGuiIO& io = ImGui::GetIO();
   const glm::dvec2 notches(io.MouseWheelH, io.MouseWheel);
-  const bool fingers = isOfFingers(notches);
-  if (io.KeyCtrl) return magnify(place, notches.y);
+  const bool fingers = fingers_.scrolled;
+  if (io.KeyCtrl) return magnify(place, std::pow(1.25, notches.y));
   if (drag_ == Drag::kLook) {
     session_.speed = steppedSpeed(session_.speed, notches.y);
     return;
@@ -103,6 +103,12 @@ void Controls::scroll(const Place& place) {
   aim(under);
   const bool sideways = io.KeyShift && notches.x == 0 && !fingers;
   pan(camera, kPanStep * (sideways ? glm::dvec2(0, notches.y) : notches), place.size.y);
+}
+
+void Controls::pinch(const Place& place) {
+  if (ImGui::GetIO().KeyCtrl) return magnify(place, fingers_.scale);
+  const Pick under = pick(place, pointAt(place, cursor_));
+  viewer::pinch(session_.camera, under.point, fingers_.scale);
 }
 
 // Gives the target the depth of a surface. Without one, it keeps its own.
@@ -136,10 +142,9 @@ void Controls::steer(const Place& place) {
   }
 }
 
-void Controls::magnify(const Place& place, double notches) {
+void Controls::magnify(const Place& place, double factor) {
   const glm::dvec2 point = pointAt(place, cursor_);
-  session_.zoom =
-      std::clamp(session_.zoom * static_cast<float>(std::pow(1.25, notches)), 1.0f, 64.0f);
+  session_.zoom = std::clamp(session_.zoom * static_cast<float>(factor), 1.0f, 64.0f);
   const glm::dvec2 size(place.size);
   const glm::dvec2 centre = point - (cursor_ - glm::dvec2(place.corner) + 0.5 - 0.5 * size) /
                                         static_cast<double>(session_.zoom);

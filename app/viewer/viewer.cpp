@@ -233,7 +233,8 @@ void Viewer::frame(double seconds) {
                    panel_.layout);
   }
   moving_ =
-      controls_.update(place(), stage_.get(), seconds, io.DisplayFramebufferScale.x, requests);
+      controls_.update(place(), stage_.get(), window_->fingers(), seconds,
+                       io.DisplayFramebufferScale.x, requests);
   if (controls_.steered()) {
     restsAt_ = Clock::now() +
                std::chrono::duration_cast<Clock::duration>(std::chrono::duration<double>(kRest));
