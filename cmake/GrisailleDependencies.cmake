@@ -112,6 +112,8 @@ endif()
 if(GRISAILLE_TESTS)
   grisaille_package(GTest libgtest-dev "the tests (GRISAILLE_TESTS)")
   grisaille_module(XCB xcb libxcb1-dev "windows in tests (GRISAILLE_TESTS)")
+  grisaille_header(INPUTTEST_HEADER xorg/xf86-input-inputtest-protocol.h xserver-xorg-dev
+    "touchpads in tests (GRISAILLE_TESTS)")
 endif()
 
 grisaille_require_found()

@@ -39,7 +39,8 @@ void pan(scene::Camera& camera, glm::dvec2 dragPixels, double heightPixels);
 // positive notches move nearer. The eye stops before the near plane cuts the point off.
 void zoom(scene::Camera& camera, const glm::dvec3& point, double notches);
 
-// As zoom(), by fingers: twice the scale halves the distances. `scale`: over 0; over 1 moves nearer.
+// As zoom(), by fingers: twice the scale halves the distances. `scale`: over 0; over 1 moves
+// nearer.
 void pinch(scene::Camera& camera, const glm::dvec3& point, double scale);
 
 // Turns the view to `point`, moves to half of its distance, and makes it the target.

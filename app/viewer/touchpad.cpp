@@ -158,7 +158,8 @@ std::vector<int> touchpadsOf(Display* display) {
 std::optional<Pad> XTouchpad::padOf(const XIDeviceInfo& device, bool isTouchpad) const {
   Pad pad{.device = device.deviceid, .axes = {}, .pinch = {}};
   bool useful = false;
-  for (const XIAnyClassInfo* any : std::span(device.classes, static_cast<size_t>(device.num_classes))) {
+  for (const XIAnyClassInfo* any :
+       std::span(device.classes, static_cast<size_t>(device.num_classes))) {
     useful = useful || any->type == XIGestureClass;
     if (any->type != XIScrollClass || !isTouchpad) continue;
     const auto& scroll = *reinterpret_cast<const XIScrollClassInfo*>(any);
@@ -177,7 +178,8 @@ void XTouchpad::findPads() {
   const auto select = [&](int device, std::initializer_list<int> events) {
     std::array<unsigned char, XIMaskLen(XI_LASTEVENT)> bits{};
     for (const int event : events) XISetMask(bits.data(), event);
-    XIEventMask mask{.deviceid = device, .mask_len = static_cast<int>(bits.size()), .mask = bits.data()};
+    XIEventMask mask{
+        .deviceid = device, .mask_len = static_cast<int>(bits.size()), .mask = bits.data()};
     XISelectEvents(display_.get(), window_, &mask, 1);
   };
   select(XIAllDevices, {XI_HierarchyChanged});

@@ -77,12 +77,20 @@ class Window {
 
  private:
   struct Event {
-    enum class Type : uint8_t { kMove, kButton, kWheel, kFingers, kPinch, kKey, kText } type = Type::kMove;
+    enum class Type : uint8_t {
+      kMove,
+      kButton,
+      kWheel,
+      kFingers,
+      kPinch,
+      kKey,
+      kText
+    } type = Type::kMove;
     int code = 0;  // GLFW's number of the button or key
     bool down = false;
     // Cursor in window units; notches of a wheel or of fingers; scale of a pinch in x.
     glm::dvec2 place = glm::dvec2(0);
-    unsigned text = 0;                 // Unicode code point
+    unsigned text = 0;  // Unicode code point
   };
   void setCallbacks();
   void takeFingers(size_t before);
