@@ -6,6 +6,7 @@
 
 #include <algorithm>
 #include <cmath>
+#include <utility>
 
 #include "app/viewer/camera_control.h"
 #include "app/viewer/input.h"
@@ -16,7 +17,6 @@ namespace {
 constexpr double kLineReach = 6;      // pixels on either side where a click grabs the line
 constexpr double kDoubleClick = 0.5;  // seconds between the presses, at most
 constexpr double kDoubleReach = 6;    // pixels between the presses, at most
-constexpr double kRest = 0.5;         // seconds without motion end a move of the camera
 
 }  // namespace
 
@@ -59,6 +59,8 @@ bool Controls::update(const Place& place, Stage* stage, const FingerMove& finger
   fingers_ = fingers;
   sincePress_ += seconds;
   sinceMoved_ += seconds;
+  if (!std::exchange(pans_, false)) sincePan_ += seconds;  // a slow frame is no rest
+  if (moved_ != glm::dvec2(0)) sincePan_ = 1e9;
   const scene::Camera before = session_.camera;
   const uint64_t jumps = session_.jumps();
   // A burst of the wheel, or a drag in the panel, is one place of the history.

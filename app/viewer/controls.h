@@ -40,6 +40,8 @@ class Controls {
   bool wantsFullScreen = false;
 
  private:
+  static constexpr double kRest = 0.5;  // seconds without motion end a move of the camera
+
   enum class Drag : uint8_t { kNone, kOrbit, kPan, kLook, kLine, kPlace, kObject };
 
   // A point that the user sees. Where there is no surface: at the target's distance.
@@ -93,6 +95,9 @@ class Controls {
   bool aimed_ = false;    // the target has the distance of pressed_
   // Seconds since the last press of the left button, and since the camera last moved.
   double sincePress_ = 1e9, sinceMoved_ = 1e9;
+  // Whether the last frame panned by a scroll, and seconds since, unless the pointer has moved.
+  bool pans_ = false;
+  double sincePan_ = 1e9;
   glm::dvec2 pressedAt_ = glm::dvec2(-1);  // cursor at that press
   std::mt19937 random_{1};
 };

@@ -97,10 +97,13 @@ void Controls::scroll(const Place& place) {
     session_.speed = steppedSpeed(session_.speed, notches.y);
     return;
   }
-  const Pick under = pick(place, pointAt(place, cursor_));
+  const glm::dvec2 at = pointAt(place, cursor_);
   scene::Camera& camera = session_.camera;
-  if (!fingers && !io.KeyShift) return zoom(camera, under.point, notches.y);
-  aim(under);
+  if (!fingers && !io.KeyShift) return zoom(camera, pick(place, at).point, notches.y);
+  // The surface where a burst began follows it, not those that come under the pointer.
+  if (sincePan_ > kRest) aim(pick(place, at));
+  pans_ = true;
+  sincePan_ = 0;
   const bool sideways = io.KeyShift && notches.x == 0 && !fingers;
   pan(camera, kPanStep * (sideways ? glm::dvec2(0, notches.y) : notches), place.size.y);
 }

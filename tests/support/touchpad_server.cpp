@@ -48,8 +48,7 @@ std::vector<std::string> command(const fs::path& folder, uint32_t side) {
       << "Section \"ServerLayout\"\n Identifier \"layout\"\n Screen \"screen\"\n"
          " InputDevice \"touchpad\" \"CorePointer\"\n InputDevice \"keyboard\" \"CoreKeyboard\"\n"
          "EndSection\n";
-  // Another seat than the first has no console, which Xorg would take over. Without DRI2, Mesa
-  // looks for no graphics card.
+  // Another seat than the first has no console, which Xorg would take over.
   return {"sh",
           "-c",
           "exec Xorg \"$@\" >'" + (folder / "messages").string() + "' 2>&1",
@@ -60,8 +59,6 @@ std::vector<std::string> command(const fs::path& folder, uint32_t side) {
           folder / "log",
           "-seat",
           "grisaille",
-          "-extension",
-          "DRI2",
           "-noreset",
           "-nolisten",
           "tcp"};

@@ -12,6 +12,8 @@
 namespace grisaille::tests {
 namespace {
 
+// Xorg offers DRI2, by which Mesa looks for a graphics card, and prints that there is none.
+constexpr const char* kSoftware = "LIBGL_ALWAYS_SOFTWARE=1";
 constexpr uint32_t kSide = 1024;  // of the screen, pixels
 constexpr double kPanned = 32;    // pixels a notch
 constexpr std::chrono::seconds kPatience(60);
@@ -57,7 +59,7 @@ class TouchpadTest : public NavigationTest {
 GRISAILLE_IN_WINDOWS(TouchpadTest);
 
 TEST_P(TouchpadTest, APinchMovesTowardsTheSurfaceUnderThePointerAndAway) {
-  DrivenViewer viewer(folder_, wide());
+  DrivenViewer viewer(folder_, wide(), {kSoftware});
   const Point at = viewer.at("picture", 0.3, 0.75);
   const Camera before = cameraOf(viewer);
   const auto surface = seen(viewer, before, at);
@@ -77,7 +79,7 @@ TEST_P(TouchpadTest, APinchMovesTowardsTheSurfaceUnderThePointerAndAway) {
 
 // Over a notch, the server also presses the wheel's buttons.
 TEST_P(TouchpadTest, TwoFingersPanAndDoNotZoom) {
-  DrivenViewer viewer(folder_, wide());
+  DrivenViewer viewer(folder_, wide(), {kSoftware});
   Point at = viewer.at("picture", 0.4, 0.7);
   const auto surface = seen(viewer, cameraOf(viewer), at);
   ASSERT_TRUE(surface);
@@ -101,7 +103,7 @@ TEST_P(TouchpadTest, TwoFingersPanAndDoNotZoom) {
 }
 
 TEST_P(TouchpadTest, WithCtrlAPinchMagnifiesPixels) {
-  DrivenViewer viewer(folder_, wide());
+  DrivenViewer viewer(folder_, wide(), {kSoftware});
   openOnly(viewer, "section View");
   const Point at = viewer.middle("picture");
   const std::string camera = viewer.value("camera");
