@@ -102,6 +102,8 @@ endif()
 if(GRISAILLE_VIEWER)
   grisaille_package(glfw3 libglfw3-dev "windows (GRISAILLE_VIEWER)" 3.3)
   grisaille_module(IMGUI imgui libimgui-dev "the panel (GRISAILLE_VIEWER)")
+  grisaille_module(X11 x11 libx11-dev "touchpads (GRISAILLE_VIEWER)")
+  grisaille_module(XI "xi>=1.8" libxi-dev "touchpads (GRISAILLE_VIEWER)")
   # Programs that use Debian's libimgui must link stb; elsewhere Dear ImGui has its own copy.
   find_library(STB_LIBRARY stb)
   mark_as_advanced(STB_LIBRARY)
@@ -110,6 +112,8 @@ endif()
 if(GRISAILLE_TESTS)
   grisaille_package(GTest libgtest-dev "the tests (GRISAILLE_TESTS)")
   grisaille_module(XCB xcb libxcb1-dev "windows in tests (GRISAILLE_TESTS)")
+  grisaille_header(INPUTTEST_HEADER xorg/xf86-input-inputtest-protocol.h xserver-xorg-dev
+    "touchpads in tests (GRISAILLE_TESTS)")
 endif()
 
 grisaille_require_found()

@@ -99,6 +99,10 @@ void pan(scene::Camera& camera, glm::dvec2 dragPixels, double heightPixels) {
 }
 
 void zoom(scene::Camera& camera, const glm::dvec3& point, double notches) {
+  pinch(camera, point, std::pow(0.9, -notches));
+}
+
+void pinch(scene::Camera& camera, const glm::dvec3& point, double scale) {
   const glm::dvec3 way = camera.eye - point;
   const double away = glm::length(way);
   if (!(away > 0)) return;
@@ -106,7 +110,7 @@ void zoom(scene::Camera& camera, const glm::dvec3& point, double notches) {
   const double depth = -glm::dot(way, forward);
   double least = leastDistance(point) / away;
   if (depth > 0) least = std::max(least, kClearance * camera.nearPlane / depth);
-  const double factor = std::max(std::pow(0.9, notches), std::min(least, 1.0));
+  const double factor = std::max(1 / scale, std::min(least, 1.0));
   scene::Camera next = camera;
   next.eye = point + factor * way;
   next.orthographicHeight *= factor;

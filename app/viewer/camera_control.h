@@ -27,8 +27,8 @@ void orbit(scene::Camera& camera, const glm::dvec3& pivot, glm::dvec2 dragPixels
            double heightPixels);
 
 // Whether fingers on a touchpad moved by `notches`, to the right and up, rather than a wheel:
-// wheels turn by whole or half notches up and down; fingers move by any amount, to any side. X11
-// tells whole notches of both.
+// wheels turn by whole or half notches up and down; fingers move by any amount, to any side. For
+// windows without a Touchpad.
 bool isOfFingers(glm::dvec2 notches);
 
 // Moves eye and target parallel to the picture plane. A point at the target's depth stays under the
@@ -38,6 +38,10 @@ void pan(scene::Camera& camera, glm::dvec2 dragPixels, double heightPixels);
 // Multiplies the distances of eye and target to `point`, which keeps its pixel, by 0.9 per notch:
 // positive notches move nearer. The eye stops before the near plane cuts the point off.
 void zoom(scene::Camera& camera, const glm::dvec3& point, double notches);
+
+// As zoom(), by fingers: twice the scale halves the distances. `scale`: over 0; over 1 moves
+// nearer.
+void pinch(scene::Camera& camera, const glm::dvec3& point, double scale);
 
 // Turns the view to `point`, moves to half of its distance, and makes it the target.
 void focus(scene::Camera& camera, const glm::dvec3& point);

@@ -6,6 +6,7 @@
 
 #include <algorithm>
 #include <cmath>
+#include <utility>
 
 #include "app/viewer/camera_control.h"
 #include "app/viewer/input.h"
@@ -16,7 +17,6 @@ namespace {
 constexpr double kLineReach = 6;      // pixels on either side where a click grabs the line
 constexpr double kDoubleClick = 0.5;  // seconds between the presses, at most
 constexpr double kDoubleReach = 6;    // pixels between the presses, at most
-constexpr double kRest = 0.5;         // seconds without motion end a move of the camera
 
 }  // namespace
 
@@ -49,15 +49,18 @@ bool Controls::rightSide(const Place& place) const {
          cursor_.x - place.corner.x + 0.5 > double{session_.line} * place.size.x;
 }
 
-bool Controls::update(const Place& place, Stage* stage, double seconds, float pixelsAUnit,
-                      Requests& requests) {
+bool Controls::update(const Place& place, Stage* stage, const FingerMove& fingers, double seconds,
+                      float pixelsAUnit, Requests& requests) {
   const ImGuiIO& io = ImGui::GetIO();
   const glm::dvec2 now = glm::dvec2(io.MousePos.x, io.MousePos.y) * double{pixelsAUnit};
   moved_ = cursor_.x < 0 ? glm::dvec2(0) : now - cursor_;
   cursor_ = now;
   stage_ = stage;
+  fingers_ = fingers;
   sincePress_ += seconds;
   sinceMoved_ += seconds;
+  if (!std::exchange(pans_, false)) sincePan_ += seconds;  // a slow frame is no rest
+  if (moved_ != glm::dvec2(0)) sincePan_ = 1e9;
   const scene::Camera before = session_.camera;
   const uint64_t jumps = session_.jumps();
   // A burst of the wheel, or a drag in the panel, is one place of the history.
@@ -84,6 +87,7 @@ bool Controls::updateMouse(const Place& place, double seconds) {
     drag(place, seconds);
   }
   if (!io.WantCaptureMouse && (io.MouseWheel != 0 || io.MouseWheelH != 0)) scroll(place);
+  if (!io.WantCaptureMouse && fingers_.scale != 1) pinch(place);
   return drag_ == Drag::kPlace && session_.sprays();
 }
 

@@ -5,6 +5,7 @@
 #include <glm/glm.hpp>
 #include <random>
 
+#include "app/viewer/fingers.h"
 #include "app/viewer/panel.h"
 #include "app/viewer/session.h"
 #include "app/viewer/stage.h"
@@ -23,11 +24,11 @@ class Controls {
       : session_(session), panel_(panel), bookmarks_(bookmarks), state_(state) {}
 
   // Call between ImGui::NewFrame() and ImGui::Render(), after the panel. `stage`: the picture that
-  // the user sees; may be null. `seconds`: since the last frame. `pixelsAUnit`: pixels per unit of
-  // the window. Adds to `requests`. True while a held key or button moves the camera or sprays
-  // objects: the next frame must be drawn.
-  bool update(const Place& place, Stage* stage, double seconds, float pixelsAUnit,
-              Requests& requests);
+  // the user sees; may be null. `fingers`: on a touchpad, in this frame. `seconds`: since the last
+  // frame. `pixelsAUnit`: pixels per unit of the window. Adds to `requests`. True while a held key
+  // or button moves the camera or sprays objects: the next frame must be drawn.
+  bool update(const Place& place, Stage* stage, const FingerMove& fingers, double seconds,
+              float pixelsAUnit, Requests& requests);
 
   // The texel under the cursor, none while the cursor is outside the picture or over the panel; and
   // whether the cursor is right of the split line.
@@ -39,6 +40,8 @@ class Controls {
   bool wantsFullScreen = false;
 
  private:
+  static constexpr double kRest = 0.5;  // seconds without motion end a move of the camera
+
   enum class Drag : uint8_t { kNone, kOrbit, kPan, kLook, kLine, kPlace, kObject };
 
   // A point that the user sees. Where there is no surface: at the target's distance.
@@ -54,7 +57,8 @@ class Controls {
   void dragCamera(const Place& place, glm::dvec2 moved);
   void orbitClear(const glm::dvec3& pivot, glm::dvec2 moved, double height);
   void scroll(const Place& place);
-  void magnify(const Place& place, double notches);
+  void pinch(const Place& place);
+  void magnify(const Place& place, double factor);
   void steer(const Place& place);
   Pick pick(const Place& place, glm::dvec2 at);  // `at`: texels, from the top left corner
   void aim(const Pick& at);
@@ -84,12 +88,16 @@ class Controls {
   glm::dvec2 cursor_ = glm::dvec2(-1), moved_ = glm::dvec2(0);  // pixels of the window
   double sincePlaced_ = 0;                                      // seconds
   Stage* stage_ = nullptr;                                      // of the present update()
+  FingerMove fingers_;                                          // as well
   Pick pressed_;                                                // where the drag began
   bool steered_ = false;
   bool carried_ = false;  // the drag has moved the selected object
   bool aimed_ = false;    // the target has the distance of pressed_
   // Seconds since the last press of the left button, and since the camera last moved.
   double sincePress_ = 1e9, sinceMoved_ = 1e9;
+  // Whether the last frame panned by a scroll, and seconds since, unless the pointer has moved.
+  bool pans_ = false;
+  double sincePan_ = 1e9;
   glm::dvec2 pressedAt_ = glm::dvec2(-1);  // cursor at that press
   std::mt19937 random_{1};
 };

@@ -91,18 +91,27 @@ double Controls::distanceAhead(const Place& place) {
 void Controls::scroll(const Place& place) {
   const ImGuiIO& io = ImGui::GetIO();
   const glm::dvec2 notches(io.MouseWheelH, io.MouseWheel);
-  const bool fingers = isOfFingers(notches);
-  if (io.KeyCtrl) return magnify(place, notches.y);
+  const bool fingers = fingers_.scrolled;
+  if (io.KeyCtrl) return magnify(place, std::pow(1.25, notches.y));
   if (drag_ == Drag::kLook) {
     session_.speed = steppedSpeed(session_.speed, notches.y);
     return;
   }
-  const Pick under = pick(place, pointAt(place, cursor_));
+  const glm::dvec2 at = pointAt(place, cursor_);
   scene::Camera& camera = session_.camera;
-  if (!fingers && !io.KeyShift) return zoom(camera, under.point, notches.y);
-  aim(under);
+  if (!fingers && !io.KeyShift) return zoom(camera, pick(place, at).point, notches.y);
+  // The surface where a burst began follows it, not those that come under the pointer.
+  if (sincePan_ > kRest) aim(pick(place, at));
+  pans_ = true;
+  sincePan_ = 0;
   const bool sideways = io.KeyShift && notches.x == 0 && !fingers;
   pan(camera, kPanStep * (sideways ? glm::dvec2(0, notches.y) : notches), place.size.y);
+}
+
+void Controls::pinch(const Place& place) {
+  if (ImGui::GetIO().KeyCtrl) return magnify(place, fingers_.scale);
+  const Pick under = pick(place, pointAt(place, cursor_));
+  viewer::pinch(session_.camera, under.point, fingers_.scale);
 }
 
 // Gives the target the depth of a surface. Without one, it keeps its own.
@@ -136,10 +145,9 @@ void Controls::steer(const Place& place) {
   }
 }
 
-void Controls::magnify(const Place& place, double notches) {
+void Controls::magnify(const Place& place, double factor) {
   const glm::dvec2 point = pointAt(place, cursor_);
-  session_.zoom =
-      std::clamp(session_.zoom * static_cast<float>(std::pow(1.25, notches)), 1.0f, 64.0f);
+  session_.zoom = std::clamp(session_.zoom * static_cast<float>(factor), 1.0f, 64.0f);
   const glm::dvec2 size(place.size);
   const glm::dvec2 centre = point - (cursor_ - glm::dvec2(place.corner) + 0.5 - 0.5 * size) /
                                         static_cast<double>(session_.zoom);

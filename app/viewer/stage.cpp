@@ -29,7 +29,9 @@ Kind kindOf(const grisaille_output_desc& output) {
   if (output.role == GRISAILLE_ROLE_OVERLAY) return Kind::kOverlay;
   if (output.role == GRISAILLE_ROLE_COLOUR) return Kind::kLight;
   const gpu::Format format = effect::formatOf(output.format);
-  return gpu::formatInfo(format).channels == 1 ? Kind::kNumber : Kind::kEncoded;
+  if (gpu::formatInfo(format).channels == 1) return Kind::kNumber;
+  const bool isSigned = frame::transferOf(output.key) == image::Transfer::kSigned;
+  return isSigned ? Kind::kSigned : Kind::kEncoded;
 }
 
 Kind kindOf(const effect::Selection& effects, const std::string& output) {

@@ -232,8 +232,8 @@ void Viewer::frame(double seconds) {
     drawSideLabels(session_, now, unit * glm::vec2(place().corner), unit * glm::vec2(place().size),
                    panel_.layout);
   }
-  moving_ =
-      controls_.update(place(), stage_.get(), seconds, io.DisplayFramebufferScale.x, requests);
+  moving_ = controls_.update(place(), stage_.get(), window_->fingers(), seconds,
+                             io.DisplayFramebufferScale.x, requests);
   if (controls_.steered()) {
     restsAt_ = Clock::now() +
                std::chrono::duration_cast<Clock::duration>(std::chrono::duration<double>(kRest));

@@ -9,6 +9,7 @@
 #include <algorithm>
 #include <utility>
 
+#include "app/viewer/camera_control.h"
 #include "app/viewer/input.h"
 #include "core/base/error.h"
 
@@ -52,9 +53,11 @@ Window::Window(const backends::Backend& backend, bool check, glm::uvec2 size) {
   surface_.emplace(window_);
   glfwSetWindowUserPointer(window_, this);
   setCallbacks();
+  touchpad_ = Touchpad::of(glfw::x11Window(window_), WindowLibrary::wake);
 }
 
 Window::~Window() {
+  touchpad_.reset();
   if (ImGui::GetCurrentContext() != nullptr && ImGui::GetIO().BackendPlatformUserData != nullptr) {
     // A window that follows does not learn of their release.
     for (int key = 0; key <= GLFW_KEY_LAST; ++key) {
@@ -208,18 +211,42 @@ void Window::setClipboard(const std::string& text) {
   glfwSetClipboardString(window_, text.c_str());
 }
 
+// Adds what fingers did. The X server also presses the wheel's buttons for fingers, which GLFW
+// reports: takes these events out again, those from number `before` on. By the requests to the
+// server, each of the two connections has all that belongs to an event of the other.
+void Window::takeFingers(size_t before) {
+  if (!touchpad_) return;
+  const auto isWheel = [](const Event& event) { return event.type == Event::Type::kWheel; };
+  const auto first = [&] { return events_.begin() + static_cast<std::ptrdiff_t>(before); };
+  FingerMove move = touchpad_->poll(std::any_of(first(), events_.end(), isWheel));
+  if (move.scrolled) {
+    const FingerMove more = touchpad_->poll(true);
+    move.notches += more.notches;
+    move.scale *= more.scale;
+    glfwPollEvents();
+    events_.erase(std::remove_if(first(), events_.end(), isWheel), events_.end());
+  }
+  if (move.notches != glm::dvec2(0)) {
+    events_.push_back({.type = Event::Type::kFingers, .place = move.notches});
+  }
+  if (move.scale != 1) events_.push_back({.type = Event::Type::kPinch, .place = {move.scale, 0}});
+}
+
 bool Window::wait(double seconds) {
+  const size_t before = events_.size();
   if (!events_.empty() || seconds <= 0) {
     glfwPollEvents();
   } else {
     glfwWaitEventsTimeout(seconds);
   }
+  takeFingers(before);
   return std::exchange(woken_, false) || !events_.empty();
 }
 
 // Passes one event to ImGui. False if it would hide an event that this frame has already taken.
 bool Window::feed(const Event& event, std::vector<int>& touched) {
-  constexpr int kButtons = 1 << 16, kWheel = kButtons << 1;  // values in `touched` beyond the keys
+  // Values in `touched` beyond the keys.
+  constexpr int kButtons = 1 << 16, kWheel = kButtons << 1, kPinch = kWheel + 1;
   const int name = event.type == Event::Type::kKey ? event.code : kButtons + event.code;
   const bool again = std::ranges::find(touched, name) != touched.end();
   const bool pointed = std::ranges::any_of(touched, [](int one) { return one >= kButtons; });
@@ -228,7 +255,15 @@ bool Window::feed(const Event& event, std::vector<int>& touched) {
                           event.code <= GLFW_KEY_RIGHT_SUPER;
   // A modifier or a release after a press would change the meaning of that press in this frame.
   if (acted_ && (isModifier || (isPress && !event.down))) return false;
-  acted_ = acted_ || event.type == Event::Type::kWheel || (isPress && event.down);
+  const bool turns = event.type == Event::Type::kWheel || event.type == Event::Type::kFingers;
+  const bool ofFingers = event.type == Event::Type::kFingers || isOfFingers(event.place);
+  if (turns) {
+    // A frame takes either of both: a wheel zooms, fingers pan.
+    const bool turned = std::ranges::find(touched, kWheel) != touched.end();
+    if (turned && fingers_.scrolled != ofFingers) return false;
+    fingers_.scrolled = ofFingers;
+  }
+  acted_ = acted_ || turns || event.type == Event::Type::kPinch || (isPress && event.down);
   switch (event.type) {
     case Event::Type::kMove:
       if (pointed) return false;  // the button or wheel event belongs to the old position
@@ -243,8 +278,14 @@ bool Window::feed(const Event& event, std::vector<int>& touched) {
       if (event.code < 5) buttons_[static_cast<size_t>(event.code)] = event.down;
       return true;
     case Event::Type::kWheel:
+    case Event::Type::kFingers:
       touched.push_back(kWheel);
+      fingers_.notches += event.place;
       sendWheel(event.place);
+      return true;
+    case Event::Type::kPinch:
+      touched.push_back(kPinch);
+      fingers_.scale *= event.place.x;
       return true;
     case Event::Type::kKey:
       if (again) return false;
@@ -270,6 +311,7 @@ void Window::feedInterface() {
   io.DeltaTime = std::min(io.DeltaTime, 0.05f);  // a slow frame must not make a key repeat
   std::vector<int> touched;
   acted_ = moved_ = false;
+  fingers_ = {};
   while (!events_.empty() && feed(events_.front(), touched)) events_.pop_front();
   sendPointer(cursor_);
   for (size_t i = 0; i < buttons_.size(); ++i) sendButton(static_cast<int>(i), buttons_[i]);

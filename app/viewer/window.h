@@ -6,10 +6,12 @@
 #include <bitset>
 #include <deque>
 #include <glm/glm.hpp>
+#include <memory>
 #include <optional>
 #include <string>
 #include <vector>
 
+#include "app/viewer/touchpad.h"
 #include "backends/backends.h"
 #include "backends/glfw/window.h"
 
@@ -68,22 +70,36 @@ class Window {
   void feedInterface();
   bool hasMoreEvents() const { return !events_.empty(); }
 
+  // What fingers on a touchpad did in the last feedInterface(). ImGui has the notches, too.
+  const FingerMove& fingers() const { return fingers_; }
+
   std::vector<std::string> takeDropped();
 
  private:
   struct Event {
-    enum class Type : uint8_t { kMove, kButton, kWheel, kKey, kText } type = Type::kMove;
+    enum class Type : uint8_t {
+      kMove,
+      kButton,
+      kWheel,
+      kFingers,
+      kPinch,
+      kKey,
+      kText
+    } type = Type::kMove;
     int code = 0;  // GLFW's number of the button or key
     bool down = false;
-    glm::dvec2 place = glm::dvec2(0);  // cursor in window units, or notches of the wheel
-    unsigned text = 0;                 // Unicode code point
+    // Cursor in window units; notches of a wheel or of fingers; scale of a pinch in x.
+    glm::dvec2 place = glm::dvec2(0);
+    unsigned text = 0;  // Unicode code point
   };
   void setCallbacks();
+  void takeFingers(size_t before);
   glm::uvec2 room() const;
   bool feed(const Event& event, std::vector<int>& touched);
 
   GLFWwindow* window_ = nullptr;
   std::optional<glfw::Window> surface_;
+  std::unique_ptr<Touchpad> touchpad_;  // null: GLFW reports all there is
   std::deque<Event> events_;
   std::vector<std::string> dropped_;
   bool woken_ = true;
@@ -93,6 +109,7 @@ class Window {
   std::bitset<512> keys_;  // held keys, by GLFW's numbers
   bool acted_ = false;     // this frame took a press or a turn of the wheel
   bool moved_ = false;     // the cursor moved in this frame
+  FingerMove fingers_;     // in this frame
 };
 
 }  // namespace grisaille::app::viewer

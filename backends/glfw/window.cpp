@@ -11,6 +11,10 @@
 
 #include <cstdlib>
 
+// GLFW's header declares it beside functions that need more libraries' headers. Weak: a GLFW that
+// is built for Wayland alone lacks it.
+extern "C" __attribute__((weak)) unsigned long glfwGetX11Window(GLFWwindow* window);
+
 namespace grisaille::glfw {
 namespace {
 
@@ -47,6 +51,13 @@ void hintWindow(std::string_view backend, bool check) {
   } else {
     glfwWindowHint(GLFW_CLIENT_API, GLFW_NO_API);
   }
+}
+
+unsigned long x11Window(GLFWwindow* window) {
+  if (glfwGetX11Window == nullptr) return 0;
+  const unsigned long number = glfwGetX11Window(window);
+  if (number == 0) glfwGetError(nullptr);  // another platform is no error
+  return number;
 }
 
 Window::Size Window::size() const {

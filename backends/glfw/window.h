@@ -18,6 +18,9 @@ void choosePlatform();
 // DeviceOptions::check. The caller adds its own hints and creates the window.
 void hintWindow(std::string_view backend, bool check);
 
+// The window's number on its X server; 0 on other platforms.
+unsigned long x11Window(GLFWwindow* window);
+
 class Window : public backends::Window {
  public:
   // `window` must have been created after hintWindow(), and must outlive this object.

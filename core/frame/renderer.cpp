@@ -51,9 +51,8 @@ void checkOutput(std::string_view name, std::span<const effect::Effect* const> e
 }
 
 image::Transfer transferOf(std::string_view output) {
-  if (output == targetOf(GRISAILLE_NORMAL) || output == targetOf(GRISAILLE_FACET_NORMAL)) {
-    return image::Transfer::kSigned;
-  }
+  const std::string_view key = output.substr(output.find('.') + 1);  // without the effect
+  if (key == "normal" || key.ends_with("_normal")) return image::Transfer::kSigned;
   return output == kColor || output == targetOf(GRISAILLE_BASE_COLOUR) ? image::Transfer::kColour
                                                                        : image::Transfer::kData;
 }
@@ -351,7 +350,7 @@ image::Image Renderer::read(std::string_view output) {
   const gpu::TextureDesc& desc = targets_.find(outputs_.find(output)->second)->second.desc;
   image::Image image = toImage(device_.read(from), desc.format, desc.width, desc.height);
   const bool opaque = transferOf(output) != image::Transfer::kData && (opaque_ || output != kColor);
-  return opaque ? firstChannels(image, 3) : image;
+  return opaque && image.channels > 3 ? firstChannels(image, 3) : image;
 }
 
 }  // namespace grisaille::frame

@@ -41,8 +41,9 @@ TEST_F(Configure, NamesAllThatIsMissingByDebiansPackages) {
 TEST_F(Configure, NamesModulesThatPkgConfigLacks) {
   const Outcome outcome = configure({"spirv_cross_c"}, "", "PKG_CONFIG_LIBDIR=/nonexistent");
   EXPECT_NE(outcome.status, 0);
-  for (const char* package : {"libepoxy-dev", "libopenimageio-dev", "libtomlplusplus-dev",
-                              "libspirv-cross-c-shared-dev", "libimgui-dev"}) {
+  for (const char* package :
+       {"libepoxy-dev", "libopenimageio-dev", "libtomlplusplus-dev", "libspirv-cross-c-shared-dev",
+        "libimgui-dev", "libx11-dev", "libxi-dev"}) {
     EXPECT_NE(outcome.out.find(package), std::string::npos) << package << ": " << outcome.out;
   }
 }

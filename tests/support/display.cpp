@@ -12,13 +12,14 @@
 #include <cstring>
 #include <memory>
 #include <stdexcept>
+#include <utility>
 
 namespace grisaille::tests {
 namespace {
 
 template <typename Reply>
 std::unique_ptr<Reply, void (*)(void*)> owned(Reply* reply) {
-  if (reply == nullptr) throw std::runtime_error("Xvfb refused a request");
+  if (reply == nullptr) throw std::runtime_error("the X server refused a request");
   return {reply, std::free};
 }
 
@@ -34,10 +35,15 @@ xcb_atom_t atom(xcb_connection_t* connection, const char* name) {
 
 }  // namespace
 
-Display::Display(uint32_t width, uint32_t height) {
+Display::Display(uint32_t width, uint32_t height)
+    : Display(std::vector<std::string>{"Xvfb", "-screen", "0",
+                                       std::to_string(width) + "x" + std::to_string(height) + "x24",
+                                       "-nolisten", "tcp", "-noreset"}) {}
+
+Display::Display(std::vector<std::string> command) {
   const char* before = std::getenv("DISPLAY");
   before_ = before != nullptr ? before : "";
-  start(width, height);
+  start(std::move(command));
   try {
     connect();
   } catch (...) {
@@ -57,20 +63,21 @@ Display::~Display() {
   stop();
 }
 
-// Xvfb writes its display number to a pipe as soon as it accepts connections.
-void Display::start(uint32_t width, uint32_t height) {
+// The server writes its display number to a pipe as soon as it accepts connections.
+void Display::start(std::vector<std::string> command) {
   int ends[2];
   if (pipe(ends) != 0) throw std::runtime_error("cannot create a pipe");
-  const std::string to = std::to_string(ends[1]);
-  const std::string screen = std::to_string(width) + "x" + std::to_string(height) + "x24";
+  command.insert(command.end(), {"-displayfd", std::to_string(ends[1])});
+  std::vector<char*> words;
+  for (std::string& word : command) words.push_back(word.data());
+  words.push_back(nullptr);
   const pid_t parent = getpid();
   server_ = fork();
   if (server_ == 0) {
-    prctl(PR_SET_PDEATHSIG, SIGTERM);  // ends Xvfb even if a signal kills the test
+    prctl(PR_SET_PDEATHSIG, SIGTERM);  // ends the server even if a signal kills the test
     if (getppid() != parent) _exit(127);
     close(ends[0]);
-    execlp("Xvfb", "Xvfb", "-displayfd", to.c_str(), "-screen", "0", screen.c_str(), "-nolisten",
-           "tcp", "-noreset", static_cast<char*>(nullptr));
+    execvp(words[0], words.data());
     _exit(127);
   }
   close(ends[1]);
@@ -81,14 +88,16 @@ void Display::start(uint32_t width, uint32_t height) {
   name_ = ":" + number;
   if (!number.empty()) return;
   stop();
-  throw std::runtime_error("Xvfb does not start; install the package xvfb");
+  std::string line;
+  for (const std::string& word : command) line += " " + word;
+  throw std::runtime_error("no X server starts; is its package installed?" + line);
 }
 
 void Display::connect() {
   connection_ = xcb_connect(name_.c_str(), nullptr);
   if (xcb_connection_has_error(connection_) == 0) return;
   xcb_disconnect(connection_);
-  throw std::runtime_error("Xvfb accepts no connection at " + name_);
+  throw std::runtime_error("the X server accepts no connection at " + name_);
 }
 
 void Display::stop() {
@@ -107,7 +116,7 @@ std::vector<uint32_t> Display::pixels(uint32_t x, uint32_t y, uint32_t width,
   std::vector<uint32_t> pixels(size_t{width} * height);
   const auto bytes = static_cast<size_t>(xcb_get_image_data_length(image.get()));
   if (bytes != pixels.size() * sizeof(uint32_t)) {
-    throw std::runtime_error("Xvfb's pixels do not have 32 bits");
+    throw std::runtime_error("the X server's pixels do not have 32 bits");
   }
   std::memcpy(pixels.data(), xcb_get_image_data(image.get()), bytes);
   for (uint32_t& pixel : pixels) pixel &= 0xffffff;
