@@ -4,6 +4,8 @@
 #include <numeric>
 #include <utility>
 
+#include <cstdio>
+#include <cstdlib>
 #include "paint_world.h"
 
 namespace grisaille::sspm {
@@ -15,6 +17,7 @@ constexpr size_t kSweepAt = 4096;         // entries of hidden shots
 constexpr uint64_t kReserveShare = 32;    // of the limit
 constexpr size_t kSweepCells = 2048;      // at a time
 constexpr uint64_t kRoomShare = 64;       // of the limit: free space for the maps of the next shots
+constexpr uint64_t kSpareShare = 16;      // of the limit: paint gets coarser before that is left
 
 }  // namespace
 
@@ -123,18 +126,21 @@ uint64_t PaintWorld::room() const {
 }
 
 // Whether the maps of the next shots need a larger array than the limit allows.
-bool PaintWorld::areMapsFull() const {
+// spare: part of the limit that stays free; bytes.
+bool PaintWorld::areMapsFull(uint64_t spare) const {
   const uint64_t wanted = reserves_ ? limit_ / kRoomShare : 0;
   const uint64_t space = runs_.freeWords() * sizeof(uint32_t);
   if (space >= wanted) return false;
   const uint64_t larger = blocks_.capacity() + (wanted - space) / sizeof(uint32_t);
-  return bytes() - blocks_.peakBytes() + blocks_.peakBytes(larger) > room();
+  const uint64_t grown = bytes() - blocks_.peakBytes() + blocks_.peakBytes(larger);
+  return grown + spare > room();
 }
 
 // Keeps the memory below the limit. Where maps are too many, the oldest get coarser. Where that is
 // not enough, or lists are too many, the oldest shots go.
 void PaintWorld::keepWithin() {
-  while (areMapsFull() && (coarsen() || giveUpOldest())) continue;
+  while (areMapsFull(limit_ / kSpareShare) && coarsen()) continue;
+  while (areMapsFull(0) && giveUpOldest()) continue;
   while (bytes() > room() && giveUpOldest()) continue;
 }
 

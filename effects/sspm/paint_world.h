@@ -154,17 +154,19 @@ class PaintWorld {
   bool advance(Work& work, std::vector<uint32_t>& unknown);
   bool isUploadDue() const;
   void refill();
-  bool askFor(std::span<Work* const> works, const Sight& sight);
-  bool castFor(std::span<Work* const> works, const CastRays& cast);
-  bool lookFor(std::span<Work* const> works, const DrawDepth& draw);
-  static void finish(Work& work);
-  void askAgain(const Sight& sight);
   CellGrid gridFor(const ShotFrame& frame);
   void place(Work& work);
   void sharpen(const Work& work);
   bool isPlaced(uint32_t id) const { return states_[id].record != kNone; }
   void remove(uint32_t id, std::span<const CellKey> cells);
   void writeRecord(uint32_t record);
+
+  // sight.cpp
+  bool askFor(std::span<Work* const> works, const Sight& sight);
+  bool castFor(std::span<Work* const> works, const CastRays& cast);
+  bool lookFor(std::span<Work* const> works, const DrawDepth& draw);
+  static void finish(Work& work);
+  void askAgain(const Sight& sight);
 
   // twins.cpp
   bool countTwin(uint32_t id);
@@ -182,7 +184,7 @@ class PaintWorld {
   MapRun store(const ShotMap& map);
   void give(MapRun& run);
   uint64_t room() const;
-  bool areMapsFull() const;
+  bool areMapsFull(uint64_t spare) const;
   void keepWithin();
   bool coarsen();
   bool giveUpOldest();

@@ -882,6 +882,7 @@ typedef struct grisaille_host_report {
   uint32_t reserved;    /**< 0 */
   uint64_t waiting;     /**< pieces of work for later recordings; 0: the outputs are complete */
   uint64_t given_up;    /**< oldest objects for which a limit, say of memory, leaves no room */
+  uint64_t coarser;     /**< objects that are drawn less exactly because of a limit */
 } grisaille_host_report;
 
 /**
