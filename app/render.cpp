@@ -309,6 +309,12 @@ void renderFrames(const RenderOptions& options, RenderJob& job, gpu::Device& dev
                "leaves no room for them; raise that limit, a parameter of the effect\n",
                renderer.report().givenUp);
   }
+  if (renderer.report().coarser > 0) {
+    fmt::print(stderr,
+               "warning: {} old objects are drawn with coarser edges: the memory that their effect "
+               "may use is nearly full; raise that limit, a parameter of the effect\n",
+               renderer.report().coarser);
+  }
 }
 
 void render(const RenderOptions& options) {

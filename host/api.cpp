@@ -354,6 +354,7 @@ int grisaille_host_effect_report(const grisaille_host_effect* effect, grisaille_
     grisaille_host_report to = whole(out, "out");
     to.waiting = report.waiting;
     to.given_up = report.givenUp;
+    to.coarser = report.coarser;
     std::memcpy(out, &to, std::min<size_t>(to.struct_size, sizeof(to)));
   });
 }

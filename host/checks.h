@@ -31,6 +31,9 @@ constexpr inline std::array<size_t, 5> kEarlierSizes<grisaille_host_frame> = {
     offsetof(grisaille_host_frame, patience), offsetof(grisaille_host_frame, colour),
     offsetof(grisaille_host_frame, rectangle)};
 template <>
+constexpr inline std::array<size_t, 1> kEarlierSizes<grisaille_host_report> = {
+    offsetof(grisaille_host_report, coarser)};
+template <>
 constexpr inline std::array<size_t, 1> kEarlierSizes<grisaille_host_effect_desc> = {
     offsetof(grisaille_host_effect_desc, settings)};
 template <>

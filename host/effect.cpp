@@ -294,6 +294,7 @@ void grisaille_host_effect::recordLayer(const Recording& recording, uint32_t lay
       chains_[layer].record(chains_[layer].selection.entries()[0], inputs);
   report_.waiting += report.waiting;
   report_.givenUp = std::max(report_.givenUp, report.givenUp);
+  report_.coarser = std::max(report_.coarser, report.coarser);
   if (!recording.copies) return;
   const gpu::BufferRange source = commands_.uniform(std::as_bytes(std::span(&view.source, 1)));
   for (size_t i = 0; i < pictures_.size(); ++i) {

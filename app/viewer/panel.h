@@ -65,6 +65,7 @@ struct Status {
   uint32_t toAverage = 1;              // once it rests
   uint64_t waiting = 0;                // objects still to be drawn
   uint64_t givenUp = 0;                // the oldest, for which a limit leaves no room
+  uint64_t coarser = 0;                // old ones, drawn less exactly because of a limit
   std::array<std::string, 2> sides;    // what each side of a split picture shows
   std::optional<SideNumbers> apart;    // none: the sides show different kinds of values
   bool turned = false;                 // the right side is shown in turn

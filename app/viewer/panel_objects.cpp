@@ -88,6 +88,13 @@ void Panel::drawObjectsOf(const std::string& effect, const Status& status) {
         "Memory, or undo");
     layout.note(effect + ".given_up", fmt::format("{}", status.givenUp));
   }
+  if (status.coarser > 0) {
+    ImGui::SameLine();
+    ImGui::TextDisabled("%llu coarser", static_cast<unsigned long long>(status.coarser));
+    tip("Old objects are drawn with coarser edges: the memory that their effect may use is nearly "
+        "full. Raise its Memory, or undo");
+    layout.note(effect + ".coarser", fmt::format("{}", status.coarser));
+  }
   ImGui::SameLine();
   if (ImGui::SmallButton("Clear")) session_.clearObjects(effect);
   tip("Deletes all objects; Ctrl+Z restores them");

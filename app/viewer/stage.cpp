@@ -256,6 +256,7 @@ void Stage::update(const StageDesc& desc) {
   frames_ = frames;
   waiting_ = renderer_.report().waiting;
   givenUp_ = renderer_.report().givenUp;
+  coarser_ = renderer_.report().coarser;
   size_ = desc.size;
   scale_ = scaleOf(desc);
   left_ = {

@@ -120,6 +120,8 @@ class Stage {
   uint64_t waiting() const { return waiting_; }
   // Objects for which a limit leaves no room.
   uint64_t givenUp() const { return givenUp_; }
+  // Objects that are drawn less exactly because of a limit.
+  uint64_t coarser() const { return coarser_; }
   // The effects that are on but could not run in the last update().
   const std::vector<frame::LeftOut>& leftOut() const { return renderer_.leftOut(); }
 
@@ -164,7 +166,7 @@ class Stage {
   Side left_, right_;
   glm::uvec2 size_ = glm::uvec2(0);
   uint32_t scale_ = 1, frames_ = 0;
-  uint64_t waiting_ = 0, heldWaiting_ = 0, givenUp_ = 0, revision_ = 0;
+  uint64_t waiting_ = 0, heldWaiting_ = 0, givenUp_ = 0, coarser_ = 0, revision_ = 0;
   gpu::Texture held_;  // a copy of the held settings' output
   glm::uvec2 heldSize_ = glm::uvec2(0);
   gpu::ComputePipeline keep_, depths_;

@@ -246,6 +246,7 @@ Status Viewer::status() {
   status.averaged = stage_ ? stage_->frames() : 0;
   status.toAverage = framesAveraged(session_.chain.selection, session_.fineness.converges);
   status.givenUp = stage_ ? stage_->givenUp() : 0;
+  status.coarser = stage_ ? stage_->coarser() : 0;
   if (stage_) status.leftOut = stage_->leftOut();
   status.waiting = (stage_ ? stage_->waiting() : 0) + (other_ ? other_->waiting() : 0);
   status.backend = backend_;

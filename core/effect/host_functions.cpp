@@ -360,6 +360,10 @@ struct HostFunctions {
     return record(self, "given_up", [&](HostServices& s) { s.report_.givenUp = count; });
   }
 
+  static grisaille_result coarser(const grisaille_frame* self, uint64_t count) {
+    return record(self, "coarser", [&](HostServices& s) { s.report_.coarser = count; });
+  }
+
   // Conversions. They throw Misuse for a resource that the effect may not use.
   static gpu::TextureDesc textureDesc(const grisaille_texture_desc& desc) {
     const gpu::Format format = formatOf(desc.format);
@@ -463,7 +467,8 @@ grisaille_frame frameTable(HostServices* self) {
           .given_up = HostFunctions::givenUp,
           .guard = 0,
           .reserved = 0,
-          .inputs = nullptr};
+          .inputs = nullptr,
+          .coarser = HostFunctions::coarser};
 }
 
 }  // namespace grisaille::effect

@@ -88,10 +88,12 @@ struct PointInputs {
 struct Report {
   uint64_t waiting = 0;  // pieces of work for a later frame; 0: the picture is complete
   uint64_t givenUp = 0;  // objects for which a limit leaves no room
+  uint64_t coarser = 0;  // objects that are drawn less exactly because of a limit
 
   Report& operator+=(const Report& other) {
     waiting += other.waiting;
     givenUp += other.givenUp;
+    coarser += other.coarser;
     return *this;
   }
 };

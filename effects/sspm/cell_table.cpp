@@ -47,7 +47,7 @@ void CellTable::clear() {
 
 uint64_t CellTable::bytes() const {
   // An allocation takes 16 bytes more than its contents, on average.
-  return listBytes_ + cells_.size() * (sizeof(Cell) + 2 * 16) +
+  return listBytes_ + runs_.bytes() + cells_.size() * (sizeof(Cell) + 2 * 16) +
          slotCells_.size() * sizeof(uint32_t) + slots_.peakBytes(slotCells_.size() * kSlotWords) +
          words_.peakBytes(units_ * kUnitWords);
 }
@@ -124,7 +124,7 @@ std::span<uint32_t> CellTable::reserve(Cell& cell) {
   const uint32_t wanted = unitsFor(count);
   if (wanted != cell.capacity) {
     if (cell.capacity > 0) runs_.give(cell.first, cell.capacity);
-    cell.first = count > 0 ? runs_.take(count) : 0;
+    cell.first = count > 0 ? runs_.take(wanted) : 0;
     cell.capacity = wanted;
   }
   return count > 0 ? words_.write(size_t{cell.first} * 4, size_t{count} * 4)

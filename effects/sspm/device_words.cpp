@@ -2,6 +2,7 @@
 #include "device_words.h"
 
 #include <algorithm>
+#include <iterator>
 
 #include "shaders/sspm_scatter.h"
 
@@ -42,6 +43,13 @@ std::span<uint32_t> DeviceWords::write(size_t first, size_t count) {
   runs_.push_back({.payload = payload_.size(), .target = first, .count = count});
   payload_.resize(payload_.size() + count);
   return std::span(payload_).last(count);
+}
+
+void DeviceWords::drop(size_t first) {
+  const auto at = runAt_.find(first);
+  if (at == runAt_.end()) return;
+  runs_[at->second].count = 0;
+  runAt_.erase(at);
 }
 
 uint64_t DeviceWords::bytes() const {
@@ -119,22 +127,57 @@ void Uploader::scatter(const plugin::Frame& frame, std::span<const uint32_t> sta
 }
 
 uint32_t Runs::take(uint32_t count) {
-  const uint32_t capacity = capacityFor(count);
-  auto& free = free_[classOf(capacity)];
-  if (!free.empty()) {
-    const uint32_t first = free.back();
-    free.pop_back();
+  const auto fit = bySize_.lower_bound({count, 0});
+  if (fit == bySize_.end()) {
+    const uint32_t first = end_;
+    end_ += count;
+    words_.resize(size_t{end_} * unit_);
     return first;
   }
-  const uint32_t first = end_;
-  end_ += capacity;
-  words_.resize(size_t{end_} * unit_);
+  const auto [size, first] = *fit;
+  bySize_.erase(fit);
+  spaces_.erase(first);
+  free_ -= size;
+  if (size > count) addSpace(first + count, size - count);
   return first;
 }
 
+void Runs::give(uint32_t first, uint32_t count) {
+  auto next = spaces_.lower_bound(first);
+  if (next != spaces_.end() && next->first == first + count) {
+    count += next->second;
+    free_ -= next->second;
+    bySize_.erase({next->second, next->first});
+    next = spaces_.erase(next);
+  }
+  if (next != spaces_.begin()) {
+    const auto last = std::prev(next);
+    if (last->first + last->second == first) {
+      first = last->first;
+      count += last->second;
+      free_ -= last->second;
+      bySize_.erase({last->second, last->first});
+      spaces_.erase(last);
+    }
+  }
+  addSpace(first, count);
+}
+
+void Runs::addSpace(uint32_t first, uint32_t count) {
+  spaces_.emplace(first, count);
+  bySize_.emplace(count, first);
+  free_ += count;
+}
+
+uint64_t Runs::freeWords() const {
+  return words_.capacity() - size_t{end_} * unit_ + free_ * unit_;
+}
+
 void Runs::clear() {
-  for (auto& free : free_) free.clear();
+  spaces_.clear();
+  bySize_.clear();
   end_ = 0;
+  free_ = 0;
 }
 
 }  // namespace grisaille::sspm

@@ -3,10 +3,14 @@
 // writes them there.
 #pragma once
 
+#include <algorithm>
 #include <bit>
 #include <cstdint>
+#include <map>
+#include <set>
 #include <span>
 #include <unordered_map>
+#include <utility>
 #include <vector>
 
 #include "grisaille/effect.hpp"
@@ -27,6 +31,8 @@ class DeviceWords {
   // Words [first, first + count), to fill in. Replaces what waits at the same `first`; other runs
   // must not overlap. Valid until the next call.
   std::span<uint32_t> write(size_t first, size_t count);
+  // Drops what waits at `first`.
+  void drop(size_t first);
 
   // Bytes on the device and of waiting changes.
   uint64_t bytes() const;
@@ -34,6 +40,8 @@ class DeviceWords {
   // thirty-second more, and needs the old array too until the frame has ended.
   uint64_t peakBytes(size_t words = 0) const;
   uint64_t waitingBytes() const { return payload_.size() * sizeof(uint32_t); }
+  // Words that it has, or will have after the next upload.
+  uint64_t capacity() const { return std::max(size_, deviceWords_); }
   grisaille_buffer buffer() const { return buffer_; }
 
  private:
@@ -71,37 +79,42 @@ class Uploader {
   size_t stagingWords_ = 0;
 };
 
-// Allocates runs of units in an array. Size classes: 1 to 7, and 8 to 15 times a power of two.
-// Freed runs are reused within their class.
+// Allocates runs of units in an array. A run takes the smallest free space that is long enough;
+// neighbouring free spaces are one.
 class Runs {
  public:
   // unit: size of a unit, words.
   Runs(DeviceWords& words, size_t unit) : words_(words), unit_(unit) {}
 
+  // Capacity for a list of `count` units that changes: 1 to 8, or 8 to 15 times a power of two.
   static uint32_t capacityFor(uint32_t count) {
     if (count <= 8) return count;
     const int shift = std::bit_width(count - 1) - 4;
     return (((count - 1) >> shift) + 1) << shift;
   }
 
-  // Allocates a run of at least `count` units, count > 0. Returns its first unit. May resize the
-  // array.
+  // Allocates a run of `count` units, count > 0. Returns its first unit. May resize the array.
   uint32_t take(uint32_t count);
-  // Frees a run. `count`: same as at take(), or the run's capacity.
-  void give(uint32_t first, uint32_t count) { free_[classOf(capacityFor(count))].push_back(first); }
+  // Frees a run.
+  void give(uint32_t first, uint32_t count);
   void clear();
 
+  // Free words that need no larger array on the device.
+  uint64_t freeWords() const;
+  // Memory on the host, bytes.
+  uint64_t bytes() const { return spaces_.size() * kSpaceBytes; }
+
  private:
-  static size_t classOf(uint32_t capacity) {
-    if (capacity <= 8) return capacity - 1;
-    const int shift = std::bit_width(capacity) - 4;
-    return static_cast<size_t>(8 * shift) + (capacity >> shift) - 1;
-  }
+  static constexpr uint64_t kSpaceBytes = 2 * 64;  // of a space, with its nodes in both trees
+
+  void addSpace(uint32_t first, uint32_t count);
 
   DeviceWords& words_;
   size_t unit_;
   uint32_t end_ = 0;
-  std::vector<uint32_t> free_[256];
+  uint64_t free_ = 0;                               // units, of all spaces
+  std::map<uint32_t, uint32_t> spaces_;             // count by first unit
+  std::set<std::pair<uint32_t, uint32_t>> bySize_;  // count, first unit
 };
 
 }  // namespace grisaille::sspm

@@ -4,6 +4,8 @@
 #include <numeric>
 #include <utility>
 
+#include <cstdio>
+#include <cstdlib>
 #include "paint_world.h"
 
 namespace grisaille::sspm {
@@ -14,6 +16,8 @@ constexpr uint64_t kWorkBytes = 4 << 20;  // of the surveys in work_
 constexpr size_t kSweepAt = 4096;         // entries of hidden shots
 constexpr uint64_t kReserveShare = 32;    // of the limit
 constexpr size_t kSweepCells = 2048;      // at a time
+constexpr uint64_t kRoomShare = 64;       // of the limit: free space for the maps of the next shots
+constexpr uint64_t kSpareShare = 16;      // of the limit: paint gets coarser before that is left
 
 }  // namespace
 
@@ -45,8 +49,9 @@ void PaintWorld::unlist(const Entry& entry, uint32_t to) {
 void PaintWorld::release(uint32_t record) {
   Placed& placed = placed_[record];
   if (placed.cores > 0) return;
-  if (placed.blocks > 0) runs_.give(placed.base, placed.blocks);
-  placed.blocks = 0;
+  coarse_ -= placed.isCoarse() ? 1 : 0;
+  give(placed.exact);
+  give(placed.coarse);
   if (placed.others == 0) {
     states_[placed.shot].record = kNone;
     freeRecords_.push_back(record);
@@ -89,7 +94,8 @@ bool PaintWorld::sweep() {
 
 // Host and device together, also while arrays grow.
 uint64_t PaintWorld::bytes() const {
-  uint64_t sum = cells_.bytes() + records_.peakBytes() + blocks_.peakBytes() + kWorkBytes;
+  uint64_t sum =
+      cells_.bytes() + records_.peakBytes() + blocks_.peakBytes() + runs_.bytes() + kWorkBytes;
   sum += placed_.capacity() * sizeof(Placed) + states_.size() * sizeof(State) +
          pending_.capacity() * sizeof(uint32_t) + twins_.size() * kTwinBytes;
   if (looks_) sum += kMostLooks * Muzzle::kBytes;
@@ -97,25 +103,102 @@ uint64_t PaintWorld::bytes() const {
   return sum;
 }
 
-// Gives up the oldest shots until the rest fits: first those that are not placed and older than
-// all that are, then the oldest tenth.
+// Writes a map on the device.
+PaintWorld::MapRun PaintWorld::store(const ShotMap& map) {
+  MapRun run{.base = 0, .blocks = static_cast<uint32_t>(map.words.size() / 2), .root = map.root};
+  if (run.blocks == 0) return run;
+  run.base = runs_.take(run.blocks);
+  std::ranges::copy(map.words, blocks_.write(size_t{run.base} * 2, map.words.size()).begin());
+  return run;
+}
+
+void PaintWorld::give(MapRun& run) {
+  if (run.blocks > 0) {
+    blocks_.drop(size_t{run.base} * 2);
+    runs_.give(run.base, run.blocks);
+  }
+  run = {};
+}
+
+// Most memory at present: new shots leave some to the next undo.
+uint64_t PaintWorld::room() const {
+  return limit_ - (reserves_ ? limit_ / kReserveShare : 0);
+}
+
+// Whether the maps of the next shots need a larger array than the limit allows.
+// spare: part of the limit that stays free; bytes.
+bool PaintWorld::areMapsFull(uint64_t spare) const {
+  const uint64_t wanted = reserves_ ? limit_ / kRoomShare : 0;
+  const uint64_t space = runs_.freeWords() * sizeof(uint32_t);
+  if (space >= wanted) return false;
+  const uint64_t larger = blocks_.capacity() + (wanted - space) / sizeof(uint32_t);
+  const uint64_t grown = bytes() - blocks_.peakBytes() + blocks_.peakBytes(larger);
+  return grown + spare > room();
+}
+
+// Keeps the memory below the limit. Where maps are too many, the oldest get coarser. Where that is
+// not enough, or lists are too many, the oldest shots go.
 void PaintWorld::keepWithin() {
-  const uint64_t limit = limit_ - (reserves_ ? limit_ / kReserveShare : 0);
+  while (areMapsFull(limit_ / kSpareShare) && coarsen()) continue;
+  while (areMapsFull(0) && giveUpOldest()) continue;
+  while (bytes() > room() && giveUpOldest()) continue;
+}
+
+// Gives up the exact maps of the oldest tenth of the shots with exact maps, but none of the newest
+// quarter. Returns false if there are none.
+bool PaintWorld::coarsen() {
+  std::vector<uint32_t> all, exact;
+  for (const Placed& placed : placed_) {
+    if (placed.cores == 0) continue;
+    all.push_back(placed.shot);
+    if (placed.exact.blocks > 0 && placed.coarse.blocks > 0) exact.push_back(placed.shot);
+  }
+  if (exact.empty()) return false;
+  const auto newest = all.begin() + static_cast<std::ptrdiff_t>(all.size() * 3 / 4);
+  std::ranges::nth_element(all, newest);
+  const auto tenth = exact.begin() + static_cast<std::ptrdiff_t>(exact.size() / 10);
+  std::ranges::nth_element(exact, tenth);
+  const uint32_t below = std::min(*tenth + 1, *newest);
+  if (std::ranges::none_of(exact, [&](uint32_t id) { return id < below; })) return false;
+  noteFloors();
+  floors_.coarse = std::max(floors_.coarse, below);
+  for (const uint32_t id : exact) {
+    if (id >= below) continue;
+    Placed& placed = placed_[states_[id].record];
+    give(placed.exact);
+    ++coarse_;
+    writeRecord(states_[id].record);
+  }
+  // Shots that were to get their exact maps back stay coarse.
+  const auto stays = [&](uint32_t id) { return id < below && isPlaced(id); };
+  std::erase_if(pending_, stays);
+  std::erase_if(work_, [&](const Work& work) { return stays(work.id); });
+  return true;
+}
+
+// Gives up the oldest shots: first those that are not placed and older than all that are, then the
+// oldest tenth. Returns false if none is placed.
+bool PaintWorld::giveUpOldest() {
   std::vector<uint32_t> ids;
-  while (bytes() > limit) {
-    ids.clear();
-    for (const Placed& placed : placed_) {
-      if (placed.cores > 0) ids.push_back(placed.shot);
-    }
-    if (ids.empty()) return;
-    const uint32_t oldest = *std::ranges::min_element(ids);
-    uint32_t floor = oldest;
-    if (pending_.empty() || pending_.front() >= oldest) {
-      const auto tenth = ids.begin() + static_cast<std::ptrdiff_t>(ids.size() / 10);
-      std::ranges::nth_element(ids, tenth);
-      floor = *tenth + 1;
-    }
-    giveUp(floor);
+  for (const Placed& placed : placed_) {
+    if (placed.cores > 0) ids.push_back(placed.shot);
+  }
+  if (ids.empty()) return false;
+  const uint32_t oldest = *std::ranges::min_element(ids);
+  uint32_t floor = oldest;
+  if (pending_.empty() || pending_.front() >= oldest) {
+    const auto tenth = ids.begin() + static_cast<std::ptrdiff_t>(ids.size() / 10);
+    std::ranges::nth_element(ids, tenth);
+    floor = *tenth + 1;
+  }
+  giveUp(floor);
+  return true;
+}
+
+// Notes the floors before the list of this length raises them.
+void PaintWorld::noteFloors() {
+  if (raises_.empty() || raises_.back().shots < states_.size()) {
+    raises_.push_back({.shots = states_.size(), .before = floors_});
   }
 }
 
@@ -125,24 +208,35 @@ void PaintWorld::giveUp(uint32_t floor) {
   std::fill_n(gone.begin(), floor, true);
   forgetTwins(gone, floor);
   erase(gone);
-  if (floors_.empty() || floors_.back().shots < states_.size()) {
-    floors_.push_back({.shots = states_.size(), .before = floor_});
-  }
-  floor_ = floor;
+  noteFloors();
+  floors_.given = floor;
 }
 
-// Puts those shots back to pending that were not given up before the list was longer than `shots`.
+// Lowers the floors to those before the list was longer than `shots`. Shots that were given up are
+// pending then, and coarse ones too, which stay placed until their exact maps are complete.
 void PaintWorld::takeUp(size_t shots) {
-  uint32_t floor = floor_;
-  for (; !floors_.empty() && floors_.back().shots > shots; floors_.pop_back()) {
-    floor = floors_.back().before;
+  const Floors from = floors_;
+  for (; !raises_.empty() && raises_.back().shots > shots; raises_.pop_back()) {
+    floors_ = raises_.back().before;
   }
-  const uint32_t end =
-      std::min(std::exchange(floor_, floor), static_cast<uint32_t>(states_.size()));
-  floor_ = std::min(floor_, end);
-  std::vector<uint32_t> ids(end - floor_);
-  std::iota(ids.begin(), ids.end(), floor_);
-  pending_.insert(pending_.begin(), ids.begin(), ids.end());
+  const auto count = static_cast<uint32_t>(states_.size());
+  for (uint32_t id = floors_.given = std::min(floors_.given, count);
+       id < std::min(from.given, count); ++id) {
+    pending_.push_back(id);
+  }
+  floors_.coarse = std::min(floors_.coarse, count);
+  const auto isAtWork = [&](uint32_t id) {
+    return std::ranges::any_of(work_, [&](const Work& work) { return work.id == id; });
+  };
+  for (const Placed& placed : placed_) {
+    if (placed.cores > 0 && placed.isCoarse() && placed.shot >= floors_.coarse &&
+        !isAtWork(placed.shot)) {
+      pending_.push_back(placed.shot);
+    }
+  }
+  std::ranges::sort(pending_);
+  const auto twice = std::ranges::unique(pending_);
+  pending_.erase(twice.begin(), twice.end());
 }
 
 }  // namespace grisaille::sspm

@@ -9,8 +9,6 @@
 #include <cmath>
 #include <utility>
 
-#include "threads.h"
-
 namespace grisaille::sspm {
 namespace {
 
@@ -20,6 +18,8 @@ constexpr double kLeastEffort = 256;
 constexpr double kShotEffort = 128;     // of a shot in a step, beside its rays; rays
 constexpr double kPaceMemory = 0.9;     // share of the mean that each step leaves
 constexpr uint64_t kWaitingShare = 32;  // of the limit: what may wait for its upload
+constexpr uint32_t kCoarse = 1u << 16;  // of a record's root; same as in shaders/sspm/walk.glsl
+constexpr int kMostAsks = 4;            // frames in a row that ask for one shot's depth pictures
 
 double secondsSince(std::chrono::steady_clock::time_point start) {
   return std::chrono::duration<double>(std::chrono::steady_clock::now() - start).count();
@@ -33,11 +33,16 @@ void PaintWorld::follow(std::span<const Shot> shots, size_t kept, const PaintRul
   const bool sameRange = rules.range == rules_.range;
   const bool same = rules == rules_;
   rules_ = rules;
+  // Arrays do not shrink: a limit that they exceed starts anew.
+  const bool tooLarge = limit < limit_ && bytes() > limit;
   // Maps depend only on the range. Hiding depends on the other rules too.
-  forget(sameRange ? std::min({kept, shots.size(), states_.size()}) : 0, !same);
+  forget(sameRange && !tooLarge ? std::min({kept, shots.size(), states_.size()}) : 0, !same);
   if (std::exchange(limit_, limit) < limit) takeUp(0);
   // What an undo brings back may need a little more memory than it had: new shots leave some.
-  if (shots.size() > states_.size()) reserves_ = true;
+  if (shots.size() > states_.size()) {
+    reserves_ = true;
+    turn_ = kNone;
+  }
   for (size_t i = states_.size(); i < shots.size(); ++i) {
     pending_.push_back(static_cast<uint32_t>(i));
   }
@@ -93,8 +98,10 @@ void PaintWorld::clear() {
   blocks_.clear();
   records_.clear();
   entries_ = hidden_ = 0;
-  floor_ = 0;
-  floors_.clear();
+  floors_ = {};
+  raises_.clear();
+  coarse_ = 0;
+  turn_ = kNone;
   states_.clear();
   pending_.clear();
   work_.clear();
@@ -126,7 +133,7 @@ void PaintWorld::forget(size_t count, bool allLost) {
     }
   }
   erase(gone);
-  for (uint32_t id = floor_; id < count; ++id) {
+  for (uint32_t id = floors_.given; id < count; ++id) {
     if (gone[id]) pending_.push_back(id);
   }
   std::ranges::sort(pending_);
@@ -164,8 +171,9 @@ void PaintWorld::erase(const std::vector<bool>& gone) {
   }
 }
 
-// Asks one round of rays for the newest pending shots. Returns false if no shot is pending, or if
-// the host can tell nothing.
+// Asks one round of rays for the newest pending shots. Returns false if no shot is pending, if the
+// host can tell nothing, or if it does not have the depth pictures of a shot yet: others would only
+// make it draw more pictures at a time.
 // most: effort after which no further shot takes part; rays.
 // unknown: gets the shots of which the host cannot tell yet.
 bool PaintWorld::step(double most, const Sight& sight, std::vector<uint32_t>& unknown) {
@@ -181,120 +189,63 @@ bool PaintWorld::step(double most, const Sight& sight, std::vector<uint32_t>& un
     effort += more;
   }
   if (!askFor(now, sight)) return false;
+  bool late = false;
   for (Work* each : now) {
     Work& work = *each;
-    if (!work.told) {
-      unknown.push_back(work.id);
-    } else if (!work.survey.rays().empty()) {
-      continue;
-    } else if (!work.survey.isRough()) {
-      place(work);
-    } else {
-      work.grid = gridFor(work.survey.frame());
-      if (!isHidden(work.id, work.survey, *work.grid)) {
-        work.survey.refine();
-        continue;
-      }
-    }
-    work.id = kNone;
+    late = late || (looks_ && !work.told);
+    if (!advance(work, unknown)) work.id = kNone;
   }
   std::erase_if(work_, [](const Work& work) { return work.id == kNone; });
   pace_.note(secondsSince(start), effort);
-  return true;
+  return !late;
+}
+
+// Continues with a shot after a round of rays. Returns false once its survey is not needed any
+// more.
+bool PaintWorld::advance(Work& work, std::vector<uint32_t>& unknown) {
+  if (!work.told) {
+    if (looks_ && work.asked < kMostAsks) return true;
+    turn_ = looks_ ? work.id : kNone;
+    unknown.push_back(work.id);
+    return false;
+  }
+  if (!work.survey.rays().empty()) return true;
+  const bool again = isPlaced(work.id);  // to be sharpened
+  if (!again && states_[work.id].lostTo > 0) return false;
+  if (work.survey.isRough()) {
+    work.grid = gridFor(work.survey.frame());
+    if (!again && isHidden(work.id, work.survey, *work.grid)) return false;
+    work.survey.refine();
+    return true;
+  }
+  if (!again) {
+    place(work);
+  } else if (work.survey.unknownInside() > 0) {
+    unknown.push_back(work.id);
+  } else {
+    sharpen(work);
+  }
+  return false;
 }
 
 void PaintWorld::refill() {
   const size_t mostWork = looks_ ? kMostLooks : kMostWork;
   while (work_.size() < mostWork && !pending_.empty()) {
-    const uint32_t id = pending_.back();
+    auto next = std::ranges::lower_bound(pending_, turn_);
+    if (next == pending_.begin()) {
+      turn_ = kNone;
+      next = pending_.end();
+    }
+    const uint32_t id = *--next;
     const Shot& shot = list_[id];
     // Places its twin first.
     if (std::ranges::any_of(work_, [&](const Work& w) { return areTwins(list_[w.id], shot); }))
       return;
-    pending_.pop_back();
-    if (!countTwin(id)) work_.push_back({.id = id, .survey = Survey(shot, rangeOf(id))});
-  }
-}
-
-// Answers the rays of several surveys, by the host's depth pictures if it draws any. Returns false
-// if the host can tell nothing.
-bool PaintWorld::askFor(std::span<Work* const> works, const Sight& sight) {
-  return lookFor(works, sight.draw) || castFor(works, sight.cast);
-}
-
-// Casts the rays of several surveys in one batch. Returns false if the host casts no rays.
-bool PaintWorld::castFor(std::span<Work* const> works, const CastRays& cast) {
-  std::vector<grisaille_ray> rays;
-  std::vector<size_t> first;
-  for (const Work* work : works) {
-    const auto asked = work->survey.rays();
-    first.push_back(rays.size());
-    rays.insert(rays.end(), asked.begin(), asked.end());
-  }
-  std::vector<grisaille_hit> hits(rays.size());
-  if (!cast(rays, hits)) return false;
-  onAllThreads(works.size(), [&](size_t i) {
-    Survey& survey = works[i]->survey;
-    works[i]->told = survey.take(std::span(hits).subspan(first[i], survey.rays().size()));
-    finish(*works[i]);
-  });
-  return true;
-}
-
-// Completes the rough picture or the map of several surveys, by depth pictures. Returns false if
-// the host draws none.
-bool PaintWorld::lookFor(std::span<Work* const> works, const DrawDepth& draw) {
-  for (Work* work : works) {
-    if (work->muzzle) continue;
-    work->muzzle = Muzzle::look(work->survey.frame(), draw);
-    if (!work->muzzle) return false;
-    looks_ = true;
-  }
-  onAllThreads(works.size(), [&](size_t i) {
-    Work& work = *works[i];
-    work.told = work.muzzle->isKnown();
-    std::vector<grisaille_hit> hits;
-    while (work.told && !work.survey.rays().empty()) {
-      const auto rays = work.survey.rays();
-      hits.resize(rays.size());
-      std::ranges::transform(rays, hits.begin(),
-                             [&](const grisaille_ray& ray) { return work.muzzle->see(ray); });
-      work.told = work.survey.take(hits);
-    }
-    finish(work);
-  });
-  return true;
-}
-
-// Takes the map and the shares of a survey once it is complete.
-void PaintWorld::finish(Work& work) {
-  Survey& survey = work.survey;
-  if (!work.told || !survey.rays().empty() || survey.isRough()) return;
-  work.map = survey.map();
-  work.shares = sharesOf(survey.frame(), *work.grid, survey.patches());
-}
-
-// Asks again for placed shots with unknown squares, and places the shots again if the host can tell
-// more.
-void PaintWorld::askAgain(const Sight& sight) {
-  std::deque<Work> asked = std::exchange(partly_, {});
-  for (Work& work : asked) {
-    const size_t before = work.survey.unknown();
-    work.survey.askAgain();
-    bool can = true, first = true, learned = false;
-    while (can && !work.survey.rays().empty()) {
-      Work* one = &work;
-      can = askFor(std::span(&one, 1), sight);
-      learned = can && (learned || !first || work.survey.unknown() < before);
-      first = false;
-    }
-    if (learned) {
-      remove(work.id, work.cells);
-      place(work);
-    } else {
-      work.muzzle.reset();
-      partly_.push_back(std::move(work));
-    }
+    pending_.erase(next);
+    // Newer paint hides a shot that was to be sharpened.
+    if (!isPlaced(id) && states_[id].lostTo > 0) continue;
+    if (isPlaced(id) || !countTwin(id))
+      work_.push_back({.id = id, .survey = Survey(shot, rangeOf(id))});
   }
 }
 
@@ -339,13 +290,12 @@ void PaintWorld::place(Work& work) {
     }
     placing_ = kNone;
     Placed& placed = placed_[record];
-    if (placed.cores > 0 && !map.words.empty()) {
-      placed.blocks = static_cast<uint32_t>(map.words.size() / 2);
-      placed.base = runs_.take(placed.blocks);
-      std::ranges::copy(map.words,
-                        blocks_.write(size_t{placed.base} * 2, map.words.size()).begin());
+    if (placed.cores > 0) {
+      placed.coarse = store(work.coarse);
+      const bool isCoarse = id < floors_.coarse && placed.coarse.blocks > 0;
+      if (!isCoarse) placed.exact = store(map);
+      coarse_ += isCoarse ? 1 : 0;
     }
-    placed.root = map.root;
     placed.slope = survey.frame().slope;
     writeRecord(record);
     release(record);
@@ -355,6 +305,16 @@ void PaintWorld::place(Work& work) {
   joinTwins(id, work.cells);
   work.muzzle.reset();
   if (partly) partly_.push_back(std::move(work));
+}
+
+// Gives a placed shot its exact map back.
+void PaintWorld::sharpen(const Work& work) {
+  const uint32_t record = states_[work.id].record;
+  Placed& placed = placed_[record];
+  if (!placed.isCoarse()) return;
+  placed.exact = store(work.map);
+  --coarse_;
+  writeRecord(record);
 }
 
 // Removes a shot from all lists. cells: those in which it was placed.
@@ -395,8 +355,9 @@ void PaintWorld::writeRecord(uint32_t index) {
   const float times = std::min(1.0f + static_cast<float>(placed.counted), 65504.0f);
   record[12] = glm::packHalf2x16(glm::vec2(shot.color[0], shot.color[1]));
   record[13] = glm::packHalf2x16(glm::vec2(shot.color[2], times));
-  record[14] = placed.base;
-  record[15] = placed.root;
+  const MapRun& map = placed.isCoarse() ? placed.coarse : placed.exact;
+  record[14] = map.base;
+  record[15] = map.root | (placed.isCoarse() ? kCoarse : 0);
 }
 
 }  // namespace grisaille::sspm

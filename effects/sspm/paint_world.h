@@ -57,7 +57,9 @@ class PaintWorld {
   // pending.
   void follow(std::span<const Shot> shots, size_t kept, const PaintRules& rules, uint64_t limit);
   // Number of leading shots that the last update() gave up.
-  size_t givenUp() const { return floor_; }
+  size_t givenUp() const { return floors_.given; }
+  // Number of shots with a coarse map.
+  size_t coarse() const { return coarse_; }
 
   // A shot that reaches a point; its muzzle may not see the point.
   struct Reach {
@@ -86,17 +88,24 @@ class PaintWorld {
     uint32_t lostTo = 0;      // 1 + the newest shot that hides it in some cell; 0: none
     uint32_t record = kNone;  // index into placed_
   };
+  // A map on the device.
+  struct MapRun {
+    uint32_t base = 0;    // first block
+    uint32_t blocks = 0;  // number of blocks
+    uint32_t root = 0;
+  };
   // A shot in at least one cell's list.
   struct Placed {
     uint32_t shot = 0;
-    uint32_t base = 0;     // first block of its map
-    uint32_t blocks = 0;   // number of blocks of its map
-    uint32_t root = 0;     // of its map
+    MapRun exact = {};     // no blocks: given up, or no surface
+    MapRun coarse = {};    // no blocks: not much smaller than the exact map
     uint32_t cores = 0;    // number of its entries with Entry::core
     uint32_t others = 0;   // number of its other entries
     uint32_t counted = 0;  // twins that only count
     float slope = 0;       // of its frame
     bool hidden = false;   // has lost all entries with Entry::core; paints nothing
+
+    bool isCoarse() const { return exact.blocks == 0 && coarse.blocks > 0; }
   };
   // A shot under survey.
   struct Work {
@@ -106,9 +115,10 @@ class PaintWorld {
     std::vector<CellKey> cells = {};    // in which it was placed
     std::optional<CellGrid> grid = {};  // once the rough picture is complete
     // What the survey found, once it is complete.
-    ShotMap map = {};
+    ShotMap map = {}, coarse = {};
     std::vector<Share> shares = {};
     bool told = true;  // by the host, as far as it could
+    int asked = 0;     // how often the host did not have its depth pictures
   };
   // How fast steps go. Effort is counted in rays.
   struct Pace {
@@ -118,10 +128,15 @@ class PaintWorld {
     double effortIn(double seconds) const;
     void note(double seconds, double done);
   };
-  // The value of floor_ before the list of this length raised it.
-  struct Floor {
+  // What the limit of memory costs: older shots are given up, or have coarse maps.
+  struct Floors {
+    uint32_t given = 0;   // shots below are given up
+    uint32_t coarse = 0;  // other shots below have coarse maps
+  };
+  // The floors before the list of this length raised them.
+  struct Raise {
     size_t shots = 0;
-    uint32_t before = 0;
+    Floors before;
   };
   // A group of twins.
   struct Twins {
@@ -136,17 +151,22 @@ class PaintWorld {
   void forget(size_t count, bool allLost);
   void erase(const std::vector<bool>& gone);
   bool step(double most, const Sight& sight, std::vector<uint32_t>& unknown);
+  bool advance(Work& work, std::vector<uint32_t>& unknown);
   bool isUploadDue() const;
   void refill();
+  CellGrid gridFor(const ShotFrame& frame);
+  void place(Work& work);
+  void sharpen(const Work& work);
+  bool isPlaced(uint32_t id) const { return states_[id].record != kNone; }
+  void remove(uint32_t id, std::span<const CellKey> cells);
+  void writeRecord(uint32_t record);
+
+  // sight.cpp
   bool askFor(std::span<Work* const> works, const Sight& sight);
   bool castFor(std::span<Work* const> works, const CastRays& cast);
   bool lookFor(std::span<Work* const> works, const DrawDepth& draw);
   static void finish(Work& work);
   void askAgain(const Sight& sight);
-  CellGrid gridFor(const ShotFrame& frame);
-  void place(Work& work);
-  void remove(uint32_t id, std::span<const CellKey> cells);
-  void writeRecord(uint32_t record);
 
   // twins.cpp
   bool countTwin(uint32_t id);
@@ -161,7 +181,14 @@ class PaintWorld {
   bool isGone(const Entry& entry) const;
   bool sweep();
   uint64_t bytes() const;
+  MapRun store(const ShotMap& map);
+  void give(MapRun& run);
+  uint64_t room() const;
+  bool areMapsFull(uint64_t spare) const;
   void keepWithin();
+  bool coarsen();
+  bool giveUpOldest();
+  void noteFloors();
   void giveUp(uint32_t floor);
   void takeUp(size_t shots);
 
@@ -188,12 +215,14 @@ class PaintWorld {
   std::vector<uint32_t> freeRecords_;
   DeviceWords records_, blocks_;
   Runs runs_;
-  uint32_t placing_ = kNone;   // record of the shot that place() works on
-  size_t entries_ = 0;         // of all cells
-  size_t hidden_ = 0;          // of these: entries of hidden shots
-  size_t swept_ = 0;           // cells of an unfinished sweep; 0: none
-  uint32_t floor_ = 0;         // shots below are given up
-  std::vector<Floor> floors_;  // ascending
+  uint32_t placing_ = kNone;  // record of the shot that place() works on
+  size_t entries_ = 0;        // of all cells
+  size_t hidden_ = 0;         // of these: entries of hidden shots
+  size_t swept_ = 0;          // cells of an unfinished sweep; 0: none
+  Floors floors_;
+  std::vector<Raise> raises_;  // ascending
+  size_t coarse_ = 0;          // shots with Placed::isCoarse()
+  uint32_t turn_ = kNone;      // shots below come next: the host did not have others' pictures
   Pace pace_;
   uint64_t limit_ = 0;     // bytes
   bool reserves_ = false;  // leaves a part of the limit to the next undo

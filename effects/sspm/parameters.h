@@ -144,7 +144,8 @@ constexpr grisaille_param_desc kParams[] = {
                       .label = "Memory",
                       .unit = "MB",
                       .tooltip = "On surfaces only: most memory for paint, host and device "
-                                 "together; the oldest shots that do not fit are not drawn",
+                                 "together; near it, the oldest shots get coarser edges, and the "
+                                 "oldest that do not fit are not drawn",
                       .hardMin = 16,
                       .hardMax = 65536,
                       .softMin = 64,

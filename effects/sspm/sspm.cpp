@@ -236,6 +236,7 @@ class Sspm {
     kept_ = shots.size();
     frame.waiting(waiting);
     frame.givenUp(world_.givenUp());
+    frame.coarser(world_.coarse());
     world_.upload(frame, uploader_);
     const Bindings shared = {
         plugin::uniform(0, frame.viewBlock()),

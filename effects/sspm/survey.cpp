@@ -188,6 +188,7 @@ size_t Survey::countUnknown(float within) const {
 }
 
 void Survey::askAgain() {
+  if (!rays_.empty()) return;
   asked_.clear();
   for (size_t i = 0; i < samples_.size(); ++i) {
     if (samples_[i].unknown) asked_.push_back(static_cast<int32_t>(i));

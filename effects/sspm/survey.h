@@ -61,7 +61,7 @@ class Survey {
   // axis. The map has no paint in their squares.
   size_t unknown() const { return countUnknown(1e30f); }
   size_t unknownInside() const { return countUnknown(1); }
-  // Casts their rays again, after the map is complete.
+  // Casts their rays again, after the map is complete. Repeated calls without answers do nothing.
   void askAgain();
 
   // Memory, bytes.
@@ -72,6 +72,8 @@ class Survey {
   const ShotFrame& frame() const { return frame_; }
   // The map. Call it after refine(), when rays() is empty.
   ShotMap map() const;
+  // A map about a third as large. Its planes serve all but small parts of the squares.
+  ShotMap coarseMap() const;
 
  private:
   enum class Stage : uint8_t { kProbing, kRough, kFine };
@@ -160,14 +162,17 @@ class Survey {
   Found confirm(const Square& square, const Pair& pair, const MapLine& line);
   void settle(Square& square);
 
-  // survey_results.cpp: patches and the map
+  // survey_map.cpp
+  class Writer;
+  ShotMap write(int32_t least, float most) const;
+
+  // survey_results.cpp: patches; and what a map's leaves may share
   void gatherPatches(int32_t index, std::vector<Patch>& patches) const;
   void gatherPlanes(int32_t index, std::vector<SeenPlane>& planes, bool& ragged) const;
   Patch patchOf(const Square& square, const glm::vec4& plane) const;
   bool serves(int32_t index, const glm::vec4& plane) const;
   const Sample* firstPlane(int32_t index) const;
   bool uniform(int32_t index, const Sample*& first) const;
-  class Writer;
 
   ShotFrame frame_;
   Stage stage_ = Stage::kProbing;

@@ -30,7 +30,7 @@ struct Shot {
   uint color_rg;       // half floats
   uint color_b_times;  // half floats: blue; number of times that the alpha counts
   uint base;           // first block of the map
-  uint root;           // reference to the map's root
+  uint root;           // reference to the map's root; plus kCoarse if the map is coarse
 };
 // Hash table with linear probing. Six words per slot: cell (3), code (-1: free), first entry,
 // count.
@@ -46,6 +46,7 @@ const float kBiasUnits = 0.02, kBiasShare = 2e-5;
 const float kSlant = 8.0, kOther = -0.5, kSame = 0.3, kLeastBias = 0.05;
 const float kLineReach = 12.0;
 const uint kLine = 0x2000u, kTwo = 0x4000u, kFour = 0x6000u, kEight = 0x8000u, kTag = 0xE000u;
+const uint kCoarse = 0x10000u;  // effects/sspm/paint_world.cpp
 
 // A line's normal, with |x| + |y| = 1, from a turn of 0 to 4.
 vec2 lineNormal(float turn) {
@@ -185,7 +186,9 @@ void compositeEntry(inout Sum sum, inout uint blocked, uint entry, Point point) 
   const float along = dot(q, shot.direction);
   const vec2 across = q * axesAcross(shot.direction);
   if (along < 0.0 || length(across) >= shot.range || dot(q, point.normal) >= 0.0) return;
-  if (inSight(shot, entries[entry * 4u + 1u], q, along, across, point.normal)) {
+  // Entries refer into the exact map.
+  const uint start = shot.root < kCoarse ? entries[entry * 4u + 1u] : shot.root - kCoarse;
+  if (inSight(shot, start, q, along, across, point.normal)) {
     compositeShot(sum, record, shot, across, point.pixel);
   } else if (blocked == 0u) {
     blocked = record + 1u;

@@ -25,6 +25,7 @@
 #include "lab/paint/shot.h"
 #include "tests/bench/command.h"
 #include "tests/bench/sspm_edits.h"
+#include "tests/bench/sspm_limits.h"
 #include "tests/bench/sspm_score.h"
 #include "tests/bench/subject.h"
 #include "tests/support/traced_rays.h"
@@ -45,6 +46,8 @@ struct Options : CommonOptions {
   std::vector<size_t> perShotCounts = {1, 4, 16, 64, 256};
   uint32_t memory = 256;
   std::vector<size_t> editCounts = {1000, 10000};
+  std::vector<uint32_t> limits = {};
+  size_t limitShots = 5000;
   std::string out;
 };
 
@@ -394,7 +397,9 @@ void run(Options options) {
     std::erase(*counts, 0);
   }
   std::deque<Place> places;  // a deque, since rays refer to their scene by address
-  places.emplace_back(loadSubject(), options.counts, options.perShotCounts, options.editCounts);
+  std::vector<size_t> extra = options.editCounts;
+  if (!options.limits.empty()) extra.push_back(options.limitShots);
+  places.emplace_back(loadSubject(), options.counts, options.perShotCounts, extra);
   places.emplace_back(wallSubject(), options.wallCounts, std::vector<size_t>{},
                       std::vector<size_t>{});
   effect::Registry registry;
@@ -423,6 +428,12 @@ void run(Options options) {
     try {
       for (const Place& place : places) {
         measure(backend.name, place, registry, options, curves);
+      }
+      if (!options.limits.empty()) {
+        const Place& sponza = places.front();
+        printLimits(backend.name, sponza.subject, registry, *sponza.rays,
+                    std::span(sponza.shots).first(options.limitShots), options.limits,
+                    options.width, options.height);
       }
       if (!options.editCounts.empty()) {
         const Place& sponza = places.front();
@@ -453,6 +464,9 @@ int main(int argc, char** argv) {
       .add_option("--edit-counts", options.editCounts,
                   "Shots on Sponza, of which a parameter changes")
       ->expected(0, -1);
+  program.add_option("--limits", options.limits,
+                     "Values of the parameter memory at which paint is compared with exact paint");
+  program.add_option("--limit-shots", options.limitShots, "Shots on Sponza for --limits");
   program.add_option("--out", options.out, "A folder for paint_cost.csv, .svg and .png");
   return grisaille::bench::runCommand(program, options, argc, argv,
                                       [&] { grisaille::bench::run(options); });

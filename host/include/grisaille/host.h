@@ -400,7 +400,8 @@ typedef struct grisaille_host_depths {
    * Draws a picture, as you draw a shadow map, and reads it back.
    * grisaille_host_effect_record() calls it, in the same thread. The function must not call the
    * library. You need not wait for the GPU: leave the values as they are, and the library asks for
-   * the same view in the next recording.
+   * the same view in the next recordings. After a few without an answer it asks for other views
+   * first.
    * @param context grisaille_host_depths::context
    * @param view origin, direction and size of the picture
    * @param[out] depth `size` x `size` values, see grisaille_host::draw_depth; preset to NaN, which
@@ -884,6 +885,7 @@ typedef struct grisaille_host_report {
   uint32_t reserved;    /**< 0 */
   uint64_t waiting;     /**< pieces of work for later recordings; 0: the outputs are complete */
   uint64_t given_up;    /**< oldest objects for which a limit, say of memory, leaves no room */
+  uint64_t coarser;     /**< objects that are drawn less exactly because of a limit */
 } grisaille_host_report;
 
 /**

@@ -71,12 +71,16 @@ TEST_F(ServicesTest, PatienceIsToldAndHasNoEndOtherwise) {
 
 TEST_F(ServicesTest, WhatIsGivenUpIsToldUntilTheNextFrame) {
   values.set("gives_up", "5");
+  values.set("coarser", "7");
   told({});
   EXPECT_EQ(instance.report().givenUp, 5u);
+  EXPECT_EQ(instance.report().coarser, 7u);
   EXPECT_EQ(instance.report().waiting, 0u);
   values.set("gives_up", "-1");
+  values.set("coarser", "-1");
   told({});
   EXPECT_EQ(instance.report().givenUp, 0u);
+  EXPECT_EQ(instance.report().coarser, 0u);
 }
 
 TEST_F(ServicesTest, WhatWaitsIsToldUntilTheNextFrame) {

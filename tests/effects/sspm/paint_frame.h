@@ -47,6 +47,7 @@ class PaintFrame {
   std::vector<grisaille_drawn> drawAt(std::span<const grisaille_point> points);
   uint64_t waiting() const { return renderer_.report().waiting; }
   uint64_t givenUp() const { return renderer_.report().givenUp; }
+  uint64_t coarser() const { return renderer_.report().coarser; }
 
  private:
   effect::Registry registry_;

@@ -805,6 +805,13 @@ typedef struct grisaille_frame {
   uint32_t guard;
   uint32_t reserved;               /**< 0 */
   const grisaille_texture* inputs; /**< by index in grisaille_effect_desc::inputs; id 0: missing */
+  /**
+   * Reports how many objects the effect draws less exactly, because a limit that its user chose, of
+   * memory say, is near. The host tells the user.
+   * @param self this frame
+   * @param count number of these objects; 0 (the value without a call): none
+   */
+  grisaille_result (*coarser)(const struct grisaille_frame* self, uint64_t count);
 } grisaille_frame;
 
 /**

@@ -258,6 +258,9 @@ class Frame {
   /// Reports how many objects a limit leaves no room for. The host tells the user.
   /// @param count number of leading objects without effect; 0 (the value without a call): none
   void givenUp(uint64_t count) const { require(frame_->given_up(frame_, count), "given_up"); }
+  /// Reports how many objects are drawn less exactly because of a limit. The host tells the user.
+  /// @param count number of these objects; 0 (the value without a call): none
+  void coarser(uint64_t count) const { require(frame_->coarser(frame_, count), "coarser"); }
 
   /// Records a pass: a named, timed group of commands. Passes do not nest.
   /// @param label names the pass

@@ -16,7 +16,7 @@ namespace {
 namespace plugin = grisaille::plugin;
 using grisaille::tests::Mark;
 
-enum Parameter { kCasts, kWaits, kGivesUp, kPicture, kFails, kDraws, kDepth };
+enum Parameter { kCasts, kWaits, kGivesUp, kCoarser, kPicture, kFails, kDraws, kDepth };
 
 constexpr const char* kCastKeys[] = {"none",          "two",      "nan_origin", "long_direction",
                                      "nan_direction", "no_reach", "nan_reach",  "null"};
@@ -42,6 +42,14 @@ constexpr grisaille_param_desc kParams[] = {
     plugin::intParam({.key = "gives_up",
                       .label = "Gives up",
                       .tooltip = "Objects that it says it gives up; under 0: it says nothing",
+                      .hardMin = -1,
+                      .hardMax = 100,
+                      .softMin = -1,
+                      .softMax = 100,
+                      .defaultValue = -1}),
+    plugin::intParam({.key = "coarser",
+                      .label = "Coarser",
+                      .tooltip = "Objects that it says are coarser; under 0: it says nothing",
                       .hardMin = -1,
                       .hardMax = 100,
                       .softMin = -1,
@@ -168,6 +176,8 @@ class Teller {
     if (waits >= 0) frame.waiting(static_cast<uint64_t>(waits));
     const int32_t givesUp = frame.value<int32_t>(kGivesUp);
     if (givesUp >= 0) frame.givenUp(static_cast<uint64_t>(givesUp));
+    const int32_t coarser = frame.value<int32_t>(kCoarser);
+    if (coarser >= 0) frame.coarser(static_cast<uint64_t>(coarser));
     std::vector<float> told(size_t{frame.width()} * frame.height());
     const auto marks = frame.objects<Mark>();
     told[0] = static_cast<float>(marks.size());

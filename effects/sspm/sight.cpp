@@ -1,0 +1,113 @@
+// SPDX-License-Identifier: MIT
+// Answers the rays of surveys, by the host's rays or depth pictures.
+#include <algorithm>
+#include <iterator>
+#include <utility>
+
+#include "paint_world.h"
+#include "threads.h"
+
+namespace grisaille::sspm {
+namespace {
+
+constexpr size_t kCoarseShare = 3;  // quarters of a map: a coarse map must be smaller
+
+}  // namespace
+
+// Answers the rays of several surveys, by the host's depth pictures if it draws any. Returns false
+// if the host can tell nothing.
+bool PaintWorld::askFor(std::span<Work* const> works, const Sight& sight) {
+  return lookFor(works, sight.draw) || castFor(works, sight.cast);
+}
+
+// Casts the rays of several surveys in one batch. Returns false if the host casts no rays.
+bool PaintWorld::castFor(std::span<Work* const> works, const CastRays& cast) {
+  std::vector<grisaille_ray> rays;
+  std::vector<size_t> first;
+  for (const Work* work : works) {
+    const auto asked = work->survey.rays();
+    first.push_back(rays.size());
+    rays.insert(rays.end(), asked.begin(), asked.end());
+  }
+  std::vector<grisaille_hit> hits(rays.size());
+  if (!cast(rays, hits)) return false;
+  onAllThreads(works.size(), [&](size_t i) {
+    Survey& survey = works[i]->survey;
+    works[i]->told = survey.take(std::span(hits).subspan(first[i], survey.rays().size()));
+    finish(*works[i]);
+  });
+  return true;
+}
+
+// Completes the rough picture or the map of several surveys, by depth pictures, up to the first
+// whose pictures the host does not have yet. Returns false if the host draws none.
+bool PaintWorld::lookFor(std::span<Work* const> works, const DrawDepth& draw) {
+  size_t known = 0;
+  for (; known < works.size(); ++known) {
+    Work& work = *works[known];
+    if (!work.muzzle) work.muzzle = Muzzle::look(work.survey.frame(), draw);
+    if (!work.muzzle) return false;
+    looks_ = true;
+    work.told = work.muzzle->isKnown();
+    if (work.told) continue;
+    work.muzzle.reset();
+    ++work.asked;
+    break;
+  }
+  onAllThreads(known, [&](size_t i) {
+    Work& work = *works[i];
+    std::vector<grisaille_hit> hits;
+    while (work.told && !work.survey.rays().empty()) {
+      const auto rays = work.survey.rays();
+      hits.resize(rays.size());
+      std::ranges::transform(rays, hits.begin(),
+                             [&](const grisaille_ray& ray) { return work.muzzle->see(ray); });
+      work.told = work.survey.take(hits);
+    }
+    finish(work);
+  });
+  return true;
+}
+
+// Takes the map and the shares of a survey once it is complete.
+void PaintWorld::finish(Work& work) {
+  Survey& survey = work.survey;
+  if (!work.told || !survey.rays().empty() || survey.isRough()) return;
+  work.map = survey.map();
+  work.coarse = survey.coarseMap();
+  if (work.coarse.words.size() * 4 > work.map.words.size() * kCoarseShare) work.coarse = {};
+  work.shares = sharesOf(survey.frame(), *work.grid, survey.patches());
+}
+
+// Asks again for placed shots with unknown squares, and places the shots again if the host can tell
+// more.
+void PaintWorld::askAgain(const Sight& sight) {
+  for (std::deque<Work> asked = std::exchange(partly_, {}); !asked.empty(); asked.pop_front()) {
+    Work& work = asked.front();
+    const size_t before = work.survey.unknown();
+    work.survey.askAgain();
+    bool can = true, first = true, learned = false;
+    while (can && !work.survey.rays().empty()) {
+      Work* one = &work;
+      can = askFor(std::span(&one, 1), sight) && work.told;
+      learned = can && (learned || !first || work.survey.unknown() < before);
+      first = false;
+    }
+    if (learned) {
+      remove(work.id, work.cells);
+      place(work);
+      continue;
+    }
+    work.muzzle.reset();
+    work.told = true;
+    partly_.push_back(std::move(work));
+    if (!looks_) continue;
+    // The host draws the pictures of one of these shots a frame.
+    asked.pop_front();
+    partly_.insert(partly_.begin(), std::move_iterator(asked.begin()),
+                   std::move_iterator(asked.end()));
+    return;
+  }
+}
+
+}  // namespace grisaille::sspm
