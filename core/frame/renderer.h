@@ -58,8 +58,8 @@ std::vector<std::string> outputNames(std::span<const effect::Effect* const> effe
 // Throws kOutputUnknown with the nearest name unless outputNames() lists `name`.
 void checkOutput(std::string_view name, std::span<const effect::Effect* const> effects);
 
-// How a file of integers, and the viewer, encode an output: the composed picture and base colour are
-// light; outputs whose key is `normal` or ends in `_normal` are signed, also those of effects.
+// How a file of integers, and the viewer, encode an output: the composed picture and base colour
+// are light; outputs whose key is `normal` or ends in `_normal` are signed, also those of effects.
 image::Transfer transferOf(std::string_view output);
 
 // An effect that is on but cannot run.
