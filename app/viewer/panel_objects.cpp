@@ -77,24 +77,22 @@ void Panel::drawObjectsOf(const std::string& effect, const Status& status) {
   ImGui::Text("%s: %zu", table.label, list.size());
   tip(table.tooltip);
   layout.note(effect + ".objects", fmt::format("{}", list.size()));
-  if (status.waiting > 0) {
+  const auto count = [&](uint64_t objects, const char* what, const char* tooltip, const char* key) {
+    if (objects == 0) return;
     ImGui::SameLine();
-    ImGui::TextDisabled("%llu waiting", static_cast<unsigned long long>(status.waiting));
-  }
-  if (status.givenUp > 0) {
-    ImGui::SameLine();
-    ImGui::TextDisabled("%llu given up", static_cast<unsigned long long>(status.givenUp));
-    tip("The oldest objects are not drawn: the memory that their effect may use is full. Raise its "
-        "Memory, or undo");
-    layout.note(effect + ".given_up", fmt::format("{}", status.givenUp));
-  }
-  if (status.coarser > 0) {
-    ImGui::SameLine();
-    ImGui::TextDisabled("%llu coarser", static_cast<unsigned long long>(status.coarser));
-    tip("Old objects are drawn with coarser edges: the memory that their effect may use is nearly "
-        "full. Raise its Memory, or undo");
-    layout.note(effect + ".coarser", fmt::format("{}", status.coarser));
-  }
+    ImGui::TextDisabled("%llu %s", static_cast<unsigned long long>(objects), what);
+    tip(tooltip);
+    layout.note(effect + key, fmt::format("{}", objects));
+  };
+  count(status.waiting, "waiting", "Objects that follow in the next frames", ".waiting");
+  count(status.givenUp, "given up",
+        "The oldest objects are not drawn: the memory that their effect may use is full. Raise its "
+        "Memory, or undo",
+        ".given_up");
+  count(status.coarser, "coarser",
+        "Old objects are drawn with coarser edges: the memory that their effect may use is nearly "
+        "full. Raise its Memory, or undo",
+        ".coarser");
   ImGui::SameLine();
   if (ImGui::SmallButton("Clear")) session_.clearObjects(effect);
   tip("Deletes all objects; Ctrl+Z restores them");

@@ -9,7 +9,6 @@
 #include <CLI/CLI.hpp>
 #include <algorithm>
 #include <array>
-#include <chrono>
 #include <deque>
 #include <filesystem>
 #include <fstream>
@@ -20,10 +19,9 @@
 
 #include "backends/backends.h"
 #include "core/base/error.h"
-#include "core/effect/chain.h"
-#include "core/frame/renderer.h"
 #include "lab/paint/shot.h"
 #include "tests/bench/command.h"
+#include "tests/bench/painted.h"
 #include "tests/bench/sspm_edits.h"
 #include "tests/bench/sspm_limits.h"
 #include "tests/bench/sspm_score.h"
@@ -33,7 +31,6 @@
 namespace grisaille::bench {
 namespace {
 
-using Clock = std::chrono::steady_clock;
 using Shots = std::vector<lab::Shot>;
 
 constexpr size_t kScoreShots = 10'000;
@@ -50,10 +47,6 @@ struct Options : CommonOptions {
   size_t limitShots = 5000;
   std::string out;
 };
-
-double millisecondsSince(Clock::time_point start) {
-  return std::chrono::duration<double, std::milli>(Clock::now() - start).count();
-}
 
 // Resident memory of this process, MiB. On a software driver it includes the device's memory.
 double residentMemory() {
@@ -115,82 +108,15 @@ struct Place {
   Shots shots;
 };
 
-// A renderer with the paint of some shots.
-class Painted {
- public:
-  Painted(gpu::Device& device, const Subject& subject, const effect::Registry& registry,
-          tests::TracedRays& rays)
-      : device_(device),
-        subject_(subject),
-        rays_(rays),
-        chain_(effect::Selection(registry, std::array<std::string, 2>{"ssao", "sspm"})),
-        started_(chain_, device),
-        renderer_(device, subject.scene) {}
-
-  effect::Values& values() { return chain_.selection.values("sspm"); }
-
-  // Adds shots to draw from the next frame on.
-  void add(std::span<const lab::Shot> shots) {
-    objects::ObjectList& list = *chain_.objects("sspm");
-    list.add(objectsOf(list.table(), shots).view());
-  }
-
-  // Milliseconds from the call until the device has finished.
-  double render(uint32_t width, uint32_t height,
-                double patience = std::numeric_limits<double>::infinity()) {
-    const auto start = Clock::now();
-    renderer_.render({.camera = subject_.cameras[0],
-                      .width = width,
-                      .height = height,
-                      .chain = &chain_,
-                      .outputs = outputs_,
-                      .patience = patience,
-                      .services = {.rays = &rays_}});
-    device_.wait();
-    return millisecondsSince(start);
-  }
-
-  // Places the shots that wait, as `grisaille render` does, in frames of few pixels. Returns the
-  // milliseconds that these frames took.
-  double settle() {
-    double took = 0;
-    do {
-      took += render(64, 36, kPatience);
-    } while (renderer_.report().waiting > 0);
-    return took;
-  }
-  uint64_t givenUp() const { return renderer_.report().givenUp; }
-
-  // Share of the pixels that have paint.
-  double painted(uint32_t width, uint32_t height) {
-    const std::vector<std::string> color = std::exchange(outputs_, {"sspm.paint_coverage"});
-    render(width, height);
-    outputs_ = color;
-    const image::Image coverage = renderer_.read("sspm.paint_coverage");
-    const auto count = std::ranges::count_if(coverage.pixels, [](float it) { return it > 0; });
-    return static_cast<double>(count) / static_cast<double>(coverage.pixels.size());
-  }
-
-  // Milliseconds of the last frame: of the effect's passes, and of all passes.
-  std::pair<double, double> passes() {
-    double effect = 0, all = 0;
-    const std::vector<gpu::FrameTimes> frames = device_.takeTimes();
-    for (const gpu::PassTime& pass : frames.back().passes) {
-      all += pass.milliseconds;
-      if (pass.label.starts_with("sspm/")) effect += pass.milliseconds;
-    }
-    return {effect, all};
-  }
-
- private:
-  gpu::Device& device_;
-  const Subject& subject_;
-  tests::TracedRays& rays_;
-  effect::Chain chain_;
-  effect::StartedChain started_;
-  frame::Renderer renderer_;
-  std::vector<std::string> outputs_ = {"color"};
-};
+// Share of the pixels that have paint.
+double shareOf(Painted& painted, const Painted::View& view) {
+  const auto color = std::exchange(painted.outputs(), {"sspm.paint_coverage"});
+  painted.render(view);
+  painted.outputs() = color;
+  const image::Image coverage = painted.read("sspm.paint_coverage");
+  const auto count = std::ranges::count_if(coverage.pixels, [](float it) { return it > 0; });
+  return static_cast<double>(count) / static_cast<double>(coverage.pixels.size());
+}
 
 struct Row {
   std::string mode;
@@ -198,7 +124,7 @@ struct Row {
   double range = 0, painted = 0;  // metres; share of the pixels
   std::vector<double> effect = {}, frame = {}, effectRatio = {}, frameRatio = {};
   double placeSeconds = 0, raysAShot = 0, memory = 0, bytesAShot = 0;
-  uint64_t givenUp = 0;  // shots, at the limit of memory
+  uint64_t coarser = 0, givenUp = 0;  // shots, at the limit of memory
 };
 
 class Bench {
@@ -224,8 +150,8 @@ class Bench {
       double firstEffect = 0, firstFrame = 0;
       for (size_t i = 0; i < rows_.size(); ++i) {
         Row& row = rows_[i];
-        painted_[i]->render(options_.width, options_.height);
-        const auto [effect, frame] = painted_[i]->passes();
+        painted_[i]->render(large());
+        const auto [effect, frame] = passes();
         if (i == 0) std::tie(firstEffect, firstFrame) = std::pair(effect, frame);
         row.effect.push_back(effect);
         row.frame.push_back(frame);
@@ -243,11 +169,11 @@ class Bench {
     std::mt19937 random(2);
     std::vector<double> more;
     for (size_t i = 0; i < times; ++i) {
-      const double without = painted_[which]->render(64, 36);
+      const double without = painted_[which]->render(small());
       lab::Shot shot = place_.shots[random() % place_.shots.size()];
       shot.origin[1] += 1e-3;  // a shot that is not in the list yet
       painted_[which]->add({&shot, 1});
-      more.push_back(painted_[which]->render(64, 36) - without);
+      more.push_back(painted_[which]->render(small()) - without);
     }
     device_->takeTimes();
     std::ranges::sort(more);
@@ -255,15 +181,30 @@ class Bench {
   }
 
  private:
+  const scene::Camera& camera() const { return place_.subject.cameras[0]; }
+  Painted::View large() const { return {camera(), options_.width, options_.height}; }
+  Painted::View small() const { return {camera(), 64, 36}; }
+
+  // Milliseconds of the last frame: of the effect's passes, and of all passes.
+  std::pair<double, double> passes() {
+    double effect = 0, all = 0;
+    const std::vector<gpu::FrameTimes> frames = device_->takeTimes();
+    for (const gpu::PassTime& pass : frames.back().passes) {
+      all += pass.milliseconds;
+      if (pass.label.starts_with("sspm/")) effect += pass.milliseconds;
+    }
+    return {effect, all};
+  }
+
   // Range with which a number of shots paints as many pixels as `share`, by bisection.
   double rangeFor(size_t count, double share) {
-    Painted painted(*device_, place_.subject, registry_, *place_.rays);
+    Painted painted(*device_, place_.subject, registry_, *place_.rays, kPaintAndAo);
     painted.add(std::span(place_.shots).first(count));
     double low = kRange, high = 16;
     for (int i = 0; i < 10; ++i) {
       const double middle = std::sqrt(low * high);
       painted.values().set("paint_range", fmt::format("{}", middle));
-      (painted.painted(options_.width, options_.height) < share ? low : high) = middle;
+      (shareOf(painted, large()) < share ? low : high) = middle;
     }
     device_->takeTimes();
     return high;
@@ -272,26 +213,27 @@ class Bench {
   void place(const char* mode, size_t count, double range) {
     fmt::print(stderr, "{}: {} shots\n", mode, count);
     painted_.push_back(
-        std::make_unique<Painted>(*device_, place_.subject, registry_, *place_.rays));
-    painted_.back()->values().set("mode", mode);
-    painted_.back()->values().set("shot_limit", "65536");
-    painted_.back()->values().set("memory", std::to_string(options_.memory));
-    painted_.back()->values().set("paint_range", fmt::format("{}", range));
-    painted_.back()->render(options_.width, options_.height);
-    const double idle = painted_.back()->render(64, 36);
+        std::make_unique<Painted>(*device_, place_.subject, registry_, *place_.rays, kPaintAndAo));
+    Painted& painted = *painted_.back();
+    painted.values().set("mode", mode);
+    painted.values().set("shot_limit", "65536");
+    painted.values().set("memory", std::to_string(options_.memory));
+    painted.values().set("paint_range", fmt::format("{}", range));
+    painted.render(large());
+    const double idle = painted.render(small());
     // The textures of a large frame are in the figure before as well as in the one after.
-    painted_.back()->render(options_.width, options_.height);
-    painted_.back()->add(std::span(place_.shots).first(count));
+    painted.render(large());
+    painted.add(std::span(place_.shots).first(count));
     malloc_trim(0);  // otherwise memory freed by earlier runs would be reused unseen
     const double memory = residentMemory();  // includes the host's list of shots
     const size_t rays = place_.rays->count();
-    const double took = painted_.back()->settle() - idle;
+    const double took = painted.settle(kPatience) - idle;
     // Until the device has finished with the frame that uploaded the paint.
-    for (int i = 0; i < 4; ++i) painted_.back()->render(options_.width, options_.height);
+    for (int i = 0; i < 4; ++i) painted.render(large());
     const auto each = static_cast<double>(count);
     malloc_trim(0);
     const double grown = residentMemory() - memory;
-    const double share = painted_.back()->painted(options_.width, options_.height);
+    const double share = shareOf(painted, large());
     device_->takeTimes();
     rows_.push_back({.mode = mode,
                      .shots = count,
@@ -301,7 +243,8 @@ class Bench {
                      .raysAShot = static_cast<double>(place_.rays->count() - rays) / each,
                      .memory = grown,
                      .bytesAShot = grown * 1048576 / each,
-                     .givenUp = painted_.back()->givenUp()});
+                     .coarser = painted.report().coarser,
+                     .givenUp = painted.report().givenUp});
   }
 
   Options options_;
@@ -316,16 +259,16 @@ void print(const std::vector<Row>& rows) {
   fmt::print(
       "| mode | shots | range, m | painted | paint, ms | paint, first row = 1 | frame, ms | frame, "
       "first row = 1 | "
-      "to place all, s | rays a shot | memory, MiB | bytes a shot | given up |\n"
-      "|---|---|---|---|---|---|---|---|---|---|---|---|---|\n");
+      "to place all, s | rays a shot | memory, MiB | bytes a shot | coarser | given up |\n"
+      "|---|---|---|---|---|---|---|---|---|---|---|---|---|---|\n");
   for (const Row& row : rows) {
     fmt::print(
         "| {} | {} | {:.2f} | {:.0f} % | {:.2f} | {:.2f} | {:.2f} | {:.2f} | {:.2f} | {:.0f} | "
         "{:.0f} "
-        "| {:.0f} | {} |\n",
+        "| {:.0f} | {} | {} |\n",
         row.mode, row.shots, row.range, 100 * row.painted, median(row.effect),
         median(row.effectRatio), median(row.frame), median(row.frameRatio), row.placeSeconds,
-        row.raysAShot, row.memory, row.bytesAShot, row.givenUp);
+        row.raysAShot, row.memory, row.bytesAShot, row.coarser, row.givenUp);
   }
 }
 

@@ -11,8 +11,7 @@
 #include <utility>
 
 #include "backends/backends.h"
-#include "core/effect/chain.h"
-#include "core/frame/renderer.h"
+#include "tests/bench/painted.h"
 
 namespace grisaille::bench {
 namespace {
@@ -35,31 +34,19 @@ class Edited {
  public:
   Edited(gpu::Device& device, const Subject& subject, const effect::Registry& registry,
          tests::TracedRays& rays, std::span<const lab::Shot> shots, glm::uvec2 size)
-      : device_(device),
-        subject_(subject),
-        rays_(rays),
+      : camera_(subject.cameras[0]),
         size_(size),
-        chain_(effect::Selection(registry, std::array<std::string, 2>{"ssao", "sspm"})),
-        started_(chain_, device),
-        renderer_(device, subject.scene) {
-    objects::ObjectList& list = *chain_.objects("sspm");
-    list.assign(objectsOf(list.table(), shots));
+        painted_(device, subject, registry, rays, kPaintAndAo) {
+    painted_.add(shots);
     complete();
   }
 
-  effect::Values& values() { return chain_.selection.values("sspm"); }
+  effect::Values& values() { return painted_.values(); }
 
   // Returns the number of shots that wait.
   uint64_t render(double patience) {
-    renderer_.render({.camera = subject_.cameras[0],
-                      .width = size_.x,
-                      .height = size_.y,
-                      .chain = &chain_,
-                      .outputs = outputs_,
-                      .patience = patience,
-                      .services = {.rays = &rays_}});
-    device_.wait();
-    return renderer_.report().waiting;
+    painted_.render({camera_, size_.x, size_.y, patience});
+    return painted_.report().waiting;
   }
 
   // The picture with all shots in their places.
@@ -69,17 +56,12 @@ class Edited {
     return picture();
   }
 
-  image::Image picture() { return renderer_.read("color"); }
+  image::Image picture() { return painted_.read("color"); }
 
  private:
-  gpu::Device& device_;
-  const Subject& subject_;
-  tests::TracedRays& rays_;
+  const scene::Camera& camera_;
   const glm::uvec2 size_;
-  effect::Chain chain_;
-  effect::StartedChain started_;
-  frame::Renderer renderer_;
-  const std::vector<std::string> outputs_ = {"color"};
+  Painted painted_;
 };
 
 bool differ(const image::Image& a, const image::Image& b, size_t pixel) {

@@ -8,8 +8,7 @@
 #include <cmath>
 
 #include "backends/backends.h"
-#include "core/effect/chain.h"
-#include "core/frame/renderer.h"
+#include "tests/bench/painted.h"
 
 namespace grisaille::bench {
 namespace {
@@ -28,50 +27,28 @@ class Session {
  public:
   Session(gpu::Device& device, const Subject& subject, const effect::Registry& registry,
           tests::TracedRays& rays, uint32_t limit)
-      : subject_(subject),
-        rays_(rays),
-        chain_(effect::Selection(registry, std::array<std::string, 1>{"sspm"})),
-        started_(chain_, device),
-        renderer_(device, subject.scene) {
-    chain_.selection.values("sspm").set("memory", std::to_string(limit));
-    chain_.selection.values("sspm").set("resolution", "full");
+      : painted_(device, subject, registry, rays, kPaintAlone) {
+    painted_.outputs() = {"sspm.paint", "sspm.paint_owner"};
+    painted_.values().set("memory", std::to_string(limit));
+    painted_.values().set("resolution", "full");
   }
 
   void fire(std::span<const lab::Shot> shots) {
-    objects::ObjectList& list = *chain_.objects("sspm");
     for (size_t had = 0; had < shots.size(); had += kShotsAFrame) {
-      const size_t count = std::min(kShotsAFrame, shots.size() - had);
-      list.add(objectsOf(list.table(), shots.subspan(had, count)).view());
-      do {
-        render(subject_.cameras[0], 64, 36);
-      } while (renderer_.report().waiting > 0);
+      painted_.add(shots.subspan(had, std::min(kShotsAFrame, shots.size() - had)));
+      painted_.settle(kFramePatience);
     }
   }
 
   Picture look(const scene::Camera& camera, uint32_t width, uint32_t height) {
-    render(camera, width, height);
-    return {renderer_.read("sspm.paint").pixels, renderer_.read("sspm.paint_owner").pixels};
+    painted_.render({camera, width, height, kFramePatience});
+    return {painted_.read("sspm.paint").pixels, painted_.read("sspm.paint_owner").pixels};
   }
 
-  const effect::Report& report() const { return renderer_.report(); }
+  const effect::Report& report() const { return painted_.report(); }
 
  private:
-  void render(const scene::Camera& camera, uint32_t width, uint32_t height) {
-    renderer_.render({.camera = camera,
-                      .width = width,
-                      .height = height,
-                      .chain = &chain_,
-                      .outputs = outputs_,
-                      .patience = kFramePatience,
-                      .services = {.rays = &rays_}});
-  }
-
-  const Subject& subject_;
-  tests::TracedRays& rays_;
-  effect::Chain chain_;
-  effect::StartedChain started_;
-  frame::Renderer renderer_;
-  std::vector<std::string> outputs_ = {"sspm.paint", "sspm.paint_owner"};
+  Painted painted_;
 };
 
 struct Difference {
