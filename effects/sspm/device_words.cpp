@@ -34,6 +34,11 @@ void DeviceWords::clear() {
   size_ = 0;
   buffer_ = {};
   deviceWords_ = 0;
+  planned_ = 0;
+}
+
+uint64_t DeviceWords::sizeFor(uint64_t words) const {
+  return std::max({words + words / 32, planned_, uint64_t{kLeast}});
 }
 
 std::span<uint32_t> DeviceWords::write(size_t first, size_t count) {
@@ -58,7 +63,7 @@ uint64_t DeviceWords::bytes() const {
 
 uint64_t DeviceWords::peakBytes(size_t words) const {
   words = std::max(words, size_);
-  return bytes() + (words > deviceWords_ ? (words + words / 32) * sizeof(uint32_t) : 0);
+  return bytes() + (words > deviceWords_ ? sizeFor(words) * sizeof(uint32_t) : 0);
 }
 
 Uploader::Uploader(const plugin::Host& host)
@@ -95,7 +100,7 @@ void Uploader::upload(const plugin::Frame& frame, DeviceWords& words) {
 
 void Uploader::grow(const plugin::Frame& frame, DeviceWords& words) {
   if (words.deviceWords_ >= std::max(words.size_, kLeast)) return;
-  const size_t grown = std::max(words.size_ + words.size_ / 32, kLeast);
+  const size_t grown = words.sizeFor(words.size_);
   plugin::Buffer larger = host_.buffer(words.label_, grown * sizeof(uint32_t));
   if (words.deviceWords_ > 0) {
     const uint32_t copy[] = {static_cast<uint32_t>(words.deviceWords_), 1, 0, 0, 0, 0};

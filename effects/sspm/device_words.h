@@ -24,6 +24,8 @@ class DeviceWords {
   size_t size() const { return size_; }
   // Grows to `words`, or more. New words are undefined.
   void resize(size_t words);
+  // The next growth makes room for at least `words`.
+  void plan(uint64_t words) { planned_ = words; }
   // Drops the waiting changes.
   void discard();
   // Drops the array too.
@@ -36,8 +38,8 @@ class DeviceWords {
 
   // Bytes on the device and of waiting changes.
   uint64_t bytes() const;
-  // The same at the next upload, if the array has at least `words` then: the device may take a
-  // thirty-second more, and needs the old array too until the frame has ended.
+  // The same at the next upload, if the array has at least `words` then: an array that grows takes
+  // a thirty-second more, and the device needs the old one too until the frame has ended.
   uint64_t peakBytes(size_t words = 0) const;
   uint64_t waitingBytes() const { return payload_.size() * sizeof(uint32_t); }
   // Words that it has, or will have after the next upload.
@@ -46,6 +48,9 @@ class DeviceWords {
 
  private:
   friend class Uploader;
+  // Size of an array on the device that holds `words`.
+  uint64_t sizeFor(uint64_t words) const;
+
   struct Run {
     size_t payload, target, count;  // words; first word in payload_, and in the array
   };
@@ -53,6 +58,7 @@ class DeviceWords {
   const char* label_;
   size_t size_ = 0;
   size_t deviceWords_ = 0;
+  uint64_t planned_ = 0;
   plugin::Buffer buffer_;
   std::vector<uint32_t> payload_;
   std::vector<Run> runs_;

@@ -16,6 +16,12 @@ namespace grisaille::sspm {
 namespace {
 
 constexpr float kLeastSlant = 0.02f;  // least cosine between a facet's normal and the ray
+constexpr float kSealed = 1.001f;     // sum of strengths; allows for rounding on the device
+constexpr int kSpotsAWay = 4;
+constexpr size_t kSpots = size_t{kSpotsAWay} * kSpotsAWay;
+// Of a cell's width: how far a piece's surface may be from the plane through its known point. See
+// sameSurface().
+constexpr float kSurfaceSlack = 1.0f / 16;
 
 glm::vec3 unpackPlace(uint32_t place) {
   return (glm::vec3(place & 1023u, place >> 10 & 1023u, place >> 20) + 0.5f) / 1024.0f;
@@ -80,6 +86,40 @@ uint32_t referenceTo(const glm::vec4& plane, const ShotMap& map) {
     }
   }
   return map.root;
+}
+
+// A piece's part of the cell in spots, and how strong the paint on each is at least.
+struct Seal {
+  glm::vec3 normal = glm::vec3(0);
+  std::array<glm::vec3, kSpots> spots = {};  // centres
+  float half = 0;                            // farthest point of a spot from its centre, metres
+  std::array<float, kSpots> strengths = {};
+  uint32_t newest = ~0u;  // shot that paints it; ~0: none
+};
+
+// A piece's plane, cut along two axes of its part of the cell.
+// piece: with its position in the same space as the spots. edge: of the cell, metres.
+Seal sealOf(const SurfacePoint& piece, float edge) {
+  const glm::vec3 size = glm::abs(piece.normal);
+  const int a = size.x >= size.y && size.x >= size.z ? 0 : size.y >= size.z ? 1 : 2;
+  const int b = (a + 1) % 3, c = (a + 2) % 3;
+  const float part = edge / 4;
+  const float width = part * (1 + 2 * kPartMargin) / kSpotsAWay;
+  const glm::vec3 middle = edge * middleOf(piece.part);
+  const float slopeB = -piece.normal[b] / piece.normal[a];
+  const float slopeC = -piece.normal[c] / piece.normal[a];
+  Seal seal;
+  seal.normal = piece.normal;
+  seal.half = width / 2 * glm::length(glm::vec3(1, 1, std::abs(slopeB) + std::abs(slopeC)));
+  for (size_t i = 0; i < kSpots; ++i) {
+    const auto row = static_cast<float>(i / kSpotsAWay),
+               column = static_cast<float>(i % kSpotsAWay);
+    glm::vec3& at = seal.spots[i];
+    at[b] = middle[b] + width * (column + 0.5f - kSpotsAWay / 2.0f);
+    at[c] = middle[c] + width * (row + 0.5f - kSpotsAWay / 2.0f);
+    at[a] = piece.at[a] + slopeB * (at[b] - piece.at[b]) + slopeC * (at[c] - piece.at[c]);
+  }
+  return seal;
 }
 
 }  // namespace
@@ -183,11 +223,10 @@ size_t PaintWorld::learn(Cell& cell, const CellGrid& grid, const SurfacePoint& p
 // Finds the sealed pieces, and removes hidden shots from the list.
 void PaintWorld::prune(Cell& cell) {
   const auto edge = static_cast<float>(edgeOf(cell.key.code));
-  const float half = edge / 8 * 1.7321f * (1 + 2 * kPartMargin);
-  std::array<float, kMostKnown> strengths;
-  std::array<uint32_t, kMostKnown> newest;
-  strengths.fill(0);
-  newest.fill(kNone);
+  std::vector<Seal> seals;
+  for (const KnownPoint& known : cell.known) {
+    seals.push_back(sealOf(pointOf(known, glm::vec3(0), edge), edge));
+  }
   cell.sealed = 0;
   cell.sealedBelow = kNone;
   cell.sealer = 0;
@@ -196,27 +235,34 @@ void PaintWorld::prune(Cell& cell) {
       unlist(entry, isGone(entry) ? 0 : cell.sealer + 1);
       return true;
     }
-    if (entry.solid == 0) return false;
+    if ((entry.solid & ~cell.sealed) == 0) return false;
     const Shot& shot = list_[entry.shot];
     const float range = rangeOf(entry.shot);
     const glm::vec3 direction(shot.direction[0], shot.direction[1], shot.direction[2]);
     const glm::dvec3 origin(shot.origin[0], shot.origin[1], shot.origin[2]);
     const glm::vec3 corner(glm::dvec3(cell.key.cell) * edgeOf(cell.key.code) - origin);
-    for (size_t i = 0; i < cell.known.size(); ++i) {
-      if (((entry.solid & ~cell.sealed) >> i & 1) == 0) continue;
-      const int part = partOf(cell.known[i].place);
-      const glm::vec3 middle = corner + edge * middleOf(part);
-      const float across = glm::length(glm::cross(middle, direction)) + half;
-      if (across >= range || glm::dot(middle, direction) < half) continue;
-      if (newest[i] == kNone) newest[i] = entry.shot;
-      const float alpha = std::min(1.0f, rules_.full / across);
-      const float fade = rules_.fade > 0 ? std::min(1.0f, (1 - across / range) / rules_.fade) : 1;
-      strengths[i] += alpha * fade;
-      if (strengths[i] >= 1.001f) {  // allows for rounding on the device
-        cell.sealed |= uint64_t{1} << i;
-        cell.sealer = std::max(cell.sealer, newest[i]);
-        cell.sealedBelow = std::min(cell.sealedBelow, entry.shot);
+    for (size_t i = 0; i < seals.size(); ++i) {
+      if (!has(entry.solid & ~cell.sealed, static_cast<int>(i))) continue;
+      Seal& seal = seals[i];
+      const float slack = kSurfaceSlack * edge * glm::length(glm::cross(seal.normal, direction));
+      bool all = true;
+      for (size_t j = 0; j < kSpots; ++j) {
+        if (seal.strengths[j] >= kSealed) continue;
+        const glm::vec3 at = corner + seal.spots[j];
+        const float across = glm::length(glm::cross(at, direction)) + seal.half + slack;
+        if (across < range && glm::dot(at, direction) > seal.half + slack) {
+          if (seal.newest == kNone) seal.newest = entry.shot;
+          const float alpha = std::min(1.0f, rules_.full / across);
+          const float fade =
+              rules_.fade > 0 ? std::min(1.0f, (1 - across / range) / rules_.fade) : 1;
+          seal.strengths[j] += alpha * fade;
+        }
+        all = all && seal.strengths[j] >= kSealed;
       }
+      if (!all) continue;
+      cell.sealed |= uint64_t{1} << i;
+      cell.sealer = std::max(cell.sealer, seal.newest);
+      cell.sealedBelow = std::min(cell.sealedBelow, entry.shot);
     }
     return false;
   });

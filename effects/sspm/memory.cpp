@@ -4,8 +4,6 @@
 #include <numeric>
 #include <utility>
 
-#include <cstdio>
-#include <cstdlib>
 #include "paint_world.h"
 
 namespace grisaille::sspm {
@@ -18,6 +16,9 @@ constexpr uint64_t kReserveShare = 32;    // of the limit
 constexpr size_t kSweepCells = 2048;      // at a time
 constexpr uint64_t kRoomShare = 64;       // of the limit: free space for the maps of the next shots
 constexpr uint64_t kSpareShare = 16;      // of the limit: paint gets coarser before that is left
+constexpr uint64_t kPlanShare = 4;        // of the limit: the array of maps is planned
+constexpr double kMapsLeft = 0.42;        // of maps, once all but the newest quarter are coarse
+constexpr double kListsLeft = 0.8;  // of the lists of a shot, once more shots share cells
 
 }  // namespace
 
@@ -136,16 +137,31 @@ bool PaintWorld::areMapsFull(uint64_t spare) const {
   return grown + spare > room();
 }
 
+// Near the limit there is no room for the old array of maps beside a larger one. So it grows early,
+// to the share of the limit that maps will have beside the lists.
+void PaintWorld::planMaps() {
+  const uint64_t all = bytes();
+  if (plannedFor_ == limit_ || all < limit_ / kPlanShare) return;
+  plannedFor_ = limit_;
+  const uint64_t mapsBytes = blocks_.capacity() * sizeof(uint32_t);
+  const double maps = kMapsLeft * static_cast<double>(mapsBytes);
+  const double lists =
+      kListsLeft * static_cast<double>(all - std::min(all, blocks_.peakBytes() + kWorkBytes));
+  const double space = static_cast<double>(limit_ - std::min(limit_, kWorkBytes));
+  blocks_.plan(static_cast<uint64_t>(space * maps / (maps + lists)) / sizeof(uint32_t));
+}
+
 // Keeps the memory below the limit. Where maps are too many, the oldest get coarser. Where that is
 // not enough, or lists are too many, the oldest shots go.
 void PaintWorld::keepWithin() {
+  planMaps();
   while (areMapsFull(limit_ / kSpareShare) && coarsen()) continue;
   while (areMapsFull(0) && giveUpOldest()) continue;
   while (bytes() > room() && giveUpOldest()) continue;
 }
 
 // Gives up the exact maps of the oldest tenth of the shots with exact maps, but none of the newest
-// quarter. Returns false if there are none.
+// fifth. Returns false if there are none.
 bool PaintWorld::coarsen() {
   std::vector<uint32_t> all, exact;
   for (const Placed& placed : placed_) {
@@ -154,7 +170,7 @@ bool PaintWorld::coarsen() {
     if (placed.exact.blocks > 0 && placed.coarse.blocks > 0) exact.push_back(placed.shot);
   }
   if (exact.empty()) return false;
-  const auto newest = all.begin() + static_cast<std::ptrdiff_t>(all.size() * 3 / 4);
+  const auto newest = all.begin() + static_cast<std::ptrdiff_t>(all.size() * 4 / 5);
   std::ranges::nth_element(all, newest);
   const auto tenth = exact.begin() + static_cast<std::ptrdiff_t>(exact.size() / 10);
   std::ranges::nth_element(exact, tenth);

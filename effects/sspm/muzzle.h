@@ -1,9 +1,9 @@
 // SPDX-License-Identifier: MIT
 // What a muzzle sees, in depth pictures that the host draws. They answer a survey's rays.
 //
-// Four pictures share the muzzle and the shot's direction. Each is eight times as wide as the next,
-// so that a point at the distance d of the ray is seen with pixels of at most d / 8: fine along the
-// ray, coarse beside the muzzle.
+// Five pictures share the muzzle and the shot's direction. Each is five times as wide as the next,
+// so that a point at the distance d of the ray is seen with pixels of at most d / 25: fine along
+// the ray, coarse beside the muzzle.
 #pragma once
 
 #include <array>

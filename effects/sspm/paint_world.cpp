@@ -99,6 +99,7 @@ void PaintWorld::clear() {
   records_.clear();
   entries_ = hidden_ = 0;
   floors_ = {};
+  plannedFor_ = 0;
   raises_.clear();
   coarse_ = 0;
   turn_ = kNone;
@@ -249,13 +250,13 @@ void PaintWorld::refill() {
   }
 }
 
-// Level for a shot: cells about a range wide, or wider if their numbers would not fit at the shot's
-// position.
+// Level for a shot: cells about two ranges wide, or wider if their numbers would not fit at the
+// shot's position.
 CellGrid PaintWorld::gridFor(const ShotFrame& frame) {
   const glm::dvec3 far = glm::abs(frame.origin) + 2.0 * double{frame.range} / double{frame.slope};
   const double least = std::max({far.x, far.y, far.z}) * 0x1p-28;
   const int exponent =
-      std::max(static_cast<int>(std::lround(std::log2(std::max(frame.range, 8 * frame.bias)))),
+      std::max(static_cast<int>(std::lround(std::log2(2 * std::max(frame.range, 8 * frame.bias)))),
                static_cast<int>(std::ceil(std::log2(least))));
   const int32_t code = levelCode(std::clamp(exponent, -40, 40));
   if (std::ranges::find(levels_, code) != levels_.end()) return {frame.origin, code};

@@ -185,6 +185,7 @@ class PaintWorld {
   void give(MapRun& run);
   uint64_t room() const;
   bool areMapsFull(uint64_t spare) const;
+  void planMaps();
   void keepWithin();
   bool coarsen();
   bool giveUpOldest();
@@ -224,8 +225,9 @@ class PaintWorld {
   size_t coarse_ = 0;          // shots with Placed::isCoarse()
   uint32_t turn_ = kNone;      // shots below come next: the host did not have others' pictures
   Pace pace_;
-  uint64_t limit_ = 0;     // bytes
-  bool reserves_ = false;  // leaves a part of the limit to the next undo
+  uint64_t limit_ = 0;       // bytes
+  uint64_t plannedFor_ = 0;  // limit for which planMaps() has planned; 0: not yet
+  bool reserves_ = false;    // leaves a part of the limit to the next undo
   std::vector<int32_t> levels_;
 };
 
