@@ -16,9 +16,9 @@ constexpr uint64_t kReserveShare = 32;    // of the limit
 constexpr size_t kSweepCells = 2048;      // at a time
 constexpr uint64_t kRoomShare = 64;       // of the limit: free space for the maps of the next shots
 constexpr uint64_t kSpareShare = 16;      // of the limit: paint gets coarser before that is left
-constexpr uint64_t kPlanShare = 4;        // of the limit: the array of maps is planned
-constexpr double kMapsLeft = 0.42;        // of maps, once all but the newest quarter are coarse
-constexpr double kListsLeft = 0.8;  // of the lists of a shot, once more shots share cells
+constexpr uint64_t kPlanShare = 4;        // of the limit: when its arrays are planned
+constexpr double kMapsLeft = 0.38;        // of maps, once all but the newest fifth are coarse
+constexpr double kListsLeft = 0.8;        // of the lists of a shot, once more shots share cells
 
 }  // namespace
 
@@ -137,24 +137,27 @@ bool PaintWorld::areMapsFull(uint64_t spare) const {
   return grown + spare > room();
 }
 
-// Near the limit there is no room for the old array of maps beside a larger one. So it grows early,
-// to the share of the limit that maps will have beside the lists.
-void PaintWorld::planMaps() {
+// Near the limit there is no room for an old array beside a larger one. So the arrays grow early,
+// to the shares of the limit that they will have.
+void PaintWorld::planArrays() {
   const uint64_t all = bytes();
   if (plannedFor_ == limit_ || all < limit_ / kPlanShare) return;
   plannedFor_ = limit_;
-  const uint64_t mapsBytes = blocks_.capacity() * sizeof(uint32_t);
-  const double maps = kMapsLeft * static_cast<double>(mapsBytes);
-  const double lists =
-      kListsLeft * static_cast<double>(all - std::min(all, blocks_.peakBytes() + kWorkBytes));
-  const double space = static_cast<double>(limit_ - std::min(limit_, kWorkBytes));
-  blocks_.plan(static_cast<uint64_t>(space * maps / (maps + lists)) / sizeof(uint32_t));
+  DeviceWords& lists = cells_.words();
+  const uint64_t mapBytes = blocks_.peakBytes(), listBytes = lists.capacity() * sizeof(uint32_t);
+  const double maps = kMapsLeft * static_cast<double>(mapBytes);
+  const double others =
+      kListsLeft * static_cast<double>(all - std::min(all, mapBytes + kWorkBytes));
+  const double share = static_cast<double>(limit_ - std::min(limit_, kWorkBytes)) /
+                       (maps + others) / sizeof(uint32_t);
+  blocks_.plan(static_cast<uint64_t>(share * maps));
+  lists.plan(static_cast<uint64_t>(share * kListsLeft * static_cast<double>(listBytes)));
 }
 
 // Keeps the memory below the limit. Where maps are too many, the oldest get coarser. Where that is
 // not enough, or lists are too many, the oldest shots go.
 void PaintWorld::keepWithin() {
-  planMaps();
+  planArrays();
   while (areMapsFull(limit_ / kSpareShare) && coarsen()) continue;
   while (areMapsFull(0) && giveUpOldest()) continue;
   while (bytes() > room() && giveUpOldest()) continue;

@@ -12,8 +12,8 @@
 namespace grisaille::sspm {
 namespace {
 
-constexpr size_t kMostWork = 64;      // shots under survey at the same time
-constexpr double kMostEffort = 4096;  // of a step, except for a single shot
+constexpr size_t kMostWork = 64;       // shots under survey at the same time
+constexpr double kMostEffort = 16384;  // of a step, except for a single shot
 constexpr double kLeastEffort = 256;
 constexpr double kShotEffort = 128;     // of a shot in a step, beside its rays; rays
 constexpr double kPaceMemory = 0.9;     // share of the mean that each step leaves
