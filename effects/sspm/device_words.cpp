@@ -43,8 +43,18 @@ uint64_t DeviceWords::sizeFor(uint64_t words) const {
 
 std::span<uint32_t> DeviceWords::write(size_t first, size_t count) {
   const auto [at, added] = runAt_.try_emplace(first, runs_.size());
-  if (!added) runs_[at->second].count = 0;
+  if (!added) {
+    Run& waiting = runs_[at->second];
+    if (waiting.count == count) return std::span(payload_).subspan(waiting.payload, count);
+    waiting.count = 0;
+  }
   at->second = runs_.size();
+  // The limit of memory counts the capacity: less than twice the contents.
+  const auto reserve = [](auto& list, size_t wanted) {
+    if (wanted > list.capacity()) list.reserve(std::max(wanted, list.capacity() / 4 * 5));
+  };
+  reserve(runs_, runs_.size() + 1);
+  reserve(payload_, payload_.size() + count);
   runs_.push_back({.payload = payload_.size(), .target = first, .count = count});
   payload_.resize(payload_.size() + count);
   return std::span(payload_).last(count);

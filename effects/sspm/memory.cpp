@@ -16,9 +16,9 @@ constexpr uint64_t kReserveShare = 32;    // of the limit
 constexpr size_t kSweepCells = 2048;      // at a time
 constexpr uint64_t kRoomShare = 64;       // of the limit: free space for the maps of the next shots
 constexpr uint64_t kSpareShare = 16;      // of the limit: paint gets coarser before that is left
-constexpr uint64_t kPlanShare = 4;        // of the limit: when its arrays are planned
-constexpr double kMapsLeft = 0.38;        // of maps, once all but the newest fifth are coarse
-constexpr double kListsLeft = 0.8;        // of the lists of a shot, once more shots share cells
+constexpr uint64_t kPlanShare = 4;        // of the limit: when the array of maps is planned
+constexpr double kMapsLeft = 0.42;        // of maps, once all but the newest quarter are coarse
+constexpr double kListsLeft = 1.25;       // of lists, with the copies that they need to grow
 
 }  // namespace
 
@@ -137,34 +137,30 @@ bool PaintWorld::areMapsFull(uint64_t spare) const {
   return grown + spare > room();
 }
 
-// Near the limit there is no room for an old array beside a larger one. So the arrays grow early,
-// to the shares of the limit that they will have.
-void PaintWorld::planArrays() {
-  const uint64_t all = bytes();
-  if (plannedFor_ == limit_ || all < limit_ / kPlanShare) return;
+// Near the limit there is no room for the old array of maps beside a larger one. So it grows early,
+// to the share of the limit that maps will have beside the lists.
+void PaintWorld::planMaps() {
+  const uint64_t space = limit_ - std::min(limit_, kWorkBytes), all = bytes() - kWorkBytes;
+  if (plannedFor_ == limit_ || all < space / kPlanShare) return;
   plannedFor_ = limit_;
-  DeviceWords& lists = cells_.words();
-  const uint64_t mapBytes = blocks_.peakBytes(), listBytes = lists.capacity() * sizeof(uint32_t);
+  const uint64_t mapBytes = blocks_.peakBytes();
   const double maps = kMapsLeft * static_cast<double>(mapBytes);
-  const double others =
-      kListsLeft * static_cast<double>(all - std::min(all, mapBytes + kWorkBytes));
-  const double share = static_cast<double>(limit_ - std::min(limit_, kWorkBytes)) /
-                       (maps + others) / sizeof(uint32_t);
-  blocks_.plan(static_cast<uint64_t>(share * maps));
-  lists.plan(static_cast<uint64_t>(share * kListsLeft * static_cast<double>(listBytes)));
+  const double lists = kListsLeft * static_cast<double>(all - std::min(all, mapBytes));
+  const double planned = static_cast<double>(space) * maps / (maps + lists);
+  blocks_.plan(static_cast<uint64_t>(planned) / sizeof(uint32_t));
 }
 
 // Keeps the memory below the limit. Where maps are too many, the oldest get coarser. Where that is
 // not enough, or lists are too many, the oldest shots go.
 void PaintWorld::keepWithin() {
-  planArrays();
+  planMaps();
   while (areMapsFull(limit_ / kSpareShare) && coarsen()) continue;
   while (areMapsFull(0) && giveUpOldest()) continue;
   while (bytes() > room() && giveUpOldest()) continue;
 }
 
 // Gives up the exact maps of the oldest tenth of the shots with exact maps, but none of the newest
-// fifth. Returns false if there are none.
+// quarter. Returns false if there are none.
 bool PaintWorld::coarsen() {
   std::vector<uint32_t> all, exact;
   for (const Placed& placed : placed_) {
@@ -173,7 +169,7 @@ bool PaintWorld::coarsen() {
     if (placed.exact.blocks > 0 && placed.coarse.blocks > 0) exact.push_back(placed.shot);
   }
   if (exact.empty()) return false;
-  const auto newest = all.begin() + static_cast<std::ptrdiff_t>(all.size() * 4 / 5);
+  const auto newest = all.begin() + static_cast<std::ptrdiff_t>(all.size() * 3 / 4);
   std::ranges::nth_element(all, newest);
   const auto tenth = exact.begin() + static_cast<std::ptrdiff_t>(exact.size() / 10);
   std::ranges::nth_element(exact, tenth);

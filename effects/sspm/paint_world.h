@@ -185,7 +185,7 @@ class PaintWorld {
   void give(MapRun& run);
   uint64_t room() const;
   bool areMapsFull(uint64_t spare) const;
-  void planArrays();
+  void planMaps();
   void keepWithin();
   bool coarsen();
   bool giveUpOldest();
@@ -226,7 +226,7 @@ class PaintWorld {
   uint32_t turn_ = kNone;      // shots below come next: the host did not have others' pictures
   Pace pace_;
   uint64_t limit_ = 0;       // bytes
-  uint64_t plannedFor_ = 0;  // limit for which planArrays() has planned; 0: not yet
+  uint64_t plannedFor_ = 0;  // limit for which planMaps() has planned; 0: not yet
   bool reserves_ = false;    // leaves a part of the limit to the next undo
   std::vector<int32_t> levels_;
 };

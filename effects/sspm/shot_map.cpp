@@ -15,9 +15,10 @@ namespace {
 // kLeastBias of it.
 constexpr float kSlant = 8;  // largest depth behind the plane along the ray, in biases
 constexpr float kOther = -0.5f, kSame = 0.3f, kLeastBias = 0.05f;
-constexpr float kBiasUnits = 0.02f;  // of the range
-constexpr float kBiasShare = 2e-5f;  // of the distance
-constexpr float kLineReach = 12;     // largest offset of a line on the map
+constexpr float kBiasUnits = 0.02f;       // of the range
+constexpr float kBiasShare = 2e-5f;       // of the distance
+constexpr float kLineReach = 12;          // largest offset of a line on the map
+constexpr float kLineSlack = 1.0f / 512;  // units of the map: how far a line may be off
 
 // A normal with |x| + |y| = 1 as a turn, 0 to 4, and back.
 float turnOf(const glm::vec2& normal) {
@@ -142,7 +143,7 @@ uint32_t squareOf(uint32_t tag, const uint32_t* block, uint32_t square) {
 
 bool inSight(const ShotFrame& frame, uint32_t root, const uint32_t* words, const glm::vec3& q,
              const glm::vec3& facing) {
-  uint32_t at = root;
+  uint32_t at = root, other = root;  // `other`: what lies beyond a line that is close
   if (at >= kLine) {
     const glm::vec2 place = frame.placeOf(q);
     glm::vec2 inSquare = (place + kMapReach) * (2.0f / kMapReach);  // in squares of the root
@@ -150,16 +151,24 @@ bool inSight(const ShotFrame& frame, uint32_t root, const uint32_t* words, const
       const uint32_t* block = words + size_t{at & ~kTag} * 2;
       if ((at & kTag) == kLine) {
         const MapLine line = unpackLine(block);
-        at = glm::dot(line.normal, place) > line.offset ? block[0] >> 16 : block[0] & 0xFFFFu;
+        const float off = glm::dot(line.normal, place) - line.offset;
+        const uint32_t first = block[0] & 0xFFFFu, second = block[0] >> 16;
+        at = off > 0 ? second : first;
+        other = std::abs(off) >= kLineSlack ? at : off > 0 ? first : second;
         continue;
       }
       const glm::vec2 square = glm::clamp(glm::floor(inSquare), 0.0f, 3.0f);
       at = squareOf(at & kTag, block,
                     static_cast<uint32_t>(square.y) * 4 + static_cast<uint32_t>(square.x));
+      other = at;
       inSquare = (inSquare - square) * 4.0f;
     }
   }
-  return at == kOpen || depthBehind(frame, unpackPlane(words + size_t{at - 1} * 2), q, facing) <= 1;
+  const auto isBefore = [&](uint32_t leaf) {
+    return leaf == kOpen ||
+           depthBehind(frame, unpackPlane(words + size_t{leaf - 1} * 2), q, facing) <= 1;
+  };
+  return isBefore(at) || (other != at && isBefore(other));
 }
 
 }  // namespace grisaille::sspm

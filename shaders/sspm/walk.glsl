@@ -44,7 +44,7 @@ layout(STORAGE(3), std430) readonly buffer Maps { uint blocks[]; };  // two word
 const float kMapReach = 8.0;
 const float kBiasUnits = 0.02, kBiasShare = 2e-5;
 const float kSlant = 8.0, kOther = -0.5, kSame = 0.3, kLeastBias = 0.05;
-const float kLineReach = 12.0;
+const float kLineReach = 12.0, kLineSlack = 1.0 / 512.0;
 const uint kLine = 0x2000u, kTwo = 0x4000u, kFour = 0x6000u, kEight = 0x8000u, kTag = 0xE000u;
 const uint kCoarse = 0x10000u;  // effects/sspm/paint_world.cpp
 
@@ -76,12 +76,25 @@ uint squareOf(uint tag, uint block, uint first, uint square) {
   return blocks[block + part / 2u] >> 16u * (part & 1u) & 0xFFFFu;
 }
 
+// Whether a point lies before a leaf's plane, with a bias.
+// at: reference to the plane, or 0: no surface.
+bool isBefore(Shot shot, uint at, vec3 q, vec3 facing) {
+  if (at == 0u) return true;
+  const uint block = (shot.base + at - 1u) * 2u;
+  const vec3 normal = planeNormal(blocks[block]);
+  const float behind = uintBitsToFloat(blocks[block + 1u]) - dot(normal, q);
+  const float least = kBiasUnits * shot.range + kBiasShare * shot.range / shot.slope;
+  const float bias = least * clamp((dot(normal, facing) - kOther) / (kSame - kOther), kLeastBias, 1.0);
+  return behind <= bias && behind * length(q) <= kSlant * bias * abs(dot(normal, q));
+}
+
 // Visibility test of a shadow map: whether the muzzle sees the point at offset q on a facet with
-// normal `facing`. Descends the map's tree to a leaf, and compares q with the leaf's plane, with a
-// bias. Same as inSight() of effects/sspm/shot_map.cpp, which explains the bias.
+// normal `facing`. Descends the map's tree to a leaf, and compares q with the leaf's plane. Same as
+// inSight() of effects/sspm/shot_map.cpp, which explains the bias.
 // at: reference within the map, where the descent starts. along: dot(q, direction).
 // across: offset of q from the ray, along axesAcross().
 bool inSight(Shot shot, uint at, vec3 q, float along, vec2 across, vec3 facing) {
+  uint other = 0xFFFFu;  // what lies beyond a line that is close
   if (at >= kLine) {
     vec2 place = across / (max(along, 1e-20) * shot.slope);
     const float radius = length(place);
@@ -95,7 +108,9 @@ bool inSight(Shot shot, uint at, vec3 q, float along, vec2 across, vec3 facing) 
         const uint second = blocks[block + 1u];
         const float turn = float(second & 0xFFFFu) / 16384.0;
         const float offset = float(int(second) >> 16) * (kLineReach / 32767.0);
-        at = dot(lineNormal(turn), place) > offset ? first >> 16 : first & 0xFFFFu;
+        const float off = dot(lineNormal(turn), place) - offset;
+        at = off > 0.0 ? first >> 16 : first & 0xFFFFu;
+        if (abs(off) < kLineSlack) other = off > 0.0 ? first & 0xFFFFu : first >> 16;
       } else {
         const vec2 square = clamp(floor(in_square), 0.0, 3.0);
         at = squareOf(tag, block, first, uint(square.y) * 4u + uint(square.x));
@@ -103,13 +118,7 @@ bool inSight(Shot shot, uint at, vec3 q, float along, vec2 across, vec3 facing) 
       }
     }
   }
-  if (at == 0u) return true;
-  const uint block = (shot.base + at - 1u) * 2u;
-  const vec3 normal = planeNormal(blocks[block]);
-  const float behind = uintBitsToFloat(blocks[block + 1u]) - dot(normal, q);
-  const float least = kBiasUnits * shot.range + kBiasShare * shot.range / shot.slope;
-  const float bias = least * clamp((dot(normal, facing) - kOther) / (kSame - kOther), kLeastBias, 1.0);
-  return behind <= bias && behind * length(q) <= kSlant * bias * abs(dot(normal, q));
+  return isBefore(shot, at, q, facing) || (other != 0xFFFFu && isBefore(shot, other, q, facing));
 }
 
 // Spatial hash: xor of the coordinates times primes (Teschner et al. 2003), then mixed. Same as

@@ -181,7 +181,7 @@ TEST_P(CrowdTest, TheOldestGoWhenTheMemoryIsFull) {
   set("256");
   EXPECT_EQ(givenUpOf(9'000), 0u);
   set("16");
-  EXPECT_GT(givenUpOf(9'000), 0u);
+  EXPECT_GT(givenUpOf(11'000), 0u);
   set("1000");
   EXPECT_EQ(givenUpOf(10'000), 0u);
   set("16");
