@@ -54,6 +54,8 @@ struct Entry {
   // Whether its surfaces pass through the cell. Otherwise they only come close, and the entry stays
   // as long as the shot has entries in other cells.
   bool core = false;
+  bool former =
+      false;  // of the shot as it was placed before the range changed: PaintWorld::former_
 };
 
 struct Cell {
@@ -92,7 +94,7 @@ class CellTable {
   void removeEmpty();
 
   // Writes the changed cells to the arrays.
-  // recordOf(shot): index of its record on the device.
+  // recordOf(entry): index of its shot's record on the device.
   template <typename RecordOf>
   void write(const RecordOf& recordOf) {
     for (const uint32_t index : changed_) {
@@ -101,7 +103,7 @@ class CellTable {
       const std::span<uint32_t> words = reserve(cell);
       for (size_t i = 0; i < cell.entries.size(); ++i) {
         const Entry& entry = cell.entries[i];
-        words[4 * i] = recordOf(entry.shot);
+        words[4 * i] = recordOf(entry);
         words[4 * i + 1] = entry.reference;
         words[4 * i + 2] = static_cast<uint32_t>(entry.touched);
         words[4 * i + 3] = static_cast<uint32_t>(entry.touched >> 32);

@@ -2,8 +2,6 @@
 // Culls shots that newer paint hides. A cell knows the pieces of surfaces in it. A piece is sealed
 // when the strengths of its paint sum up to 1, in the worst case over its part of the cell. A shot
 // is hidden in a cell if all pieces that it may paint are sealed.
-#include <glm/gtc/packing.hpp>
-
 #include <algorithm>
 #include <array>
 #include <bit>
@@ -23,32 +21,13 @@ constexpr size_t kSpots = size_t{kSpotsAWay} * kSpotsAWay;
 // sameSurface().
 constexpr float kSurfaceSlack = 1.0f / 16;
 
-glm::vec3 unpackPlace(uint32_t place) {
-  return (glm::vec3(place & 1023u, place >> 10 & 1023u, place >> 20) + 0.5f) / 1024.0f;
-}
-
-uint32_t packPlace(const glm::vec3& inCell) {
-  const glm::uvec3 p(glm::clamp(inCell * 1024.0f, 0.0f, 1023.0f));
-  return p.x | p.y << 10 | p.z << 20;
-}
-
-int partOf(uint32_t place) {
-  return static_cast<int>((place >> 8 & 3u) | (place >> 18 & 3u) << 2 | (place >> 28 & 3u) << 4);
-}
-
-SurfacePoint pointOf(const KnownPoint& known, const glm::vec3& corner, float edge) {
-  return {.part = partOf(known.place),
-          .at = corner + edge * unpackPlace(known.place),
-          .normal = glm::vec3(glm::unpackSnorm3x10_1x2(known.normal))};
-}
-
 constexpr size_t kUnknown = ~size_t{0};
 
 // Index of the cell's known piece that a point belongs to, or kUnknown.
 size_t findKnown(const Cell& cell, const CellGrid& grid, const SurfacePoint& point) {
   const glm::vec3 corner = grid.corner(cell.key);
   const auto found = std::ranges::find_if(cell.known, [&](const KnownPoint& known) {
-    if (partOf(known.place) != point.part) return false;
+    if (partOf(known) != point.part) return false;
     const SurfacePoint other = pointOf(known, corner, grid.edge);
     return sameSurface(other.at, other.normal, point.at, point.normal, grid.edge);
   });
@@ -63,7 +42,7 @@ bool isHiddenIn(const Cell& cell, const Entry& entry) {
   if (entry.shot >= cell.sealedBelow || (entry.touched & cell.crowded) != 0) return false;
   bool touches = false;
   for (size_t i = 0; i < cell.known.size(); ++i) {
-    if (!has(entry.touched, partOf(cell.known[i].place))) continue;
+    if (!has(entry.touched, partOf(cell.known[i]))) continue;
     if (!has(cell.sealed, static_cast<int>(i))) return false;
     touches = true;
   }
@@ -124,11 +103,11 @@ Seal sealOf(const SurfacePoint& piece, float edge) {
 
 }  // namespace
 
-// Whether newer paint hides all of a shot, by its rough picture.
-bool PaintWorld::isHidden(uint32_t id, const Survey& survey, const CellGrid& grid) {
-  if (survey.unknown() > 0) return false;
+// Notes if newer paint hides all of a shot, by its rough picture.
+void PaintWorld::findHidden(uint32_t id, const Survey& survey, const CellGrid& grid) {
+  if (survey.unknown() > 0) return;
   const std::vector<Patch> patches = survey.patches();
-  if (patches.empty()) return false;  // its surfaces are too thin for the rough picture
+  if (patches.empty()) return;  // its surfaces are too thin for the rough picture
   uint32_t sealer = 0;
   for (const Patch& patch : patches) {
     const bool hidden =
@@ -138,7 +117,7 @@ bool PaintWorld::isHidden(uint32_t id, const Survey& survey, const CellGrid& gri
           if ((bits.touched & cell->crowded) != 0) return false;
           bool touches = bits.core != 0;
           for (size_t i = 0; i < cell->known.size(); ++i) {
-            if (!has(bits.touched, partOf(cell->known[i].place))) continue;
+            if (!has(bits.touched, partOf(cell->known[i]))) continue;
             if (!has(cell->sealed, static_cast<int>(i))) return false;
             touches = true;
           }
@@ -151,10 +130,9 @@ bool PaintWorld::isHidden(uint32_t id, const Survey& survey, const CellGrid& gri
           }
           return true;
         });
-    if (!hidden) return false;
+    if (!hidden) return;
   }
   states_[id].lostTo = std::max(states_[id].lostTo, sealer + 1);
-  return true;
 }
 
 // Adds a shot to a cell's list, unless newer paint hides it there.
@@ -178,7 +156,7 @@ void PaintWorld::join(uint32_t record, const ShotFrame& frame, const CellGrid& g
     if (known != kUnknown && !reaches(known)) ragged |= uint64_t{1} << point.part;
   }
   for (size_t i = 0; i < cell.known.size(); ++i) {
-    const int part = partOf(cell.known[i].place);
+    const int part = partOf(cell.known[i]);
     if (!has(entry.touched, part)) continue;
     entry.core = true;
     if (!has(ragged, part) && reaches(i)) entry.solid |= uint64_t{1} << i;
@@ -189,7 +167,12 @@ void PaintWorld::join(uint32_t record, const ShotFrame& frame, const CellGrid& g
   }
   if (!entry.core && placed.cores == 0) return;
   const auto position = std::ranges::lower_bound(cell.entries, id, std::greater<>(), &Entry::shot);
-  cell.entries.insert(static_cast<size_t>(position - cell.entries.begin()), entry);
+  if (position != cell.entries.end() && position->shot == id && position->former) {
+    unlist(*position, 0);
+    *position = entry;
+  } else {
+    cell.entries.insert(static_cast<size_t>(position - cell.entries.begin()), entry);
+  }
   ++entries_;
   ++(entry.core ? placed.cores : placed.others);
   if (cell.entries.size() >= cell.pruneAt) prune(cell);
@@ -207,13 +190,12 @@ size_t PaintWorld::learn(Cell& cell, const CellGrid& grid, const SurfacePoint& p
   }
   const glm::vec3 inCell = (point.at - grid.corner(cell.key)) / grid.edge;
   const glm::vec3 low = middleOf(point.part) - 0.124f, high = middleOf(point.part) + 0.124f;
-  cell.known.add({.place = packPlace(glm::clamp(inCell, low, high)),
-                  .normal = glm::packSnorm3x10_1x2(glm::vec4(point.normal, 0))});
+  cell.known.add(knownAt(glm::clamp(inCell, low, high), point.normal));
   // The maps of the listed shots are on the device alone. They may paint the piece, with gaps.
   for (Entry& entry : cell.entries) {
     if (!has(entry.touched, point.part) || isGone(entry)) continue;
     if (std::exchange(entry.core, true)) continue;
-    Placed& placed = placed_[states_[entry.shot].record];
+    Placed& placed = placed_[recordOf(entry)];
     --placed.others;
     ++placed.cores;
   }

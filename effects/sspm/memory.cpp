@@ -37,13 +37,14 @@ uint32_t PaintWorld::takeRecord(uint32_t id) {
 
 // A cell has removed an entry, because shot `to` - 1 hides it (0: another reason).
 void PaintWorld::unlist(const Entry& entry, uint32_t to) {
-  State& state = states_[entry.shot];
-  state.lostTo = std::max(state.lostTo, to);
+  // A former one is about to be surveyed again, whatever hides its old place.
+  if (!entry.former) states_[entry.shot].lostTo = std::max(states_[entry.shot].lostTo, to);
   --entries_;
-  Placed& placed = placed_[state.record];
-  --(entry.core ? placed.cores : placed.others);
+  const uint32_t record = recordOf(entry);
+  Placed& placed = placed_[record];
+  --(entry.core && !placed.hidden ? placed.cores : placed.others);
   if (placed.hidden) --hidden_;
-  if (state.record != placing_) release(state.record);
+  if (record != placing_) release(record);
 }
 
 // Frees what a shot does not need any more: its map without cores, its record without entries.
@@ -54,7 +55,7 @@ void PaintWorld::release(uint32_t record) {
   give(placed.exact);
   give(placed.coarse);
   if (placed.others == 0) {
-    states_[placed.shot].record = kNone;
+    slotOf(record) = kNone;
     freeRecords_.push_back(record);
     placed.hidden = false;
   } else if (!placed.hidden) {
@@ -66,31 +67,40 @@ void PaintWorld::release(uint32_t record) {
 
 // Whether an entry is of a hidden shot.
 bool PaintWorld::isGone(const Entry& entry) const {
-  const uint32_t record = states_[entry.shot].record;
+  const uint32_t record = recordOf(entry);
   return record != kNone && placed_[record].hidden;
 }
 
-// Removes the entries of hidden shots once they are many, and cells without entries: some cells at
-// a time. Returns whether more cells are to be swept.
+// Removes the entries of hidden shots once they are many or the last of former_, and cells without
+// entries: some cells at a time. Returns whether more cells are to be swept.
 bool PaintWorld::sweep() {
-  if (swept_ == 0 && (hidden_ < kSweepAt || hidden_ < entries_ / 8)) return false;
+  const bool ends = !former_.empty() && isSettled();
+  if (swept_ == 0) {
+    if (!ends && (hidden_ < kSweepAt || hidden_ < entries_ / 8)) return false;
+    lastSweep_ = ends;
+  }
   auto& cells = cells_.cells();
   const size_t end = std::min(swept_ + kSweepCells, cells.size());
-  for (; swept_ < end; ++swept_) {
-    Cell& cell = cells[swept_];
-    const auto erased = cell.entries.eraseIf([&](const Entry& entry) {
-      if (!isGone(entry)) return false;
-      unlist(entry, 0);
-      return true;
-    });
-    if (erased > 0) cells_.change(cell);
-  }
+  for (; swept_ < end; ++swept_) sweepCell(cells[swept_]);
   if (swept_ < cells.size()) return true;
   swept_ = 0;
   const auto empty =
       std::ranges::count_if(cells, [](const Cell& it) { return it.entries.empty(); });
-  if (static_cast<size_t>(empty) > cells.size() / 8) cells_.removeEmpty();
-  return false;
+  if (lastSweep_ && ends) {
+    dropFormer();
+  } else if (static_cast<size_t>(empty) > cells.size() / 8) {
+    cells_.removeEmpty();
+  }
+  return ends && !former_.empty();
+}
+
+void PaintWorld::sweepCell(Cell& cell) {
+  const auto erased = cell.entries.eraseIf([&](const Entry& entry) {
+    if (!isGone(entry)) return false;
+    unlist(entry, 0);
+    return true;
+  });
+  if (erased > 0) cells_.change(cell);
 }
 
 // Host and device together, also while arrays grow.
@@ -98,7 +108,7 @@ uint64_t PaintWorld::bytes() const {
   uint64_t sum =
       cells_.bytes() + records_.peakBytes() + blocks_.peakBytes() + runs_.bytes() + kWorkBytes;
   sum += placed_.capacity() * sizeof(Placed) + states_.size() * sizeof(State) +
-         pending_.capacity() * sizeof(uint32_t) + twins_.size() * kTwinBytes;
+         (pending_.capacity() + former_.capacity()) * sizeof(uint32_t) + twins_.size() * kTwinBytes;
   if (looks_) sum += kMostLooks * Muzzle::kBytes;
   for (const Work& work : partly_) sum += work.survey.bytes() + work.cells.size() * sizeof(CellKey);
   return sum;
@@ -162,11 +172,14 @@ void PaintWorld::keepWithin() {
 // Gives up the exact maps of the oldest tenth of the shots with exact maps, but none of the newest
 // quarter. Returns false if there are none.
 bool PaintWorld::coarsen() {
+  const auto hasBoth = [](const Placed& placed) {
+    return placed.cores > 0 && placed.exact.blocks > 0 && placed.coarse.blocks > 0;
+  };
   std::vector<uint32_t> all, exact;
   for (const Placed& placed : placed_) {
     if (placed.cores == 0) continue;
     all.push_back(placed.shot);
-    if (placed.exact.blocks > 0 && placed.coarse.blocks > 0) exact.push_back(placed.shot);
+    if (hasBoth(placed)) exact.push_back(placed.shot);
   }
   if (exact.empty()) return false;
   const auto newest = all.begin() + static_cast<std::ptrdiff_t>(all.size() * 3 / 4);
@@ -177,12 +190,12 @@ bool PaintWorld::coarsen() {
   if (std::ranges::none_of(exact, [&](uint32_t id) { return id < below; })) return false;
   noteFloors();
   floors_.coarse = std::max(floors_.coarse, below);
-  for (const uint32_t id : exact) {
-    if (id >= below) continue;
-    Placed& placed = placed_[states_[id].record];
+  for (uint32_t record = 0; record < placed_.size(); ++record) {
+    Placed& placed = placed_[record];
+    if (!hasBoth(placed) || placed.shot >= below) continue;
     give(placed.exact);
     ++coarse_;
-    writeRecord(states_[id].record);
+    writeRecord(record);
   }
   // Shots that were to get their exact maps back stay coarse.
   const auto stays = [&](uint32_t id) { return id < below && isPlaced(id); };

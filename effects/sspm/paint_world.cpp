@@ -18,8 +18,9 @@ constexpr double kLeastEffort = 256;
 constexpr double kShotEffort = 128;     // of a shot in a step, beside its rays; rays
 constexpr double kPaceMemory = 0.9;     // share of the mean that each step leaves
 constexpr uint64_t kWaitingShare = 32;  // of the limit: what may wait for its upload
-constexpr uint32_t kCoarse = 1u << 16;  // of a record's root; same as in shaders/sspm/walk.glsl
-constexpr int kMostAsks = 4;            // frames in a row that ask for one shot's depth pictures
+// Of a record's root; same as in shaders/sspm/walk.glsl.
+constexpr uint32_t kCoarse = 1u << 16, kMapRangeShift = 17;
+constexpr int kMostAsks = 4;  // frames in a row that ask for one shot's depth pictures
 
 double secondsSince(std::chrono::steady_clock::time_point start) {
   return std::chrono::duration<double>(std::chrono::steady_clock::now() - start).count();
@@ -35,8 +36,10 @@ void PaintWorld::follow(std::span<const Shot> shots, size_t kept, const PaintRul
   rules_ = rules;
   // Arrays do not shrink: a limit that they exceed starts anew.
   const bool tooLarge = limit < limit_ && bytes() > limit;
-  // Maps depend only on the range. Hiding depends on the other rules too.
-  forget(sameRange && !tooLarge ? std::min({kept, shots.size(), states_.size()}) : 0, !same);
+  forget(tooLarge ? 0 : std::min({kept, shots.size(), states_.size()}), !sameRange ? Changed::kRange
+                                                                        : !same
+                                                                            ? Changed::kHiding
+                                                                            : Changed::kNothing);
   if (std::exchange(limit_, limit) < limit) takeUp(0);
   // What an undo brings back may need a little more memory than it had: new shots leave some.
   if (shots.size() > states_.size()) {
@@ -86,7 +89,7 @@ bool PaintWorld::isUploadDue() const {
 }
 
 void PaintWorld::upload(const plugin::Frame& frame, Uploader& uploader) {
-  cells_.write([&](uint32_t shot) { return states_[shot].record; });
+  cells_.write([&](const Entry& entry) { return recordOf(entry); });
   for (DeviceWords* words : {&cells_.slots(), &cells_.words(), &records_, &blocks_}) {
     uploader.upload(frame, *words);
   }
@@ -109,24 +112,28 @@ void PaintWorld::clear() {
   partly_.clear();
   twins_.clear();
   placed_.clear();
+  former_.clear();
   freeRecords_.clear();
   levels_.clear();
 }
 
-// Forgets all shots but the first `count`. Puts shots back to pending that a forgotten one hid, or,
-// with `allLost`, that any shot hid.
-void PaintWorld::forget(size_t count, bool allLost) {
+// Forgets all shots but the first `count`. Places those anew that a forgotten one hid; with a
+// change, all that another one hid; and with a change of the range, all that follow it.
+void PaintWorld::forget(size_t count, Changed changed) {
   if (count == 0) {
     clear();
     return;
   }
+  const bool allLost = changed != Changed::kNothing;
   if (count >= states_.size() && !allLost) return;
   const size_t least = allLost ? 0 : count;
-  std::vector<bool> gone(states_.size());
-  for (size_t id = 0; id < gone.size(); ++id) {
-    gone[id] = id >= count || states_[id].lostTo > least;
+  std::vector<bool> gone(states_.size()), anew(states_.size());
+  for (uint32_t id = 0; id < gone.size(); ++id) {
+    gone[id] = id >= count;
+    anew[id] = gone[id] || states_[id].lostTo > least ||
+               (changed == Changed::kRange && list_[id].range <= 0);
   }
-  forgetTwins(gone, count);
+  forgetTwins(anew, count);
   if (allLost) {
     for (Cell& cell : cells_.cells()) {
       cell.sealed = 0;
@@ -134,10 +141,8 @@ void PaintWorld::forget(size_t count, bool allLost) {
     }
   }
   erase(gone);
-  for (uint32_t id = floors_.given; id < count; ++id) {
-    if (gone[id]) pending_.push_back(id);
-  }
-  std::ranges::sort(pending_);
+  placeAnew(anew, count);
+  if (changed == Changed::kRange) spread();
   if (count < states_.size()) reserves_ = false;
   states_.resize(count);
   takeUp(allLost ? 0 : count);
@@ -162,11 +167,12 @@ void PaintWorld::erase(const std::vector<bool>& gone) {
   std::erase_if(pending_, [&](uint32_t id) { return static_cast<bool>(gone[id]); });
   for (uint32_t id = 0; id < gone.size(); ++id) {
     if (!gone[id]) continue;
-    if (states_[id].record != kNone) {
-      Placed& placed = placed_[states_[id].record];
+    for (const uint32_t record : {states_[id].record, id < former_.size() ? former_[id] : kNone}) {
+      if (record == kNone) continue;
+      Placed& placed = placed_[record];
       if (placed.hidden) hidden_ -= placed.others;
       placed.cores = placed.others = 0;
-      release(states_[id].record);
+      release(record);
     }
     states_[id] = {};
   }
@@ -212,10 +218,16 @@ bool PaintWorld::advance(Work& work, std::vector<uint32_t>& unknown) {
   }
   if (!work.survey.rays().empty()) return true;
   const bool again = isPlaced(work.id);  // to be sharpened
-  if (!again && states_[work.id].lostTo > 0) return false;
-  if (work.survey.isRough()) {
+  const auto isLost = [&] { return !again && states_[work.id].lostTo > 0; };
+  if (!isLost() && work.survey.isRough()) {
     work.grid = gridFor(work.survey.frame());
-    if (!again && isHidden(work.id, work.survey, *work.grid)) return false;
+    if (!again) findHidden(work.id, work.survey, *work.grid);
+  }
+  if (isLost()) {
+    retire(work.id);
+    return false;
+  }
+  if (work.survey.isRough()) {
     work.survey.refine();
     return true;
   }
@@ -243,10 +255,12 @@ void PaintWorld::refill() {
     if (std::ranges::any_of(work_, [&](const Work& w) { return areTwins(list_[w.id], shot); }))
       return;
     pending_.erase(next);
-    // Newer paint hides a shot that was to be sharpened.
-    if (!isPlaced(id) && states_[id].lostTo > 0) continue;
-    if (isPlaced(id) || !countTwin(id))
+    // Newer paint hides a shot that was to be sharpened, or a newer twin stands for it.
+    if (isPlaced(id) || (states_[id].lostTo == 0 && !countTwin(id))) {
       work_.push_back({.id = id, .survey = Survey(shot, rangeOf(id))});
+    } else {
+      retire(id);
+    }
   }
 }
 
@@ -279,6 +293,7 @@ void PaintWorld::place(Work& work) {
   const ShotMap& map = work.map;
   std::vector<Share>& shares = work.shares;
   const bool partly = survey.unknownInside() > 0;
+  retire(id);
   if (!shares.empty()) {
     const uint32_t record = takeRecord(id);
     placing_ = record;
@@ -298,6 +313,7 @@ void PaintWorld::place(Work& work) {
       coarse_ += isCoarse ? 1 : 0;
     }
     placed.slope = survey.frame().slope;
+    placed.mapRange = survey.frame().range;
     writeRecord(record);
     release(record);
   }
@@ -323,10 +339,11 @@ void PaintWorld::remove(uint32_t id, std::span<const CellKey> cells) {
   for (const CellKey& key : cells) {
     Cell* cell = cells_.find(key);
     if (cell == nullptr) continue;
-    const auto listed = std::ranges::find(cell->entries, id, &Entry::shot);
+    const auto isIts = [&](const Entry& it) { return it.shot == id && !it.former; };
+    const auto listed = std::ranges::find_if(cell->entries, isIts);
     if (listed == cell->entries.end()) continue;
     const Entry entry = *listed;
-    cell->entries.eraseIf([&](const Entry& it) { return it.shot == id; });
+    cell->entries.eraseIf(isIts);
     cell->sealed = 0;
     cell->pruneAt = 0;
     cells_.change(*cell);
@@ -358,7 +375,10 @@ void PaintWorld::writeRecord(uint32_t index) {
   record[13] = glm::packHalf2x16(glm::vec2(shot.color[2], times));
   const MapRun& map = placed.isCoarse() ? placed.coarse : placed.exact;
   record[14] = map.base;
-  record[15] = map.root | (placed.isCoarse() ? kCoarse : 0);
+  // Within what a half float holds: a larger or smaller share serves as well.
+  const float share = placed.mapRange / rangeOf(placed.shot);
+  record[15] = map.root | (placed.isCoarse() ? kCoarse : 0) |
+               glm::packHalf2x16({glm::clamp(share, 1e-4f, 65504.0f), 0}) << kMapRangeShift;
 }
 
 }  // namespace grisaille::sspm

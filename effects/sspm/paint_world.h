@@ -103,6 +103,7 @@ class PaintWorld {
     uint32_t others = 0;   // number of its other entries
     uint32_t counted = 0;  // twins that only count
     float slope = 0;       // of its frame
+    float mapRange = 0;    // for which its maps were made, metres
     bool hidden = false;   // has lost all entries with Entry::core; paints nothing
 
     bool isCoarse() const { return exact.blocks == 0 && coarse.blocks > 0; }
@@ -138,6 +139,12 @@ class PaintWorld {
     size_t shots = 0;
     Floors before;
   };
+  // A former shot whose range has grown. Lengths in cells, from a cell's lower corner.
+  struct Grown {
+    uint32_t shot = 0;
+    glm::vec3 muzzle, direction;
+    float range = 0;
+  };
   // A group of twins.
   struct Twins {
     uint32_t newest = 0;
@@ -148,7 +155,8 @@ class PaintWorld {
 
   // paint_world.cpp
   void clear();
-  void forget(size_t count, bool allLost);
+  enum class Changed : uint8_t { kNothing, kHiding, kRange };
+  void forget(size_t count, Changed changed);
   void erase(const std::vector<bool>& gone);
   bool step(double most, const Sight& sight, std::vector<uint32_t>& unknown);
   bool advance(Work& work, std::vector<uint32_t>& unknown);
@@ -168,6 +176,18 @@ class PaintWorld {
   static void finish(Work& work);
   void askAgain(const Sight& sight);
 
+  // former.cpp
+  uint32_t recordOf(const Entry& entry) const;
+  uint32_t& slotOf(uint32_t record);
+  void placeAnew(const std::vector<bool>& anew, size_t count);
+  void retire(uint32_t id);
+  bool isSettled() const { return pending_.empty() && work_.empty(); }
+  void dropFormer();
+  void spread();
+  void spread(const Cell& cell);
+  void spreadTo(const CellKey& key, uint64_t near, std::span<const Grown> grown,
+                const glm::ivec3& offset);
+
   // twins.cpp
   bool countTwin(uint32_t id);
   void joinTwins(uint32_t id, std::span<const CellKey> cells);
@@ -180,6 +200,7 @@ class PaintWorld {
   void release(uint32_t record);
   bool isGone(const Entry& entry) const;
   bool sweep();
+  void sweepCell(Cell& cell);
   uint64_t bytes() const;
   MapRun store(const ShotMap& map);
   void give(MapRun& run);
@@ -194,10 +215,11 @@ class PaintWorld {
   void takeUp(size_t shots);
 
   // points.cpp
-  bool reach(const glm::dvec3& position, const glm::vec3& normal, Reach& reach) const;
+  bool reach(const glm::dvec3& position, const glm::vec3& normal, const Entry& entry,
+             Reach& reach) const;
 
   // hiding.cpp
-  bool isHidden(uint32_t id, const Survey& survey, const CellGrid& grid);
+  void findHidden(uint32_t id, const Survey& survey, const CellGrid& grid);
   void join(uint32_t record, const ShotFrame& frame, const CellGrid& grid, const ShotMap& map,
             const Share& share, bool thin);
   size_t learn(Cell& cell, const CellGrid& grid, const SurfacePoint& point);
@@ -213,6 +235,9 @@ class PaintWorld {
   std::unordered_map<uint64_t, Twins> twins_;
   CellTable cells_;
   std::vector<Placed> placed_;  // one per record
+  // While shots are placed anew: the record of how each shot was placed before; kNone: none. Else
+  // empty.
+  std::vector<uint32_t> former_;
   std::vector<uint32_t> freeRecords_;
   DeviceWords records_, blocks_;
   Runs runs_;
@@ -220,6 +245,7 @@ class PaintWorld {
   size_t entries_ = 0;        // of all cells
   size_t hidden_ = 0;         // of these: entries of hidden shots
   size_t swept_ = 0;          // cells of an unfinished sweep; 0: none
+  bool lastSweep_ = false;    // that sweep removes the last entries of former_
   Floors floors_;
   std::vector<Raise> raises_;  // ascending
   size_t coarse_ = 0;          // shots with Placed::isCoarse()

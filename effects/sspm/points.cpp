@@ -214,11 +214,12 @@ class Chunk {
 
 }  // namespace
 
-bool PaintWorld::reach(const glm::dvec3& position, const glm::vec3& normal, Reach& reach) const {
+bool PaintWorld::reach(const glm::dvec3& position, const glm::vec3& normal, const Entry& entry,
+                       Reach& reach) const {
   const Shot& shot = list_[reach.shot];
   const glm::dvec3 q = position - originOf(shot);
   if (glm::dot(q, glm::dvec3(normal)) >= 0) return false;
-  const uint32_t record = states_[reach.shot].record;
+  const uint32_t record = recordOf(entry);
   if (record == kNone || placed_[record].hidden) return false;
   reach.times += static_cast<float>(placed_[record].counted);
   return acrossOf(shot, rangeOf(reach.shot), q, reach.across);
@@ -248,7 +249,7 @@ void PaintWorld::reachesOf(const glm::dvec3& position, const glm::vec3& normal, 
     List* newest = std::max_element(
         lists, lists + count, [](const List& a, const List& b) { return a.at->shot < b.at->shot; });
     Reach next{.shot = newest->at->shot};
-    if ((newest->at->touched & newest->part) != 0 && reach(position, normal, next)) {
+    if ((newest->at->touched & newest->part) != 0 && reach(position, normal, *newest->at, next)) {
       reaches.push_back(next);
       ++found;
     }

@@ -1,6 +1,8 @@
 // SPDX-License-Identifier: MIT
 #include "shares.h"
 
+#include <glm/gtc/packing.hpp>
+
 #include <algorithm>
 #include <bit>
 
@@ -32,6 +34,24 @@ void addSeen(const CellGrid& grid, const Patch& patch, Share& share) {
 }
 
 }  // namespace
+
+KnownPoint knownAt(const glm::vec3& inCell, const glm::vec3& normal) {
+  const glm::uvec3 p(glm::clamp(inCell * 1024.0f, 0.0f, 1023.0f));
+  return {.place = p.x | p.y << 10 | p.z << 20,
+          .normal = glm::packSnorm3x10_1x2(glm::vec4(normal, 0))};
+}
+
+int partOf(const KnownPoint& known) {
+  return static_cast<int>((known.place >> 8 & 3u) | (known.place >> 18 & 3u) << 2 |
+                          (known.place >> 28 & 3u) << 4);
+}
+
+SurfacePoint pointOf(const KnownPoint& known, const glm::vec3& corner, float edge) {
+  const glm::vec3 steps(known.place & 1023u, known.place >> 10 & 1023u, known.place >> 20);
+  return {.part = partOf(known),
+          .at = corner + edge * (steps + 0.5f) / 1024.0f,
+          .normal = glm::vec3(glm::unpackSnorm3x10_1x2(known.normal))};
+}
 
 // Intersection of two boxes: of the corners, and of the ellipse in which the cylinder cuts the
 // plane.

@@ -24,6 +24,12 @@ struct SurfacePoint {
   glm::vec3 normal = glm::vec3(0);
 };
 
+// A cell's known piece at a point, in cells from the cell's lower corner, each 0 to 1.
+KnownPoint knownAt(const glm::vec3& inCell, const glm::vec3& normal);
+int partOf(const KnownPoint& known);
+// corner: the cell's lower corner, relative to the muzzle, metres. edge: width of the cell, metres.
+SurfacePoint pointOf(const KnownPoint& known, const glm::vec3& corner, float edge);
+
 // Part of a shot that lies in one cell.
 struct Share {
   CellKey key = {};

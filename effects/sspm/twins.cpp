@@ -32,8 +32,8 @@ void PaintWorld::joinTwins(uint32_t id, std::span<const CellKey> cells) {
   writeCount(id, twins.counted);
 }
 
-// Removes shots that are gone from their groups. Where the newest is gone, the others go too, to be
-// counted again.
+// Removes shots from their groups that are gone, or are to be placed anew. Where the newest is, the
+// others are too, to be counted again.
 // count: number of leading shots of the list that have not changed.
 void PaintWorld::forgetTwins(std::vector<bool>& gone, size_t count) {
   for (uint32_t id = 0; id < count; ++id) {

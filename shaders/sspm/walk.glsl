@@ -30,7 +30,9 @@ struct Shot {
   uint color_rg;       // half floats
   uint color_b_times;  // half floats: blue; number of times that the alpha counts
   uint base;           // first block of the map
-  uint root;           // reference to the map's root; plus kCoarse if the map is coarse
+  // Reference to the map's root; plus kCoarse if the map is coarse; from bit 17 on: the range that
+  // the map was made for, as a share of `range`, a half float without its sign.
+  uint root;
 };
 // Hash table with linear probing. Six words per slot: cell (3), code (-1: free), first entry,
 // count.
@@ -46,7 +48,12 @@ const float kBiasUnits = 0.02, kBiasShare = 2e-5;
 const float kSlant = 8.0, kOther = -0.5, kSame = 0.3, kLeastBias = 0.05;
 const float kLineReach = 12.0, kLineSlack = 1.0 / 512.0;
 const uint kLine = 0x2000u, kTwo = 0x4000u, kFour = 0x6000u, kEight = 0x8000u, kTag = 0xE000u;
-const uint kCoarse = 0x10000u;  // effects/sspm/paint_world.cpp
+const uint kCoarse = 0x10000u, kMapRangeShift = 17u;  // effects/sspm/paint_world.cpp
+
+// The range that a shot's map was made for, metres: the shot's, unless that has just changed.
+float mapRange(Shot shot) {
+  return shot.range * unpackHalf2x16(shot.root >> kMapRangeShift).x;
+}
 
 // A line's normal, with |x| + |y| = 1, from a turn of 0 to 4.
 vec2 lineNormal(float turn) {
@@ -83,7 +90,8 @@ bool isBefore(Shot shot, uint at, vec3 q, vec3 facing) {
   const uint block = (shot.base + at - 1u) * 2u;
   const vec3 normal = planeNormal(blocks[block]);
   const float behind = uintBitsToFloat(blocks[block + 1u]) - dot(normal, q);
-  const float least = kBiasUnits * shot.range + kBiasShare * shot.range / shot.slope;
+  const float range = mapRange(shot);
+  const float least = kBiasUnits * range + kBiasShare * range / shot.slope;
   const float bias = least * clamp((dot(normal, facing) - kOther) / (kSame - kOther), kLeastBias, 1.0);
   return behind <= bias && behind * length(q) <= kSlant * bias * abs(dot(normal, q));
 }
@@ -92,11 +100,13 @@ bool isBefore(Shot shot, uint at, vec3 q, vec3 facing) {
 // normal `facing`. Descends the map's tree to a leaf, and compares q with the leaf's plane. Same as
 // inSight() of effects/sspm/shot_map.cpp, which explains the bias.
 // at: reference within the map, where the descent starts. along: dot(q, direction).
-// across: offset of q from the ray, along axesAcross().
+// across: offset of q from the ray, along axesAcross(). Beyond the range of the map it sees what is
+// at its rim, as if the surface there continued.
 bool inSight(Shot shot, uint at, vec3 q, float along, vec2 across, vec3 facing) {
   uint other = 0xFFFFu;  // what lies beyond a line that is close
   if (at >= kLine) {
-    vec2 place = across / (max(along, 1e-20) * shot.slope);
+    const float inside = min(1.0, mapRange(shot) / max(length(across), 1e-30));
+    vec2 place = across * (inside / (max(along, 1e-20) * shot.slope));
     const float radius = length(place);
     if (radius > 1.0) place *= min(1.0 + log(radius), 0.999 * kMapReach) / radius;
     vec2 in_square = (place + kMapReach) * (2.0 / kMapReach);
@@ -196,7 +206,7 @@ void compositeEntry(inout Sum sum, inout uint blocked, uint entry, Point point) 
   const vec2 across = q * axesAcross(shot.direction);
   if (along < 0.0 || length(across) >= shot.range || dot(q, point.normal) >= 0.0) return;
   // Entries refer into the exact map.
-  const uint start = shot.root < kCoarse ? entries[entry * 4u + 1u] : shot.root - kCoarse;
+  const uint start = (shot.root & kCoarse) == 0u ? entries[entry * 4u + 1u] : shot.root & 0xFFFFu;
   if (inSight(shot, start, q, along, across, point.normal)) {
     compositeShot(sum, record, shot, across, point.pixel);
   } else if (blocked == 0u) {

@@ -37,6 +37,7 @@ void PaintFrame::render(const scene::Camera& camera, uint32_t width, uint32_t he
                     .height = height,
                     .chain = &chain_,
                     .outputs = outputs,
+                    .patience = patience_,
                     .services = {.rays = rays_, .depths = depths_}});
 }
 

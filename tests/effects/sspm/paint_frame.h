@@ -2,6 +2,7 @@
 // Renders pictures of paint for tests: one scene, one device, any shots and settings.
 #pragma once
 
+#include <limits>
 #include <memory>
 #include <random>
 #include <string>
@@ -35,6 +36,8 @@ class PaintFrame {
   // nullptr, the initial value: this host draws no depth pictures.
   void setDepths(effect::DepthService* depths) { depths_ = depths; }
   void set(const Settings& settings);
+  // Seconds a frame for placing shots. Without limit at first.
+  void setPatience(double seconds) { patience_ = seconds; }
 
   // Replaces the list of shots without a frame.
   void assign(std::span<const lab::Shot> shots);
@@ -54,6 +57,7 @@ class PaintFrame {
   effect::Chain chain_;
   effect::StartedChain started_;
   frame::Renderer renderer_;
+  double patience_ = std::numeric_limits<double>::infinity();
   effect::RayService* rays_ = nullptr;
   effect::DepthService* depths_ = nullptr;
 };
