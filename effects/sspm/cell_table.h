@@ -42,12 +42,13 @@ struct KnownPoint {
   uint32_t normal = 0;  // glm::packSnorm3x10_1x2
 };
 
-constexpr size_t kMostKnown = 64;  // pieces in a cell
+constexpr size_t kMostKnown = 512;  // pieces in a cell
+constexpr size_t kMostSealed = 64;  // of these, that can be sealed: the first
 
 // A shot in a cell's list.
 struct Entry {
   uint64_t touched = 0;  // parts of the cell that it may paint
-  uint64_t solid = 0;    // known pieces that it paints without gaps
+  uint64_t solid = 0;    // of the first kMostSealed known pieces: those that it paints without gaps
   uint32_t shot = 0;
   // Reference within its map: the root, or a plane if that plane serves the whole cell.
   uint16_t reference = 0;

@@ -38,12 +38,16 @@ bool has(uint64_t parts, int part) {
   return (parts >> part & 1) != 0;
 }
 
+bool isSealed(const Cell& cell, size_t piece) {
+  return piece < kMostSealed && has(cell.sealed, static_cast<int>(piece));
+}
+
 bool isHiddenIn(const Cell& cell, const Entry& entry) {
   if (entry.shot >= cell.sealedBelow || (entry.touched & cell.crowded) != 0) return false;
   bool touches = false;
   for (size_t i = 0; i < cell.known.size(); ++i) {
     if (!has(entry.touched, partOf(cell.known[i]))) continue;
-    if (!has(cell.sealed, static_cast<int>(i))) return false;
+    if (!isSealed(cell, i)) return false;
     touches = true;
   }
   return touches;
@@ -118,7 +122,7 @@ void PaintWorld::findHidden(uint32_t id, const Survey& survey, const CellGrid& g
           bool touches = bits.core != 0;
           for (size_t i = 0; i < cell->known.size(); ++i) {
             if (!has(bits.touched, partOf(cell->known[i]))) continue;
-            if (!has(cell->sealed, static_cast<int>(i))) return false;
+            if (!isSealed(*cell, i)) return false;
             touches = true;
           }
           if (!touches) return true;
@@ -159,7 +163,7 @@ void PaintWorld::join(uint32_t record, const ShotFrame& frame, const CellGrid& g
     const int part = partOf(cell.known[i]);
     if (!has(entry.touched, part)) continue;
     entry.core = true;
-    if (!has(ragged, part) && reaches(i)) entry.solid |= uint64_t{1} << i;
+    if (i < kMostSealed && !has(ragged, part) && reaches(i)) entry.solid |= uint64_t{1} << i;
   }
   if (isHiddenIn(cell, entry)) {
     states_[id].lostTo = std::max(states_[id].lostTo, cell.sealer + 1);
@@ -194,6 +198,9 @@ size_t PaintWorld::learn(Cell& cell, const CellGrid& grid, const SurfacePoint& p
   // The maps of the listed shots are on the device alone. They may paint the piece, with gaps.
   for (Entry& entry : cell.entries) {
     if (!has(entry.touched, point.part) || isGone(entry)) continue;
+    if (thinning_.isActive() && entry.shot < thinning_.shows.size()) {
+      thinning_.shows[entry.shot] = true;
+    }
     if (std::exchange(entry.core, true)) continue;
     Placed& placed = placed_[recordOf(entry)];
     --placed.others;
@@ -206,8 +213,8 @@ size_t PaintWorld::learn(Cell& cell, const CellGrid& grid, const SurfacePoint& p
 void PaintWorld::prune(Cell& cell) {
   const auto edge = static_cast<float>(edgeOf(cell.key.code));
   std::vector<Seal> seals;
-  for (const KnownPoint& known : cell.known) {
-    seals.push_back(sealOf(pointOf(known, glm::vec3(0), edge), edge));
+  for (size_t i = 0; i < std::min(cell.known.size(), kMostSealed); ++i) {
+    seals.push_back(sealOf(pointOf(cell.known[i], glm::vec3(0), edge), edge));
   }
   cell.sealed = 0;
   cell.sealedBelow = kNone;

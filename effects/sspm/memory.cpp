@@ -88,7 +88,7 @@ bool PaintWorld::sweep() {
       std::ranges::count_if(cells, [](const Cell& it) { return it.entries.empty(); });
   if (lastSweep_ && ends) {
     dropFormer();
-  } else if (static_cast<size_t>(empty) > cells.size() / 8) {
+  } else if (static_cast<size_t>(empty) > cells.size() / 8 && !thinning_.isActive()) {
     cells_.removeEmpty();
   }
   return ends && !former_.empty();
@@ -109,6 +109,7 @@ uint64_t PaintWorld::bytes() const {
       cells_.bytes() + records_.peakBytes() + blocks_.peakBytes() + runs_.bytes() + kWorkBytes;
   sum += placed_.capacity() * sizeof(Placed) + states_.size() * sizeof(State) +
          (pending_.capacity() + former_.capacity()) * sizeof(uint32_t) + twins_.size() * kTwinBytes;
+  sum += thinning_.bytes();
   if (looks_) sum += kMostLooks * Muzzle::kBytes;
   for (const Work& work : partly_) sum += work.survey.bytes() + work.cells.size() * sizeof(CellKey);
   return sum;
@@ -145,6 +146,11 @@ bool PaintWorld::areMapsFull(uint64_t spare) const {
   const uint64_t larger = blocks_.capacity() + (wanted - space) / sizeof(uint32_t);
   const uint64_t grown = bytes() - blocks_.peakBytes() + blocks_.peakBytes(larger);
   return grown + spare > room();
+}
+
+// Whether paint is about to get coarser.
+bool PaintWorld::isScarce() const {
+  return areMapsFull(limit_ / kSpareShare) || bytes() > room() - room() / kSpareShare;
 }
 
 // Near the limit there is no room for the old array of maps beside a larger one. So it grows early,

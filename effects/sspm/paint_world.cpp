@@ -20,6 +20,7 @@ constexpr double kPaceMemory = 0.9;     // share of the mean that each step leav
 constexpr uint64_t kWaitingShare = 32;  // of the limit: what may wait for its upload
 // Of a record's root; same as in shaders/sspm/walk.glsl.
 constexpr uint32_t kCoarse = 1u << 16, kMapRangeShift = 17;
+constexpr size_t kFewSpots = 512, kManySpots = 8192;  // that thin() looks at without a pause
 constexpr int kMostAsks = 4;  // frames in a row that ask for one shot's depth pictures
 
 double secondsSince(std::chrono::steady_clock::time_point start) {
@@ -36,10 +37,11 @@ void PaintWorld::follow(std::span<const Shot> shots, size_t kept, const PaintRul
   rules_ = rules;
   // Arrays do not shrink: a limit that they exceed starts anew.
   const bool tooLarge = limit < limit_ && bytes() > limit;
-  forget(tooLarge ? 0 : std::min({kept, shots.size(), states_.size()}), !sameRange ? Changed::kRange
-                                                                        : !same
-                                                                            ? Changed::kHiding
-                                                                            : Changed::kNothing);
+  Changed changed = Changed::kNothing;
+  // More memory brings back what samples have hidden.
+  if (!same || (limit > limit_ && sampled_)) changed = Changed::kHiding;
+  if (!sameRange) changed = Changed::kRange;
+  forget(tooLarge ? 0 : std::min({kept, shots.size(), states_.size()}), changed);
   if (std::exchange(limit_, limit) < limit) takeUp(0);
   // What an undo brings back may need a little more memory than it had: new shots leave some.
   if (shots.size() > states_.size()) {
@@ -60,7 +62,9 @@ size_t PaintWorld::update(std::span<const Shot> shots, size_t kept, const PaintR
   std::vector<uint32_t> unknown;
   askAgain(sight);
   const auto left = [&] { return patience - secondsSince(start); };
+  const size_t spots = std::isfinite(patience) ? kFewSpots : kManySpots;
   while (step(pace_.effortIn(left()), sight, unknown)) {
+    while (thin(sight.cast, spots) && left() > 0) continue;
     keepWithin();
     if (left() <= 0 || (std::isfinite(patience) && isUploadDue())) break;
   }
@@ -68,6 +72,7 @@ size_t PaintWorld::update(std::span<const Shot> shots, size_t kept, const PaintR
     pending_.insert(pending_.end(), unknown.begin(), unknown.end());
     std::ranges::sort(pending_);
   }
+  while (thin(sight.cast, spots) && left() > 0) continue;
   while (sweep() && left() > 0) continue;
   return pending_.size() + work_.size() + partly_.size();
 }
@@ -112,6 +117,9 @@ void PaintWorld::clear() {
   partly_.clear();
   twins_.clear();
   placed_.clear();
+  thinning_ = {};
+  thinned_ = 0;
+  sampled_ = false;
   former_.clear();
   freeRecords_.clear();
   levels_.clear();
@@ -126,6 +134,9 @@ void PaintWorld::forget(size_t count, Changed changed) {
   }
   const bool allLost = changed != Changed::kNothing;
   if (count >= states_.size() && !allLost) return;
+  thinning_ = {};
+  thinned_ = 0;
+  sampled_ = sampled_ && !allLost;
   const size_t least = allLost ? 0 : count;
   std::vector<bool> gone(states_.size()), anew(states_.size());
   for (uint32_t id = 0; id < gone.size(); ++id) {
@@ -160,7 +171,7 @@ void PaintWorld::erase(const std::vector<bool>& gone) {
     cell.pruneAt = 0;
     cells_.change(cell);
   }
-  if (empty > cells_.cells().size() / 8) cells_.removeEmpty();
+  if (empty > cells_.cells().size() / 8 && !thinning_.isActive()) cells_.removeEmpty();
   const auto isGone = [&](const Work& work) { return static_cast<bool>(gone[work.id]); };
   std::erase_if(work_, isGone);
   std::erase_if(partly_, isGone);

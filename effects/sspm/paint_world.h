@@ -15,6 +15,7 @@
 #include "muzzle.h"
 #include "shares.h"
 #include "survey.h"
+#include "thinning.h"
 
 namespace grisaille::sspm {
 
@@ -206,6 +207,7 @@ class PaintWorld {
   void give(MapRun& run);
   uint64_t room() const;
   bool areMapsFull(uint64_t spare) const;
+  bool isScarce() const;
   void planMaps();
   void keepWithin();
   bool coarsen();
@@ -213,6 +215,16 @@ class PaintWorld {
   void noteFloors();
   void giveUp(uint32_t floor);
   void takeUp(size_t shots);
+
+  // thinning.cpp
+  struct Spot;
+  bool isThinningDue() const;
+  bool thin(const CastRays& cast, size_t most);
+  void addSpots(const Cell& cell, std::vector<Spot>& spots);
+  float strengthAt(const Spot& spot, const Entry& entry, grisaille_ray& ray) const;
+  bool sumUp(std::vector<Spot>& spots, const CastRays& cast);
+  void hideOlder(const Spot& spot);
+  void hideUnseen();
 
   // points.cpp
   bool reach(const glm::dvec3& position, const glm::vec3& normal, const Entry& entry,
@@ -246,6 +258,9 @@ class PaintWorld {
   size_t hidden_ = 0;         // of these: entries of hidden shots
   size_t swept_ = 0;          // cells of an unfinished sweep; 0: none
   bool lastSweep_ = false;    // that sweep removes the last entries of former_
+  Thinning thinning_;
+  bool sampled_ = false;  // passes have hidden shots
+  double thinned_ = 0;    // records in use after the last pass
   Floors floors_;
   std::vector<Raise> raises_;  // ascending
   size_t coarse_ = 0;          // shots with Placed::isCoarse()

@@ -195,7 +195,7 @@ TEST_P(LimitTest, CoarsePaintStaysUntilItsRaysAreAnswered) {
   frame.setRays(nullptr);
   frame.render(kBefore, kAcross / 4, kDown / 4, std::span(shots_).first(count),
                {"paint", "paint_owner"});
-  EXPECT_EQ(frame.waiting(), coarser);
+  EXPECT_GE(frame.waiting(), coarser) << "hidden shots wait too";
   EXPECT_EQ(frame.coarser(), coarser);
   EXPECT_EQ((Painting{frame.read("paint").pixels, frame.read("paint_owner").pixels}), coarse);
   frame.setRays(&rays_);
