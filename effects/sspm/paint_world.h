@@ -218,6 +218,7 @@ class PaintWorld {
 
   // thinning.cpp
   struct Spot;
+  double placedCount() const { return static_cast<double>(placed_.size() - freeRecords_.size()); }
   bool isThinningDue() const;
   bool thin(const CastRays& cast, size_t most);
   void addSpots(const Cell& cell, std::vector<Spot>& spots);

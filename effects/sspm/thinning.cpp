@@ -51,8 +51,7 @@ struct PaintWorld::Spot {
 // left.
 bool PaintWorld::isThinningDue() const {
   if (!former_.empty()) return false;
-  const auto count = static_cast<double>(placed_.size() - freeRecords_.size());
-  return count > kGrown * thinned_ && isScarce();
+  return placedCount() > kGrown * thinned_ && isScarce();
 }
 
 // Continues a pass by some cells, or begins one if it is due. Returns whether there is more to do.
@@ -73,14 +72,12 @@ bool PaintWorld::thin(const CastRays& cast, size_t most) {
   for (; thinning_.cell < cells.size() && spots.size() < most; ++thinning_.cell) {
     addSpots(cells[thinning_.cell], spots);
   }
-  while (!spots.empty()) {
-    if (!sumUp(spots, cast)) {
-      thinning_ = {};
-      return false;
-    }
-  }
-  if (thinning_.cell < cells.size()) return true;
-  hideUnseen();
+  bool casts = true;
+  while (casts && !spots.empty()) casts = sumUp(spots, cast);
+  if (casts && thinning_.cell < cells.size()) return true;
+  if (casts) hideUnseen();
+  thinning_ = {};
+  thinned_ = placedCount();
   return false;
 }
 
@@ -190,8 +187,6 @@ void PaintWorld::hideUnseen() {
     placed.others += std::exchange(placed.cores, 0);
     release(record);
   }
-  thinning_ = {};
-  thinned_ = static_cast<double>(placed_.size() - freeRecords_.size());
 }
 
 }  // namespace grisaille::sspm
