@@ -106,9 +106,7 @@ void PaintWorld::placeAnew(const std::vector<bool>& anew, size_t count) {
     states_[id].lostTo = 0;
     if (id >= floors_.given) pending_.push_back(id);
   }
-  std::ranges::sort(pending_);
-  const auto twice = std::ranges::unique(pending_);
-  pending_.erase(twice.begin(), twice.end());
+  sortPending();
 }
 
 // Ends a shot's former place: it paints nothing there any more.

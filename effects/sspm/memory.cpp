@@ -156,8 +156,9 @@ bool PaintWorld::isScarce() const {
 // Near the limit there is no room for the old array of maps beside a larger one. So it grows early,
 // to the share of the limit that maps will have beside the lists.
 void PaintWorld::planMaps() {
+  if (plannedFor_ == limit_) return;
   const uint64_t space = limit_ - std::min(limit_, kWorkBytes), all = bytes() - kWorkBytes;
-  if (plannedFor_ == limit_ || all < space / kPlanShare) return;
+  if (all < space / kPlanShare) return;
   plannedFor_ = limit_;
   const uint64_t mapBytes = blocks_.peakBytes();
   const double maps = kMapsLeft * static_cast<double>(mapBytes);
@@ -268,9 +269,7 @@ void PaintWorld::takeUp(size_t shots) {
       pending_.push_back(placed.shot);
     }
   }
-  std::ranges::sort(pending_);
-  const auto twice = std::ranges::unique(pending_);
-  pending_.erase(twice.begin(), twice.end());
+  sortPending();
 }
 
 }  // namespace grisaille::sspm

@@ -46,7 +46,8 @@ bool Muzzle::isKnown() const {
 float Muzzle::slant(const Nearness& picture, int32_t at, int32_t step, int32_t before,
                     int32_t after) {
   const auto value = [&](int32_t pixels) {
-    return picture[static_cast<size_t>(at + pixels * step)];
+    const int32_t index = at + pixels * step;
+    return picture[static_cast<size_t>(index)];
   };
   float best = 0, least = std::numeric_limits<float>::infinity();
   int32_t side = 0;

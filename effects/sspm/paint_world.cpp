@@ -252,6 +252,12 @@ bool PaintWorld::advance(Work& work, std::vector<uint32_t>& unknown) {
   return false;
 }
 
+// Sorts the pending shots, and removes those that are listed twice.
+void PaintWorld::sortPending() {
+  std::ranges::sort(pending_);
+  pending_.erase(std::unique(pending_.begin(), pending_.end()), pending_.end());
+}
+
 void PaintWorld::refill() {
   const size_t mostWork = looks_ ? kMostLooks : kMostWork;
   while (work_.size() < mostWork && !pending_.empty()) {

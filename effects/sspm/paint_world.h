@@ -163,6 +163,7 @@ class PaintWorld {
   bool advance(Work& work, std::vector<uint32_t>& unknown);
   bool isUploadDue() const;
   void refill();
+  void sortPending();
   CellGrid gridFor(const ShotFrame& frame);
   void place(Work& work);
   void sharpen(const Work& work);
