@@ -55,8 +55,8 @@ struct Entry {
   // Whether its surfaces pass through the cell. Otherwise they only come close, and the entry stays
   // as long as the shot has entries in other cells.
   bool core = false;
-  bool former =
-      false;  // of the shot as it was placed before the range changed: PaintWorld::former_
+  // Whether it is of the shot as it was placed before: see former.cpp.
+  bool former = false;
 };
 
 struct Cell {

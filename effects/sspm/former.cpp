@@ -6,7 +6,6 @@
 #include <algorithm>
 #include <bit>
 #include <cmath>
-#include <functional>
 #include <utility>
 
 #include "paint_world.h"
@@ -111,10 +110,7 @@ void PaintWorld::placeAnew(const std::vector<bool>& anew, size_t count) {
 
 // Ends a shot's former place: it paints nothing there any more.
 void PaintWorld::retire(uint32_t id) {
-  if (id >= former_.size() || former_[id] == kNone) return;
-  Placed& placed = placed_[former_[id]];
-  placed.others += std::exchange(placed.cores, 0);
-  release(former_[id]);
+  if (id < former_.size() && former_[id] != kNone) hide(former_[id]);
 }
 
 // All shots are placed anew, and no entry is former.

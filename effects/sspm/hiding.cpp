@@ -241,10 +241,7 @@ void PaintWorld::prune(Cell& cell) {
         const float across = glm::length(glm::cross(at, direction)) + seal.half + slack;
         if (across < range && glm::dot(at, direction) > seal.half + slack) {
           if (seal.newest == kNone) seal.newest = entry.shot;
-          const float alpha = std::min(1.0f, rules_.full / across);
-          const float fade =
-              rules_.fade > 0 ? std::min(1.0f, (1 - across / range) / rules_.fade) : 1;
-          seal.strengths[j] += alpha * fade;
+          seal.strengths[j] += rules_.strength(across, range, 1);
         }
         all = all && seal.strengths[j] >= kSealed;
       }

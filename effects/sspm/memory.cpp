@@ -65,6 +65,13 @@ void PaintWorld::release(uint32_t record) {
   }
 }
 
+// Hides a placed shot: it paints nothing any more.
+void PaintWorld::hide(uint32_t record) {
+  Placed& placed = placed_[record];
+  placed.others += std::exchange(placed.cores, 0);
+  release(record);
+}
+
 // Whether an entry is of a hidden shot.
 bool PaintWorld::isGone(const Entry& entry) const {
   const uint32_t record = recordOf(entry);

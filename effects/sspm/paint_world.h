@@ -3,6 +3,7 @@
 // host's list of shots from frame to frame.
 #pragma once
 
+#include <algorithm>
 #include <cstdint>
 #include <deque>
 #include <functional>
@@ -37,6 +38,14 @@ struct PaintRules {
   float range = 0;  // of shots without their own, metres
   float full = 0;   // r0, metres
   float fade = 0;   // edge_fade: share of the range
+
+  // A shot's strength at a distance from its ray that is less than its range: step 2 of the
+  // definition. own: its range, metres. times: how often its alpha counts.
+  float strength(float across, float own, float times) const {
+    const float alpha = std::min(1.0f, full / std::max(across, 1e-6f));
+    const float rim = fade > 0 ? std::min(1.0f, (1 - across / own) / fade) : 1.0f;
+    return std::min(times * alpha * rim, 1.0f);
+  }
 
   bool operator==(const PaintRules&) const = default;
 };
@@ -200,6 +209,7 @@ class PaintWorld {
   uint32_t takeRecord(uint32_t id);
   void unlist(const Entry& entry, uint32_t to);
   void release(uint32_t record);
+  void hide(uint32_t record);
   bool isGone(const Entry& entry) const;
   bool sweep();
   void sweepCell(Cell& cell);

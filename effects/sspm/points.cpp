@@ -56,10 +56,7 @@ struct Sum {
   void add(const Shot& shot, uint64_t number, const glm::dvec2& across, float times,
            const PaintRules& rules, const Splat& splat) {
     const auto apart = static_cast<float>(glm::length(across));
-    const float full = std::min(1.0f, rules.full / std::max(apart, 1e-6f));
-    const float rim = 1 - apart / shot.rangeOr(rules.range);
-    const float fade = rules.fade > 0 ? std::min(1.0f, rim / rules.fade) : 1.0f;
-    const float strength = std::min(times * full * fade, 1.0f);
+    const float strength = rules.strength(apart, shot.rangeOr(rules.range), times);
     strengths += strength;
     const float filled = glm::clamp(1 - kFill * (1 - strengths), strength, 1.0f);
     const bool certain = filled >= 0.9f + splat.halfWidth;  // whatever the noise is

@@ -5,8 +5,7 @@
 // a spot, newest first, until the sum is 1. Shots that add nothing at any spot are hidden from then
 // on. What is lost are slivers that lie between spots.
 #include <algorithm>
-#include <bit>
-#include <cmath>
+#include <utility>
 
 #include "paint_world.h"
 #include "threads.h"
@@ -111,12 +110,11 @@ float PaintWorld::strengthAt(const Spot& spot, const Entry& entry, grisaille_ray
   const float across = glm::length(glm::cross(q, direction));
   if (across >= range || glm::dot(q, direction) < 0 || glm::dot(q, spot.normal) >= 0) return 0;
   const float times = 1 + static_cast<float>(placed_[recordOf(entry)].counted);
-  const float fade = rules_.fade > 0 ? std::min(1.0f, (1 - across / range) / rules_.fade) : 1;
   const glm::vec3 unit = q / std::max(distance, 1e-20f);
   ray = {.origin = {origin.x, origin.y, origin.z},
          .direction = {unit.x, unit.y, unit.z},
          .reach = std::max(distance - kEndRange * range, 1e-20f)};
-  return std::min(1.0f, times * std::min(1.0f, rules_.full / std::max(across, 1e-6f)) * fade);
+  return rules_.strength(across, range, times);
 }
 
 // Adds the next shot to each spot, and removes spots that no older shot can add to. Returns false
@@ -183,9 +181,7 @@ void PaintWorld::hideUnseen() {
     if (record == kNone || placed_[record].hidden) continue;
     states_[id].lostTo = std::max(states_[id].lostTo, thinning_.hiddenBy[id]);
     sampled_ = true;
-    Placed& placed = placed_[record];
-    placed.others += std::exchange(placed.cores, 0);
-    release(record);
+    hide(record);
   }
 }
 

@@ -126,15 +126,15 @@ void printEdits(const std::string& backend, const Subject& subject,
                 uint32_t height) {
   const auto device = backends::create(backend, {});
   fmt::print(
-      "## {}, {}: a changed parameter\n\nFrom the change to the next frame, and to the first one "
-      "that ends after {:.0f} s, with {:.0f} ms a frame for placing.\nRight: of the pixels that "
-      "the "
-      "change alters, those within 2/255 of the picture with all shots in their\nplaces. Placing "
-      "the "
-      "shots that wait then takes the time in the last column, in one frame.\n\n"
+      "## {}, {}: a changed parameter\n\n"
+      "From the change to the next frame, and to the first one that ends after {:.0f} s, with "
+      "{:.0f} ms a frame for placing.\n"
+      "Right: of the pixels that the change alters, those within 2/255 of the picture with all "
+      "shots in their\nplaces. Placing the shots that wait then takes the time in the last "
+      "column, in one frame.\n\n"
       "| shots | parameter | change | next frame, ms | right in it | frame after {:.0f} s, ms | "
-      "right "
-      "in it | shots that wait then | to place them, s |\n|---|---|---|---|---|---|---|---|---|\n",
+      "right in it | shots that wait then | to place them, s |\n"
+      "|---|---|---|---|---|---|---|---|---|\n",
       subject.name, backend, kSoon, 1000 * kEditPatience, kSoon);
   for (const size_t count : counts) {
     if (count > shots.size()) continue;
