@@ -56,11 +56,13 @@ struct Sum {
   void add(const Shot& shot, uint64_t number, const glm::dvec2& across, float times,
            const PaintRules& rules, const Splat& splat) {
     const auto apart = static_cast<float>(glm::length(across));
-    const float strength = rules.strength(apart, shot.rangeOr(rules.range), times);
+    const float range = shot.rangeOr(rules.range);
+    const float strength = rules.strength(apart, range, times);
     strengths += strength;
     const float filled = glm::clamp(1 - kFill * (1 - strengths), strength, 1.0f);
     const bool certain = filled >= 0.9f + splat.halfWidth;  // whatever the noise is
-    const float noise = certain ? 0 : splat.noiseAt(splatSeed(shot, splat.seed), across);
+    const double middle = double{range} * (1 - 0.5 * double{rules.fade});
+    const float noise = certain ? 0 : splat.noiseAt(splatSeed(shot, splat.seed), across, middle);
     const float shown = splat.alphaOf(filled, noise);
     const float adds = std::max(shown - alpha, 0.0f);
     colour += adds * glm::vec3(shot.color[0], shot.color[1], shot.color[2]);

@@ -19,6 +19,10 @@ float unitOf(uint32_t bits) {
   return static_cast<float>(bits >> 8) * 0x1p-24f;
 }
 
+// Cells of lobes: shaders/sspm/splat.glsl.
+constexpr double kAlong = 0.4, kDropCells = 1.6;
+constexpr float kNextOctave = 0.35f;
+
 float valueNoise(const glm::dvec2& place, uint32_t seed) {
   const glm::dvec2 whole = glm::floor(place);
   const glm::vec2 f(place - whole);
@@ -29,6 +33,18 @@ float valueNoise(const glm::dvec2& place, uint32_t seed) {
     return glm::mix(unitOf(hashBits(low.x ^ y ^ seed)), unitOf(hashBits(high.x ^ y ^ seed)), w.x);
   };
   return glm::mix(along(low.y), along(high.y), w.y);
+}
+
+float dropNoise(const glm::dvec2& place, uint32_t seed) {
+  const glm::dvec2 whole = glm::floor(place);
+  const glm::uvec2 cell = glm::uvec2(glm::ivec2(whole)) * glm::uvec2(0x9e3779b1u, 0x85ebca77u);
+  const uint32_t bits = hashBits(cell.x ^ cell.y ^ seed ^ 0x51ed270bu);
+  const float size = static_cast<float>(bits & 255u) / 256;
+  const float radius = 0.06f + 0.34f * size * size;
+  const glm::vec2 part = glm::vec2(bits >> 8 & 4095u, bits >> 20) / 4096.0f;
+  const glm::vec2 centre = glm::mix(glm::vec2(radius), glm::vec2(1 - radius), part);
+  const glm::vec2 apart = (glm::vec2(place - whole) - centre) / radius;
+  return glm::dot(apart, apart);
 }
 
 }  // namespace
@@ -45,21 +61,25 @@ uint32_t splatSeed(const Shot& shot, uint32_t noiseSeed) {
   return hashBits(bits);
 }
 
-float Splat::noiseAt(uint32_t of, const glm::dvec2& across) const {
+float Splat::noiseAt(uint32_t of, const glm::dvec2& across, double middle) const {
   const double t = double{unitOf(hashBits(of ^ 0x68bc21ebu))};
   const glm::dvec2 turn = glm::dvec2(1 - t * t, 2 * t) / (1 + t * t);
-  glm::dvec2 place =
+  const glm::dvec2 cells(
       glm::dvec2(turn.x * across.x - turn.y * across.y, turn.y * across.x + turn.x * across.y) /
-      scale;
-  float sum = 0, weight = 1, weights = 0;
+      scale);
+  const double outward = kAlong + (1 - kAlong) * middle / std::max(glm::length(across), 1e-6);
+  glm::dvec2 lobes = outward * cells, drops = cells / kDropCells;
+  float sum = 0, weight = 1, drop = 1;
   for (uint32_t octave = 0; octave < kOctaves; ++octave) {
-    const float value = valueNoise(glm::clamp(place, -1e9, 1e9), of + octave * 0x27d4eb2fu);
-    sum += weight * (value - 0.5f);
-    weights += weight;
-    weight *= 0.5f;
-    place = glm::dvec2(1.6 * place.x - 1.2 * place.y, 1.2 * place.x + 1.6 * place.y);
+    const uint32_t seedOf = of + octave * 0x27d4eb2fu;
+    sum += weight * (valueNoise(glm::clamp(lobes, -1e9, 1e9), seedOf) - 0.5f);
+    drop = std::min(drop, dropNoise(glm::clamp(drops, -1e9, 1e9), seedOf));
+    weight *= kNextOctave;
+    lobes = glm::dvec2(1.6 * lobes.x - 1.2 * lobes.y, 1.2 * lobes.x + 1.6 * lobes.y);
+    drops = glm::dvec2(1.6 * drops.x - 1.2 * drops.y, 1.2 * drops.x + 1.6 * drops.y);
   }
-  return 0.9f * std::clamp(0.5f + 2 * sum / weights, 0.0f, 1.0f);
+  const float lobe = glm::smoothstep(0.0f, 1.0f, 0.5f + 1.7f / (1 + kNextOctave) * sum);
+  return 0.9f * std::min(glm::mix(0.2f, 1.0f, lobe), drop);
 }
 
 float Splat::alphaOf(float strength, float noise) const {

@@ -10,7 +10,7 @@
 
 namespace grisaille::sspm {
 
-constexpr uint32_t kOctaves = 3;
+constexpr uint32_t kOctaves = 2;
 
 // The seed of a shot's splat.
 // noiseSeed: the parameter.
@@ -23,7 +23,8 @@ struct Splat {
 
   // The noise of a shot's splat, 0 to 0.9.
   // of: splatSeed(). across: offset from the shot's ray, along the axes of its ShotFrame, metres.
-  float noiseAt(uint32_t of, const glm::dvec2& across) const;
+  // middle: distance of the rim's middle from the ray, metres.
+  float noiseAt(uint32_t of, const glm::dvec2& across, double middle) const;
   // Alpha of paint of this strength.
   float alphaOf(float strength, float noise) const;
 };

@@ -7,7 +7,7 @@
 namespace grisaille::lab::claims {
 namespace {
 
-constexpr uint32_t kOctaves = 3;
+constexpr uint32_t kOctaves = 2;
 
 // A hash of three numbers, uniform in [0, 1).
 double hashUnit(int64_t x, int64_t y, uint64_t seed) {
@@ -33,16 +33,32 @@ double valueNoise(double x, double y, uint64_t seed) {
   return std::lerp(top, std::lerp(corner(0, 1), corner(1, 1), u), v);
 }
 
+// The squared distance from the drop of a cell, in its radii; x and y in cells.
+double dropNoise(double x, double y, uint64_t seed) {
+  const double cellX = std::floor(x), cellY = std::floor(y);
+  const auto unit = [&](uint64_t which) {
+    return hashUnit(static_cast<int64_t>(cellX), static_cast<int64_t>(cellY), ~seed * 3 + which);
+  };
+  const double size = unit(0), radius = 0.06 + 0.34 * size * size;
+  const double centreX = std::lerp(radius, 1 - radius, unit(1));
+  const double centreY = std::lerp(radius, 1 - radius, unit(2));
+  return (std::pow(x - cellX - centreX, 2) + std::pow(y - cellY - centreY, 2)) / (radius * radius);
+}
+
 double noiseAt(double x, double y, const ScreenSplats& splats) {
-  double sum = 0, weights = 0;
+  double sum = 0, weights = 0, drop = 1;
   for (uint32_t octave = 0; octave < kOctaves; ++octave) {
-    const double weight = std::exp2(-static_cast<double>(octave)), cell = splats.cell * weight;
-    const double shown = std::clamp(cell / 2 - 1, 0.0, 1.0);
+    const double weight = std::pow(0.35, octave),
+                 cell = splats.cell * std::exp2(-static_cast<double>(octave));
+    const double shown = std::clamp(cell / 2 - 1, 0.0, 1.0), drops = 1.6 * cell;
+    const double visible = std::clamp(drops / 4 - 1, 0.0, 1.0);
     const uint64_t seed = uint64_t{splats.seed} * kOctaves + octave;
     if (shown > 0) sum += weight * shown * (valueNoise(x / cell, y / cell, seed) - 0.5);
+    drop = std::min(drop, std::lerp(1.0, dropNoise(x / drops, y / drops, seed), visible));
     weights += weight;
   }
-  return 0.9 * std::clamp(0.5 + 2 * sum / weights, 0.0, 1.0);
+  const double rise = std::clamp(0.5 + 1.7 * sum / weights, 0.0, 1.0);
+  return 0.9 * std::min(0.2 + 0.8 * rise * rise * (3 - 2 * rise), drop);
 }
 
 double alphaOf(double coverage, double noise, double sharpness) {

@@ -15,10 +15,9 @@ struct ScreenSplats {
   uint32_t seed = 0;
 };
 
-// Computes the alpha of paint from its coverage; both pictures have one channel. Apart from its
-// coordinates the noise equals the effect's: three octaves of value noise on lattices of `cell`,
-// 1/2 `cell` and 1/4 `cell`, weights 1, 1/2, 1/4, hashed from integers. Octaves with cells under
-// four pixels fade into their mean.
+// Computes the alpha of paint from its coverage; both pictures have one channel. The noise has the
+// effect's lobes and drops, on lattices of pixels: `cell` is the size of the first octave's lobes.
+// A screen knows no shot's ray, so that nothing is drawn out along the way from it.
 image::Image screenSplats(const image::Image& coverage, const ScreenSplats& splats);
 
 }  // namespace grisaille::lab::claims

@@ -10,7 +10,7 @@
 namespace grisaille::lab::oracle {
 namespace {
 
-constexpr uint32_t kOctaves = 3;
+constexpr uint32_t kOctaves = 2;
 constexpr double kFill = 4;  // how steeply the strengths of several shots close gaps
 
 uint32_t hash(uint32_t x) {
@@ -41,6 +41,18 @@ double valueNoise(const glm::dvec2& place, uint32_t seed) {
   return std::lerp(low, std::lerp(corner(x, y + 1, seed), corner(x + 1, y + 1, seed), u), v);
 }
 
+// The squared distance from the drop of a cell, in its radii.
+double dropNoise(const glm::dvec2& place, uint32_t seed) {
+  const glm::dvec2 whole = glm::floor(place);
+  const auto x = static_cast<int64_t>(whole.x), y = static_cast<int64_t>(whole.y);
+  const uint32_t bits = hash(static_cast<uint32_t>(x) * 0x9e3779b1u ^
+                             static_cast<uint32_t>(y) * 0x85ebca77u ^ seed ^ 0x51ed270bu);
+  const double size = (bits % 256) / 256.0, radius = 0.06 + 0.34 * size * size;
+  const glm::dvec2 part((bits / 256 % 4096) / 4096.0, (bits / 1048576) / 4096.0);
+  const glm::dvec2 apart = (place - whole - (radius + (1 - 2 * radius) * part)) / radius;
+  return glm::dot(apart, apart);
+}
+
 uint32_t seedOf(const Shot& shot, uint32_t noiseSeed) {
   uint32_t bits = noiseSeed * 0x27d4eb2fu;
   constexpr uint32_t kPrimes[] = {0x9e3779b1u, 0x85ebca77u, 0xc2b2ae3du};
@@ -53,8 +65,9 @@ uint32_t seedOf(const Shot& shot, uint32_t noiseSeed) {
   return hash(bits);
 }
 
-// The splat's noise where a shot's ray passes at `q`, the offset from its muzzle.
-double splatNoise(const PaintLayer& layer, const glm::dvec3& q, double pixelSize,
+// The splat's noise where a shot's ray passes at `q`, the offset from its muzzle. middle: distance
+// of the rim's middle from the ray.
+double splatNoise(const PaintLayer& layer, const glm::dvec3& q, double pixelSize, double middle,
                   const PaintSettings& settings) {
   const glm::dvec3 w(layer.shot.direction[0], layer.shot.direction[1], layer.shot.direction[2]);
   const double s = w.z >= 0 ? 1 : -1, a = -1 / (s + w.z), b = w.x * w.y * a;
@@ -66,18 +79,24 @@ double splatNoise(const PaintLayer& layer, const glm::dvec3& q, double pixelSize
   const double t = unitOf(hash(layer.seed ^ 0x68bc21ebu));
   const double cosine = (1 - t * t) / (1 + t * t), sine = 2 * t / (1 + t * t);
   glm::dvec2 place(cosine * across.x - sine * across.y, sine * across.x + cosine * across.y);
-  double sum = 0, weights = 0;
+  // Lobes are 2.5 times as long as wide at the middle of the rim.
+  const double outward = 0.4 + 0.6 * middle / std::max(glm::length(across), 1e-6);
+  double sum = 0, weights = 0, drop = 1;
   for (uint32_t octave = 0; octave < kOctaves; ++octave) {
-    const double cell = settings.splatScale / std::exp2(octave);
-    const double weight = 1 / std::exp2(octave);
-    const double shown = std::clamp(cell / (2 * pixelSize) - 1, 0.0, 1.0);
+    const double size = settings.splatScale / std::exp2(octave);
+    const double lobe = size / outward, drops = 1.6 * size;
+    const double weight = std::pow(0.35, octave);
+    const double shown = std::clamp(lobe / (2 * pixelSize) - 1, 0.0, 1.0);
+    const double visible = std::clamp(drops / (4 * pixelSize) - 1, 0.0, 1.0);
     const uint32_t seed = layer.seed + octave * 0x27d4eb2fu;
-    const glm::dvec2 cells = glm::clamp(place / cell, -1e9, 1e9);
-    if (shown > 0) sum += weight * shown * (valueNoise(cells, seed) - 0.5);
+    const auto cells = [&](double cell) { return glm::clamp(place / cell, -1e9, 1e9); };
+    if (shown > 0) sum += weight * shown * (valueNoise(cells(lobe), seed) - 0.5);
+    if (visible > 0) drop = std::min(drop, std::lerp(1.0, dropNoise(cells(drops), seed), visible));
     weights += weight;
     place = glm::dvec2(0.8 * place.x - 0.6 * place.y, 0.6 * place.x + 0.8 * place.y);
   }
-  return 0.9 * std::clamp(0.5 + 2 * sum / weights, 0.0, 1.0);
+  const double rise = std::clamp(0.5 + 1.7 * sum / weights, 0.0, 1.0);
+  return 0.9 * std::min(0.2 + 0.8 * rise * rise * (3 - 2 * rise), drop);
 }
 
 double splatAlpha(double strength, double noise, double sharpness) {
@@ -133,8 +152,9 @@ PaintPixel paintOf(const glm::dvec3& world, double viewDepth, double pixelSize,
     const double strength = std::min(layer.times * alpha * fade, 1.0);
     sum += strength;
     const double filled = std::clamp(1 - kFill * (1 - sum), strength, 1.0);
-    const double shown =
-        splatAlpha(filled, splatNoise(layer, q, pixelSize, settings), settings.splatSharpness);
+    const double middle = range * (1 - 0.5 * settings.edgeFade);
+    const double noise = splatNoise(layer, q, pixelSize, middle, settings);
+    const double shown = splatAlpha(filled, noise, settings.splatSharpness);
     if (shown > covered) {
       color += (shown - covered) * glm::dvec3(shot.color[0], shot.color[1], shot.color[2]);
       covered = shown;

@@ -1,14 +1,17 @@
 // SPDX-License-Identifier: MIT
-// A shot's splat: its paint appears where its strength is above its noise. The noise is a sum of
-// three octaves of value noise in the plane across the shot's ray, so that a splat is longer where
-// the ray grazes a surface. Every shot has a seed of its own. effects/sspm/README.md has the
-// definition (steps 3 to 5).
+// A shot's splat: its paint appears where its strength is above its noise. The noise has lobes, which
+// point away from the shot's ray, and drops. It lies in the plane across the ray, so that a splat is
+// longer where the ray grazes a surface. Every shot has a seed of its own. effects/sspm/README.md
+// has the definition (steps 3 to 5).
 #include "place.glsl"
 
-const uint kOctaves = 3;
+const uint kOctaves = 2;
+const float kNextOctave = 0.35;  // weight of an octave of lobes: share of the one before
+const float kAlong = 0.4;        // cells of lobes along the way from the ray, per splat_scale
+const float kDropCells = 1.6;    // width of the cells of drops, per splat_scale
 
 layout(UNIFORM(1), std140) uniform Splat {
-  float cells;        // of the first octave, per metre
+  float cells;        // of the first octave's lobes, per metre
   float half_width;   // half the width of the smooth step, in strength; 0: a hard edge
   uint octaves;       // kOctaves, but unknown to the compiler, which then keeps the loop
   uint seed;
@@ -53,27 +56,47 @@ uint splatSeed(vec3 fraction, vec3 direction) {
   return hashBits(splat.seed * 0x27d4eb2fu ^ a.x ^ a.y ^ a.z ^ b.x ^ b.y ^ b.z);
 }
 
-// Noise in [0, 0.9]: full strength is always paint. An octave whose cells are less than four pixels
-// wide fades to its mean; at two pixels it is gone.
+// A drop in each cell of a lattice: 0 at its centre, 1 at its border, more beyond. place: in cells.
+float dropNoise(vec2 place, uint seed) {
+  const vec2 whole = floor(place);
+  const uvec2 cell = uvec2(ivec2(whole)) * uvec2(0x9e3779b1u, 0x85ebca77u);
+  const uint bits = hashBits(cell.x ^ cell.y ^ seed ^ 0x51ed270bu);
+  // Most drops are small. All lie inside their cells.
+  const float size = float(bits & 255u) * (1.0 / 256.0);
+  const float radius = 0.06 + 0.34 * size * size;
+  const vec2 part = vec2(bits >> 8 & 4095u, bits >> 20) * (1.0 / 4096.0);
+  const vec2 apart = (place - whole - mix(vec2(radius), vec2(1.0 - radius), part)) / radius;
+  return dot(apart, apart);
+}
+
+// Noise in [0, 0.9]: full strength is always paint. An octave of lobes whose cells are less than four
+// pixels wide fades to its mean; at two pixels it is gone. Drops fade from eight pixels to four.
 // across: offset from the shot's ray, along axesAcross(), metres. pixel: a pixel's width there,
-// metres. octaves: number of octaves; 0 gives the mean.
-float splatNoise(uint seed, vec2 across, float pixel, uint octaves) {
+// metres. middle: distance of the rim's middle from the ray, metres. octaves: number of octaves; 0
+// gives the mean.
+float splatNoise(uint seed, vec2 across, float pixel, float middle, uint octaves) {
   // A turn by up to 90 degrees, which differs from shot to shot, and by 37 between octaves.
   const float t = float(hashBits(seed ^ 0x68bc21ebu) >> 8) * (1.0 / 16777216.0);
   const vec2 turn = vec2(1.0 - t * t, 2.0 * t) / (1.0 + t * t);
-  vec2 place = splat.cells * vec2(turn.x * across.x - turn.y * across.y, turn.y * across.x + turn.x * across.y);
-  float sum = 0.0, weight = 1.0, cells = splat.cells;
+  const vec2 turned = vec2(turn.x * across.x - turn.y * across.y, turn.y * across.x + turn.x * across.y);
+  // The lattice of lobes is drawn out along the way from the ray, 2.5 times at the rim.
+  const float outward = kAlong + (1.0 - kAlong) * middle / max(length(across), 1e-6);
+  vec2 lobes = turned * (splat.cells * outward), drops = turned * (splat.cells / kDropCells);
+  float sum = 0.0, weight = 1.0, cells = splat.cells, drop = 1.0;
   for (uint octave = 0u; octave < octaves; ++octave) {
-    const float shown = clamp(0.5 / (pixel * cells) - 1.0, 0.0, 1.0);
-    const float value = valueNoise(clamp(place, -1e9, 1e9), seed + octave * 0x27d4eb2fu);
-    sum += weight * shown * (value - 0.5);
-    weight *= 0.5;
+    const uint of = seed + octave * 0x27d4eb2fu;
+    const float shown = clamp(0.5 / (pixel * cells * outward) - 1.0, 0.0, 1.0);
+    sum += weight * shown * (valueNoise(clamp(lobes, -1e9, 1e9), of) - 0.5);
+    const float visible = clamp(0.25 * kDropCells / (pixel * cells) - 1.0, 0.0, 1.0);
+    drop = min(drop, mix(1.0, dropNoise(clamp(drops, -1e9, 1e9), of), visible));
+    weight *= kNextOctave;
     cells *= 2.0;
-    place = vec2(1.6 * place.x - 1.2 * place.y, 1.2 * place.x + 1.6 * place.y);
+    lobes = vec2(1.6 * lobes.x - 1.2 * lobes.y, 1.2 * lobes.x + 1.6 * lobes.y);
+    drops = vec2(1.6 * drops.x - 1.2 * drops.y, 1.2 * drops.x + 1.6 * drops.y);
   }
-  // 7 / 4 is the sum of the weights. The sum of octaves stays near its mean: a factor of 2 makes it
-  // fill the range.
-  return 0.9 * clamp(0.5 + sum * (8.0 / 7.0), 0.0, 1.0);
+  // The sum of octaves stays near its mean: a factor makes it fill the range.
+  const float lobe = smoothstep(0.0, 1.0, 0.5 + 1.7 / (1.0 + kNextOctave) * sum);
+  return 0.9 * min(mix(0.2, 1.0, lobe), drop);
 }
 
 // Alpha of paint of this strength: 0 or 1, and between them over the width of the smooth step.
@@ -115,7 +138,9 @@ void composite(inout Sum sum, vec2 across, float pixel, uint seed, float range, 
   const float filled = clamp(1.0 - 4.0 * (1.0 - sum.strengths), strength, 1.0);
   // Near full strength the noise decides nothing, and the shader skips its octaves.
   const bool open = filled < 0.9 + splat.half_width;
-  const float shown = splatAlpha(filled, splatNoise(seed, across, pixel, open ? splat.octaves : 0u));
+  const float middle = range * (1.0 - 0.5 / per_fade);
+  const float noise = splatNoise(seed, across, pixel, middle, open ? splat.octaves : 0u);
+  const float shown = splatAlpha(filled, noise);
   const float weight = max(shown - sum.alpha, 0.0);
   sum.color += weight * color;
   sum.alpha = max(sum.alpha, shown);

@@ -1,12 +1,10 @@
 // SPDX-License-Identifier: MIT
 #include "tests/bench/painted.h"
 
-#include <chrono>
-
 namespace grisaille::bench {
 
 Painted::Painted(gpu::Device& device, const Subject& subject, const effect::Registry& registry,
-                 tests::TracedRays& rays, std::span<const std::string> effects)
+                 effect::RayService& rays, std::span<const std::string> effects)
     : device_(device),
       subject_(subject),
       rays_(rays),
@@ -15,12 +13,12 @@ Painted::Painted(gpu::Device& device, const Subject& subject, const effect::Regi
       renderer_(device, subject.scene) {}
 
 void Painted::add(std::span<const lab::Shot> shots) {
-  objects::ObjectList& list = *chain_.objects("sspm");
+  objects::ObjectList& list = this->shots();
   list.add(objectsOf(list.table(), shots).view());
 }
 
 double Painted::render(const View& view) {
-  const auto start = std::chrono::steady_clock::now();
+  const auto start = Clock::now();
   renderer_.render({.camera = view.camera,
                     .width = view.width,
                     .height = view.height,
@@ -29,8 +27,7 @@ double Painted::render(const View& view) {
                     .patience = view.patience,
                     .services = {.rays = &rays_}});
   device_.wait();
-  return std::chrono::duration<double, std::milli>(std::chrono::steady_clock::now() - start)
-      .count();
+  return 1000 * secondsSince(start);
 }
 
 double Painted::settle(double patience) {

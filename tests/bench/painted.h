@@ -2,6 +2,7 @@
 // A renderer with the paint of some shots on a scene.
 #pragma once
 
+#include <chrono>
 #include <cstdint>
 #include <limits>
 #include <span>
@@ -17,17 +18,25 @@
 
 namespace grisaille::bench {
 
+using Clock = std::chrono::steady_clock;
+
+inline double secondsSince(Clock::time_point start) {
+  return std::chrono::duration<double>(Clock::now() - start).count();
+}
+
 inline const std::vector<std::string> kPaintAlone = {"sspm"}, kPaintAndAo = {"ssao", "sspm"};
 
 class Painted {
  public:
   // effects: with sspm, in the order in which they run. All references must outlive it.
   Painted(gpu::Device& device, const Subject& subject, const effect::Registry& registry,
-          tests::TracedRays& rays, std::span<const std::string> effects);
+          effect::RayService& rays, std::span<const std::string> effects);
 
   effect::Values& values() { return chain_.selection.values("sspm"); }
 
-  // Adds shots to draw from the next frame on.
+  // The list of shots, drawn from the next frame on.
+  objects::ObjectList& shots() { return *chain_.objects("sspm"); }
+  // Adds shots to it.
   void add(std::span<const lab::Shot> shots);
 
   struct View {
@@ -49,7 +58,7 @@ class Painted {
  private:
   gpu::Device& device_;
   const Subject& subject_;
-  tests::TracedRays& rays_;
+  effect::RayService& rays_;
   effect::Chain chain_;
   effect::StartedChain started_;
   frame::Renderer renderer_;

@@ -24,6 +24,8 @@
 #include "tests/bench/painted.h"
 #include "tests/bench/sspm_edits.h"
 #include "tests/bench/sspm_limits.h"
+#include "tests/bench/sspm_load.h"
+#include "tests/bench/sspm_muzzles.h"
 #include "tests/bench/sspm_score.h"
 #include "tests/bench/subject.h"
 #include "tests/support/traced_rays.h"
@@ -45,6 +47,8 @@ struct Options : CommonOptions {
   std::vector<size_t> editCounts = {1000, 10000};
   std::vector<uint32_t> limits = {};
   size_t limitShots = 5000;
+  size_t muzzles = 200;
+  std::vector<size_t> loadCounts = {10000, 1000000};
   std::string out;
 };
 
@@ -336,12 +340,15 @@ void measure(const std::string& backend, const Place& place, const effect::Regis
 }
 
 void run(Options options) {
-  for (auto* counts : {&options.counts, &options.wallCounts, &options.editCounts}) {
+  for (auto* counts :
+       {&options.counts, &options.wallCounts, &options.editCounts, &options.loadCounts}) {
     std::erase(*counts, 0);
   }
   std::deque<Place> places;  // a deque, since rays refer to their scene by address
   std::vector<size_t> extra = options.editCounts;
   if (!options.limits.empty()) extra.push_back(options.limitShots);
+  extra.push_back(options.muzzles);
+  extra.insert(extra.end(), options.loadCounts.begin(), options.loadCounts.end());
   places.emplace_back(loadSubject(), options.counts, options.perShotCounts, extra);
   places.emplace_back(wallSubject(), options.wallCounts, std::vector<size_t>{},
                       std::vector<size_t>{});
@@ -378,6 +385,16 @@ void run(Options options) {
                     std::span(sponza.shots).first(options.limitShots), options.limits,
                     options.width, options.height);
       }
+      if (options.muzzles > 0) {
+        const Place& sponza = places.front();
+        printMuzzles(backend.name, sponza.subject, registry, *sponza.rays,
+                     std::span(sponza.shots).first(options.muzzles));
+      }
+      if (!options.loadCounts.empty()) {
+        const Place& sponza = places.front();
+        printLoad(backend.name, sponza.subject, registry, *sponza.rays, sponza.shots,
+                  options.loadCounts, options.width, options.height);
+      }
       if (!options.editCounts.empty()) {
         const Place& sponza = places.front();
         printEdits(backend.name, sponza.subject, registry, *sponza.rays, sponza.shots,
@@ -410,6 +427,12 @@ int main(int argc, char** argv) {
   program.add_option("--limits", options.limits,
                      "Values of the parameter memory at which paint is compared with exact paint");
   program.add_option("--limit-shots", options.limitShots, "Shots on Sponza for --limits");
+  program.add_option("--muzzles", options.muzzles,
+                     "Shots on Sponza that are seen by rays and by depth pictures; 0: none");
+  program
+      .add_option("--load-counts", options.loadCounts,
+                  "Shots on Sponza that are loaded from a file")
+      ->expected(0, -1);
   program.add_option("--out", options.out, "A folder for paint_cost.csv, .svg and .png");
   return grisaille::bench::runCommand(program, options, argc, argv,
                                       [&] { grisaille::bench::run(options); });

@@ -5,7 +5,6 @@
 
 #include <algorithm>
 #include <array>
-#include <chrono>
 #include <cmath>
 #include <limits>
 
@@ -14,8 +13,6 @@
 
 namespace grisaille::bench {
 namespace {
-
-using Clock = std::chrono::steady_clock;
 
 constexpr double kEditPatience = 0.03;  // seconds a frame for placing, as in the viewer
 constexpr double kSoon = 2;             // seconds after which the picture is looked at again
@@ -101,7 +98,7 @@ EditRow measureEdit(Edited& edited, const Change& change) {
   const auto timed = [&](double patience) {
     const auto start = Clock::now();
     row.waiting = edited.render(patience);
-    passed += std::chrono::duration<double>(Clock::now() - start).count();
+    passed += secondsSince(start);
   };
   timed(kEditPatience);
   row.nextFrame = 1000 * passed;
@@ -111,7 +108,7 @@ EditRow measureEdit(Edited& edited, const Change& change) {
   const image::Image soon = edited.picture();
   const auto start = Clock::now();
   const image::Image after = edited.complete();
-  row.placed = std::chrono::duration<double>(Clock::now() - start).count();
+  row.placed = secondsSince(start);
   row.rightNext = shareRight(before, next, after);
   row.rightSoon = shareRight(before, soon, after);
   edited.values().set(change.parameter, change.from);

@@ -4,7 +4,6 @@
 #include <fmt/format.h>
 
 #include <array>
-#include <chrono>
 #include <cmath>
 #include <numbers>
 
@@ -13,16 +12,12 @@
 #include "core/gpu/null_device.h"
 #include "core/trace/parallel.h"
 #include "lab/oracle/paint.h"
+#include "tests/bench/painted.h"
 
 namespace grisaille::bench {
 namespace {
 
-using Clock = std::chrono::steady_clock;
 constexpr uint32_t kPoints = 100'000, kReferencePoints = 20'000;
-
-double secondsSince(Clock::time_point start) {
-  return std::chrono::duration<double>(Clock::now() - start).count();
-}
 
 trace::SurfacePoints sample(const trace::RayTracer& tracer, uint32_t count, uint32_t seed) {
   return tracer.surfacePoints({.count = count, .steepest = std::numbers::pi, .seed = seed});
