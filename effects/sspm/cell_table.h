@@ -38,8 +38,9 @@ uint32_t hashOf(const CellKey& key);
 
 // A piece of a surface in a cell, about as large as one of the cell's 4x4x4 parts.
 struct KnownPoint {
-  uint32_t place = 0;   // position in the cell, 10 bits per axis
-  uint32_t normal = 0;  // glm::packSnorm3x10_1x2
+  uint32_t place : 30 = 0;   // position in the cell, 10 bits per axis
+  uint32_t covered : 1 = 0;  // newer paint covers all its spots: see Cell::coveredBelow
+  uint32_t normal = 0;       // glm::packSnorm3x10_1x2
 };
 
 constexpr size_t kMostKnown = 512;  // pieces in a cell
@@ -69,6 +70,9 @@ struct Cell {
   uint64_t sealed = 0;
   uint32_t sealedBelow = 0;
   uint32_t sealer = 0;
+  // The same of the pieces that thin() found covered.
+  uint32_t coveredBelow = 0;
+  uint32_t coverer = 0;
   uint32_t pruneAt = 0;   // number of entries at which the next prune() pays
   uint32_t slot = 0;      // in the hash table
   uint32_t first = 0;     // first entry of its run on the device
@@ -76,6 +80,13 @@ struct Cell {
   uint32_t bytes = 0;     // of its lists, on the host
   uint32_t units = 0;     // entries that its run on the device will take
   bool changed = false;   // since the last upload
+
+  // Forgets what is hidden, because a shot has left the list.
+  void unseal() {
+    sealed = 0;
+    coveredBelow = 0;
+    pruneAt = 0;
+  }
 };
 
 class CellTable {

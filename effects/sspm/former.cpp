@@ -87,8 +87,7 @@ void PaintWorld::placeAnew(const std::vector<bool>& anew, size_t count) {
       entry.solid = 0;
     }
     if (!any) continue;
-    cell.sealed = 0;
-    cell.pruneAt = 0;
+    cell.unseal();
     cells_.change(cell);
   }
   if (!former_.empty()) former_.resize(count, kNone);

@@ -6,6 +6,7 @@
 #include <array>
 #include <bit>
 #include <cmath>
+#include <optional>
 #include <utility>
 
 #include "paint_world.h"
@@ -15,8 +16,6 @@ namespace {
 
 constexpr float kLeastSlant = 0.02f;  // least cosine between a facet's normal and the ray
 constexpr float kSealed = 1.001f;     // sum of strengths; allows for rounding on the device
-constexpr int kSpotsAWay = 4;
-constexpr size_t kSpots = size_t{kSpotsAWay} * kSpotsAWay;
 // Of a cell's width: how far a piece's surface may be from the plane through its known point. See
 // sameSurface().
 constexpr float kSurfaceSlack = 1.0f / 16;
@@ -38,19 +37,28 @@ bool has(uint64_t parts, int part) {
   return (parts >> part & 1) != 0;
 }
 
-bool isSealed(const Cell& cell, size_t piece) {
-  return piece < kMostSealed && has(cell.sealed, static_cast<int>(piece));
+// 1 + the newest of the shots that hide a shot on the pieces that it may paint; 0: no piece is
+// known there. Nothing if the shot may show.
+std::optional<uint32_t> hiderIn(const Cell& cell, uint64_t touched, uint32_t id) {
+  if ((touched & cell.crowded) != 0) return std::nullopt;
+  const bool sealed = id < cell.sealedBelow, covered = id < cell.coveredBelow;
+  uint32_t hider = 0;
+  for (size_t i = 0; i < cell.known.size(); ++i) {
+    if (!has(touched, partOf(cell.known[i]))) continue;
+    if (sealed && i < kMostSealed && has(cell.sealed, static_cast<int>(i))) {
+      hider = std::max(hider, cell.sealer + 1);
+    } else if (covered && cell.known[i].covered != 0) {
+      hider = std::max(hider, cell.coverer + 1);
+    } else {
+      return std::nullopt;
+    }
+  }
+  return hider;
 }
 
-bool isHiddenIn(const Cell& cell, const Entry& entry) {
-  if (entry.shot >= cell.sealedBelow || (entry.touched & cell.crowded) != 0) return false;
-  bool touches = false;
-  for (size_t i = 0; i < cell.known.size(); ++i) {
-    if (!has(entry.touched, partOf(cell.known[i]))) continue;
-    if (!isSealed(cell, i)) return false;
-    touches = true;
-  }
-  return touches;
+// The same; 0 if the shot may show.
+uint32_t hiderOf(const Cell& cell, const Entry& entry) {
+  return hiderIn(cell, entry.touched, entry.shot).value_or(0);
 }
 
 // Whether the shot paints a point, whose offset is from the shot's muzzle. word: of its map.
@@ -71,38 +79,18 @@ uint32_t referenceTo(const glm::vec4& plane, const ShotMap& map) {
   return map.root;
 }
 
-// A piece's part of the cell in spots, and how strong the paint on each is at least.
+// A piece's spots, and how strong the paint on each is at least.
 struct Seal {
   glm::vec3 normal = glm::vec3(0);
-  std::array<glm::vec3, kSpots> spots = {};  // centres
-  float half = 0;                            // farthest point of a spot from its centre, metres
+  Spots spots;
   std::array<float, kSpots> strengths = {};
   uint32_t newest = ~0u;  // shot that paints it; ~0: none
 };
 
-// A piece's plane, cut along two axes of its part of the cell.
-// piece: with its position in the same space as the spots. edge: of the cell, metres.
-Seal sealOf(const SurfacePoint& piece, float edge) {
-  const glm::vec3 size = glm::abs(piece.normal);
-  const int a = size.x >= size.y && size.x >= size.z ? 0 : size.y >= size.z ? 1 : 2;
-  const int b = (a + 1) % 3, c = (a + 2) % 3;
-  const float part = edge / 4;
-  const float width = part * (1 + 2 * kPartMargin) / kSpotsAWay;
-  const glm::vec3 middle = edge * middleOf(piece.part);
-  const float slopeB = -piece.normal[b] / piece.normal[a];
-  const float slopeC = -piece.normal[c] / piece.normal[a];
-  Seal seal;
-  seal.normal = piece.normal;
-  seal.half = width / 2 * glm::length(glm::vec3(1, 1, std::abs(slopeB) + std::abs(slopeC)));
-  for (size_t i = 0; i < kSpots; ++i) {
-    const auto row = static_cast<float>(i / kSpotsAWay),
-               column = static_cast<float>(i % kSpotsAWay);
-    glm::vec3& at = seal.spots[i];
-    at[b] = middle[b] + width * (column + 0.5f - kSpotsAWay / 2.0f);
-    at[c] = middle[c] + width * (row + 0.5f - kSpotsAWay / 2.0f);
-    at[a] = piece.at[a] + slopeB * (at[b] - piece.at[b]) + slopeC * (at[c] - piece.at[c]);
-  }
-  return seal;
+Seal sealOf(const KnownPoint& known, float edge) {
+  const SurfacePoint piece = pointOf(known, glm::vec3(0), edge);
+  const float width = edge / 4 * (1 + 2 * kPartMargin) / kSpotsAWay;
+  return {.normal = piece.normal, .spots = spotsOf(piece, edge, width)};
 }
 
 }  // namespace
@@ -112,22 +100,15 @@ void PaintWorld::findHidden(uint32_t id, const Survey& survey, const CellGrid& g
   if (survey.unknown() > 0) return;
   const std::vector<Patch> patches = survey.patches();
   if (patches.empty()) return;  // its surfaces are too thin for the rough picture
-  uint32_t sealer = 0;
+  uint32_t newest = 0;
   for (const Patch& patch : patches) {
     const bool hidden =
         visitParts(survey.frame(), grid, patch, [&](const CellKey& key, const PartBits& bits) {
           const Cell* cell = cells_.find(key);
           if (cell == nullptr) return bits.core == 0;
-          if ((bits.touched & cell->crowded) != 0) return false;
-          bool touches = bits.core != 0;
-          for (size_t i = 0; i < cell->known.size(); ++i) {
-            if (!has(bits.touched, partOf(cell->known[i]))) continue;
-            if (!isSealed(*cell, i)) return false;
-            touches = true;
-          }
-          if (!touches) return true;
-          if (id >= cell->sealedBelow) return false;
-          sealer = std::max(sealer, cell->sealer);
+          const std::optional<uint32_t> hider = hiderIn(*cell, bits.touched, id);
+          if (!hider) return false;
+          newest = std::max(newest, *hider);
           for (uint64_t left = bits.core; left != 0; left &= left - 1) {
             const SurfacePoint point = pointIn(grid, patch, key, std::countr_zero(left));
             if (findKnown(*cell, grid, point) == kUnknown) return false;
@@ -136,7 +117,7 @@ void PaintWorld::findHidden(uint32_t id, const Survey& survey, const CellGrid& g
         });
     if (!hidden) return;
   }
-  states_[id].lostTo = std::max(states_[id].lostTo, sealer + 1);
+  states_[id].lostTo = std::max(states_[id].lostTo, newest);
 }
 
 // Adds a shot to a cell's list, unless newer paint hides it there.
@@ -165,8 +146,8 @@ void PaintWorld::join(uint32_t record, const ShotFrame& frame, const CellGrid& g
     entry.core = true;
     if (i < kMostSealed && !has(ragged, part) && reaches(i)) entry.solid |= uint64_t{1} << i;
   }
-  if (isHiddenIn(cell, entry)) {
-    states_[id].lostTo = std::max(states_[id].lostTo, cell.sealer + 1);
+  if (const uint32_t hider = hiderOf(cell, entry); hider > 0) {
+    states_[id].lostTo = std::max(states_[id].lostTo, hider);
     return;
   }
   if (!entry.core && placed.cores == 0) return;
@@ -214,14 +195,15 @@ void PaintWorld::prune(Cell& cell) {
   const auto edge = static_cast<float>(edgeOf(cell.key.code));
   std::vector<Seal> seals;
   for (size_t i = 0; i < std::min(cell.known.size(), kMostSealed); ++i) {
-    seals.push_back(sealOf(pointOf(cell.known[i], glm::vec3(0), edge), edge));
+    seals.push_back(sealOf(cell.known[i], edge));
   }
   cell.sealed = 0;
   cell.sealedBelow = kNone;
   cell.sealer = 0;
   cell.entries.eraseIf([&](const Entry& entry) {
-    if (isGone(entry) || isHiddenIn(cell, entry)) {
-      unlist(entry, isGone(entry) ? 0 : cell.sealer + 1);
+    const uint32_t hider = hiderOf(cell, entry);
+    if (isGone(entry) || hider > 0) {
+      unlist(entry, isGone(entry) ? 0 : hider);
       return true;
     }
     if ((entry.solid & ~cell.sealed) == 0) return false;
@@ -237,9 +219,9 @@ void PaintWorld::prune(Cell& cell) {
       bool all = true;
       for (size_t j = 0; j < kSpots; ++j) {
         if (seal.strengths[j] >= kSealed) continue;
-        const glm::vec3 at = corner + seal.spots[j];
-        const float across = glm::length(glm::cross(at, direction)) + seal.half + slack;
-        if (across < range && glm::dot(at, direction) > seal.half + slack) {
+        const glm::vec3 at = corner + seal.spots.centres[j];
+        const float across = glm::length(glm::cross(at, direction)) + seal.spots.half + slack;
+        if (across < range && glm::dot(at, direction) > seal.spots.half + slack) {
           if (seal.newest == kNone) seal.newest = entry.shot;
           seal.strengths[j] += rules_.strength(across, range, 1);
         }

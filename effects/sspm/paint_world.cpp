@@ -147,8 +147,7 @@ void PaintWorld::forget(size_t count, Changed changed) {
   forgetTwins(anew, count);
   if (allLost) {
     for (Cell& cell : cells_.cells()) {
-      cell.sealed = 0;
-      cell.pruneAt = 0;
+      cell.unseal();
     }
   }
   erase(gone);
@@ -167,8 +166,7 @@ void PaintWorld::erase(const std::vector<bool>& gone) {
     empty += cell.entries.empty() ? 1 : 0;
     if (erased == 0) continue;
     entries_ -= erased;
-    cell.sealed = 0;
-    cell.pruneAt = 0;
+    cell.unseal();
     cells_.change(cell);
   }
   if (empty > cells_.cells().size() / 8 && !thinning_.isActive()) cells_.removeEmpty();
@@ -361,8 +359,7 @@ void PaintWorld::remove(uint32_t id, std::span<const CellKey> cells) {
     if (listed == cell->entries.end()) continue;
     const Entry entry = *listed;
     cell->entries.eraseIf(isIts);
-    cell->sealed = 0;
-    cell->pruneAt = 0;
+    cell->unseal();
     cells_.change(*cell);
     unlist(entry, 0);
   }

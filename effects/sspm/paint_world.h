@@ -229,12 +229,14 @@ class PaintWorld {
 
   // thinning.cpp
   struct Spot;
+  struct Cover;
   double placedCount() const { return static_cast<double>(placed_.size() - freeRecords_.size()); }
   bool isThinningDue() const;
   bool thin(const CastRays& cast, size_t most);
-  void addSpots(const Cell& cell, std::vector<Spot>& spots);
+  void addSpots(size_t index, std::vector<Spot>& spots, std::vector<Cover>& covers);
   float strengthAt(const Spot& spot, const Entry& entry, grisaille_ray& ray) const;
-  bool sumUp(std::vector<Spot>& spots, const CastRays& cast);
+  bool sumUp(std::vector<Spot>& spots, std::vector<Cover>& covers, const CastRays& cast);
+  void cover(std::span<const Cover> covers);
   void hideOlder(const Spot& spot);
   void hideUnseen();
 

@@ -37,7 +37,7 @@ void addSeen(const CellGrid& grid, const Patch& patch, Share& share) {
 
 KnownPoint knownAt(const glm::vec3& inCell, const glm::vec3& normal) {
   const glm::uvec3 p(glm::clamp(inCell * 1024.0f, 0.0f, 1023.0f));
-  return {.place = p.x | p.y << 10 | p.z << 20,
+  return {.place = (p.x | p.y << 10 | p.z << 20) & 0x3FFFFFFFu,
           .normal = glm::packSnorm3x10_1x2(glm::vec4(normal, 0))};
 }
 
@@ -51,6 +51,26 @@ SurfacePoint pointOf(const KnownPoint& known, const glm::vec3& corner, float edg
   return {.part = partOf(known),
           .at = corner + edge * (steps + 0.5f) / 1024.0f,
           .normal = glm::vec3(glm::unpackSnorm3x10_1x2(known.normal))};
+}
+
+Spots spotsOf(const SurfacePoint& piece, float edge, float width) {
+  const glm::vec3 size = glm::abs(piece.normal);
+  const int a = size.x >= size.y && size.x >= size.z ? 0 : size.y >= size.z ? 1 : 2;
+  const int b = (a + 1) % 3, c = (a + 2) % 3;
+  const glm::vec3 middle = edge * middleOf(piece.part);
+  const float slopeB = -piece.normal[b] / piece.normal[a];
+  const float slopeC = -piece.normal[c] / piece.normal[a];
+  Spots spots;
+  spots.half = width / 2 * glm::length(glm::vec3(1, 1, std::abs(slopeB) + std::abs(slopeC)));
+  for (size_t i = 0; i < kSpots; ++i) {
+    const auto row = static_cast<float>(i / kSpotsAWay),
+               column = static_cast<float>(i % kSpotsAWay);
+    glm::vec3& at = spots.centres[i];
+    at[b] = middle[b] + width * (column + 0.5f - kSpotsAWay / 2.0f);
+    at[c] = middle[c] + width * (row + 0.5f - kSpotsAWay / 2.0f);
+    at[a] = piece.at[a] + slopeB * (at[b] - piece.at[b]) + slopeC * (at[c] - piece.at[c]);
+  }
+  return spots;
 }
 
 // Intersection of two boxes: of the corners, and of the ellipse in which the cylinder cuts the

@@ -4,6 +4,7 @@
 #pragma once
 
 #include <algorithm>
+#include <array>
 #include <cmath>
 #include <cstdint>
 #include <glm/glm.hpp>
@@ -29,6 +30,18 @@ KnownPoint knownAt(const glm::vec3& inCell, const glm::vec3& normal);
 int partOf(const KnownPoint& known);
 // corner: the cell's lower corner, relative to the muzzle, metres. edge: width of the cell, metres.
 SurfacePoint pointOf(const KnownPoint& known, const glm::vec3& corner, float edge);
+
+constexpr int kSpotsAWay = 4;
+constexpr size_t kSpots = size_t{kSpotsAWay} * kSpotsAWay;
+
+// A piece's plane in its part of the cell, cut into spots along two axes.
+struct Spots {
+  std::array<glm::vec3, kSpots> centres = {};
+  float half = 0;  // farthest point of a spot from its centre
+};
+// piece: with its position in the space of the spots, whose origin is the cell's lower corner.
+// edge, width: of the cell and of a spot, in one unit.
+Spots spotsOf(const SurfacePoint& piece, float edge, float width);
 
 // Part of a shot that lies in one cell.
 struct Share {

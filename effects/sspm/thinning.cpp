@@ -3,7 +3,8 @@
 // covers in the worst case: near edges and over bent surfaces, that is little. A pass looks at 4x4
 // spots of each known piece of a surface instead. It sums up the strengths of the shots that see
 // a spot, newest first, until the sum is 1. Shots that add nothing at any spot are hidden from then
-// on. What is lost are slivers that lie between spots.
+// on. A piece with no other spots is covered: older shots leave the cell's list, and those that are
+// placed later are hidden there. What is lost are slivers that lie between spots.
 #include <algorithm>
 #include <utility>
 
@@ -13,32 +14,20 @@
 namespace grisaille::sspm {
 namespace {
 
-constexpr int kSamplesAWay = 4;
 constexpr double kGrown = 1.5;  // times the shots that a pass left: when the next one pays
+// Shots from which on it can tell whether all that wait will fit, and how many times the limit they
+// are expected to take if they will not.
+constexpr double kForesight = 4096, kFarTooMuch = 2;
 // How far before the spot a ray ends: a share of the range. Surfaces bend between spots.
 constexpr float kEndRange = 0.05f;
-
-// Positions of a piece's spots in its part of the cell, in cells.
-glm::vec3 spotOf(const SurfacePoint& piece, int spot) {
-  const glm::vec3 size = glm::abs(piece.normal);
-  const int a = size.x >= size.y && size.x >= size.z ? 0 : size.y >= size.z ? 1 : 2;
-  const int b = (a + 1) % 3, c = (a + 2) % 3;
-  const auto off = [](int i) { return (static_cast<float>(i) + 0.5f) / kSamplesAWay - 0.5f; };
-  glm::vec3 at = middleOf(piece.part);
-  at[b] += off(spot % kSamplesAWay) / 4;
-  at[c] += off(spot / kSamplesAWay) / 4;
-  at[a] = piece.at[a] -
-          (piece.normal[b] * (at[b] - piece.at[b]) + piece.normal[c] * (at[c] - piece.at[c])) /
-              piece.normal[a];
-  return at;
-}
 
 }  // namespace
 
 // A spot that older shots may still show at.
 struct PaintWorld::Spot {
   const Cell* cell;
-  uint64_t part;  // mask
+  uint32_t piece;  // of those that a call of thin() looks at
+  uint64_t part;   // mask
   glm::dvec3 at;
   glm::vec3 normal;
   size_t next = 0;      // entry of the cell's list
@@ -46,11 +35,24 @@ struct PaintWorld::Spot {
   uint32_t newest = 0;  // 1 + the newest shot that adds to it
 };
 
-// Whether a pass is due: paint would get coarser now, and there are more shots than the last pass
-// left.
+// A piece, while thin() looks at its spots.
+struct PaintWorld::Cover {
+  uint32_t cell;  // index
+  uint32_t known;
+  int open = kSpots;                    // spots that older shots may show at
+  uint32_t oldest = kNone, newest = 0;  // of the shots that cover the others
+};
+
+// Whether a pass is due: paint would get coarser now, or far too much waits; and there are more
+// shots than the last pass left.
 bool PaintWorld::isThinningDue() const {
-  if (!former_.empty()) return false;
-  return placedCount() > kGrown * thinned_ && isScarce();
+  const double placed = placedCount();
+  if (!former_.empty() || placed <= kGrown * thinned_) return false;
+  const auto waiting = static_cast<double>(pending_.size());
+  const double all = static_cast<double>(bytes()) * (placed + waiting) / placed;
+  const bool isFarTooMuch =
+      placed > kForesight && waiting > placed && all > kFarTooMuch * static_cast<double>(room());
+  return isFarTooMuch || isScarce();
 }
 
 // Continues a pass by some cells, or begins one if it is due. Returns whether there is more to do.
@@ -67,12 +69,14 @@ bool PaintWorld::thin(const CastRays& cast, size_t most) {
   thinning_.shows.resize(states_.size());
   thinning_.hiddenBy.resize(states_.size());
   std::vector<Spot> spots;
+  std::vector<Cover> covers;
   const auto& cells = cells_.cells();
   for (; thinning_.cell < cells.size() && spots.size() < most; ++thinning_.cell) {
-    addSpots(cells[thinning_.cell], spots);
+    addSpots(thinning_.cell, spots, covers);
   }
   bool casts = true;
-  while (casts && !spots.empty()) casts = sumUp(spots, cast);
+  while (casts && !spots.empty()) casts = sumUp(spots, covers, cast);
+  if (casts) cover(covers);
   if (casts && thinning_.cell < cells.size()) return true;
   if (casts) hideUnseen();
   thinning_ = {};
@@ -80,21 +84,23 @@ bool PaintWorld::thin(const CastRays& cast, size_t most) {
   return false;
 }
 
-void PaintWorld::addSpots(const Cell& cell, std::vector<Spot>& spots) {
+void PaintWorld::addSpots(size_t index, std::vector<Spot>& spots, std::vector<Cover>& covers) {
+  const Cell& cell = cells_.cells()[index];
   for (const Entry& entry : cell.entries) {
     // Surfaces that the cell does not know.
     if ((entry.touched & cell.crowded) != 0) thinning_.shows[entry.shot] = true;
   }
   const double edge = edgeOf(cell.key.code);
-  for (const KnownPoint& known : cell.known) {
-    const SurfacePoint piece = pointOf(known, glm::vec3(0), 1);
-    for (int i = 0; i < kSamplesAWay * kSamplesAWay; ++i) {
-      const glm::dvec3 place = glm::dvec3(cell.key.cell) + glm::dvec3(spotOf(piece, i));
+  for (size_t known = 0; known < cell.known.size(); ++known) {
+    const SurfacePoint piece = pointOf(cell.known[known], glm::vec3(0), 1);
+    for (const glm::vec3& at : spotsOf(piece, 1, 0.25f / kSpotsAWay).centres) {
       spots.push_back({.cell = &cell,
+                       .piece = static_cast<uint32_t>(covers.size()),
                        .part = uint64_t{1} << piece.part,
-                       .at = place * edge,
+                       .at = (glm::dvec3(cell.key.cell) + glm::dvec3(at)) * edge,
                        .normal = piece.normal});
     }
+    covers.push_back({.cell = static_cast<uint32_t>(index), .known = static_cast<uint32_t>(known)});
   }
 }
 
@@ -119,7 +125,7 @@ float PaintWorld::strengthAt(const Spot& spot, const Entry& entry, grisaille_ray
 
 // Adds the next shot to each spot, and removes spots that no older shot can add to. Returns false
 // if the host casts no rays.
-bool PaintWorld::sumUp(std::vector<Spot>& spots, const CastRays& cast) {
+bool PaintWorld::sumUp(std::vector<Spot>& spots, std::vector<Cover>& covers, const CastRays& cast) {
   std::vector<grisaille_ray> rays(spots.size());
   std::vector<float> strengths(spots.size());
   const auto toNext = [&](size_t i) {
@@ -155,6 +161,10 @@ bool PaintWorld::sumUp(std::vector<Spot>& spots, const CastRays& cast) {
     if (spot.sum < 1) {
       left.push_back(spot);
     } else {
+      Cover& piece = covers[spot.piece];
+      --piece.open;
+      piece.oldest = std::min(piece.oldest, shot);
+      piece.newest = std::max(piece.newest, spot.newest - 1);
       hideOlder(spot);
     }
   }
@@ -170,6 +180,31 @@ void PaintWorld::hideOlder(const Spot& spot) {
     if (strengthAt(spot, entries[i], ray) <= 0) continue;
     uint32_t& by = thinning_.hiddenBy[entries[i].shot];
     by = std::max(by, spot.newest);
+  }
+}
+
+// Notes which pieces are covered, and removes the shots from the cells' lists that show on no
+// piece.
+void PaintWorld::cover(std::span<const Cover> covers) {
+  for (size_t first = 0; first < covers.size();) {
+    Cell& cell = cells_.cells()[covers[first].cell];
+    cell.coveredBelow = kNone;
+    cell.coverer = 0;
+    bool any = false;
+    size_t i = first;
+    for (; i < covers.size() && covers[i].cell == covers[first].cell; ++i) {
+      const bool covered = covers[i].open == 0;
+      cell.known[covers[i].known].covered = covered ? 1 : 0;
+      if (!covered) continue;
+      any = true;
+      cell.coveredBelow = std::min(cell.coveredBelow, covers[i].oldest);
+      cell.coverer = std::max(cell.coverer, covers[i].newest);
+    }
+    first = i;
+    if (!any) continue;
+    sampled_ = true;
+    prune(cell);
+    cells_.change(cell);
   }
 }
 

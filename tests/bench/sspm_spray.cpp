@@ -1,0 +1,79 @@
+// SPDX-License-Identifier: MIT
+#include "tests/bench/sspm_spray.h"
+
+#include <fmt/format.h>
+
+#include <algorithm>
+#include <array>
+#include <vector>
+
+#include "backends/backends.h"
+#include "tests/bench/painted.h"
+
+namespace grisaille::bench {
+namespace {
+
+constexpr double kSprayPatience = 0.004;  // seconds a frame for placing
+constexpr size_t kSprayFrames = 300;
+constexpr std::array<size_t, 2> kSprayed = {1, 10};  // shots a frame
+
+struct Spray {
+  std::vector<double> more;  // milliseconds by which a frame takes longer than one before it
+  uint64_t waiting = 0;      // shots, after the last frame
+  size_t later = 0;          // frames until none waits
+};
+
+// Each frame with new shots follows one without, in which nothing waits.
+Spray spray(Painted& painted, const Painted::View& view, std::span<const lab::Shot> shots,
+            size_t each) {
+  Spray spray;
+  double idle = painted.render(view);
+  for (size_t i = 0; i < kSprayFrames; ++i) {
+    if (painted.report().waiting == 0) idle = painted.render(view);
+    painted.add(shots.subspan(i * each, each));
+    spray.more.push_back(painted.render(view) - idle);
+  }
+  spray.waiting = painted.report().waiting;
+  for (; painted.report().waiting > 0; ++spray.later) painted.render(view);
+  std::ranges::sort(spray.more);
+  return spray;
+}
+
+}  // namespace
+
+void printSpray(const std::string& backend, const Subject& subject,
+                const effect::Registry& registry, tests::TracedRays& rays,
+                std::span<const lab::Shot> shots) {
+  size_t sprayed = 0;
+  for (const size_t each : kSprayed) sprayed += kSprayFrames * each;
+  if (shots.size() < sprayed) return;
+  const auto device = backends::create(backend, {});
+  Painted painted(*device, subject, registry, rays, kPaintAlone);
+  painted.add(shots.first(shots.size() - sprayed));
+  painted.settle(1);
+  const Painted::View view = {subject.cameras[0], 64, 36, kSprayPatience};
+  fmt::print(
+      "## {}, {}: spray\n\n"
+      "{} frames of few pixels, with {:.0f} ms for placing, beside {} shots. How much longer than "
+      "a "
+      "frame\nwithout new shots they take.\n\n"
+      "| shots a frame | median, ms | 9 of 10 at most, ms | 99 of 100 at most, ms | all at most, "
+      "ms "
+      "| shots that wait in the end | frames until they are placed "
+      "|\n|---|---|---|---|---|---|---|\n",
+      subject.name, backend, kSprayFrames, 1000 * kSprayPatience, shots.size() - sprayed);
+  std::span<const lab::Shot> next = shots.last(sprayed);
+  for (const size_t each : kSprayed) {
+    const Spray row = spray(painted, view, next, each);
+    next = next.subspan(kSprayFrames * each);
+    const auto at = [&](double share) {
+      return row.more[static_cast<size_t>(share * static_cast<double>(row.more.size() - 1))];
+    };
+    fmt::print("| {} | {:.1f} | {:.1f} | {:.1f} | {:.1f} | {} | {} |\n", each, at(0.5), at(0.9),
+               at(0.99), at(1), row.waiting, row.later);
+    std::fflush(stdout);
+  }
+  fmt::print("\n");
+}
+
+}  // namespace grisaille::bench
