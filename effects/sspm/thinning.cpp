@@ -18,6 +18,9 @@ constexpr double kGrown = 1.5;  // times the shots that a pass left: when the ne
 // Shots from which on it can tell whether all that wait will fit, and how many times the limit they
 // are expected to take if they will not.
 constexpr double kForesight = 4096, kFarTooMuch = 2;
+// A spot that no muzzle sees of so many lies inside something, where a piece's plane goes on behind
+// another surface. Nothing shows there.
+constexpr uint32_t kInside = 4;
 // How far before the spot a ray ends: a share of the range. Surfaces bend between spots.
 constexpr float kEndRange = 0.05f;
 
@@ -30,9 +33,10 @@ struct PaintWorld::Spot {
   uint64_t part;   // mask
   glm::dvec3 at;
   glm::vec3 normal;
-  size_t next = 0;      // entry of the cell's list
-  float sum = 0;        // of strengths
-  uint32_t newest = 0;  // 1 + the newest shot that adds to it
+  size_t next = 0;       // entry of the cell's list
+  float sum = 0;         // of strengths
+  uint32_t blocked = 0;  // shots whose muzzles do not see it
+  uint32_t newest = 0;   // 1 + the newest shot that adds to it
 };
 
 // A piece, while thin() looks at its spots.
@@ -143,7 +147,10 @@ bool PaintWorld::sumUp(std::vector<Spot>& spots, std::vector<Cover>& covers, con
   std::vector<size_t> asked;
   std::vector<grisaille_ray> batch;
   for (size_t i = 0; i < spots.size(); ++i) {
-    if (strengths[i] <= 0) continue;
+    if (strengths[i] <= 0) {
+      if (spots[i].sum <= 0 && spots[i].blocked >= kInside) --covers[spots[i].piece].open;
+      continue;
+    }
     asked.push_back(i);
     batch.push_back(rays[i]);
   }
@@ -157,6 +164,8 @@ bool PaintWorld::sumUp(std::vector<Spot>& spots, std::vector<Cover>& covers, con
       thinning_.shows[shot] = true;
       spot.sum += strengths[asked[k]];
       spot.newest = std::max(spot.newest, shot + 1);
+    } else {
+      ++spot.blocked;
     }
     if (spot.sum < 1) {
       left.push_back(spot);
