@@ -184,7 +184,7 @@ class PaintWorld {
   bool askFor(std::span<Work* const> works, const Sight& sight);
   bool castFor(std::span<Work* const> works, const CastRays& cast);
   bool lookFor(std::span<Work* const> works, const DrawDepth& draw);
-  static void finish(Work& work);
+  static void finish(std::span<Work* const> works);
   void askAgain(const Sight& sight);
 
   // former.cpp

@@ -34,8 +34,8 @@ bool PaintWorld::castFor(std::span<Work* const> works, const CastRays& cast) {
   onAllThreads(works.size(), [&](size_t i) {
     Survey& survey = works[i]->survey;
     works[i]->told = survey.take(std::span(hits).subspan(first[i], survey.rays().size()));
-    finish(*works[i]);
   });
+  finish(works);
   return true;
 }
 
@@ -64,19 +64,37 @@ bool PaintWorld::lookFor(std::span<Work* const> works, const DrawDepth& draw) {
                              [&](const grisaille_ray& ray) { return work.muzzle->see(ray); });
       work.told = work.survey.take(hits);
     }
-    finish(work);
   });
+  finish(works.first(known));
   return true;
 }
 
-// Takes the map and the shares of a survey once it is complete.
-void PaintWorld::finish(Work& work) {
-  Survey& survey = work.survey;
-  if (!work.told || !survey.rays().empty() || survey.isRough()) return;
-  work.map = survey.map();
-  work.coarse = survey.coarseMap();
-  if (work.coarse.words.size() * 4 > work.map.words.size() * kCoarseShare) work.coarse = {};
-  work.shares = sharesOf(survey.frame(), *work.grid, survey.patches());
+// Takes the maps and the shares of the surveys that are complete.
+void PaintWorld::finish(std::span<Work* const> works) {
+  std::vector<Work*> complete;
+  std::ranges::copy_if(works, std::back_inserter(complete), [](const Work* work) {
+    return work->told && work->survey.rays().empty() && !work->survey.isRough();
+  });
+  constexpr size_t kTasks = 3;  // of a survey: each thread has some also where there is one survey
+  onAllThreads(kTasks * complete.size(), [&](size_t i) {
+    Work& work = *complete[i / kTasks];
+    const Survey& survey = work.survey;
+    switch (i % kTasks) {
+      case 0:
+        work.map = survey.map();
+        break;
+      case 1:
+        work.coarse = survey.coarseMap();
+        break;
+      default:
+        work.shares = sharesOf(survey.frame(), *work.grid, survey.patches());
+        break;
+    }
+  });
+  for (Work* work : complete) {
+    const size_t most = work->map.words.size() * kCoarseShare / 4;
+    if (work->coarse.words.size() > most) work->coarse = {};
+  }
 }
 
 // Asks again for placed shots with unknown squares, and places the shots again if the host can tell

@@ -111,20 +111,16 @@ void PaintWorld::addSpots(size_t index, std::vector<Spot>& spots, std::vector<Co
 // How strong a shot's paint is at a spot, if the muzzle sees it; 0: out of range.
 // ray: from the muzzle to the spot.
 float PaintWorld::strengthAt(const Spot& spot, const Entry& entry, grisaille_ray& ray) const {
-  if ((entry.touched & spot.part) == 0 || isGone(entry)) return 0;
+  Reach found{.shot = entry.shot};
+  if ((entry.touched & spot.part) == 0 || !reach(spot.at, spot.normal, entry, found)) return 0;
   const Shot& shot = list_[entry.shot];
-  const glm::dvec3 origin(shot.origin[0], shot.origin[1], shot.origin[2]);
-  const glm::vec3 direction(shot.direction[0], shot.direction[1], shot.direction[2]);
-  const glm::vec3 q(spot.at - origin);
+  const glm::vec3 q(spot.at - glm::dvec3(shot.origin[0], shot.origin[1], shot.origin[2]));
   const float range = rangeOf(entry.shot), distance = glm::length(q);
-  const float across = glm::length(glm::cross(q, direction));
-  if (across >= range || glm::dot(q, direction) < 0 || glm::dot(q, spot.normal) >= 0) return 0;
-  const float times = 1 + static_cast<float>(placed_[recordOf(entry)].counted);
   const glm::vec3 unit = q / std::max(distance, 1e-20f);
-  ray = {.origin = {origin.x, origin.y, origin.z},
+  ray = {.origin = {shot.origin[0], shot.origin[1], shot.origin[2]},
          .direction = {unit.x, unit.y, unit.z},
          .reach = std::max(distance - kEndRange * range, 1e-20f)};
-  return rules_.strength(across, range, times);
+  return rules_.strength(static_cast<float>(glm::length(found.across)), range, found.times);
 }
 
 // Adds the next shot to each spot, and removes spots that no older shot can add to. Returns false

@@ -81,8 +81,8 @@ class Bench {
     for (const size_t count : place_.counts) place("surface", count, kRange);
     const double most = rows_.back().painted;
     place("surface", place_.counts.front(), rangeFor(place_.counts.front(), most));
-    std::ranges::rotate(rows_, rows_.end() - 1);
-    std::ranges::rotate(painted_, painted_.end() - 1);
+    std::rotate(rows_.begin(), rows_.end() - 1, rows_.end());
+    std::rotate(painted_.begin(), painted_.end() - 1, painted_.end());
     for (const size_t count : place_.perShotCounts) place("per_shot", count, kRange);
     for (uint32_t round = 0; round < options_.rounds; ++round) {
       fmt::print(stderr, "round {} of {}\n", round + 1, options_.rounds);

@@ -8,6 +8,7 @@
 #include <span>
 
 #include "tests/effects/ssao/render_ao.h"
+#include "tests/support/devices.h"
 #include "tests/support/scenes.h"
 #include "tests/support/test_device.h"
 

@@ -226,8 +226,9 @@ TEST_P(SlicesTest, AWallBehindABoardDarkensTheFloorBeforeIt) {
                             {"slices", "4"},
                             {"kernel_size", "128"}});
     const auto shown = frames.showAll(kCorner, 320, 240, {"ao", "depth"});
+    const auto errors = cornerErrors(shown[0], shown[1]);
     double sum = 0;
-    for (const double error : cornerErrors(shown[0], shown[1])[0]) sum += std::abs(error) / 5;
+    for (const double error : errors[0]) sum += std::abs(error) / 5;
     return sum;
   };
   const double drawn = floorError("drawn"), peeled = floorError("peeled");
