@@ -267,6 +267,11 @@ void PaintWorld::takeUp(size_t shots) {
     pending_.push_back(id);
   }
   floors_.coarse = std::min(floors_.coarse, count);
+  std::erase_if(work_, [&](const Work& work) {
+    if (!work.survey.isCoarse() || work.id < floors_.coarse) return false;
+    pending_.push_back(work.id);
+    return true;
+  });
   const auto isAtWork = [&](uint32_t id) {
     return std::ranges::any_of(work_, [&](const Work& work) { return work.id == id; });
   };

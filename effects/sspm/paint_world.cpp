@@ -272,7 +272,9 @@ void PaintWorld::refill() {
     pending_.erase(next);
     // Newer paint hides a shot that was to be sharpened, or a newer twin stands for it.
     if (isPlaced(id) || (states_[id].lostTo == 0 && !countTwin(id))) {
-      work_.push_back({.id = id, .survey = Survey(shot, rangeOf(id))});
+      const bool exact = isPlaced(id) || id >= floors_.coarse;
+      const auto detail = exact ? Survey::Detail::kExact : Survey::Detail::kCoarse;
+      work_.push_back({.id = id, .survey = Survey(shot, rangeOf(id), detail)});
     } else {
       retire(id);
     }
@@ -323,7 +325,7 @@ void PaintWorld::place(Work& work) {
     Placed& placed = placed_[record];
     if (placed.cores > 0) {
       placed.coarse = store(work.coarse);
-      const bool isCoarse = id < floors_.coarse && placed.coarse.blocks > 0;
+      const bool isCoarse = (survey.isCoarse() || id < floors_.coarse) && placed.coarse.blocks > 0;
       if (!isCoarse) placed.exact = store(map);
       coarse_ += isCoarse ? 1 : 0;
     }

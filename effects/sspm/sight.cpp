@@ -81,7 +81,7 @@ void PaintWorld::finish(std::span<Work* const> works) {
     const Survey& survey = work.survey;
     switch (i % kTasks) {
       case 0:
-        work.map = survey.map();
+        if (!survey.isCoarse()) work.map = survey.map();
         break;
       case 1:
         work.coarse = survey.coarseMap();
@@ -92,6 +92,10 @@ void PaintWorld::finish(std::span<Work* const> works) {
     }
   });
   for (Work* work : complete) {
+    if (work->survey.isCoarse()) {
+      work->map = work->coarse;
+      continue;
+    }
     const size_t most = work->map.words.size() * kCoarseShare / 4;
     if (work->coarse.words.size() > most) work->coarse = {};
   }

@@ -26,7 +26,8 @@ uint32_t hashOf(const glm::ivec2& place) {
 
 }  // namespace
 
-Survey::Survey(const Shot& shot, float range) : frame_(shot, range) {
+Survey::Survey(const Shot& shot, float range, Detail detail)
+    : frame_(shot, range), detail_(detail) {
   const float finest = kFinestMetres / 2 * kFinestAUnit / range;
   finest_ = static_cast<int32_t>(
       std::bit_floor(static_cast<uint32_t>(glm::clamp(finest, 1.0f, kFinestAUnit / 32.0f))));
@@ -262,6 +263,7 @@ int32_t Survey::grainAt(const Square& square) const {
 // Width at which a square is not divided further, whatever it sees.
 int32_t Survey::finestAt(const Square& square) const {
   if (samples_.size() >= kMostSamples) return kAcross;
+  if (isCoarse()) return kCoarseLeast;
   return glm::length(centreOf(square)) > 4 ? kFinestAUnit / 16 : 2 * finest_;
 }
 

@@ -44,8 +44,12 @@ inline bool serves(const glm::vec4& plane, const glm::vec3& at, const glm::vec4&
 
 class Survey {
  public:
+  // How far squares are divided: for both maps, or as far as the coarse one needs.
+  enum class Detail : uint8_t { kExact, kCoarse };
+
   // range: metres, > 0.
-  Survey(const Shot& shot, float range);
+  Survey(const Shot& shot, float range, Detail detail = Detail::kExact);
+  bool isCoarse() const { return detail_ == Detail::kCoarse; }
 
   // Rays to cast next; pass their hits to take(). Empty: the rough picture or the map is complete.
   std::span<const grisaille_ray> rays() const { return rays_; }
@@ -175,6 +179,7 @@ class Survey {
   bool uniform(int32_t index, const Sample*& first) const;
 
   ShotFrame frame_;
+  Detail detail_;
   Stage stage_ = Stage::kProbing;
   float farthest_ = 0;
   int probes_ = 0;      // rounds of probing

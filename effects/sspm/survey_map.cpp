@@ -14,9 +14,9 @@ namespace {
 constexpr size_t kRecent = 16;  // planes that a leaf may share
 // Of a square's width: how far a line may be from the one for which it stands.
 constexpr float kLineMerges = 0.05f;
-// Of a coarse map: width of the squares that are leaves at least and at most, in finest squares,
-// and area of a leaf that its planes need not serve, square units.
-constexpr int32_t kCoarseLeast = kFinestAUnit / 8, kCoarseLargest = kFinestAUnit / 2;
+// Of a coarse map: width of the largest squares that are leaves, in finest squares, and area of a
+// leaf that its planes need not serve, square units.
+constexpr int32_t kCoarseLargest = kFinestAUnit / 2;
 constexpr float kCoarseArea = (20.0f / kFinestAUnit) * (20.0f / kFinestAUnit);
 
 // A plane far enough behind the muzzle that it hides everything.

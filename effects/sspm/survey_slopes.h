@@ -10,7 +10,9 @@
 namespace grisaille::sspm {
 
 constexpr int32_t kFinestAUnit = 256;  // finest squares in a unit of the map
-constexpr float kBeyond = 1.02f;       // times the range: hits beyond it are outside the cylinder
+// Width of the squares of a coarse map that are leaves, whatever they see; in finest squares.
+constexpr int32_t kCoarseLeast = kFinestAUnit / 8;
+constexpr float kBeyond = 1.02f;  // times the range: hits beyond it are outside the cylinder
 // Times the range: how far rays reach, so that squares across the cylinder's rim know all corners.
 constexpr float kReach = 1.4f;
 

@@ -252,8 +252,8 @@ Survey::Found Survey::findSilhouette(const Square& square, const Pair& pair, Map
 // Where a silhouette crosses the side of a square, by bisection. start: what `from` sees.
 Survey::Found Survey::findCrossing(const Pair& pair, glm::ivec2 from, glm::ivec2 to, Side start,
                                    glm::vec2& crossing) {
-  const bool outside = glm::length(unitsOf(from)) > 4;
-  const int32_t last = outside ? std::max(finest_, kFinestAUnit / 64) : finest_;
+  const bool rough = isCoarse() || glm::length(unitsOf(from)) > 4;
+  const int32_t last = rough ? std::max(finest_, kFinestAUnit / 64) : finest_;
   while (std::abs(to.x - from.x) + std::abs(to.y - from.y) > last) {
     const glm::ivec2 middle = (from + to) / 2;
     const int32_t index = ask(middle);
