@@ -7,6 +7,7 @@
 
 #include <algorithm>
 #include <cmath>
+#include <limits>
 
 #include "tests/effects/sspm/paint_frame.h"
 #include "tests/support/devices.h"
@@ -95,6 +96,36 @@ bool isAtRim(const std::vector<float>& owner, uint32_t x, uint32_t y) {
   return false;
 }
 
+struct Difference {
+  size_t painted = 0, wrong = 0;       // pixels with paint away from rims; those that differ
+  size_t newest = 0, newestWrong = 0;  // pixels of the newest quarter's paint; those that differ
+  size_t all = 0;                      // pixels that differ at all
+};
+
+// givenUp: number of leading shots of `count` that the exact painting does not have.
+Difference compare(const Painting& exact, const Painting& coarse, size_t count, size_t givenUp) {
+  Difference sum;
+  for (uint32_t y = 0; y < kDown; ++y) {
+    for (uint32_t x = 0; x < kAcross; ++x) {
+      const size_t i = size_t{y} * kAcross + x;
+      float apart = 0;
+      for (size_t c = 4 * i; c < 4 * i + 4; ++c) {
+        apart = std::max(apart, std::abs(exact.paint[c] - coarse.paint[c]));
+      }
+      sum.all += apart > 0 ? 1 : 0;
+      const auto owner = static_cast<size_t>(exact.owner[i]) + givenUp;
+      if (exact.owner[i] > 0 && owner > givenUp + (count - givenUp) * 3 / 4) {
+        ++sum.newest;
+        sum.newestWrong += apart > 0 ? 1 : 0;
+      }
+      if (exact.owner[i] == 0 || isAtRim(exact.owner, x, y)) continue;
+      ++sum.painted;
+      sum.wrong += apart > 2.0f / 255 ? 1 : 0;
+    }
+  }
+  return sum;
+}
+
 // Away from rims, 99 % of the pixels with paint differ by at most 2/255 from exact paint, and none
 // with paint of the newest quarter differs. Nothing is given up before paint gets coarser.
 TEST_P(LimitTest, CoarsePaintIsCloseAndTheNewestIsExact) {
@@ -115,32 +146,41 @@ TEST_P(LimitTest, CoarsePaintIsCloseAndTheNewestIsExact) {
               {"paint", "paint_owner"});
   EXPECT_EQ(free.coarser(), 0u);
   const Painting exact = {free.read("paint").pixels, free.read("paint_owner").pixels};
-  size_t painted = 0, wrong = 0, newest = 0, newestWrong = 0, all = 0;
-  for (uint32_t y = 0; y < kDown; ++y) {
-    for (uint32_t x = 0; x < kAcross; ++x) {
-      const size_t i = size_t{y} * kAcross + x;
-      float apart = 0;
-      for (size_t c = 4 * i; c < 4 * i + 4; ++c) {
-        apart = std::max(apart, std::abs(exact.paint[c] - coarse.paint[c]));
-      }
-      all += apart > 0 ? 1 : 0;
-      const auto owner = static_cast<size_t>(exact.owner[i]) + givenUp;
-      if (exact.owner[i] > 0 && owner > givenUp + (count - givenUp) * 3 / 4) {
-        ++newest;
-        newestWrong += apart > 0 ? 1 : 0;
-      }
-      if (exact.owner[i] == 0 || isAtRim(exact.owner, x, y)) continue;
-      ++painted;
-      wrong += apart > 2.0f / 255 ? 1 : 0;
-    }
-  }
+  const Difference apart = compare(exact, coarse, count, givenUp);
   std::printf("%s: %zu shots, %zu coarser, %zu given up; away from rims %zu of %zu px differ\n",
-              GetParam().label.c_str(), count, size_t{limited.coarser()}, givenUp, wrong, painted);
-  EXPECT_GT(painted, kAcross * kDown / 4u);
-  EXPECT_GT(newest, kAcross * kDown / 8u);
-  EXPECT_GT(all, 0u) << "coarse paint must differ somewhere";
-  EXPECT_LE(wrong * 100, painted);
-  EXPECT_EQ(newestWrong, 0u);
+              GetParam().label.c_str(), count, size_t{limited.coarser()}, givenUp, apart.wrong,
+              apart.painted);
+  EXPECT_GT(apart.painted, kAcross * kDown / 4u);
+  EXPECT_GT(apart.newest, kAcross * kDown / 8u);
+  EXPECT_GT(apart.all, 0u) << "coarse paint must differ somewhere";
+  EXPECT_LE(apart.wrong * 100, apart.painted);
+  EXPECT_EQ(apart.newestWrong, 0u);
+}
+
+// The same of a list that comes at once, of which the oldest shots are never placed exactly. More
+// memory makes all of it exact.
+TEST_P(LimitTest, ALoadedListIsCloseWhereItIsCoarse) {
+  constexpr size_t kCount = 2000;
+  PaintFrame limited(device(), scene_), free(device(), scene_);
+  start(limited, "16");
+  start(free, "1000");
+  limited.setPatience(0.05);
+  do {
+    limited.render(kBefore, 16, 16, std::span(shots_).first(kCount), {"paint"});
+  } while (limited.waiting() > 0);
+  limited.setPatience(std::numeric_limits<double>::infinity());
+  const Painting coarse = look(limited, kCount, 1), exact = look(free, kCount, 1);
+  const size_t coarser = limited.coarser(), givenUp = limited.givenUp();
+  const Difference apart = compare(exact, coarse, kCount, 0);
+  std::printf("%s: at once %zu shots, %zu coarser, %zu given up; away from rims %zu of %zu px\n",
+              GetParam().label.c_str(), kCount, coarser, givenUp, apart.wrong, apart.painted);
+  EXPECT_GT(coarser, kCount / 20);
+  EXPECT_EQ(givenUp, 0u);
+  EXPECT_GT(apart.all, 0u) << "coarse paint must differ somewhere";
+  EXPECT_LE(apart.wrong * 100, apart.painted);
+  set(limited, "1000");
+  EXPECT_EQ(look(limited, kCount, 1), exact);
+  EXPECT_EQ(limited.coarser(), 0u);
 }
 
 // Undo, a larger limit and a new list give exact paint back, also where undo leaves some coarse.
