@@ -157,6 +157,11 @@ uint32_t Runs::take(uint32_t count) {
   return first;
 }
 
+bool Runs::fits(uint32_t count) const {
+  return bySize_.lower_bound({count, 0}) != bySize_.end() ||
+         (uint64_t{end_} + count) * unit_ <= words_.capacity();
+}
+
 void Runs::give(uint32_t first, uint32_t count) {
   auto next = spaces_.lower_bound(first);
   if (next != spaces_.end() && next->first == first + count) {

@@ -101,6 +101,8 @@ class Runs {
 
   // Allocates a run of `count` units, count > 0. Returns its first unit. May resize the array.
   uint32_t take(uint32_t count);
+  // Whether a run of `count` units needs no larger array on the device.
+  bool fits(uint32_t count) const;
   // Frees a run.
   void give(uint32_t first, uint32_t count);
   void clear();

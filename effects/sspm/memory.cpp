@@ -155,6 +155,14 @@ bool PaintWorld::areMapsFull(uint64_t spare) const {
   return grown + spare > room();
 }
 
+// Whether a map fits into the free spaces of the array, or the limit allows a larger array. Free
+// space may be in pieces that are too small.
+bool PaintWorld::fits(const ShotMap& map) const {
+  if (runs_.fits(static_cast<uint32_t>(map.words.size() / 2))) return true;
+  const uint64_t larger = blocks_.capacity() + map.words.size();
+  return bytes() - blocks_.peakBytes() + blocks_.peakBytes(larger) <= room();
+}
+
 // Whether paint is about to get coarser.
 bool PaintWorld::isScarce() const {
   return areMapsFull(limit_ / kSpareShare) || bytes() > room() - room() / kSpareShare;
@@ -178,6 +186,8 @@ void PaintWorld::planMaps() {
 // not enough, or lists are too many, the oldest shots go.
 void PaintWorld::keepWithin() {
   planMaps();
+  if (lacks_ != Lacks::kNothing && !coarsen() && lacks_ == Lacks::kCoarse) giveUpOldest();
+  lacks_ = Lacks::kNothing;
   while (areMapsFull(limit_ / kSpareShare) && coarsen()) continue;
   while (areMapsFull(0) && giveUpOldest()) continue;
   while (bytes() > room() && giveUpOldest()) continue;

@@ -240,7 +240,11 @@ bool PaintWorld::advance(Work& work, std::vector<uint32_t>& unknown) {
     work.survey.refine();
     return true;
   }
-  if (!again) {
+  if (!again && !fits(work.coarse.words.empty() ? work.map : work.coarse)) {
+    // It comes again, once older paint has made room.
+    lacks_ = Lacks::kCoarse;
+    pending_.insert(std::ranges::lower_bound(pending_, work.id), work.id);
+  } else if (!again) {
     place(work);
   } else if (work.survey.unknownInside() > 0) {
     unknown.push_back(work.id);
@@ -325,7 +329,11 @@ void PaintWorld::place(Work& work) {
     Placed& placed = placed_[record];
     if (placed.cores > 0) {
       placed.coarse = store(work.coarse);
-      const bool isCoarse = (survey.isCoarse() || id < floors_.coarse) && placed.coarse.blocks > 0;
+      // A map for which no space is large enough would make the array grow beyond the limit.
+      const bool hasRoom = placed.coarse.blocks == 0 || fits(map);
+      if (!hasRoom) lacks_ = Lacks::kExact;
+      const bool isCoarse =
+          (survey.isCoarse() || id < floors_.coarse || !hasRoom) && placed.coarse.blocks > 0;
       if (!isCoarse) placed.exact = store(map);
       coarse_ += isCoarse ? 1 : 0;
     }
@@ -346,6 +354,10 @@ void PaintWorld::sharpen(const Work& work) {
   const uint32_t record = states_[work.id].record;
   Placed& placed = placed_[record];
   if (!placed.isCoarse()) return;
+  if (!fits(work.map)) {
+    lacks_ = Lacks::kExact;
+    return;
+  }
   placed.exact = store(work.map);
   --coarse_;
   writeRecord(record);

@@ -218,6 +218,7 @@ class PaintWorld {
   void give(MapRun& run);
   uint64_t room() const;
   bool areMapsFull(uint64_t spare) const;
+  bool fits(const ShotMap& map) const;
   bool isScarce() const;
   void planMaps();
   void keepWithin();
@@ -282,7 +283,9 @@ class PaintWorld {
   Pace pace_;
   uint64_t limit_ = 0;       // bytes
   uint64_t plannedFor_ = 0;  // limit for which planMaps() has planned; 0: not yet
-  bool reserves_ = false;    // leaves a part of the limit to the next undo
+  enum class Lacks : uint8_t { kNothing, kExact, kCoarse };
+  Lacks lacks_ = Lacks::kNothing;  // space for a map, since the last keepWithin()
+  bool reserves_ = false;          // leaves a part of the limit to the next undo
   std::vector<int32_t> levels_;
 };
 

@@ -183,6 +183,22 @@ TEST_P(LimitTest, ALoadedListIsCloseWhereItIsCoarse) {
   EXPECT_EQ(limited.coarser(), 0u);
 }
 
+// However long the match: the number of shots that are drawn never falls by much at once. Space of
+// former maps is in pieces then, of which none may be large enough for the next map.
+TEST_P(LimitTest, PaintDoesNotCollapseInALongMatch) {
+  PaintFrame frame(device(), scene_);
+  start(frame, "16");
+  const std::vector<lab::Shot> shots = spray(5000);
+  size_t drawn = 0;
+  for (size_t count = 100; count <= shots.size(); count += 100) {
+    frame.render(kBefore, 16, 16, std::span(shots).first(count), {"paint"});
+    const size_t now = count - size_t{frame.givenUp()};
+    ASSERT_GT(now, drawn * 3 / 4) << "after " << count << " shots";
+    drawn = now;
+  }
+  EXPECT_GT(frame.givenUp() + frame.coarser(), shots.size() / 10);
+}
+
 // Undo, a larger limit and a new list give exact paint back, also where undo leaves some coarse.
 TEST_P(LimitTest, ExactPaintComesBack) {
   PaintFrame frame(device(), scene_);
