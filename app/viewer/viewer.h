@@ -101,6 +101,7 @@ class Viewer {
   void updateOther();
   std::string deviceName() const;  // --device, for the backend that it was given for
   // viewer_picture.cpp
+  double placingPatience() const;
   StageDesc commonDesc();
   StageDesc stageDesc();
   bool isStale();

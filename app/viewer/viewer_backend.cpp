@@ -119,7 +119,7 @@ std::optional<StageDesc> Viewer::otherDesc() {
       2 * (session_.held ? session_.heldRevision : session_.revision) + (session_.held ? 1 : 0);
   desc.poses = session_.scene ? session_.scene->poses : 0;
   desc.left = session_.right;
-  desc.patience = std::clamp(updateSeconds_, 0.03, 0.3);
+  desc.patience = placingPatience();
   return desc;
 }
 

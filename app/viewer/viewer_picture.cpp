@@ -59,6 +59,13 @@ StageDesc Viewer::commonDesc() {
   return desc;
 }
 
+// Seconds a frame for work that can wait. While the camera moves or paint is sprayed, frames come
+// first. Else, if a frame takes long anyway, this work may take as long: the picture is complete
+// sooner.
+double Viewer::placingPatience() const {
+  return moving_ ? 0.004 : std::clamp(updateSeconds_, 0.03, 0.3);
+}
+
 StageDesc Viewer::stageDesc() {
   StageDesc desc = commonDesc();
   desc.liveRevision = session_.revision;
@@ -73,9 +80,7 @@ StageDesc Viewer::stageDesc() {
       desc.heldRevision = session_.heldRevision;
     }
   }
-  // If a frame takes long anyway, work that can wait may take as long: the picture is complete
-  // sooner.
-  desc.patience = std::clamp(updateSeconds_, 0.03, 0.3);
+  desc.patience = placingPatience();
   if (!compared.empty()) desc.extra.push_back(compared);
   return desc;
 }
