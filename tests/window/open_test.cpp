@@ -116,26 +116,33 @@ TEST_P(OpenTest, AFolderWithoutPermissionAndABrokenSceneAreNoCrash) {
 
 TEST_P(OpenTest, LoadingIsCancelled) {
   if (sponza().empty()) GTEST_SKIP() << "no Sponza";
-  DrivenViewer viewer(folder_, wide("carving"));
-  const std::string camera = viewer.value("camera");
-  viewer.key("ctrl+o");
-  viewer.untilThere("open path");
-  viewer.type(sponza());
-  viewer.key("Return Escape");  // Esc comes a frame after the loading has begun
-  viewer.until("a cancelled loading", [](const nlohmann::json& now) {
-    return now.contains("message") &&
-           now["message"]["value"].get<std::string>().find("cancelled") != std::string::npos;
-  });
-  viewer.untilDrawn();
-  EXPECT_EQ(viewer.value("camera"), camera);
-  EXPECT_FALSE(viewer.layout().contains("cancel loading"));
-  // Another scene can be opened at once.
-  viewer.key("Escape ctrl+o");
-  viewer.untilThere("open path");
-  viewer.type(sponza());
-  viewer.key("Return");
-  untilScene(viewer, camera);
-  expectQuits(viewer);
+  for (int i = 0; i < 5; ++i) {
+    DrivenViewer viewer(folder_, wide("carving"));
+    const std::string camera = viewer.value("camera");
+    viewer.key("ctrl+o");
+    viewer.untilThere("open path");
+    viewer.type(sponza());
+    viewer.key("Return Escape");  // Esc comes a frame after the loading has begun
+    bool cancelled = false;
+    viewer.until("a loading that has ended", [&](const nlohmann::json& now) {
+      cancelled = now.contains("message") &&
+                  now["message"]["value"].get<std::string>().find("cancelled") != std::string::npos;
+      return cancelled || now["camera"]["value"] != camera;
+    });
+    if (!cancelled) continue;  // a fast machine may have loaded it by then
+    viewer.untilDrawn();
+    EXPECT_EQ(viewer.value("camera"), camera);
+    EXPECT_FALSE(viewer.layout().contains("cancel loading"));
+    // Another scene can be opened at once.
+    viewer.key("Escape ctrl+o");
+    viewer.untilThere("open path");
+    viewer.type(sponza());
+    viewer.key("Return");
+    untilScene(viewer, camera);
+    expectQuits(viewer);
+    return;
+  }
+  FAIL() << "Esc never came while it loaded";
 }
 
 // A session bus of its own, with a portal that answers with one file.
