@@ -23,7 +23,7 @@ struct Spray {
   size_t later = 0;          // frames until none waits
 };
 
-// Each frame with new shots follows one without, in which nothing waits.
+// Compares each frame with the last one in which nothing was new or waited.
 Spray spray(Painted& painted, const Painted::View& view, std::span<const lab::Shot> shots,
             size_t each) {
   Spray spray;
