@@ -59,7 +59,7 @@ StageDesc Viewer::commonDesc() {
   return desc;
 }
 
-// Seconds a frame for work that can wait. While the camera moves or paint is sprayed, frames come
+// Seconds a frame for work that can wait. While the camera moves or a button is held, frames come
 // first. Else, if a frame takes long anyway, this work may take as long: the picture is complete
 // sooner.
 double Viewer::placingPatience() const {
