@@ -95,8 +95,12 @@ Seal sealOf(const KnownPoint& known, float edge) {
 
 }  // namespace
 
-// Notes if newer paint hides all of a shot, by its rough picture.
-void PaintWorld::findHidden(uint32_t id, const Survey& survey, const CellGrid& grid) {
+// Notes if newer paint hides all of a shot, by its rough picture. Threads call it for several shots
+// at the same time.
+void PaintWorld::findHidden(const Work& work) {
+  const uint32_t id = work.id;
+  const Survey& survey = work.survey;
+  const CellGrid& grid = *work.grid;
   if (survey.unknown() > 0) return;
   const std::vector<Patch> patches = survey.patches();
   if (patches.empty()) return;  // its surfaces are too thin for the rough picture

@@ -125,6 +125,7 @@ class PaintWorld {
     std::optional<Muzzle> muzzle = {};  // if the host draws depth pictures
     std::vector<CellKey> cells = {};    // in which it was placed
     std::optional<CellGrid> grid = {};  // once the rough picture is complete
+    bool complete = false;
     // What the survey found, once it is complete.
     ShotMap map = {}, coarse = {};
     std::vector<Share> shares = {};
@@ -137,6 +138,7 @@ class PaintWorld {
     double effort = 0;  // of the same steps
 
     double effortIn(double seconds) const;
+    double leastSeconds() const;
     void note(double seconds, double done);
   };
   // What the limit of memory costs: older shots are given up, or have coarse maps.
@@ -168,17 +170,21 @@ class PaintWorld {
   enum class Changed : uint8_t { kNothing, kHiding, kRange };
   void forget(size_t count, Changed changed);
   void erase(const std::vector<bool>& gone);
-  bool step(double most, const Sight& sight, std::vector<uint32_t>& unknown);
-  bool advance(Work& work, std::vector<uint32_t>& unknown);
   bool isUploadDue() const;
-  void refill();
+  void writeRecord(uint32_t record);
+
+  // placing.cpp
+  bool step(double most, const Sight& sight, std::vector<uint32_t>& unknown);
+  void refine(std::span<Work* const> works);
+  bool advance(Work& work, std::vector<uint32_t>& unknown);
   void sortPending();
+  void refill();
   CellGrid gridFor(const ShotFrame& frame);
   void place(Work& work);
   void sharpen(const Work& work);
   bool isPlaced(uint32_t id) const { return states_[id].record != kNone; }
+  bool isLost(uint32_t id) const { return !isPlaced(id) && states_[id].lostTo > 0; }
   void remove(uint32_t id, std::span<const CellKey> cells);
-  void writeRecord(uint32_t record);
 
   // sight.cpp
   bool askFor(std::span<Work* const> works, const Sight& sight);
@@ -246,7 +252,7 @@ class PaintWorld {
              Reach& reach) const;
 
   // hiding.cpp
-  void findHidden(uint32_t id, const Survey& survey, const CellGrid& grid);
+  void findHidden(const Work& work);
   void join(uint32_t record, const ShotFrame& frame, const CellGrid& grid, const ShotMap& map,
             const Share& share, bool thin);
   size_t learn(Cell& cell, const CellGrid& grid, const SurfacePoint& point);

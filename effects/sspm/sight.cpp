@@ -92,6 +92,7 @@ void PaintWorld::finish(std::span<Work* const> works) {
     }
   });
   for (Work* work : complete) {
+    work->complete = true;
     if (work->survey.isCoarse()) {
       work->map = work->coarse;
       continue;

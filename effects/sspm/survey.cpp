@@ -20,8 +20,9 @@ constexpr int32_t kAcross = static_cast<int32_t>(2 * kMapReach) * kFinestAUnit;
 constexpr float kAtRim = 1.15f;  // times the range: hits up to here need squares as fine as inside
 
 uint32_t hashOf(const glm::ivec2& place) {
-  const uint32_t hash = (static_cast<uint32_t>(place.y) << 13 ^ static_cast<uint32_t>(place.x));
-  return (hash * 0x9E3779B1u) >> 8;
+  const uint32_t hash =
+      static_cast<uint32_t>(place.x) * 0x9E3779B1u ^ static_cast<uint32_t>(place.y) * 0x85EBCA77u;
+  return hash ^ hash >> 15;
 }
 
 }  // namespace
@@ -209,6 +210,7 @@ bool Survey::take(std::span<const grisaille_hit> hits) {
     if (!sample.hit) continue;
     const auto& way = rays_[i].direction;
     sample.at = hits[i].distance * glm::vec3(way[0], way[1], way[2]);
+    sample.across = frame_.across(sample.at);
     sample.plane = planeOf({hits[i].normal[0], hits[i].normal[1], hits[i].normal[2]}, sample.at);
   }
   rays_.clear();
@@ -230,7 +232,7 @@ glm::vec4 Survey::planeOf(const glm::vec3& normal, const glm::vec3& at) const {
 }
 
 bool Survey::inRange(const Sample& sample) const {
-  return sample.hit && frame_.across(sample.at) < frame_.range * kBeyond;
+  return sample.hit && sample.across < frame_.range * kBeyond;
 }
 
 float Survey::sizeOf(const Square& square) const {
@@ -252,7 +254,7 @@ int32_t Survey::grainAt(const Square& square) const {
   for (const int32_t corner : square.corners) {
     if (corner < 0 || !sample(corner).hit) continue;
     hits = true;
-    within = within || frame_.across(sample(corner).at) < kAtRim * frame_.range;
+    within = within || sample(corner).across < kAtRim * frame_.range;
   }
   if (distance >= 3) return within ? kUnit : 4 * kUnit;
   const bool large = kUnit / 8 * frame_.range > kSurfaceMetres * kUnit;

@@ -89,6 +89,7 @@ class Survey {
     glm::ivec2 place = glm::ivec2(0);  // on the map, in finest squares from its lower corner
     glm::vec4 plane = glm::vec4(0);    // as in Patch, rounded: see planeOf()
     glm::vec3 at = glm::vec3(0);       // offset of the hit
+    float across = 0;                  // distance of the hit from the shot's ray, metres
   };
   enum class Kind : uint8_t {
     kUndecided,
@@ -119,6 +120,8 @@ class Survey {
   struct Pair {
     int32_t far = -1, near = -1;
   };
+  // For each corner of a square, how far the hits of all corners are from its plane: see misfit().
+  using Misfits = std::array<std::array<float, 4>, 4>;
   enum class Side : uint8_t { kFar, kNear, kNeither };
   enum class Found : uint8_t { kYes, kNo, kWait };  // kWait: rays were asked for
   struct SeenPlane {
@@ -156,8 +159,9 @@ class Survey {
   bool decide(int32_t index);
   Found findLine(Square& square);
   float misfit(int32_t plane, int32_t other) const;
-  Found findPlane(Square& square, bool within);
-  bool findPair(const Square& square, Pair& pair) const;
+  Misfits misfitsOf(const Square& square) const;
+  Found findPlane(Square& square, const Misfits& misfits, bool within);
+  bool findPair(Square& square, const Misfits& misfits) const;
   Side sideOf(const Pair& pair, int32_t index) const;
   bool findCrease(const Square& square, const Pair& pair, MapLine& line) const;
   Found findSilhouette(const Square& square, const Pair& pair, MapLine& line);

@@ -3,6 +3,7 @@
 #include <algorithm>
 #include <array>
 #include <cmath>
+#include <unordered_map>
 #include <utility>
 
 #include "survey.h"
@@ -52,12 +53,9 @@ class Survey::Writer {
   // Reference to a plane. Adds it to the map unless the map has it.
   uint32_t plane(const glm::vec4& plane) {
     const MapBlock block = packPlane(plane);
-    for (const uint32_t known : planes_) {
-      const uint32_t* words = map_.words.data() + size_t{known - 1} * 2;
-      if (words[0] == block[0] && words[1] == block[1]) return known;
-    }
-    planes_.push_back(add(block) + 1);
-    return planes_.back();
+    const auto [known, added] = planes_.try_emplace(uint64_t{block[1]} << 32 | block[0]);
+    if (added) known->second = add(block) + 1;
+    return known->second;
   }
 
   // Reference to `wanted`, or to one of the last planes if `fits` it.
@@ -355,9 +353,9 @@ class Survey::Writer {
   const float most_;
   bool full_ = false;
   ShotMap map_;
-  std::vector<Line> lines_;        // the last lines, newest last
-  std::vector<uint32_t> planes_;   // references
-  std::vector<glm::vec4> recent_;  // the last planes used, newest last
+  std::vector<Line> lines_;                        // the last lines, newest last
+  std::vector<glm::vec4> recent_;                  // the last planes used, newest last
+  std::unordered_map<uint64_t, uint32_t> planes_;  // references by the words of a block
 };
 
 ShotMap Survey::map() const {

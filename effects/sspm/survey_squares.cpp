@@ -50,8 +50,10 @@ bool Survey::decide(int32_t index) {
   } else if (unknown || !hit) {
     square.kind = unknown ? Kind::kUntold : Kind::kNothing;
   } else {
-    found = findPlane(square, within);
-    if (found == Found::kNo && stage_ == Stage::kFine && !square.blocked) found = findLine(square);
+    const Misfits misfits = misfitsOf(square);
+    found = findPlane(square, misfits, within);
+    const bool divides = found == Found::kNo && stage_ == Stage::kFine && !square.blocked;
+    if (divides && findPair(square, misfits)) found = findLine(square);
   }
   if (found == Found::kWait) {
     at(index) = square;
@@ -78,23 +80,35 @@ float Survey::misfit(int32_t plane, int32_t other) const {
          kSafety;
 }
 
+Survey::Misfits Survey::misfitsOf(const Square& square) const {
+  Misfits misfits = {};
+  for (size_t i = 0; i < 4; ++i) {
+    for (size_t j = 0; j < 4; ++j) {
+      const int32_t plane = square.corners[i], other = square.corners[j];
+      if (i != j && sample(plane).hit && sample(other).hit) misfits[i][j] = misfit(plane, other);
+    }
+  }
+  return misfits;
+}
+
 // Finds one plane for the whole square: that of the corner which serves all others best. A corner
 // without a hit agrees with every plane, since there is no surface to paint. Bent surfaces lie
 // partly behind the plane; it is moved back to the farthest corner.
 // within: the square has surfaces in range. Otherwise any plane does.
-Survey::Found Survey::findPlane(Square& square, bool within) {
+Survey::Found Survey::findPlane(Square& square, const Misfits& misfits, bool within) {
   float least = within ? 1 : std::numeric_limits<float>::infinity();
   square.first = -1;
-  for (const int32_t plane : square.corners) {
+  for (size_t i = 0; i < 4; ++i) {
+    const int32_t plane = square.corners[i];
     if (!sample(plane).hit) continue;
-    float worst = 0, behind = 0;
+    const float worst = std::ranges::max(misfits[i]);
+    if (worst > least) continue;
+    float behind = 0;
     for (const int32_t other : square.corners) {
       if (!sample(other).hit) continue;
-      worst = std::max(worst, misfit(plane, other));
       const glm::vec4& it = sample(plane).plane;
       behind = std::max(behind, it.w - glm::dot(glm::vec3(it), sample(other).at));
     }
-    if (worst > least) continue;
     least = worst;
     square.first = plane;
     square.shift = within ? behind : 0;
@@ -108,8 +122,9 @@ Survey::Found Survey::findPlane(Square& square, bool within) {
   return square.blocked ? Found::kNo : Found::kYes;
 }
 
-// Two planes that together serve all corners.
-bool Survey::findPair(const Square& square, Pair& pair) const {
+// Two planes that together serve all corners. Sets the square's first, which lies behind, and its
+// second.
+bool Survey::findPair(Square& square, const Misfits& misfits) const {
   float least = 1;
   bool found = false;
   for (size_t i = 0; i < 4; ++i) {
@@ -117,16 +132,15 @@ bool Survey::findPair(const Square& square, Pair& pair) const {
       const int32_t a = square.corners[i], b = square.corners[j];
       if (!sample(a).hit || !sample(b).hit) continue;
       float worst = 0;
-      for (const int32_t other : square.corners) {
-        if (!sample(other).hit) continue;
-        worst = std::max(worst, std::min(misfit(a, other), misfit(b, other)));
-      }
+      for (size_t k = 0; k < 4; ++k)
+        worst = std::max(worst, std::min(misfits[i][k], misfits[j][k]));
       if (worst > least) continue;
       least = worst;
       found = true;
       const bool behind =
           glm::dot(sample(a).at, frame_.direction) > glm::dot(sample(b).at, frame_.direction);
-      pair = behind ? Pair{.far = a, .near = b} : Pair{.far = b, .near = a};
+      square.first = behind ? a : b;
+      square.second = behind ? b : a;
     }
   }
   return found;
@@ -145,11 +159,8 @@ Survey::Side Survey::sideOf(const Pair& pair, int32_t index) const {
 // square's step.
 Survey::Found Survey::findLine(Square& square) {
   using Step = Square::Step;
-  Pair pair = {.far = square.first, .near = square.second};
+  const Pair pair = {.far = square.first, .near = square.second};
   if (square.step == Step::kPlane) {
-    if (!findPair(square, pair)) return Found::kNo;
-    square.first = pair.far;
-    square.second = pair.near;
     square.step = findCrease(square, pair, square.line) ? Step::kCrease : Step::kSilhouette;
   }
   square.kind = Kind::kTwoPlanes;

@@ -1,0 +1,238 @@
+// SPDX-License-Identifier: MIT
+// Places pending shots: surveys them, some rays of several shots at a time, and lists them in
+// cells.
+#include <algorithm>
+#include <chrono>
+#include <cmath>
+
+#include "paint_world.h"
+#include "threads.h"
+
+namespace grisaille::sspm {
+namespace {
+
+constexpr size_t kMostWork = 64;       // shots under survey at the same time
+constexpr double kMostEffort = 16384;  // of a step, except for a single shot
+constexpr double kLeastEffort = 256;
+constexpr double kShotEffort = 128;  // of a shot in a step, beside its rays; rays
+constexpr double kPaceMemory = 0.9;  // share of the mean that each step leaves
+constexpr int kMostAsks = 4;         // frames in a row that ask for one shot's depth pictures
+
+}  // namespace
+
+// Effort that takes about `seconds`.
+double PaintWorld::Pace::effortIn(double seconds) const {
+  const double most = effort > 0 ? seconds * effort / spent : kLeastEffort;
+  return std::clamp(most, kLeastEffort, kMostEffort);
+}
+
+// Time that the smallest step takes about.
+double PaintWorld::Pace::leastSeconds() const {
+  return effort > 0 ? kLeastEffort * spent / effort : 0;
+}
+
+void PaintWorld::Pace::note(double seconds, double done) {
+  spent = kPaceMemory * spent + seconds;
+  effort = kPaceMemory * effort + done;
+}
+
+// Asks one round of rays for the newest pending shots. Returns false if no shot is pending, if the
+// host can tell nothing, or if it does not have the depth pictures of a shot yet: others would only
+// make it draw more pictures at a time.
+// most: effort after which no further shot takes part; rays.
+// unknown: gets the shots of which the host cannot tell yet.
+bool PaintWorld::step(double most, const Sight& sight, std::vector<uint32_t>& unknown) {
+  const auto start = std::chrono::steady_clock::now();
+  refill();
+  if (work_.empty()) return false;
+  std::vector<Work*> now;
+  double effort = 0;
+  for (Work& work : work_) {
+    const double more = static_cast<double>(work.survey.rays().size()) + kShotEffort;
+    if (!now.empty() && effort + more > most) break;
+    now.push_back(&work);
+    effort += more;
+  }
+  if (!askFor(now, sight)) return false;
+  refine(now);
+  bool late = false;
+  for (Work* each : now) {
+    Work& work = *each;
+    late = late || (looks_ && !work.told);
+    if (!advance(work, unknown)) work.id = kNone;
+  }
+  std::erase_if(work_, [](const Work& work) { return work.id == kNone; });
+  pace_.note(secondsSince(start), effort);
+  return !late;
+}
+
+// Continues with the shots whose rough pictures are complete, unless newer paint hides them.
+void PaintWorld::refine(std::span<Work* const> works) {
+  std::vector<Work*> rough;
+  for (Work* work : works) {
+    if (!work->told || !work->survey.rays().empty() || !work->survey.isRough()) continue;
+    work->grid = gridFor(work->survey.frame());
+    rough.push_back(work);
+  }
+  onAllThreads(rough.size(), [&](size_t i) {
+    if (!isPlaced(rough[i]->id)) findHidden(*rough[i]);
+    if (!isLost(rough[i]->id)) rough[i]->survey.refine();
+  });
+}
+
+// Continues with a shot after a round of rays. Returns false once its survey is not needed any
+// more.
+bool PaintWorld::advance(Work& work, std::vector<uint32_t>& unknown) {
+  if (!work.told) {
+    if (looks_ && work.asked < kMostAsks) return true;
+    turn_ = looks_ ? work.id : kNone;
+    unknown.push_back(work.id);
+    return false;
+  }
+  if (!work.survey.rays().empty()) return true;
+  if (isLost(work.id)) {
+    retire(work.id);
+    return false;
+  }
+  if (!work.complete) return true;
+  const bool again = isPlaced(work.id);  // to be sharpened
+  if (!again && !fits(work.coarse.words.empty() ? work.map : work.coarse)) {
+    // It comes again, once older paint has made room.
+    lacks_ = Lacks::kCoarse;
+    pending_.insert(std::ranges::lower_bound(pending_, work.id), work.id);
+  } else if (!again) {
+    place(work);
+  } else if (work.survey.unknownInside() > 0) {
+    unknown.push_back(work.id);
+  } else {
+    sharpen(work);
+  }
+  return false;
+}
+
+// Sorts the pending shots, and removes those that are listed twice.
+void PaintWorld::sortPending() {
+  std::ranges::sort(pending_);
+  pending_.erase(std::unique(pending_.begin(), pending_.end()), pending_.end());
+}
+
+void PaintWorld::refill() {
+  const size_t mostWork = looks_ ? kMostLooks : kMostWork;
+  while (work_.size() < mostWork && !pending_.empty()) {
+    auto next = std::ranges::lower_bound(pending_, turn_);
+    if (next == pending_.begin()) {
+      turn_ = kNone;
+      next = pending_.end();
+    }
+    const uint32_t id = *--next;
+    const Shot& shot = list_[id];
+    // Places its twin first.
+    if (std::ranges::any_of(work_, [&](const Work& w) { return areTwins(list_[w.id], shot); }))
+      return;
+    pending_.erase(next);
+    // Newer paint hides a shot that was to be sharpened, or a newer twin stands for it.
+    if (isPlaced(id) || (states_[id].lostTo == 0 && !countTwin(id))) {
+      const bool exact = isPlaced(id) || id >= floors_.coarse;
+      const auto detail = exact ? Survey::Detail::kExact : Survey::Detail::kCoarse;
+      work_.push_back({.id = id, .survey = Survey(shot, rangeOf(id), detail)});
+    } else {
+      retire(id);
+    }
+  }
+}
+
+// Level for a shot: cells about two ranges wide, or wider if their numbers would not fit at the
+// shot's position.
+CellGrid PaintWorld::gridFor(const ShotFrame& frame) {
+  const glm::dvec3 far = glm::abs(frame.origin) + 2.0 * double{frame.range} / double{frame.slope};
+  const double least = std::max({far.x, far.y, far.z}) * 0x1p-28;
+  const int exponent =
+      std::max(static_cast<int>(std::lround(std::log2(2 * std::max(frame.range, 8 * frame.bias)))),
+               static_cast<int>(std::ceil(std::log2(least))));
+  const int32_t code = levelCode(std::clamp(exponent, -40, 40));
+  if (std::ranges::find(levels_, code) != levels_.end()) return {frame.origin, code};
+  if (levels_.size() < kMostLevels) {
+    levels_.push_back(code);
+    return {frame.origin, code};
+  }
+  // All levels are in use. Any width is correct, but wider cells are slower: takes the next wider
+  // one, or the widest.
+  int32_t best = *std::ranges::max_element(levels_);
+  for (const int32_t level : levels_) {
+    if (level >= code) best = std::min(best, level);
+  }
+  return {frame.origin, best};
+}
+
+void PaintWorld::place(Work& work) {
+  const uint32_t id = work.id;
+  const Survey& survey = work.survey;
+  const ShotMap& map = work.map;
+  std::vector<Share>& shares = work.shares;
+  const bool partly = survey.unknownInside() > 0;
+  retire(id);
+  if (!shares.empty()) {
+    const uint32_t record = takeRecord(id);
+    placing_ = record;
+    // Cells that its surfaces only come close to matter as long as other cells show it.
+    const auto others = std::partition(shares.begin(), shares.end(),
+                                       [](const Share& share) { return !share.points.empty(); });
+    const bool thin = others == shares.begin();
+    for (const Share& share : shares) {
+      join(record, survey.frame(), *work.grid, map, share, thin);
+    }
+    placing_ = kNone;
+    Placed& placed = placed_[record];
+    if (placed.cores > 0) {
+      placed.coarse = store(work.coarse);
+      // A map for which no space is large enough would make the array grow beyond the limit.
+      const bool hasRoom = placed.coarse.blocks == 0 || fits(map);
+      if (!hasRoom) lacks_ = Lacks::kExact;
+      const bool isCoarse =
+          (survey.isCoarse() || id < floors_.coarse || !hasRoom) && placed.coarse.blocks > 0;
+      if (!isCoarse) placed.exact = store(map);
+      coarse_ += isCoarse ? 1 : 0;
+    }
+    placed.slope = survey.frame().slope;
+    placed.mapRange = survey.frame().range;
+    writeRecord(record);
+    release(record);
+  }
+  work.cells.resize(shares.size());
+  std::ranges::transform(shares, work.cells.begin(), &Share::key);
+  joinTwins(id, work.cells);
+  work.muzzle.reset();
+  if (partly) partly_.push_back(std::move(work));
+}
+
+// Gives a placed shot its exact map back.
+void PaintWorld::sharpen(const Work& work) {
+  const uint32_t record = states_[work.id].record;
+  Placed& placed = placed_[record];
+  if (!placed.isCoarse()) return;
+  if (!fits(work.map)) {
+    lacks_ = Lacks::kExact;
+    return;
+  }
+  placed.exact = store(work.map);
+  --coarse_;
+  writeRecord(record);
+}
+
+// Removes a shot from all lists. cells: those in which it was placed.
+void PaintWorld::remove(uint32_t id, std::span<const CellKey> cells) {
+  for (const CellKey& key : cells) {
+    Cell* cell = cells_.find(key);
+    if (cell == nullptr) continue;
+    const auto isIts = [&](const Entry& it) { return it.shot == id && !it.former; };
+    const auto listed = std::ranges::find_if(cell->entries, isIts);
+    if (listed == cell->entries.end()) continue;
+    const Entry entry = *listed;
+    cell->entries.eraseIf(isIts);
+    cell->unseal();
+    cells_.change(*cell);
+    unlist(entry, 0);
+  }
+}
+
+}  // namespace grisaille::sspm
