@@ -70,7 +70,8 @@ struct Cell {
   uint64_t sealed = 0;
   uint32_t sealedBelow = 0;
   uint32_t sealer = 0;
-  // The same of the pieces that thin() found covered.
+  // The same of the pieces that thin() found covered. `fresh`: a shot that is not older has come
+  // since.
   uint32_t coveredBelow = 0;
   uint32_t coverer = 0;
   uint32_t pruneAt = 0;   // number of entries at which the next prune() pays
@@ -80,12 +81,14 @@ struct Cell {
   uint32_t bytes = 0;     // of its lists, on the host
   uint32_t units = 0;     // entries that its run on the device will take
   bool changed = false;   // since the last upload
+  bool fresh = true;
 
   // Forgets what is hidden, because a shot has left the list.
   void unseal() {
     sealed = 0;
     coveredBelow = 0;
     pruneAt = 0;
+    fresh = true;
   }
 };
 

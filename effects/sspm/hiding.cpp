@@ -162,6 +162,7 @@ void PaintWorld::join(uint32_t record, const ShotFrame& frame, const CellGrid& g
   } else {
     cell.entries.insert(static_cast<size_t>(position - cell.entries.begin()), entry);
   }
+  if (id >= cell.coveredBelow) cell.fresh = true;
   ++entries_;
   ++(entry.core ? placed.cores : placed.others);
   if (cell.entries.size() >= cell.pruneAt) prune(cell);

@@ -16,6 +16,7 @@ constexpr uint64_t kReserveShare = 32;    // of the limit
 constexpr size_t kSweepCells = 2048;      // at a time
 constexpr uint64_t kRoomShare = 64;       // of the limit: free space for the maps of the next shots
 constexpr uint64_t kSpareShare = 16;      // of the limit: paint gets coarser before that is left
+constexpr uint64_t kFullShare = 32;       // of the limit: paint is about to go before that is left
 constexpr uint64_t kPlanShare = 4;        // of the limit: when the array of maps is planned
 constexpr double kMapsLeft = 0.42;        // of maps, once all but the newest quarter are coarse
 constexpr double kListsLeft = 1.25;       // of lists, with the copies that they need to grow
@@ -168,6 +169,11 @@ bool PaintWorld::isScarce() const {
   return areMapsFull(limit_ / kSpareShare) || bytes() > room() - room() / kSpareShare;
 }
 
+// Whether paint is about to go.
+bool PaintWorld::isFull() const {
+  return lacks_ == Lacks::kCoarse || areMapsFull(0) || bytes() > room() - room() / kFullShare;
+}
+
 // Near the limit there is no room for the old array of maps beside a larger one. So it grows early,
 // to the share of the limit that maps will have beside the lists.
 void PaintWorld::planMaps() {
@@ -183,13 +189,15 @@ void PaintWorld::planMaps() {
 }
 
 // Keeps the memory below the limit. Where maps are too many, the oldest get coarser. Where that is
-// not enough, or lists are too many, the oldest shots go.
+// not enough, or lists are too many, the oldest shots go; but a pass that may find hidden ones
+// comes first.
 void PaintWorld::keepWithin() {
   planMaps();
-  if (lacks_ != Lacks::kNothing && !coarsen() && lacks_ == Lacks::kCoarse) giveUpOldest();
+  const bool waits = thinning_.isActive() || isThinningDue();
+  if (lacks_ != Lacks::kNothing && !coarsen() && lacks_ == Lacks::kCoarse && !waits) giveUpOldest();
   lacks_ = Lacks::kNothing;
   while (areMapsFull(limit_ / kSpareShare) && coarsen()) continue;
-  while (areMapsFull(0) && giveUpOldest()) continue;
+  while (!waits && areMapsFull(0) && giveUpOldest()) continue;
   while (bytes() > room() && giveUpOldest()) continue;
 }
 

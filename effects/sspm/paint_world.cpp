@@ -57,8 +57,9 @@ size_t PaintWorld::update(std::span<const Shot> shots, size_t kept, const PaintR
   askAgain(sight);
   const auto left = [&] { return patience - secondsSince(start); };
   const size_t spots = std::isfinite(patience) ? kFewSpots : kManySpots;
-  while (step(pace_.effortIn(left()), sight, unknown)) {
+  while (!(thinning_.isActive() && isFull()) && step(pace_.effortIn(left()), sight, unknown)) {
     while (thin(sight.cast, spots) && left() > 0) continue;
+    while (isFull() && sweep()) continue;
     keepWithin();
     if (left() <= pace_.leastSeconds() || (std::isfinite(patience) && isUploadDue())) break;
   }

@@ -226,6 +226,7 @@ class PaintWorld {
   bool areMapsFull(uint64_t spare) const;
   bool fits(const ShotMap& map) const;
   bool isScarce() const;
+  bool isFull() const;
   void planMaps();
   void keepWithin();
   bool coarsen();

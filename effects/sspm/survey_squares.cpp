@@ -82,10 +82,15 @@ float Survey::misfit(int32_t plane, int32_t other) const {
 
 Survey::Misfits Survey::misfitsOf(const Square& square) const {
   Misfits misfits = {};
+  const glm::vec4& plane = sample(square.corners[0]).plane;
+  const bool onePlane = std::ranges::all_of(square.corners, [&](int32_t corner) {
+    return sample(corner).hit && sample(corner).plane == plane;
+  });
+  if (onePlane) return misfits;
   for (size_t i = 0; i < 4; ++i) {
     for (size_t j = 0; j < 4; ++j) {
-      const int32_t plane = square.corners[i], other = square.corners[j];
-      if (i != j && sample(plane).hit && sample(other).hit) misfits[i][j] = misfit(plane, other);
+      const int32_t a = square.corners[i], b = square.corners[j];
+      if (i != j && sample(a).hit && sample(b).hit) misfits[i][j] = misfit(a, b);
     }
   }
   return misfits;

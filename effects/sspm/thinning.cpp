@@ -14,7 +14,9 @@
 namespace grisaille::sspm {
 namespace {
 
-constexpr double kGrown = 1.5;  // times the shots that a pass left: when the next one pays
+// Times the shots that a pass left: when the next one pays, and when it comes before shots are
+// given up.
+constexpr double kGrown = 1.5, kGrownLeast = 1.1;
 // Shots from which on it can tell whether all that wait will fit, and how many times the limit they
 // are expected to take if they will not.
 constexpr double kForesight = 4096, kFarTooMuch = 2;
@@ -47,11 +49,13 @@ struct PaintWorld::Cover {
   uint32_t oldest = kNone, newest = 0;  // of the shots that cover the others
 };
 
-// Whether a pass is due: paint would get coarser now, or far too much waits; and there are more
-// shots than the last pass left.
+// Whether a pass is due: paint would go or get coarser now, or far too much waits; and there are
+// more shots than the last pass left.
 bool PaintWorld::isThinningDue() const {
   const double placed = placedCount();
-  if (!former_.empty() || placed <= kGrown * thinned_) return false;
+  if (!former_.empty() || placed <= kGrownLeast * thinned_) return false;
+  if (isFull()) return true;
+  if (placed <= kGrown * thinned_) return false;
   const auto waiting = static_cast<double>(pending_.size());
   const double all = static_cast<double>(bytes()) * (placed + waiting) / placed;
   const bool isFarTooMuch =
@@ -95,7 +99,12 @@ void PaintWorld::addSpots(size_t index, std::vector<Spot>& spots, std::vector<Co
     if ((entry.touched & cell.crowded) != 0) thinning_.shows[entry.shot] = true;
   }
   const double edge = edgeOf(cell.key.code);
+  uint64_t covered = 0;  // parts with pieces that are still covered
   for (size_t known = 0; known < cell.known.size(); ++known) {
+    if (!cell.fresh && cell.known[known].covered != 0) {
+      covered |= uint64_t{1} << partOf(cell.known[known]);
+      continue;
+    }
     const SurfacePoint piece = pointOf(cell.known[known], glm::vec3(0), 1);
     for (const glm::vec3& at : spotsOf(piece, 1, 0.25f / kSpotsAWay).centres) {
       spots.push_back({.cell = &cell,
@@ -105,6 +114,15 @@ void PaintWorld::addSpots(size_t index, std::vector<Spot>& spots, std::vector<Co
                        .normal = piece.normal});
     }
     covers.push_back({.cell = static_cast<uint32_t>(index), .known = static_cast<uint32_t>(known)});
+  }
+  for (const Entry& entry : cell.entries) {
+    if ((entry.touched & covered) == 0) continue;
+    if (entry.shot >= cell.coveredBelow) {
+      thinning_.shows[entry.shot] = true;
+    } else {
+      uint32_t& by = thinning_.hiddenBy[entry.shot];
+      by = std::max(by, cell.coverer + 1);
+    }
   }
 }
 
@@ -193,8 +211,10 @@ void PaintWorld::hideOlder(const Spot& spot) {
 void PaintWorld::cover(std::span<const Cover> covers) {
   for (size_t first = 0; first < covers.size();) {
     Cell& cell = cells_.cells()[covers[first].cell];
-    cell.coveredBelow = kNone;
-    cell.coverer = 0;
+    if (cell.fresh || cell.coveredBelow == 0) {
+      cell.coveredBelow = kNone;
+      cell.coverer = 0;
+    }
     bool any = false;
     size_t i = first;
     for (; i < covers.size() && covers[i].cell == covers[first].cell; ++i) {
@@ -206,6 +226,8 @@ void PaintWorld::cover(std::span<const Cover> covers) {
       cell.coverer = std::max(cell.coverer, covers[i].newest);
     }
     first = i;
+    cell.fresh = false;
+    if (cell.coveredBelow == kNone) cell.coveredBelow = 0;
     if (!any) continue;
     sampled_ = true;
     prune(cell);

@@ -82,7 +82,7 @@ class LimitTest : public BackendTest {
 
   scene::Scene scene_;
   TracedRays rays_;
-  std::vector<lab::Shot> shots_ = spray(2400);
+  std::vector<lab::Shot> shots_ = spray(3600);
 };
 GRISAILLE_ON_EVERY_DEVICE(LimitTest);
 
@@ -98,7 +98,7 @@ bool isAtRim(const std::vector<float>& owner, uint32_t x, uint32_t y) {
 
 struct Difference {
   size_t painted = 0, wrong = 0;       // pixels with paint away from rims; those that differ
-  size_t newest = 0, newestWrong = 0;  // pixels of the newest quarter's paint; those that differ
+  size_t newest = 0, newestWrong = 0;  // pixels of the newest fifth's paint; those that differ
   size_t all = 0;                      // pixels that differ at all
 };
 
@@ -114,7 +114,7 @@ Difference compare(const Painting& exact, const Painting& coarse, size_t count, 
       }
       sum.all += apart > 0 ? 1 : 0;
       const auto owner = static_cast<size_t>(exact.owner[i]) + givenUp;
-      if (exact.owner[i] > 0 && owner > givenUp + (count - givenUp) * 3 / 4) {
+      if (exact.owner[i] > 0 && owner > givenUp + (count - givenUp) * 4 / 5) {
         ++sum.newest;
         sum.newestWrong += apart > 0 ? 1 : 0;
       }
@@ -127,7 +127,8 @@ Difference compare(const Painting& exact, const Painting& coarse, size_t count, 
 }
 
 // Away from rims, 99 % of the pixels with paint differ by at most 2/255 from exact paint, and none
-// with paint of the newest quarter differs. Nothing is given up before paint gets coarser.
+// with paint of the newest fifth differs, which are among the newest quarter of those that show.
+// Nothing is given up before paint gets coarser.
 TEST_P(LimitTest, CoarsePaintIsCloseAndTheNewestIsExact) {
   PaintFrame limited(device(), scene_), free(device(), scene_);
   start(limited, "16");
@@ -183,8 +184,9 @@ TEST_P(LimitTest, ALoadedListIsCloseWhereItIsCoarse) {
   EXPECT_EQ(limited.coarser(), 0u);
 }
 
-// However long the match: the number of shots that are drawn never falls by much at once. Space of
-// former maps is in pieces then, of which none may be large enough for the next map.
+// However long the match: the number of shots that are not given up never falls by much at once.
+// Space of former maps is in pieces then, of which none may be large enough for the next map. What
+// goes is a tenth of the shots that show, and the hidden ones before them.
 TEST_P(LimitTest, PaintDoesNotCollapseInALongMatch) {
   PaintFrame frame(device(), scene_);
   start(frame, "16");
@@ -193,7 +195,7 @@ TEST_P(LimitTest, PaintDoesNotCollapseInALongMatch) {
   for (size_t count = 100; count <= shots.size(); count += 100) {
     frame.render(kBefore, 16, 16, std::span(shots).first(count), {"paint"});
     const size_t now = count - size_t{frame.givenUp()};
-    ASSERT_GT(now, drawn * 3 / 4) << "after " << count << " shots";
+    ASSERT_GT(now, drawn / 2) << "after " << count << " shots";
     drawn = now;
   }
   EXPECT_GT(frame.givenUp() + frame.coarser(), shots.size() / 10);
