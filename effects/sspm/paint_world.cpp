@@ -57,11 +57,13 @@ size_t PaintWorld::update(std::span<const Shot> shots, size_t kept, const PaintR
   askAgain(sight);
   const auto left = [&] { return patience - secondsSince(start); };
   const size_t spots = std::isfinite(patience) ? kFewSpots : kManySpots;
-  while (!(thinning_.isActive() && isFull()) && step(pace_.effortIn(left()), sight, unknown)) {
+  bool must = true;  // the first step, however long it takes
+  while (!(thinning_.isActive() && isFull()) &&
+         step(pace_.effortIn(left()), std::exchange(must, false), sight, unknown)) {
     while (thin(sight.cast, spots) && left() > 0) continue;
     while (isFull() && sweep()) continue;
     keepWithin();
-    if (left() <= pace_.leastSeconds() || (std::isfinite(patience) && isUploadDue())) break;
+    if (left() <= 0 || (std::isfinite(patience) && isUploadDue())) break;
   }
   if (!unknown.empty()) {
     pending_.insert(pending_.end(), unknown.begin(), unknown.end());

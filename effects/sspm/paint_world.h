@@ -131,6 +131,10 @@ class PaintWorld {
     std::vector<Share> shares = {};
     bool told = true;  // by the host, as far as it could
     int asked = 0;     // how often the host did not have its depth pictures
+
+    // Whether no ray is left to cast.
+    bool isSurveyed() const { return survey.rays().empty() && !survey.isRough(); }
+    double effort() const;
   };
   // How fast steps go. Effort is counted in rays.
   struct Pace {
@@ -138,7 +142,6 @@ class PaintWorld {
     double effort = 0;  // of the same steps
 
     double effortIn(double seconds) const;
-    double leastSeconds() const;
     void note(double seconds, double done);
   };
   // What the limit of memory costs: older shots are given up, or have coarse maps.
@@ -174,7 +177,7 @@ class PaintWorld {
   void writeRecord(uint32_t record);
 
   // placing.cpp
-  bool step(double most, const Sight& sight, std::vector<uint32_t>& unknown);
+  bool step(double most, bool must, const Sight& sight, std::vector<uint32_t>& unknown);
   void refine(std::span<Work* const> works);
   bool advance(Work& work, std::vector<uint32_t>& unknown);
   void sortPending();

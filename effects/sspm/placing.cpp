@@ -15,6 +15,7 @@ constexpr size_t kMostWork = 64;       // shots under survey at the same time
 constexpr double kMostEffort = 16384;  // of a step, except for a single shot
 constexpr double kLeastEffort = 256;
 constexpr double kShotEffort = 128;  // of a shot in a step, beside its rays; rays
+constexpr double kMapEffort = 0.5;   // of maps and shares, for each ray of the survey
 constexpr double kPaceMemory = 0.9;  // share of the mean that each step leaves
 constexpr int kMostAsks = 4;         // frames in a row that ask for one shot's depth pictures
 
@@ -26,37 +27,41 @@ double PaintWorld::Pace::effortIn(double seconds) const {
   return std::clamp(most, kLeastEffort, kMostEffort);
 }
 
-// Time that the smallest step takes about.
-double PaintWorld::Pace::leastSeconds() const {
-  return effort > 0 ? kLeastEffort * spent / effort : 0;
-}
-
 void PaintWorld::Pace::note(double seconds, double done) {
   spent = kPaceMemory * spent + seconds;
   effort = kPaceMemory * effort + done;
 }
 
-// Asks one round of rays for the newest pending shots. Returns false if no shot is pending, if the
-// host can tell nothing, or if it does not have the depth pictures of a shot yet: others would only
-// make it draw more pictures at a time.
-// most: effort after which no further shot takes part; rays.
+// The next step of a shot: a round of rays; or, after the last round, maps and shares.
+double PaintWorld::Work::effort() const {
+  const auto rays = static_cast<double>(survey.rays().size());
+  return kShotEffort + (isSurveyed() ? kMapEffort * static_cast<double>(survey.cast()) : rays);
+}
+
+// Takes the newest pending shots one step further. Returns false if no shot is pending, if all of
+// them take too long, if the host can tell nothing, or if it does not have the depth pictures of a
+// shot yet: others would only make it draw more pictures at a time.
+// most: effort after which no further shot takes part; rays. must: the newest takes part anyway.
 // unknown: gets the shots of which the host cannot tell yet.
-bool PaintWorld::step(double most, const Sight& sight, std::vector<uint32_t>& unknown) {
+bool PaintWorld::step(double most, bool must, const Sight& sight, std::vector<uint32_t>& unknown) {
   const auto start = std::chrono::steady_clock::now();
   refill();
-  if (work_.empty()) return false;
   std::vector<Work*> now;
   double effort = 0;
   for (Work& work : work_) {
-    const double more = static_cast<double>(work.survey.rays().size()) + kShotEffort;
-    if (!now.empty() && effort + more > most) break;
+    const double more = work.effort();
+    if (effort + more > most && !(now.empty() && must)) break;
     now.push_back(&work);
     effort += more;
   }
-  if (!askFor(now, sight)) return false;
-  refine(now);
-  bool late = false;
-  for (Work* each : now) {
+  if (now.empty()) return false;
+  std::vector<Work*> asked, surveyed;
+  for (Work* work : now) (work->isSurveyed() ? surveyed : asked).push_back(work);
+  finish(surveyed);
+  const bool can = asked.empty() || askFor(asked, sight);
+  if (can) refine(asked);
+  bool late = !can;
+  for (Work* each : can ? now : surveyed) {
     Work& work = *each;
     late = late || (looks_ && !work.told);
     if (!advance(work, unknown)) work.id = kNone;
@@ -94,7 +99,7 @@ bool PaintWorld::advance(Work& work, std::vector<uint32_t>& unknown) {
     retire(work.id);
     return false;
   }
-  if (!work.complete) return true;
+  if (!work.complete) return true;       // maps and shares come in the next step
   const bool again = isPlaced(work.id);  // to be sharpened
   if (!again && !fits(work.coarse.words.empty() ? work.map : work.coarse)) {
     // It comes again, once older paint has made room.

@@ -35,7 +35,6 @@ bool PaintWorld::castFor(std::span<Work* const> works, const CastRays& cast) {
     Survey& survey = works[i]->survey;
     works[i]->told = survey.take(std::span(hits).subspan(first[i], survey.rays().size()));
   });
-  finish(works);
   return true;
 }
 
@@ -65,19 +64,14 @@ bool PaintWorld::lookFor(std::span<Work* const> works, const DrawDepth& draw) {
       work.told = work.survey.take(hits);
     }
   });
-  finish(works.first(known));
   return true;
 }
 
-// Takes the maps and the shares of the surveys that are complete.
+// Takes the maps and the shares of surveys.
 void PaintWorld::finish(std::span<Work* const> works) {
-  std::vector<Work*> complete;
-  std::ranges::copy_if(works, std::back_inserter(complete), [](const Work* work) {
-    return work->told && work->survey.rays().empty() && !work->survey.isRough();
-  });
   constexpr size_t kTasks = 3;  // of a survey: each thread has some also where there is one survey
-  onAllThreads(kTasks * complete.size(), [&](size_t i) {
-    Work& work = *complete[i / kTasks];
+  onAllThreads(kTasks * works.size(), [&](size_t i) {
+    Work& work = *works[i / kTasks];
     const Survey& survey = work.survey;
     switch (i % kTasks) {
       case 0:
@@ -91,7 +85,7 @@ void PaintWorld::finish(std::span<Work* const> works) {
         break;
     }
   });
-  for (Work* work : complete) {
+  for (Work* work : works) {
     work->complete = true;
     if (work->survey.isCoarse()) {
       work->map = work->coarse;
@@ -117,6 +111,8 @@ void PaintWorld::askAgain(const Sight& sight) {
       first = false;
     }
     if (learned) {
+      Work* one = &work;
+      finish(std::span(&one, 1));
       remove(work.id, work.cells);
       place(work);
       continue;

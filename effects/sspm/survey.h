@@ -60,6 +60,8 @@ class Survey {
   // Continues from the rough picture to the map.
   void refine();
   bool isRough() const { return stage_ != Stage::kFine; }
+  // Number of rays that the rough picture and the map have taken so far.
+  size_t cast() const { return samples_.size(); }
 
   // Number of rays of which the host could not tell: of all, and of those within one range of the
   // axis. The map has no paint in their squares.
