@@ -177,7 +177,11 @@ void XTouchpad::findPads() {
   const ErrorsIgnored guard(display_.get());
   const auto select = [&](int device, std::initializer_list<int> events) {
     std::array<unsigned char, XIMaskLen(XI_LASTEVENT)> bits{};
-    for (const int event : events) XISetMask(bits.data(), event);
+    // As XISetMask, whose conversions warn.
+    for (const int event : events) {
+      auto& byte = bits[static_cast<size_t>(event >> 3)];
+      byte = static_cast<unsigned char>(byte | 1 << (event & 7));
+    }
     XIEventMask mask{
         .deviceid = device, .mask_len = static_cast<int>(bits.size()), .mask = bits.data()};
     XISelectEvents(display_.get(), window_, &mask, 1);
