@@ -70,8 +70,7 @@ struct Cell {
   uint64_t sealed = 0;
   uint32_t sealedBelow = 0;
   uint32_t sealer = 0;
-  // The same of the pieces that thin() found covered. `fresh`: a shot that is not older has come
-  // since.
+  // The same of the pieces that thin() found covered.
   uint32_t coveredBelow = 0;
   uint32_t coverer = 0;
   uint32_t pruneAt = 0;   // number of entries at which the next prune() pays
@@ -81,7 +80,7 @@ struct Cell {
   uint32_t bytes = 0;     // of its lists, on the host
   uint32_t units = 0;     // entries that its run on the device will take
   bool changed = false;   // since the last upload
-  bool fresh = true;
+  bool fresh = true;      // a shot has come that is not older than `coveredBelow`
 
   // Forgets what is hidden, because a shot has left the list.
   void unseal() {

@@ -17,10 +17,6 @@ constexpr uint64_t kWaitingShare = 32;  // of the limit: what may wait for its u
 constexpr uint32_t kCoarse = 1u << 16, kMapRangeShift = 17;
 constexpr size_t kFewSpots = 512, kManySpots = 8192;  // that thin() looks at without a pause
 
-double secondsSince(std::chrono::steady_clock::time_point start) {
-  return std::chrono::duration<double>(std::chrono::steady_clock::now() - start).count();
-}
-
 }  // namespace
 
 void PaintWorld::follow(std::span<const Shot> shots, size_t kept, const PaintRules& rules,

@@ -4,6 +4,7 @@
 #pragma once
 
 #include <algorithm>
+#include <chrono>
 #include <cstdint>
 #include <deque>
 #include <functional>
@@ -28,6 +29,10 @@ struct Sight {
   CastRays cast;
   DrawDepth draw;
 };
+
+inline double secondsSince(std::chrono::steady_clock::time_point start) {
+  return std::chrono::duration<double>(std::chrono::steady_clock::now() - start).count();
+}
 
 constexpr size_t kMostLooks = 4;      // surveys with depth pictures at the same time
 constexpr uint32_t kMostLevels = 16;  // cell widths in use at the same time
@@ -125,8 +130,7 @@ class PaintWorld {
     std::optional<Muzzle> muzzle = {};  // if the host draws depth pictures
     std::vector<CellKey> cells = {};    // in which it was placed
     std::optional<CellGrid> grid = {};  // once the rough picture is complete
-    bool complete = false;
-    // What the survey found, once it is complete.
+    bool complete = false;              // what follows is what the survey found
     ShotMap map = {}, coarse = {};
     std::vector<Share> shares = {};
     bool told = true;  // by the host, as far as it could
