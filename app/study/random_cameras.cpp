@@ -150,7 +150,7 @@ class Finder {
       rays.push_back(rayOf(camera.eye, glm::normalize(way), 0.99 * glm::length(way)));
     }
     std::vector<grisaille_hit> between(rays.size());
-    tracer_.castRays(rays, between);
+    tracer_.castRays(rays, between, trace::RayTracer::Backs::kBlock);
     for (const grisaille_hit& hit : between) through += hit.kind == GRISAILLE_HIT_SURFACE;
     return far * 2 >= rays.size() && through * 20 <= rays.size();
   }

@@ -13,6 +13,7 @@ DepthSketch::DepthSketch(const Camera& camera, uint32_t width, uint32_t height)
       width_(width),
       height_(height),
       inverse_(size_t{width} * height, 0.0),
+      undrawn_(inverse_.size(), 0.0),
       owner_(inverse_.size(), 0) {
   slope_.y = std::tan(glm::radians(camera.fovyDegrees) / 2);
   slope_.x = slope_.y * width / height;
@@ -47,18 +48,24 @@ void DepthSketch::draw(const Face& face) {
     area += (corners[i].x - corners[0].x) * (corners[i + 1].y - corners[0].y) -
             (corners[i + 1].x - corners[0].x) * (corners[i].y - corners[0].y);
   }
-  if (!(area < 0) && !face.bothSides) return;
+  const bool isDrawn = area < 0 || face.bothSides;
+  std::vector<double>& nearest = isDrawn ? inverse_ : undrawn_;
+  const auto set = [&](size_t pixel, double inverse) {
+    if (inverse <= nearest[pixel]) return;
+    nearest[pixel] = inverse;
+    if (isDrawn) owner_[pixel] = drawn_;
+  };
   for (size_t i = 1; i + 1 < count; ++i) {
     if (area < 0) {
-      fill(corners[0], corners[i + 1], corners[i]);
+      fill(corners[0], corners[i + 1], corners[i], set);
     } else {
-      fill(corners[0], corners[i], corners[i + 1]);
+      fill(corners[0], corners[i], corners[i + 1], set);
     }
   }
 }
 
-// Fills a triangle of positive area.
-void DepthSketch::fill(const Corner& a, const Corner& b, const Corner& c) {
+template <typename Use>
+void DepthSketch::fill(const Corner& a, const Corner& b, const Corner& c, Use&& use) const {
   const double area = (b.x - a.x) * (c.y - a.y) - (c.x - a.x) * (b.y - a.y);
   if (!(area > 0)) return;
   // The first and the last pixel whose centre lies in the range.
@@ -76,11 +83,7 @@ void DepthSketch::fill(const Corner& a, const Corner& b, const Corner& c) {
       const double v = (a.x - c.x) * (py - c.y) - (px - c.x) * (a.y - c.y);
       const double w = area - u - v;
       if (u < 0 || v < 0 || w < 0) continue;
-      const double inverse = (u * a.inverse + v * b.inverse + w * c.inverse) / area;
-      const size_t pixel = size_t{y} * width_ + x;
-      if (inverse <= inverse_[pixel]) continue;
-      inverse_[pixel] = inverse;
-      owner_[pixel] = drawn_;
+      use(size_t{y} * width_ + x, (u * a.inverse + v * b.inverse + w * c.inverse) / area);
     }
   }
 }
@@ -96,6 +99,12 @@ image::Image DepthSketch::depth() const {
 double DepthSketch::covered(double least) const {
   const auto count = std::ranges::count_if(
       inverse_, [&](double inverse) { return inverse > 0 && inverse * least <= 1; });
+  return static_cast<double>(count) / static_cast<double>(inverse_.size());
+}
+
+double DepthSketch::throughBacks() const {
+  size_t count = 0;
+  for (size_t i = 0; i < inverse_.size(); ++i) count += undrawn_[i] > inverse_[i];
   return static_cast<double>(count) / static_cast<double>(inverse_.size());
 }
 

@@ -53,6 +53,8 @@ class DepthSketch {
   image::Image depth() const;
   // Share of the pixels with a surface at this view depth, metres, or beyond.
   double covered(double least = 0) const;
+  // Share of the pixels where the back of a face, which is not drawn, lies before what is drawn.
+  double throughBacks() const;
   // Number of faces that are the nearest at a pixel.
   size_t visibleFaces() const;
 
@@ -61,7 +63,10 @@ class DepthSketch {
     double x, y;     // pixels from the top left corner
     double inverse;  // 1 / view depth
   };
-  void fill(const Corner& a, const Corner& b, const Corner& c);
+  // Calls `use` with each pixel whose centre lies in the triangle, of positive area, and with the
+  // inverse of its view depth there.
+  template <typename Use>
+  void fill(const Corner& a, const Corner& b, const Corner& c, Use&& use) const;
 
   glm::dmat3 viewFromWorld_;
   glm::dvec3 eye_;
@@ -69,6 +74,7 @@ class DepthSketch {
   glm::dvec2 slope_;  // half the picture's width and height at 1 m view depth, metres
   uint32_t width_, height_;
   std::vector<double> inverse_;  // 1 / view depth; 0: no surface
+  std::vector<double> undrawn_;  // the same of the backs that are not drawn
   std::vector<uint32_t> owner_;  // number of the face at each pixel, from 1; 0: no surface
   uint32_t drawn_ = 0;           // number of faces
 };

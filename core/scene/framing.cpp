@@ -28,10 +28,12 @@ constexpr double kFront = 30;     // degrees
 constexpr double kFrontWeight = 0.15;
 
 // A scene is an interior if a view from within its bounds shows hardly any sky, this many faces,
-// and no fewer than the best view from outside.
-constexpr double kInteriorCovered = 0.97, kInteriorFaces = 100;
-constexpr size_t kMostInside = 4;      // views that the whole scene is drawn for
-constexpr double kInteriorNear = 0.1;  // as a share of half the diagonal of the bounds
+// and no fewer than the best view from outside. The eye stands in the room, not behind a wall whose
+// back is not drawn.
+constexpr double kInteriorCovered = 0.97, kInteriorFaces = 100, kInteriorThrough = 0.02;
+constexpr double kSampleThrough = 0.5;  // a sample lacks fronts, so that backs show
+constexpr size_t kMostInside = 4;       // views that the whole scene is drawn for
+constexpr double kInteriorNear = 0.1;   // as a share of half the diagonal of the bounds
 
 constexpr int kFramedTimes = 17;  // of an animation
 
@@ -138,7 +140,11 @@ class Views {
   struct View {
     Camera camera = {};
     glm::dvec3 direction = glm::dvec3(0, 0, 1);  // from the scene to the eye
-    double score = -1, covered = 0, faces = 0;
+    double score = -1, covered = 0, faces = 0, through = 0;
+
+    bool isInterior(double mostThrough) const {
+      return covered >= kInteriorCovered && through <= mostThrough;
+    }
   };
 
   // Judges a view by the share of the picture that the scene covers, and by the number of faces.
@@ -153,6 +159,7 @@ class Views {
     drawAll(sketch);
     View view{.camera = camera};
     view.covered = sketch.covered();
+    view.through = sketch.throughBacks();
     view.faces = static_cast<double>(sketch.visibleFaces());
     view.score = weight * sketch.covered(least) * std::pow(view.faces, 0.3);
     return view;
@@ -190,15 +197,18 @@ class Views {
     if (flat || shown > static_cast<double>(samples_.size())) return views;
     constexpr int kPlaces[][2] = {{-1, -1}, {-1, 0}, {-1, 1}, {0, -1},
                                   {0, 1},   {1, -1}, {1, 0},  {1, 1}};
+    const auto consider = [&](const glm::dvec3& place) {
+      Camera camera;
+      camera.eye = half * place;
+      camera.target = glm::dvec3(0, camera.eye.y - 0.05 * half.y, 0);
+      camera.fovyDegrees = kInsideFovyDegrees;
+      camera.nearPlane = 1e-3 * size;
+      const View view = judged(camera, 1, kInteriorNear * size);
+      if (view.isInterior(kSampleThrough) && view.faces >= shown) views.push_back(view);
+    };
     for (const double height : {-0.4, 0.1}) {
-      for (const auto& [x, z] : kPlaces) {
-        Camera camera;
-        camera.eye = half * glm::dvec3(0.75 * x, height, 0.75 * z);
-        camera.target = glm::dvec3(0, camera.eye.y - 0.05 * half.y, 0);
-        camera.fovyDegrees = kInsideFovyDegrees;
-        camera.nearPlane = 1e-3 * size;
-        const View view = judged(camera, 1, kInteriorNear * size);
-        if (view.covered >= kInteriorCovered && view.faces >= shown) views.push_back(view);
+      for (const double out : {0.75, 0.5, 0.3}) {
+        for (const auto& [x, z] : kPlaces) consider({out * x, height, out * z});
       }
     }
     std::ranges::stable_sort(views, std::greater(), &View::score);
@@ -216,7 +226,7 @@ class Views {
       const View whole = judged(view.camera, 1, near, [&](DepthSketch& sketch) {
         forEachFace(scene_, origin_, [&](const Face& face) { sketch.draw(face); });
       });
-      if (whole.covered >= kInteriorCovered && whole.score > best.score) best = whole;
+      if (whole.isInterior(kInteriorThrough) && whole.score > best.score) best = whole;
     }
     return best;
   }

@@ -5,6 +5,8 @@
 #include <array>
 #include <tuple>
 
+#include "core/trace/traced_scene.h"
+
 namespace grisaille::trace {
 namespace {
 
@@ -21,6 +23,7 @@ struct Query {
   float margin = 0;
   const ThinRay* rays = nullptr;  // indexed by ray id
   Met* met = nullptr;
+  bool drawnOnly = false;  // passes undrawn backs
 };
 
 // Keeps the first triangle in the order of Met. Without this filter, Embree chooses among equally
@@ -36,8 +39,11 @@ void keepNearest(const RTCFilterFunctionNArguments* args) {
                            RTCHitN_primID(args->hit, args->N, i), RTCHitN_u(args->hit, args->N, i),
                            RTCHitN_v(args->hit, args->N, i)};
     Met& met = query.met[id];
-    if (std::tie(candidate.distance, candidate.geometry, candidate.primitive) <
-        std::tie(met.distance, met.geometry, met.primitive)) {
+    const bool passed =
+        query.drawnOnly && TracedScene::isUndrawnBack(args->geometryUserPtr, candidate.primitive,
+                                                      glm::dvec3(query.rays[id].direction));
+    if (!passed && std::tie(candidate.distance, candidate.geometry, candidate.primitive) <
+                       std::tie(met.distance, met.geometry, met.primitive)) {
       met = candidate;
       far = std::min(far * (1 + kBehind) + query.margin, query.rays[id].length);
     } else {
@@ -94,9 +100,9 @@ void NearestTriangles::findAll(std::span<const ThinRay> rays, std::span<Met> met
   }
 }
 
-Met NearestTriangles::find(const ThinRay& ray) const {
+Met NearestTriangles::find(const ThinRay& ray, bool drawnOnly) const {
   Met met;
-  Query query = {.base = {}, .margin = margin_, .rays = &ray, .met = &met};
+  Query query = {.base = {}, .margin = margin_, .rays = &ray, .met = &met, .drawnOnly = drawnOnly};
   traceTogether(world_, query, 0, 1);
   return met;
 }

@@ -40,9 +40,14 @@ class NearestTriangles {
   // Writes one result per ray to `met`, which is as long as `rays`. Within a few 32-bit digits of a
   // triangle's border, findAll() may report a triangle that find() misses; find() is then right.
   void findAll(std::span<const ThinRay> rays, std::span<Met> met) const;
-  Met find(const ThinRay& ray) const;
+  Met find(const ThinRay& ray) const { return find(ray, false); }
+  // The same, but the ray passes through the backs of single-sided materials. The Embree scene is
+  // that of a TracedScene.
+  Met findDrawn(const ThinRay& ray) const { return find(ray, true); }
 
  private:
+  Met find(const ThinRay& ray, bool drawnOnly) const;
+
   RTCScene world_;
   float margin_;
   float spread_;

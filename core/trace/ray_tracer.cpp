@@ -58,7 +58,8 @@ struct RayTracer::Impl {
   bool passesBorder(const Path& path, const Facet& facet, const Met& met) const;
   static grisaille_hit hitOf(const Path& path, float reach, const Facet& facet,
                              const glm::dvec3& unit);
-  void castBlock(std::span<const grisaille_ray> rays, std::span<grisaille_hit> hits) const;
+  void castBlock(std::span<const grisaille_ray> rays, std::span<grisaille_hit> hits,
+                 Backs backs) const;
   Surroundings along(const glm::dvec3& point, const glm::dvec3& direction) const;
 
   TracedScene traced;
@@ -262,8 +263,8 @@ grisaille_hit RayTracer::Impl::hitOf(const Path& path, float reach, const Facet&
 }
 
 // Casts at most kBlock rays.
-void RayTracer::Impl::castBlock(std::span<const grisaille_ray> rays,
-                                std::span<grisaille_hit> hits) const {
+void RayTracer::Impl::castBlock(std::span<const grisaille_ray> rays, std::span<grisaille_hit> hits,
+                                Backs backs) const {
   std::array<Path, kBlock> paths;
   std::array<uint32_t, kBlock> owners;  // indices of the rays that meet the bounds
   std::array<ThinRay, kBlock> thin;
@@ -295,13 +296,20 @@ void RayTracer::Impl::castBlock(std::span<const grisaille_ray> rays,
       if (met[k].geometry == RTC_INVALID_GEOMETRY_ID) continue;
       visit(met[k]);
     }
+    if (backs == Backs::kPass &&
+        traced.isUndrawnBack(met[k].geometry, met[k].primitive, paths[i].direction)) {
+      met[k] = nearest->findDrawn(thin[k]);
+      if (met[k].geometry == RTC_INVALID_GEOMETRY_ID) continue;
+      visit(met[k]);
+    }
     hits[i] = hitOf(paths[i], rays[i].reach, facet, unit);
   }
 }
 
-void RayTracer::castRays(std::span<const grisaille_ray> rays, std::span<grisaille_hit> hits) const {
+void RayTracer::castRays(std::span<const grisaille_ray> rays, std::span<grisaille_hit> hits,
+                         Backs backs) const {
   forEachBlock(rays.size(), [&](size_t first, size_t count) {
-    impl_->castBlock(rays.subspan(first, count), hits.subspan(first, count));
+    impl_->castBlock(rays.subspan(first, count), hits.subspan(first, count), backs);
   });
 }
 

@@ -4,9 +4,9 @@
 // positions and normals are then computed in double precision.
 //
 // Holes: a masked material lets every ray through where its base colour alpha (texture, mip 0,
-// bilinear, times factor and vertex colour) is below the cutoff. Primary rays also pass through the
-// back faces of single-sided materials, like the rasteriser; other rays are blocked from either
-// side.
+// bilinear, times factor and vertex colour) is below the cutoff. Rays that ask what can be seen,
+// primary rays and those of effects, also pass through the back faces of single-sided materials,
+// like the rasteriser. Occlusion rays are blocked from either side.
 #pragma once
 
 #include <cstdint>
@@ -78,12 +78,15 @@ class RayTracer {
   // Casts rays from `point`, with all surfaces that they cross. Directions are unit.
   Surroundings surroundings(const glm::dvec3& point, std::span<const glm::dvec3> directions) const;
 
-  // Finds the first surface that each ray meets within its reach, from either side, also the back
-  // of a single-sided material. `hits` is as long as `rays` and has the same order. Directions are
-  // unit. Rays may start far outside the scene. The kind of a hit is never GRISAILLE_HIT_UNKNOWN. A
-  // hit depends only on its ray, bit for bit. Neighbours in the array that start and run close
-  // together cost far less than others.
-  void castRays(std::span<const grisaille_ray> rays, std::span<grisaille_hit> hits) const;
+  // Finds the first surface that each ray meets within its reach. Backs of single-sided materials
+  // let it through, as they are not drawn. `hits` is as long as `rays` and has the same order.
+  // Directions are unit. Rays may start far outside the scene. The kind of a hit is never
+  // GRISAILLE_HIT_UNKNOWN. A hit depends only on its ray, bit for bit. Neighbours in the array that
+  // start and run close together cost far less than others. backs: kBlock: they block it
+  // nonetheless
+  enum class Backs : uint8_t { kPass, kBlock };
+  void castRays(std::span<const grisaille_ray> rays, std::span<grisaille_hit> hits,
+                Backs backs = Backs::kPass) const;
 
   // Points spread over the scene's surfaces: see surface_points.h.
   SurfacePoints surfacePoints(const SurfaceSpec& spec) const;

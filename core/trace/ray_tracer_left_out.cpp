@@ -34,8 +34,8 @@ Surroundings RayTracer::surroundings(const glm::dvec3& /*point*/,
   return {};
 }
 
-void RayTracer::castRays(std::span<const grisaille_ray> /*rays*/,
-                         std::span<grisaille_hit> /*hits*/) const {}
+void RayTracer::castRays(std::span<const grisaille_ray> /*rays*/, std::span<grisaille_hit> /*hits*/,
+                         Backs /*backs*/) const {}
 
 SurfacePoints RayTracer::surfacePoints(const SurfaceSpec& /*spec*/) const {
   return {};

@@ -219,13 +219,16 @@ void TracedScene::passHoles(const RTCFilterFunctionNArguments* args) {
 
 // For single rays only: N is 1.
 void TracedScene::passBackFaces(const RTCFilterFunctionNArguments* args) {
-  const auto& bucket = *static_cast<const Bucket*>(args->geometryUserPtr);
   const auto& ray = *reinterpret_cast<const RTCRay*>(args->ray);
   const auto& hit = *reinterpret_cast<const RTCHit*>(args->hit);
   const glm::dvec3 direction(ray.dir_x, ray.dir_y, ray.dir_z);
-  if (!bucket.doubleSided && bucket.owner->isBack(bucket.triangles[hit.primID], direction)) {
-    args->valid[0] = 0;
-  }
+  if (isUndrawnBack(args->geometryUserPtr, hit.primID, direction)) args->valid[0] = 0;
+}
+
+bool TracedScene::isUndrawnBack(const void* geometryUserPtr, uint32_t primitive,
+                                const glm::dvec3& direction) {
+  const auto& bucket = *static_cast<const Bucket*>(geometryUserPtr);
+  return !bucket.doubleSided && bucket.owner->isBack(bucket.triangles[primitive], direction);
 }
 
 }  // namespace grisaille::trace

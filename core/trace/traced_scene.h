@@ -50,10 +50,17 @@ class TracedScene {
   // Takes the scene's current pose. Returns false if it has it already. Throws kSceneTooLarge.
   bool follow();
 
-  // Holes let every ray through. Back faces block rays, except in queries with the filter
-  // passBackFaces().
+  // Holes let every ray through. Back faces block rays, except in queries with a filter that passes
+  // undrawn backs, such as passBackFaces().
   RTCScene world() const { return world_; }
   static void passBackFaces(const RTCFilterFunctionNArguments* args);
+  // Whether a ray of this direction runs into the back of a single-sided material.
+  // geometryUserPtr: that of a filter's arguments
+  static bool isUndrawnBack(const void* geometryUserPtr, uint32_t primitive,
+                            const glm::dvec3& direction);
+  bool isUndrawnBack(uint32_t geometry, uint32_t primitive, const glm::dvec3& direction) const {
+    return isUndrawnBack(&buckets_[geometry], primitive, direction);
+  }
 
   const scene::Scene& scene() const { return scene_; }
   const glm::dvec3& origin() const { return origin_; }

@@ -9,20 +9,19 @@
 namespace grisaille::lab {
 namespace {
 
-constexpr double kOff = 1e-4;  // metres between the surface and the segment's start
+constexpr double kOff = 1e-4;  // metres between the surface and the segment's end
 
-// The segment from the surface to the muzzle; none if the shot cannot paint the hit.
+// The segment from the muzzle to the surface; none if the shot cannot paint the hit.
 std::optional<grisaille_ray> segment(const trace::Hit& hit, const Shot& shot, double range) {
   const glm::dvec3 muzzle(shot.origin[0], shot.origin[1], shot.origin[2]);
   const glm::dvec3 direction(shot.direction[0], shot.direction[1], shot.direction[2]);
   const glm::dvec3 q = hit.position - muzzle;
   if (glm::dot(q, direction) < 0 || glm::length(glm::cross(q, direction)) >= range) return {};
   if (glm::dot(hit.facetNormal, q) >= 0) return {};
-  const glm::dvec3 start = hit.position + kOff * hit.facetNormal;
-  const glm::dvec3 back = muzzle - start;
-  const double length = glm::length(back);
-  const glm::vec3 unit(back / length);
-  return grisaille_ray{.origin = {start.x, start.y, start.z},
+  const glm::dvec3 way = hit.position + kOff * hit.facetNormal - muzzle;
+  const double length = glm::length(way);
+  const glm::vec3 unit(way / length);
+  return grisaille_ray{.origin = {muzzle.x, muzzle.y, muzzle.z},
                        .direction = {unit.x, unit.y, unit.z},
                        .reach = static_cast<float>(length)};
 }

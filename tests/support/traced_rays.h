@@ -78,11 +78,11 @@ inline void TracedDepths::draw(const grisaille_depth_view& view, std::span<float
 // Whether nothing lies between a muzzle and a point of a surface.
 inline bool sees(const trace::RayTracer& tracer, const glm::dvec3& muzzle,
                  const glm::dvec3& position, const glm::dvec3& normal) {
-  const glm::dvec3 start = position + 1e-4 * normal, back = muzzle - start;
-  const glm::vec3 unit(glm::normalize(back));
-  const grisaille_ray ray = {.origin = {start.x, start.y, start.z},
+  const glm::dvec3 way = position + 1e-4 * normal - muzzle;
+  const glm::vec3 unit(glm::normalize(way));
+  const grisaille_ray ray = {.origin = {muzzle.x, muzzle.y, muzzle.z},
                              .direction = {unit.x, unit.y, unit.z},
-                             .reach = static_cast<float>(glm::length(back))};
+                             .reach = static_cast<float>(glm::length(way))};
   grisaille_hit hit = {};
   tracer.castRays({&ray, 1}, {&hit, 1});
   return hit.kind == GRISAILLE_HIT_NONE;

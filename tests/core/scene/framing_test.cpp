@@ -178,6 +178,36 @@ TEST(Framing, ASceneWithoutExtentHasAValidCamera) {
   EXPECT_NO_THROW(validate(framingCamera(Scene{}, 1)));
 }
 
+// An eye within the bounds does not look through a wall whose back is not drawn: shots from there
+// would start outside of the room.
+void expectInTheRoom(const Scene& scene, const Camera& camera, const std::string& name) {
+  if (!glm::all(glm::greaterThan(camera.eye, scene.bounds.min)) ||
+      !glm::all(glm::lessThan(camera.eye, scene.bounds.max))) {
+    return;
+  }
+  DepthSketch sketch(camera, 160, 90);
+  forEachFace(scene, glm::dvec3(0), [&](const Face& face) { sketch.draw(face); });
+  EXPECT_LE(sketch.throughBacks(), 0.03) << name;
+}
+
+TEST(Framing, AnEyeInsideStandsInTheRoom) {
+  // Rooms whose walls have no back, beside boxes that make the bounds larger than the room.
+  for (const double away : {0.5, 1.0, 1.5, 3.0}) {
+    Scene scene;
+    scene.materials.resize(1);
+    addBox(scene, {6, 3, 5}, glm::dmat4(1), true);
+    for (int i = 0; i < 40; ++i) {
+      const glm::dvec3 at(i % 8 * 0.7 - 2.5, -1.3, i / 8 * 0.9 - 1.8);
+      addBox(scene, {0.3f, 0.4f, 0.3f}, placed(1, at));
+    }
+    for (const int side : {-1, 1}) {
+      addBox(scene, {1, 1, 1}, placed(1, {side * (3 + away), 0, side * (2.5 + away)}));
+    }
+    computeBounds(scene);
+    expectInTheRoom(scene, framingCamera(scene, 16.0 / 9), "away " + std::to_string(away));
+  }
+}
+
 TEST(Framing, FilesCoverAThirdOfThePicture) {
   std::vector<double> covered;
   for (const std::string& file : tests::sceneFilesBelow(
@@ -187,6 +217,7 @@ TEST(Framing, FilesCoverAThirdOfThePicture) {
       covered.push_back(coveredBy(scene, framingCamera(scene, 16.0 / 9), 16.0 / 9));
       // Thin shapes cover little, whatever the direction.
       EXPECT_GT(covered.back(), 0.1) << file;
+      expectInTheRoom(scene, framingCamera(scene, 16.0 / 9), file);
     } catch (const Error& error) {
       EXPECT_EQ(error.id(), ErrorId::kSceneEmpty) << error.what();
     }

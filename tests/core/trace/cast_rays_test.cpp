@@ -12,16 +12,23 @@
 namespace grisaille::trace {
 namespace {
 
+using Backs = RayTracer::Backs;
 using Corners = std::array<glm::dvec3, 3>;
+
+struct SoupTriangle {
+  Corners corners;
+  bool oneSided = false;
+  bool mirrored = false;  // its front is where its corners go clockwise
+};
 
 grisaille_ray rayFrom(const glm::dvec3& origin, const glm::dvec3& towards, float reach) {
   const glm::vec3 d(glm::normalize(towards));
   return {{origin.x, origin.y, origin.z}, {d.x, d.y, d.z}, reach};
 }
 
-grisaille_hit cast(const RayTracer& tracer, const grisaille_ray& ray) {
+grisaille_hit cast(const RayTracer& tracer, const grisaille_ray& ray, Backs backs = Backs::kPass) {
   grisaille_hit hit = {};
-  tracer.castRays({&ray, 1}, {&hit, 1});
+  tracer.castRays({&ray, 1}, {&hit, 1}, backs);
   return hit;
 }
 
@@ -31,12 +38,14 @@ struct Expected {
   bool doubtful = false;  // the ray passes close to an edge: rounding may decide
 };
 
-Expected nearestOf(const std::vector<Corners>& triangles, const grisaille_ray& ray) {
+Expected nearestOf(const std::vector<SoupTriangle>& triangles, const grisaille_ray& ray,
+                   Backs backs) {
   const glm::dvec3 from(ray.origin[0], ray.origin[1], ray.origin[2]);
   const glm::dvec3 direction =
       glm::normalize(glm::dvec3(ray.direction[0], ray.direction[1], ray.direction[2]));
   Expected found;
-  for (const Corners& c : triangles) {
+  for (const SoupTriangle& triangle : triangles) {
+    const Corners& c = triangle.corners;
     const glm::dvec3 a = c[1] - c[0], b = c[2] - c[0], p = glm::cross(direction, b);
     const double determinant = glm::dot(a, p);
     const glm::dvec3 s = from - c[0], q = glm::cross(s, a);
@@ -44,6 +53,8 @@ Expected nearestOf(const std::vector<Corners>& triangles, const grisaille_ray& r
     const double t = glm::dot(b, q) / determinant;
     const double inside = std::min({u, v, 1 - u - v});
     const glm::dvec3 normal = glm::normalize(glm::cross(a, b));
+    const bool isBack = (glm::dot(normal, direction) > 0) != triangle.mirrored;
+    if (backs == Backs::kPass && triangle.oneSided && isBack) continue;
     const double cosine = std::abs(glm::dot(normal, direction));
     if (t > -1e-3 && t < ray.reach * 1.001 &&
         (std::abs(inside) < 1e-3 / cosine || std::abs(t) < 1e-3 ||
@@ -60,7 +71,7 @@ Expected nearestOf(const std::vector<Corners>& triangles, const grisaille_ray& r
 // Triangles of all sizes in a cube of 20 m, one-sided or two-sided, half of them mirrored.
 struct Soup {
   SceneBuilder builder;
-  std::vector<Corners> triangles;
+  std::vector<SoupTriangle> triangles;
 
   Soup(uint32_t seed, const glm::dvec3& centre) {
     std::mt19937 random(seed);
@@ -81,15 +92,16 @@ struct Soup {
         const glm::dvec3 corner(placed * glm::dvec4(glm::dvec3(corners[k]), 1));
         if (k == 3) c = {c[0], c[2], corner};
         if (k < 3) c[k] = corner;
-        if (k >= 2) triangles.push_back(c);
+        if (k >= 2) triangles.push_back({c, i / 2 % 2 == 0, i % 2 != 0});
       }
     }
   }
 };
 
-TEST(CastRays, FindTheNearestTriangleFromEitherSide) {
+TEST(CastRays, FindTheNearestTriangle) {
   size_t hits = 0, misses = 0;
-  for (uint32_t seed = 0; seed < 20; ++seed) {
+  for (uint32_t seed = 0; seed < 40; ++seed) {
+    const Backs backs = seed < 20 ? Backs::kPass : Backs::kBlock;
     const glm::dvec3 centre = seed % 2 == 0 ? glm::dvec3(0) : glm::dvec3(1e6, -3e5, 0.125);
     const Soup soup(seed, centre);
     const RayTracer tracer(soup.builder.scene, centre);
@@ -102,9 +114,9 @@ TEST(CastRays, FindTheNearestTriangleFromEitherSide) {
       const glm::dvec3 origin = centre + away * point();
       const float reach = i % 2 == 0 ? INFINITY : static_cast<float>(2 * away);
       const grisaille_ray ray = rayFrom(origin, centre + 10.0 * point() - origin, reach);
-      const Expected expected = nearestOf(soup.triangles, ray);
+      const Expected expected = nearestOf(soup.triangles, ray, backs);
       if (expected.doubtful) continue;
-      const grisaille_hit hit = cast(tracer, ray);
+      const grisaille_hit hit = cast(tracer, ray, backs);
       ASSERT_EQ(hit.kind, expected.distance < INFINITY ? GRISAILLE_HIT_SURFACE : GRISAILLE_HIT_NONE)
           << "seed " << seed << " ray " << i << " distance " << expected.distance;
       if (hit.kind == GRISAILLE_HIT_NONE) {
@@ -145,7 +157,7 @@ TEST(CastRays, ABatchOfAnySizeGivesWhatSingleRaysGive) {
 
 TEST(CastRays, ReachEndsExactly) {
   SceneBuilder builder;
-  builder.place(builder.floor(glm::vec3(0), 10, builder.material({})));
+  builder.place(builder.floor(glm::vec3(0), 10, builder.material({.name = "both", .doubleSided = true})));
   const RayTracer tracer(builder.scene, glm::dvec3(0));
   for (const float height : {0.001f, 0.7f, 3.0f, 1000.0f}) {
     for (const double side : {1.0, -1.0}) {
@@ -163,7 +175,7 @@ TEST(CastRays, ReachEndsExactly) {
 
 TEST(CastRays, CutOutMaterialsLetThroughAndFlatScenesAreMet) {
   SceneBuilder builder;
-  const uint32_t ground = builder.material({});
+  const uint32_t ground = builder.material({.name = "both", .doubleSided = true});
   const uint32_t cut =
       builder.material({.name = "cut", .baseColor = {1, 1, 1, 0.4f}, .masked = true});
   builder.place(builder.floor(glm::vec3(0, 1, 0), 10, cut));

@@ -496,7 +496,10 @@ typedef struct grisaille_ray {
 /** Whether a ray hit something. */
 typedef enum grisaille_hit_kind {
   GRISAILLE_HIT_NONE = 0, /**< nothing within reach */
-  /** The first surface, from either side. Rays pass through the holes of a cut-out material. */
+  /**
+   * The first surface that is drawn. Rays pass through the holes of a cut-out material, and through
+   * backs that the host does not draw.
+   */
   GRISAILLE_HIT_SURFACE = 1,
   GRISAILLE_HIT_UNKNOWN = 2 /**< the host does not know yet; it may know in a later frame */
 } grisaille_hit_kind;
