@@ -372,7 +372,8 @@ typedef struct grisaille_host_rays {
   void* context;        /**< your pointer, which the library passes to `cast` */
   /**
    * Casts rays. grisaille_host_effect_record() and grisaille_host_effect_draw_at() call it, in the
-   * same thread. The function must not call the library.
+   * same thread. The function must not call the library. Let rays pass what you do not draw, such
+   * as backs that you cull: paint then lands on what can be seen.
    * @param context grisaille_host_rays::context
    * @param rays `count` rays
    * @param count number of rays

@@ -9,6 +9,7 @@
 #include "lab/paint/paint_mask.h"
 #include "tests/effects/sspm/paint_frame.h"
 #include "tests/support/devices.h"
+#include "tests/support/scenes.h"
 
 namespace grisaille::tests {
 namespace {
@@ -123,6 +124,32 @@ TEST_P(MaskTest, PaintLandsWhereTheMuzzleSees) {
 
 TEST_P(MaskTest, PaintLandsWhereADepthPictureOfTheMuzzleShowsASurface) {
   expectMasks(true);
+}
+
+// The picture shows what lies behind such a wall, and so do depth pictures of the muzzle.
+TEST_P(MaskTest, ShotsPassAWallWhoseBackIsNotDrawn) {
+  const scene::Scene open = cornerScene();
+  scene::Scene walled = cornerScene();
+  addQuad(walled, {glm::vec3(9, 0, 1.5f), {-9, 0, 1.5f}, {-9, 9, 1.5f}, {9, 9, 1.5f}}, {0, 0, -1});
+  scene::computeBounds(walled);
+  const std::vector<lab::Shot> shots = {
+      shotAt({0.2, 1.2, 2.4}, {0.1, 0.5, 0}, glm::vec3(1, 0, 0), 0.4f)};
+  const auto coverage = [&](const scene::Scene& scene, bool byDepths, const char* mode) {
+    TracedRays rays(scene);
+    TracedDepths depths(rays.tracer());
+    PaintFrame frame(device(), scene);
+    frame.setRays(&rays);
+    if (byDepths) frame.setDepths(&depths);
+    frame.set({{"edge_fade", "0"}, {"mode", mode}});
+    frame.render(kCrease, kWidth, kHeight, shots, {"paint_coverage"});
+    return frame.read("paint_coverage").pixels;
+  };
+  for (const char* mode : {"surface", "per_shot"}) {
+    const auto expected = coverage(open, false, mode);
+    EXPECT_GT(std::ranges::count_if(expected, [](float x) { return x > 0; }), 200) << mode;
+    EXPECT_EQ(coverage(walled, false, mode), expected) << mode << " by rays";
+    EXPECT_EQ(coverage(walled, true, mode), coverage(open, true, mode)) << mode << " by depths";
+  }
 }
 
 // A muzzle at the camera sees what the camera sees. A speck is a pixel without paint whose eight
