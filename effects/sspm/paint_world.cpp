@@ -13,6 +13,7 @@ namespace grisaille::sspm {
 namespace {
 
 constexpr uint64_t kWaitingShare = 32;  // of the limit: what may wait for its upload
+constexpr double kUploadMemory = 0.9;   // share of the longest upload that each frame leaves
 // Of a record's root; same as in shaders/sspm/walk.glsl.
 constexpr uint32_t kCoarse = 1u << 16, kMapRangeShift = 17;
 constexpr size_t kFewSpots = 512, kManySpots = 8192;  // that thin() looks at without a pause
@@ -51,7 +52,7 @@ size_t PaintWorld::update(std::span<const Shot> shots, size_t kept, const PaintR
   follow(shots, kept, rules, limit);
   std::vector<uint32_t> unknown;
   askAgain(sight);
-  const auto left = [&] { return patience - secondsSince(start); };
+  const auto left = [&] { return patience - uploadTime_ - secondsSince(start); };
   const size_t spots = std::isfinite(patience) ? kFewSpots : kManySpots;
   bool must = true;  // the first step, however long it takes
   while (!(thinning_.isActive() && isFull()) &&
@@ -76,10 +77,12 @@ bool PaintWorld::isUploadDue() const {
 }
 
 void PaintWorld::upload(const plugin::Frame& frame, Uploader& uploader) {
+  const auto start = std::chrono::steady_clock::now();
   cells_.write([&](const Entry& entry) { return recordOf(entry); });
   for (DeviceWords* words : {&cells_.slots(), &cells_.words(), &records_, &blocks_}) {
     uploader.upload(frame, *words);
   }
+  uploadTime_ = std::max(secondsSince(start), kUploadMemory * uploadTime_);
 }
 
 void PaintWorld::clear() {

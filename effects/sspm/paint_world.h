@@ -130,7 +130,7 @@ class PaintWorld {
     std::optional<Muzzle> muzzle = {};  // if the host draws depth pictures
     std::vector<CellKey> cells = {};    // in which it was placed
     std::optional<CellGrid> grid = {};  // once the rough picture is complete
-    bool complete = false;              // what follows is what the survey found
+    int parts = 0;                      // done of those in Part
     ShotMap map = {}, coarse = {};
     std::vector<Share> shares = {};
     bool told = true;  // by the host, as far as it could
@@ -138,7 +138,16 @@ class PaintWorld {
 
     // Whether no ray is left to cast.
     bool isSurveyed() const { return survey.rays().empty() && !survey.isRough(); }
-    double effort() const;
+    bool isComplete() const { return parts == kParts; }
+    // Of a round of rays, and of one part of the survey.
+    double roundEffort() const;
+    double partEffort(int part) const;
+  };
+  // What is taken of a complete survey, in this order.
+  enum Part : int { kShares, kCoarseMap, kExactMap, kParts };
+  struct Task {
+    Work* work;
+    int part;
   };
   // How fast steps go. Effort is counted in rays.
   struct Pace {
@@ -197,7 +206,7 @@ class PaintWorld {
   bool askFor(std::span<Work* const> works, const Sight& sight);
   bool castFor(std::span<Work* const> works, const CastRays& cast);
   bool lookFor(std::span<Work* const> works, const DrawDepth& draw);
-  static void finish(std::span<Work* const> works);
+  static void take(std::span<const Task> tasks);
   void askAgain(const Sight& sight);
 
   // former.cpp
@@ -295,6 +304,7 @@ class PaintWorld {
   size_t coarse_ = 0;          // shots with Placed::isCoarse()
   uint32_t turn_ = kNone;      // shots below come next: the host did not have others' pictures
   Pace pace_;
+  double uploadTime_ = 0;    // seconds, of the longest of the last uploads
   uint64_t limit_ = 0;       // bytes
   uint64_t plannedFor_ = 0;  // limit for which planMaps() has planned; 0: not yet
   enum class Lacks : uint8_t { kNothing, kExact, kCoarse };

@@ -14,16 +14,19 @@ namespace {
 constexpr size_t kMostWork = 64;       // shots under survey at the same time
 constexpr double kMostEffort = 16384;  // of a step, except for a single shot
 constexpr double kLeastEffort = 256;
-constexpr double kShotEffort = 128;  // of a shot in a step, beside its rays; rays
-constexpr double kMapEffort = 0.5;   // of maps and shares, for each ray of the survey
+constexpr double kRoundEffort = 24;   // of a round of a shot's rays, beside the rays; rays
+constexpr double kPlaceEffort = 160;  // of listing a surveyed shot in its cells; rays
+// Of the parts of a survey, for each of its rays.
+constexpr double kPartEffort[] = {0.35, 0.35, 0.2};
 constexpr double kPaceMemory = 0.9;  // share of the mean that each step leaves
+constexpr double kAim = 0.7;         // of the time left, for a step: some take twice the mean
 constexpr int kMostAsks = 4;         // frames in a row that ask for one shot's depth pictures
 
 }  // namespace
 
 // Effort that takes about `seconds`.
 double PaintWorld::Pace::effortIn(double seconds) const {
-  const double most = effort > 0 ? seconds * effort / spent : kLeastEffort;
+  const double most = effort > 0 ? kAim * seconds * effort / spent : kLeastEffort;
   return std::clamp(most, kLeastEffort, kMostEffort);
 }
 
@@ -32,13 +35,17 @@ void PaintWorld::Pace::note(double seconds, double done) {
   effort = kPaceMemory * effort + done;
 }
 
-// The next step of a shot: a round of rays; or, after the last round, maps and shares.
-double PaintWorld::Work::effort() const {
-  const auto rays = static_cast<double>(survey.rays().size());
-  return kShotEffort + (isSurveyed() ? kMapEffort * static_cast<double>(survey.cast()) : rays);
+double PaintWorld::Work::roundEffort() const {
+  return kRoundEffort + static_cast<double>(survey.rays().size());
 }
 
-// Takes the newest pending shots one step further. Returns false if no shot is pending, if all of
+double PaintWorld::Work::partEffort(int part) const {
+  const double taken = kPartEffort[part] * static_cast<double>(survey.cast());
+  return taken + (part + 1 == kParts ? kPlaceEffort : 0);
+}
+
+// Takes the newest pending shots one step further: each by a round of rays, or by some of the parts
+// of its survey. Returns false if no shot is pending, if all of
 // them take too long, if the host can tell nothing, or if it does not have the depth pictures of a
 // shot yet: others would only make it draw more pictures at a time.
 // most: effort after which no further shot takes part; rays. must: the newest takes part anyway.
@@ -46,18 +53,28 @@ double PaintWorld::Work::effort() const {
 bool PaintWorld::step(double most, bool must, const Sight& sight, std::vector<uint32_t>& unknown) {
   const auto start = std::chrono::steady_clock::now();
   refill();
-  std::vector<Work*> now;
+  std::vector<Work*> now, asked, surveyed;
+  std::vector<Task> tasks;
   double effort = 0;
-  for (Work& work : work_) {
-    const double more = work.effort();
-    if (effort + more > most && !(now.empty() && must)) break;
-    now.push_back(&work);
+  const auto fits = [&](double more) {
+    if (effort + more > most && !(effort == 0 && must)) return false;
     effort += more;
+    return true;
+  };
+  for (Work& work : work_) {
+    int part = work.parts;
+    if (!work.isSurveyed()) {
+      if (!fits(work.roundEffort())) break;
+      asked.push_back(&work);
+    } else {
+      for (; part < kParts && fits(work.partEffort(part)); ++part) tasks.push_back({&work, part});
+      if (part > work.parts) surveyed.push_back(&work);
+    }
+    if (asked.size() + surveyed.size() > now.size()) now.push_back(&work);
+    if (work.isSurveyed() && part < kParts) break;
   }
   if (now.empty()) return false;
-  std::vector<Work*> asked, surveyed;
-  for (Work* work : now) (work->isSurveyed() ? surveyed : asked).push_back(work);
-  finish(surveyed);
+  take(tasks);
   const bool can = asked.empty() || askFor(asked, sight);
   if (can) refine(asked);
   bool late = !can;
@@ -99,7 +116,7 @@ bool PaintWorld::advance(Work& work, std::vector<uint32_t>& unknown) {
     retire(work.id);
     return false;
   }
-  if (!work.complete) return true;       // maps and shares come in the next step
+  if (!work.isComplete()) return true;   // the other parts come in the next step
   const bool again = isPlaced(work.id);  // to be sharpened
   if (!again && !fits(work.coarse.words.empty() ? work.map : work.coarse)) {
     // It comes again, once older paint has made room.

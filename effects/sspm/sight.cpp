@@ -67,32 +67,33 @@ bool PaintWorld::lookFor(std::span<Work* const> works, const DrawDepth& draw) {
   return true;
 }
 
-// Takes the maps and the shares of surveys.
-void PaintWorld::finish(std::span<Work* const> works) {
-  constexpr size_t kTasks = 3;  // of a survey: each thread has some also where there is one survey
-  onAllThreads(kTasks * works.size(), [&](size_t i) {
-    Work& work = *works[i / kTasks];
+// Takes parts of surveys.
+void PaintWorld::take(std::span<const Task> tasks) {
+  onAllThreads(tasks.size(), [&](size_t i) {
+    Work& work = *tasks[i].work;
     const Survey& survey = work.survey;
-    switch (i % kTasks) {
-      case 0:
-        if (!survey.isCoarse()) work.map = survey.map();
+    switch (tasks[i].part) {
+      case kShares:
+        work.shares = sharesOf(survey.frame(), *work.grid, survey.patches());
         break;
-      case 1:
+      case kCoarseMap:
         work.coarse = survey.coarseMap();
         break;
       default:
-        work.shares = sharesOf(survey.frame(), *work.grid, survey.patches());
+        if (!survey.isCoarse()) work.map = survey.map();
         break;
     }
   });
-  for (Work* work : works) {
-    work->complete = true;
-    if (work->survey.isCoarse()) {
-      work->map = work->coarse;
+  for (const Task& task : tasks) {
+    Work& work = *task.work;
+    work.parts = task.part + 1;
+    if (!work.isComplete()) continue;
+    if (work.survey.isCoarse()) {
+      work.map = work.coarse;
       continue;
     }
-    const size_t most = work->map.words.size() * kCoarseShare / 4;
-    if (work->coarse.words.size() > most) work->coarse = {};
+    const size_t most = work.map.words.size() * kCoarseShare / 4;
+    if (work.coarse.words.size() > most) work.coarse = {};
   }
 }
 
@@ -111,8 +112,8 @@ void PaintWorld::askAgain(const Sight& sight) {
       first = false;
     }
     if (learned) {
-      Work* one = &work;
-      finish(std::span(&one, 1));
+      const Task tasks[] = {{&work, kShares}, {&work, kCoarseMap}, {&work, kExactMap}};
+      take(tasks);
       remove(work.id, work.cells);
       place(work);
       continue;

@@ -12,6 +12,16 @@ Painted::Painted(gpu::Device& device, const Subject& subject, const effect::Regi
       started_(chain_, device),
       renderer_(device, subject.scene) {}
 
+Painted::Painted(gpu::Device& device, const Subject& subject, const effect::Registry& registry,
+                 effect::RayService& rays, std::span<const std::string> effects,
+                 frame::AttachmentSource& source)
+    : device_(device),
+      subject_(subject),
+      rays_(rays),
+      chain_(effect::Selection(registry, effects)),
+      started_(chain_, device),
+      renderer_(device, source) {}
+
 void Painted::add(std::span<const lab::Shot> shots) {
   objects::ObjectList& list = this->shots();
   list.add(objectsOf(list.table(), shots).view());

@@ -31,6 +31,11 @@ class Painted {
   // effects: with sspm, in the order in which they run. All references must outlive it.
   Painted(gpu::Device& device, const Subject& subject, const effect::Registry& registry,
           effect::RayService& rays, std::span<const std::string> effects);
+  // Without the scene: frames have the attachments of `source`, so that they take little time
+  // beside the effects.
+  Painted(gpu::Device& device, const Subject& subject, const effect::Registry& registry,
+          effect::RayService& rays, std::span<const std::string> effects,
+          frame::AttachmentSource& source);
 
   effect::Values& values() { return chain_.selection.values("sspm"); }
 

@@ -8,6 +8,7 @@
 #include <vector>
 
 #include "backends/backends.h"
+#include "core/frame/picture_attachments.h"
 #include "tests/bench/painted.h"
 
 namespace grisaille::bench {
@@ -48,10 +49,18 @@ void printSpray(const std::string& backend, const Subject& subject,
   for (const size_t each : kSprayed) sprayed += kSprayFrames * each;
   if (shots.size() < sprayed) return;
   const auto device = backends::create(backend, {});
-  Painted painted(*device, subject, registry, rays, kPaintAlone);
+  constexpr uint32_t kWidth = 64, kHeight = 36;
+  frame::PictureAttachments pictures(device.get());
+  pictures.show(
+      {.viewDepth = trace::depthImage(
+           rays.tracer().castPrimary(subject.cameras[0], kWidth, kHeight), kWidth, kHeight),
+       .normal = {},
+       .baseColour = {}});
+  Painted painted(*device, subject, registry, rays, kPaintAlone, pictures);
+  painted.outputs() = {"paint"};
   painted.add(shots.first(shots.size() - sprayed));
   painted.settle(1);
-  const Painted::View view = {subject.cameras[0], 64, 36, kSprayPatience};
+  const Painted::View view = {subject.cameras[0], kWidth, kHeight, kSprayPatience};
   fmt::print(
       "## {}, {}: spray\n\n"
       "{} frames of few pixels, with {:.0f} ms for placing, beside {} shots. How much longer than "
