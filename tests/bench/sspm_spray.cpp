@@ -24,13 +24,20 @@ struct Spray {
   size_t later = 0;          // frames until none waits
 };
 
-// Compares each frame with the last one in which nothing was new or waited.
+// The median of some frames in which nothing is new or waits, milliseconds.
+double idleFrame(Painted& painted, const Painted::View& view) {
+  std::vector<double> frames(15);
+  for (double& frame : frames) frame = painted.render(view);
+  std::ranges::sort(frames);
+  return frames[frames.size() / 2];
+}
+
+// Compares each frame with those before the first shot.
 Spray spray(Painted& painted, const Painted::View& view, std::span<const lab::Shot> shots,
             size_t each) {
   Spray spray;
-  double idle = painted.render(view);
+  const double idle = idleFrame(painted, view);
   for (size_t i = 0; i < kSprayFrames; ++i) {
-    if (painted.report().waiting == 0) idle = painted.render(view);
     painted.add(shots.subspan(i * each, each));
     spray.more.push_back(painted.render(view) - idle);
   }
