@@ -373,7 +373,7 @@ typedef struct grisaille_host_rays {
   /**
    * Casts rays. grisaille_host_effect_record() and grisaille_host_effect_draw_at() call it, in the
    * same thread. The function must not call the library. Let rays pass what you do not draw, such
-   * as backs that you cull: paint then lands on what can be seen.
+   * as backs that you cull: effects then meet what can be seen.
    * @param context grisaille_host_rays::context
    * @param rays `count` rays
    * @param count number of rays
