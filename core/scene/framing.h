@@ -9,8 +9,8 @@ namespace grisaille::scene {
 
 // A camera that sees every vertex of the scene, as large as the picture allows, from a direction in
 // which the scene covers much of it and shows much of its surface. Inside a scene that encloses its
-// surfaces, such as a room, a camera that looks across it, and that no undrawn back of a wall
-// stands before. The same scene and shape give the same camera.
+// surfaces, such as a room, a camera in it that looks across it, and not through a wall whose back
+// is not drawn. The same scene and shape give the same camera.
 // aspect: width of the picture divided by its height
 Camera framingCamera(const Scene& scene, double aspect);
 

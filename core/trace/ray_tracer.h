@@ -82,8 +82,9 @@ class RayTracer {
   // let it through, as they are not drawn. `hits` is as long as `rays` and has the same order.
   // Directions are unit. Rays may start far outside the scene. The kind of a hit is never
   // GRISAILLE_HIT_UNKNOWN. A hit depends only on its ray, bit for bit. Neighbours in the array that
-  // start and run close together cost far less than others. backs: kBlock: they block it
-  // nonetheless
+  // start and run close together cost far less than others.
+  //
+  // backs: kBlock: backs of single-sided materials block rays too
   enum class Backs : uint8_t { kPass, kBlock };
   void castRays(std::span<const grisaille_ray> rays, std::span<grisaille_hit> hits,
                 Backs backs = Backs::kPass) const;

@@ -52,7 +52,9 @@ size_t PaintWorld::update(std::span<const Shot> shots, size_t kept, const PaintR
   follow(shots, kept, rules, limit);
   std::vector<uint32_t> unknown;
   askAgain(sight);
-  const auto left = [&] { return patience - uploadTime_ - secondsSince(start); };
+  // Also after a large upload, half of the patience is for placing.
+  const double placing = patience - std::min(uploadTime_, patience / 2);
+  const auto left = [&] { return placing - secondsSince(start); };
   const size_t spots = std::isfinite(patience) ? kFewSpots : kManySpots;
   bool must = true;  // the first step, however long it takes
   while (!(thinning_.isActive() && isFull()) &&

@@ -19,7 +19,7 @@ constexpr double kPlaceEffort = 160;  // of listing a surveyed shot in its cells
 // Of the parts of a survey, for each of its rays.
 constexpr double kPartEffort[] = {0.35, 0.35, 0.2};
 constexpr double kPaceMemory = 0.9;  // share of the mean that each step leaves
-constexpr double kAim = 0.85;         // of the time left, for a step: some take twice the mean
+constexpr double kAim = 0.85;        // of the time left, for a step: some take twice the mean
 constexpr int kMostAsks = 4;         // frames in a row that ask for one shot's depth pictures
 
 }  // namespace

@@ -214,10 +214,11 @@ TEST(Framing, FilesCoverAThirdOfThePicture) {
            {SHARED_FOLDER "/models", SHARED_FOLDER "/scenes", STUDIES "/scenes"})) {
     try {
       const Scene scene = loadGltf(file);
-      covered.push_back(coveredBy(scene, framingCamera(scene, 16.0 / 9), 16.0 / 9));
+      const Camera camera = framingCamera(scene, 16.0 / 9);
+      covered.push_back(coveredBy(scene, camera, 16.0 / 9));
       // Thin shapes cover little, whatever the direction.
       EXPECT_GT(covered.back(), 0.1) << file;
-      expectInTheRoom(scene, framingCamera(scene, 16.0 / 9), file);
+      expectInTheRoom(scene, camera, file);
     } catch (const Error& error) {
       EXPECT_EQ(error.id(), ErrorId::kSceneEmpty) << error.what();
     }

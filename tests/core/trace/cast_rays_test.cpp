@@ -157,7 +157,8 @@ TEST(CastRays, ABatchOfAnySizeGivesWhatSingleRaysGive) {
 
 TEST(CastRays, ReachEndsExactly) {
   SceneBuilder builder;
-  builder.place(builder.floor(glm::vec3(0), 10, builder.material({.name = "both", .doubleSided = true})));
+  builder.place(
+      builder.floor(glm::vec3(0), 10, builder.material({.name = "both", .doubleSided = true})));
   const RayTracer tracer(builder.scene, glm::dvec3(0));
   for (const float height : {0.001f, 0.7f, 3.0f, 1000.0f}) {
     for (const double side : {1.0, -1.0}) {
