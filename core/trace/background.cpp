@@ -5,13 +5,25 @@
 
 #include <algorithm>
 #include <thread>
+#include <utility>
 
 namespace grisaille::trace {
+namespace {
+
+thread_local size_t spared = 0;  // cores that loops of this thread leave to others
+
+}  // namespace
 
 void leavingACore(const std::function<void()>& work) {
-  const auto cores = static_cast<int>(std::thread::hardware_concurrency());
-  tbb::task_arena arena(std::max(1, cores - 1));
+  const size_t before = std::exchange(spared, 1);
+  // Embree builds its hierarchies in the arena of the thread that asks for them.
+  tbb::task_arena arena(static_cast<int>(loopThreads()));
   arena.execute(work);
+  spared = before;
+}
+
+size_t loopThreads() {
+  return std::max<size_t>(1 + spared, std::thread::hardware_concurrency()) - spared;
 }
 
 }  // namespace grisaille::trace

@@ -297,7 +297,7 @@ void RayTracer::Impl::castBlock(std::span<const grisaille_ray> rays, std::span<g
       visit(met[k]);
     }
     if (backs == Backs::kPass &&
-        traced.isUndrawnBack(met[k].geometry, met[k].primitive, paths[i].direction)) {
+        traced.isUndrawnBack(met[k].geometry, last, facet, paths[i].direction)) {
       met[k] = nearest->findDrawn(thin[k]);
       if (met[k].geometry == RTC_INVALID_GEOMETRY_ID) continue;
       visit(met[k]);

@@ -200,11 +200,6 @@ bool TracedScene::isHole(const Triangle& triangle, float u, float v) const {
   return mask->isHole(texCoord, alpha);
 }
 
-bool TracedScene::isBack(const Triangle& triangle, const glm::dvec3& direction) const {
-  const double facing = glm::dot(facet(triangle).cross, direction);
-  return placements_[triangle.instance].mirrored ? facing < 0 : facing > 0;
-}
-
 // For packets and single rays.
 void TracedScene::passHoles(const RTCFilterFunctionNArguments* args) {
   const auto& bucket = *static_cast<const Bucket*>(args->geometryUserPtr);
@@ -228,7 +223,9 @@ void TracedScene::passBackFaces(const RTCFilterFunctionNArguments* args) {
 bool TracedScene::isUndrawnBack(const void* geometryUserPtr, uint32_t primitive,
                                 const glm::dvec3& direction) {
   const auto& bucket = *static_cast<const Bucket*>(geometryUserPtr);
-  return !bucket.doubleSided && bucket.owner->isBack(bucket.triangles[primitive], direction);
+  if (bucket.doubleSided) return false;
+  const Triangle& triangle = bucket.triangles[primitive];
+  return bucket.owner->isBack(triangle, bucket.owner->facet(triangle), direction);
 }
 
 }  // namespace grisaille::trace

@@ -58,8 +58,10 @@ class TracedScene {
   // geometryUserPtr: that of a filter's arguments
   static bool isUndrawnBack(const void* geometryUserPtr, uint32_t primitive,
                             const glm::dvec3& direction);
-  bool isUndrawnBack(uint32_t geometry, uint32_t primitive, const glm::dvec3& direction) const {
-    return isUndrawnBack(&buckets_[geometry], primitive, direction);
+  // The same for a triangle of a geometry whose facet is known.
+  bool isUndrawnBack(uint32_t geometry, const Triangle& triangle, const Facet& facet,
+                     const glm::dvec3& direction) const {
+    return !buckets_[geometry].doubleSided && isBack(triangle, facet, direction);
   }
 
   const scene::Scene& scene() const { return scene_; }
@@ -93,7 +95,10 @@ class TracedScene {
   void attach(uint32_t id, Bucket& bucket);
   void writeVertices(const Bucket& bucket, glm::vec3* vertices) const;
   void throwOnFailure(const char* what) const;
-  bool isBack(const Triangle& triangle, const glm::dvec3& direction) const;
+  bool isBack(const Triangle& triangle, const Facet& facet, const glm::dvec3& direction) const {
+    const double facing = glm::dot(facet.cross, direction);
+    return placements_[triangle.instance].mirrored ? facing < 0 : facing > 0;
+  }
   static void passHoles(const RTCFilterFunctionNArguments* args);
 
   const scene::Scene& scene_;
