@@ -139,6 +139,10 @@ class PaintWorld {
     // Whether no ray is left to cast.
     bool isSurveyed() const { return survey.rays().empty() && !survey.isRough(); }
     bool isComplete() const { return parts == kParts; }
+    // Whether its rough picture is complete, and nothing has been made of it.
+    bool isRoughComplete() const {
+      return told && survey.isRough() && survey.rays().empty() && !grid;
+    }
     // Of a round of rays, and of one part of the survey.
     double roundEffort() const;
     double partEffort(int part) const;
@@ -191,10 +195,12 @@ class PaintWorld {
 
   // placing.cpp
   bool step(double most, bool must, const Sight& sight, std::vector<uint32_t>& unknown);
-  void refine(std::span<Work* const> works);
+  void refine(Work& work);
   bool advance(Work& work, std::vector<uint32_t>& unknown);
   void sortPending();
   void refill();
+  static int32_t levelFor(const ShotFrame& frame);
+  bool isInUse(int32_t level) const { return std::ranges::find(levels_, level) != levels_.end(); }
   CellGrid gridFor(const ShotFrame& frame);
   void place(Work& work);
   void sharpen(const Work& work);
@@ -203,10 +209,12 @@ class PaintWorld {
   void remove(uint32_t id, std::span<const CellKey> cells);
 
   // sight.cpp
-  bool askFor(std::span<Work* const> works, const Sight& sight);
-  bool castFor(std::span<Work* const> works, const CastRays& cast);
+  bool askFor(std::span<Work* const> works, std::span<Task> tasks, const Sight& sight);
+  bool castFor(std::span<Work* const> works, std::span<Task> tasks, const CastRays& cast);
   bool lookFor(std::span<Work* const> works, const DrawDepth& draw);
-  static void take(std::span<const Task> tasks);
+  void proceed(Work& work);
+  static void take(const Task& task);
+  static void finish(std::span<const Task> tasks);
   void askAgain(const Sight& sight);
 
   // former.cpp

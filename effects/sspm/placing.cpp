@@ -74,9 +74,12 @@ bool PaintWorld::step(double most, bool must, const Sight& sight, std::vector<ui
     if (work.isSurveyed() && part < kParts) break;
   }
   if (now.empty()) return false;
-  take(tasks);
-  const bool can = asked.empty() || askFor(asked, sight);
-  if (can) refine(asked);
+  const bool can = askFor(asked, tasks, sight);
+  for (Work* work : asked) {
+    if (!can || !work->isRoughComplete()) continue;
+    work->grid = gridFor(work->survey.frame());
+    refine(*work);
+  }
   bool late = !can;
   for (Work* each : can ? now : surveyed) {
     Work& work = *each;
@@ -88,18 +91,11 @@ bool PaintWorld::step(double most, bool must, const Sight& sight, std::vector<ui
   return !late;
 }
 
-// Continues with the shots whose rough pictures are complete, unless newer paint hides them.
-void PaintWorld::refine(std::span<Work* const> works) {
-  std::vector<Work*> rough;
-  for (Work* work : works) {
-    if (!work->told || !work->survey.rays().empty() || !work->survey.isRough()) continue;
-    work->grid = gridFor(work->survey.frame());
-    rough.push_back(work);
-  }
-  onAllThreads(rough.size(), [&](size_t i) {
-    if (!isPlaced(rough[i]->id)) findHidden(*rough[i]);
-    if (!isLost(rough[i]->id)) rough[i]->survey.refine();
-  });
+// Continues with a shot whose rough picture is complete, unless newer paint hides it. It needs a
+// grid. Several threads may call it, for different shots.
+void PaintWorld::refine(Work& work) {
+  if (!isPlaced(work.id)) findHidden(work);
+  if (!isLost(work.id)) work.survey.refine();
 }
 
 // Continues with a shot after a round of rays. Returns false once its survey is not needed any
@@ -165,14 +161,19 @@ void PaintWorld::refill() {
 
 // Level for a shot: cells about two ranges wide, or wider if their numbers would not fit at the
 // shot's position.
-CellGrid PaintWorld::gridFor(const ShotFrame& frame) {
+int32_t PaintWorld::levelFor(const ShotFrame& frame) {
   const glm::dvec3 far = glm::abs(frame.origin) + 2.0 * double{frame.range} / double{frame.slope};
   const double least = std::max({far.x, far.y, far.z}) * 0x1p-28;
   const int exponent =
       std::max(static_cast<int>(std::lround(std::log2(2 * std::max(frame.range, 8 * frame.bias)))),
                static_cast<int>(std::ceil(std::log2(least))));
-  const int32_t code = levelCode(std::clamp(exponent, -40, 40));
-  if (std::ranges::find(levels_, code) != levels_.end()) return {frame.origin, code};
+  return levelCode(std::clamp(exponent, -40, 40));
+}
+
+// The grid of that level, or of another if all are in use.
+CellGrid PaintWorld::gridFor(const ShotFrame& frame) {
+  const int32_t code = levelFor(frame);
+  if (isInUse(code)) return {frame.origin, code};
   if (levels_.size() < kMostLevels) {
     levels_.push_back(code);
     return {frame.origin, code};

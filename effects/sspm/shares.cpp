@@ -144,17 +144,17 @@ std::vector<Share> sharesOf(const ShotFrame& frame, const CellGrid& grid,
                             const std::vector<Patch>& patches) {
   std::vector<Share> shares;
   std::vector<CellKey> keys;  // of `shares`, contiguous for the search
+  size_t last = 0;            // the previous patch was probably in the same cell
   for (const Patch& patch : patches) {
     visitParts(frame, grid, patch, [&](const CellKey& key, const PartBits& bits) {
-      // Backwards: the previous patch was probably in the same cell.
-      const auto found = std::find(keys.rbegin(), keys.rend(), key);
-      size_t index = static_cast<size_t>(keys.rend() - found) - 1;
-      if (found == keys.rend()) {
-        index = keys.size();
+      if (last >= keys.size() || keys[last] != key) {
+        last = static_cast<size_t>(std::ranges::find(keys, key) - keys.begin());
+      }
+      if (last == keys.size()) {
         keys.push_back(key);
         shares.push_back({.key = key, .plane = patch.plane, .points = {}});
       }
-      Share& share = shares[index];
+      Share& share = shares[last];
       share.plain = share.plain && serves(share.plane, patch.centre, patch.plane, frame.bias);
       share.touched |= bits.touched;
       if (patch.ragged) share.ragged |= bits.touched;

@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: MIT
 // Answers the rays of surveys, by the host's rays or depth pictures.
 #include <algorithm>
+#include <functional>
 #include <iterator>
 #include <utility>
 
@@ -14,14 +15,18 @@ constexpr size_t kCoarseShare = 3;  // quarters of a map: a coarse map must be s
 
 }  // namespace
 
-// Answers the rays of several surveys, by the host's depth pictures if it draws any. Returns false
-// if the host can tell nothing.
-bool PaintWorld::askFor(std::span<Work* const> works, const Sight& sight) {
-  return lookFor(works, sight.draw) || castFor(works, sight.cast);
+// Answers the rays of several surveys, by the host's depth pictures if it draws any, and takes
+// parts of surveys meanwhile. Returns false if there are rays and the host can tell nothing.
+bool PaintWorld::askFor(std::span<Work* const> works, std::span<Task> tasks, const Sight& sight) {
+  const bool looks = !works.empty() && lookFor(works, sight.draw);
+  const bool can = castFor(looks ? std::span<Work* const>() : works, tasks, sight.cast);
+  finish(tasks);
+  return can;
 }
 
 // Casts the rays of several surveys in one batch. Returns false if the host casts no rays.
-bool PaintWorld::castFor(std::span<Work* const> works, const CastRays& cast) {
+bool PaintWorld::castFor(std::span<Work* const> works, std::span<Task> tasks,
+                         const CastRays& cast) {
   std::vector<grisaille_ray> rays;
   std::vector<size_t> first;
   for (const Work* work : works) {
@@ -30,12 +35,31 @@ bool PaintWorld::castFor(std::span<Work* const> works, const CastRays& cast) {
     rays.insert(rays.end(), asked.begin(), asked.end());
   }
   std::vector<grisaille_hit> hits(rays.size());
-  if (!cast(rays, hits)) return false;
-  onAllThreads(works.size(), [&](size_t i) {
+  const bool can = works.empty() || cast(rays, hits);
+  // The largest first, so that threads end together.
+  std::ranges::sort(tasks, std::ranges::greater(),
+                    [](const Task& task) { return task.work->partEffort(task.part); });
+  onAllThreads(tasks.size() + (can ? works.size() : 0), [&](size_t i) {
+    if (i < tasks.size()) {
+      take(tasks[i]);
+      return;
+    }
+    i -= tasks.size();
     Survey& survey = works[i]->survey;
     works[i]->told = survey.take(std::span(hits).subspan(first[i], survey.rays().size()));
+    proceed(*works[i]);
   });
-  return true;
+  return can;
+}
+
+// Goes on to the map, unless the shot needs a level that is not in use yet.
+void PaintWorld::proceed(Work& work) {
+  if (!work.isRoughComplete()) return;
+  const ShotFrame& frame = work.survey.frame();
+  const int32_t level = levelFor(frame);
+  if (!isInUse(level)) return;
+  work.grid = {frame.origin, level};
+  refine(work);
 }
 
 // Completes the rough picture or the map of several surveys, by depth pictures, up to the first
@@ -63,31 +87,37 @@ bool PaintWorld::lookFor(std::span<Work* const> works, const DrawDepth& draw) {
                              [&](const grisaille_ray& ray) { return work.muzzle->see(ray); });
       work.told = work.survey.take(hits);
     }
+    proceed(work);
   });
   return true;
 }
 
-// Takes parts of surveys.
-void PaintWorld::take(std::span<const Task> tasks) {
-  onAllThreads(tasks.size(), [&](size_t i) {
-    Work& work = *tasks[i].work;
-    const Survey& survey = work.survey;
-    switch (tasks[i].part) {
-      case kShares:
-        work.shares = sharesOf(survey.frame(), *work.grid, survey.patches());
-        break;
-      case kCoarseMap:
-        work.coarse = survey.coarseMap();
-        break;
-      default:
-        if (!survey.isCoarse()) work.map = survey.map();
-        break;
-    }
-  });
+// Takes a part of a survey.
+void PaintWorld::take(const Task& task) {
+  Work& work = *task.work;
+  const Survey& survey = work.survey;
+  switch (task.part) {
+    case kShares:
+      work.shares = sharesOf(survey.frame(), *work.grid, survey.patches());
+      break;
+    case kCoarseMap:
+      work.coarse = survey.coarseMap();
+      break;
+    default:
+      if (!survey.isCoarse()) work.map = survey.map();
+      break;
+  }
+}
+
+// After tasks: notes what has been taken.
+void PaintWorld::finish(std::span<const Task> tasks) {
   for (const Task& task : tasks) {
     Work& work = *task.work;
-    work.parts = task.part + 1;
-    if (!work.isComplete()) continue;
+    work.parts = std::max(work.parts, task.part + 1);
+  }
+  for (const Task& task : tasks) {
+    Work& work = *task.work;
+    if (task.part + 1 != kParts) continue;
     if (work.survey.isCoarse()) {
       work.map = work.coarse;
       continue;
@@ -107,13 +137,13 @@ void PaintWorld::askAgain(const Sight& sight) {
     bool can = true, first = true, learned = false;
     while (can && !work.survey.rays().empty()) {
       Work* one = &work;
-      can = askFor(std::span(&one, 1), sight) && work.told;
+      can = askFor(std::span(&one, 1), {}, sight) && work.told;
       learned = can && (learned || !first || work.survey.unknown() < before);
       first = false;
     }
     if (learned) {
-      const Task tasks[] = {{&work, kShares}, {&work, kCoarseMap}, {&work, kExactMap}};
-      take(tasks);
+      Task tasks[] = {{&work, kShares}, {&work, kCoarseMap}, {&work, kExactMap}};
+      askFor({}, tasks, sight);
       remove(work.id, work.cells);
       place(work);
       continue;

@@ -19,9 +19,14 @@ constexpr size_t kMostSamples = 8192;  // rays after which no square is divided 
 constexpr int32_t kAcross = static_cast<int32_t>(2 * kMapReach) * kFinestAUnit;
 constexpr float kAtRim = 1.15f;  // times the range: hits up to here need squares as fine as inside
 
-uint32_t hashOf(const glm::ivec2& place) {
-  const uint32_t hash =
-      static_cast<uint32_t>(place.x) * 0x9E3779B1u ^ static_cast<uint32_t>(place.y) * 0x85EBCA77u;
+static_assert(kAcross <= 0xFFFF);
+uint32_t packed(const glm::ivec2& place) {
+  return static_cast<uint32_t>(place.x) | static_cast<uint32_t>(place.y) << 16;
+}
+
+// Most places are multiples of a power of two, so that low bits of products say nothing.
+uint32_t hashOf(uint32_t place) {
+  const uint32_t hash = (place ^ place >> 16) * 0x9E3779B1u ^ place * 0x7FEB352Du;
   return hash ^ hash >> 15;
 }
 
@@ -76,6 +81,8 @@ bool Survey::probed() {
 // Starts with one square; keeps the samples.
 void Survey::start() {
   squares_.assign(1, {.size = kAcross});
+  silhouettes_.clear();
+  ragged_.clear();
   undecided_.assign(1, 0);
   advance();
   writeRays();
@@ -105,11 +112,9 @@ void Survey::advance() {
 // Opens the squares of one plane beside depth discontinuities again: an object smaller than a
 // square may be in front of them. decide() then asks for their centres too.
 void Survey::doubt() {
-  const size_t count = squares_.size();
-  for (size_t i = 0; i < count; ++i) {
-    const Square square = squares_[i];
-    if (!square.ragged || square.told) continue;
-    squares_[i].told = true;
+  std::ranges::sort(ragged_);
+  for (const int32_t ragged : std::exchange(ragged_, {})) {
+    const Square& square = at(ragged);
     for (const int32_t index : neighboursOf(square)) {
       if (index < 0) continue;
       Square& other = at(index);
@@ -150,24 +155,40 @@ int32_t Survey::ask(const glm::ivec2& place) {
   if (samples_.size() * 2 >= slots_.size()) growSlots();
   Slot& slot = slotOf(place);
   if (slot.sample < 0) {
-    slot = {place, static_cast<int32_t>(samples_.size())};
+    slot = {packed(place), static_cast<int32_t>(samples_.size())};
     asked_.push_back(slot.sample);
     samples_.push_back({.place = place});
   }
   return slot.sample;
 }
 
+// The same for a corner of the square `index`. Looks first at what its parent knows.
+int32_t Survey::askCorner(const Square& square, int32_t index, size_t corner) {
+  const auto i = static_cast<int32_t>(corner);
+  const glm::ivec2 place = square.corner + square.size * glm::ivec2(i & 1, i >> 1);
+  if (square.parent < 0) return ask(place);
+  Square& parent = at(square.parent);
+  const int32_t child = index - parent.children;
+  if (child == i) return parent.corners[corner] >= 0 ? parent.corners[corner] : ask(place);
+  // Of the parent's 3x3 corners and middles, by rows: 1, 3, 4, 5 or 7.
+  const int32_t point = (child & 1) + (i & 1) + 3 * ((child >> 1) + (i >> 1));
+  int32_t& known = parent.middles[static_cast<size_t>((point + (point > 4 ? 1 : 0)) / 2)];
+  if (known < 0) known = ask(place);
+  return known;
+}
+
 Survey::Slot& Survey::slotOf(const glm::ivec2& place) {
   const size_t mask = slots_.size() - 1;
-  size_t at = hashOf(place) & mask;
-  while (slots_[at].sample >= 0 && slots_[at].place != place) at = (at + 1) & mask;
+  const uint32_t wanted = packed(place);
+  size_t at = hashOf(wanted) & mask;
+  while (slots_[at].sample >= 0 && slots_[at].place != wanted) at = (at + 1) & mask;
   return slots_[at];
 }
 
 void Survey::growSlots() {
   slots_.assign(2 * slots_.size(), {});
   for (size_t i = 0; i < samples_.size(); ++i) {
-    slotOf(samples_[i].place) = {samples_[i].place, static_cast<int32_t>(i)};
+    slotOf(samples_[i].place) = {packed(samples_[i].place), static_cast<int32_t>(i)};
   }
 }
 
@@ -246,20 +267,25 @@ glm::vec2 Survey::centreOf(const Square& square) const {
 // Largest width of an undivided square, as far as its corners are known. The rough picture has
 // coarse squares. The map has fine ones where rays hit something in range.
 int32_t Survey::grainAt(const Square& square) const {
-  const glm::vec2 nearest = glm::max(glm::abs(centreOf(square)) - sizeOf(square) / 2, 0.0f);
-  const float distance = glm::length(nearest);
   constexpr int32_t kUnit = kFinestAUnit;
-  if (stage_ == Stage::kRough) return distance < 1 ? kUnit / 4 : distance < 3 ? kUnit : 4 * kUnit;
+  // Twice the distance of the square from the map's centre, in finest squares.
+  const glm::ivec2 nearest =
+      glm::max(glm::abs(2 * square.corner + square.size - kAcross) - square.size, 0);
+  const int64_t distance2 = int64_t{nearest.x} * nearest.x + int64_t{nearest.y} * nearest.y;
+  const auto isWithin = [&](int64_t units) {
+    return distance2 < 4 * units * units * kUnit * kUnit;
+  };
+  if (stage_ == Stage::kRough) return isWithin(1) ? kUnit / 4 : isWithin(3) ? kUnit : 4 * kUnit;
   bool hits = false, within = false;
   for (const int32_t corner : square.corners) {
     if (corner < 0 || !sample(corner).hit) continue;
     hits = true;
     within = within || sample(corner).across < kAtRim * frame_.range;
   }
-  if (distance >= 3) return within ? kUnit : 4 * kUnit;
+  if (!isWithin(3)) return within ? kUnit : 4 * kUnit;
   const bool large = kUnit / 8 * frame_.range > kSurfaceMetres * kUnit;
   if (within) return large ? kUnit / 16 : kUnit / 8;
-  return distance < 1 ? kUnit / 8 : hits ? kUnit / 4 : kUnit;
+  return isWithin(1) ? kUnit / 8 : hits ? kUnit / 4 : kUnit;
 }
 
 // Width at which a square is not divided further, whatever it sees.
@@ -276,7 +302,8 @@ void Survey::divide(int32_t index) {
   at(index).kind = Kind::kDivided;
   at(index).children = first;
   for (int32_t i = 0; i < 4; ++i) {
-    squares_.push_back({.corner = corner + half * glm::ivec2(i & 1, i >> 1), .size = half});
+    squares_.push_back(
+        {.corner = corner + half * glm::ivec2(i & 1, i >> 1), .size = half, .parent = index});
     undecided_.push_back(first + i);
   }
 }

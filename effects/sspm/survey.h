@@ -102,21 +102,37 @@ class Survey {
     kTwoPlanes,
     kSeveral
   };
+  enum class Side : uint8_t { kFar, kNear, kNeither };
   // A square of the map under construction. Sizes and corners count finest squares.
   struct Square {
     glm::ivec2 corner = glm::ivec2(0);
     int32_t size = 0;
     Kind kind = Kind::kUndecided;
     bool ragged = false;    // contains a depth discontinuity
-    bool told = false;      // doubt() has told its neighbours
     bool doubtful = false;  // lies beside one
     bool blocked = false;   // something is in front of the plane that its corners see
     enum class Step : uint8_t { kPlane, kCrease, kSilhouette } step = Step::kPlane;
+    int32_t parent = -1;
     int32_t children = -1;                              // index of the first of four, by rows
     int32_t first = -1, second = -1;                    // samples of its planes
     std::array<int32_t, 4> corners = {-1, -1, -1, -1};  // samples, by rows
+    // Samples that its children share: in the middle of its sides and of itself, by rows.
+    std::array<int32_t, 5> middles = {-1, -1, -1, -1, -1};
     MapLine line = {};
-    float shift = 0;  // of the first plane towards what lies behind it, metres
+    float shift = 0;          // of the first plane towards what lies behind it, metres
+    int32_t silhouette = -1;  // index into silhouettes_
+  };
+  // Bisection of one side of a square, from what one of its corners sees.
+  struct Bisection {
+    glm::ivec2 from = glm::ivec2(0), to = glm::ivec2(0);
+    Side start = Side::kNeither;
+    int32_t last = 0;     // width of the last interval
+    int32_t middle = -1;  // sample between `from` and `to`
+  };
+  // Where a silhouette crosses two sides of a square, as far as rays have found it.
+  struct Silhouette {
+    std::array<Bisection, 2> crossings = {};
+    glm::vec2 towards = glm::vec2(0);  // from the far corners to the near ones, units
   };
   // Two planes that may divide a square, as samples. `far` lies behind.
   struct Pair {
@@ -124,7 +140,6 @@ class Survey {
   };
   // For each corner of a square, how far the hits of all corners are from its plane: see misfit().
   using Misfits = std::array<std::array<float, 4>, 4>;
-  enum class Side : uint8_t { kFar, kNear, kNeither };
   enum class Found : uint8_t { kYes, kNo, kWait };  // kWait: rays were asked for
   struct SeenPlane {
     const Sample* sample;
@@ -140,6 +155,7 @@ class Survey {
   bool probed();
   size_t countUnknown(float within) const;
   int32_t ask(const glm::ivec2& place);
+  int32_t askCorner(const Square& square, int32_t index, size_t corner);
   glm::vec4 planeOf(const glm::vec3& normal, const glm::vec3& at) const;
   void writeRays();
   void start();
@@ -166,9 +182,9 @@ class Survey {
   bool findPair(Square& square, const Misfits& misfits) const;
   Side sideOf(const Pair& pair, int32_t index) const;
   bool findCrease(const Square& square, const Pair& pair, MapLine& line) const;
-  Found findSilhouette(const Square& square, const Pair& pair, MapLine& line);
-  Found findCrossing(const Pair& pair, glm::ivec2 from, glm::ivec2 to, Side start,
-                     glm::vec2& crossing);
+  bool startSilhouette(Square& square, const Pair& pair);
+  Found findSilhouette(Square& square, const Pair& pair);
+  Found narrow(const Pair& pair, Bisection& side);
   Found confirm(const Square& square, const Pair& pair, const MapLine& line);
   void settle(Square& square);
 
@@ -193,13 +209,15 @@ class Survey {
   std::vector<Sample> samples_;
   // Hash table of samples_ by place, with linear probing.
   struct Slot {
-    glm::ivec2 place = glm::ivec2(0);
+    uint32_t place = 0;   // x, and y << 16
     int32_t sample = -1;  // -1: free
   };
   std::vector<Slot> slots_;
   std::vector<Square> squares_;
+  std::vector<Silhouette> silhouettes_;
   std::vector<int32_t> undecided_;
-  std::vector<int32_t> asked_;  // samples of rays_, in order
+  std::vector<int32_t> ragged_;  // squares of which doubt() has not told their neighbours
+  std::vector<int32_t> asked_;   // samples of rays_, in order
   std::vector<grisaille_ray> rays_;
 };
 

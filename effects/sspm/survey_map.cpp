@@ -3,6 +3,7 @@
 #include <algorithm>
 #include <array>
 #include <cmath>
+#include <optional>
 #include <unordered_map>
 #include <utility>
 
@@ -125,7 +126,7 @@ class Survey::Writer {
   struct Piece {
     glm::vec2 at;
     float area;
-    size_t plane;  // index into the planes of a Mix
+    uint32_t plane;  // index into the planes of a Mix
   };
   // What a divided square sees within range.
   struct Mix {
@@ -134,13 +135,16 @@ class Survey::Writer {
     bool told = true;  // the host could tell all of it
   };
 
-  void add(int32_t seen, float area, const glm::vec2& at, Mix& mix) const {
+  // Index of the plane of a sample.
+  uint32_t planeOf(int32_t seen, Mix& mix) const {
     const Sample& sample = survey_.sample(seen);
     const auto known = std::ranges::find_if(mix.planes, [&](const Sample* plane) {
-      return sspm::serves(plane->plane, sample.at, sample.plane, survey_.frame_.bias);
+      return plane == &sample ||
+             sspm::serves(plane->plane, sample.at, sample.plane, survey_.frame_.bias);
     });
-    mix.pieces.push_back({at, area, static_cast<size_t>(known - mix.planes.begin())});
+    const auto index = static_cast<uint32_t>(known - mix.planes.begin());
     if (known == mix.planes.end()) mix.planes.push_back(&sample);
+    return index;
   }
 
   void gather(int32_t index, Mix& mix) const {
@@ -157,14 +161,17 @@ class Survey::Writer {
       return;
     }
     if (square.kind == Kind::kTwoPlanes) {
+      std::array<std::optional<uint32_t>, 2> planes;
       for (int i = 0; i < 16; ++i) {
         const glm::vec2 inSquare = (glm::vec2(i % 4, i / 4) + 0.5f) / 4.0f;
         const glm::vec2 place = unitsOf(square.corner) + inSquare * size;
         const bool second = glm::dot(square.line.normal, place) > square.line.offset;
-        add(second ? square.second : square.first, size * size / 16, place, mix);
+        std::optional<uint32_t>& plane = planes[second ? 1 : 0];
+        if (!plane) plane = planeOf(second ? square.second : square.first, mix);
+        mix.pieces.push_back({place, size * size / 16, *plane});
       }
     } else if (square.first >= 0) {
-      add(square.first, size * size, survey_.centreOf(square), mix);
+      mix.pieces.push_back({survey_.centreOf(square), size * size, planeOf(square.first, mix)});
     }
   }
 
@@ -207,7 +214,10 @@ class Survey::Writer {
   bool isCoarse(int32_t index, uint32_t& reference) {
     const Square& square = survey_.at(index);
     if (square.size > std::max(kCoarseLargest, least_)) return false;
-    Mix mix;
+    Mix& mix = mix_;
+    mix.planes.clear();
+    mix.pieces.clear();
+    mix.told = true;
     gather(index, mix);
     if (!mix.told) return false;
     reference = kOpen;
@@ -222,6 +232,7 @@ class Survey::Writer {
     float sum = 0;
     for (const float area : areas) sum += area;
     const size_t b = largest();
+    if (square.size > least_ && sum - areas[b] > most_) return false;
     float wrong = sum;
     MapLine line;
     const bool divided =
@@ -353,6 +364,7 @@ class Survey::Writer {
   const float most_;
   bool full_ = false;
   ShotMap map_;
+  Mix mix_;                                        // of isCoarse(), which keeps its memory
   std::vector<Line> lines_;                        // the last lines, newest last
   std::vector<glm::vec4> recent_;                  // the last planes used, newest last
   std::unordered_map<uint64_t, uint32_t> planes_;  // references by the words of a block

@@ -4,6 +4,7 @@
 #include <array>
 #include <cmath>
 #include <limits>
+#include <utility>
 
 #include "survey.h"
 #include "survey_slopes.h"
@@ -26,24 +27,26 @@ float nearness(const ShotFrame& frame, const glm::vec4& plane, const glm::vec2& 
 
 // Decides what a square sees, or divides it. Returns false if it asked for rays.
 bool Survey::decide(int32_t index) {
-  Square square = at(index);
+  Square& square = at(index);  // valid until divide()
+  if (square.corners[0] < 0 && square.size <= grainAt(square)) {
+    for (size_t i = 0; i < 4; ++i) square.corners[i] = askCorner(square, index, i);
+  }
   bool told = true, unknown = false, hit = false, within = false;
-  if (square.size <= grainAt(square)) {
-    for (int32_t i = 0; i < 4; ++i) {
-      int32_t& corner = square.corners[static_cast<size_t>(i)];
-      if (corner < 0) corner = ask(square.corner + square.size * glm::ivec2(i & 1, i >> 1));
-      told = told && sample(corner).told;
-      unknown = unknown || sample(corner).unknown;
-      hit = hit || sample(corner).hit;
-      within = within || inRange(sample(corner));
+  if (square.corners[0] >= 0) {
+    for (const int32_t corner : square.corners) {
+      const Sample& seen = sample(corner);
+      told = told && seen.told;
+      unknown = unknown || seen.unknown;
+      hit = hit || seen.hit;
+      within = within || inRange(seen);
     }
-    at(index).corners = square.corners;
     if (!told) return false;
   }
   if (square.size > grainAt(square)) {
     divide(index);
     return true;
   }
+  const bool wasRagged = square.ragged;
   Found found = Found::kYes;
   if (square.step != Square::Step::kPlane) {
     found = findLine(square);
@@ -55,20 +58,18 @@ bool Survey::decide(int32_t index) {
     const bool divides = found == Found::kNo && stage_ == Stage::kFine && !square.blocked;
     if (divides && findPair(square, misfits)) found = findLine(square);
   }
-  if (found == Found::kWait) {
-    at(index) = square;
-    at(index).kind = Kind::kUndecided;
-    return false;
-  }
   if (found == Found::kNo) {
     if (stage_ == Stage::kFine && square.size > finestAt(square)) {
+      square.ragged = wasRagged;
       divide(index);
       return true;
     }
     settle(square);
   }
-  at(index) = square;
-  return true;
+  if (square.ragged && !wasRagged) ragged_.push_back(index);
+  if (found != Found::kWait) return true;
+  square.kind = Kind::kUndecided;
+  return false;
 }
 
 // How far the hit of a sample is from the plane of another, in shares of what a leaf may have. Both
@@ -177,7 +178,7 @@ Survey::Found Survey::findLine(Square& square) {
     square.step = Step::kSilhouette;
   }
   square.ragged = true;
-  const Found found = findSilhouette(square, pair, square.line);
+  const Found found = findSilhouette(square, pair);
   return found == Found::kYes ? confirm(square, pair, square.line) : found;
 }
 
@@ -233,52 +234,68 @@ bool Survey::findCrease(const Square& square, const Pair& pair, MapLine& line) c
   return true;
 }
 
-// The line along which the near surface ends before the far one.
-Survey::Found Survey::findSilhouette(const Square& square, const Pair& pair, MapLine& line) {
+// Starts the search for the line along which the near surface ends before the far one. Returns
+// false if it does not cross two sides.
+bool Survey::startSilhouette(Square& square, const Pair& pair) {
   std::array<Side, 4> sides;
   std::array<glm::vec2, 2> sum = {glm::vec2(0), glm::vec2(0)};  // of the far and near corners
   std::array<float, 2> corners = {0, 0};
   for (size_t i = 0; i < 4; ++i) {
     sides[i] = sideOf(pair, square.corners[i]);
-    if (sides[i] == Side::kNeither) return Found::kNo;
+    if (sides[i] == Side::kNeither) return false;
     const size_t side = sides[i] == Side::kNear ? 1 : 0;
     sum[side] += unitsOf(sample(square.corners[i]).place);
     corners[side] += 1;
   }
-  std::array<glm::vec2, 4> crossings;
+  Silhouette found;
   size_t count = 0;
-  bool wait = false;
   for (size_t i = 0; i < 4; ++i) {
     const size_t a = kAround[i], b = kAround[(i + 1) % 4];
     if (sides[a] == sides[b]) continue;
-    const Found found = findCrossing(pair, sample(square.corners[a]).place,
-                                     sample(square.corners[b]).place, sides[a], crossings[count++]);
+    if (count == 2) return false;
+    const glm::ivec2 from = sample(square.corners[a]).place;
+    const bool rough = isCoarse() || glm::length(unitsOf(from)) > 4;
+    found.crossings[count++] = {.from = from,
+                                .to = sample(square.corners[b]).place,
+                                .start = sides[a],
+                                .last = rough ? std::max(finest_, kFinestAUnit / 64) : finest_};
+  }
+  if (count != 2) return false;
+  found.towards = sum[1] / corners[1] - sum[0] / corners[0];
+  square.silhouette = static_cast<int32_t>(silhouettes_.size());
+  silhouettes_.push_back(found);
+  return true;
+}
+
+Survey::Found Survey::findSilhouette(Square& square, const Pair& pair) {
+  if (square.silhouette < 0 && !startSilhouette(square, pair)) return Found::kNo;
+  Silhouette& silhouette = silhouettes_[static_cast<size_t>(square.silhouette)];
+  std::array<glm::vec2, 2> crossings;
+  bool wait = false;
+  for (size_t i = 0; i < 2; ++i) {
+    Bisection& side = silhouette.crossings[i];
+    const Found found = narrow(pair, side);
     if (found == Found::kNo) return found;
     wait = wait || found == Found::kWait;
+    crossings[i] = (unitsOf(side.from) + unitsOf(side.to)) / 2.0f;
   }
-  if (count != 2) return Found::kNo;
   if (wait) return Found::kWait;
   if (glm::distance(crossings[0], crossings[1]) < 1e-4f) return Found::kNo;
-  const glm::vec2 towards = sum[1] / corners[1] - sum[0] / corners[0];
   const glm::vec2 middle = (crossings[0] + crossings[1]) / 2.0f;
-  line = lineThrough(crossings[0], crossings[1], middle + towards);
+  square.line = lineThrough(crossings[0], crossings[1], middle + silhouette.towards);
   return Found::kYes;
 }
 
-// Where a silhouette crosses the side of a square, by bisection. start: what `from` sees.
-Survey::Found Survey::findCrossing(const Pair& pair, glm::ivec2 from, glm::ivec2 to, Side start,
-                                   glm::vec2& crossing) {
-  const bool rough = isCoarse() || glm::length(unitsOf(from)) > 4;
-  const int32_t last = rough ? std::max(finest_, kFinestAUnit / 64) : finest_;
-  while (std::abs(to.x - from.x) + std::abs(to.y - from.y) > last) {
-    const glm::ivec2 middle = (from + to) / 2;
-    const int32_t index = ask(middle);
-    if (!sample(index).told) return Found::kWait;
-    const Side side = sideOf(pair, index);
-    if (side == Side::kNeither) return Found::kNo;
-    (side == start ? from : to) = middle;
+// Bisects a side of a square as far as rays are known.
+Survey::Found Survey::narrow(const Pair& pair, Bisection& side) {
+  while (std::abs(side.to.x - side.from.x) + std::abs(side.to.y - side.from.y) > side.last) {
+    const glm::ivec2 middle = (side.from + side.to) / 2;
+    if (side.middle < 0) side.middle = ask(middle);
+    if (!sample(side.middle).told) return Found::kWait;
+    const Side seen = sideOf(pair, std::exchange(side.middle, -1));
+    if (seen == Side::kNeither) return Found::kNo;
+    (seen == side.start ? side.from : side.to) = middle;
   }
-  crossing = (unitsOf(from) + unitsOf(to)) / 2.0f;
   return Found::kYes;
 }
 
