@@ -20,6 +20,7 @@ constexpr uint64_t kFullShare = 32;       // of the limit: paint is about to go 
 constexpr uint64_t kPlanShare = 4;        // of the limit: when the array of maps is planned
 constexpr double kMapsLeft = 0.42;        // of maps, once all but the newest quarter are coarse
 constexpr double kListsLeft = 1.25;       // of lists, with the copies that they need to grow
+constexpr double kListsPlanned = 0.65;    // of lists on the device: cells have more shots each
 
 }  // namespace
 
@@ -175,8 +176,9 @@ bool PaintWorld::isFull() const {
 }
 
 // Near the limit there is no room for the old array of maps beside a larger one. So it grows early,
-// to the share of the limit that maps will have beside the lists.
-void PaintWorld::planMaps() {
+// to the share of the limit that maps will have beside the lists. The array of lists grows with it,
+// as much: no later frame has to wait for its copy.
+void PaintWorld::planArrays() {
   if (plannedFor_ == limit_) return;
   const uint64_t space = limit_ - std::min(limit_, kWorkBytes), all = bytes() - kWorkBytes;
   if (all < space / kPlanShare) return;
@@ -186,13 +188,17 @@ void PaintWorld::planMaps() {
   const double lists = kListsLeft * static_cast<double>(all - std::min(all, mapBytes));
   const double planned = static_cast<double>(space) * maps / (maps + lists);
   blocks_.plan(static_cast<uint64_t>(planned) / sizeof(uint32_t));
+  const double growth = planned / std::max(maps, 1.0);
+  for (DeviceWords* words : {&cells_.words(), &records_}) {
+    words->plan(static_cast<uint64_t>(growth * kListsPlanned * static_cast<double>(words->size())));
+  }
 }
 
 // Keeps the memory below the limit. Where maps are too many, the oldest get coarser. Where that is
 // not enough, or lists are too many, the oldest shots go; but a pass that may find hidden ones
 // comes first.
 void PaintWorld::keepWithin() {
-  planMaps();
+  planArrays();
   const bool waits = thinning_.isActive() || isThinningDue();
   if (lacks_ != Lacks::kNothing && !coarsen() && lacks_ == Lacks::kCoarse && !waits) giveUpOldest();
   lacks_ = Lacks::kNothing;

@@ -14,6 +14,8 @@ namespace {
 
 constexpr uint64_t kWaitingShare = 32;  // of the limit: what may wait for its upload
 constexpr double kUploadMemory = 0.9;   // share of the longest upload that each frame leaves
+// What is left for steps that take longer than their likes: share of the patience, and seconds.
+constexpr double kLateShare = 0.25, kMostLate = 0.002;
 // Of a record's root; same as in shaders/sspm/walk.glsl.
 constexpr uint32_t kCoarse = 1u << 16, kMapRangeShift = 17;
 constexpr size_t kFewSpots = 512, kManySpots = 8192;  // that thin() looks at without a pause
@@ -52,8 +54,9 @@ size_t PaintWorld::update(std::span<const Shot> shots, size_t kept, const PaintR
   follow(shots, kept, rules, limit);
   std::vector<uint32_t> unknown;
   askAgain(sight);
-  // Also after a large upload, half of the patience is for placing.
-  const double placing = patience - std::min(uploadTime_, patience / 2);
+  // Also after a large upload, a fourth of the patience or more is for placing.
+  const double late = std::min(kLateShare * patience, kMostLate);
+  const double placing = patience - late - std::min(uploadTime_, patience / 2);
   const auto left = [&] { return placing - secondsSince(start); };
   const size_t spots = std::isfinite(patience) ? kFewSpots : kManySpots;
   bool must = true;  // the first step, however long it takes

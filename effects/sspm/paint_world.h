@@ -123,6 +123,15 @@ class PaintWorld {
 
     bool isCoarse() const { return exact.blocks == 0 && coarse.blocks > 0; }
   };
+  // What tasks of a step take, in units of a ray among many.
+  struct Effort {
+    double shared = 0;   // by all threads together, or while the others wait
+    double alone = 0;    // by one thread for each task
+    double largest = 0;  // of these: of one task
+
+    Effort with(const Effort& task) const;
+    double rays() const;
+  };
   // A shot under survey.
   struct Work {
     uint32_t id;
@@ -144,8 +153,8 @@ class PaintWorld {
       return told && survey.isRough() && survey.rays().empty() && !grid;
     }
     // Of a round of rays, and of one part of the survey.
-    double roundEffort() const;
-    double partEffort(int part) const;
+    Effort roundEffort() const;
+    Effort partEffort(int part) const;
   };
   // What is taken of a complete survey, in this order.
   enum Part : int { kShares, kCoarseMap, kExactMap, kParts };
@@ -153,10 +162,10 @@ class PaintWorld {
     Work* work;
     int part;
   };
-  // How fast steps go. Effort is counted in rays.
+  // How fast steps go.
   struct Pace {
     double spent = 0;   // seconds, of the last steps
-    double effort = 0;  // of the same steps
+    double effort = 0;  // of the same steps; rays
 
     double effortIn(double seconds) const;
     void note(double seconds, double done);
@@ -251,7 +260,7 @@ class PaintWorld {
   bool fits(const ShotMap& map) const;
   bool isScarce() const;
   bool isFull() const;
-  void planMaps();
+  void planArrays();
   void keepWithin();
   bool coarsen();
   bool giveUpOldest();
@@ -314,7 +323,7 @@ class PaintWorld {
   Pace pace_;
   double uploadTime_ = 0;    // seconds, of the longest of the last uploads
   uint64_t limit_ = 0;       // bytes
-  uint64_t plannedFor_ = 0;  // limit for which planMaps() has planned; 0: not yet
+  uint64_t plannedFor_ = 0;  // limit for which planArrays() has planned; 0: not yet
   enum class Lacks : uint8_t { kNothing, kExact, kCoarse };
   Lacks lacks_ = Lacks::kNothing;  // space for a map, since the last keepWithin()
   bool reserves_ = false;          // leaves a part of the limit to the next undo

@@ -4,6 +4,7 @@
 #include <algorithm>
 #include <chrono>
 #include <cmath>
+#include <thread>
 
 #include "paint_world.h"
 #include "threads.h"
@@ -15,9 +16,10 @@ constexpr size_t kMostWork = 64;       // shots under survey at the same time
 constexpr double kMostEffort = 16384;  // of a step, except for a single shot
 constexpr double kLeastEffort = 256;
 constexpr double kRoundEffort = 24;   // of a round of a shot's rays, beside the rays; rays
-constexpr double kPlaceEffort = 160;  // of listing a surveyed shot in its cells; rays
+constexpr double kPlaceEffort = 240;  // of listing a surveyed shot in its cells; rays
+constexpr double kCastShare = 0.4;    // of a ray's effort, for the host's cast
 // Of the parts of a survey, for each of its rays.
-constexpr double kPartEffort[] = {0.35, 0.35, 0.2};
+constexpr double kPartEffort[] = {0.3, 0.18, 0.16};
 constexpr double kPaceMemory = 0.9;  // share of the mean that each step leaves
 constexpr double kAim = 0.85;        // of the time left, for a step: some take twice the mean
 constexpr int kMostAsks = 4;         // frames in a row that ask for one shot's depth pictures
@@ -35,13 +37,26 @@ void PaintWorld::Pace::note(double seconds, double done) {
   effort = kPaceMemory * effort + done;
 }
 
-double PaintWorld::Work::roundEffort() const {
-  return kRoundEffort + static_cast<double>(survey.rays().size());
+PaintWorld::Effort PaintWorld::Work::roundEffort() const {
+  const auto rays = static_cast<double>(survey.rays().size());
+  return {.shared = kRoundEffort + kCastShare * rays, .alone = (1 - kCastShare) * rays};
 }
 
-double PaintWorld::Work::partEffort(int part) const {
-  const double taken = kPartEffort[part] * static_cast<double>(survey.cast());
-  return taken + (part + 1 == kParts ? kPlaceEffort : 0);
+PaintWorld::Effort PaintWorld::Work::partEffort(int part) const {
+  return {.shared = part + 1 == kParts ? kPlaceEffort : 0,
+          .alone = kPartEffort[part] * static_cast<double>(survey.cast())};
+}
+
+// Adds a task. Threads that have ended theirs wait for the largest one.
+PaintWorld::Effort PaintWorld::Effort::with(const Effort& task) const {
+  return {.shared = shared + task.shared,
+          .alone = alone + task.alone,
+          .largest = std::max(largest, task.alone)};
+}
+
+double PaintWorld::Effort::rays() const {
+  static const double threads = std::max(1u, std::thread::hardware_concurrency());
+  return shared + std::max(alone, threads * largest);
 }
 
 // Takes the newest pending shots one step further: each by a round of rays, or by some of the parts
@@ -55,10 +70,11 @@ bool PaintWorld::step(double most, bool must, const Sight& sight, std::vector<ui
   refill();
   std::vector<Work*> now, asked, surveyed;
   std::vector<Task> tasks;
-  double effort = 0;
-  const auto fits = [&](double more) {
-    if (effort + more > most && !(effort == 0 && must)) return false;
-    effort += more;
+  Effort effort;
+  const auto fits = [&](const Effort& more) {
+    const Effort sum = effort.with(more);
+    if (sum.rays() > most && !(effort.rays() == 0 && must)) return false;
+    effort = sum;
     return true;
   };
   for (Work& work : work_) {
@@ -87,7 +103,7 @@ bool PaintWorld::step(double most, bool must, const Sight& sight, std::vector<ui
     if (!advance(work, unknown)) work.id = kNone;
   }
   std::erase_if(work_, [](const Work& work) { return work.id == kNone; });
-  pace_.note(secondsSince(start), effort);
+  pace_.note(secondsSince(start), effort.rays());
   return !late;
 }
 

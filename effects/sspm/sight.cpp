@@ -38,7 +38,7 @@ bool PaintWorld::castFor(std::span<Work* const> works, std::span<Task> tasks,
   const bool can = works.empty() || cast(rays, hits);
   // The largest first, so that threads end together.
   std::ranges::sort(tasks, std::ranges::greater(),
-                    [](const Task& task) { return task.work->partEffort(task.part); });
+                    [](const Task& task) { return task.work->partEffort(task.part).alone; });
   onAllThreads(tasks.size() + (can ? works.size() : 0), [&](size_t i) {
     if (i < tasks.size()) {
       take(tasks[i]);

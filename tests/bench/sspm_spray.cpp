@@ -16,7 +16,7 @@ namespace {
 
 constexpr double kSprayPatience = 0.004;  // seconds a frame for placing
 constexpr size_t kSprayFrames = 300;
-constexpr std::array<size_t, 2> kSprayed = {1, 10};  // shots a frame
+constexpr std::array<size_t, 3> kSprayed = {0, 1, 10};  // shots a frame; none: the machine's noise
 
 struct Spray {
   std::vector<double> more;  // milliseconds by which a frame takes longer than one before it
@@ -70,9 +70,9 @@ void printSpray(const std::string& backend, const Subject& subject,
   const Painted::View view = {subject.cameras[0], kWidth, kHeight, kSprayPatience};
   fmt::print(
       "## {}, {}: spray\n\n"
-      "{} frames of few pixels, with {:.0f} ms for placing, beside {} shots. How much longer than "
-      "a "
-      "frame\nwithout new shots they take.\n\n"
+      "{} frames of few pixels, with {:.0f} ms for placing, beside {} shots. How much longer they "
+      "take than the\nmedian of frames without new shots. The first row has none: it is the "
+      "machine's noise.\n\n"
       "| shots a frame | median, ms | 9 of 10 at most, ms | 99 of 100 at most, ms | all at most, "
       "ms "
       "| shots that wait in the end | frames until they are placed "
