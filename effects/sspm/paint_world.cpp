@@ -14,6 +14,8 @@ namespace {
 
 constexpr uint64_t kWaitingShare = 32;  // of the limit: what may wait for its upload
 constexpr double kUploadMemory = 0.9;   // share of the longest upload that each frame leaves
+// Seconds of a step: short ones complete the newest shots before others begin.
+constexpr double kLongestStep = 0.002;
 // What is left for steps that take longer than their likes: share of the patience, and seconds.
 constexpr double kLateShare = 0.25, kMostLate = 0.002;
 // Of a record's root; same as in shaders/sspm/walk.glsl.
@@ -50,8 +52,13 @@ void PaintWorld::follow(std::span<const Shot> shots, size_t kept, const PaintRul
 
 size_t PaintWorld::update(std::span<const Shot> shots, size_t kept, const PaintRules& rules,
                           double patience, uint64_t limit, const Sight& sight) {
-  const auto start = std::chrono::steady_clock::now();
+  const auto before = std::chrono::steady_clock::now();
   follow(shots, kept, rules, limit);
+  // To follow a list of a million takes most of a frame's patience; its first paint shows all the
+  // same.
+  const auto start = std::chrono::steady_clock::now();
+  patience =
+      std::max(patience - std::chrono::duration<double>(start - before).count(), patience / 2);
   std::vector<uint32_t> unknown;
   askAgain(sight);
   // Also after a large upload, a fourth of the patience or more is for placing.
@@ -59,9 +66,10 @@ size_t PaintWorld::update(std::span<const Shot> shots, size_t kept, const PaintR
   const double placing = patience - late - std::min(uploadTime_, patience / 2);
   const auto left = [&] { return placing - secondsSince(start); };
   const size_t spots = std::isfinite(patience) ? kFewSpots : kManySpots;
+  const double longest = std::isfinite(patience) ? kLongestStep : patience;
   bool must = true;  // the first step, however long it takes
-  while (!(thinning_.isActive() && isFull()) &&
-         step(pace_.effortIn(left()), std::exchange(must, false), sight, unknown)) {
+  while (!(thinning_.isActive() && isFull()) && step(pace_.effortIn(std::min(left(), longest)),
+                                                     std::exchange(must, false), sight, unknown)) {
     while (thin(sight.cast, spots) && left() > 0) continue;
     while (isFull() && sweep()) continue;
     keepWithin();

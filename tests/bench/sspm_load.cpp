@@ -45,9 +45,10 @@ void printLoad(const std::string& backend, const Subject& subject, const effect:
   const auto device = backends::create(backend, {});
   fmt::print(
       "## {}, {}: a file of shots\n\n"
-      "Painted: pixels with paint in the first frame after the load, which has {:.0f} ms for "
-      "placing.\n\n"
-      "| shots | file, MB | to read it, s | first frame, ms | painted |\n|---|---|---|---|---|\n",
+      "The first frame after the load has {:.0f} ms for placing. Placed: shots that it shows, the "
+      "newest.\nPainted: its pixels with paint, on the first camera.\n\n"
+      "| shots | file, MB | to read it, s | first frame, ms | placed | painted "
+      "|\n|---|---|---|---|---|---|\n",
       subject.name, backend, 1000 * kLoadPatience);
   for (const size_t count : counts) {
     if (count > shots.size()) continue;
@@ -63,8 +64,8 @@ void printLoad(const std::string& backend, const Subject& subject, const effect:
     const image::Image coverage = painted.read("sspm.paint_coverage");
     const auto covered =
         std::ranges::count_if(coverage.pixels, [](float value) { return value > 0; });
-    fmt::print("| {} | {:.0f} | {:.2f} | {:.0f} | {:.1f} % |\n", count, file.megabytes(), read,
-               first,
+    fmt::print("| {} | {:.0f} | {:.2f} | {:.0f} | {} | {:.2f} % |\n", count, file.megabytes(), read,
+               first, count - painted.report().waiting,
                100 * static_cast<double>(covered) / static_cast<double>(coverage.pixels.size()));
     std::fflush(stdout);
   }
