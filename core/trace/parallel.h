@@ -22,7 +22,7 @@ constexpr size_t kBlocksAThread = 4;
 // data of its own indices, which makes the results the same for any number of threads.
 //
 // The threads end with the loop. TBB's search for more work meanwhile, and take a core from the
-// caller's own threads: paint in Sponza took 14 % longer to place with them.
+// caller's own threads, such as those of an effect between its rays.
 template <typename Work>
 void forEachBlock(size_t total, const Work& work) {
   const size_t blocks = (total + kBlock - 1) / kBlock;

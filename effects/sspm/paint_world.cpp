@@ -7,6 +7,7 @@
 #include <bit>
 #include <chrono>
 #include <cmath>
+#include <limits>
 #include <utility>
 
 namespace grisaille::sspm {
@@ -67,9 +68,10 @@ size_t PaintWorld::update(std::span<const Shot> shots, size_t kept, const PaintR
   const auto left = [&] { return placing - secondsSince(start); };
   const size_t spots = std::isfinite(patience) ? kFewSpots : kManySpots;
   const double longest = std::isfinite(patience) ? kLongestStep : patience;
-  bool must = true;  // the first step, however long it takes
-  while (!(thinning_.isActive() && isFull()) && step(pace_.effortIn(std::min(left(), longest)),
-                                                     std::exchange(must, false), sight, unknown)) {
+  double alone = std::numeric_limits<double>::infinity();  // the first step, however long it takes
+  while (!(thinning_.isActive() && isFull()) &&
+         step(pace_.effortIn(std::min(left(), longest)), alone, sight, unknown)) {
+    alone = pace_.mostIn(left());
     while (thin(sight.cast, spots) && left() > 0) continue;
     while (isFull() && sweep()) continue;
     keepWithin();

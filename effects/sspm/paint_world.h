@@ -168,6 +168,7 @@ class PaintWorld {
     double effort = 0;  // of the same steps; rays
 
     double effortIn(double seconds) const;
+    double mostIn(double seconds) const;
     void note(double seconds, double done);
   };
   // What the limit of memory costs: older shots are given up, or have coarse maps.
@@ -203,7 +204,7 @@ class PaintWorld {
   void writeRecord(uint32_t record);
 
   // placing.cpp
-  bool step(double most, bool must, const Sight& sight, std::vector<uint32_t>& unknown);
+  bool step(double most, double alone, const Sight& sight, std::vector<uint32_t>& unknown);
   void refine(Work& work);
   bool advance(Work& work, std::vector<uint32_t>& unknown);
   void sortPending();

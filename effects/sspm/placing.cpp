@@ -26,10 +26,14 @@ constexpr int kMostAsks = 4;         // frames in a row that ask for one shot's 
 
 }  // namespace
 
-// Effort that takes about `seconds`.
+// Effort that takes about `seconds`, for tasks of several shots.
 double PaintWorld::Pace::effortIn(double seconds) const {
-  const double most = effort > 0 ? kAim * seconds * effort / spent : kLeastEffort;
-  return std::clamp(most, kLeastEffort, kMostEffort);
+  return std::clamp(mostIn(seconds), kLeastEffort, kMostEffort);
+}
+
+// The same for one task of one shot.
+double PaintWorld::Pace::mostIn(double seconds) const {
+  return effort > 0 ? kAim * seconds * effort / spent : kLeastEffort;
 }
 
 void PaintWorld::Pace::note(double seconds, double done) {
@@ -63,9 +67,11 @@ double PaintWorld::Effort::rays() const {
 // of its survey. Returns false if no shot is pending, if all of
 // them take too long, if the host can tell nothing, or if it does not have the depth pictures of a
 // shot yet: others would only make it draw more pictures at a time.
-// most: effort after which no further shot takes part; rays. must: the newest takes part anyway.
+// most: effort after which no further shot takes part. alone: effort up to which the newest takes
+// part anyway. Both in rays.
 // unknown: gets the shots of which the host cannot tell yet.
-bool PaintWorld::step(double most, bool must, const Sight& sight, std::vector<uint32_t>& unknown) {
+bool PaintWorld::step(double most, double alone, const Sight& sight,
+                      std::vector<uint32_t>& unknown) {
   const auto start = std::chrono::steady_clock::now();
   refill();
   std::vector<Work*> now, asked, surveyed;
@@ -73,7 +79,7 @@ bool PaintWorld::step(double most, bool must, const Sight& sight, std::vector<ui
   Effort effort;
   const auto fits = [&](const Effort& more) {
     const Effort sum = effort.with(more);
-    if (sum.rays() > most && !(effort.rays() == 0 && must)) return false;
+    if (sum.rays() > (effort.rays() == 0 ? std::max(most, alone) : most)) return false;
     effort = sum;
     return true;
   };

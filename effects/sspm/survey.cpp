@@ -201,7 +201,8 @@ void Survey::writeRays() {
 
 size_t Survey::bytes() const {
   return samples_.capacity() * sizeof(Sample) + slots_.capacity() * sizeof(Slot) +
-         squares_.capacity() * sizeof(Square) + rays_.capacity() * sizeof(grisaille_ray);
+         squares_.capacity() * sizeof(Square) + silhouettes_.capacity() * sizeof(Silhouette) +
+         rays_.capacity() * sizeof(grisaille_ray);
 }
 
 size_t Survey::countUnknown(float within) const {
