@@ -12,14 +12,18 @@ namespace {
 
 thread_local size_t spared = 0;  // cores that loops of this thread leave to others
 
+struct SparesACore {
+  size_t before = std::exchange(spared, 1);
+  ~SparesACore() { spared = before; }
+};
+
 }  // namespace
 
 void leavingACore(const std::function<void()>& work) {
-  const size_t before = std::exchange(spared, 1);
+  const SparesACore spares;  // also until `work` throws
   // Embree builds its hierarchies in the arena of the thread that asks for them.
   tbb::task_arena arena(static_cast<int>(loopThreads()));
   arena.execute(work);
-  spared = before;
 }
 
 size_t loopThreads() {
