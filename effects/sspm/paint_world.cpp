@@ -17,7 +17,7 @@ constexpr uint64_t kWaitingShare = 32;  // of the limit: what may wait for its u
 constexpr double kUploadMemory = 0.9;   // share of the longest upload that each frame leaves
 // Seconds of a step: short ones complete the newest shots before others begin.
 constexpr double kLongestStep = 0.002;
-// What is left for steps that take longer than their likes: share of the patience, and seconds.
+// What is left for steps that take longer than usual: share of the patience, and seconds.
 constexpr double kLateShare = 0.25, kMostLate = 0.002;
 // Of a record's root; same as in shaders/sspm/walk.glsl.
 constexpr uint32_t kCoarse = 1u << 16, kMapRangeShift = 17;
@@ -53,13 +53,8 @@ void PaintWorld::follow(std::span<const Shot> shots, size_t kept, const PaintRul
 
 size_t PaintWorld::update(std::span<const Shot> shots, size_t kept, const PaintRules& rules,
                           double patience, uint64_t limit, const Sight& sight) {
-  const auto before = std::chrono::steady_clock::now();
-  follow(shots, kept, rules, limit);
-  // To follow a list of a million takes most of a frame's patience; its first paint shows all the
-  // same.
   const auto start = std::chrono::steady_clock::now();
-  patience =
-      std::max(patience - std::chrono::duration<double>(start - before).count(), patience / 2);
+  follow(shots, kept, rules, limit);
   std::vector<uint32_t> unknown;
   askAgain(sight);
   // Also after a large upload, a fourth of the patience or more is for placing.

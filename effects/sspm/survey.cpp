@@ -162,21 +162,6 @@ int32_t Survey::ask(const glm::ivec2& place) {
   return slot.sample;
 }
 
-// The same for a corner of the square `index`. Looks first at what its parent knows.
-int32_t Survey::askCorner(const Square& square, int32_t index, size_t corner) {
-  const auto i = static_cast<int32_t>(corner);
-  const glm::ivec2 place = square.corner + square.size * glm::ivec2(i & 1, i >> 1);
-  if (square.parent < 0) return ask(place);
-  Square& parent = at(square.parent);
-  const int32_t child = index - parent.children;
-  if (child == i) return parent.corners[corner] >= 0 ? parent.corners[corner] : ask(place);
-  // Of the parent's 3x3 corners and middles, by rows: 1, 3, 4, 5 or 7.
-  const int32_t point = (child & 1) + (i & 1) + 3 * ((child >> 1) + (i >> 1));
-  int32_t& known = parent.middles[static_cast<size_t>((point + (point > 4 ? 1 : 0)) / 2)];
-  if (known < 0) known = ask(place);
-  return known;
-}
-
 Survey::Slot& Survey::slotOf(const glm::ivec2& place) {
   const size_t mask = slots_.size() - 1;
   const uint32_t wanted = packed(place);
@@ -303,8 +288,7 @@ void Survey::divide(int32_t index) {
   at(index).kind = Kind::kDivided;
   at(index).children = first;
   for (int32_t i = 0; i < 4; ++i) {
-    squares_.push_back(
-        {.corner = corner + half * glm::ivec2(i & 1, i >> 1), .size = half, .parent = index});
+    squares_.push_back({.corner = corner + half * glm::ivec2(i & 1, i >> 1), .size = half});
     undecided_.push_back(first + i);
   }
 }

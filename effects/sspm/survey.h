@@ -112,12 +112,9 @@ class Survey {
     bool doubtful = false;  // lies beside one
     bool blocked = false;   // something is in front of the plane that its corners see
     enum class Step : uint8_t { kPlane, kCrease, kSilhouette } step = Step::kPlane;
-    int32_t parent = -1;
     int32_t children = -1;                              // index of the first of four, by rows
     int32_t first = -1, second = -1;                    // samples of its planes
     std::array<int32_t, 4> corners = {-1, -1, -1, -1};  // samples, by rows
-    // Samples that its children share: in the middle of its sides and of itself, by rows.
-    std::array<int32_t, 5> middles = {-1, -1, -1, -1, -1};
     MapLine line = {};
     float shift = 0;          // of the first plane towards what lies behind it, metres
     int32_t silhouette = -1;  // index into silhouettes_
@@ -155,7 +152,6 @@ class Survey {
   bool probed();
   size_t countUnknown(float within) const;
   int32_t ask(const glm::ivec2& place);
-  int32_t askCorner(const Square& square, int32_t index, size_t corner);
   glm::vec4 planeOf(const glm::vec3& normal, const glm::vec3& at) const;
   void writeRays();
   void start();

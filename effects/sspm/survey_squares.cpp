@@ -29,7 +29,10 @@ float nearness(const ShotFrame& frame, const glm::vec4& plane, const glm::vec2& 
 bool Survey::decide(int32_t index) {
   Square& square = at(index);  // valid until divide()
   if (square.corners[0] < 0 && square.size <= grainAt(square)) {
-    for (size_t i = 0; i < 4; ++i) square.corners[i] = askCorner(square, index, i);
+    for (int32_t i = 0; i < 4; ++i) {
+      square.corners[static_cast<size_t>(i)] =
+          ask(square.corner + square.size * glm::ivec2(i & 1, i >> 1));
+    }
   }
   bool told = true, unknown = false, hit = false, within = false;
   if (square.corners[0] >= 0) {
