@@ -70,7 +70,8 @@ struct Cell {
   uint64_t sealed = 0;
   uint32_t sealedBelow = 0;
   uint32_t sealer = 0;
-  // The same of the pieces that thin() found covered.
+  // The same of the pieces that thin() found covered. `coverer` is at least the length of the list
+  // before that pass.
   uint32_t coveredBelow = 0;
   uint32_t coverer = 0;
   uint32_t pruneAt = 0;   // number of entries at which the next prune() pays

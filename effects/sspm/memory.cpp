@@ -288,7 +288,7 @@ void PaintWorld::takeUp(size_t shots) {
   const auto count = static_cast<uint32_t>(states_.size());
   for (uint32_t id = floors_.given = std::min(floors_.given, count);
        id < std::min(from.given, count); ++id) {
-    pending_.push_back(id);
+    if (!isLost(id)) pending_.push_back(id);
   }
   floors_.coarse = std::min(floors_.coarse, count);
   std::erase_if(work_, [&](const Work& work) {

@@ -40,7 +40,9 @@ void PaintWorld::follow(std::span<const Shot> shots, size_t kept, const PaintRul
   forget(tooLarge ? 0 : std::min({kept, shots.size(), states_.size()}), changed);
   if (std::exchange(limit_, limit) < limit) takeUp(0);
   // What an undo brings back may need a little more memory than it had: new shots leave some.
+  lengthBefore_ = std::min(lengthBefore_, static_cast<uint32_t>(states_.size()));
   if (shots.size() > states_.size()) {
+    lengthBefore_ = static_cast<uint32_t>(states_.size());
     reserves_ = true;
     turn_ = kNone;
   }
@@ -113,7 +115,6 @@ void PaintWorld::clear() {
   twins_.clear();
   placed_.clear();
   thinning_ = {};
-  thinned_ = 0;
   sampled_ = false;
   former_.clear();
   freeRecords_.clear();
@@ -130,7 +131,6 @@ void PaintWorld::forget(size_t count, Changed changed) {
   const bool allLost = changed != Changed::kNothing;
   if (count >= states_.size() && !allLost) return;
   thinning_ = {};
-  thinned_ = 0;
   sampled_ = sampled_ && !allLost;
   const size_t least = allLost ? 0 : count;
   std::vector<bool> gone(states_.size()), anew(states_.size());
@@ -140,10 +140,9 @@ void PaintWorld::forget(size_t count, Changed changed) {
                (changed == Changed::kRange && list_[id].range <= 0);
   }
   forgetTwins(anew, count);
-  if (allLost) {
-    for (Cell& cell : cells_.cells()) {
-      cell.unseal();
-    }
+  for (Cell& cell : cells_.cells()) {
+    const bool coveredSince = cell.coveredBelow > 0 && cell.coverer >= count;
+    if (allLost || coveredSince) cell.unseal();
   }
   erase(gone);
   placeAnew(anew, count);
@@ -171,6 +170,7 @@ void PaintWorld::erase(const std::vector<bool>& gone) {
   std::erase_if(pending_, [&](uint32_t id) { return static_cast<bool>(gone[id]); });
   for (uint32_t id = 0; id < gone.size(); ++id) {
     if (!gone[id]) continue;
+    const uint32_t lostTo = isLost(id) ? states_[id].lostTo : 0;
     for (const uint32_t record : {states_[id].record, id < former_.size() ? former_[id] : kNone}) {
       if (record == kNone) continue;
       Placed& placed = placed_[record];
@@ -178,7 +178,7 @@ void PaintWorld::erase(const std::vector<bool>& gone) {
       placed.cores = placed.others = 0;
       release(record);
     }
-    states_[id] = {};
+    states_[id] = {.lostTo = lostTo, .exact = states_[id].exact};
   }
 }
 

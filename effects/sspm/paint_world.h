@@ -100,8 +100,13 @@ class PaintWorld {
  private:
   static constexpr uint32_t kNone = ~0u;
   struct State {
-    uint32_t lostTo = 0;      // 1 + the newest shot that hides it in some cell; 0: none
+    // 0, or it is placed again once the list is shorter than this: 1 + the newest shot that hides
+    // it in some cell, or more if a pass of thin() has hidden it.
+    uint32_t lostTo = 0;
     uint32_t record = kNone;  // index into placed_
+    // Its last survey was for both maps. Where it is placed again, the next one is too, also if it
+    // is coarse then: a survey for the coarse map alone gives another coarse map.
+    bool exact = false;
   };
   // A map on the device.
   struct MapRun {
@@ -171,10 +176,12 @@ class PaintWorld {
     double mostIn(double seconds) const;
     void note(double seconds, double done);
   };
-  // What the limit of memory costs: older shots are given up, or have coarse maps.
+  // What the limit of memory costs: older shots are given up, have coarse maps, or are found hidden
+  // by samples.
   struct Floors {
     uint32_t given = 0;   // shots below are given up
     uint32_t coarse = 0;  // other shots below have coarse maps
+    double thinned = 0;   // records in use after the last pass of thin()
   };
   // The floors before the list of this length raised them.
   struct Raise {
@@ -296,6 +303,7 @@ class PaintWorld {
   std::span<const Shot> list_;  // of the last update() or follow(), as long as the host keeps it
   PaintRules rules_;
   std::deque<State> states_;       // one per shot
+  uint32_t lengthBefore_ = 0;      // of the list, before it grew
   std::vector<uint32_t> pending_;  // ascending
   std::deque<Work> work_;          // under survey, newest first
   bool looks_ = false;             // the host has drawn depth pictures
@@ -316,7 +324,6 @@ class PaintWorld {
   bool lastSweep_ = false;    // that sweep removes the last entries of former_
   Thinning thinning_;
   bool sampled_ = false;  // passes have hidden shots
-  double thinned_ = 0;    // records in use after the last pass
   Floors floors_;
   std::vector<Raise> raises_;  // ascending
   size_t coarse_ = 0;          // shots with Placed::isCoarse()

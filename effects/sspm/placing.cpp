@@ -172,7 +172,7 @@ void PaintWorld::refill() {
     pending_.erase(next);
     // Newer paint hides a shot that was to be sharpened, or a newer twin stands for it.
     if (isPlaced(id) || (states_[id].lostTo == 0 && !countTwin(id))) {
-      const bool exact = isPlaced(id) || id >= floors_.coarse;
+      const bool exact = isPlaced(id) || states_[id].exact || id >= floors_.coarse;
       const auto detail = exact ? Survey::Detail::kExact : Survey::Detail::kCoarse;
       work_.push_back({.id = id, .survey = Survey(shot, rangeOf(id), detail)});
     } else {
@@ -215,6 +215,7 @@ void PaintWorld::place(Work& work) {
   const ShotMap& map = work.map;
   std::vector<Share>& shares = work.shares;
   const bool partly = survey.unknownInside() > 0;
+  states_[id].exact = !survey.isCoarse();
   retire(id);
   if (!shares.empty()) {
     const uint32_t record = takeRecord(id);

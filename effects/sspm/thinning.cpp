@@ -53,9 +53,9 @@ struct PaintWorld::Cover {
 // more shots than the last pass left.
 bool PaintWorld::isThinningDue() const {
   const double placed = placedCount();
-  if (!former_.empty() || placed <= kGrownLeast * thinned_) return false;
+  if (!former_.empty() || placed <= kGrownLeast * floors_.thinned) return false;
   if (isFull()) return true;
-  if (placed <= kGrown * thinned_) return false;
+  if (placed <= kGrown * floors_.thinned) return false;
   const auto waiting = static_cast<double>(pending_.size());
   const double all = static_cast<double>(bytes()) * (placed + waiting) / placed;
   const bool isFarTooMuch =
@@ -88,7 +88,8 @@ bool PaintWorld::thin(const CastRays& cast, size_t most) {
   if (casts && thinning_.cell < cells.size()) return true;
   if (casts) hideUnseen();
   thinning_ = {};
-  thinned_ = placedCount();
+  noteFloors();
+  floors_.thinned = placedCount();
   return false;
 }
 
@@ -230,18 +231,20 @@ void PaintWorld::cover(std::span<const Cover> covers) {
     if (cell.coveredBelow == kNone) cell.coveredBelow = 0;
     if (!any) continue;
     sampled_ = true;
+    cell.coverer = std::max(cell.coverer, lengthBefore_);
     prune(cell);
     cells_.change(cell);
   }
 }
 
-// Ends a pass: hides the shots that show at no spot, but are hidden at some.
+// Ends a pass: hides the shots that show at no spot, but are hidden at some. If the list gets as
+// short as it was before this pass, all come back: slivers of them may have shown until then.
 void PaintWorld::hideUnseen() {
   for (uint32_t id = 0; id < thinning_.checked.size(); ++id) {
     const uint32_t record = states_[id].record;
     if (!thinning_.checked[id] || thinning_.shows[id] || thinning_.hiddenBy[id] == 0) continue;
     if (record == kNone || placed_[record].hidden) continue;
-    states_[id].lostTo = std::max(states_[id].lostTo, thinning_.hiddenBy[id]);
+    states_[id].lostTo = std::max({states_[id].lostTo, thinning_.hiddenBy[id], lengthBefore_ + 1});
     sampled_ = true;
     hide(record);
   }
