@@ -137,7 +137,7 @@ int main(int argc, char** argv) {
   program.add_option("--muzzles", options.muzzles,
                      "Shots on Sponza that are seen by rays and by depth pictures; 0: none");
   program.add_option("--spray-shots", options.sprayShots,
-                     "Shots on Sponza, of which the last 3300 are sprayed; 0: no spray");
+                     "Shots on Sponza, of which the last 6600 are sprayed; 0: no spray");
   program
       .add_option("--load-counts", options.loadCounts,
                   "Shots on Sponza that are loaded from a file")
