@@ -15,6 +15,10 @@ constexpr size_t kThreads = 64;      // threads
 constexpr size_t kMostGroups = 256;  // a thread writes several words
 constexpr size_t kBatch = 1 << 18;   // most payload words in one dispatch: 1 MiB
 constexpr size_t kLeast = 1 << 10;   // least words of an array
+constexpr size_t kMoved = 1 << 16;   // words that a frame moves at least
+// An array with less than this share of its words free moves: if it is planned, and if not. The
+// next one is larger by an eighth or by all of it.
+constexpr size_t kPlannedFull = 16, kNearlyFull = 4;
 
 }  // namespace
 
@@ -31,14 +35,28 @@ void DeviceWords::discard() {
 
 void DeviceWords::clear() {
   discard();
-  size_ = 0;
+  size_ = uploaded_ = 0;
   buffer_ = {};
-  deviceWords_ = 0;
+  larger_ = {};
+  deviceWords_ = largerWords_ = 0;
   planned_ = 0;
 }
 
 uint64_t DeviceWords::sizeFor(uint64_t words) const {
   return std::max({words + words / 32, planned_, uint64_t{kLeast}});
+}
+
+// Without a plan, only an array that has just grown: others may stay as they are for long.
+uint64_t DeviceWords::wantedWords(uint64_t most) const {
+  if (deviceWords_ == 0 || size_ > deviceWords_) return 0;
+  if (planned_ > std::max(deviceWords_, largerWords_)) return planned_;
+  const bool isPlanned = planned_ > 0;
+  const size_t free = deviceWords_ - size_;
+  if (largerWords_ > 0 || size_ <= uploaded_) return 0;
+  if (free >= size_ / (isPlanned ? kPlannedFull : kNearlyFull)) return 0;
+  if (isPlanned) return size_ + size_ / 8;
+  const uint64_t wanted = size_ > most / 4 ? most : 2 * size_;
+  return wanted > deviceWords_ ? wanted : 0;
 }
 
 std::span<uint32_t> DeviceWords::write(size_t first, size_t count) {
@@ -68,19 +86,43 @@ void DeviceWords::drop(size_t first) {
 }
 
 uint64_t DeviceWords::bytes() const {
-  return (deviceWords_ + payload_.capacity()) * sizeof(uint32_t) + runs_.capacity() * sizeof(Run);
+  return (deviceWords_ + largerWords_ + payload_.capacity()) * sizeof(uint32_t) +
+         runs_.capacity() * sizeof(Run);
 }
 
 uint64_t DeviceWords::peakBytes(size_t words) const {
   words = std::max(words, size_);
-  return bytes() + (words > deviceWords_ ? sizeFor(words) * sizeof(uint32_t) : 0);
+  const bool grows = words > std::max(deviceWords_, largerWords_);
+  return bytes() + (grows ? sizeFor(words) * sizeof(uint32_t) : 0);
 }
 
 Uploader::Uploader(const plugin::Host& host)
     : host_(host), scatter_(host, "scatter", grisaille_shader_sspm_scatter) {}
 
-void Uploader::upload(const plugin::Frame& frame, DeviceWords& words) {
-  grow(frame, words);
+void Uploader::upload(const plugin::Frame& frame, DeviceWords& words, uint64_t spare,
+                      uint64_t most) {
+  const uint64_t wanted = words.wantedWords(most / sizeof(uint32_t));
+  if (words.size_ > words.deviceWords_ || words.deviceWords_ == 0) {
+    grow(frame, words);
+  } else if (wanted > 0 && wanted * sizeof(uint32_t) <= spare) {
+    words.larger_ = host_.buffer(words.label_, wanted * sizeof(uint32_t));
+    words.largerWords_ = wanted;
+    words.toMove_ = words.uploaded_;
+    words.moved_ = 0;
+  }
+  write(frame, words);
+  if (words.largerWords_ > 0) {
+    // The array has moved before it is full.
+    const size_t grown = words.size_ - words.uploaded_, left = words.toMove_ - words.moved_;
+    const size_t room = std::max<size_t>(words.deviceWords_ - words.size_, 1);
+    move(frame, words, std::max(kMoved, 4 * grown * left / room));
+  }
+  words.uploaded_ = words.size_;
+  words.discard();
+}
+
+// Writes what waits, also to the array to which the words move.
+void Uploader::write(const plugin::Frame& frame, const DeviceWords& words) {
   std::vector<uint32_t> runs, payload;
   const auto flush = [&] {
     if (payload.empty()) return;
@@ -89,7 +131,9 @@ void Uploader::upload(const plugin::Frame& frame, DeviceWords& words) {
                                      static_cast<uint32_t>(kHeader + runs.size()), 0};
     staging.insert(staging.end(), runs.begin(), runs.end());
     staging.insert(staging.end(), payload.begin(), payload.end());
-    scatter(frame, staging, {}, words.buffer_);
+    stage(frame, staging);
+    scatter(frame, payload.size(), staging_, words.buffer_);
+    if (words.largerWords_ > 0) scatter(frame, payload.size(), staging_, words.larger_);
     runs.clear();
     payload.clear();
   };
@@ -105,38 +149,53 @@ void Uploader::upload(const plugin::Frame& frame, DeviceWords& words) {
     }
   }
   flush();
-  words.discard();
 }
 
+// Makes the array as large as its words need, in this frame.
 void Uploader::grow(const plugin::Frame& frame, DeviceWords& words) {
-  if (words.deviceWords_ >= std::max(words.size_, kLeast)) return;
-  const size_t grown = words.sizeFor(words.size_);
-  plugin::Buffer larger = host_.buffer(words.label_, grown * sizeof(uint32_t));
-  if (words.deviceWords_ > 0) {
-    const uint32_t copy[] = {static_cast<uint32_t>(words.deviceWords_), 1, 0, 0, 0, 0};
-    scatter(frame, copy, words.buffer_, larger);
-  } else {
+  if (std::max<size_t>(words.size_, 1) > words.largerWords_) {
+    words.largerWords_ = words.sizeFor(words.size_);
+    words.larger_ = host_.buffer(words.label_, words.largerWords_ * sizeof(uint32_t));
+    words.toMove_ = words.uploaded_;
+    words.moved_ = 0;
     // Shaders may bind an array before it has contents, not before its first write.
     const uint32_t nothing = 0;
-    frame.uploadBuffer(larger, 0, std::span(&nothing, 1));
+    if (words.deviceWords_ == 0) frame.uploadBuffer(words.larger_, 0, std::span(&nothing, 1));
   }
-  words.buffer_ = std::move(larger);
-  words.deviceWords_ = grown;
+  move(frame, words, words.toMove_);
 }
 
-// source: holds the payload; 0: `staging` does.
-void Uploader::scatter(const plugin::Frame& frame, std::span<const uint32_t> staging,
-                       grisaille_buffer source, grisaille_buffer target) {
+// Moves words to the larger array, at most `count`. It replaces the other one with the last of
+// them.
+void Uploader::move(const plugin::Frame& frame, DeviceWords& words, size_t count) {
+  count = std::min(count, words.toMove_ - words.moved_);
+  if (count > 0) {
+    const auto first = static_cast<uint32_t>(words.moved_);
+    const uint32_t staging[] = {static_cast<uint32_t>(count), 1, first, 0, 0, first};
+    stage(frame, staging);
+    scatter(frame, count, words.buffer_, words.larger_);
+    words.moved_ += count;
+  }
+  if (words.moved_ < words.toMove_) return;
+  words.buffer_ = std::move(words.larger_);
+  words.deviceWords_ = std::exchange(words.largerWords_, 0);
+}
+
+void Uploader::stage(const plugin::Frame& frame, std::span<const uint32_t> staging) {
   if (stagingWords_ < staging.size()) {
     stagingWords_ = std::max(staging.size(), kLeast);
     staging_ = host_.buffer("changes", stagingWords_ * sizeof(uint32_t));
   }
   frame.uploadBuffer(staging_, 0, staging);
-  const grisaille_binding bindings[] = {
-      plugin::storage(0, plugin::whole(staging_)),
-      plugin::storage(1, plugin::whole(source.id == 0 ? staging_ : source)),
-      plugin::storage(2, plugin::whole(target))};
-  const size_t groups = std::clamp<size_t>(staging[0] / kThreads + 1, 1, kMostGroups);
+}
+
+// Writes staged runs. words: of their payload, which `source` holds.
+void Uploader::scatter(const plugin::Frame& frame, size_t words, grisaille_buffer source,
+                       grisaille_buffer target) {
+  const grisaille_binding bindings[] = {plugin::storage(0, plugin::whole(staging_)),
+                                        plugin::storage(1, plugin::whole(source)),
+                                        plugin::storage(2, plugin::whole(target))};
+  const size_t groups = std::clamp<size_t>(words / kThreads + 1, 1, kMostGroups);
   frame.pass("changes",
              [&] { frame.dispatch(scatter_.get({}), bindings, static_cast<uint32_t>(groups), 1); });
 }

@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: MIT
 // Arrays of 32-bit words that are on the device alone. Changes wait on the host, and an Uploader
-// writes them there.
+// writes them there. An array that is nearly full moves to a larger one, some words in each frame,
+// so that no frame waits for all of them.
 #pragma once
 
 #include <algorithm>
@@ -24,7 +25,7 @@ class DeviceWords {
   size_t size() const { return size_; }
   // Grows to `words`, or more. New words are undefined.
   void resize(size_t words);
-  // The next growth makes room for at least `words`.
+  // The array moves to one of at least `words`.
   void plan(uint64_t words) { planned_ = words; }
   // Drops the waiting changes.
   void discard();
@@ -43,13 +44,16 @@ class DeviceWords {
   uint64_t peakBytes(size_t words = 0) const;
   uint64_t waitingBytes() const { return payload_.size() * sizeof(uint32_t); }
   // Words that it has, or will have after the next upload.
-  uint64_t capacity() const { return std::max(size_, deviceWords_); }
+  uint64_t capacity() const { return std::max({size_, deviceWords_, largerWords_}); }
   grisaille_buffer buffer() const { return buffer_; }
 
  private:
   friend class Uploader;
   // Size of an array on the device that holds `words`.
   uint64_t sizeFor(uint64_t words) const;
+  // Size of the array to which it should begin to move, words; 0: none. most: of an array that is
+  // not planned; words.
+  uint64_t wantedWords(uint64_t most) const;
 
   struct Run {
     size_t payload, target, count;  // words; first word in payload_, and in the array
@@ -57,9 +61,13 @@ class DeviceWords {
 
   const char* label_;
   size_t size_ = 0;
-  size_t deviceWords_ = 0;
+  size_t uploaded_ = 0;     // size_ at the last upload
+  size_t deviceWords_ = 0;  // of buffer_
+  size_t largerWords_ = 0;  // of larger_; 0: it does not move
+  size_t moved_ = 0;        // words that larger_ has already
+  size_t toMove_ = 0;       // words that larger_ is to get from buffer_
   uint64_t planned_ = 0;
-  plugin::Buffer buffer_;
+  plugin::Buffer buffer_, larger_;
   std::vector<uint32_t> payload_;
   std::vector<Run> runs_;
   std::unordered_map<size_t, size_t> runAt_;  // index of the run at a target
@@ -71,13 +79,18 @@ class Uploader {
   explicit Uploader(const plugin::Host& host);
 
   // Call it inside record(), outside passes. Throws plugin::Failure.
-  void upload(const plugin::Frame& frame, DeviceWords& words);
+  // spare: what a larger array may take if the array should begin to move, bytes. most: the same if
+  // the array is not planned.
+  void upload(const plugin::Frame& frame, DeviceWords& words, uint64_t spare, uint64_t most);
   uint64_t bytes() const { return stagingWords_ * sizeof(uint32_t); }
 
  private:
   void grow(const plugin::Frame& frame, DeviceWords& words);
-  void scatter(const plugin::Frame& frame, std::span<const uint32_t> staging,
-               grisaille_buffer source, grisaille_buffer target);
+  void write(const plugin::Frame& frame, const DeviceWords& words);
+  void move(const plugin::Frame& frame, DeviceWords& words, size_t count);
+  void stage(const plugin::Frame& frame, std::span<const uint32_t> staging);
+  void scatter(const plugin::Frame& frame, size_t words, grisaille_buffer source,
+               grisaille_buffer target);
 
   plugin::Host host_;
   plugin::PipelineCache scatter_;

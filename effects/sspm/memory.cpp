@@ -18,6 +18,7 @@ constexpr uint64_t kRoomShare = 64;       // of the limit: free space for the ma
 constexpr uint64_t kSpareShare = 16;      // of the limit: paint gets coarser before that is left
 constexpr uint64_t kFullShare = 32;       // of the limit: paint is about to go before that is left
 constexpr uint64_t kPlanShare = 4;        // of the limit: when the array of maps is planned
+constexpr uint64_t kMoveShare = 8;        // of the limit: growth while an array moves
 constexpr double kMapsLeft = 0.42;        // of maps, once all but the newest quarter are coarse
 constexpr double kListsLeft = 1.25;       // of lists, with the copies that they need to grow
 constexpr double kListsPlanned = 0.65;    // of lists on the device: cells have more shots each
@@ -186,7 +187,10 @@ void PaintWorld::planArrays() {
   const uint64_t mapBytes = blocks_.peakBytes();
   const double maps = kMapsLeft * static_cast<double>(mapBytes);
   const double lists = kListsLeft * static_cast<double>(all - std::min(all, mapBytes));
-  const double planned = static_cast<double>(space) * maps / (maps + lists);
+  // The larger array and this one must fit until all is moved.
+  const uint64_t most = room() - std::min(room(), bytes() + limit_ / kMoveShare);
+  const double planned =
+      std::min(static_cast<double>(space) * maps / (maps + lists), static_cast<double>(most));
   blocks_.plan(static_cast<uint64_t>(planned) / sizeof(uint32_t));
   const double growth = planned / std::max(maps, 1.0);
   for (DeviceWords* words : {&cells_.words(), &records_}) {

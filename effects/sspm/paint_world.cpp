@@ -14,6 +14,7 @@ namespace grisaille::sspm {
 namespace {
 
 constexpr uint64_t kWaitingShare = 32;  // of the limit: what may wait for its upload
+constexpr uint64_t kEarlyShare = 8;     // of the limit: largest array before it is planned
 constexpr double kUploadMemory = 0.9;   // share of the longest upload that each frame leaves
 // Seconds of a step: short ones complete the newest shots before others begin.
 constexpr double kLongestStep = 0.002;
@@ -91,8 +92,9 @@ bool PaintWorld::isUploadDue() const {
 void PaintWorld::upload(const plugin::Frame& frame, Uploader& uploader) {
   const auto start = std::chrono::steady_clock::now();
   cells_.write([&](const Entry& entry) { return recordOf(entry); });
-  for (DeviceWords* words : {&cells_.slots(), &cells_.words(), &records_, &blocks_}) {
-    uploader.upload(frame, *words);
+  uploader.upload(frame, cells_.slots(), 0, 0);
+  for (DeviceWords* words : {&cells_.words(), &records_, &blocks_}) {
+    uploader.upload(frame, *words, room() - std::min(room(), bytes()), limit_ / kEarlyShare);
   }
   uploadTime_ = std::max(secondsSince(start), kUploadMemory * uploadTime_);
 }

@@ -276,6 +276,20 @@ TEST_P(LimitTest, CoarsePaintIsTheSameAfterUndo) {
   }
 }
 
+// A few shots come in each frame, so that arrays move to larger ones during several frames, and are
+// written meanwhile: the paint is that of all shots at once.
+TEST_P(LimitTest, ArraysThatMoveLoseNothing) {
+  PaintFrame frame(device(), scene_);
+  start(frame, "256");
+  for (size_t count = 2; count <= 600; count += 2) {
+    frame.render(kBefore, 16, 16, std::span(shots_).first(count), {"paint"});
+    if (count % 150 != 0) continue;
+    PaintFrame fresh(device(), scene_);
+    start(fresh, "256");
+    EXPECT_EQ(look(frame, count), look(fresh, count)) << count;
+  }
+}
+
 // A host that answers no rays keeps coarse paint until it answers them again.
 TEST_P(LimitTest, CoarsePaintStaysUntilItsRaysAreAnswered) {
   PaintFrame frame(device(), scene_);
