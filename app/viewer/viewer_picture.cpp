@@ -60,7 +60,7 @@ StageDesc Viewer::commonDesc() {
 }
 
 // Seconds a frame for work that can wait. While the camera moves or a button is held, frames come
-// first: single steps of work may take 2 ms more than this. Else, if a frame takes long anyway,
+// first: single steps of work may take longer than this. Else, if a frame takes long anyway,
 // this work may take as long: the picture is complete sooner.
 double Viewer::placingPatience() const {
   return moving_ ? 0.002 : std::clamp(updateSeconds_, 0.03, 0.3);

@@ -105,14 +105,11 @@ void Uploader::upload(const plugin::Frame& frame, DeviceWords& words, uint64_t s
   if (words.size_ > words.deviceWords_ || words.deviceWords_ == 0) {
     grow(frame, words);
   } else if (wanted > 0 && wanted * sizeof(uint32_t) <= spare) {
-    words.larger_ = host_.buffer(words.label_, wanted * sizeof(uint32_t));
-    words.largerWords_ = wanted;
-    words.toMove_ = words.uploaded_;
-    words.moved_ = 0;
+    begin(words, wanted);
   }
   write(frame, words);
   if (words.largerWords_ > 0) {
-    // The array has moved before it is full.
+    // So much that the array has moved before it is full.
     const size_t grown = words.size_ - words.uploaded_, left = words.toMove_ - words.moved_;
     const size_t room = std::max<size_t>(words.deviceWords_ - words.size_, 1);
     move(frame, words, std::max(kMoved, 4 * grown * left / room));
@@ -151,13 +148,18 @@ void Uploader::write(const plugin::Frame& frame, const DeviceWords& words) {
   flush();
 }
 
+// Makes the larger array, of `count` words.
+void Uploader::begin(DeviceWords& words, size_t count) {
+  words.larger_ = host_.buffer(words.label_, count * sizeof(uint32_t));
+  words.largerWords_ = count;
+  words.toMove_ = words.uploaded_;
+  words.moved_ = 0;
+}
+
 // Makes the array as large as its words need, in this frame.
 void Uploader::grow(const plugin::Frame& frame, DeviceWords& words) {
   if (std::max<size_t>(words.size_, 1) > words.largerWords_) {
-    words.largerWords_ = words.sizeFor(words.size_);
-    words.larger_ = host_.buffer(words.label_, words.largerWords_ * sizeof(uint32_t));
-    words.toMove_ = words.uploaded_;
-    words.moved_ = 0;
+    begin(words, words.sizeFor(words.size_));
     // Shaders may bind an array before it has contents, not before its first write.
     const uint32_t nothing = 0;
     if (words.deviceWords_ == 0) frame.uploadBuffer(words.larger_, 0, std::span(&nothing, 1));

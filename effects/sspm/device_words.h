@@ -85,6 +85,7 @@ class Uploader {
   uint64_t bytes() const { return stagingWords_ * sizeof(uint32_t); }
 
  private:
+  void begin(DeviceWords& words, size_t count);
   void grow(const plugin::Frame& frame, DeviceWords& words);
   void write(const plugin::Frame& frame, const DeviceWords& words);
   void move(const plugin::Frame& frame, DeviceWords& words, size_t count);
