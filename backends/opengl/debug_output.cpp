@@ -30,13 +30,17 @@ void startDebugOutput(const gpu::MessageSink& sink, bool check) {
   glGetIntegerv(GL_CONTEXT_FLAGS, &flags);
   if ((flags & GL_CONTEXT_FLAG_DEBUG_BIT) == 0) return;
   glDebugMessageControl(GL_DONT_CARE, GL_DONT_CARE, GL_DONT_CARE, 0, nullptr, GL_FALSE);
+  for (const GLenum type : {GL_DEBUG_TYPE_ERROR, GL_DEBUG_TYPE_UNDEFINED_BEHAVIOR,
+                            GL_DEBUG_TYPE_DEPRECATED_BEHAVIOR, GL_DEBUG_TYPE_PORTABILITY}) {
+    if (check || type == GL_DEBUG_TYPE_ERROR)
+      glDebugMessageControl(GL_DONT_CARE, type, GL_DONT_CARE, 0, nullptr, GL_TRUE);
+  }
+  // NVIDIA's driver also tells what is no fault: as performance, that it compiles a program again;
+  // as other messages of low severity, that a clear finds state that only a draw would use.
   if (check) {
-    for (const GLenum severity :
-         {GL_DEBUG_SEVERITY_HIGH, GL_DEBUG_SEVERITY_MEDIUM, GL_DEBUG_SEVERITY_LOW}) {
-      glDebugMessageControl(GL_DONT_CARE, GL_DONT_CARE, severity, 0, nullptr, GL_TRUE);
+    for (const GLenum severity : {GL_DEBUG_SEVERITY_HIGH, GL_DEBUG_SEVERITY_MEDIUM}) {
+      glDebugMessageControl(GL_DONT_CARE, GL_DEBUG_TYPE_OTHER, severity, 0, nullptr, GL_TRUE);
     }
-  } else {
-    glDebugMessageControl(GL_DONT_CARE, GL_DEBUG_TYPE_ERROR, GL_DONT_CARE, 0, nullptr, GL_TRUE);
   }
   glDebugMessageCallback(onMessage, &sink);
   glEnable(GL_DEBUG_OUTPUT);

@@ -25,6 +25,7 @@ void setFixedState() {
   glDepthFunc(GL_GREATER);
   glBlendFuncSeparate(GL_SRC_ALPHA, GL_ONE_MINUS_SRC_ALPHA, GL_ONE, GL_ONE_MINUS_SRC_ALPHA);
   glEnable(GL_FRAMEBUFFER_SRGB);  // affects sRGB formats only
+  glDisable(GL_DITHER);           // on by default; drivers may change bits by it
   glPixelStorei(GL_PACK_ALIGNMENT, 1);
   glPixelStorei(GL_UNPACK_ALIGNMENT, 1);
 }

@@ -380,26 +380,18 @@ TEST_P(Calls, TheHostsFunctionsReplaceTheDriversMemory) {
   if (!isVulkan()) GTEST_SKIP() << "OpenGL's drivers allocate";
   const std::unique_ptr<Host> host = makeHost(GetParam(), false);
   host::VulkanSpec spec = vulkanSpec(*host);
-  const auto device = static_cast<VkDevice>(spec.device);
+  host::VulkanSpec plain = spec;
   const grisaille_host_allocator functions = {
       .struct_size = sizeof(grisaille_host_allocator),
       .reserved = 0,
-      .context = device,
+      .context = &plain,
       .allocate = [](void* of, const grisaille_host_memory_request* request,
                      grisaille_host_memory* out) -> int {
-        // Software drivers have one memory type, which is mapped.
-        VkMemoryAllocateInfo info{};
-        info.sType = VK_STRUCTURE_TYPE_MEMORY_ALLOCATE_INFO;
-        info.allocationSize = request->size;
-        VkDeviceMemory memory = VK_NULL_HANDLE;
-        const VkResult made = vkAllocateMemory(static_cast<VkDevice>(of), &info, nullptr, &memory);
-        if (made != VK_SUCCESS) return made;
-        out->memory = host::number(memory);
-        return vkMapMemory(static_cast<VkDevice>(of), memory, 0, VK_WHOLE_SIZE, 0, &out->mapped);
+        return allocateFor(*static_cast<host::VulkanSpec*>(of), *request, *out);
       },
       .free =
           [](void* of, const grisaille_host_memory* memory) {
-            vkFreeMemory(static_cast<VkDevice>(of),
+            vkFreeMemory(static_cast<VkDevice>(static_cast<host::VulkanSpec*>(of)->device),
                          reinterpret_cast<VkDeviceMemory>(memory->memory), nullptr);
           }};
   spec.getInstanceProcAddr = reinterpret_cast<void (*)()>(&instanceProc);

@@ -29,23 +29,18 @@ void tell(void*, uint32_t level, const char* text) {
 
 // An engine's memory.
 struct Heap {
-  VkDevice device;
+  gr::VulkanSpec of;
   int live = 0;
 
-  VkResult allocate(const grisaille_host_memory_request& request, grisaille_host_memory& out) {
-    VkMemoryAllocateInfo info{};
-    info.sType = VK_STRUCTURE_TYPE_MEMORY_ALLOCATE_INFO;
-    info.allocationSize = request.size;
-    VkDeviceMemory memory = VK_NULL_HANDLE;
-    const VkResult made = vkAllocateMemory(device, &info, nullptr, &memory);
-    if (made != VK_SUCCESS) return made;
-    ++live;
-    out.memory = gr::number(memory);
-    return vkMapMemory(device, memory, 0, VK_WHOLE_SIZE, 0, &out.mapped);
+  int allocate(const grisaille_host_memory_request& request, grisaille_host_memory& out) {
+    const int made = allocateFor(of, request, out);
+    if (made == VK_SUCCESS) ++live;
+    return made;
   }
   void free(const grisaille_host_memory& memory) {
     --live;
-    vkFreeMemory(device, reinterpret_cast<VkDeviceMemory>(memory.memory), nullptr);
+    vkFreeMemory(static_cast<VkDevice>(of.device), reinterpret_cast<VkDeviceMemory>(memory.memory),
+                 nullptr);
   }
 };
 
@@ -62,7 +57,7 @@ GRISAILLE_IN_EVERY_HOST(Manual);
 TEST_P(Manual, MessagesChecksAndMemory) {
   if (GetParam().backend != "vulkan") GTEST_SKIP();
   gr::VulkanSpec spec = vulkanSpec(*host_);
-  Heap heap{.device = static_cast<VkDevice>(spec.device)};
+  Heap heap{.of = spec};
   {
     // manual: begin
     const grisaille_host_log log = gr::logOf(tell, nullptr);

@@ -277,10 +277,8 @@ TEST_P(Services, MemoryIsKnownBeforeAnEffectExists) {
 // Hands out parts of large blocks, as an engine does.
 class Blocks {
  public:
-  explicit Blocks(const host::VulkanSpec& spec) : device_(static_cast<VkDevice>(spec.device)) {
-    vkGetPhysicalDeviceMemoryProperties(static_cast<VkPhysicalDevice>(spec.physicalDevice),
-                                        &properties_);
-  }
+  explicit Blocks(const host::VulkanSpec& spec)
+      : spec_(spec), device_(static_cast<VkDevice>(spec.device)) {}
   ~Blocks() {
     EXPECT_EQ(live, 0u) << "memory was not freed";
     for (auto& [key, block] : blocks_) vkFreeMemory(device_, block.memory, nullptr);
@@ -320,22 +318,16 @@ class Blocks {
     labels.insert(request.label);
     if (fault == kFails) return VK_ERROR_OUT_OF_DEVICE_MEMORY;
     if (fault == kNull) return VK_SUCCESS;
-    uint32_t type = 0;
-    while ((request.memory_type_bits >> type & 1u) == 0 ||
-           (properties_.memoryTypes[type].propertyFlags & request.required_flags) !=
-               request.required_flags) {
-      ++type;
-    }
+    const MemoryType type = memoryTypeFor(spec_, request);
     // Buffers and images apart, which keeps bufferImageGranularity.
-    Block& block = blocks_[{type, request.image != 0}];
+    Block& block = blocks_[{type.index, request.image != 0}];
     if (block.memory == VK_NULL_HANDLE) {
       VkMemoryAllocateInfo info{};
       info.sType = VK_STRUCTURE_TYPE_MEMORY_ALLOCATE_INFO;
       info.allocationSize = kBlock;
-      info.memoryTypeIndex = type;
+      info.memoryTypeIndex = type.index;
       if (vkAllocateMemory(device_, &info, nullptr, &block.memory) != VK_SUCCESS) return -1;
-      if ((properties_.memoryTypes[type].propertyFlags & VK_MEMORY_PROPERTY_HOST_VISIBLE_BIT) !=
-          0) {
+      if (type.mappable) {
         void* mapped = nullptr;
         vkMapMemory(device_, block.memory, 0, VK_WHOLE_SIZE, 0, &mapped);
         block.mapped = static_cast<std::byte*>(mapped);
@@ -361,8 +353,8 @@ class Blocks {
     delete size;
   }
 
+  host::VulkanSpec spec_;
   VkDevice device_;
-  VkPhysicalDeviceMemoryProperties properties_{};
   std::map<std::pair<uint32_t, bool>, Block> blocks_;
 };
 

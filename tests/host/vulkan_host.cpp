@@ -252,6 +252,38 @@ host::VulkanSpec vulkanSpec(const Host& host) {
   return dynamic_cast<const VulkanHost&>(host).spec();
 }
 
+MemoryType memoryTypeFor(const host::VulkanSpec& spec,
+                         const grisaille_host_memory_request& request) {
+  VkPhysicalDeviceMemoryProperties properties{};
+  vkGetPhysicalDeviceMemoryProperties(static_cast<VkPhysicalDevice>(spec.physicalDevice),
+                                      &properties);
+  uint32_t type = 0;
+  while ((request.memory_type_bits >> type & 1u) == 0 ||
+         (properties.memoryTypes[type].propertyFlags & request.required_flags) !=
+             request.required_flags) {
+    ++type;
+  }
+  return {.index = type,
+          .mappable = (properties.memoryTypes[type].propertyFlags &
+                       VK_MEMORY_PROPERTY_HOST_VISIBLE_BIT) != 0};
+}
+
+int allocateFor(const host::VulkanSpec& spec, const grisaille_host_memory_request& request,
+                grisaille_host_memory& out) {
+  const auto device = static_cast<VkDevice>(spec.device);
+  VkMemoryAllocateInfo info{};
+  info.sType = VK_STRUCTURE_TYPE_MEMORY_ALLOCATE_INFO;
+  info.allocationSize = request.size;
+  const MemoryType type = memoryTypeFor(spec, request);
+  info.memoryTypeIndex = type.index;
+  VkDeviceMemory memory = VK_NULL_HANDLE;
+  const VkResult made = vkAllocateMemory(device, &info, nullptr, &memory);
+  if (made != VK_SUCCESS) return made;
+  out.memory = host::number(memory);
+  if (!type.mappable) return VK_SUCCESS;
+  return vkMapMemory(device, memory, 0, VK_WHOLE_SIZE, 0, &out.mapped);
+}
+
 void useLayout(Host& host, uint32_t layout) {
   dynamic_cast<VulkanHost&>(host).home = static_cast<VkImageLayout>(layout);
 }

@@ -17,8 +17,10 @@ struct Snapping {
 
   // Half a snapping step, pixels.
   double halfStep() const { return 0.5 / (1 << bits); }
-  // Whether tests that compare exact positions must allow for a shift. GPUs have 8 bits.
-  bool isCoarse() const { return bits < 8 || depthShift > 1.0 / 256; }
+  // Whether edges move so far that tests of places must allow for it. GPUs have 8 bits.
+  bool isCoarse() const { return bits < 8; }
+  // Whether depth is interpolated between the snapped vertices, as NVIDIA's GPUs do too.
+  bool movesDepth() const { return depthShift > 1.0 / 4096; }
 };
 
 Snapping measureSnapping(gpu::Device& device);

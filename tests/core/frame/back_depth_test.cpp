@@ -195,7 +195,7 @@ TEST_P(BackDepthTest, IsTheNextSurfaceThatFacesAwayAndNextDepthTheOneBehindIt) {
   const glm::dmat3 axes = scene::worldFromView(camera);
   const double slope = std::tan(glm::radians(camera.fovyDegrees) / 2);
   std::vector<double> shifts;
-  if (snapping().isCoarse()) shifts = {-snapping().halfStep(), snapping().halfStep()};
+  if (snapping().movesDepth()) shifts = {-snapping().halfStep(), snapping().halfStep()};
   size_t with = 0, without = 0, wrong = 0, followed = 0, wrongNext = 0;
   for (uint32_t y = 0; y < kHeight; ++y) {
     for (uint32_t x = 0; x < kWidth; ++x) {

@@ -120,7 +120,8 @@ TEST_P(LightTest, BaseColoursTintTheComposedPictureAlone) {
       for (uint32_t c = 0; c < 3; ++c) {
         const double tint = images[1].at(x, y, c), base = images[2].at(x, y, c);
         ASSERT_NEAR(tint, bounced(images[0].at(x, y), base), 2e-3);
-        ASSERT_NEAR(images[3].at(x, y, c), tint * base, 2e-3);
+        // The compositor reads 8-bit sRGB, which hardware may decode off by half a step: .0045.
+        ASSERT_NEAR(images[3].at(x, y, c), tint * base, 5e-3);
       }
     }
   }
