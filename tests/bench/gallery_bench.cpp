@@ -34,6 +34,7 @@ struct Options : CommonOptions {
   std::string scenes = SOURCE_FOLDER "/../shared/scenes";
   std::string out = "build/gallery";
   uint32_t samples = 128;
+  bool pictures = true;
 };
 
 struct NamedSetting {
@@ -274,12 +275,13 @@ class Page {
       subject->loadScene();
       subject->trace();
     }
-    fs::create_directories(fs::path(options_.out) / "pictures/gallery");
+    const fs::path out = options_.out;
+    fs::create_directories(options_.pictures ? out / "pictures/gallery" : out);
     std::string text = introduction();
     for (const char* backend : {"opengl", "vulkan"}) {
       if (options_.backend.empty() || options_.backend == backend) text += sectionOf(backend);
     }
-    writeFileAtomically(fs::path(options_.out) / "gallery.md", text + pictures_);
+    writeFileAtomically(out / "gallery.md", text + pictures_);
   }
 
  private:
@@ -299,7 +301,7 @@ class Page {
   std::string sectionOf(const std::string& backend) {
     const auto device = backends::create(backend, {.timed = true});
     std::vector<Row> rows;
-    const bool first = pictures_.empty();
+    const bool first = options_.pictures && pictures_.empty();
     for (const auto& loaded : subjects_) {
       const study::Subject& subject = loaded->subject();
       const std::string scene = subject.views.front().scene;
@@ -348,6 +350,7 @@ int main(int argc, char** argv) {
   program.add_option("--gallery", options.gallery, "A gallery file, see `grisaille measure`");
   program.add_option("--scenes", options.scenes, "Folder of scenes beside the gallery's own");
   program.add_option("--out", options.out, "Folder of gallery.md and its pictures");
+  program.add_flag("!--no-pictures", options.pictures, "Tables alone");
   program.add_option("--samples", options.samples, "Rays a pixel of the truth")
       ->check(CLI::Range(16u, 65536u));
   return grisaille::bench::runCommand(program, options, argc, argv,

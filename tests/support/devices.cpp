@@ -10,10 +10,19 @@ namespace grisaille::tests {
 
 namespace {
 
+// NVIDIA's Vulkan driver 580 fails to load once it has been loaded some hundred times in a process,
+// and goes with its last instance. A device that nothing uses keeps it.
+void keepLoaded(const TestDevice& device) {
+  if (device.backend != "vulkan" || !device.driver.empty()) return;
+  [[maybe_unused]] static const gpu::Device* const kept = backends::create("vulkan", {}).release();
+}
+
 bool hasDevice(const TestDevice& device) {
   const DriverScope scope(device);
   try {
-    return !backends::find(device.backend).list().empty();
+    const auto list = backends::find(device.backend).list();
+    if (!list.empty() && !list.front().software) keepLoaded(device);
+    return !list.empty();
   } catch (const Error& error) {
     if (error.id() != ErrorId::kBackendMissing) throw;
     return false;
