@@ -10,7 +10,7 @@ namespace grisaille::tests {
 
 namespace {
 
-// NVIDIA's Vulkan driver 580 fails to load once it has been loaded some hundred times in a process,
+// NVIDIA's Vulkan driver 580 fails to load once a process has loaded it many times,
 // and goes with its last instance. A device that nothing uses keeps it.
 void keepLoaded(const TestDevice& device) {
   if (device.backend != "vulkan" || !device.driver.empty()) return;
