@@ -202,16 +202,28 @@ class Soak {
     device_.wait();
   }
 
-  void draw(double now, Kind kind) {
+  Frame timed(double now, Kind kind) {
     const double processor = processorSeconds();
     const Clock::time_point start = Clock::now();
     render(now, placing_ ? kAnewPatience : kSprayPatience);
-    outcome_.frames.push_back({.kind = kind,
-                               .second = now,
-                               .size = sizes_[size_],
-                               .wall = 1000 * secondsSince(start),
-                               .processor = 1000 * (processorSeconds() - processor)});
+    return {.kind = kind,
+            .second = now,
+            .size = sizes_[size_],
+            .wall = 1000 * secondsSince(start),
+            .processor = 1000 * (processorSeconds() - processor)};
+  }
+
+  void draw(double now, Kind kind) {
+    outcome_.frames.push_back(timed(now, kind));
     placing_ = placing_ && renderer_.report().waiting > 0;
+    const Frame& frame = outcome_.frames.back();
+    if (kind != Kind::kQuiet) return;
+    const double took = judged(outcome_, frame);
+    std::vector<double>& same = quiet_[size_];
+    same.push_back(took);
+    if (same.size() < kLeastFrames || took <= kLimit * quantile(same, 0.5)) return;
+    // Tells whether the view takes long, or what was new in it.
+    outcome_.frames.back().again = judged(outcome_, timed(now, kind));
   }
 
   void sample(double now) {
@@ -231,6 +243,7 @@ class Soak {
   size_t next_ = 0;  // index of the next event
   const std::vector<glm::uvec2> sizes_;
   size_t size_ = 0;
+  std::map<size_t, std::vector<double>> quiet_;  // by size: what quiet frames took, ms
   const std::string file_ =
       (fs::temp_directory_path() / fmt::format("grisaille-soak-{}.json", getpid())).string();
   const std::vector<std::string> outputs_ = {"color"};
@@ -269,10 +282,12 @@ void judgeFrames(const Outcome& outcome, std::vector<std::string>& faults) {
     const auto& same = quiet.at({frame.size.x, frame.size.y});
     const double median = quantile(same, 0.5), took = judged(outcome, frame);
     if (same.size() < kLeastFrames || took <= kLimit * median) continue;
-    faults.push_back(
-        fmt::format("the frame at {:.2f} s takes {:.1f} ms, {:.2f} times the median of "
-                    "{}x{}",
-                    frame.second, took, took / median, frame.size.x, frame.size.y));
+    faults.push_back(fmt::format(
+        "the frame at {:.2f} s takes {:.1f} ms, {:.2f} times the median of "
+        "{}x{}{}",
+        frame.second, took, took / median, frame.size.x, frame.size.y,
+        frame.again > 0 ? fmt::format("; once more without new shots: {:.1f} ms", frame.again)
+                        : ""));
   }
 }
 

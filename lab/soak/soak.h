@@ -29,6 +29,8 @@ struct Frame {
   glm::uvec2 size = {};  // pixels
   double wall = 0;       // milliseconds until the device had finished
   double processor = 0;  // milliseconds of all of the program's threads
+  // Of a frame that took long: judged() of the same view once more, without new shots. Else 0.
+  double again = 0;
 };
 
 struct Sample {
