@@ -106,12 +106,14 @@ class Soak {
   Outcome run() {
     const double end = 60 * plan_.minutes;
     app::truth::Progress progress("soak", app::truth::usualProgress());
-    for (double now = 0; now < end; now = secondsSince(begin_)) {
+    double now = 0;
+    while (now < end) {
       if (app::truth::Interruption::asked()) throw app::truth::Interrupted();
       const Kind kind = advance(now);
       draw(now, kind);
       if (outcome_.samples.empty() || now >= outcome_.samples.back().second + 1) sample(now);
       progress.show({now, end, fmt::format("{} shots", list().size())});
+      now = secondsSince(begin_);
     }
     return std::move(outcome_);
   }
