@@ -3,6 +3,8 @@
 
 #include <epoxy/gl.h>
 
+#include <string_view>
+
 #include "core/base/error.h"
 
 namespace grisaille::opengl {
@@ -23,6 +25,22 @@ void GLAPIENTRY onMessage(GLenum, GLenum type, GLuint, GLenum severity, GLsizei 
   sink(severityOf(type, severity), oneLine(line));
 }
 
+bool isNvidia() {
+  const GLubyte* vendor = glGetString(GL_VENDOR);
+  return vendor != nullptr &&
+         std::string_view(reinterpret_cast<const char*>(vendor)).starts_with("NVIDIA");
+}
+
+// Two kinds of NVIDIA's messages are not about faults. One, of type performance, says that it
+// compiles a program again. The other, of low severity, says that a clear finds textures or shaders
+// unbound, which only a draw would use.
+void leaveOutHints() {
+  glDebugMessageControl(GL_DONT_CARE, GL_DEBUG_TYPE_PERFORMANCE, GL_DONT_CARE, 0, nullptr,
+                        GL_FALSE);
+  glDebugMessageControl(GL_DONT_CARE, GL_DEBUG_TYPE_OTHER, GL_DEBUG_SEVERITY_LOW, 0, nullptr,
+                        GL_FALSE);
+}
+
 }  // namespace
 
 void startDebugOutput(const gpu::MessageSink& sink, bool check) {
@@ -30,17 +48,14 @@ void startDebugOutput(const gpu::MessageSink& sink, bool check) {
   glGetIntegerv(GL_CONTEXT_FLAGS, &flags);
   if ((flags & GL_CONTEXT_FLAG_DEBUG_BIT) == 0) return;
   glDebugMessageControl(GL_DONT_CARE, GL_DONT_CARE, GL_DONT_CARE, 0, nullptr, GL_FALSE);
-  for (const GLenum type : {GL_DEBUG_TYPE_ERROR, GL_DEBUG_TYPE_UNDEFINED_BEHAVIOR,
-                            GL_DEBUG_TYPE_DEPRECATED_BEHAVIOR, GL_DEBUG_TYPE_PORTABILITY}) {
-    if (check || type == GL_DEBUG_TYPE_ERROR)
-      glDebugMessageControl(GL_DONT_CARE, type, GL_DONT_CARE, 0, nullptr, GL_TRUE);
-  }
-  // NVIDIA's driver also tells what is no fault: as performance, that it compiles a program again;
-  // as other messages of low severity, that a clear finds state that only a draw would use.
   if (check) {
-    for (const GLenum severity : {GL_DEBUG_SEVERITY_HIGH, GL_DEBUG_SEVERITY_MEDIUM}) {
-      glDebugMessageControl(GL_DONT_CARE, GL_DEBUG_TYPE_OTHER, severity, 0, nullptr, GL_TRUE);
+    for (const GLenum severity :
+         {GL_DEBUG_SEVERITY_HIGH, GL_DEBUG_SEVERITY_MEDIUM, GL_DEBUG_SEVERITY_LOW}) {
+      glDebugMessageControl(GL_DONT_CARE, GL_DONT_CARE, severity, 0, nullptr, GL_TRUE);
     }
+    if (isNvidia()) leaveOutHints();
+  } else {
+    glDebugMessageControl(GL_DONT_CARE, GL_DEBUG_TYPE_ERROR, GL_DONT_CARE, 0, nullptr, GL_TRUE);
   }
   glDebugMessageCallback(onMessage, &sink);
   glEnable(GL_DEBUG_OUTPUT);

@@ -380,11 +380,10 @@ TEST_P(Calls, TheHostsFunctionsReplaceTheDriversMemory) {
   if (!isVulkan()) GTEST_SKIP() << "OpenGL's drivers allocate";
   const std::unique_ptr<Host> host = makeHost(GetParam(), false);
   host::VulkanSpec spec = vulkanSpec(*host);
-  host::VulkanSpec plain = spec;
   const grisaille_host_allocator functions = {
       .struct_size = sizeof(grisaille_host_allocator),
       .reserved = 0,
-      .context = &plain,
+      .context = &spec,
       .allocate = [](void* of, const grisaille_host_memory_request* request,
                      grisaille_host_memory* out) -> int {
         return allocateFor(*static_cast<host::VulkanSpec*>(of), *request, *out);

@@ -10,8 +10,8 @@ namespace grisaille::tests {
 
 namespace {
 
-// NVIDIA's Vulkan driver 580 fails to load once a process has loaded it many times,
-// and goes with its last instance. A device that nothing uses keeps it.
+// NVIDIA's Vulkan driver 580 is unloaded with the last instance of a process. Once that has
+// happened many times, it fails to load. A device that nothing uses keeps it loaded.
 void keepLoaded(const TestDevice& device) {
   if (device.backend != "vulkan" || !device.driver.empty()) return;
   [[maybe_unused]] static const gpu::Device* const kept = backends::create("vulkan", {}).release();

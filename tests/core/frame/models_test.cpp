@@ -57,7 +57,8 @@ class ModelsTest : public tests::BackendTest {
     }
     ASSERT_GT(errors.size(), 20u);
     std::ranges::sort(errors);
-    EXPECT_LT(errors[errors.size() / 2], snapping().movesDepth() ? 1e-3 : 1e-5);
+    EXPECT_LT(errors[errors.size() / 2],
+              snapping().movesDepth() ? 0.032 * snapping().halfStep() : 1e-5);
     if (snapping().isCoarse()) return;
     EXPECT_LT(covered, errors.size() / 50 + 3);
   }

@@ -115,13 +115,14 @@ TEST_P(LightTest, BaseColoursTintTheComposedPictureAlone) {
   AoFrames frames(device(), scene, {{"bounce", "base_colour"}});
   const std::vector<std::string> outputs = {"ao", "tint", "base_colour", "color"};
   const auto images = frames.showAll(kCreaseView, 64, 48, outputs, frame::Surface::kBaseColour);
+  // The compositor reads 8-bit sRGB, which GPUs may decode off by half a step: .0045.
+  const double allowed = device().info().software ? 2e-3 : 5e-3;
   for (uint32_t y = 0; y < 48; ++y) {
     for (uint32_t x = 0; x < 64; ++x) {
       for (uint32_t c = 0; c < 3; ++c) {
         const double tint = images[1].at(x, y, c), base = images[2].at(x, y, c);
         ASSERT_NEAR(tint, bounced(images[0].at(x, y), base), 2e-3);
-        // The compositor reads 8-bit sRGB, which hardware may decode off by half a step: .0045.
-        ASSERT_NEAR(images[3].at(x, y, c), tint * base, 5e-3);
+        ASSERT_NEAR(images[3].at(x, y, c), tint * base, allowed);
       }
     }
   }
