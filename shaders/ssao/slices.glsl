@@ -64,13 +64,15 @@ layout(IMAGE(1), rgba16f) writeonly uniform image2D bent_target;  // in view spa
 const float kPi = 3.14159265358979;
 // With known backs: two taps belong to one surface only if it is at most this steep, in metres of
 // view depth per metre across the view.
-const float kSteepest = 8.0;
+const float kSteepest = 6.5;
 // With known backs: how far a tap of its own surface reaches to both sides, in distances from the
 // tap before it.
 const float kLone = 2.5;
 const float kLoneAboveNext = 1.5;  // if the surface behind is known
 // Depth of the solid behind the back, in thicknesses.
 const float kNextThickness = 0.1;
+// How far the last surface goes on beyond the picture's border, in steps for each tap that lies there.
+const float kBeyondBorder = 2.0;
 
 // Error at most 7e-5 radians: Hastings 1955, "Approximations for Digital Computers", sheet 38; x in
 // [0, 1].
@@ -189,7 +191,7 @@ uint sectorsOfTap(Slice s, vec2 at, float side, float dither, bool next, inout S
   // than gaps between the taps, even if the back is known.
   const bool inside = beyond <= 0.0;
   const float deeper = abs(depth - before.depth);
-  bool connected = seen && deeper < settings.thickness;
+  bool connected = deeper < settings.thickness;
   vec2 wide = vec2(0.0);
   if (kBacks != 0u) {
     const vec2 across = depthScale(depth) * (at - before.at) * view.view_from_pixel.xy;
@@ -208,22 +210,24 @@ uint sectorsOfTap(Slice s, vec2 at, float side, float dither, bool next, inout S
   const float first = shareOf(s, point + near * way - wide, side), last = shareOf(s, to, side);
   const float low = min(leaves ? before.share : min(first, connected ? before.share : 1.0), last);
   const float high = max(leaves ? before.share : max(first, connected ? before.share : 0.0), last);
-  const bool present = seen && depth > 0.0 && (leaves || (d > 0.0 && near <= far));
+  if (!seen) return 0u;  // beyond the border; asked here, because software drivers mask what follows
+  const bool present = depth > 0.0 && (leaves || (d > 0.0 && near <= far));
   before.step = connected ? point - before.point : vec2(0.0);
   before.farther = max(beyond - before.beyond, 1e-30);
   before.point = point;
   before.share = first;
   before.depth = present && inside ? depth : -1e30;
   before.beyond = beyond;
-  before.seen += seen ? 1.0 : 0.0;
+  before.seen += 1.0;
   before.at = at;
   return present ? sectorsBetween(low, high, dither) : 0u;
 }
 
-// Occluded sectors beyond the last tap: its surface continues in its direction until it leaves the
-// sphere, at most one step further.
+// Occluded sectors beyond the last tap in the picture: its surface goes on in its direction until it
+// leaves the sphere. That is at most one step further, and more if taps lie beyond the border.
 uint sectorsBeyond(Slice s, Side last, float side, float dither) {
-  const float more = min(-last.beyond / last.farther, 1.0);
+  const float most = 1.0 + kBeyondBorder * (float(kSteps) - last.seen);
+  const float more = min(-last.beyond / last.farther, most);
   const float share = shareOf(s, last.point + more * last.step, side);
   return last.depth > 0.0 ? sectorsBetween(min(last.share, share), max(last.share, share), dither) : 0u;
 }
@@ -272,8 +276,11 @@ float sliceOf(vec3 position, vec3 view_vec, vec3 normal, vec3 direction, vec2 pi
   const float near = perspective() * settings.radius * settings.radius / dot(position, position);
   const float reach = settings.radius / (scale * scale) * sqrt(stretch / max(1.0 - near, 0.0625));
   uint occluded = 0u;
-  Side ahead = Side(vec2(0.0), vec2(0.0), 1.0, -1e30, 0.0, 1.0, 0.0, pixel);
-  Side behind = Side(vec2(0.0), vec2(0.0), 0.0, -1e30, 0.0, 1.0, 0.0, pixel);
+  // With thicknesses, the first tap may belong to the pixel's own surface. With drawn backs that has a
+  // larger error on leaves.
+  const float own = kBacks < 2u ? -position.z : -1e30, centre = -settings.radius * settings.radius;
+  Side ahead = Side(vec2(0.0), vec2(0.0), 1.0, own, centre, 1.0, 0.0, pixel);
+  Side behind = Side(vec2(0.0), vec2(0.0), 0.0, own, centre, 1.0, 0.0, pixel);
   Side next_ahead = ahead, next_behind = behind;
   // Not unrolled: unrolling costs a third more on lavapipe and gains nothing elsewhere.
   for (uint i = 0u; i < kSteps; ++i) {
@@ -281,8 +288,8 @@ float sliceOf(vec3 position, vec3 view_vec, vec3 normal, vec3 direction, vec2 pi
     const float one = (float(i) + jitter) / float(kSteps);
     const float two = (float(i) + 1.0 - jitter) / float(kSteps);
     const float least = float(i) + 1.0;
-    const float to = max(one * sqrt(sqrt(one)) * reach, least);
-    const float back = max(two * sqrt(sqrt(two)) * reach, least);
+    const float to = max(one * sqrt(one) * reach, least);
+    const float back = max(two * sqrt(two) * reach, least);
     const vec2 tap_ahead = tapAt(pixel, way, to), tap_behind = tapAt(pixel, -way, back);
     occluded |= sectorsOfTap(s, tap_ahead, 1.0, jitter, false, ahead);
     occluded |= sectorsOfTap(s, tap_behind, -1.0, jitter, false, behind);
@@ -295,17 +302,7 @@ float sliceOf(vec3 position, vec3 view_vec, vec3 normal, vec3 direction, vec2 pi
 #if BENT
   bent += meanOpen(s, n, ortho_direction, view_vec, occluded);
 #endif
-  // Visibility is the share of clear bits (Therrien 2023, line 26), counted for each side. A side
-  // that leaves the picture takes the other side's share for its missing taps.
-  const float low = clamp(round(s.offset * 32.0), 1.0, 31.0);
-  const uint low_bits = (1u << uint(low)) - 1u;
-  const float occluded_behind = float(bitCount(occluded & low_bits)) / low;
-  const float occluded_ahead = float(bitCount(occluded & ~low_bits)) / (32.0 - low);
-  const float lacks_behind = 1.0 - behind.seen / float(kSteps);
-  const float lacks_ahead = 1.0 - ahead.seen / float(kSteps);
-  const float share = low / 32.0;
-  return 1.0 - mix(max(occluded_ahead, lacks_ahead * (1.0 - lacks_behind) * occluded_behind),
-                   max(occluded_behind, lacks_behind * (1.0 - lacks_ahead) * occluded_ahead), share);
+  return 1.0 - float(bitCount(occluded)) / 32.0;  // share of clear bits: Therrien 2023, line 26
 }
 
 #if !LISTED

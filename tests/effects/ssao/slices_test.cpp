@@ -60,16 +60,16 @@ double cornerVisibility(double distance) {
 
 // Mean error of the picture, by distance from the crease in fifths of a radius; on the floor and on
 // the wall.
-std::array<std::array<double, 5>, 2> cornerErrors(const image::Image& ao,
-                                                  const image::Image& depth) {
+std::array<std::array<double, 5>, 2> cornerErrors(const image::Image& ao, const image::Image& depth,
+                                                  const scene::Camera& camera = kCorner) {
   std::array<std::array<double, 5>, 2> sums = {}, counts = {};
-  const glm::dmat3 axes = scene::worldFromView(kCorner);
-  const double scale = std::tan(glm::radians(kCorner.fovyDegrees) / 2) * 2 / ao.height;
+  const glm::dmat3 axes = scene::worldFromView(camera);
+  const double scale = std::tan(glm::radians(camera.fovyDegrees) / 2) * 2 / ao.height;
   for (uint32_t y = 0; y < ao.height; ++y) {
     for (uint32_t x = 0; x < ao.width; ++x) {
       const glm::dvec3 ray((x + 0.5 - ao.width * 0.5) * scale, (ao.height * 0.5 - y - 0.5) * scale,
                            -1);
-      const glm::dvec3 at = kCorner.eye + axes * ray * double{depth.at(x, y)};
+      const glm::dvec3 at = camera.eye + axes * ray * double{depth.at(x, y)};
       const bool wall = at.y > at.z;
       const double distance = (wall ? at.y : at.z) / 0.5;
       if (distance >= 1 || distance < 0) continue;
@@ -104,6 +104,27 @@ TEST_P(SlicesTest, ACornerIsWithinTwoHundredthsOfItsAnalyticValue) {
         EXPECT_NEAR(errors[w][bin], 0, allowed)
             << join(settings) << (w == 0 ? "floor" : "wall") << " at " << bin << " fifths";
       }
+    }
+  }
+}
+
+// The picture's border cuts the floor 0.4 radii before the wall. The floor goes on beyond it.
+TEST_P(SlicesTest, AFloorDarkensAWallFromBeyondTheBorder) {
+  const scene::Scene scene = tests::cornerScene();
+  const double down = std::atan(0.5 / 1.3) - glm::radians(30.0);
+  const scene::Camera camera = {.eye = glm::dvec3(0, 0.5, 1.5),
+                                .target = glm::dvec3(0, 0.5 - 1.5 * std::tan(down), 0),
+                                .fovyDegrees = 60};
+  frame::Renderer renderer(device(), scene);
+  const std::vector<std::string> outputs = {"depth"};
+  renderer.render({.camera = camera, .width = 640, .height = 480, .outputs = outputs});
+  const image::Image depth = renderer.read("depth");
+  for (const char* backs : {"assumed", "bodies", "drawn", "peeled"}) {
+    const tests::Settings settings = {{"guard_band", "0"}, {"backs", backs}};
+    const auto errors =
+        cornerErrors(tests::renderAo(device(), scene, camera, settings, 640, 480), depth, camera);
+    for (size_t bin = 0; bin < 5; ++bin) {
+      EXPECT_NEAR(errors[1][bin], 0, 0.04) << backs << ", wall at " << bin << " fifths";
     }
   }
 }
