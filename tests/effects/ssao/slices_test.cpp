@@ -96,6 +96,7 @@ TEST_P(SlicesTest, ACornerIsWithinTwoHundredthsOfItsAnalyticValue) {
            {{"resolution", "full"}},
            {{"resolution", "half"}},
            {{"resolution", "half"}, {"kernel_size", "8"}},
+           {{"resolution", "quarter"}, {"blur_size", "20"}},
            {{"resolution", "full"}, {"slices", "4"}, {"kernel_size", "128"}}}) {
     const auto errors =
         cornerErrors(tests::renderAo(device(), scene, kCorner, settings, 640, 480), depth);
