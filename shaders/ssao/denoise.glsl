@@ -5,15 +5,12 @@
 // slice of the 5x5 noise pattern the same weight. The range weight falls linearly with
 // the distance of a tap from the centre's tangent plane, to 0 at the plane tolerance.
 //
-// At a crease all texels of a surface lie on one side, and their mean is that of a place beside the
-// centre. A line fitted through them tells how much it changes up to the centre (local linear
-// regression: Fan 1992, "Design-adaptive Nonparametric Regression").
-//
 // LAST is 1 in the pass that applies finished(). BENT is 0 or 1; 1 also averages the mean open
 // directions, and LAST then turns them into world space.
 //
 // One invocation filters a run of 4 texels, which share most of their taps.
 #include "filter.glsl"
+#include "fit.glsl"
 
 layout(constant_id = 0) const uint kBlur = 5u;       // width at half height, pixels; 0: 1 texel
 layout(constant_id = 1) const uint kScale = 1u;      // pixels per texel, each way
@@ -22,10 +19,6 @@ layout(constant_id = 2) const bool kColumn = false;  // along columns, else alon
 // Largest difference between the facet's slope and the interpolated normal's, as the tangent of an
 // angle. The slopes on both sides of a texel may differ by an eighth of it.
 const float kMostBent = 0.5;
-// Share of the fitted line's change that is taken. All of it makes leaves noisy.
-const float kFitted = 0.5;
-// Least variance of the texels' offsets that a slope is divided by, texels^2.
-const float kLeastSpread = 0.5;
 
 float depthAt(ivec2 texel, vec2 inverse) {
   return textureLod(source, (vec2(texel) + 0.5) * inverse, 0.0).y;
@@ -100,10 +93,10 @@ void main() {
 #endif
   }
   const vec4 inverse_weights = 1.0 / max(weights, 1e-6);
-  const vec4 mean = sum * inverse_weights, offset = offsets * inverse_weights;
-  const vec4 spread = squares * inverse_weights - offset * offset;
-  const vec4 change = (products * inverse_weights - offset * mean) / max(spread, kLeastSpread);
-  const vec4 fitted = clamp(mean - kFitted * offset * change, 0.0, 1.0);
+  const vec4 mean = sum * inverse_weights;
+  const vec4 change = changeToCentre(mean, offsets * inverse_weights, squares * inverse_weights,
+                                     products * inverse_weights);
+  const vec4 fitted = clamp(mean + change, 0.0, 1.0);
   vec4 open = mix(vec4(1.0), fitted, greaterThan(depths, vec4(0.0)));
 #if LAST
   open = finished(open, settings.finish);

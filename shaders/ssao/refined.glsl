@@ -8,6 +8,7 @@
 #define ORTHOGRAPHIC_ID 7
 #include "common/view.glsl"
 #include "finish.glsl"
+#include "fit.glsl"
 #include "listed.glsl"
 #include "plane.glsl"
 
@@ -39,6 +40,7 @@ void denoise(ivec2 place) {
   const vec2 block_size = 1.0 / ceil(view.size.xy * 0.5);
   vec4 sum = vec4(0.0);  // xyz: mean open direction; w: visibility
   float weights = 0.0;
+  vec2 offsets = vec2(0.0), squares = vec2(0.0), products = vec2(0.0);
   for (int i = 0; i < 25; ++i) {
     const ivec2 across = ivec2(i % 5, i / 5) - 2;
     const ivec2 other = clamp(place + across, ivec2(0), ivec2(view.size.xy) - 1);
@@ -49,7 +51,12 @@ void denoise(ivec2 place) {
     const uint upsampled = block >> uint((other.x & 1) * 8 + (other.y & 1) * 16) & 0xffu;
     const vec2 at = (vec2(other) + 0.5) * view.size.zw;
     const bool is_listed = upsampled == kIsListed;
-    sum.w += weight * (is_listed ? textureLod(raw, at, 0.0).x : float(upsampled) / 254.0);
+    const float open = is_listed ? textureLod(raw, at, 0.0).x : float(upsampled) / 254.0;
+    sum.w += weight * open;
+    const vec2 weighted = weight * vec2(across);
+    offsets += weighted;
+    squares += weighted * vec2(across);
+    products += weighted * open;
 #if BENT
     sum.xyz += weight * (is_listed ? textureLod(raw_bent, at, 0.0).xyz
                                    : textureLod(upsampled_bent, at, 0.0).xyz);
@@ -57,6 +64,10 @@ void denoise(ivec2 place) {
     weights += weight;
   }
   sum /= weights;  // the pixel's own weight is 1
+  const vec2 none = vec2(0.0);
+  const vec4 changes = changeToCentre(vec4(sum.w), vec4(offsets / weights, none),
+                                      vec4(squares / weights, none), vec4(products / weights, none));
+  sum.w = clamp(sum.w + changes.x + changes.y, 0.0, 1.0);
   const vec2 here = pixel * view.size.zw, old = textureLod(kept, here, 0.0).xy;
   sum.w = mix(old.x, sum.w, old.y);
 #if BENT
