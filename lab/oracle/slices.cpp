@@ -18,10 +18,14 @@ constexpr double kGolden = 0.618034;      // offset between a pixel's slices, go
 constexpr double kPlaneTolerance = 0.05;  // radii
 constexpr double kPlanePixels = 4;        // upper limit of the tolerance, pixel widths
 constexpr double kMostBent = 0.5;         // largest angle between facet and normal, tangent
-constexpr double kSteepest = 8;           // slope of a surface that taps share, if backs are known
+constexpr double kSteepest = 6.5;         // slope of a surface that taps share, if backs are known
 constexpr double kLone = 2.5;             // reach of a surface of one tap, distances between taps
 constexpr double kLoneAboveNext = 1.5;    // if the surface behind is known
 constexpr double kNextThickness = 0.1;    // of the solid behind the back, in thicknesses
+constexpr double kTapPower = 1.5;         // distances of taps grow with this power of their number
+constexpr double kBeyondBorder = 2;  // steps that a surface goes on for each tap beyond the border
+// Share of a fitted line's change that is taken, and least variance of offsets, texels^2.
+constexpr double kFitted = 0.5, kLeastSpread = 0.5;
 // Where pixels begin to be refined, and where they are refined entirely: share of texels on the
 // pixel's plane, and difference of visibility between texels over the parameter `contrast`.
 constexpr double kServed[] = {0.6, 0.4}, kContrast[] = {0.8, 1.2};
@@ -78,12 +82,38 @@ struct Walk {
   double beyond = 0;              // of the previous tap: squared distance - squared radius
   double farther = 1;             // how much larger than that of the tap before it
   int seen = 0;                   // number of taps inside the attachments
-  glm::ivec2 at{0};               // pixel of the previous tap
+  glm::dvec2 at{0};               // pixel of the previous tap
 };
 
 // Values of a texel: the mean open direction in view space, of any length, and the visibility.
 using Texel = glm::dvec4;
 const Texel kSky(0, 0, 0, 1);
+
+// A weighted mean of texels. A line that is fitted through their visibility along each axis says
+// how much it changes from their middle to the centre.
+class LineFit {
+ public:
+  void add(double weight, const glm::dvec2& across, const Texel& texel) {
+    sum_ += weight * texel;
+    weights_ += weight;
+    offsets_ += weight * across;
+    squares_ += weight * across * across;
+    products_ += weight * across * texel.w;
+  }
+  Texel centre() const {
+    Texel mean = sum_ / weights_;
+    const glm::dvec2 offset = offsets_ / weights_;
+    const glm::dvec2 spread = glm::max(squares_ / weights_ - offset * offset, kLeastSpread);
+    const glm::dvec2 slope = (products_ / weights_ - offset * mean.w) / spread;
+    mean.w = std::clamp(mean.w - kFitted * glm::dot(offset, slope), 0.0, 1.0);
+    return mean;
+  }
+
+ private:
+  Texel sum_{0};
+  double weights_ = 0;
+  glm::dvec2 offsets_{0}, squares_{0}, products_{0};
+};
 
 // A pixel's value between the texels, and the share of it that one at full resolution replaces.
 struct Upsampled {
@@ -273,14 +303,19 @@ Texel Slices::sliceOf(const glm::dvec3& position, const glm::dvec3& normal,
   const double cut =
       view_.orthographic() ? 1 : std::max(1 - square / glm::dot(position, position), 0.0625);
   const double reach = settings_.radius / (shrink * shrink) * std::sqrt(stretch / cut);
-  Walk ahead{.side = 1, .share = 1}, behind{.side = -1, .share = 0};
+  Walk ahead{.side = 1, .share = 1, .beyond = -square, .at = pixel};
+  // Unless backs are drawn, the first tap may be joined to the pixel's own surface.
+  if (settings_.backs < OcclusionSettings::Backs::kDrawn) ahead.depth = -position.z;
+  Walk behind = ahead;
+  behind.side = -1;
+  behind.share = 0;
   Walk nextAhead = ahead, nextBehind = behind;
   uint32_t shut = 0;
   const uint32_t finer = std::max(8u, std::bit_ceil(static_cast<uint32_t>(steps_)) / 2);
   for (int i = 0; i < steps_; ++i) {
     for (Walk* walk : {&ahead, &behind}) {
       const double at = (i + (walk->side > 0 ? dither : 1 - dither)) / steps_;
-      const double pixels = std::max(std::pow(at, 1.25) * reach, i + 1.0);
+      const double pixels = std::max(std::pow(at, kTapPower) * reach, i + 1.0);
       const double grid = std::max(std::exp2(std::floor(std::log2(pixels))) / finer, 1.0);
       const glm::dvec2 place = glm::clamp(
           glm::floor((pixel + walk->side * pixels * way) / grid + 0.5) * grid, -1e6, 1e6);
@@ -293,37 +328,30 @@ Texel Slices::sliceOf(const glm::dvec3& position, const glm::dvec3& normal,
   }
   for (const Walk* walk : {&ahead, &behind}) {
     if (!walk->depth) continue;
-    // The surface of the last tap continues until it leaves the sphere, at most one step further.
-    const double more = std::min(-walk->beyond / std::max(walk->farther, 1e-30), 1.0);
+    // The surface of the last tap goes on until it leaves the sphere, at most one step further, and
+    // more if taps lie beyond the border.
+    const double most = 1 + kBeyondBorder * (steps_ - walk->seen);
+    const double more = std::min(-walk->beyond / std::max(walk->farther, 1e-30), most);
     const double share = slice.below(walk->point + more * walk->step, walk->side);
     shut |= sectors(std::min(walk->share, share), std::max(walk->share, share), dither);
   }
   const glm::dvec3 bent = slice.meanOpen(across, toward, shut);
-  // A side that leaves the picture takes the other side's share for its missing taps.
-  const int low = std::clamp(static_cast<int>(std::lround(slice.below(0) * 32)), 1, 31);
-  const double shutBehind = static_cast<double>(std::popcount(shut & ((1u << low) - 1))) / low;
-  const double shutAhead = static_cast<double>(std::popcount(shut >> low)) / (32 - low);
-  const double lacksAhead = 1 - static_cast<double>(ahead.seen) / steps_;
-  const double lacksBehind = 1 - static_cast<double>(behind.seen) / steps_;
-  const double shutAll =
-      glm::mix(std::max(shutAhead, lacksAhead * (1 - lacksBehind) * shutBehind),
-               std::max(shutBehind, lacksBehind * (1 - lacksAhead) * shutAhead), low / 32.0);
-  return {bent, 1 - shutAll};
+  return {bent, 1 - std::popcount(shut) / 32.0};
 }
 
 uint32_t Slices::tap(const Slice& slice, const glm::dvec3& position, const glm::ivec2& at,
                      double dither, bool next, Walk& walk) const {
-  const bool seen = view_.holds(at);
+  if (!view_.holds(at)) return 0;
   const double depth = next ? view_.next(at) : view_.depth(at);
   const glm::dvec3 ray = view_.ray(glm::dvec2(at) + 0.5);
   const glm::dvec3 front = view_.position(at, depth) - position, step = front - walk.point;
-  bool joined = seen && walk.depth && std::abs(depth - *walk.depth) < thickness_;
+  bool joined = walk.depth && std::abs(depth - *walk.depth) < thickness_;
   const double beyond = glm::dot(front, front) - settings_.radius * settings_.radius;
   const bool inside = beyond <= 0;
   glm::dvec3 wide(0);
   using Backs = OcclusionSettings::Backs;
   if (settings_.backs != Backs::kAssumed) {
-    const glm::dvec2 across = view_.shrink(depth) * glm::dvec2(at - walk.at) / view_.focal();
+    const glm::dvec2 across = view_.shrink(depth) * (glm::dvec2(at) - walk.at) / view_.focal();
     joined = joined && std::abs(depth - *walk.depth) < kSteepest * glm::length(across);
     if (inside && !joined && !next && walk.seen > 0) {
       wide = (settings_.backs == Backs::kPeeled ? kLoneAboveNext : kLone) * glm::dvec3(across, 0);
@@ -335,7 +363,7 @@ uint32_t Slices::tap(const Slice& slice, const glm::dvec3& position, const glm::
   bool present = false;
   double from = first;
   if (joined && !inside) {
-    present = seen && depth > 0;
+    present = depth > 0;
     // Where the squared distance, taken as linear between the taps, is the squared radius.
     const double inner = walk.beyond / (walk.beyond - beyond);
     const double last = slice.below(walk.point + inner * step, walk.side);
@@ -350,7 +378,7 @@ uint32_t Slices::tap(const Slice& slice, const glm::dvec3& position, const glm::
     const double d = b * b - beyond / length;
     const double root = std::sqrt(std::max(d, 0.0));
     const double near = std::max(0.0, -b - root), far = std::min(matter, root - b);
-    present = seen && depth > 0 && d > 0 && near <= far;
+    present = depth > 0 && d > 0 && near <= far;
     from = slice.below(front + near * ray - wide, walk.side);
     const double last = slice.below(front + far * ray + wide, walk.side);
     const double low = joined ? std::min(from, walk.share) : from;
@@ -363,7 +391,7 @@ uint32_t Slices::tap(const Slice& slice, const glm::dvec3& position, const glm::
   walk.beyond = beyond;
   walk.share = from;
   walk.depth = present && inside ? std::optional(depth) : std::nullopt;
-  walk.seen += seen ? 1 : 0;
+  ++walk.seen;
   walk.at = at;
   return present ? bits : 0;
 }
@@ -399,8 +427,7 @@ Texel Slices::denoised(const std::function<Texel(const glm::ivec2&)>& from, cons
   if (own <= 0) return kSky;
   const double facing = glm::dot(view_.normal(surface), view_.ray(glm::dvec2(surface) + 0.5));
   const double slope = slopeAlong(texel, along);
-  Texel sum(0);
-  double weights = 0;
+  LineFit fit;
   for (int i = 1 - reach; i < reach; ++i) {
     const glm::ivec2 other = texel + along * i;
     const glm::ivec2 inside = glm::clamp(other, glm::ivec2(0), texels_ - 1);
@@ -409,10 +436,9 @@ Texel Slices::denoised(const std::function<Texel(const glm::ivec2&)>& from, cons
     const double off =
         std::abs((depth - own) * facing + view_.shrink(depth) * i * slope) / toleranceAt(surface);
     const double weight = (width - std::abs(i)) * std::max(1 - off, 0.0);
-    sum += weight * from(inside);
-    weights += weight;
+    fit.add(weight, along * i, from(inside));
   }
-  return sum / weights;
+  return fit.centre();
 }
 
 // The mean of texels along an edge, weighted by how clear the edge's direction is.
@@ -487,8 +513,7 @@ Upsampled Slices::upsampled(const glm::ivec2& pixel) {
 
 // The mean of the 5x5 pixels around, listed or not.
 Texel Slices::refined(const glm::ivec2& pixel) {
-  Texel sum(0);
-  double weights = 0;
+  LineFit fit;
   for (int i = 0; i < 25; ++i) {
     const glm::ivec2 across(i % 5 - 2, i / 5 - 2);
     const glm::ivec2 other = glm::clamp(pixel + across, glm::ivec2(0), view_.size() - 1);
@@ -497,12 +522,11 @@ Texel Slices::refined(const glm::ivec2& pixel) {
     const double weight = std::max(1 - off, 0.0);
     if (weight <= 0) continue;
     const Upsampled from = upsampled_(other);
-    sum +=
-        weight * (from.share > 0 ? glm::mix(from.texel, refined_(other), from.share) : from.texel);
-    weights += weight;
+    fit.add(weight, across,
+            from.share > 0 ? glm::mix(from.texel, refined_(other), from.share) : from.texel);
   }
   const Upsampled own = upsampled_(pixel);
-  return glm::mix(own.texel, sum / weights, own.share);
+  return glm::mix(own.texel, fit.centre(), own.share);
 }
 
 }  // namespace
