@@ -222,7 +222,7 @@ const std::vector<Edge>& edges() {
        "In `surface` mode the shader computes positions as offsets from the muzzle, in single "
        "precision. From 10^5 m on they are centimetres off, which moves rims. `per_shot` mode "
        "computes them from the ray, and stays within the limit."},
-      {"a direction between two sectors", 0.015,
+      {"a direction between two sectors", 0.025,
        "The bent normal looks directions up in 32 sectors, each occluded or open. If an occluded "
        "sector ends at a direction, rounding decides whether that direction counts. Bent normals "
        "around it then turn by half a degree."},
