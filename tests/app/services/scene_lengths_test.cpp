@@ -118,7 +118,7 @@ TEST(SceneLengths, ScaleTheDefaultsOfLengthsThatNobodyHasSet) {
   EXPECT_EQ(selection.values("sspm").text("splat_scale"), "0.0048");
   EXPECT_EQ(selection.values("sspm").text("r0"), "7");
   EXPECT_EQ(selection.values("ssao").text("bias"), "0");
-  EXPECT_EQ(selection.values("ssao").text("thickness"), "1") << "in radii already";
+  EXPECT_EQ(selection.values("ssao").text("thickness"), "1.25") << "in radii already";
   selection.values("sspm").reset("r0");
   EXPECT_EQ(selection.values("sspm").text("r0"), "0.08");
   // Another scene moves the lengths that follow.
