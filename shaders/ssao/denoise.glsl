@@ -85,9 +85,10 @@ void main() {
     const vec4 weight = other.y > 0.0 ? bilateral : vec4(0.0);
     sum += weight * other.x;
     weights += weight;
-    offsets += weight * k;
-    squares += weight * k * k;
-    products += weight * k * other.x;
+    const vec4 weighted = weight * k;
+    offsets += weighted;
+    squares += weighted * k;
+    products += weighted * other.x;
 #if BENT
     bent += outerProduct(textureLod(source_bent, from, 0.0).xyz, weight);
 #endif

@@ -2,8 +2,8 @@
 // Denoiser of the listed pixels, after the pass that computes them: the mean of the 5x5 pixels
 // around, weighted by their distance from the pixel's tangent plane. 5x5 pixels hold every point of
 // the noise pattern of slices.glsl. Pixels that are not on the list are upsampled and have no
-// noise. The share of a pixel that keeps its upsampled value is not averaged. In one pass: over
-// rows, then columns, it would cost half and err 2 % more, 4 % on leaves.
+// noise. The mean is corrected by fit.glsl. The share of a pixel that keeps its upsampled value is not
+// averaged. In one pass: over rows, then columns, it would cost half and err 2 % more, 4 % on leaves.
 // BENT is 0 or 1; 1 also averages the mean open directions, and turns them into world space.
 #define ORTHOGRAPHIC_ID 7
 #include "common/view.glsl"
