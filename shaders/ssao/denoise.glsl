@@ -37,8 +37,10 @@ vec4 facetSlope(vec4 depths, float before, float after, vec4 facing, vec4 slope,
   const vec4 slope_before = (back - depths) * facing / depthScales(max(back, 1e-30));
   const vec4 slope_after = (depths - on) * facing / depthScales(max(on, 1e-30));
   const vec4 facet = 0.5 * (slope_before + slope_after);
-  return mix(slope, facet,
-             lessThan(max(8.0 * abs(slope_before - slope_after), abs(facet - slope)), most));
+  const vec4 apart = max(8.0 * abs(slope_before - slope_after), abs(facet - slope));
+  // Sky, depth 0, is not on a line with anything.
+  const vec4 sky = 1e30 * vec4(lessThanEqual(min(back, on), vec4(0.0)));
+  return mix(slope, facet, lessThan(apart + sky, most));
 }
 
 void main() {
