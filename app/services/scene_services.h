@@ -12,8 +12,8 @@
 
 #include "core/effect/instance.h"
 #include "core/image/image.h"
-#include "core/scene/bodies.h"
 #include "core/trace/ray_tracer.h"
+#include "core/trace/scene_matter.h"
 
 namespace grisaille::app {
 
@@ -76,11 +76,11 @@ class SceneServices {
 
   effect::Services all() { return {.rays = &rays_, .pictures = &pictures_}; }
   SceneRays& rays() { return rays_; }
-  scene::SceneMatter& matter() { return matter_; }
+  trace::SceneMatter& matter() { return matter_; }
 
  private:
   SceneRays rays_;
-  scene::SceneMatter matter_;
+  trace::SceneMatter matter_;
   PictureFiles pictures_;
 };
 

@@ -122,7 +122,10 @@ void Session::setScene(std::shared_ptr<scene::Scene> loaded, const std::string& 
   services = std::make_unique<SceneServices>(
       *scene, [this](const std::string& file, const std::string& warning) { warn(file, warning); });
   // Found while this thread looks for a camera.
-  if (readsMatter()) services->matter().prepare();
+  constexpr uint32_t kFarSides =
+      GRISAILLE_READS(GRISAILLE_BACK_DEPTH) | GRISAILLE_READS(GRISAILLE_NEXT_DEPTH);
+  if (reads(kFarSides | GRISAILLE_READS(GRISAILLE_THICKNESS))) services->matter().prepare();
+  if (reads(kFarSides)) services->matter().prepareBuried();
   for (const std::string& note : scene->notes) say("note: " + note);
   aspect_ = double{1} * std::max(size.x, 1u) / std::max(size.y, 1u);
   const bool first = std::exchange(firstScene_, false);
@@ -147,13 +150,11 @@ void Session::setScene(std::shared_ptr<scene::Scene> loaded, const std::string& 
   cameraHistory.begin(camera);
 }
 
-// Whether the first frame will ask for solid bodies. If this is wrong, that frame is only later.
-bool Session::readsMatter() const {
-  constexpr uint32_t kOfMatter = GRISAILLE_READS(GRISAILLE_BACK_DEPTH) |
-                                 GRISAILLE_READS(GRISAILLE_NEXT_DEPTH) |
-                                 GRISAILLE_READS(GRISAILLE_THICKNESS);
-  return std::ranges::any_of(chain.selection.entries(), [](const effect::Selection::Entry& entry) {
-    return entry.on && (entry.effect().reads(entry.values.all().data(), ~0u) & kOfMatter) != 0;
+// Whether the first frame will read one of the attachments. If this is wrong, that frame is only
+// later.
+bool Session::reads(uint32_t attachments) const {
+  return std::ranges::any_of(chain.selection.entries(), [&](const effect::Selection::Entry& entry) {
+    return entry.on && (entry.effect().reads(entry.values.all().data(), ~0u) & attachments) != 0;
   });
 }
 

@@ -309,7 +309,7 @@ class Session {
   // The effect whose objects a file holds; "": none.
   std::string ownerOf(const std::string& path);
   void fitToScene();
-  bool readsMatter() const;
+  bool reads(uint32_t attachments) const;
   void resume(const SavedSession& last, bool sameScene);
   void applyGiven();
   void takeViews(const SavedSession& session);

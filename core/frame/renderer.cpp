@@ -70,7 +70,7 @@ struct Renderer::SceneView {
   }
 };
 
-Renderer::Renderer(gpu::Device& device, const scene::Scene& scene, scene::SceneMatter* matter)
+Renderer::Renderer(gpu::Device& device, const scene::Scene& scene, trace::SceneMatter* matter)
     : device_(device),
       scene_(std::make_unique<SceneAttachments>(device, scene, matter)),
       source_(*scene_),

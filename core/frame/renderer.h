@@ -20,9 +20,9 @@
 #include "core/frame/frames_before.h"
 #include "core/gpu/device.h"
 #include "core/image/image.h"
-#include "core/scene/bodies.h"
 #include "core/scene/camera.h"
 #include "core/scene/scene.h"
+#include "core/trace/scene_matter.h"
 
 namespace grisaille::frame {
 
@@ -76,7 +76,7 @@ class Renderer {
   // Draws the scene. Device and scene must outlive this. The scene may change only between frames,
   // by scene::pose(). matter: that of the scene, must outlive this; null: found by the first frame
   // that needs it
-  Renderer(gpu::Device& device, const scene::Scene& scene, scene::SceneMatter* matter = nullptr);
+  Renderer(gpu::Device& device, const scene::Scene& scene, trace::SceneMatter* matter = nullptr);
   // Takes the attachments from `source`. Device and source must outlive this.
   Renderer(gpu::Device& device, AttachmentSource& source);
   ~Renderer();

@@ -17,7 +17,7 @@ class SceneAttachments : public AttachmentSource {
   // Device and scene must outlive this. The scene may change only between calls, by scene::pose().
   // matter: as for SceneResources
   SceneAttachments(gpu::Device& device, const scene::Scene& scene,
-                   scene::SceneMatter* matter = nullptr)
+                   trace::SceneMatter* matter = nullptr)
       : device_(device),
         poses_(scene.poses),
         scene_(device, scene, matter),

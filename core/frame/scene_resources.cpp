@@ -46,7 +46,7 @@ gpu::Address address(scene::Wrap wrap) {
 }  // namespace
 
 SceneResources::SceneResources(gpu::Device& device, const scene::Scene& scene,
-                               scene::SceneMatter* matter)
+                               trace::SceneMatter* matter)
     : device_(device),
       scene_(scene),
       ownMatter_(scene),
@@ -122,30 +122,32 @@ float SceneResources::chordScale(uint32_t primitive, const glm::dmat3& linear) {
 
 const SceneResources::FarSides& SceneResources::farSides(gpu::Commands& commands) {
   if (farSides_) return *farSides_;
-  farSides_.emplace().bodyCounts.resize(scene_.primitives.size());
   const auto twoSided = [&](const scene::Primitive& primitive) {
     const scene::Material& material = scene_.materials[primitive.material];
     return material.doubleSided && !material.masked;
   };
-  if (std::ranges::none_of(scene_.primitives, twoSided)) return *farSides_;
-  const std::vector<bool>& bodies = matter_.get().bodies;
+  const std::vector<bool>& buried = matter_.buried();
   std::vector<uint32_t> ordered = scene_.indices, others;
-  for (size_t i = 0; i < scene_.primitives.size(); ++i) {
-    const scene::Primitive& primitive = scene_.primitives[i];
-    if (!twoSided(primitive)) continue;
+  std::vector<FarSides::Run> runs;
+  for (const scene::Primitive& primitive : scene_.primitives) {
+    const bool sorted = twoSided(primitive);
     const auto begin = ordered.begin() + primitive.firstIndex;
     auto to = begin;
     others.clear();
     for (auto from = begin; from != begin + primitive.indexCount; from += 3) {
-      if (bodies[static_cast<size_t>(from - ordered.begin()) / 3]) {
+      const size_t triangle = static_cast<size_t>(from - ordered.begin()) / 3;
+      if (buried[triangle]) continue;
+      if (sorted && matter_.get().bodies[triangle]) {
         to = std::copy(from, from + 3, to);
       } else {
         others.insert(others.end(), from, from + 3);
       }
     }
     std::ranges::copy(others, to);
-    farSides_->bodyCounts[i] = static_cast<uint32_t>(to - begin);
+    runs.push_back({.bodies = static_cast<uint32_t>(to - begin),
+                    .others = static_cast<uint32_t>(others.size())});
   }
+  farSides_.emplace().runs = std::move(runs);
   if (ordered != scene_.indices) {
     vertexBuffer(commands, farSides_->indices, "indices of far sides",
                  std::as_bytes(std::span(ordered)), gpu::BufferUsage::kIndex);
@@ -358,9 +360,10 @@ void SceneResources::draw(gpu::Commands& commands, const scene::View& view,
                                : mirrors != farSidesOnly ? gpu::Cull::kFront
                                                          : gpu::Cull::kBack});
     };
-    const uint32_t bodyCount = far ? far->bodyCounts[instance.primitive] : 0;
-    add(primitive.firstIndex, bodyCount, false);
-    add(primitive.firstIndex + bodyCount, primitive.indexCount - bodyCount, material.doubleSided);
+    const FarSides::Run run = far ? far->runs[instance.primitive]
+                                  : FarSides::Run{.bodies = 0, .others = primitive.indexCount};
+    add(primitive.firstIndex, run.bodies, false);
+    add(primitive.firstIndex + run.bodies, run.others, material.doubleSided);
   }
 
   std::vector<gpu::ColorTarget> colors;

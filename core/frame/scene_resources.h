@@ -9,13 +9,14 @@
 #include <vector>
 
 #include "core/gpu/device.h"
-#include "core/scene/bodies.h"
 #include "core/scene/scene.h"
 #include "core/scene/view.h"
+#include "core/trace/scene_matter.h"
 
 namespace grisaille::frame {
 
-// The sides of surfaces that a draw behind an earlier depth writes.
+// The sides of surfaces that a draw behind an earlier depth writes. It leaves out triangles that
+// are buried in matter (core/trace/buried.h): none of them begins or ends it.
 enum class SceneSides {
   // At or behind that depth, where matter may end: the far sides of closed bodies
   // (core/scene/bodies.h), both sides of other double-sided triangles, and all that face away.
@@ -43,7 +44,7 @@ class SceneResources {
   // Device and scene must outlive this. The scene may change only between draws, by scene::pose().
   // matter: that of the scene, must outlive this; null: found by the first draw that needs it
   SceneResources(gpu::Device& device, const scene::Scene& scene,
-                 scene::SceneMatter* matter = nullptr);
+                 trace::SceneMatter* matter = nullptr);
   ~SceneResources();
   SceneResources(const SceneResources&) = delete;
   SceneResources& operator=(const SceneResources&) = delete;
@@ -81,11 +82,14 @@ class SceneResources {
     gpu::Texture alpha, colour;
   };
 
-  // The indices in the order of the draw of far sides: of each primitive, first the triangles of
-  // double-sided bodies.
+  // The indices that a draw of far sides reads: of each primitive, first the triangles of
+  // double-sided bodies, then the others, without those that are buried in matter.
   struct FarSides {
-    gpu::Buffer indices;               // null: the scene's own order is that order
-    std::vector<uint32_t> bodyCounts;  // number of indices of such triangles, one per primitive
+    struct Run {
+      uint32_t bodies, others;  // number of indices of such triangles
+    };
+    gpu::Buffer indices;    // null: the scene's own
+    std::vector<Run> runs;  // one per primitive, from its first index
   };
 
   // Vertices that scene::pose() writes, as they are in pose number `poses` of the scene.
@@ -108,8 +112,8 @@ class SceneResources {
 
   gpu::Device& device_;
   const scene::Scene& scene_;
-  scene::SceneMatter ownMatter_;
-  scene::SceneMatter& matter_;
+  trace::SceneMatter ownMatter_;
+  trace::SceneMatter& matter_;
   PosedVertices positions_, normals_;
   gpu::Buffer texCoords_, colours_, thickness_, indices_;
   std::optional<FarSides> farSides_;                 // of the first draw with SceneTargets::front

@@ -15,8 +15,6 @@
 #include <span>
 #include <utility>
 
-#include "core/scene/rig.h"
-
 namespace grisaille::scene {
 namespace {
 
@@ -299,21 +297,6 @@ Matter matterOf(const Scene& scene) {
     }
   }
   return matter;
-}
-
-void SceneMatter::prepare() {
-  if (matter_ || finding_.valid() || scene_.rig != nullptr) return;
-  finding_ = std::async(std::launch::async, [this] { return matterOf(scene_); });
-}
-
-const Matter& SceneMatter::get() {
-  if (matter_) return *matter_;
-  if (finding_.valid()) return matter_.emplace(finding_.get());
-  if (scene_.rig == nullptr) return matter_.emplace(matterOf(scene_));
-  // A picture of a pose must not depend on the poses that were drawn before it.
-  Scene rest = scene_;
-  pose(rest, {});
-  return matter_.emplace(matterOf(rest));
 }
 
 double chordScale(const glm::dvec3& areas, const glm::dmat3& linear) {

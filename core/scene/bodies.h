@@ -5,8 +5,6 @@
 // average.
 #pragma once
 
-#include <future>
-#include <optional>
 #include <vector>
 
 #include "core/scene/scene.h"
@@ -43,24 +41,6 @@ struct Matter {
 // its present pose. Time: that of sorting the scene's edges, and of 16 solid angles for each
 // triangle of a part that is not closed.
 Matter matterOf(const Scene& scene);
-
-// The matter of one scene, found once: by get(), or before that in the background.
-class SceneMatter {
- public:
-  // `scene` must outlive this and change only by scene::pose(). The matter is that at rest.
-  explicit SceneMatter(const Scene& scene) : scene_(scene) {}
-
-  // Begins to find the matter on a thread of its own, at the first call, unless the scene can move:
-  // scene::pose() must not write what that thread reads.
-  void prepare();
-  // Waits, or finds it now. The errors are those of std::vector.
-  const Matter& get();
-
- private:
-  const Scene& scene_;
-  std::optional<Matter> matter_;
-  std::future<Matter> finding_;  // last: its thread reads the scene
-};
 
 // The factor on the mean chord of a body whose surface has these Matter::areas, if `linear`
 // transforms it: that of its volume over that of its surface. Exact for boxes along the axes, and

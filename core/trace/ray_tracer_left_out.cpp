@@ -1,6 +1,8 @@
 // SPDX-License-Identifier: MIT
-// Replaces ray_tracer.cpp in builds without Embree: constructing a tracer throws kLeftOut.
+// Replaces ray_tracer.cpp and buried.cpp in builds without Embree: constructing a tracer throws
+// kLeftOut.
 #include "core/base/error.h"
+#include "core/trace/buried.h"
 #include "core/trace/ray_tracer.h"
 
 namespace grisaille::trace {
@@ -36,6 +38,10 @@ Surroundings RayTracer::surroundings(const glm::dvec3& /*point*/,
 
 void RayTracer::castRays(std::span<const grisaille_ray> /*rays*/, std::span<grisaille_hit> /*hits*/,
                          Backs /*backs*/) const {}
+
+std::vector<bool> buriedTriangles(const scene::Scene& scene) {
+  return std::vector<bool>(scene.indices.size() / 3);
+}
 
 SurfacePoints RayTracer::surfacePoints(const SurfaceSpec& /*spec*/) const {
   return {};

@@ -74,6 +74,11 @@ class TracedScene {
     return scene_.primitives[scene_.instances[triangle.instance].primitive].material;
   }
   Facet facet(const Triangle& triangle) const;
+  // Whether a ray of this direction runs into the triangle's back.
+  bool isBack(const Triangle& triangle, const Facet& facet, const glm::dvec3& direction) const {
+    const double facing = glm::dot(facet.cross, direction);
+    return placements_[triangle.instance].mirrored ? facing < 0 : facing > 0;
+  }
   // Whether the place is a hole of a mask. u, v: weights of the second and the third corner.
   bool isHole(const Triangle& triangle, float u, float v) const;
 
@@ -95,10 +100,6 @@ class TracedScene {
   void attach(uint32_t id, Bucket& bucket);
   void writeVertices(const Bucket& bucket, glm::vec3* vertices) const;
   void throwOnFailure(const char* what) const;
-  bool isBack(const Triangle& triangle, const Facet& facet, const glm::dvec3& direction) const {
-    const double facing = glm::dot(facet.cross, direction);
-    return placements_[triangle.instance].mirrored ? facing < 0 : facing > 0;
-  }
   static void passHoles(const RTCFilterFunctionNArguments* args);
 
   const scene::Scene& scene_;

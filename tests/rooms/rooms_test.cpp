@@ -33,7 +33,7 @@ constexpr Room kRooms[] = {
     {"core/scene", "core/image"},
     {"core/scene/built_in", "core/image core/scene"},
     {"core/trace", "core/image core/scene grisaille"},
-    {"core/frame", "core/effect core/gpu core/image core/scene grisaille shaders"},
+    {"core/frame", "core/effect core/gpu core/image core/scene core/trace/scene_matter.h grisaille shaders"},
     {"backends", "backends/opengl/opengl.h backends/vulkan/vulkan.h core/gpu"},
     {"backends/glfw", "backends/window.h"},
     {"backends/opengl", "backends/window.h core/gpu"},

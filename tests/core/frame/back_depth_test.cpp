@@ -183,6 +183,31 @@ TEST_P(BackDepthTest, NextDepthIsThatOfTheSurfaceBehindTheBack) {
   EXPECT_EQ(at(2), 0);
 }
 
+// A peg that sticks in a block, and one that ends in front of another block.
+TEST_P(BackDepthTest, MatterEndsBehindTheBodyThatAnotherSticksIn) {
+  scene::Scene scene;
+  scene.materials.push_back({.name = "wood"});
+  const auto box = [&](const glm::dvec3& centre, const glm::dvec3& half) {
+    tests::addBox(scene, glm::scale(glm::translate(glm::dmat4(1), centre), half));
+  };
+  for (const double x : {-2.0, 2.0}) box({x, 0, 0}, {1, 1, 0.5});
+  box({-2, 0, 0.5}, {0.2, 0.2, 0.3});
+  box({2, 0, 1}, {0.2, 0.2, 0.3});
+  scene::computeBounds(scene);
+  const scene::Camera camera = {
+      .eye = glm::dvec3(0, 0, 1000), .target = glm::dvec3(0), .fovyDegrees = 0.2};
+  frame::Renderer renderer(device(), scene);
+  const std::vector<std::string> outputs = {"back_depth"};
+  renderer.render({.camera = camera, .width = 160, .height = 90, .outputs = outputs});
+  const image::Image drawn = renderer.read("back_depth");
+  const auto at = [&](double x) {
+    const double slope = std::tan(glm::radians(camera.fovyDegrees) / 2);
+    return drawn.at(static_cast<uint32_t>(80 + x / (1000 * slope) * 45), 45);
+  };
+  EXPECT_NEAR(at(-2), 1000.5, 1e-3);
+  EXPECT_NEAR(at(2), 999.3, 1e-3);
+}
+
 // A pixel's depth is the depth at its centre. Where the rasteriser snaps vertices coarsely, it may
 // be that of a ray close to the centre.
 TEST_P(BackDepthTest, IsTheNextSurfaceThatFacesAwayAndNextDepthTheOneBehindIt) {
