@@ -127,17 +127,12 @@ std::vector<size_t> presetsOn(std::span<const Price> front,
   return chosen;
 }
 
-std::vector<size_t> thinned(std::span<const Price> prices, std::span<const size_t> front) {
-  std::vector<size_t> worth, kept;
+std::vector<size_t> worthwhile(std::span<const Price> prices, std::span<const size_t> front) {
+  std::vector<size_t> worth;
   for (const size_t i : front) {
     if (worth.empty() || prices[i].error < kWorth * prices[worth.back()].error) worth.push_back(i);
   }
-  for (size_t k = worth.size(); k-- > 0;) {
-    const size_t i = worth[k];
-    if (kept.empty() || prices[kept.back()].cost > kDistinct * prices[i].cost) kept.push_back(i);
-  }
-  std::ranges::reverse(kept);
-  return kept;
+  return worth;
 }
 
 NamedPreset parseNamedPreset(const std::string& text) {
@@ -161,7 +156,7 @@ void writePresets(std::span<const Record> records, std::span<const NamedPreset> 
   requireOneEffect(choices);
   std::vector<Price> prices, front;
   for (const Choice& choice : choices) prices.push_back(choice.price);
-  const std::vector<size_t> order = thinned(prices, frontOf(prices));
+  const std::vector<size_t> order = worthwhile(prices, frontOf(prices));
   std::vector<std::vector<double>> errors;
   for (const size_t i : order) {
     front.push_back(prices[i]);

@@ -24,16 +24,12 @@ struct Choice {
 // The settings that every backend of the records has measured, in the order of the records.
 std::vector<Choice> choicesOf(std::span<const Record> records);
 
-// Thins out a front, in two steps:
-//
-// - It drops a setting unless its error is below kWorth times that of the next cheaper kept
-// setting.
-// - It then drops a setting if the next dearer kept setting costs at most kDistinct times as much:
-//   clocks do not tell these two apart.
+// The settings of a front that are worth their price: whose error is below kWorth times that of the
+// next cheaper one that is.
 //
 // `front`: indices into `prices`, from frontOf().
-constexpr double kWorth = 0.99, kDistinct = 1.08;
-std::vector<size_t> thinned(std::span<const Price> prices, std::span<const size_t> front);
+constexpr double kWorth = 0.99;
+std::vector<size_t> worthwhile(std::span<const Price> prices, std::span<const size_t> front);
 
 // How much more `dearer` errs than `cheaper` where it does worst: the largest difference of a
 // camera's errors. 0 or less: nowhere. `errors`: of each camera, in the same order.

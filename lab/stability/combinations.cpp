@@ -25,7 +25,10 @@ const std::vector<Variant>& variants() {
   static const std::vector<Variant> kVariants = {
       {"slices", "ssao", "ao", {}},
       {"slices, raw", "ssao", "ao", {{"resolution", "full"}, {"blur_size", "0"}}},
-      {"slices, quarter", "ssao", "ao", {{"resolution", "quarter"}}},
+      {"slices, quarter",
+       "ssao",
+       "ao",
+       {{"resolution", "quarter"}, {"edge_slices", "2"}, {"refine", "nothing"}}},
       {"slices, refined", "ssao", "ao", {{"resolution", "quarter"}, {"refine", "contrasts"}}},
       {"slices, exact",
        "ssao",
