@@ -69,9 +69,9 @@ GRISAILLE_CHECK_BLOCK_ssao_upsample_bent_Settings(UpsampleBlock);
 // Plane tolerance of the denoiser and the upsampling, in radii.
 constexpr float kTolerance = 0.05f;
 
-// The list of shaders/ssao/listed.glsl: pixels of the picture per invocation of a pass that
-// processes it, since on a software driver an idle invocation costs as much as a busy one; and most
-// pixels that it holds (64 MiB of the 128 that every device binds).
+// The lists of shaders/ssao/listed.glsl: pixels of the picture per invocation of a pass that
+// processes one, since on a software driver an idle invocation costs as much as a busy one; and
+// most entries that they hold (64 MiB of the 128 that every device binds).
 constexpr uint64_t kListShare = 64, kListMost = 1u << 24;
 constexpr uint32_t kGroup = 64;  // invocations
 
@@ -223,15 +223,19 @@ void Slices::enlarge(const plugin::Frame& frame, Kernels& kernels, Size size, Pa
   frame.pass("denoise refined", [&] { denoiseListed(frame, kernels, listed, raw, outputs); });
 }
 
-// An empty list for the pixels of the picture; without refinement, as short as can be bound.
+// Empty lists for the pixels of the picture and their blocks; without refinement, as short as can
+// be bound.
 grisaille_binding Slices::listFor(const plugin::Frame& frame, bool refines) {
-  const uint64_t words = 1 + (refines ? std::min(pixelsOf(frame), kListMost) : 1);
+  // Two counters, and an entry for each block and each of its pixels.
+  const uint64_t blocks =
+      uint64_t{plugin::groupsFor(frame.width(), 2)} * plugin::groupsFor(frame.height(), 2);
+  const uint64_t words = 2 + std::min(5 * (refines ? blocks : 1), kListMost);
   const bool grows = words > listWords_;
   if (grows) {
     list_ = host_.buffer("listed", words * sizeof(uint32_t));
     listWords_ = words;
   }
-  if (grows || refines) frame.uploadBuffer(list_, 0, std::array<uint32_t, 1>{0});
+  if (grows || refines) frame.uploadBuffer(list_, 0, std::array<uint32_t, 2>{0, 0});
   return plugin::storage(0, plugin::whole(list_));
 }
 

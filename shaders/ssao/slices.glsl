@@ -383,7 +383,7 @@ void shade(ivec2 texel) {
 
 void main() {
 #if LISTED
-  const uint end = listedEnd();
+  const uint end = min(pixel_count, pixelRoom());
   for (uint i = listedFirst(); i < end; i += listedStride()) shade(listedPixel(i));
 #else
   const ivec2 texel = ivec2(gl_GlobalInvocationID.xy);

@@ -107,22 +107,26 @@ uvec4 bytesOf(vec4 open) {
   return uvec4(clamp(open, 0.0, 1.0) * 254.0 + 0.5);
 }
 
-// Appends those pixels of the 2x2 block at `place` to the list whose `share` is not 0. Returns the
-// bytes of the block's texel.
+// Lists the 2x2 block at `place`, and those of its pixels whose `share` is not 0. Returns the bytes of
+// the block's texel.
 uvec4 appended(ivec2 place, vec4 share, vec4 open) {
   uvec4 bytes = bytesOf(open);
   const bvec4 which = greaterThan(share, vec4(0.0));
   const uvec4 one = uvec4(which);
-  uint slot = atomicAdd(listed_count, one.x + one.y + one.z + one.w);
+  uint slot = atomicAdd(pixel_count, one.x + one.y + one.z + one.w);
   [[unroll]] for (uint i = 0u; i < 4u; ++i) {
     if (!which[i]) continue;
     const uvec2 at = uvec2(place) + uvec2(i & 1u, i >> 1u);
-    if (slot < uint(listed.length())) {
+    if (slot < pixelRoom()) {
       listed[slot] = at.x | at.y << 16;
       imageStore(kept, ivec2(at), vec4(open[i], share[i], 0.0, 0.0));
       bytes[i] = kIsListed;
     }
     ++slot;
+  }
+  slot = atomicAdd(block_count, 1u);
+  if (slot < blockRoom()) {
+    listed[uint(listed.length()) - 1u - slot] = uint(place.x) | uint(place.y) << 16;
   }
   return bytes;
 }
