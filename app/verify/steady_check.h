@@ -38,9 +38,10 @@ class SteadyCheck {
   Pictures read(frame::Renderer& renderer) const;
   Pictures drawAfresh(bool once, Variant variant = Variant::kPlain);
   void checkVariants(const Pictures& plain);
-  // Returns whether the pictures are the same bit for bit. `cause`: which faults have one cause.
+  // Returns whether the pictures are the same: bit for bit, or within `allowed` of each value, at
+  // least of 1. `cause`: which faults have one cause.
   bool compare(const Pictures& one, const Pictures& other, const std::string& fault,
-               const char* cause = "unsteady");
+               const char* cause = "unsteady", float allowed = 0);
   void checkGrowth();
 
   Report& report_;

@@ -52,7 +52,7 @@ void main() {
   // counts, not their product.
   if (settings.has_ao != 0u) {
     const float other = textureLod(ao, at * view.size.zw, 0.0).x;
-    open = min(open, other) / max(other, 1e-3);
+    open = other > 1e-3 ? min(open, other) / other : 1.0;
   }
   imageStore(visibility, pixel, vec4(clamp(open, 0.0, 1.0)));
 }

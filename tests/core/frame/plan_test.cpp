@@ -135,6 +135,7 @@ TEST_F(PlanTest, NoBlurRecordsNoBlurPass) {
 }
 
 TEST_F(PlanTest, SlicesRecordWhatTheirResolutionAndBlurNeed) {
+  values_->set("refine", "nothing");
   const auto passes = [&](const char* resolution, const char* blur) {
     values_->set("resolution", resolution);
     values_->set("blur_size", blur);
