@@ -381,7 +381,7 @@ TEST_F(PlanTest, BadCameraIsAnErrorAndTheNextFrameWorks) {
   camera_.target = camera_.eye;
   EXPECT_ERROR(ErrorId::kCameraInvalid, record({"ao"}, true));
   camera_ = good;
-  EXPECT_EQ(record({"ao"}, true).passes.size(), 7u);
+  EXPECT_EQ(record({"ao"}, true).passes.size(), 9u);
 }
 
 }  // namespace
