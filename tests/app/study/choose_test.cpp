@@ -77,7 +77,8 @@ TEST(Presets, WhatErrsHardlyLessIsNotWorthItsPrice) {
   EXPECT_EQ(worthwhile(prices, frontOf(prices)), (std::vector<size_t>{0, 1, 3}));
 }
 
-// Each error is near the next. Those that remain are apart, and no gap becomes wider than necessary.
+// Each error is near the next. Those that remain are apart, and no gap becomes wider than
+// necessary.
 TEST(Presets, AChainOfNearErrorsIsThinnedOut) {
   std::vector<Price> prices;
   for (int i = 0; i < 40; ++i) {
