@@ -59,17 +59,7 @@ class Burial {
   // What a ray meets.
   enum class Met : uint8_t { kSkyOrFront, kNearBack, kFarBack };
   Met met(const glm::vec3& from, const glm::vec3& way) const {
-    RTCRayHit ray = {};
-    ray.ray.org_x = from.x;
-    ray.ray.org_y = from.y;
-    ray.ray.org_z = from.z;
-    ray.ray.dir_x = way.x;
-    ray.ray.dir_y = way.y;
-    ray.ray.dir_z = way.z;
-    ray.ray.tfar = std::numeric_limits<float>::infinity();
-    ray.ray.mask = ~0u;
-    ray.hit.geomID = RTC_INVALID_GEOMETRY_ID;
-    ray.hit.instID[0] = RTC_INVALID_GEOMETRY_ID;
+    RTCRayHit ray = embree::makeRay(from, way, 0, std::numeric_limits<float>::infinity());
     embree::Context context;
     embree::intersect1(traced_.world(), context, nullptr, ray);
     if (ray.hit.geomID == RTC_INVALID_GEOMETRY_ID) return Met::kSkyOrFront;

@@ -3,6 +3,8 @@
 // same in both. CMake defines GRISAILLE_EMBREE_MAJOR.
 #pragma once
 
+#include <glm/glm.hpp>
+
 #if GRISAILLE_EMBREE_MAJOR >= 4
 #include <embree4/rtcore.h>
 #else
@@ -36,6 +38,25 @@ inline void fill(Context& context, RTCFilterFunctionN filter) {
 }
 
 #endif
+
+// A ray that has hit nothing. near, far: distances between which it is cast, in lengths of
+// `direction`.
+inline RTCRayHit makeRay(const glm::vec3& origin, const glm::vec3& direction, float near,
+                         float far) {
+  RTCRayHit ray = {};
+  ray.ray.org_x = origin.x;
+  ray.ray.org_y = origin.y;
+  ray.ray.org_z = origin.z;
+  ray.ray.tnear = near;
+  ray.ray.dir_x = direction.x;
+  ray.ray.dir_y = direction.y;
+  ray.ray.dir_z = direction.z;
+  ray.ray.tfar = far;
+  ray.ray.mask = ~0u;
+  ray.hit.geomID = RTC_INVALID_GEOMETRY_ID;
+  ray.hit.instID[0] = RTC_INVALID_GEOMETRY_ID;
+  return ray;
+}
 
 // Each query initialises `context` and passes it to Embree, and Embree passes it to `filter`. To
 // give a filter more data, make the context the first member of a struct. `filter` may be null.

@@ -16,22 +16,6 @@
 namespace grisaille::trace {
 namespace {
 
-RTCRayHit makeRay(const glm::vec3& origin, const glm::vec3& direction, float near, float far) {
-  RTCRayHit ray = {};
-  ray.ray.org_x = origin.x;
-  ray.ray.org_y = origin.y;
-  ray.ray.org_z = origin.z;
-  ray.ray.tnear = near;
-  ray.ray.dir_x = direction.x;
-  ray.ray.dir_y = direction.y;
-  ray.ray.dir_z = direction.z;
-  ray.ray.tfar = far;
-  ray.ray.mask = ~0u;
-  ray.hit.geomID = RTC_INVALID_GEOMETRY_ID;
-  ray.hit.instID[0] = RTC_INVALID_GEOMETRY_ID;
-  return ray;
-}
-
 // A ray relative to the tracer's origin.
 struct Path {
   glm::dvec3 from;
@@ -136,8 +120,8 @@ std::vector<Hit> RayTracer::castPrimary(const scene::Camera& camera, uint32_t wi
     const scene::ViewRay seen = scene::rayAt(view, glm::dvec2(pixels[i]) + 0.5);
     const glm::dvec3 eye = seen.origin - impl_->traced.origin(), direction = seen.direction;
     RTCRayHit ray =
-        makeRay(glm::vec3(eye), glm::vec3(direction), static_cast<float>(camera.nearPlane),
-                std::numeric_limits<float>::infinity());
+        embree::makeRay(glm::vec3(eye), glm::vec3(direction), static_cast<float>(camera.nearPlane),
+                        std::numeric_limits<float>::infinity());
     embree::Context context;
     embree::intersect1(impl_->traced.world(), context, TracedScene::passBackFaces, ray);
     if (ray.hit.geomID == RTC_INVALID_GEOMETRY_ID) return;
@@ -162,14 +146,13 @@ Surroundings RayTracer::Impl::along(const glm::dvec3& point, const glm::dvec3& d
   Surroundings seen;
   float from = 0;
   for (int i = 0; i < kMostCrossings; ++i) {
-    RTCRayHit ray = makeRay(glm::vec3(point - traced.origin()), glm::vec3(direction), from,
-                            std::numeric_limits<float>::infinity());
+    RTCRayHit ray = embree::makeRay(glm::vec3(point - traced.origin()), glm::vec3(direction), from,
+                                    std::numeric_limits<float>::infinity());
     embree::Context context;
     embree::intersect1(traced.world(), context, nullptr, ray);
     if (ray.hit.geomID == RTC_INVALID_GEOMETRY_ID) break;
     const Triangle& triangle = traced.triangle(ray.hit.geomID, ray.hit.primID);
-    const bool mirrored = traced.placement(triangle.instance).mirrored;
-    const bool back = (glm::dot(traced.facet(triangle).cross, direction) > 0) != mirrored;
+    const bool back = traced.isBack(triangle, traced.facet(triangle), direction);
     seen.winding += back ? 1 : -1;
     if (i == 0) {
       seen.met = 1;
@@ -328,7 +311,7 @@ void RayTracer::addOcclusion(std::span<const Hit> hits, double radius, uint32_t 
     const glm::vec3 start(position + 2e-6 * reach * hit.facetNormal);
     embree::Context context;
     countRays(hit, seed, from, to, counts[i], [&](const glm::vec3& direction) {
-      RTCRayHit ray = makeRay(start, direction, 0.0f, static_cast<float>(radius));
+      RTCRayHit ray = embree::makeRay(start, direction, 0.0f, static_cast<float>(radius));
       embree::occluded1(impl_->traced.world(), context, ray.ray);
       return ray.ray.tfar >= 0;
     });

@@ -17,6 +17,14 @@ namespace {
 constexpr uint32_t kWidth = 96, kHeight = 72;
 constexpr double kNone = std::numeric_limits<double>::infinity();
 
+// The value in the middle row of a picture, `x` metres right of the origin. The camera looks along
+// -z.
+float valueAt(const image::Image& drawn, const scene::Camera& camera, double x) {
+  const double slope = std::tan(glm::radians(camera.fovyDegrees) / 2), half = drawn.height / 2.0;
+  return drawn.at(static_cast<uint32_t>(drawn.width / 2.0 + x / (camera.eye.z * slope) * half),
+                  drawn.height / 2);
+}
+
 class BackDepthTest : public tests::BackendTest {};
 GRISAILLE_ON_EVERY_DEVICE(BackDepthTest);
 
@@ -117,10 +125,7 @@ TEST_P(BackDepthTest, ThicknessIsThatOfTheBody) {
   const std::vector<std::string> outputs = {"thickness", "base_colour", "facet_normal", "normal"};
   renderer.render({.camera = camera, .width = 160, .height = 90, .outputs = outputs});
   const image::Image drawn = renderer.read("thickness");
-  const auto at = [&](double x) {
-    const double slope = std::tan(glm::radians(camera.fovyDegrees) / 2);
-    return drawn.at(static_cast<uint32_t>(80 + x / (4 * slope) * 45), 45);
-  };
+  const auto at = [&](double x) { return valueAt(drawn, camera, x); };
   EXPECT_NEAR(at(0), 2.0 / 3, 1e-3);
   EXPECT_EQ(at(-1.5), -1);
   EXPECT_EQ(at(1.5), 0);
@@ -172,10 +177,7 @@ TEST_P(BackDepthTest, NextDepthIsThatOfTheSurfaceBehindTheBack) {
   const std::vector<std::string> outputs = {"next_depth"};
   renderer.render({.camera = camera, .width = 160, .height = 90, .outputs = outputs});
   const image::Image drawn = renderer.read("next_depth");
-  const auto at = [&](double x) {
-    const double slope = std::tan(glm::radians(camera.fovyDegrees) / 2);
-    return drawn.at(static_cast<uint32_t>(80 + x / (1000 * slope) * 45), 45);
-  };
+  const auto at = [&](double x) { return valueAt(drawn, camera, x); };
   EXPECT_NEAR(at(-2), 999.75, 1e-3);
   EXPECT_NEAR(at(-1), 999.5, 1e-3);
   EXPECT_EQ(at(0), 0);
@@ -200,10 +202,7 @@ TEST_P(BackDepthTest, MatterEndsBehindTheBodyThatAnotherSticksIn) {
   const std::vector<std::string> outputs = {"back_depth"};
   renderer.render({.camera = camera, .width = 160, .height = 90, .outputs = outputs});
   const image::Image drawn = renderer.read("back_depth");
-  const auto at = [&](double x) {
-    const double slope = std::tan(glm::radians(camera.fovyDegrees) / 2);
-    return drawn.at(static_cast<uint32_t>(80 + x / (1000 * slope) * 45), 45);
-  };
+  const auto at = [&](double x) { return valueAt(drawn, camera, x); };
   EXPECT_NEAR(at(-2), 1000.5, 1e-3);
   EXPECT_NEAR(at(2), 999.3, 1e-3);
 }
