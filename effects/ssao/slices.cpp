@@ -69,10 +69,10 @@ GRISAILLE_CHECK_BLOCK_ssao_upsample_bent_Settings(UpsampleBlock);
 // Plane tolerance of the denoiser and the upsampling, in radii.
 constexpr float kTolerance = 0.05f;
 
-// The lists of shaders/ssao/listed.glsl: pixels of the picture per invocation of a pass that
-// processes one, since on a software driver an idle invocation costs as much as a busy one; and
-// most entries that they hold (64 MiB of the 128 that every device binds).
-constexpr uint64_t kListShare = 64, kListMost = 1u << 24;
+// The list of shaders/ssao/listed.glsl: pixels of the picture per invocation of a pass that
+// processes it, since on a software driver an idle invocation costs as much as a busy one; and the
+// most blocks that it holds (48 MiB of the 128 that every device binds).
+constexpr uint64_t kListShare = 64, kListMost = 1u << 22;
 constexpr uint32_t kGroup = 64;  // invocations
 
 float toleranceOf(const plugin::Frame& frame) {
@@ -211,31 +211,29 @@ void Slices::enlarge(const plugin::Frame& frame, Kernels& kernels, Size size, Pa
   const Listed listed = {
       .list = listFor(frame, refines),
       .blocks = texture("visibility upsampled", GRISAILLE_FORMAT_R32UI, 2),
-      .kept = texture("visibility kept", GRISAILLE_FORMAT_RG32F, 1),
       .bent = bent ? texture("open direction upsampled", GRISAILLE_FORMAT_RGBA16F, 1)
                    : grisaille_texture{0}};
   frame.pass("upsample", [&] { upsample(frame, kernels, size, coarse, listed, outputs); });
   if (!refines) return;
-  const Pair raw = {.open = texture("refined visibility", GRISAILLE_FORMAT_R32F, 1),
+  const Pair raw = {.open = listed.blocks,
                     .bent = bent ? texture("refined open direction", GRISAILLE_FORMAT_RGBA16F, 1)
                                  : grisaille_texture{0}};
   frame.pass("refine", [&] { occlude(frame, kernels.listed, full, raw, &listed); });
   frame.pass("denoise refined", [&] { denoiseListed(frame, kernels, listed, raw, outputs); });
 }
 
-// Empty lists for the pixels of the picture and their blocks; without refinement, as short as can
-// be bound.
+// An empty list for the blocks of the picture; without refinement, as short as can be bound.
 grisaille_binding Slices::listFor(const plugin::Frame& frame, bool refines) {
-  // Two counters, and an entry for each block and each of its pixels.
   const uint64_t blocks =
       uint64_t{plugin::groupsFor(frame.width(), 2)} * plugin::groupsFor(frame.height(), 2);
-  const uint64_t words = 2 + std::min(5 * (refines ? blocks : 1), kListMost);
+  // The count, and three words a block.
+  const uint64_t words = 1 + 3 * std::min(refines ? blocks : 1, kListMost);
   const bool grows = words > listWords_;
   if (grows) {
     list_ = host_.buffer("listed", words * sizeof(uint32_t));
     listWords_ = words;
   }
-  if (grows || refines) frame.uploadBuffer(list_, 0, std::array<uint32_t, 2>{0, 0});
+  if (grows || refines) frame.uploadBuffer(list_, 0, std::array<uint32_t, 1>{0});
   return plugin::storage(0, plugin::whole(list_));
 }
 
@@ -292,7 +290,7 @@ void Slices::occlude(const plugin::Frame& frame, plugin::PipelineCache& pipeline
                        plugin::texture(0, frame.attachment(GRISAILLE_VIEW_DEPTH), clamped_),
                        plugin::texture(1, frame.attachment(GRISAILLE_NORMAL), clamped_),
                        plugin::texture(2, known, clamped_),
-                       plugin::texture(5, next, clamped_),
+                       plugin::texture(3, next, clamped_),
                        plugin::image(0, target.open)};
   if (target.bent.id != 0) bindings.add(plugin::image(1, target.bent));
   if (listed == nullptr) {
@@ -300,8 +298,6 @@ void Slices::occlude(const plugin::Frame& frame, plugin::PipelineCache& pipeline
     return;
   }
   bindings.add(listed->list);
-  bindings.add(plugin::texture(3, listed->kept, clamped_));
-  if (target.bent.id != 0) bindings.add(plugin::texture(4, listed->bent, clamped_));
   frame.dispatch(pipelines.get(std::span(constants).first(5)), bindings, listGroups(frame), 1);
 }
 
@@ -357,7 +353,6 @@ void Slices::upsample(const plugin::Frame& frame, Kernels& kernels, Size size, P
                        plugin::texture(2, frame.attachment(GRISAILLE_NORMAL), clamped_),
                        plugin::image(0, target.open),
                        plugin::image(2, listed.blocks),
-                       plugin::image(4, listed.kept),
                        listed.list};
   if (target.bent.id != 0) {
     bindings.add(plugin::texture(3, coarse.bent, clamped_));
@@ -374,15 +369,13 @@ void Slices::denoiseListed(const plugin::Frame& frame, Kernels& kernels, const L
   Bindings bindings = {plugin::uniform(0, frame.viewBlock()),
                        plugin::uniform(1, frame.uniform(filterBlock(frame))),
                        plugin::texture(0, listed.blocks, clamped_),
-                       plugin::texture(1, raw.open, clamped_),
-                       plugin::texture(2, frame.attachment(GRISAILLE_VIEW_DEPTH), clamped_),
-                       plugin::texture(3, frame.attachment(GRISAILLE_NORMAL), clamped_),
-                       plugin::texture(6, listed.kept, clamped_),
+                       plugin::texture(1, frame.attachment(GRISAILLE_VIEW_DEPTH), clamped_),
+                       plugin::texture(2, frame.attachment(GRISAILLE_NORMAL), clamped_),
                        plugin::image(0, target.open),
                        listed.list};
   if (target.bent.id != 0) {
-    bindings.add(plugin::texture(4, listed.bent, clamped_));
-    bindings.add(plugin::texture(5, raw.bent, clamped_));
+    bindings.add(plugin::texture(3, listed.bent, clamped_));
+    bindings.add(plugin::texture(4, raw.bent, clamped_));
     bindings.add(plugin::image(1, target.bent));
   }
   frame.dispatch(kernels.refined.get({cameraKind(frame)}), bindings, listGroups(frame), 1);

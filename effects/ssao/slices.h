@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: MIT
 // The estimator `slices`: visibility by slices and a bitmask of sectors. Passes, at the effect's
 // resolution: occlusion, accumulate (with `history` above 1), denoise and edges. Unless that is the
-// picture's, upsample follows, which lists the pixels that it serves badly; then occlusion and
+// picture's, upsample follows, which lists the blocks that it serves badly; then occlusion and
 // denoiser of these.
 #pragma once
 
@@ -32,10 +32,10 @@ class Slices {
     uint32_t scale;          // pixels per texel, each way
     uint32_t width, height;  // texels
   };
-  // Pixels that are computed at full resolution, see shaders/ssao/upsample.glsl.
+  // Blocks with pixels that are computed at full resolution, see shaders/ssao/upsample.glsl.
   struct Listed {
     grisaille_binding list;
-    grisaille_texture blocks, kept, bent;
+    grisaille_texture blocks, bent;
   };
   struct Kernels {
     explicit Kernels(plugin::Host host);
@@ -44,7 +44,7 @@ class Slices {
         refined;
   };
 
-  // `listed`: the pixels to compute, at the picture's resolution; nullptr: all texels.
+  // `listed`: the blocks whose pixels to compute, at the picture's resolution; nullptr: all texels.
   void occlude(const plugin::Frame& frame, plugin::PipelineCache& pipelines, Size size, Pair target,
                const Listed* listed);
   Bindings filterBindings(const plugin::Frame& frame, Pair from, Pair target) const;

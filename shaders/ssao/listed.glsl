@@ -1,37 +1,39 @@
 // SPDX-License-Identifier: MIT
-// Lists of the pixels that are computed at full resolution although the effect's is lower, and of the
-// blocks of 2x2 pixels that hold one. upsample.glsl writes them. Nobody knows their lengths when the
-// frame is recorded: in the passes after it, few invocations process several entries each.
+// List of the blocks of 2x2 pixels of which some are computed at full resolution although the effect's
+// is lower. upsample.glsl writes it. Nobody knows its length when the frame is recorded: in the passes
+// after it, few invocations process several blocks each.
 layout(STORAGE(0), std430) buffer List {
-  // Numbers of entries. They may exceed the room: the rest keeps its upsampled value.
-  uint pixel_count, block_count;
-  uint listed[];  // x | y << 16: pixels from the front on, blocks from the back
+  uint count;  // of blocks; may exceed the room: the rest keeps its upsampled value
+  uint listed[];
 };
 
-// Byte of a listed pixel in the image `blocks`, see upsample.glsl.
-const uint kIsListed = 255u;
+// A byte for each of the pixels (0, 0), (1, 0), (0, 1) and (1, 1), from the lowest bits on.
+struct Block {
+  ivec2 place;  // its first pixel
+  uint open;    // visibilities after the upsampling, before finished()
+  uint shares;  // how much of them the refined pixels replace; 0 for pixels that are not refined
+};
 
-uint blockRoom() {
-  return uint(listed.length()) / 5u;
-}
-uint pixelRoom() {
-  return uint(listed.length()) - blockRoom();
-}
-
-ivec2 placeOf(uint entry) {
-  return ivec2(entry & 0xffffu, entry >> 16);
-}
-ivec2 listedPixel(uint i) {
-  return placeOf(listed[i]);
-}
-ivec2 listedBlock(uint i) {
-  return placeOf(listed[uint(listed.length()) - 1u - i]);
+void append(Block block) {
+  const uint i = 3u * atomicAdd(count, 1u);
+  if (i + 3u > uint(listed.length())) return;
+  listed[i] = uint(block.place.x) | uint(block.place.y) << 16;
+  listed[i + 1u] = block.open;
+  listed[i + 2u] = block.shares;
 }
 
-// First entry of an invocation, and number of invocations. For groups of 8x8.
-uint listedFirst() {
+Block blockAt(uint i) {
+  const uint place = listed[3u * i];
+  return Block(ivec2(place & 0xffffu, place >> 16), listed[3u * i + 1u], listed[3u * i + 2u]);
+}
+
+// The blocks of an invocation: from the first to the end of the list, by the stride. For groups of 8x8.
+uint firstBlock() {
   return gl_WorkGroupID.x * 64u + gl_LocalInvocationIndex;
 }
-uint listedStride() {
+uint blockStride() {
   return gl_NumWorkGroups.x * 64u;
+}
+uint blockEnd() {
+  return min(count, uint(listed.length()) / 3u);
 }

@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: MIT
-// Denoiser of the listed pixels, after the pass that computes them: the mean of the 5x5 pixels
+// Denoiser of the refined pixels, after the pass that computes them: the mean of the 5x5 pixels
 // around, weighted by their distance from the pixel's tangent plane. 5x5 pixels hold every point of
-// the noise pattern of slices.glsl. Pixels that are not on the list are upsampled and have no
+// the noise pattern of slices.glsl. Pixels that are not refined are upsampled and have no
 // noise. The mean is corrected by fit.glsl. The share of a pixel that keeps its upsampled value is not
 // averaged. In one pass: over rows, then columns, it would cost half and err 2 % more, 4 % on leaves.
 //
@@ -19,16 +19,13 @@ layout(UNIFORM(1), std140) uniform Settings {
   vec4 finish;      // see finished() in finish.glsl
   float tolerance;  // inverse of the plane tolerance, 1 / metres
 } settings;
-// All nearest and clamped. blocks, upsampled_bent, kept: see upsample.glsl. raw, raw_bent: valid at
-// listed pixels.
+// All nearest and clamped. blocks, upsampled_bent: see upsample.glsl.
 layout(TEXTURE(0)) uniform usampler2D blocks;
-layout(TEXTURE(1)) uniform sampler2D raw;
-layout(TEXTURE(2)) uniform sampler2D view_depth;
-layout(TEXTURE(3)) uniform sampler2D world_normal;
-layout(TEXTURE(6)) uniform sampler2D kept;
+layout(TEXTURE(1)) uniform sampler2D view_depth;
+layout(TEXTURE(2)) uniform sampler2D world_normal;
 #if BENT
-layout(TEXTURE(4)) uniform sampler2D upsampled_bent;
-layout(TEXTURE(5)) uniform sampler2D raw_bent;
+layout(TEXTURE(3)) uniform sampler2D upsampled_bent;
+layout(TEXTURE(4)) uniform sampler2D raw_bent;  // valid at refined pixels
 layout(IMAGE(1), rgba16f) writeonly uniform image2D bent_target;
 #endif
 layout(IMAGE(0), r16f) writeonly uniform image2D target;
@@ -54,24 +51,30 @@ Four fourAt(ivec2 place) {
   return four;
 }
 
-// place: the first pixel of the block
-void denoise(ivec2 place) {
+#if BENT
+vec3 bentAt(vec2 at) {
+  const vec4 upsampled = textureLod(upsampled_bent, at, 0.0);
+  return upsampled.w > 0.0 ? mix(upsampled.xyz, textureLod(raw_bent, at, 0.0).xyz, upsampled.w)
+                           : upsampled.xyz;
+}
+#endif
+
+void denoise(Block block) {
+  const ivec2 place = block.place;
   const Four own = fourAt(place);
   const ivec2 size = ivec2(view.size.xy);
   const vec2 block_size = 1.0 / ceil(view.size.xy * 0.5);
   // One component for each of the four pixels.
-  vec4 sum = vec4(0.0), weights = vec4(0.0), shares = vec4(0.0), kept_open = vec4(0.0);
+  vec4 sum = vec4(0.0), weights = vec4(0.0);
   vec4 offset_x = vec4(0.0), square_x = vec4(0.0), product_x = vec4(0.0);
   vec4 offset_y = vec4(0.0), square_y = vec4(0.0), product_y = vec4(0.0);
 #if BENT
   mat4x3 bent = mat4x3(0.0);
 #endif
-  uint own_bytes = 0u;
   for (int b = 0; b < 9; ++b) {
     const ivec2 corner = place + 2 * (ivec2(b % 3, b / 3) - 1);
     const ivec2 inside = clamp(corner, ivec2(0), size - 1);
-    const uint bytes = textureLod(blocks, (vec2(inside / 2) + 0.5) * block_size, 0.0).x;
-    if (b == 4) own_bytes = bytes;
+    const uint opens = textureLod(blocks, (vec2(inside / 2) + 0.5) * block_size, 0.0).x;
     [[unroll]] for (int i = 0; i < 4; ++i) {
       const ivec2 pixel = corner + ivec2(i & 1, i >> 1);
       const ivec2 other = clamp(pixel, ivec2(0), size - 1);
@@ -82,10 +85,8 @@ void denoise(ivec2 place) {
                            depthScale(depth) * (own.slope_x * x + own.slope_y * y));
       const vec4 near = vec4(lessThan(max(abs(x), abs(y)), vec4(2.5)));
       const vec4 weight = depth > 0.0 ? max(1.0 - off, 0.0) * near : vec4(0.0);
-      const uint upsampled = bytes >> uint((other.x & 1) * 8 + (other.y & 1) * 16) & 0xffu;
-      const vec2 at = (vec2(other) + 0.5) * view.size.zw;
-      const bool is_listed = upsampled == kIsListed;
-      const float open = is_listed ? textureLod(raw, at, 0.0).x : float(upsampled) / 254.0;
+      const float open =
+          float(bitfieldExtract(opens, (other.x & 1) * 8 + (other.y & 1) * 16, 8)) / 255.0;
       sum += weight * open;
       weights += weight;
       offset_x += weight * x;
@@ -95,27 +96,21 @@ void denoise(ivec2 place) {
       product_x += weight * x * open;
       product_y += weight * y * open;
 #if BENT
-      bent += outerProduct(is_listed ? textureLod(raw_bent, at, 0.0).xyz
-                                     : textureLod(upsampled_bent, at, 0.0).xyz, weight);
+      bent += outerProduct(bentAt((vec2(other) + 0.5) * view.size.zw), weight);
 #endif
     }
   }
-  const vec4 inverse = 1.0 / max(weights, 1e-6);  // a listed pixel's own weight is 1
+  const vec4 inverse = 1.0 / max(weights, 1e-6);  // a refined pixel's own weight is 1
   const vec4 mean = sum * inverse;
   const vec4 fitted =
       mean + changeToCentre(mean, offset_x * inverse, square_x * inverse, product_x * inverse) +
       changeToCentre(mean, offset_y * inverse, square_y * inverse, product_y * inverse);
-  [[unroll]] for (int i = 0; i < 4; ++i) {
-    const vec2 here = (vec2(place + ivec2(i & 1, i >> 1)) + 0.5) * view.size.zw;
-    const vec2 old = textureLod(kept, here, 0.0).xy;
-    kept_open[i] = old.x;
-    shares[i] = old.y;
-  }
-  const vec4 open =
-      finished(mix(kept_open, clamp(fitted, 0.0, 1.0), shares), settings.finish);
+  const vec4 shares = unpackUnorm4x8(block.shares);
+  const vec4 open = finished(
+      mix(unpackUnorm4x8(block.open), clamp(fitted, 0.0, 1.0), shares), settings.finish);
   [[unroll]] for (int i = 0; i < 4; ++i) {
     const ivec2 pixel = place + ivec2(i & 1, i >> 1);
-    if ((own_bytes >> uint(8 * i) & 0xffu) != kIsListed) continue;
+    if (shares[i] == 0.0) continue;
     imageStore(target, pixel, vec4(open[i]));
 #if BENT
     const vec2 here = (vec2(pixel) + 0.5) * view.size.zw;
@@ -128,6 +123,6 @@ void denoise(ivec2 place) {
 }
 
 void main() {
-  const uint end = min(block_count, blockRoom());
-  for (uint i = listedFirst(); i < end; i += listedStride()) denoise(listedBlock(i));
+  const uint end = blockEnd();
+  for (uint i = firstBlock(); i < end; i += blockStride()) denoise(blockAt(i));
 }

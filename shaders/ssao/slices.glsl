@@ -16,8 +16,8 @@
 //
 // A texel of the target samples one of kScale x kScale pixels, the top left one. At edges, where
 // the denoiser finds few texels of one surface, the texel takes kEdgeSlices times as many slices.
-// BENT is 0 or 1; 1 also computes the mean open direction. LISTED is 0 or 1; 1 computes only the
-// pixels of a list, at the picture's resolution, none of them as an edge.
+// BENT is 0 or 1; 1 also computes the mean open direction. LISTED is 0 or 1; 1 computes only
+// pixels of listed blocks (listed.glsl), at the picture's resolution, none of them as an edge.
 #define ORTHOGRAPHIC_ID 7
 #include "common/view.glsl"
 #include "plane.glsl"
@@ -47,13 +47,9 @@ layout(UNIFORM(1), std140) uniform Settings {
 layout(TEXTURE(0)) uniform sampler2D view_depth;  // nearest, clamped
 layout(TEXTURE(1)) uniform sampler2D world_normal;
 layout(TEXTURE(2)) uniform sampler2D known;  // with kBacks, metres; nearest, clamped
-layout(TEXTURE(5)) uniform sampler2D next_depth;  // with kBacks = 3, metres; nearest, clamped
+layout(TEXTURE(3)) uniform sampler2D next_depth;  // with kBacks = 3, metres; nearest, clamped
 #if LISTED
-layout(TEXTURE(3)) uniform sampler2D kept;  // see upsample.glsl
-#if BENT
-layout(TEXTURE(4)) uniform sampler2D upsampled_bent;
-#endif
-layout(IMAGE(0), r32f) writeonly uniform image2D target;
+layout(IMAGE(0), r32ui) writeonly uniform uimage2D blocks;  // see upsample.glsl
 #else
 layout(IMAGE(0), rg32f) writeonly uniform image2D target;  // visibility and view depth
 #endif
@@ -362,31 +358,44 @@ float openAt(uvec2 texel, vec2 pixel, float depth, out vec3 bent) {
   return open / float(count);
 }
 
-void shade(ivec2 texel) {
+// Visibility and view depth of a texel.
+vec2 shade(ivec2 texel) {
   const vec2 pixel = vec2(texel) * float(kScale) + 0.5;
   const float depth = textureLod(view_depth, attachmentAt(pixel), 0.0).x;
   float open = 1.0;
   vec3 bent = vec3(0.0);
   if (depth > 0.0) open = openAt(uvec2(texel), pixel, depth, bent);
-#if LISTED
-  const vec2 at = pixel * view.size.zw, old = textureLod(kept, at, 0.0).xy;
-  open = mix(old.x, open, old.y);
-#if BENT
-  bent = mix(textureLod(upsampled_bent, at, 0.0).xyz, bent, old.y);
-#endif
-#endif
-  imageStore(target, texel, vec4(open, depth, 0.0, 0.0));
 #if BENT
   imageStore(bent_target, texel, vec4(bent, 0.0));
 #endif
+  return vec2(open, depth);
 }
 
 void main() {
 #if LISTED
-  const uint end = min(pixel_count, pixelRoom());
-  for (uint i = listedFirst(); i < end; i += listedStride()) shade(listedPixel(i));
+  // From pixel to pixel; after a block's last one at once to the next block. With a loop over the
+  // blocks and one over their pixels, invocations that have fewer pixels would wait for others.
+  const uint end = blockEnd();
+  uint next = firstBlock(), rest = 0u;  // pixels of the block still to come, a bit each
+  Block block;
+  while (rest != 0u || next < end) {
+    if (rest == 0u) {
+      block = blockAt(next);
+      next += blockStride();
+      rest = uint(dot(vec4(greaterThan(unpackUnorm4x8(block.shares), vec4(0.0))), vec4(1, 2, 4, 8)));
+    }
+    const int i = findLSB(rest);
+    rest &= rest - 1u;
+    const float open = shade(block.place + ivec2(i & 1, i >> 1)).x;
+    vec4 opens = unpackUnorm4x8(block.open);
+    opens[i] = mix(opens[i], open, unpackUnorm4x8(block.shares)[i]);
+    block.open = packUnorm4x8(opens);
+    if (rest == 0u) imageStore(blocks, block.place / 2, uvec4(block.open));
+  }
 #else
   const ivec2 texel = ivec2(gl_GlobalInvocationID.xy);
-  if (all(lessThan(texel, imageSize(target)))) shade(texel);
+  if (all(lessThan(texel, imageSize(target)))) {
+    imageStore(target, texel, vec4(shade(texel), 0.0, 0.0));
+  }
 #endif
 }

@@ -8,8 +8,8 @@
 // One invocation computes 2x2 pixels between the same four texels: software drivers take as long to
 // start an invocation as for ten fetches.
 //
-// Pixels that the parameter `refine` selects go on a list, for the passes `refine` and `denoise
-// refined`. The latter reads the upsampled pixels around them from the image `blocks`.
+// Blocks with pixels that the parameter `refine` selects go on a list, for the passes `refine` and
+// `denoise refined`. The latter reads the upsampled pixels around them from the image `blocks`.
 #define ORTHOGRAPHIC_ID 7
 #include "common/view.glsl"
 #include "finish.glsl"
@@ -29,15 +29,13 @@ layout(TEXTURE(0)) uniform sampler2D coarse;  // visibility and view depth; near
 layout(TEXTURE(1)) uniform sampler2D view_depth;
 layout(TEXTURE(2)) uniform sampler2D world_normal;
 layout(IMAGE(0), r16f) writeonly uniform image2D visibility;
-// With kRefine, a texel for each 2x2 pixels, a byte for each pixel from the lowest bits on: 255 for a
-// listed one, else 254 times its visibility before finished().
+// With kRefine, a texel for each block: visibilities before finished(), see Block in listed.glsl.
 layout(IMAGE(2), r32ui) writeonly uniform uimage2D blocks;
-// Of a listed pixel: that visibility, and the share of it that the refined one replaces.
-layout(IMAGE(4), rg32f) writeonly uniform image2D kept;
 #if BENT
 layout(TEXTURE(3)) uniform sampler2D coarse_bent;
 layout(IMAGE(1), rgba16f) writeonly uniform image2D bent_normal;
-layout(IMAGE(3), rgba16f) writeonly uniform image2D upsampled_bent;  // with kRefine; in view space
+// With kRefine; in view space, and the share of the pixel that the refined one replaces.
+layout(IMAGE(3), rgba16f) writeonly uniform image2D upsampled_bent;
 #endif
 
 // Ranges over which a pixel becomes an edge and a contrast: bilinear share of the texels on its
@@ -102,35 +100,6 @@ float contrastOf(vec4 open, vec4 depths) {
   return max(max(high.x, high.y), max(high.z, high.w)) - min(min(low.x, low.y), min(low.z, low.w));
 }
 
-// Four visibilities as `blocks` holds them.
-uvec4 bytesOf(vec4 open) {
-  return uvec4(clamp(open, 0.0, 1.0) * 254.0 + 0.5);
-}
-
-// Lists the 2x2 block at `place`, and those of its pixels whose `share` is not 0. Returns the bytes of
-// the block's texel.
-uvec4 appended(ivec2 place, vec4 share, vec4 open) {
-  uvec4 bytes = bytesOf(open);
-  const bvec4 which = greaterThan(share, vec4(0.0));
-  const uvec4 one = uvec4(which);
-  uint slot = atomicAdd(pixel_count, one.x + one.y + one.z + one.w);
-  [[unroll]] for (uint i = 0u; i < 4u; ++i) {
-    if (!which[i]) continue;
-    const uvec2 at = uvec2(place) + uvec2(i & 1u, i >> 1u);
-    if (slot < pixelRoom()) {
-      listed[slot] = at.x | at.y << 16;
-      imageStore(kept, ivec2(at), vec4(open[i], share[i], 0.0, 0.0));
-      bytes[i] = kIsListed;
-    }
-    ++slot;
-  }
-  slot = atomicAdd(block_count, 1u);
-  if (slot < blockRoom()) {
-    listed[uint(listed.length()) - 1u - slot] = uint(place.x) | uint(place.y) << 16;
-  }
-  return bytes;
-}
-
 void main() {
   const ivec2 place = ivec2(gl_GlobalInvocationID.xy) * 2;
   const ivec2 size = imageSize(visibility);
@@ -170,22 +139,26 @@ void main() {
     const vec4 contrast = vec4(contrastOf(open, depths));
     share = max(share, linearStep(settings.contrast * kContrast, contrast));
   }
+  const bvec4 inside = bvec4(true, place.x + 1 < size.x, place.y + 1 < size.y,
+                             all(lessThan(place + 1, size)));
+  // In bytes, so that no refined pixel has a share of 0.
+  const uint shares =
+      packUnorm4x8(mix(vec4(0.0), share, greaterThan(depth * vec4(inside), vec4(0.0))));
+  share = unpackUnorm4x8(shares);
   [[unroll]] for (uint i = 0u; i < 4u; ++i) {
     const ivec2 at = place + ivec2(i & 1u, i >> 1u);
-    const bool inside = all(lessThan(at, size));
-    if (!inside || depth[i] <= 0.0) share[i] = 0.0;
-    if (inside) {
+    if (inside[i]) {
       imageStore(visibility, at, vec4(value[i]));
 #if BENT
       const vec3 mean = bent * weights[i];
       const vec3 normal = textureLod(world_normal, attachmentAt(vec2(at) + 0.5), 0.0).xyz;
       imageStore(bent_normal, at, vec4(bentNormal(mean, normal), 0.0));
-      if (kRefine >= 1u) imageStore(upsampled_bent, at, vec4(mean, 0.0));
+      if (kRefine >= 1u) imageStore(upsampled_bent, at, vec4(mean, share[i]));
 #endif
     }
   }
   if (kRefine == 0u) return;
-  const bool any_share = any(greaterThan(share, vec4(0.0)));
-  const uvec4 bytes = any_share ? appended(place, share, blended) : bytesOf(blended);
-  imageStore(blocks, place / 2, uvec4(bytes.x | bytes.y << 8 | bytes.z << 16 | bytes.w << 24));
+  const Block block = Block(place, packUnorm4x8(clamp(blended, 0.0, 1.0)), shares);
+  imageStore(blocks, place / 2, uvec4(block.open));
+  if (block.shares != 0u) append(block);
 }
