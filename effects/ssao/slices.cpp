@@ -219,7 +219,7 @@ void Slices::enlarge(const plugin::Frame& frame, Kernels& kernels, Size size, Pa
                     .bent = bent ? texture("refined open direction", GRISAILLE_FORMAT_RGBA16F, 1)
                                  : grisaille_texture{0}};
   frame.pass("refine", [&] { occlude(frame, kernels.listed, full, raw, &listed); });
-  frame.pass("denoise refined", [&] { denoiseListed(frame, kernels, listed, raw, outputs); });
+  frame.pass("denoise refined", [&] { denoiseListed(frame, kernels, listed, raw.bent, outputs); });
 }
 
 // An empty list for the blocks of the picture; without refinement, as short as can be bound.
@@ -365,7 +365,7 @@ void Slices::upsample(const plugin::Frame& frame, Kernels& kernels, Size size, P
 
 // Bindings of shaders/ssao/refined.glsl.
 void Slices::denoiseListed(const plugin::Frame& frame, Kernels& kernels, const Listed& listed,
-                           Pair raw, Pair target) {
+                           grisaille_texture rawBent, Pair target) {
   Bindings bindings = {plugin::uniform(0, frame.viewBlock()),
                        plugin::uniform(1, frame.uniform(filterBlock(frame))),
                        plugin::texture(0, listed.blocks, clamped_),
@@ -375,7 +375,7 @@ void Slices::denoiseListed(const plugin::Frame& frame, Kernels& kernels, const L
                        listed.list};
   if (target.bent.id != 0) {
     bindings.add(plugin::texture(3, listed.bent, clamped_));
-    bindings.add(plugin::texture(4, raw.bent, clamped_));
+    bindings.add(plugin::texture(4, rawBent, clamped_));
     bindings.add(plugin::image(1, target.bent));
   }
   frame.dispatch(kernels.refined.get({cameraKind(frame)}), bindings, listGroups(frame), 1);

@@ -44,7 +44,8 @@ class Slices {
         refined;
   };
 
-  // `listed`: the blocks whose pixels to compute, at the picture's resolution; nullptr: all texels.
+  // `listed`: the blocks whose pixels to compute, at the picture's resolution; their
+  // visibilities go to its `blocks`, which are target.open. nullptr: all texels.
   void occlude(const plugin::Frame& frame, plugin::PipelineCache& pipelines, Size size, Pair target,
                const Listed* listed);
   Bindings filterBindings(const plugin::Frame& frame, Pair from, Pair target) const;
@@ -55,8 +56,8 @@ class Slices {
   void enlarge(const plugin::Frame& frame, Kernels& kernels, Size size, Pair coarse, Pair outputs);
   void upsample(const plugin::Frame& frame, Kernels& kernels, Size size, Pair coarse,
                 const Listed& listed, Pair target);
-  void denoiseListed(const plugin::Frame& frame, Kernels& kernels, const Listed& listed, Pair raw,
-                     Pair target);
+  void denoiseListed(const plugin::Frame& frame, Kernels& kernels, const Listed& listed,
+                     grisaille_texture rawBent, Pair target);
   grisaille_binding listFor(const plugin::Frame& frame, bool refines);
   static uint32_t listGroups(const plugin::Frame& frame);
 

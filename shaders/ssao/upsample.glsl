@@ -34,7 +34,7 @@ layout(IMAGE(2), r32ui) writeonly uniform uimage2D blocks;
 #if BENT
 layout(TEXTURE(3)) uniform sampler2D coarse_bent;
 layout(IMAGE(1), rgba16f) writeonly uniform image2D bent_normal;
-// With kRefine; in view space, and the share of the pixel that the refined one replaces.
+// With kRefine. xyz: in view space; w: how much of it the refined direction replaces.
 layout(IMAGE(3), rgba16f) writeonly uniform image2D upsampled_bent;
 #endif
 

@@ -102,6 +102,7 @@ TEST_P(ScaleTest, TheWindowFollowsTheText) {
       return std::abs(now["picture"]["rect"][0].get<double>() - x) <= within;
     });
     viewer.untilDrawn();
+    EXPECT_NEAR(rect()[0], x, within);
   };
   const auto expectSamePicture = [&] {
     const std::vector<double> now = rect();
