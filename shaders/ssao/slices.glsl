@@ -58,17 +58,6 @@ layout(IMAGE(1), rgba16f) writeonly uniform image2D bent_target;  // in view spa
 #endif
 
 const float kPi = 3.14159265358979;
-// With known backs: two taps belong to one surface only if it is at most this steep, in metres of
-// view depth per metre across the view.
-const float kSteepest = 6.5;
-// With known backs: how far a tap of its own surface reaches to both sides, in distances from the
-// tap before it.
-const float kLone = 2.5;
-const float kLoneAboveNext = 1.5;  // if the surface behind is known
-// Depth of the solid behind the back, in thicknesses.
-const float kNextThickness = 0.1;
-// How far the last surface goes on beyond the picture's border, in steps for each tap that lies there.
-const float kBeyondBorder = 2.0;
 
 // Error at most 7e-5 radians: Hastings 1955, "Approximations for Digital Computers", sheet 38; x in
 // [0, 1].
@@ -76,157 +65,7 @@ float arcCosine(float x) {
   return sqrt(1.0 - x) * (1.5707288 + x * (-0.2121144 + x * (0.0742610 - 0.0187293 * x)));
 }
 
-struct Slice {
-  vec3 position;
-  vec3 along, up;      // tangent in the slice; normal / length of the projected normal
-  float cos_n, sin_n;  // of the projected normal's angle n from the view vector
-  float offset, scale; // share = offset + integral * scale
-};
-
-// A point in the frame of a slice, on one `side` of the view vector (1 or -1): how far it lies along
-// the slice, and its height over the tangent plane over the length of the projected normal. A tap is
-// the centre of a pixel and lies beside the slice. The frame moves it into the slice at its own
-// height, which keeps planes open at any distance of the tap.
-vec2 inSlice(Slice s, vec3 point, float side) {
-  return vec2(side * dot(point, s.along), dot(point, s.up));
-}
-
-// Share of the slice's cosine-weighted solid angle below the horizon of a point of inSlice(). With h
-// the horizon angle and n the projected normal's, the integral of |sin h| cos(h - n) from 0 to h is
-// (cos n - cos(2 h - n)) / 4 + h sin(n) / 2 (Jimenez 2016, line 28). This equals
-// (sin(h)^2 cos(n) + (h - sin h cos h) sin n) / 2.
-float shareOf(Slice s, vec2 local, float side) {
-  const float sin_n = side * s.sin_n;
-  // The move into the slice may take a near tap across the view vector. This moves it back.
-  if (local.x * s.cos_n + local.y * sin_n < 0.0) local.x = abs(local.x);
-  vec2 at = vec2(max(local.x * s.cos_n + local.y * sin_n, 0.0),
-                 local.y * s.cos_n - local.x * sin_n);
-  at *= inversesqrt(max(dot(at, at), 1e-30));
-  // h - sin h cos h, twice the area of a segment of the unit circle. Its quotient by sin h (1 - cos h)
-  // is smooth from h = 0 to pi/2; this least-squares fit of it errs by at most 1.8e-5 in the area.
-  const float y = abs(at.y);
-  const float fit =
-      1.5707784 + y * (-0.4276955 + y * (0.336371 + y * (-0.2169253 + 0.0723837 * y)));
-  const float lens = at.x * (1.0 - y) * fit;
-  const float segment = at.y < 0.0 ? kPi - lens : lens;
-  const float part = 0.5 * (at.x * at.x * s.cos_n + segment * sin_n);
-  // A point below the tangent plane is at the end of the hemisphere.
-  return local.y <= 0.0 ? 0.5 + 0.5 * side : s.offset + side * part * s.scale;
-}
-
-#if BENT
-// The sector, 0 to 31, of a direction in the slice at `angle` from the view vector.
-uint sectorOf(Slice s, float angle) {
-  const float side = angle < 0.0 ? -1.0 : 1.0, h = abs(angle), sin_n = side * s.sin_n;
-  const float twice = cos(2.0 * h) * s.cos_n + sin(2.0 * h) * sin_n;
-  const float part = 0.25 * (s.cos_n - twice) + 0.5 * h * sin_n;
-  return uint(clamp((s.offset + side * part * s.scale) * 32.0, 0.0, 31.0));
-}
-
-// Cosine-weighted mean of the slice's directions in open sectors, from 16 directions.
-vec3 meanOpen(Slice s, float n, vec3 ortho_direction, vec3 view_vec, uint occluded) {
-  const uint kDirections = 16u;
-  vec3 sum = vec3(0.0);
-  for (uint i = 0u; i < kDirections; ++i) {
-    const float angle = n + ((float(i) + 0.5) / float(kDirections) - 0.5) * kPi;
-    const float weight = abs(sin(angle)) * cos(angle - n);
-    const bool open = (occluded >> sectorOf(s, angle) & 1u) == 0u;
-    if (open) sum += weight * (ortho_direction * sin(angle) + view_vec * cos(angle));
-  }
-  return sum * (s.scale * kPi / float(kDirections));
-}
-#endif
-
-// Mask of the sectors [from, to) of 32 (Therrien 2023, Algorithm 1, lines 14 to 19).
-uint sectorRange(uint from, uint to) {
-  const uint count = to - min(from, to);
-  return count == 0u ? 0u : (0xffffffffu >> (32u - count)) << from;
-}
-
-// State of one side of a slice between its taps, from the pixel outwards.
-struct Side {
-  vec2 point, step;  // previous tap, see inSlice(); its offset from the tap before it
-  float share;       // see shareOf(); of the previous tap
-  float depth;       // of the previous tap, metres; -1e30: the next tap does not connect to it
-  float beyond;      // of the previous tap: squared distance - squared radius
-  float farther;     // how much larger that is than for the tap before it
-  float seen;        // number of taps inside the picture
-  vec2 at;           // of the previous tap, pixels
-};
-
-uint sectorsBetween(float low, float high, float dither) {
-  return sectorRange(uint(clamp(low * 32.0 + dither, 0.0, 32.0)),
-                uint(clamp(high * 32.0 + dither, 0.0, 32.0)));
-}
-
-// Occluded sectors of one tap: those between the front and the back of its surface, or of the `next`
-// surface behind that back.
-uint sectorsOfTap(Slice s, vec2 at, float side, float dither, bool next, inout Side before) {
-  const vec2 place = attachmentAt(at);
-  const bool seen = all(equal(clamp(place, vec2(0.0), vec2(1.0)), place));
-  const float depth =
-      next ? textureLod(next_depth, place, 0.0).x : textureLod(view_depth, place, 0.0).x;
-  const vec3 ray = rayDirection(at);
-  const vec3 front = viewPosition(at, depth) - s.position;
-  // Clips the solid, front + k ray with k in [0, thickness], to the sphere.
-  const float a = 1.0 / dot(ray, ray), b = dot(ray, front) * a;
-  const float beyond = dot(front, front) - settings.radius * settings.radius;
-  const float d = b * b - beyond * a;
-  const float root = sqrt(max(d, 0.0));
-  float thick = next ? kNextThickness * settings.thickness : settings.thickness;
-  if (kBacks != 0u && !next) {
-    const float back = textureLod(known, place, 0.0).x;
-    if (kBacks >= 2u ? back > 0.0 : back >= 0.0) {
-      thick = kBacks >= 2u ? max(back - depth, 0.0) : back;
-    }
-  }
-  const float near = max(0.0, -b - root), far = min(thick, root - b);
-  const vec2 point = inSlice(s, front, side), way = inSlice(s, ray, side);
-  // Two successive taps whose depths differ by less than the thickness belong to one surface: the
-  // sectors between them are occluded too, up to the sphere. With few taps this has a smaller error
-  // than gaps between the taps, even if the back is known.
-  const bool inside = beyond <= 0.0;
-  const float deeper = abs(depth - before.depth);
-  bool connected = deeper < settings.thickness;
-  vec2 wide = vec2(0.0);
-  if (kBacks != 0u) {
-    const vec2 across = depthScale(depth) * (at - before.at) * view.view_from_pixel.xy;
-    connected = connected && deeper * deeper < kSteepest * kSteepest * dot(across, across);
-    // A surface of one tap, such as a leaf or a bar, stands for what lies between taps: it reaches
-    // to both sides, parallel to the pixel's tangent plane.
-    if (inside && !connected && !next && before.seen > 0.0) {
-      wide.x = side * (kBacks == 3u ? kLoneAboveNext : kLone) * dot(across, s.along.xy);
-    }
-  }
-  const bool leaves = connected && !inside;
-  // A surface that leaves the sphere between two taps does so where the squared distance, taken as
-  // linear between them, is the squared radius.
-  const float inner = before.beyond / min(before.beyond - beyond, -1e-30);
-  const vec2 to = leaves ? mix(before.point, point, inner) : point + far * way + wide;
-  const float first = shareOf(s, point + near * way - wide, side), last = shareOf(s, to, side);
-  const float low = min(leaves ? before.share : min(first, connected ? before.share : 1.0), last);
-  const float high = max(leaves ? before.share : max(first, connected ? before.share : 0.0), last);
-  if (!seen) return 0u;  // beyond the border; asked here, because software drivers mask what follows
-  const bool present = depth > 0.0 && (leaves || (d > 0.0 && near <= far));
-  before.step = connected ? point - before.point : vec2(0.0);
-  before.farther = max(beyond - before.beyond, 1e-30);
-  before.point = point;
-  before.share = first;
-  before.depth = present && inside ? depth : -1e30;
-  before.beyond = beyond;
-  before.seen += 1.0;
-  before.at = at;
-  return present ? sectorsBetween(low, high, dither) : 0u;
-}
-
-// Occluded sectors beyond the last tap in the picture: its surface goes on in its direction until it
-// leaves the sphere. That is at most one step further, and more if taps lie beyond the border.
-uint sectorsBeyond(Slice s, Side last, float side, float dither) {
-  const float most = 1.0 + kBeyondBorder * (float(kSteps) - last.seen);
-  const float more = min(-last.beyond / last.farther, most);
-  const float share = shareOf(s, last.point + more * last.step, side);
-  return last.depth > 0.0 ? sectorsBetween(min(last.share, share), max(last.share, share), dither) : 0u;
-}
+#include "sectors.glsl"
 
 // Pixel of the tap at a distance of `pixels` along `way`. Distant taps snap to a grid, whose cells
 // are an eighth to a sixteenth of the distance wide: neighbouring pixels then read the same texels,
@@ -250,7 +89,9 @@ float sliceOf(vec3 position, vec3 view_vec, vec3 normal, vec3 direction, vec2 pi
   at *= inversesqrt(max(dot(at, at), 1e-12));
   // Frame of the slice, and angle n of the projected normal (Jimenez 2016, lines 9 to 15).
   Slice s;
-  s.position = position;
+  s.pixel = pixel;
+  s.depth = -position.z;
+  s.ray = rayDirection(pixel);
   s.along = ortho_direction * at.y - view_vec * at.x;
   s.up = normal * inverse_length;
   s.cos_n = at.y;
@@ -259,8 +100,8 @@ float sliceOf(vec3 position, vec3 view_vec, vec3 normal, vec3 direction, vec2 pi
   // cos n + (n - pi/2) sin n.
   const float angle = arcCosine(min(abs(at.y), 1.0));
   const float n = sign(at.x) * (at.y < 0.0 ? kPi - angle : angle);
-  s.scale = 1.0 / (s.cos_n + n * s.sin_n);
-  s.offset = 0.5 * (s.cos_n + (n - 0.5 * kPi) * s.sin_n) * s.scale;
+  s.scale = 0.5 / (s.cos_n + n * s.sin_n);
+  s.offset = (s.cos_n + (n - 0.5 * kPi) * s.sin_n) * s.scale;
 
   // Direction of the slice on the screen, and extent of the sphere along it in pixels: up to the
   // view ray that is tangent to the sphere.
@@ -275,9 +116,10 @@ float sliceOf(vec3 position, vec3 view_vec, vec3 normal, vec3 direction, vec2 pi
   // With thicknesses, the first tap may belong to the pixel's own surface. With drawn backs that has a
   // larger error on leaves.
   const float own = kBacks < 2u ? -position.z : -1e30, centre = -settings.radius * settings.radius;
-  Side ahead = Side(vec2(0.0), vec2(0.0), 1.0, own, centre, 1.0, 0.0, pixel);
-  Side behind = Side(vec2(0.0), vec2(0.0), 0.0, own, centre, 1.0, 0.0, pixel);
-  Side next_ahead = ahead, next_behind = behind;
+  const vec2 none = vec2(0.0);
+  Taps taps = Taps(none, none, none, none, vec2(1.0, 0.0), vec2(own), vec2(centre), vec2(1.0), none,
+                   none, none);
+  Taps next_taps = taps;
   // Not unrolled: unrolling costs a third more on lavapipe and gains nothing elsewhere.
   for (uint i = 0u; i < kSteps; ++i) {
     // Taps are denser near the pixel. Tap i is at least i + 1 pixels away.
@@ -286,15 +128,13 @@ float sliceOf(vec3 position, vec3 view_vec, vec3 normal, vec3 direction, vec2 pi
     const float least = float(i) + 1.0;
     const float to = max(one * sqrt(one) * reach, least);
     const float back = max(two * sqrt(two) * reach, least);
-    const vec2 tap_ahead = tapAt(pixel, way, to), tap_behind = tapAt(pixel, -way, back);
-    occluded |= sectorsOfTap(s, tap_ahead, 1.0, jitter, false, ahead);
-    occluded |= sectorsOfTap(s, tap_behind, -1.0, jitter, false, behind);
+    const vec4 at = vec4(tapAt(pixel, way, to), tapAt(pixel, -way, back));
+    occluded |= sectorsOfTaps(s, solidsAt(s, at, false), jitter, false, taps);
     if (kBacks == 3u) {
-      occluded |= sectorsOfTap(s, tap_ahead, 1.0, jitter, true, next_ahead);
-      occluded |= sectorsOfTap(s, tap_behind, -1.0, jitter, true, next_behind);
+      occluded |= sectorsOfTaps(s, solidsAt(s, at, true), jitter, true, next_taps);
     }
   }
-  occluded |= sectorsBeyond(s, ahead, 1.0, jitter) | sectorsBeyond(s, behind, -1.0, jitter);
+  occluded |= sectorsBeyond(s, taps, jitter);
 #if BENT
   bent += meanOpen(s, n, ortho_direction, view_vec, occluded);
 #endif
