@@ -53,11 +53,9 @@ struct Blend {
 };
 
 // `depths`: view depths of the four texels.
-Blend blendOf(ivec2 place, ivec2 first, vec4 depths) {
+Blend blendOf(ivec2 place, ivec2 first, vec4 depths, float depth, vec3 world) {
   const vec2 pixel = vec2(place) + 0.5;
-  const float depth = textureLod(view_depth, attachmentAt(pixel), 0.0).x;
-  const vec3 normal = viewNormal(textureLod(world_normal, attachmentAt(pixel), 0.0).xyz);
-  const Plane plane = planeOf(pixel, normal);
+  const Plane plane = planeOf(pixel, viewNormal(world));
   // Texel t is the sample of pixel t * kScale.
   const vec2 fraction = vec2(place - first * int(kScale)) / float(kScale);
   Blend blend = Blend(vec4(0.0), 0.0, depth);
@@ -124,8 +122,15 @@ void main() {
   mat4 weights = mat4(0.0);
   weights[0].x = depths.x > 0.0 ? 1.0 : 0.0;
   vec4 served = vec4(1.0), depth = depths;
+  float own[4];
+  vec3 normals[4];
   [[unroll]] for (uint i = kScale == 2u ? 1u : 0u; i < 4u; ++i) {
-    const Blend blend = blendOf(place + ivec2(i & 1u, i >> 1u), first, depths);
+    const vec2 at = attachmentAt(vec2(place + ivec2(i & 1u, i >> 1u)) + 0.5);
+    own[i] = textureLod(view_depth, at, 0.0).x;
+    normals[i] = textureLod(world_normal, at, 0.0).xyz;
+  }
+  [[unroll]] for (uint i = kScale == 2u ? 1u : 0u; i < 4u; ++i) {
+    const Blend blend = blendOf(place + ivec2(i & 1u, i >> 1u), first, depths, own[i], normals[i]);
     weights[i] = blend.weights;
     served[i] = blend.served;
     depth[i] = blend.depth;
