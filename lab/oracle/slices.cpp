@@ -15,8 +15,8 @@ namespace {
 
 constexpr double kPi = glm::pi<double>();
 constexpr double kGolden = 0.618034;      // offset between a pixel's slices, golden ratio
-constexpr double kPlaneTolerance = 0.05;  // radii
-constexpr double kPlanePixels = 2;        // upper limit of the tolerance, pixel widths
+constexpr double kPlaneTolerance = 0.04;  // radii
+constexpr double kPlanePixels = 3;        // upper limit of the tolerance, pixel widths
 constexpr double kMostBent = 0.5;         // largest angle between facet and normal, tangent
 constexpr double kSteepest = 6.5;         // slope of a surface that taps share, if backs are known
 constexpr double kLone = 2.5;             // reach of a surface of one tap, distances between taps

@@ -120,12 +120,9 @@ float sliceOf(vec3 position, vec3 view_vec, vec3 normal, vec3 direction, vec2 pi
   Taps taps = Taps(none, none, none, none, vec2(1.0, 0.0), vec2(own), vec2(centre), vec2(1.0), none,
                    none, none);
   Taps next_taps = taps;
-  // Tap i is at least i + 1 pixels away. Those after the first outside the sphere, with one for their
-  // rounding to pixels, would find nothing.
-  const uint steps = min(kSteps, uint(min(reach, float(kSteps))) + 2u);
   // Not unrolled: unrolling costs a third more on lavapipe and gains nothing elsewhere.
-  for (uint i = 0u; i < steps; ++i) {
-    // Taps are denser near the pixel.
+  for (uint i = 0u; i < kSteps; ++i) {
+    // Taps are denser near the pixel. Tap i is at least i + 1 pixels away.
     const float one = (float(i) + jitter) / float(kSteps);
     const float two = (float(i) + 1.0 - jitter) / float(kSteps);
     const float least = float(i) + 1.0;
