@@ -67,7 +67,7 @@ GRISAILLE_CHECK_BLOCK_ssao_upsample_Settings(UpsampleBlock);
 GRISAILLE_CHECK_BLOCK_ssao_upsample_bent_Settings(UpsampleBlock);
 
 // Plane tolerance of the denoiser and the upsampling, in radii.
-constexpr float kTolerance = 0.04f;
+constexpr float kTolerance = 0.05f;
 
 // The list of shaders/ssao/listed.glsl: pixels of the picture per invocation of a pass that
 // processes it, since on a software driver an idle invocation costs as much as a busy one; and the

@@ -15,8 +15,8 @@ namespace {
 
 constexpr double kPi = glm::pi<double>();
 constexpr double kGolden = 0.618034;      // offset between a pixel's slices, golden ratio
-constexpr double kPlaneTolerance = 0.04;  // radii
-constexpr double kPlanePixels = 3;        // upper limit of the tolerance, pixel widths
+constexpr double kPlaneTolerance = 0.05;  // radii
+constexpr double kPlanePixels = 4;        // upper limit of the tolerance, pixel widths
 constexpr double kMostBent = 0.5;         // largest angle between facet and normal, tangent
 constexpr double kSteepest = 6.5;         // slope of a surface that taps share, if backs are known
 constexpr double kLone = 2.5;             // reach of a surface of one tap, distances between taps
@@ -25,7 +25,7 @@ constexpr double kNextThickness = 0.1;    // of the solid behind the back, in th
 constexpr double kTapPower = 1.5;         // distances of taps grow with this power of their number
 constexpr double kBeyondBorder = 2;  // steps that a surface goes on for each tap beyond the border
 // Share of a fitted line's change that is taken, and least variance of offsets, texels^2.
-constexpr double kFitted = 0.3, kLeastSpread = 0.5;
+constexpr double kFitted = 0.5, kLeastSpread = 0.5;
 // Where pixels begin to be refined, and where they are refined entirely: share of texels on the
 // pixel's plane, and difference of visibility between texels over the parameter `contrast`.
 constexpr double kServed[] = {0.6, 0.4}, kContrast[] = {0.8, 1.2};

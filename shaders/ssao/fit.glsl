@@ -4,7 +4,7 @@
 // (local linear regression: Fan 1992, "Design-adaptive Nonparametric Regression").
 
 // Share of the line's change that is taken. All of it makes leaves noisy.
-const float kFitted = 0.3;
+const float kFitted = 0.5;
 // Least variance of the offsets that a slope is divided by, texels^2.
 const float kLeastSpread = 0.5;
 

@@ -54,8 +54,8 @@ Raised raised(vec3 position, vec3 normal, float bias) {
 }
 
 // Inverse of the plane tolerance at view depth `depth`, 1 / metres. The tolerance is the lesser of
-// 1 / `inverse` and the width of three pixels at that depth: a larger one would smear grooves and
+// 1 / `inverse` and the width of four pixels at that depth: a larger one would smear grooves and
 // ledges of a few pixels.
 float toleranceAt(float depth, float inverse) {
-  return max(inverse, 0.3333 / max(depthScale(depth) * abs(view.view_from_pixel.x), 1e-30));
+  return max(inverse, 0.25 / max(depthScale(depth) * abs(view.view_from_pixel.x), 1e-30));
 }
