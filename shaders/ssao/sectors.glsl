@@ -89,7 +89,7 @@ uint sectorRange(uint from, uint to) {
 struct Taps {
   vec2 along, up;            // previous tap
   vec2 step_along, step_up;  // its offset from the tap before it
-  vec2 share;                // see shareOf(); of the previous tap
+  vec2 share;                // see sharesOf(); of the previous tap
   vec2 depth;                // of the previous tap, metres; -1e30: the next tap does not connect to it
   vec2 beyond;               // of the previous tap: squared distance - squared radius
   vec2 farther;              // how much larger that is than for the tap before it

@@ -52,7 +52,7 @@ struct Blend {
   float depth;   // of the pixel, metres
 };
 
-// `depths`: view depths of the four texels.
+// `depths`: view depths of the four texels; `depth`, `world`: the pixel's view depth and world normal.
 Blend blendOf(ivec2 place, ivec2 first, vec4 depths, float depth, vec3 world) {
   const vec2 pixel = vec2(place) + 0.5;
   const Plane plane = planeOf(pixel, viewNormal(world));
