@@ -135,9 +135,10 @@ uint32_t Slices::reads(plugin::Values values) noexcept {
 
 void Slices::record(const plugin::Frame& frame, Pair outputs) {
   const uint32_t scale = 1u << frame.value<uint32_t>(kResolution);
-  const Size size = {.scale = scale,
-                     .width = plugin::groupsFor(frame.width(), scale),
-                     .height = plugin::groupsFor(frame.height(), scale)};
+  Size size = {.scale = scale,
+               .width = plugin::groupsFor(frame.width(), scale),
+               .height = plugin::groupsFor(frame.height(), scale),
+               .tangents = {}};
   const bool bent = outputs.bent.id != 0;
   const auto pair = [&](const char* open, const char* direction) {
     const auto texture = [&](const char* label, grisaille_format format) {
@@ -147,6 +148,10 @@ void Slices::record(const plugin::Frame& frame, Pair outputs) {
     return Pair{.open = texture(open, GRISAILLE_FORMAT_RG32F),
                 .bent = bent ? texture(direction, GRISAILLE_FORMAT_RGBA16F) : grisaille_texture{0}};
   };
+  size.tangents = frame.transient({.label = "tangents",
+                                   .format = GRISAILLE_FORMAT_R32UI,
+                                   .width = size.width,
+                                   .height = size.height});
   const uint32_t width = frame.value<uint32_t>(kBlurSize);  // pixels
   const uint32_t blur = width > scale ? width : 0;          // one texel or less: none
   const bool edges = blur > 0 && frame.value<uint32_t>(kEdgeDenoise) > 1;
@@ -163,33 +168,35 @@ void Slices::record(const plugin::Frame& frame, Pair outputs) {
   Pair from = raw, spare = raw;
   if (blur > 0) {
     spare = pair("visibility denoised", "open direction denoised");
-    frame.pass("denoise rows",
-               [&] { denoise(frame, kernels.denoise, size, false, blur, from, spare); });
+    frame.pass("denoise rows", [&] {
+      denoise(frame, kernels, size, {.columns = false, .width = blur, .last = false}, from, spare);
+    });
     from = spare;
   }
   const bool averages = averaged > 1, last = scale == 1 && !averages;
   if (last && !edges) {
-    frame.pass("denoise columns",
-               [&] { denoise(frame, kernels.denoiseLast, size, true, blur, from, outputs); });
+    frame.pass("denoise columns", [&] {
+      denoise(frame, kernels, size, {.columns = true, .width = blur, .last = true}, from, outputs);
+    });
     return;
   }
   if (blur > 0) {
-    frame.pass("denoise columns",
-               [&] { denoise(frame, kernels.denoise, size, true, blur, from, raw); });
+    frame.pass("denoise columns", [&] {
+      denoise(frame, kernels, size, {.columns = true, .width = blur, .last = false}, from, raw);
+    });
     from = raw;
   }
   if (edges) {
     const Pair target = last ? outputs : spare;
-    frame.pass("denoise edges", [&] {
-      alongEdges(frame, last ? kernels.edgesLast : kernels.edges, size, from, target);
-    });
+    frame.pass("denoise edges", [&] { alongEdges(frame, kernels, size, last, from, target); });
     if (last) return;
     from = target;
   }
   if (averages) from.open = history_.accumulate(frame, scale, averaged - 1, from.open);
   if (scale == 1) {
-    frame.pass("finish",
-               [&] { denoise(frame, kernels.denoiseLast, size, true, 0, from, outputs); });
+    frame.pass("finish", [&] {
+      denoise(frame, kernels, size, {.columns = true, .width = 0, .last = true}, from, outputs);
+    });
     return;
   }
   enlarge(frame, kernels, size, from, outputs);
@@ -199,7 +206,7 @@ void Slices::record(const plugin::Frame& frame, Pair outputs) {
 void Slices::enlarge(const plugin::Frame& frame, Kernels& kernels, Size size, Pair coarse,
                      Pair outputs) {
   const bool refines = frame.value<Refine>(kRefine) != Refine::kNothing;
-  const Size full = {.scale = 1, .width = frame.width(), .height = frame.height()};
+  const Size full = {.scale = 1, .width = frame.width(), .height = frame.height(), .tangents = {}};
   const bool bent = outputs.bent.id != 0;
   // Without refinement, as small as can be bound.
   const auto texture = [&](const char* label, grisaille_format format, uint32_t pixels) {
@@ -294,6 +301,7 @@ void Slices::occlude(const plugin::Frame& frame, plugin::PipelineCache& pipeline
                        plugin::image(0, target.open)};
   if (target.bent.id != 0) bindings.add(plugin::image(1, target.bent));
   if (listed == nullptr) {
+    bindings.add(plugin::image(2, size.tangents));
     dispatch(frame, pipelines.get(constants), bindings, size.width, size.height);
     return;
   }
@@ -302,40 +310,43 @@ void Slices::occlude(const plugin::Frame& frame, plugin::PipelineCache& pipeline
 }
 
 // Bindings of shaders/ssao/filter.glsl.
-Bindings Slices::filterBindings(const plugin::Frame& frame, Pair from, Pair target) const {
+Bindings Slices::filterBindings(const plugin::Frame& frame, Size size, bool last, Pair from,
+                                Pair target) const {
   Bindings bindings = {plugin::uniform(0, frame.viewBlock()),
                        plugin::uniform(1, frame.uniform(filterBlock(frame))),
                        plugin::texture(0, from.open, clamped_),
-                       plugin::texture(1, frame.attachment(GRISAILLE_NORMAL), clamped_),
-                       plugin::image(0, target.open)};
+                       plugin::texture(1, size.tangents, clamped_), plugin::image(0, target.open)};
   if (target.bent.id != 0) {
     bindings.add(plugin::texture(2, from.bent, clamped_));
+    if (last) bindings.add(plugin::texture(3, frame.attachment(GRISAILLE_NORMAL), clamped_));
     bindings.add(plugin::image(1, target.bent));
   }
   return bindings;
 }
 
-void Slices::denoise(const plugin::Frame& frame, plugin::PipelineCache& pipelines, Size size,
-                     bool columns, uint32_t blur, Pair raw, Pair target) {
+void Slices::denoise(const plugin::Frame& frame, Kernels& kernels, Size size, Tent tent, Pair raw,
+                     Pair target) {
   // Constants of shaders/ssao/denoise.glsl.
-  const grisaille_constant constants[] = {cameraKind(frame), plugin::specialize(0, blur),
+  const grisaille_constant constants[] = {cameraKind(frame), plugin::specialize(0, tent.width),
                                           plugin::specialize(1, size.scale),
-                                          plugin::specialize(2, columns)};
+                                          plugin::specialize(2, tent.columns)};
+  plugin::PipelineCache& pipelines = tent.last ? kernels.denoiseLast : kernels.denoise;
   // Texels per invocation, along the row or the column.
   constexpr uint32_t kRun = 4;
-  dispatch(frame, pipelines.get(constants), filterBindings(frame, raw, target),
-           columns ? size.width : plugin::groupsFor(size.width, kRun),
-           columns ? plugin::groupsFor(size.height, kRun) : size.height);
+  dispatch(frame, pipelines.get(constants), filterBindings(frame, size, tent.last, raw, target),
+           tent.columns ? size.width : plugin::groupsFor(size.width, kRun),
+           tent.columns ? plugin::groupsFor(size.height, kRun) : size.height);
 }
 
-void Slices::alongEdges(const plugin::Frame& frame, plugin::PipelineCache& pipelines, Size size,
+void Slices::alongEdges(const plugin::Frame& frame, Kernels& kernels, Size size, bool last,
                         Pair denoised, Pair target) {
   // Constants of shaders/ssao/edges.glsl.
   const grisaille_constant constants[] = {
       cameraKind(frame), plugin::specialize(0, frame.value<uint32_t>(kEdgeDenoise)),
       plugin::specialize(1, size.scale)};
-  dispatch(frame, pipelines.get(constants), filterBindings(frame, denoised, target), size.width,
-           size.height);
+  plugin::PipelineCache& pipelines = last ? kernels.edgesLast : kernels.edges;
+  dispatch(frame, pipelines.get(constants), filterBindings(frame, size, last, denoised, target),
+           size.width, size.height);
 }
 
 void Slices::upsample(const plugin::Frame& frame, Kernels& kernels, Size size, Pair coarse,
@@ -350,12 +361,13 @@ void Slices::upsample(const plugin::Frame& frame, Kernels& kernels, Size size, P
                        plugin::uniform(1, frame.uniform(settings)),
                        plugin::texture(0, coarse.open, clamped_),
                        plugin::texture(1, frame.attachment(GRISAILLE_VIEW_DEPTH), clamped_),
-                       plugin::texture(2, frame.attachment(GRISAILLE_NORMAL), clamped_),
+                       plugin::texture(2, size.tangents, clamped_),
                        plugin::image(0, target.open),
                        plugin::image(2, listed.blocks),
                        listed.list};
   if (target.bent.id != 0) {
     bindings.add(plugin::texture(3, coarse.bent, clamped_));
+    bindings.add(plugin::texture(4, frame.attachment(GRISAILLE_NORMAL), clamped_));
     bindings.add(plugin::image(1, target.bent));
     bindings.add(plugin::image(3, listed.bent));
   }

@@ -31,11 +31,19 @@ class Slices {
   struct Size {
     uint32_t scale;          // pixels per texel, each way
     uint32_t width, height;  // texels
+    // Of the facets that the texels sample: r32ui, see shaders/ssao/facet.glsl. Not for the list.
+    grisaille_texture tangents;
   };
   // Blocks with pixels that are computed at full resolution, see shaders/ssao/upsample.glsl.
   struct Listed {
     grisaille_binding list;
     grisaille_texture blocks, bent;
+  };
+  // A pass of shaders/ssao/denoise.glsl.
+  struct Tent {
+    bool columns;    // along columns, else along rows
+    uint32_t width;  // at half height, pixels; 0: one texel
+    bool last;       // it writes the outputs
   };
   struct Kernels {
     explicit Kernels(plugin::Host host);
@@ -48,11 +56,12 @@ class Slices {
   // visibilities go to its `blocks`, which are target.open. nullptr: all texels.
   void occlude(const plugin::Frame& frame, plugin::PipelineCache& pipelines, Size size, Pair target,
                const Listed* listed);
-  Bindings filterBindings(const plugin::Frame& frame, Pair from, Pair target) const;
-  void denoise(const plugin::Frame& frame, plugin::PipelineCache& pipelines, Size size,
-               bool columns, uint32_t blur, Pair raw, Pair target);
-  void alongEdges(const plugin::Frame& frame, plugin::PipelineCache& pipelines, Size size,
-                  Pair denoised, Pair target);
+  Bindings filterBindings(const plugin::Frame& frame, Size size, bool last, Pair from,
+                          Pair target) const;
+  void denoise(const plugin::Frame& frame, Kernels& kernels, Size size, Tent tent, Pair raw,
+               Pair target);
+  void alongEdges(const plugin::Frame& frame, Kernels& kernels, Size size, bool last, Pair denoised,
+                  Pair target);
   void enlarge(const plugin::Frame& frame, Kernels& kernels, Size size, Pair coarse, Pair outputs);
   void upsample(const plugin::Frame& frame, Kernels& kernels, Size size, Pair coarse,
                 const Listed& listed, Pair target);

@@ -7,6 +7,7 @@
 #include <glm/gtc/constants.hpp>
 #include <optional>
 
+#include "lab/oracle/facet.h"
 #include "lab/oracle/history.h"
 #include "lab/oracle/occlusion.h"
 
@@ -14,15 +15,16 @@ namespace grisaille::lab::oracle {
 namespace {
 
 constexpr double kPi = glm::pi<double>();
-constexpr double kGolden = 0.618034;      // offset between a pixel's slices, golden ratio
-constexpr double kPlaneTolerance = 0.05;  // radii
-constexpr double kPlanePixels = 4;        // upper limit of the tolerance, pixel widths
-constexpr double kMostBent = 0.5;         // largest angle between facet and normal, tangent
-constexpr double kSteepest = 6.5;         // slope of a surface that taps share, if backs are known
-constexpr double kLone = 2.5;             // reach of a surface of one tap, distances between taps
-constexpr double kLoneAboveNext = 1.5;    // if the surface behind is known
-constexpr double kNextThickness = 0.1;    // of the solid behind the back, in thicknesses
-constexpr double kTapPower = 1.5;         // distances of taps grow with this power of their number
+constexpr double kGolden = 0.618034;  // offset between a pixel's slices, golden ratio
+// Upper limits of the tolerance: between texels and in the upsampling, texels; at full resolution,
+// pixels.
+constexpr double kTexelTolerance = 0.75, kBetweenTolerance = 0.375, kRefinedTolerance = 1;
+constexpr double kFewest = 5;           // least sum of weights at full resolution
+constexpr double kSteepest = 6.5;       // slope of a surface that taps share, if backs are known
+constexpr double kLone = 2.5;           // reach of a surface of one tap, distances between taps
+constexpr double kLoneAboveNext = 1.5;  // if the surface behind is known
+constexpr double kNextThickness = 0.1;  // of the solid behind the back, in thicknesses
+constexpr double kTapPower = 1.5;       // distances of taps grow with this power of their number
 constexpr double kBeyondBorder = 2;  // steps that a surface goes on for each tap beyond the border
 // Share of a fitted line's change that is taken, and least variance of offsets, texels^2.
 constexpr double kFitted = 0.5, kLeastSpread = 0.5;
@@ -99,6 +101,10 @@ class LineFit {
     offsets_ += weight * across;
     squares_ += weight * across * across;
     products_ += weight * across * texel.w;
+  }
+  // Adds `texel` at the centre, up to a sum of weights of `least`.
+  void fill(double least, const Texel& texel) {
+    add(std::max(least - weights_, 0.0), glm::dvec2(0), texel);
   }
   Texel centre() const {
     Texel mean = sum_ / weights_;
@@ -191,17 +197,10 @@ class Slices : public Occlusion {
   Upsampled upsampled(const glm::ivec2& pixel);
   Texel refined(const glm::ivec2& pixel);
 
-  // Distance of a point from the plane of a surface, in tolerances. The point lies at the centre of
-  // `pixel`, at view depth `depth`.
-  double offPlane(const glm::ivec2& surface, const glm::ivec2& pixel, double depth) const {
-    const glm::dvec3 apart = view_.position(pixel, depth) - view_.position(surface);
-    return std::abs(glm::dot(apart, view_.normal(surface))) / toleranceAt(surface);
+  Facet facetAt(const glm::ivec2& pixel, double pixels) const {
+    return Facet(view_, pixel, pixels, settings_.radius);
   }
-  double toleranceAt(const glm::ivec2& surface) const {  // metres
-    const double pixelWidth = view_.shrink(view_.depth(surface)) / std::abs(view_.focal().x);
-    return std::min(kPlaneTolerance * settings_.radius, kPlanePixels * pixelWidth);
-  }
-  double slopeAlong(const glm::ivec2& texel, const glm::ivec2& along) const;
+  double texelTolerance() const { return kTexelTolerance * settings_.scale; }
 
   const View& view_;
   OcclusionSettings settings_;
@@ -238,11 +237,12 @@ uint32_t sectors(double low, double high, double dither) {
 
 // Whether fewer than 7 of the 8 texels at distance 2 lie within half the plane tolerance.
 bool Slices::isEdge(const glm::ivec2& pixel) const {
+  const Facet facet = facetAt(pixel, texelTolerance());
   int same = 0;
   for (int y = -1; y <= 1; ++y) {
     for (int x = -1; x <= 1; ++x) {
       const glm::ivec2 other = pixel + glm::ivec2(x, y) * 2 * settings_.scale;
-      if (other != pixel && offPlane(pixel, other, view_.depth(other)) < 0.5) ++same;
+      if (other != pixel && facet.off(view_, other, view_.depth(other)) < 0.5) ++same;
     }
   }
   return same < 7;
@@ -396,46 +396,21 @@ uint32_t Slices::tap(const Slice& slice, const glm::dvec3& position, const glm::
   return present ? bits : 0;
 }
 
-// Distance from the surface's plane per texel along `along`, for points at a view depth of 1, in
-// metres. The plane is that of the texel's own facet if both neighbours lie on a line with it and
-// near enough to the normal's plane; else the normal's.
-double Slices::slopeAlong(const glm::ivec2& texel, const glm::ivec2& along) const {
-  const auto depthAt = [&](const glm::ivec2& at) {
-    return view_.depth(glm::clamp(at, glm::ivec2(0), texels_ - 1) * settings_.scale);
-  };
-  const glm::ivec2 pixel = texel * settings_.scale;
-  const double depth = view_.depth(pixel), before = depthAt(texel - along),
-               after = depthAt(texel + along);
-  const glm::dvec3 normal = view_.normal(pixel);
-  const double facing = glm::dot(normal, view_.ray(glm::dvec2(pixel) + 0.5));
-  const double byNormal =
-      glm::dot(glm::dvec2(normal) / view_.focal(), glm::dvec2(along)) * settings_.scale;
-  if (before <= 0 || after <= 0) return byNormal;
-  const double one = (before - depth) * facing / view_.shrink(before);
-  const double two = (depth - after) * facing / view_.shrink(after);
-  const double both = (one + two) / 2, width = settings_.scale / std::abs(view_.focal().x);
-  const double most = kMostBent * width / std::max(std::abs(facing), 0.5);
-  return std::max(8 * std::abs(one - two), std::abs(both - byNormal)) < most ? both : byNormal;
-}
-
 Texel Slices::denoised(const std::function<Texel(const glm::ivec2&)>& from, const glm::ivec2& texel,
                        const glm::ivec2& along) const {
   const double width = std::max(static_cast<double>(settings_.blurSize) / settings_.scale, 1.0);
   const int reach = static_cast<int>(std::ceil(width));
   const glm::ivec2 surface = texel * settings_.scale;
-  const double own = view_.depth(surface);
-  if (own <= 0) return kSky;
-  const double facing = glm::dot(view_.normal(surface), view_.ray(glm::dvec2(surface) + 0.5));
-  const double slope = slopeAlong(texel, along);
+  if (view_.depth(surface) <= 0) return kSky;
+  const Facet facet = facetAt(surface, texelTolerance());
   LineFit fit;
   for (int i = 1 - reach; i < reach; ++i) {
     const glm::ivec2 other = texel + along * i;
     const glm::ivec2 inside = glm::clamp(other, glm::ivec2(0), texels_ - 1);
     const double depth = view_.depth(inside * settings_.scale);
     if (depth <= 0) continue;
-    const double off =
-        std::abs((depth - own) * facing + view_.shrink(depth) * i * slope) / toleranceAt(surface);
-    const double weight = (width - std::abs(i)) * std::max(1 - off, 0.0);
+    const double apart = facet.off(view_, other * settings_.scale, depth);
+    const double weight = (width - std::abs(i)) * std::max(1 - apart, 0.0);
     fit.add(weight, along * i, from(inside));
   }
   return fit.centre();
@@ -446,10 +421,11 @@ Texel Slices::alongEdge(const glm::ivec2& texel) {
   const glm::ivec2 surface = texel * settings_.scale;
   const Texel own = columns_(texel);
   if (view_.depth(surface) <= 0) return own;
+  const Facet facet = facetAt(surface, texelTolerance());
   const auto offAt = [&](const glm::ivec2& across) {
     const glm::ivec2 at = glm::clamp(texel + across, glm::ivec2(0), texels_ - 1);
     const double depth = view_.depth(at * settings_.scale);
-    return depth > 0 ? offPlane(surface, (texel + across) * settings_.scale, depth) : 1e9;
+    return depth > 0 ? facet.off(view_, (texel + across) * settings_.scale, depth) : 1e9;
   };
   glm::dvec2 moments(0);  // cosine and sine of twice the angle
   for (const glm::ivec2 way : {glm::ivec2(1, 2), {2, 1}, {-1, 2}, {-2, 1}}) {
@@ -490,11 +466,13 @@ Upsampled Slices::upsampled(const glm::ivec2& pixel) {
     const glm::ivec2 corner(i & 1, i >> 1), texel = first + corner;
     const double depth = view_.depth(glm::clamp(texel, glm::ivec2(0), texels_ - 1) * scale);
     if (depth <= 0) continue;
-    const double off = offPlane(pixel, texel * scale, depth);
+    const glm::ivec2 inside = glm::clamp(texel, glm::ivec2(0), texels_ - 1);
+    const double apart =
+        facetAt(inside * scale, kBetweenTolerance * scale).off(view_, pixel, view_.depth(pixel));
     const double share =
         (corner.x != 0 ? part.x : 1 - part.x) * (corner.y != 0 ? part.y : 1 - part.y);
-    const double onPlane = share * std::max(0.0, 1 - off);
-    const double weight = onPlane + 1e-4 / (1 + off * off * off);
+    const double onPlane = share * std::max(0.0, 1 - apart);
+    const double weight = onPlane + 1e-4 / (1 + apart * apart * apart);
     const Texel value = averaged(texel);
     sum += weight * value;
     weights += weight;
@@ -513,19 +491,20 @@ Upsampled Slices::upsampled(const glm::ivec2& pixel) {
 
 // The mean of the 5x5 pixels around, listed or not.
 Texel Slices::refined(const glm::ivec2& pixel) {
+  const Facet facet = facetAt(pixel, kRefinedTolerance);
   LineFit fit;
   for (int i = 0; i < 25; ++i) {
     const glm::ivec2 across(i % 5 - 2, i / 5 - 2);
     const glm::ivec2 other = glm::clamp(pixel + across, glm::ivec2(0), view_.size() - 1);
     if (view_.depth(other) <= 0) continue;
-    const double off = offPlane(pixel, pixel + across, view_.depth(other));
-    const double weight = std::max(1 - off, 0.0);
+    const double weight = std::max(1 - facet.off(view_, pixel + across, view_.depth(other)), 0.0);
     if (weight <= 0) continue;
     const Upsampled from = upsampled_(other);
     fit.add(weight, across,
             from.share > 0 ? glm::mix(from.texel, refined_(other), from.share) : from.texel);
   }
   const Upsampled own = upsampled_(pixel);
+  fit.fill(kFewest, own.texel);
   return glm::mix(own.texel, fit.centre(), own.share);
 }
 

@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: MIT
 // Denoiser, third pass: averages along edges, where rows and columns have few texels of one
 // surface: on a ledge a few texels wide, or next to a crease. The bilateral weights are those of
-// denoise.glsl: a tent over the distance along the edge, times the range weight of the tangent
+// denoise.glsl: a tent over the distance along the edge, times the range weight of the facet's
 // plane. The edge's strength blends the result with the input, so that nothing changes in a plane.
 //
 // LAST is 1 in the pass that applies finished(). BENT is 0 or 1; 1 also averages the mean open
@@ -17,7 +17,7 @@ struct Surface {
   Plane plane;     // in units of the tolerance, slope per texel
 };
 
-// Distance of the surface `across` texels away, at view depth `other`, from the tangent plane, in
+// Distance of the surface `across` texels away, at view depth `other`, from the facet's plane, in
 // tolerances. Sky is far away.
 float offSurface(Surface s, float other, vec2 across) {
   return other > 0.0 ? planeDistance(s.plane, s.depth, other, across) : 1e9;
@@ -93,9 +93,8 @@ void main() {
   const vec2 own = textureLod(source, at, 0.0).xy;
   vec4 value = texelAt(at, own.x);
   const vec2 pixel = vec2(texel) * float(kScale) + 0.5;
-  const vec3 world = textureLod(world_normal, attachmentAt(pixel), 0.0).xyz;
-  const Plane plane = planeOf(pixel, viewNormal(world));
-  const float tolerance = toleranceAt(own.y, settings.tolerance);
+  const Plane plane = planeOfTangent(pixel, unpackHalf2x16(textureLod(tangents, at, 0.0).x));
+  const float tolerance = toleranceAt(own.y, settings.tolerance, kTexelTolerance * float(kScale));
   const Surface s = Surface(at, inverse, own.y, Plane(plane.slope * float(kScale) * tolerance,
                                                       plane.facing * tolerance));
   if (own.y > 0.0) value = alongEdge(s, edgeDirection(s), value);
@@ -105,7 +104,7 @@ void main() {
   imageStore(target, texel, vec4(value.w, own.y, 0.0, 0.0));
 #if BENT
 #if LAST
-  value.xyz = bentNormal(value.xyz, world);
+  value.xyz = bentNormal(value.xyz, textureLod(world_normal, attachmentAt(pixel), 0.0).xyz);
 #endif
   imageStore(bent_target, texel, vec4(value.xyz, 0.0));
 #endif

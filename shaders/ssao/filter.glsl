@@ -12,9 +12,12 @@ layout(UNIFORM(1), std140) uniform Settings {
   float tolerance;  // inverse of the plane tolerance, 1 / metres
 } settings;
 layout(TEXTURE(0)) uniform sampler2D source;  // visibility and view depth; nearest, clamped
-layout(TEXTURE(1)) uniform sampler2D world_normal;
+layout(TEXTURE(1)) uniform usampler2D tangents;  // of facets, see facet.glsl; nearest, clamped
 #if BENT
 layout(TEXTURE(2)) uniform sampler2D source_bent;
+#if LAST
+layout(TEXTURE(3)) uniform sampler2D world_normal;
+#endif
 layout(IMAGE(1), rgba16f) writeonly uniform image2D bent_target;
 #endif
 #if LAST

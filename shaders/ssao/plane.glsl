@@ -1,7 +1,6 @@
 // SPDX-License-Identifier: MIT
-// Normals in view space, tangent planes, and the distance of a pixel's surface from such a plane:
-// the range term of the bilateral weights in denoise.glsl, edges.glsl, upsample.glsl and
-// slices.glsl.
+// Normals in view space, planes of surfaces, and the distance of a surface from such a plane: the
+// range term of the bilateral weights in denoise.glsl, edges.glsl, upsample.glsl and refined.glsl.
 
 // Orthonormal basis whose z axis is the unit vector n, without a branch (Duff et al. 2017,
 // "Building an Orthonormal Basis, Revisited").
@@ -32,6 +31,13 @@ Plane planeOf(vec2 pixel, vec3 normal) {
   return Plane(normal.xy * view.view_from_pixel.xy, dot(normal, rayDirection(pixel)));
 }
 
+// The plane of a facet whose slopes in x and y are `tangent`: metres of view depth per metre across.
+Plane planeOfTangent(vec2 pixel, vec2 tangent) {
+  const float towards = dot(tangent, rayDirection(pixel).xy) - 1.0;
+  const float facing = inversesqrt(dot(tangent, tangent) + towards * towards);
+  return Plane(tangent * view.view_from_pixel.xy * facing, facing);
+}
+
 // Distance of a surface at view depth `other`, `across` pixels away, from the tangent plane of a
 // surface at view depth `depth`. Metres, unless the caller has scaled the plane.
 float planeDistance(Plane plane, float depth, float other, vec2 across) {
@@ -53,9 +59,13 @@ Raised raised(vec3 position, vec3 normal, float bias) {
                 bias > 0.0 && -at.z <= view.planes.x);
 }
 
+// Upper limits of the plane tolerance. Of the denoiser and of the upsampling: texels. Of the denoiser
+// of refined pixels: pixels.
+const float kTexelTolerance = 0.75, kBetweenTolerance = 0.375, kRefinedTolerance = 1.0;
+
 // Inverse of the plane tolerance at view depth `depth`, 1 / metres. The tolerance is the lesser of
-// 1 / `inverse` and the width of four pixels at that depth: a larger one would smear grooves and
+// 1 / `inverse` and the width of `pixels` pixels at that depth: a larger one would smear grooves and
 // ledges of a few pixels.
-float toleranceAt(float depth, float inverse) {
-  return max(inverse, 0.25 / max(depthScale(depth) * abs(view.view_from_pixel.x), 1e-30));
+float toleranceAt(float depth, float inverse, float pixels) {
+  return max(inverse, 1.0 / max(pixels * depthScale(depth) * abs(view.view_from_pixel.x), 1e-30));
 }

@@ -52,6 +52,8 @@ layout(TEXTURE(3)) uniform sampler2D next_depth;  // with kBacks = 3, metres; ne
 layout(IMAGE(0), r32ui) writeonly uniform uimage2D blocks;  // see upsample.glsl
 #else
 layout(IMAGE(0), rg32f) writeonly uniform image2D target;  // visibility and view depth
+layout(IMAGE(2), r32ui) writeonly uniform uimage2D tangents;  // of facets, see facet.glsl
+#include "facet.glsl"
 #endif
 #if BENT
 layout(IMAGE(1), rgba16f) writeonly uniform image2D bent_target;  // in view space, any length
@@ -143,10 +145,9 @@ float sliceOf(vec3 position, vec3 view_vec, vec3 normal, vec3 direction, vec2 pi
 
 #if !LISTED
 // A pixel counts as an edge if fewer than 7 of the 8 texels at distance 2 lie within half the plane
-// tolerance of its tangent plane.
-bool isEdge(vec2 pixel, float depth, vec3 normal) {
-  const Plane plane = planeOf(pixel, normal);
-  const float tolerance = toleranceAt(depth, settings.tolerance);
+// tolerance of its facet's plane.
+bool isEdge(vec2 pixel, float depth, Plane plane) {
+  const float tolerance = toleranceAt(depth, settings.tolerance, kTexelTolerance * float(kScale));
   uint same = 0u;
   for (uint k = 0u; k < 8u; ++k) {
     const uint place = k + k / 4u;  // in a 3x3 block, without its centre
@@ -163,6 +164,11 @@ bool isEdge(vec2 pixel, float depth, vec3 normal) {
 float openAt(uvec2 texel, vec2 pixel, float depth, out vec3 bent) {
   bent = vec3(0.0);
   vec3 normal = viewNormal(textureLod(world_normal, attachmentAt(pixel), 0.0).xyz);
+#if !LISTED
+  const vec2 tangent = facetTangent(pixel, depth, normal, depthsAlong(pixel, vec2(1, 0)),
+                                    depthsAlong(pixel, vec2(0, 1)));
+  imageStore(tangents, ivec2(texel), uvec4(packHalf2x16(clamp(tangent, -6e4, 6e4))));
+#endif
   const Raised at = raised(viewPosition(pixel, depth), normal, settings.bias);
   if (at.hidden) return 1.0;
   const vec3 position = at.position;
@@ -170,7 +176,7 @@ float openAt(uvec2 texel, vec2 pixel, float depth, out vec3 bent) {
   uint count = kSlices;
 #if !LISTED
   if (kEdgeSlices > 1u) {
-    if (isEdge(pixel, depth, normal)) count = kSlices * kEdgeSlices;
+    if (isEdge(pixel, depth, planeOfTangent(pixel, tangent))) count = kSlices * kEdgeSlices;
   }
 #endif
   // Interpolated normals may face away from the camera. Turns them to the silhouette, or a little
