@@ -30,7 +30,7 @@ constexpr double kBeyondBorder = 2;  // steps that a surface goes on for each ta
 constexpr double kFitted = 0.5, kLeastSpread = 0.5;
 // Where pixels begin to be refined, and where they are refined entirely: share of texels on the
 // pixel's plane, and difference of visibility between texels over the parameter `contrast`.
-constexpr double kServed[] = {0.6, 0.4}, kContrast[] = {0.8, 1.2};
+constexpr double kServed[] = {0.5, 0.3}, kContrast[] = {0.8, 1.2};
 
 // A slice of the hemisphere over a surface. Angles start at the view vector, and are positive on
 // the side of `across`.

@@ -42,7 +42,7 @@ layout(IMAGE(3), rgba16f) writeonly uniform image2D upsampled_bent;
 // Ranges over which a pixel becomes an edge and a contrast: bilinear share of the texels on whose
 // planes it lies, and difference of visibility between the four texels over the parameter `contrast`. At a
 // limit instead, pixels would change at once when the camera moves, and rounding would decide.
-const vec2 kServed = vec2(0.6, 0.4);
+const vec2 kServed = vec2(0.5, 0.3);
 const vec2 kContrast = vec2(0.8, 1.2);
 
 // How a pixel blends the four texels around it: `first`, then its neighbours in x, in y and in
