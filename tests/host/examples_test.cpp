@@ -141,11 +141,15 @@ TEST_P(Examples, AmbientOcclusionIsWhatTheProgramMakes) {
   const image::Image ao = image::read(out / "ao.exr");
   const image::Image fromFiles = image::read(out / "applied.exr");
   const image::Difference applied = image::compare(ao, fromFiles);
-  const image::Difference rendered = image::compare(ao, image::read(out / "rendered.exr"));
+  const image::Image fromScene = image::read(out / "rendered.exr");
+  const image::Difference rendered = image::compare(ao, fromScene);
   std::printf("%s: largest difference from apply %.5f, from render %.5f (rmse %.6f)\n",
               example.name, applied.largest, rendered.largest, rendered.rmse);
   EXPECT_EQ(applied.nonFinite + rendered.nonFinite, 0u);
-  EXPECT_LE(rendered.largest, 1.0 / 255);
+  // Clip depths that are not reversed are coarse far away, and facets follow from depths.
+  EXPECT_LE(rendered.largest, 4.0 / 255);
+  EXPECT_LT(image::shareOver(ao, fromScene, 1.0 / 255), 0.0005);
+  EXPECT_LT(rendered.rmse, 0.0005);
   // Files round the normals once more: a sector at its edge may become occluded.
   EXPECT_LE(applied.largest, 2.5 / 255);
   EXPECT_LT(image::shareOver(ao, fromFiles, 1.0 / 255), 0.001);
