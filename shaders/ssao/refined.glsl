@@ -45,7 +45,7 @@ Four fourAt(ivec2 place) {
   // The depths of two pixels before and two after the block, in both rows and both columns.
   const vec2 first = vec2(place) + 0.5;
   [[unroll]] for (int i = 0; i < 4; ++i) {
-    four.depth[i] = textureLod(view_depth, attachmentAt(first + vec2(i & 1, i >> 1)), 0.0).x;
+    four.depth[i] = depthNear(first + vec2(i & 1, i >> 1));
   }
   vec4 rows[2], columns[2];
   [[unroll]] for (int i = 0; i < 2; ++i) {
