@@ -3,6 +3,7 @@
 
 #include <algorithm>
 #include <cmath>
+#include <glm/gtc/packing.hpp>
 
 namespace grisaille::lab::oracle {
 namespace {
@@ -39,7 +40,7 @@ double slopeAlong(const View& view, const glm::ivec2& pixel, const glm::ivec2& a
 
 }  // namespace
 
-Facet::Facet(const View& view, const glm::ivec2& pixel, double pixels, double radius)
+Facet::Facet(const View& view, const glm::ivec2& pixel, double pixels, double radius, bool stored)
     : position_(view.position(pixel)) {
   const double shrink = view.shrink(view.depth(pixel));
   const glm::dvec3 normal = view.normal(pixel), ray = view.ray(glm::dvec2(pixel) + 0.5);
@@ -49,9 +50,13 @@ Facet::Facet(const View& view, const glm::ivec2& pixel, double pixels, double ra
   const double straight = shrink * std::abs(facing / across.x);
   const glm::dvec2 byNormal = -glm::dvec2(normal) / facing * across / shrink;
   // Metres of view depth per metre across.
-  const glm::dvec2 tangent = -shrink / across *
-                             glm::dvec2(slopeAlong(view, pixel, {1, 0}, straight, byNormal.x),
-                                        slopeAlong(view, pixel, {0, 1}, straight, byNormal.y));
+  glm::dvec2 tangent = -shrink / across *
+                       glm::dvec2(slopeAlong(view, pixel, {1, 0}, straight, byNormal.x),
+                                  slopeAlong(view, pixel, {0, 1}, straight, byNormal.y));
+  if (stored) {
+    const glm::vec2 limited = glm::clamp(glm::vec2(tangent), -6e4f, 6e4f);
+    tangent = glm::unpackHalf2x16(glm::packHalf2x16(limited));
+  }
   normal_ = glm::normalize(glm::dvec3(tangent, glm::dot(tangent, glm::dvec2(ray)) - 1));
   tolerance_ = std::min(kPlaneTolerance * radius, pixels * width);
 }

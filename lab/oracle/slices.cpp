@@ -197,8 +197,9 @@ class Slices : public Occlusion {
   Upsampled upsampled(const glm::ivec2& pixel);
   Texel refined(const glm::ivec2& pixel);
 
+  // Of a texel.
   Facet facetAt(const glm::ivec2& pixel, double pixels) const {
-    return Facet(view_, pixel, pixels, settings_.radius);
+    return Facet(view_, pixel, pixels, settings_.radius, true);
   }
   double texelTolerance() const { return kTexelTolerance * settings_.scale; }
 
@@ -491,7 +492,7 @@ Upsampled Slices::upsampled(const glm::ivec2& pixel) {
 
 // The mean of the 5x5 pixels around, listed or not.
 Texel Slices::refined(const glm::ivec2& pixel) {
-  const Facet facet = facetAt(pixel, kRefinedTolerance);
+  const Facet facet(view_, pixel, kRefinedTolerance, settings_.radius, false);
   LineFit fit;
   for (int i = 0; i < 25; ++i) {
     const glm::ivec2 across(i % 5 - 2, i / 5 - 2);

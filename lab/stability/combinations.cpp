@@ -245,10 +245,8 @@ std::string edgeOf(const Case& one) {
     return "edges without normals";
   if (one.variant.starts_with("slices") && one.group == "intensity")
     return "ten times the occlusion";
-  // In a picture of one row, the denoiser finds few texels that hide a single slice.
   if (one.variant == "open directions" &&
-      (one.scenery.kind == Kind::kNoNormals || one.scenery.kind == Kind::kBackNormals ||
-       one.size.y == 1))
+      (one.scenery.kind == Kind::kNoNormals || one.scenery.kind == Kind::kBackNormals))
     return "a direction between two sectors";
   if (one.variant != "paint on surfaces") return "";
   if (one.scenery.kind == Kind::kWires) return "thin things before a muzzle";
