@@ -50,7 +50,7 @@ double worstLoss(std::span<const double> dearer, std::span<const double> cheaper
 // of the front would be the natural choice, but a front is nearly straight in error and logarithm
 // of cost. Its knees jump from one end to the other with the noise of the clock.) Throws
 // kFrontSmall for fewer than four points.
-constexpr double kMostShare[] = {0.07, 0.17, 0.38};  // of `fast`, `balanced` and `fine`
+constexpr double kMostShare[] = {0.055, 0.13, 0.28};  // of `fast`, `balanced` and `fine`
 constexpr double kMostLoss = 0.002;
 std::vector<size_t> presetsOn(std::span<const Price> front,
                               std::span<const std::vector<double>> errors = {});

@@ -157,7 +157,8 @@ constexpr grisaille_param_desc kParams[] = {
                        .tooltip =
                            "Which pixels are computed at full resolution although the rest is "
                            "not: none, those between surfaces, or also those where occlusion "
-                           "changes within a few pixels. Full resolution ignores it",
+                           "changes within a few pixels. These take twice the "
+                           "slices. Full resolution ignores it",
                        .keys = kRefineKeys,
                        .labels = kRefineLabels,
                        .defaultValue = 2,

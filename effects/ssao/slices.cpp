@@ -79,9 +79,22 @@ float toleranceOf(const plugin::Frame& frame) {
   return 1 / (kTolerance * frame.value<float>(kRadius));
 }
 
-// Taps on each side of a slice.
-uint32_t stepsOf(const plugin::Frame& frame) {
-  return plugin::groupsFor(frame.value<uint32_t>(kKernelSize), 2 * frame.value<uint32_t>(kSlices));
+// Fewer taps on a side of a slice find too little between leaves.
+constexpr uint32_t kListedSteps = 5;
+
+// How a pixel is sampled: slices, and taps on each side of one.
+struct Taken {
+  uint32_t slices, steps;
+};
+
+// A pixel of the list has few others of its surface around it, so that the noise of its slices
+// stays: it takes twice as many as a texel. They share the same taps if that leaves kListedSteps to
+// each.
+Taken takenBy(const plugin::Frame& frame, bool listed) {
+  const uint32_t taps = frame.value<uint32_t>(kKernelSize), slices = frame.value<uint32_t>(kSlices);
+  const uint32_t steps = plugin::groupsFor(taps, 2 * slices);
+  if (!listed) return {slices, steps};
+  return {2 * slices, std::max(plugin::groupsFor(taps, 4 * slices), std::min(steps, kListedSteps))};
 }
 
 uint64_t pixelsOf(const plugin::Frame& frame) {
@@ -285,10 +298,11 @@ void Slices::occlude(const plugin::Frame& frame, plugin::PipelineCache& pipeline
     backs = std::min(backs, Backs::kDrawn);
   }
   // Constants of shaders/ssao/slices.glsl; the list's has all but the last.
+  const Taken taken = takenBy(frame, listed != nullptr);
   const grisaille_constant constants[] = {
       cameraKind(frame),
-      plugin::specialize(0, frame.value<uint32_t>(kSlices)),
-      plugin::specialize(1, stepsOf(frame)),
+      plugin::specialize(0, taken.slices),
+      plugin::specialize(1, taken.steps),
       plugin::specialize(2, size.scale),
       plugin::specialize(3, static_cast<uint32_t>(backs)),
       plugin::specialize(4, frame.value<uint32_t>(kEdgeSlices))};

@@ -19,7 +19,8 @@ constexpr double kGolden = 0.618034;  // offset between a pixel's slices, golden
 // Upper limits of the tolerance: between texels and in the upsampling, texels; at full resolution,
 // pixels.
 constexpr double kTexelTolerance = 0.75, kBetweenTolerance = 0.375, kRefinedTolerance = 1;
-constexpr double kFewest = 5;           // least sum of weights at full resolution
+constexpr int kListedSteps = 5;         // taps on each side, at full resolution
+constexpr double kFewest = 3;           // least sum of weights at full resolution
 constexpr double kSteepest = 6.5;       // slope of a surface that taps share, if backs are known
 constexpr double kLone = 2.5;           // reach of a surface of one tap, distances between taps
 constexpr double kLoneAboveNext = 1.5;  // if the surface behind is known
@@ -138,7 +139,6 @@ class Slices : public Occlusion {
       : view_(view),
         settings_(settings),
         thickness_(static_cast<float>(settings.radius) * static_cast<float>(settings.thickness)),
-        steps_((settings.kernelSize + 2 * settings.slices - 1) / (2 * settings.slices)),
         texels_((view.size() + settings.scale - 1) / settings.scale),
         past_(std::move(past)),
         frames_(past_ ? past_->frames : 0),
@@ -183,12 +183,12 @@ class Slices : public Occlusion {
     return settings_.edgeDenoise > 0 ? edges_(texel) : columns_(texel);
   }
   // Of the texel `at` of a grid with `scale` pixels per texel, after a number of frames. `listed`:
-  // it counts as an edge, as the pixels do that are computed at full resolution.
+  // a pixel that is computed at full resolution, with twice the slices.
   Texel estimate(const glm::ivec2& at, int scale, int frames, bool listed) const;
   Mean mean(const glm::ivec2& texel);
   bool isEdge(const glm::ivec2& pixel) const;
   Texel sliceOf(const glm::dvec3& position, const glm::dvec3& normal, const glm::dvec3& direction,
-                const glm::dvec2& pixel, double dither) const;
+                const glm::dvec2& pixel, double dither, int steps) const;
   uint32_t tap(const Slice& slice, const glm::dvec3& position, const glm::ivec2& at, double dither,
                bool next, Walk& walk) const;
   Texel denoised(const std::function<Texel(const glm::ivec2&)>& from, const glm::ivec2& texel,
@@ -201,12 +201,13 @@ class Slices : public Occlusion {
   Facet facetAt(const glm::ivec2& pixel, double pixels) const {
     return Facet(view_, pixel, pixels, settings_.radius, true);
   }
+  // Taps on each side of a slice if `slices` share those of a pixel.
+  int stepsOf(int slices) const { return (settings_.kernelSize + 2 * slices - 1) / (2 * slices); }
   double texelTolerance() const { return kTexelTolerance * settings_.scale; }
 
   const View& view_;
   OcclusionSettings settings_;
   double thickness_;  // metres
-  int steps_;         // taps on each side of a slice
   glm::ivec2 texels_;
   std::shared_ptr<const PastFrame> past_;
   int frames_;  // number of frames before this one
@@ -267,7 +268,9 @@ Texel Slices::estimate(const glm::ivec2& texel, int scale, int frames, bool list
   const double turn = std::fmod(0.375 + (settings_.seed + frames / 25) * 0.6180339887498949, 1.0);
   const glm::dmat3 axes = axesAbout(normal);
   const bool edge = settings_.edgeSlices > 1 && !listed && isEdge(pixel);
-  const int slices = settings_.slices * (edge ? settings_.edgeSlices : 1);
+  const int slices = settings_.slices * (listed ? 2 : edge ? settings_.edgeSlices : 1);
+  int steps = stepsOf(settings_.slices);
+  if (listed) steps = std::max(stepsOf(slices), std::min(steps, kListedSteps));
   Texel sum(0);
   for (int k = 0; k < slices; ++k) {
     const double phi = (k + (first * 5 + second + turn) / 25) / slices * 2 * kPi;
@@ -276,13 +279,14 @@ Texel Slices::estimate(const glm::ivec2& texel, int scale, int frames, bool list
     const double r = std::sqrt(u);
     const glm::dvec3 direction =
         axes * glm::dvec3(r * std::cos(phi), r * std::sin(phi), std::sqrt(1 - u));
-    sum += sliceOf(position, normal, direction, raised->pixel, u);
+    sum += sliceOf(position, normal, direction, raised->pixel, u, steps);
   }
   return sum / static_cast<double>(slices);
 }
 
 Texel Slices::sliceOf(const glm::dvec3& position, const glm::dvec3& normal,
-                      const glm::dvec3& direction, const glm::dvec2& pixel, double dither) const {
+                      const glm::dvec3& direction, const glm::dvec2& pixel, double dither,
+                      int steps) const {
   const glm::dvec3 toward = view_.toward(position);
   glm::dvec3 across = direction - toward * glm::dot(direction, toward);
   across /= std::sqrt(std::max(glm::dot(across, across), 1e-12));
@@ -312,10 +316,10 @@ Texel Slices::sliceOf(const glm::dvec3& position, const glm::dvec3& normal,
   behind.share = 0;
   Walk nextAhead = ahead, nextBehind = behind;
   uint32_t shut = 0;
-  const uint32_t finer = std::max(8u, std::bit_ceil(static_cast<uint32_t>(steps_)) / 2);
-  for (int i = 0; i < steps_; ++i) {
+  const uint32_t finer = std::max(8u, std::bit_ceil(static_cast<uint32_t>(steps)) / 2);
+  for (int i = 0; i < steps; ++i) {
     for (Walk* walk : {&ahead, &behind}) {
-      const double at = (i + (walk->side > 0 ? dither : 1 - dither)) / steps_;
+      const double at = (i + (walk->side > 0 ? dither : 1 - dither)) / steps;
       const double pixels = std::max(std::pow(at, kTapPower) * reach, i + 1.0);
       const double grid = std::max(std::exp2(std::floor(std::log2(pixels))) / finer, 1.0);
       const glm::dvec2 place = glm::clamp(
@@ -331,7 +335,7 @@ Texel Slices::sliceOf(const glm::dvec3& position, const glm::dvec3& normal,
     if (!walk->depth) continue;
     // The surface of the last tap goes on until it leaves the sphere, at most one step further, and
     // more if taps lie beyond the border.
-    const double most = 1 + kBeyondBorder * (steps_ - walk->seen);
+    const double most = 1 + kBeyondBorder * (steps - walk->seen);
     const double more = std::min(-walk->beyond / std::max(walk->farther, 1e-30), most);
     const double share = slice.below(walk->point + more * walk->step, walk->side);
     shut |= sectors(std::min(walk->share, share), std::max(walk->share, share), dither);

@@ -17,7 +17,8 @@
 // A texel of the target samples one of kScale x kScale pixels, the top left one. At edges, where
 // the denoiser finds few texels of one surface, the texel takes kEdgeSlices times as many slices.
 // BENT is 0 or 1; 1 also computes the mean open direction. LISTED is 0 or 1; 1 computes only
-// pixels of listed blocks (listed.glsl), at the picture's resolution, none of them as an edge.
+// pixels of listed blocks (listed.glsl), at the picture's resolution, none of them as an edge. They
+// take twice the slices.
 #define ORTHOGRAPHIC_ID 7
 #include "common/view.glsl"
 #include "plane.glsl"
