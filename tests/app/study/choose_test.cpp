@@ -45,8 +45,8 @@ TEST(Presets, AreOnTheFrontAndInOrder) {
 TEST(Presets, EachCostsAtMostItsShareOfTheDearest) {
   std::vector<Price> front;
   for (int i = 0; i <= 10; ++i) front.push_back({std::exp2(i), 1 - 0.05 * i});
-  // With 1024 as the highest cost, the others may cost at most 72, 143 and 369.
-  EXPECT_EQ(presetsOn(front), (std::vector<size_t>{6, 7, 8, 10}));
+  // With 1024 as the highest cost, the others may cost at most 56, 133 and 286.
+  EXPECT_EQ(presetsOn(front), (std::vector<size_t>{5, 7, 8, 10}));
   // Without cheap settings, the presets are spread evenly.
   front = {{40, 0.9}, {45, 0.8}, {50, 0.7}, {60, 0.6}, {100, 0.5}};
   EXPECT_EQ(presetsOn(front), (std::vector<size_t>{0, 1, 3, 4}));
@@ -59,13 +59,13 @@ TEST(Presets, NoCameraPaysMoreForLess) {
     front.push_back({std::exp2(i), 1 - 0.05 * i});
     errors.push_back({front.back().error, front.back().error});
   }
-  EXPECT_EQ(presetsOn(front, errors), (std::vector<size_t>{6, 7, 8, 10}));
+  EXPECT_EQ(presetsOn(front, errors), (std::vector<size_t>{5, 7, 8, 10}));
   // Point 8 errs far less at one camera than the dearest: another takes its place as `fine`.
   errors[8][1] = 0.1;
   EXPECT_EQ(presetsOn(front, errors), (std::vector<size_t>{5, 6, 7, 10}));
   // Within the margin it may.
   errors[8][1] = 0.5 - 0.9 * kMostLoss;
-  EXPECT_EQ(presetsOn(front, errors), (std::vector<size_t>{6, 7, 8, 10}));
+  EXPECT_EQ(presetsOn(front, errors), (std::vector<size_t>{5, 7, 8, 10}));
   // If every point does, the one with the least loss is chosen.
   for (size_t i = 0; i < 10; ++i)
     errors[i][0] = i == 5 ? 0.4 : 0.3 + 0.001 * static_cast<double>(i);
