@@ -152,17 +152,17 @@ constexpr grisaille_param_desc kParams[] = {
                        .labels = kResolutionLabels,
                        .defaultValue = 1,
                        .usedWhen = kSlicesOnly}),
-    plugin::enumParam({.key = "refine",
-                       .label = "Refine",
-                       .tooltip =
-                           "Which pixels are computed at full resolution although the rest is "
-                           "not: none, those between surfaces, or also those where occlusion "
-                           "changes within a few pixels. These take twice the "
-                           "slices. Full resolution ignores it",
-                       .keys = kRefineKeys,
-                       .labels = kRefineLabels,
-                       .defaultValue = 2,
-                       .usedWhen = kSlicesOnly}),
+    plugin::enumParam(
+        {.key = "refine",
+         .label = "Refine",
+         .tooltip = "Which pixels are computed at full resolution although the rest is "
+                    "not: none, those between surfaces, or also those where occlusion "
+                    "changes within a few pixels. They take twice as many slices, with fewer taps "
+                    "each. Full resolution ignores it",
+         .keys = kRefineKeys,
+         .labels = kRefineLabels,
+         .defaultValue = 2,
+         .usedWhen = kSlicesOnly}),
     plugin::floatParam({.key = "guard_band",
                         .label = "Guard band",
                         .tooltip = "Width of the border drawn beyond the picture, in picture "

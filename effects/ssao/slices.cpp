@@ -88,8 +88,8 @@ struct Taken {
 };
 
 // A pixel of the list has few others of its surface around it, so that the noise of its slices
-// stays: it takes twice as many as a texel. They share the same taps if that leaves kListedSteps to
-// each.
+// stays. It takes twice as many as a texel, which share the taps of a texel if that leaves
+// kListedSteps to each side.
 Taken takenBy(const plugin::Frame& frame, bool listed) {
   const uint32_t taps = frame.value<uint32_t>(kKernelSize), slices = frame.value<uint32_t>(kSlices);
   const uint32_t steps = plugin::groupsFor(taps, 2 * slices);

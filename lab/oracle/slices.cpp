@@ -197,7 +197,7 @@ class Slices : public Occlusion {
   Upsampled upsampled(const glm::ivec2& pixel);
   Texel refined(const glm::ivec2& pixel);
 
-  // Of a texel.
+  // Of the pixel that a texel samples.
   Facet facetAt(const glm::ivec2& pixel, double pixels) const {
     return Facet(view_, pixel, pixels, settings_.radius, true);
   }

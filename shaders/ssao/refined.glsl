@@ -32,7 +32,7 @@ layout(IMAGE(1), rgba16f) writeonly uniform image2D bent_target;
 layout(IMAGE(0), r16f) writeonly uniform image2D target;
 
 // Least sum of weights. The upsampled value fills up what is missing: a pixel that is alone on its
-// plane would show the noise of its one slice.
+// plane would show the noise of its few slices.
 const float kFewest = 3.0;
 
 // The 2x2 pixels of a block, in the order of `blocks`. Planes are in tolerances, slopes per pixel.
