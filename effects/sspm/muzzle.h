@@ -1,9 +1,9 @@
 // SPDX-License-Identifier: MIT
 // What a muzzle sees, in depth pictures that the host draws. They answer a survey's rays.
 //
-// Five pictures share the muzzle and the shot's direction. Each is five times as wide as the next,
-// so that a point at the distance d of the ray is seen with pixels of at most d / 25: fine along
-// the ray, coarse beside the muzzle.
+// Five pictures share the muzzle and the shot's direction. Each is 4.5 times as wide as the next, so
+// that a point at the distance d of the ray is seen with pixels of at most d / 28: fine along the
+// ray, coarse beside the muzzle.
 #pragma once
 
 #include <array>
@@ -22,7 +22,7 @@ using DrawDepth = std::function<bool(const grisaille_depth_view&, std::span<floa
 class Muzzle {
  public:
   static constexpr uint32_t kSize = 256;  // pixels
-  static constexpr std::array<float, 5> kSlopes = {4, 0.8f, 0.16f, 0.032f, 0.0064f};
+  static constexpr std::array<float, 5> kSlopes = {4, 0.88f, 0.19f, 0.042f, 0.0092f};
 
   static constexpr uint64_t kBytes = kSlopes.size() * kSize * kSize * sizeof(float);
 
