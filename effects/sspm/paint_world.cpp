@@ -16,8 +16,9 @@ namespace {
 constexpr uint64_t kWaitingShare = 32;  // of the limit: what may wait for its upload
 constexpr uint64_t kEarlyShare = 8;     // of the limit: largest array before it is planned
 constexpr double kUploadMemory = 0.9;   // share of the longest upload that each frame leaves
-// Seconds of a step: short ones complete the newest shots before others begin.
-constexpr double kLongestStep = 0.002;
+// Longest step, seconds and share of the patience, whichever is more: short ones complete the
+// newest shots before others begin.
+constexpr double kLongestStep = 0.002, kStepShare = 0.016;
 // What is left for steps that take longer than usual: share of the patience, and seconds.
 constexpr double kLateShare = 0.25, kMostLate = 0.002;
 // Of a record's root; same as in shaders/sspm/walk.glsl.
@@ -65,7 +66,8 @@ size_t PaintWorld::update(std::span<const Shot> shots, size_t kept, const PaintR
   const double placing = patience - late - std::min(uploadTime_, patience / 2);
   const auto left = [&] { return placing - secondsSince(start); };
   const size_t spots = std::isfinite(patience) ? kFewSpots : kManySpots;
-  const double longest = std::isfinite(patience) ? kLongestStep : patience;
+  const double longest =
+      std::isfinite(patience) ? std::max(kLongestStep, kStepShare * patience) : patience;
   double alone = std::numeric_limits<double>::infinity();  // the first step, however long it takes
   while (!(thinning_.isActive() && isFull()) &&
          step(pace_.effortIn(std::min(left(), longest)), alone, sight, unknown)) {

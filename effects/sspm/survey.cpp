@@ -12,7 +12,7 @@
 namespace grisaille::sspm {
 namespace {
 
-constexpr float kFinestMetres = 0.004f;   // width on the surface below which nothing is divided
+constexpr float kFinestMetres = 0.008f;   // width on the surface below which nothing is divided
 constexpr float kSurfaceMetres = 0.032f;  // largest width of a square with a surface in range
 constexpr int kMostProbes = 6;
 constexpr size_t kMostSamples = 8192;  // rays after which no square is divided further
@@ -153,7 +153,7 @@ int32_t Survey::leafAt(const glm::ivec2& place) const {
 // Index of the sample at a place. Asks for its ray if there is none.
 int32_t Survey::ask(const glm::ivec2& place) {
   if (samples_.size() * 2 >= slots_.size()) growSlots();
-  Slot& slot = slotOf(place);
+  Slot& slot = slots_[slotOf(place)];
   if (slot.sample < 0) {
     slot = {packed(place), static_cast<int32_t>(samples_.size())};
     asked_.push_back(slot.sample);
@@ -162,18 +162,24 @@ int32_t Survey::ask(const glm::ivec2& place) {
   return slot.sample;
 }
 
-Survey::Slot& Survey::slotOf(const glm::ivec2& place) {
+// Index of the sample at a place; -1: none.
+int32_t Survey::known(const glm::ivec2& place) const {
+  return slots_[slotOf(place)].sample;
+}
+
+// Index of the slot of a place, or of the free one where it belongs.
+size_t Survey::slotOf(const glm::ivec2& place) const {
   const size_t mask = slots_.size() - 1;
   const uint32_t wanted = packed(place);
   size_t at = hashOf(wanted) & mask;
   while (slots_[at].sample >= 0 && slots_[at].place != wanted) at = (at + 1) & mask;
-  return slots_[at];
+  return at;
 }
 
 void Survey::growSlots() {
   slots_.assign(2 * slots_.size(), {});
   for (size_t i = 0; i < samples_.size(); ++i) {
-    slotOf(samples_[i].place) = {packed(samples_[i].place), static_cast<int32_t>(i)};
+    slots_[slotOf(samples_[i].place)] = {packed(samples_[i].place), static_cast<int32_t>(i)};
   }
 }
 
@@ -270,8 +276,22 @@ int32_t Survey::grainAt(const Square& square) const {
   }
   if (!isWithin(3)) return within ? kUnit : 4 * kUnit;
   const bool large = kUnit / 8 * frame_.range > kSurfaceMetres * kUnit;
-  if (within) return large ? kUnit / 16 : kUnit / 8;
-  return isWithin(1) ? kUnit / 8 : hits ? kUnit / 4 : kUnit;
+  const int32_t fine = large ? kUnit / 16 : kUnit / 8;
+  if (within) return square.size == 2 * fine && isCalm(square) ? 2 * fine : fine;
+  return hits || isWithin(1) ? kUnit / 4 : kUnit;
+}
+
+// Whether one plane is seen at a square's corners, and at those of its eight neighbours that rays
+// have met so far.
+bool Survey::isCalm(const Square& square) const {
+  const Sample& first = sample(square.corners[0]);
+  if (!first.told || !first.hit) return false;
+  for (int32_t i = 0; i < 16; ++i) {
+    const int32_t seen = known(square.corner + square.size * (glm::ivec2(i % 4, i / 4) - 1));
+    if (seen < 0 || !sample(seen).told) continue;
+    if (!sample(seen).hit || sample(seen).plane != first.plane) return false;
+  }
+  return true;
 }
 
 // Width at which a square is not divided further, whatever it sees.

@@ -160,8 +160,9 @@ class Survey {
   std::array<int32_t, 4> neighboursOf(const Square& square) const;
   int32_t leafAt(const glm::ivec2& place) const;
   int32_t grainAt(const Square& square) const;
-  struct Slot;
-  Slot& slotOf(const glm::ivec2& place);
+  bool isCalm(const Square& square) const;
+  int32_t known(const glm::ivec2& place) const;
+  size_t slotOf(const glm::ivec2& place) const;
   void growSlots();
   void divide(int32_t index);
   bool inRange(const Sample& sample) const;
