@@ -16,7 +16,7 @@ namespace {
 
 // Times the shots that a pass left: when the next one pays, and when it comes before shots are
 // given up.
-constexpr double kGrown = 1.5, kGrownLeast = 1.1;
+constexpr double kGrown = 2, kGrownLeast = 1.1;
 // Shots from which on it can tell whether all that wait will fit, and how many times the limit they
 // are expected to take if they will not.
 constexpr double kForesight = 4096, kFarTooMuch = 2;
