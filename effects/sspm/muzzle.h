@@ -1,9 +1,9 @@
 // SPDX-License-Identifier: MIT
 // What a muzzle sees, in depth pictures that the host draws. They answer a survey's rays.
 //
-// Five pictures share the muzzle and the shot's direction. Each is 4.5 times as wide as the next,
-// so that a point at the distance d of the ray is seen with pixels of at most d / 28: fine along
-// the ray, coarse beside the muzzle.
+// Five pictures share the muzzle and the shot's direction. Each is about 4.6 times as wide as the
+// next, so that a point at the distance d of the ray is seen with pixels of at most d / 28: fine
+// along the ray, coarse beside the muzzle.
 #pragma once
 
 #include <array>

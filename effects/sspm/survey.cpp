@@ -257,7 +257,7 @@ glm::vec2 Survey::centreOf(const Square& square) const {
 }
 
 // Largest width of an undivided square, as far as its corners are known. The rough picture has
-// coarse squares. The map has fine ones where rays hit something in range.
+// coarse squares. The map has fine ones where rays hit something in range, unless that is calm.
 int32_t Survey::grainAt(const Square& square) const {
   constexpr int32_t kUnit = kFinestAUnit;
   // Twice the distance of the square from the map's centre, in finest squares.
