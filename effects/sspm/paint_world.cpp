@@ -77,6 +77,7 @@ size_t PaintWorld::update(std::span<const Shot> shots, size_t kept, const PaintR
     keepWithin();
     if (left() <= 0 || (std::isfinite(patience) && isUploadDue())) break;
   }
+  if (placeRest()) keepWithin();
   if (!unknown.empty()) {
     pending_.insert(pending_.end(), unknown.begin(), unknown.end());
     std::ranges::sort(pending_);

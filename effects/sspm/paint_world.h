@@ -214,6 +214,10 @@ class PaintWorld {
   bool step(double most, double alone, const Sight& sight, std::vector<uint32_t>& unknown);
   void refine(Work& work);
   bool advance(Work& work, std::vector<uint32_t>& unknown);
+  void placeComplete();
+  bool placeRest();
+  size_t completeCount() const;
+  void dropDone();
   void sortPending();
   void refill();
   static int32_t levelFor(const ShotFrame& frame);

@@ -22,7 +22,9 @@ constexpr double kCastShare = 0.4;    // of a ray's effort, for the host's cast
 constexpr double kPartEffort[] = {0.3, 0.18, 0.16};
 constexpr double kPaceMemory = 0.9;  // share of the mean that each step leaves
 constexpr double kAim = 0.85;        // of the time left, for a step: some take twice the mean
-constexpr int kMostAsks = 4;         // frames in a row that ask for one shot's depth pictures
+// Complete surveys for which it is worth a thread to place them while the host casts the next rays.
+constexpr size_t kWorthThread = 4;
+constexpr int kMostAsks = 4;  // frames in a row that ask for one shot's depth pictures
 
 }  // namespace
 
@@ -84,6 +86,7 @@ bool PaintWorld::step(double most, double alone, const Sight& sight,
     return true;
   };
   for (Work& work : work_) {
+    if (work.isComplete()) continue;
     int part = work.parts;
     if (!work.isSurveyed()) {
       if (!fits(work.roundEffort())) break;
@@ -95,7 +98,7 @@ bool PaintWorld::step(double most, double alone, const Sight& sight,
     if (asked.size() + surveyed.size() > now.size()) now.push_back(&work);
     if (work.isSurveyed() && part < kParts) break;
   }
-  if (now.empty()) return false;
+  if (now.empty()) return placeRest();
   const bool can = askFor(asked, tasks, sight);
   for (Work* work : asked) {
     if (!can || !work->isRoughComplete()) continue;
@@ -108,7 +111,8 @@ bool PaintWorld::step(double most, double alone, const Sight& sight,
     late = late || (looks_ && !work.told);
     if (!advance(work, unknown)) work.id = kNone;
   }
-  std::erase_if(work_, [](const Work& work) { return work.id == kNone; });
+  dropDone();
+  if (completeCount() < kWorthThread) placeRest();
   pace_.note(secondsSince(start), effort.rays());
   return !late;
 }
@@ -120,8 +124,8 @@ void PaintWorld::refine(Work& work) {
   if (!isLost(work.id)) work.survey.refine();
 }
 
-// Continues with a shot after a round of rays. Returns false once its survey is not needed any
-// more.
+// Continues with a shot after a round of rays or some of its parts. Returns false once its survey
+// is not needed any more.
 bool PaintWorld::advance(Work& work, std::vector<uint32_t>& unknown) {
   if (!work.told) {
     if (looks_ && work.asked < kMostAsks) return true;
@@ -134,20 +138,46 @@ bool PaintWorld::advance(Work& work, std::vector<uint32_t>& unknown) {
     retire(work.id);
     return false;
   }
-  if (!work.isComplete()) return true;   // the other parts come in the next step
-  const bool again = isPlaced(work.id);  // to be sharpened
-  if (!again && !fits(work.coarse.words.empty() ? work.map : work.coarse)) {
-    // It comes again, once older paint has made room.
-    lacks_ = Lacks::kCoarse;
-    pending_.insert(std::ranges::lower_bound(pending_, work.id), work.id);
-  } else if (!again) {
-    place(work);
-  } else if (work.survey.unknownInside() > 0) {
+  if (work.isComplete() && isPlaced(work.id) && work.survey.unknownInside() > 0) {
     unknown.push_back(work.id);
-  } else {
-    sharpen(work);
+    return false;
   }
-  return false;
+  return true;  // the other parts come in the next step, or placeComplete()
+}
+
+// Places the shots of complete surveys, and leaves it to dropDone() to remove these from the list.
+// A thread may do so while the host casts rays, since nothing else uses cells and records then.
+void PaintWorld::placeComplete() {
+  for (Work& work : work_) {
+    if (!work.isComplete() || work.id == kNone) continue;
+    const uint32_t id = work.id;
+    if (isPlaced(id)) {
+      sharpen(work);
+    } else if (fits(work.coarse.words.empty() ? work.map : work.coarse)) {
+      place(work);
+    } else {
+      // It comes again, once older paint has made room.
+      lacks_ = Lacks::kCoarse;
+      pending_.insert(std::ranges::lower_bound(pending_, id), id);
+    }
+    work.id = kNone;
+  }
+}
+
+// Places the shots of complete surveys at once. Returns whether there were any.
+bool PaintWorld::placeRest() {
+  const bool any = completeCount() > 0;
+  placeComplete();
+  dropDone();
+  return any;
+}
+
+size_t PaintWorld::completeCount() const {
+  return static_cast<size_t>(std::ranges::count_if(work_, &Work::isComplete));
+}
+
+void PaintWorld::dropDone() {
+  std::erase_if(work_, [](const Work& work) { return work.id == kNone; });
 }
 
 // Sorts the pending shots, and removes those that are listed twice.

@@ -9,12 +9,19 @@
 namespace grisaille::sspm {
 namespace {
 
-void addPoint(const SurfacePoint& point, float edge, Share& share) {
+// Whether a part has a point of the share's plane, and needs no other.
+bool isKnown(const Share& share, const glm::vec4& plane, int part) {
+  return (share.known >> part & 1) != 0 && share.plane == plane;
+}
+
+// plane: on which the point lies.
+void addPoint(const SurfacePoint& point, const glm::vec4& plane, float edge, Share& share) {
   const bool known = std::ranges::any_of(share.points, [&](const SurfacePoint& other) {
     return other.part == point.part &&
            sameSurface(other.at, other.normal, point.at, point.normal, edge);
   });
   if (!known) share.points.push_back(point);
+  if (plane == share.plane) share.known |= uint64_t{1} << point.part;
 }
 
 // Adds the patch's hits that lie in the share's cell.
@@ -26,10 +33,10 @@ void addSeen(const CellGrid& grid, const Patch& patch, Share& share) {
         glm::any(glm::greaterThan(inCell, glm::ivec3(3)))) {
       continue;
     }
-    addPoint({.part = inCell.x | inCell.y << 2 | inCell.z << 4,
-              .at = seen,
-              .normal = glm::vec3(patch.plane)},
-             grid.edge, share);
+    const int index = inCell.x | inCell.y << 2 | inCell.z << 4;
+    if (isKnown(share, patch.plane, index)) continue;
+    addPoint({.part = index, .at = seen, .normal = glm::vec3(patch.plane)}, patch.plane, grid.edge,
+             share);
   }
 }
 
@@ -160,7 +167,9 @@ std::vector<Share> sharesOf(const ShotFrame& frame, const CellGrid& grid,
       if (patch.ragged) share.ragged |= bits.touched;
       if (patch.seen.empty()) {
         for (uint64_t left = bits.core; left != 0; left &= left - 1) {
-          addPoint(pointIn(grid, patch, key, std::countr_zero(left)), grid.edge, share);
+          const int part = std::countr_zero(left);
+          if (isKnown(share, patch.plane, part)) continue;
+          addPoint(pointIn(grid, patch, key, part), patch.plane, grid.edge, share);
         }
       } else {
         addSeen(grid, patch, share);

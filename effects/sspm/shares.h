@@ -50,6 +50,7 @@ struct Share {
   uint64_t ragged = 0;   // those of `touched` with another surface close by
   glm::vec4 plane = glm::vec4(0);
   bool plain = true;                 // `plane` serves the whole cell
+  uint64_t known = 0;                // parts with a point on `plane`
   std::vector<SurfacePoint> points;  // one per part and surface
 };
 

@@ -15,6 +15,7 @@ namespace {
 // kLeastBias of it.
 constexpr float kSlant = 8;  // largest depth behind the plane along the ray, in biases
 constexpr float kOther = -0.5f, kSame = 0.3f, kLeastBias = 0.05f;
+constexpr float kPerCosine = 1 / (kSame - kOther);
 constexpr float kBiasUnits = 0.02f;       // of the range
 constexpr float kBiasShare = 2e-5f;       // of the distance
 constexpr float kLineReach = 12;          // largest offset of a line on the map
@@ -117,8 +118,8 @@ float depthBehind(const ShotFrame& frame, const glm::vec4& plane, const glm::vec
                   const glm::vec3& facing) {
   const glm::vec3 normal(plane);
   const float behind = plane.w - glm::dot(normal, q);
-  const float bias = frame.bias * glm::clamp((glm::dot(normal, facing) - kOther) / (kSame - kOther),
-                                             kLeastBias, 1.0f);
+  const float bias =
+      frame.bias * glm::clamp((glm::dot(normal, facing) - kOther) * kPerCosine, kLeastBias, 1.0f);
   if (behind <= 0) return behind / bias;
   const float along = kSlant * std::max(std::abs(glm::dot(normal, q)), 1e-20f) / glm::length(q);
   return behind / (bias * std::min(along, 1.0f));

@@ -2,6 +2,7 @@
 // Answers the rays of surveys, by the host's rays or depth pictures.
 #include <algorithm>
 #include <functional>
+#include <future>
 #include <iterator>
 #include <utility>
 
@@ -35,7 +36,10 @@ bool PaintWorld::castFor(std::span<Work* const> works, std::span<Task> tasks,
     rays.insert(rays.end(), asked.begin(), asked.end());
   }
   std::vector<grisaille_hit> hits(rays.size());
+  std::future<void> placing;
+  if (completeCount() > 0) placing = std::async(std::launch::async, [&] { placeComplete(); });
   const bool can = works.empty() || cast(rays, hits);
+  if (placing.valid()) placing.get();
   // The largest first, so that threads end together.
   std::ranges::sort(tasks, std::ranges::greater(),
                     [](const Task& task) { return task.work->partEffort(task.part).alone; });

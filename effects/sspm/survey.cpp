@@ -107,6 +107,7 @@ void Survey::advance() {
     if (undecided_.empty()) break;
   }
   undecided_ = std::move(waiting);
+  if (undecided_.empty()) unite();
 }
 
 // Opens the squares of one plane beside depth discontinuities again: an object smaller than a

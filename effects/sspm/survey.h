@@ -102,6 +102,9 @@ class Survey {
     kTwoPlanes,
     kSeveral
   };
+  // In place of a sample that all leaves below a square share.
+  static constexpr int32_t kEmpty = -1;  // they see no surface
+  static constexpr int32_t kMixed = -2;  // no plane serves all
   enum class Side : uint8_t { kFar, kNear, kNeither };
   // A square of the map under construction. Sizes and corners count finest squares.
   struct Square {
@@ -112,8 +115,10 @@ class Survey {
     bool doubtful = false;  // lies beside one
     bool blocked = false;   // something is in front of the plane that its corners see
     enum class Step : uint8_t { kPlane, kCrease, kSilhouette } step = Step::kPlane;
-    int32_t children = -1;                              // index of the first of four, by rows
-    int32_t first = -1, second = -1;                    // samples of its planes
+    int32_t children = -1;            // index of the first of four, by rows
+    int32_t first = -1, second = -1;  // samples of its planes
+    // Sample of the plane that serves all leaves below, or of these; once the map is complete.
+    int32_t uniform = kMixed;
     std::array<int32_t, 4> corners = {-1, -1, -1, -1};  // samples, by rows
     MapLine line = {};
     float shift = 0;          // of the first plane towards what lies behind it, metres
@@ -195,7 +200,8 @@ class Survey {
   Patch patchOf(const Square& square, const glm::vec4& plane) const;
   bool serves(int32_t index, const glm::vec4& plane) const;
   const Sample* firstPlane(int32_t index) const;
-  bool uniform(int32_t index, const Sample*& first) const;
+  void unite();
+  int32_t unitedBy(int32_t index) const;
 
   ShotFrame frame_;
   Detail detail_;

@@ -19,6 +19,7 @@ constexpr float kLineMerges = 0.05f;
 // Of a coarse map: width of the largest squares that are leaves, in finest squares, and area of a
 // leaf that its planes need not serve, square units.
 constexpr int32_t kCoarseLargest = kFinestAUnit / 2;
+constexpr int32_t kPieceSize = 8;  // least width of a piece of a square with two planes
 constexpr float kCoarseArea = (20.0f / kFinestAUnit) * (20.0f / kFinestAUnit);
 
 // A plane far enough behind the muzzle that it hides everything.
@@ -90,20 +91,22 @@ class Survey::Writer {
   // Whether a square is not divided in the map; `reference` gets what it is.
   bool isLeaf(int32_t index, uint32_t& reference) {
     const Square& square = survey_.at(index);
-    const Sample* first = nullptr;
     if (!(square.kind == Kind::kOnePlane && square.shift > 0.25f * survey_.frame_.bias) &&
-        survey_.uniform(index, first)) {
-      reference = first == nullptr ? kOpen : planeFor(first->plane, [&](const glm::vec4& plane) {
-        return survey_.serves(index, plane);
-      });
+        square.uniform != kMixed) {
+      reference = kOpen;
+      if (square.uniform != kEmpty) {
+        reference = planeFor(survey_.sample(square.uniform).plane,
+                             [&](const glm::vec4& plane) { return survey_.serves(index, plane); });
+      }
       return true;
     }
     switch (square.kind) {
-      case Kind::kDivided:
+      case Kind::kDivided: {
         if (most_ > 0) return isCoarse(index, reference);
-        first = square.size <= least_ ? survey_.firstPlane(index) : nullptr;
+        const Sample* first = square.size <= least_ ? survey_.firstPlane(index) : nullptr;
         if (first != nullptr) reference = plane(first->plane);
         return first != nullptr;
+      }
       case Kind::kTwoPlanes: {
         const uint32_t far = planeFor(square, survey_.sample(square.first).plane, -1);
         const uint32_t near = planeFor(square, survey_.sample(square.second).plane, 1);
@@ -162,13 +165,15 @@ class Survey::Writer {
     }
     if (square.kind == Kind::kTwoPlanes) {
       std::array<std::optional<uint32_t>, 2> planes;
-      for (int i = 0; i < 16; ++i) {
-        const glm::vec2 inSquare = (glm::vec2(i % 4, i / 4) + 0.5f) / 4.0f;
+      const int side = glm::clamp(square.size / kPieceSize, 1, 4);
+      for (int i = 0; i < side * side; ++i) {
+        const glm::vec2 inSquare =
+            (glm::vec2(i % side, i / side) + 0.5f) / static_cast<float>(side);
         const glm::vec2 place = unitsOf(square.corner) + inSquare * size;
         const bool second = glm::dot(square.line.normal, place) > square.line.offset;
         std::optional<uint32_t>& plane = planes[second ? 1 : 0];
         if (!plane) plane = planeOf(second ? square.second : square.first, mix);
-        mix.pieces.push_back({place, size * size / 16, *plane});
+        mix.pieces.push_back({place, size * size / static_cast<float>(side * side), *plane});
       }
     } else if (square.first >= 0) {
       mix.pieces.push_back({survey_.centreOf(square), size * size, planeOf(square.first, mix)});

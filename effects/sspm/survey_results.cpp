@@ -12,6 +12,7 @@ namespace grisaille::sspm {
 namespace {
 
 constexpr int32_t kPatchSize = kFinestAUnit / 4;  // width of the largest patch
+constexpr size_t kSeenPoints = 8;                 // that most planes of a patch have
 constexpr int32_t kMixedSize = kFinestAUnit / 8;  // of a square with several planes
 
 }  // namespace
@@ -25,10 +26,9 @@ std::vector<Patch> Survey::patches() const {
 void Survey::gatherPatches(int32_t index, std::vector<Patch>& patches) const {
   const Square& square = at(index);
   if (square.kind == Kind::kNothing || square.kind == Kind::kUntold) return;
-  const Sample* plane = nullptr;
-  if (square.size <= kPatchSize && uniform(index, plane)) {
-    if (plane == nullptr) return;
-    const Patch patch = patchOf(square, plane->plane);
+  if (square.size <= kPatchSize && square.uniform != kMixed) {
+    if (square.uniform == kEmpty) return;
+    const Patch patch = patchOf(square, sample(square.uniform).plane);
     if (patch.whole || square.kind == Kind::kOnePlane) {
       patches.push_back(patch);
       return;
@@ -63,16 +63,20 @@ void Survey::gatherPlanes(int32_t index, std::vector<SeenPlane>& planes, bool& r
     auto known = std::ranges::find_if(planes, [&](const SeenPlane& plane) {
       return sspm::serves(plane.sample->plane, point, seen.plane, frame_.bias);
     });
-    if (known == planes.end()) known = planes.insert(planes.end(), {&seen, {}});
+    if (known == planes.end()) {
+      known = planes.insert(planes.end(), {&seen, {}});
+      known->seen.reserve(kSeenPoints);
+    }
     known->seen.push_back(point);
   };
   if (square.kind == Kind::kDivided) {
     for (int32_t i = 0; i < 4; ++i) gatherPlanes(square.children + i, planes, ragged);
   } else if (square.kind == Kind::kTwoPlanes) {
-    // Each plane at those of nine places that are on its side.
-    for (int i = 0; i < 9; ++i) {
-      const glm::vec2 step(static_cast<float>(i % 3), static_cast<float>(i / 3));
-      const glm::vec2 place = unitsOf(square.corner) + step * (sizeOf(square) / 2);
+    // Each plane at those of nine places that are on its side; of four in a small square.
+    const int side = square.size < kMixedSize ? 2 : 3;
+    for (int i = 0; i < side * side; ++i) {
+      const glm::vec2 step = glm::vec2(i % side, i / side) / static_cast<float>(side - 1);
+      const glm::vec2 place = unitsOf(square.corner) + step * sizeOf(square);
       const bool second = glm::dot(square.line.normal, place) > square.line.offset;
       const Sample& seen = sample(second ? square.second : square.first);
       const glm::vec3 along = alongSlope(frame_, slopeOf(frame_, place));
@@ -116,6 +120,7 @@ Patch Survey::patchOf(const Square& square, const glm::vec4& plane) const {
 // Whether a plane serves all leaves below a square.
 bool Survey::serves(int32_t index, const glm::vec4& plane) const {
   const Square& square = at(index);
+  if (square.uniform >= 0 && sample(square.uniform).plane == plane) return true;
   switch (square.kind) {
     case Kind::kNothing:
       return true;
@@ -144,11 +149,29 @@ const Survey::Sample* Survey::firstPlane(int32_t index) const {
   return first;
 }
 
-// Whether one plane serves all leaves below a square: that of `first`, which it sets. Null: no
-// surface.
-bool Survey::uniform(int32_t index, const Sample*& first) const {
-  first = firstPlane(index);
-  return serves(index, first == nullptr ? glm::vec4(0) : first->plane);
+// Finds the squares whose leaves one plane serves. Children come after their parents.
+void Survey::unite() {
+  for (size_t i = squares_.size(); i-- > 0;) {
+    squares_[i].uniform = kMixed;
+    squares_[i].uniform = unitedBy(static_cast<int32_t>(i));
+  }
+}
+
+// See Square::uniform. Children have theirs.
+int32_t Survey::unitedBy(int32_t index) const {
+  const Square& square = at(index);
+  if (square.kind == Kind::kNothing) return kEmpty;
+  if (square.kind == Kind::kOnePlane) {
+    return serves(index, sample(square.first).plane) ? square.first : kMixed;
+  }
+  if (square.kind != Kind::kDivided) return kMixed;
+  int32_t first = kEmpty;
+  for (int32_t i = 0; i < 4; ++i) {
+    const int32_t child = at(square.children + i).uniform;
+    if (child == kMixed) return kMixed;
+    if (first == kEmpty) first = child;
+  }
+  return first == kEmpty || serves(index, sample(first).plane) ? first : kMixed;
 }
 
 }  // namespace grisaille::sspm
