@@ -117,7 +117,7 @@ class Survey {
     enum class Step : uint8_t { kPlane, kCrease, kSilhouette } step = Step::kPlane;
     int32_t children = -1;            // index of the first of four, by rows
     int32_t first = -1, second = -1;  // samples of its planes
-    // Sample of the plane that serves all leaves below, or of these; once the map is complete.
+    // Sample of the plane that serves all leaves below, or kEmpty or kMixed: see unite().
     int32_t uniform = kMixed;
     std::array<int32_t, 4> corners = {-1, -1, -1, -1};  // samples, by rows
     MapLine line = {};
