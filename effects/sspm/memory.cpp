@@ -198,15 +198,20 @@ void PaintWorld::planArrays() {
   }
 }
 
-// Keeps the memory below the limit. Where maps are too many, the oldest get coarser. Where that is
-// not enough, or lists are too many, the oldest shots go; but a pass that may find hidden ones
-// comes first.
-void PaintWorld::keepWithin() {
+// Makes room for the maps of the next shots: the oldest get coarser.
+void PaintWorld::makeRoom() {
   planArrays();
-  const bool waits = thinning_.isActive() || isThinningDue();
-  if (lacks_ != Lacks::kNothing && !coarsen() && lacks_ == Lacks::kCoarse && !waits) giveUpOldest();
-  lacks_ = Lacks::kNothing;
+  if (lacks_ != Lacks::kNothing && coarsen()) lacks_ = Lacks::kNothing;
   while (areMapsFull(limit_ / kSpareShare) && coarsen()) continue;
+}
+
+// Keeps the memory below the limit. Where coarser maps are not enough, or lists are too many, the
+// oldest shots go; but a pass that may find hidden ones comes first.
+void PaintWorld::keepWithin() {
+  makeRoom();
+  const bool waits = thinning_.isActive() || isThinningDue();
+  if (lacks_ == Lacks::kCoarse && !waits) giveUpOldest();
+  lacks_ = Lacks::kNothing;
   while (!waits && areMapsFull(0) && giveUpOldest()) continue;
   while (bytes() > room() && giveUpOldest()) continue;
 }
@@ -283,7 +288,9 @@ void PaintWorld::giveUp(uint32_t floor) {
 }
 
 // Lowers the floors to those before the list was longer than `shots`. Shots that were given up are
-// pending then, and coarse ones too, which stay placed until their exact maps are complete.
+// pending then, and coarse ones too, which stay placed until their exact maps are complete. Those
+// that were surveyed for the coarse map alone are placed anew: their lists have gaps where details
+// are small, and with them all shots that another one hides.
 void PaintWorld::takeUp(size_t shots) {
   const Floors from = floors_;
   for (; !raises_.empty() && raises_.back().shots > shots; raises_.pop_back()) {
@@ -303,11 +310,18 @@ void PaintWorld::takeUp(size_t shots) {
   const auto isAtWork = [&](uint32_t id) {
     return std::ranges::any_of(work_, [&](const Work& work) { return work.id == id; });
   };
+  bool isRough = false;
+  std::vector<bool> anew(count);
   for (const Placed& placed : placed_) {
-    if (placed.cores > 0 && placed.isCoarse() && placed.shot >= floors_.coarse &&
-        !isAtWork(placed.shot)) {
-      pending_.push_back(placed.shot);
-    }
+    const uint32_t id = placed.shot;
+    if (placed.cores == 0 || !placed.isCoarse() || id < floors_.coarse || isAtWork(id)) continue;
+    pending_.push_back(id);
+    if (!states_[id].exact) anew[id] = isRough = true;
+  }
+  if (isRough) {
+    for (uint32_t id = 0; id < count; ++id) anew[id] = anew[id] || isLost(id);
+    forgetTwins(anew, count);
+    placeAnew(anew, count);
   }
   sortPending();
 }

@@ -72,6 +72,7 @@ size_t PaintWorld::update(std::span<const Shot> shots, size_t kept, const PaintR
   while (!(thinning_.isActive() && isFull()) &&
          step(pace_.effortIn(std::min(left(), longest)), alone, sight, unknown)) {
     alone = pace_.mostIn(left());
+    makeRoom();
     while (thin(sight.cast, spots) && left() > 0) continue;
     while (isFull() && sweep()) continue;
     keepWithin();

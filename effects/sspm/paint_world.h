@@ -273,6 +273,7 @@ class PaintWorld {
   bool isScarce() const;
   bool isFull() const;
   void planArrays();
+  void makeRoom();
   void keepWithin();
   bool coarsen();
   bool giveUpOldest();

@@ -188,6 +188,20 @@ TEST_P(LimitTest, ALoadedListIsCloseWhereItIsCoarse) {
   EXPECT_EQ(limited.coarser(), 0u);
 }
 
+// The same where undo leaves so few shots that all fit: surveys for coarse maps alone must not
+// stay.
+TEST_P(LimitTest, ALoadedListIsExactAfterUndo) {
+  constexpr size_t kCount = 2000, kLeft = 700;
+  PaintFrame limited(device(), scene_), free(device(), scene_);
+  start(limited, "16");
+  start(free, "1000");
+  settle(limited, std::span(shots_).first(kCount));
+  ASSERT_GT(limited.coarser(), kLeft) << "the oldest shots are coarse";
+  settle(limited, std::span(shots_).first(kLeft));
+  EXPECT_EQ(look(limited, kLeft, 1), look(free, kLeft, 1));
+  EXPECT_EQ(limited.coarser(), 0u);
+}
+
 // However long the match: the number of shots that are not given up never falls by much at once.
 // Space of former maps is in pieces then, of which none may be large enough for the next map. What
 // goes is a tenth of the shots that show, and the hidden ones before them.
