@@ -166,7 +166,7 @@ bool PaintWorld::fits(const ShotMap& map) const {
   return bytes() - blocks_.peakBytes() + blocks_.peakBytes(larger) <= room();
 }
 
-// Whether paint is about to get coarser.
+// Whether paint will go soon, unless it gets coarser.
 bool PaintWorld::isScarce() const {
   return areMapsFull(limit_ / kSpareShare) || bytes() > room() - room() / kSpareShare;
 }

@@ -49,8 +49,8 @@ struct PaintWorld::Cover {
   uint32_t oldest = kNone, newest = 0;  // of the shots that cover the others
 };
 
-// Whether a pass is due: paint would go or get coarser now, or far too much waits; and there are
-// more shots than the last pass left.
+// Whether a pass is due: paint is about to go, although it got coarser, or far too much waits;
+// and there are more shots than the last pass left.
 bool PaintWorld::isThinningDue() const {
   const double placed = placedCount();
   if (!former_.empty() || placed <= kGrownLeast * floors_.thinned) return false;
