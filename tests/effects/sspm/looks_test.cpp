@@ -65,10 +65,13 @@ std::vector<glm::dvec2> apartPlaces(double step, uint32_t seed) {
   std::mt19937 random(seed);
   std::uniform_real_distribution<double> off(-0.03, 0.03);
   std::vector<glm::dvec2> places;
-  const double most = kHalfView - step / 2;
-  for (double y = -most; y <= most; y += step) {
-    for (double x = -most; x <= most; x += step)
-      places.emplace_back(x + off(random), y + off(random));
+  const int count = static_cast<int>(2 * kHalfView / step);
+  const auto at = [&](int i) { return (i + 0.5) * step - kHalfView + off(random); };
+  for (int y = 0; y < count; ++y) {
+    for (int x = 0; x < count; ++x) {
+      const double down = at(y);
+      places.emplace_back(at(x), down);
+    }
   }
   return places;
 }
@@ -143,7 +146,7 @@ class Correlation {
         for (int y = from; y < to; y += 3) {
           for (int x = from; x < to; x += 3) sum += (at(x, y) - mean) * (at(x + i, y + j) - mean);
         }
-        sums_[static_cast<size_t>(j)][static_cast<size_t>(i + kMost)] += sum;
+        lag(i, j) += sum;
       }
     }
   }
@@ -174,11 +177,14 @@ class Correlation {
  private:
   static constexpr int kMost = 32;  // pixels
 
-  double correlation(int i, int j) const {
-    return sums_[static_cast<size_t>(j)][static_cast<size_t>(i + kMost)] / sums_[0][kMost];
+  static size_t indexOf(int i, int j) {
+    const int index = j * (2 * kMost + 1) + i + kMost;
+    return static_cast<size_t>(index);
   }
+  double& lag(int i, int j) { return sums_[indexOf(i, j)]; }
+  double correlation(int i, int j) const { return sums_[indexOf(i, j)] / sums_[indexOf(0, 0)]; }
 
-  std::array<std::array<double, 2 * kMost + 1>, kMost + 1> sums_ = {};
+  std::array<double, (2 * kMost + 1) * (kMost + 1)> sums_ = {};
 };
 
 // Spray that covers most of the wall. direction: of the shots.
