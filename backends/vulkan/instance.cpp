@@ -149,6 +149,15 @@ void Instance::create(bool debugUtils, bool validate, std::span<const char* cons
   VkValidationFeaturesEXT features{VK_STRUCTURE_TYPE_VALIDATION_FEATURES_EXT};
   features.enabledValidationFeatureCount = 1;
   features.pEnabledValidationFeatures = &enabled;
+#ifdef VK_EXT_layer_settings
+  // Newer layers leave out what shaders read and write unless they are told.
+  const VkBool32 yes = VK_TRUE;
+  const VkLayerSettingEXT shaders = {kLayer, "syncval_shader_accesses_heuristic",
+                                     VK_LAYER_SETTING_TYPE_BOOL32_EXT, 1, &yes};
+  VkLayerSettingsCreateInfoEXT settings{VK_STRUCTURE_TYPE_LAYER_SETTINGS_CREATE_INFO_EXT};
+  settings.settingCount = 1;
+  settings.pSettings = &shaders;
+#endif
   if (validate) {
     info.enabledLayerCount = 1;
     info.ppEnabledLayerNames = &kLayer;
@@ -157,6 +166,12 @@ void Instance::create(bool debugUtils, bool validate, std::span<const char* cons
       extensions.push_back(VK_EXT_VALIDATION_FEATURES_EXTENSION_NAME);
       messenger.pNext = &features;
     }
+#ifdef VK_EXT_layer_settings
+    if (hasExtension(kLayer, VK_EXT_LAYER_SETTINGS_EXTENSION_NAME)) {
+      extensions.push_back(VK_EXT_LAYER_SETTINGS_EXTENSION_NAME);
+      features.pNext = &settings;
+    }
+#endif
   }
   info.enabledExtensionCount = static_cast<uint32_t>(extensions.size());
   info.ppEnabledExtensionNames = extensions.data();

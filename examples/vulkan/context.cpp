@@ -58,21 +58,32 @@ void Context::makeInstance(bool validate) {
   application.apiVersion = VK_API_VERSION_1_3;
   const char* layer = "VK_LAYER_KHRONOS_validation";
   validate = validate && hasLayer(layer);
-  const char* extensions[] = {VK_EXT_DEBUG_UTILS_EXTENSION_NAME,
-                              VK_EXT_VALIDATION_FEATURES_EXTENSION_NAME};
+  std::vector<const char*> extensions = {VK_EXT_DEBUG_UTILS_EXTENSION_NAME,
+                                         VK_EXT_VALIDATION_FEATURES_EXTENSION_NAME};
   const VkValidationFeatureEnableEXT sync =
       VK_VALIDATION_FEATURE_ENABLE_SYNCHRONIZATION_VALIDATION_EXT;
   VkValidationFeaturesEXT features{VK_STRUCTURE_TYPE_VALIDATION_FEATURES_EXT};
   features.enabledValidationFeatureCount = 1;
   features.pEnabledValidationFeatures = &sync;
+#ifdef VK_EXT_layer_settings
+  // Newer layers leave out what shaders read and write unless they are told.
+  const VkBool32 yes = VK_TRUE;
+  const VkLayerSettingEXT shaders = {layer, "syncval_shader_accesses_heuristic",
+                                     VK_LAYER_SETTING_TYPE_BOOL32_EXT, 1, &yes};
+  VkLayerSettingsCreateInfoEXT settings{VK_STRUCTURE_TYPE_LAYER_SETTINGS_CREATE_INFO_EXT};
+  settings.settingCount = 1;
+  settings.pSettings = &shaders;
+  features.pNext = &settings;
+  extensions.push_back(VK_EXT_LAYER_SETTINGS_EXTENSION_NAME);
+#endif
   VkInstanceCreateInfo info{VK_STRUCTURE_TYPE_INSTANCE_CREATE_INFO};
   info.pApplicationInfo = &application;
   if (validate) {
     info.pNext = &features;
     info.enabledLayerCount = 1;
     info.ppEnabledLayerNames = &layer;
-    info.enabledExtensionCount = 2;
-    info.ppEnabledExtensionNames = extensions;
+    info.enabledExtensionCount = static_cast<uint32_t>(extensions.size());
+    info.ppEnabledExtensionNames = extensions.data();
   }
   check(vkCreateInstance(&info, nullptr, &instance), "vkCreateInstance");
   if (!validate) return;

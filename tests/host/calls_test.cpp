@@ -477,7 +477,7 @@ TEST_P(Calls, WithoutBarriersTheValidationComplains) {
     withoutWaits = false;
     const std::string told = testing::internal::GetCapturedStderr();
     if (without) {
-      EXPECT_NE(told.find("SYNC-HAZARD"), std::string::npos) << told;
+      EXPECT_NE(told.find("_AFTER_WRITE"), std::string::npos) << told;
       EXPECT_GT(host->complaints(), 0);
     } else {
       EXPECT_EQ(told, "");
