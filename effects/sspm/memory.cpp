@@ -289,8 +289,8 @@ void PaintWorld::giveUp(uint32_t floor) {
 
 // Lowers the floors to those before the list was longer than `shots`. Shots that were given up are
 // pending then, and coarse ones too, which stay placed until their exact maps are complete. Those
-// that were surveyed for the coarse map alone are placed anew: their lists have gaps where details
-// are small, and with them all shots that another one hides.
+// that were surveyed for the coarse map alone are placed anew, because their lists have gaps where
+// details are small. So are all hidden shots then: one of those may have hidden them.
 void PaintWorld::takeUp(size_t shots) {
   const Floors from = floors_;
   for (; !raises_.empty() && raises_.back().shots > shots; raises_.pop_back()) {
@@ -315,8 +315,11 @@ void PaintWorld::takeUp(size_t shots) {
   for (const Placed& placed : placed_) {
     const uint32_t id = placed.shot;
     if (placed.cores == 0 || !placed.isCoarse() || id < floors_.coarse || isAtWork(id)) continue;
-    pending_.push_back(id);
-    if (!states_[id].exact) anew[id] = isRough = true;
+    if (states_[id].exact) {
+      pending_.push_back(id);
+    } else {
+      anew[id] = isRough = true;
+    }
   }
   if (isRough) {
     for (uint32_t id = 0; id < count; ++id) anew[id] = anew[id] || isLost(id);

@@ -68,7 +68,9 @@ TEST(Verify, OneCauseIsOneFault) {
                                  "writes_beside", "races", "loops", "removed"}) {
     const Outcome outcome = verify(fs::path(PLUGINS) / ("verified_" + name + ".so"));
     EXPECT_EQ(outcome.status, 1);
-    EXPECT_TRUE(holds(outcome.err, ": 1 faults")) << outcome.out << outcome.err;
+    // A driver that never ends the loop does not let the check finish.
+    EXPECT_TRUE(holds(outcome.err, name == "loops" ? ": 1 faults" : ": 1 faults in "))
+        << outcome.out << outcome.err;
   }
 }
 
