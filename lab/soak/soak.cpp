@@ -34,7 +34,9 @@ using Clock = std::chrono::steady_clock;
 constexpr double kReach = 1;  // of the camera from its eye, metres
 // Seconds a frame for placing shots: of a spray; and of all shots anew, as in the viewer.
 constexpr double kSprayPatience = 0.004, kAnewPatience = 0.03;
-constexpr double kLimit = 2;                      // a quiet frame takes at most so many medians
+constexpr double kLimit = 2;                      // a quiet frame takes at most so many medians,
+constexpr double kViewLimit = 1.25;               // or so many times its view without new shots
+constexpr double kAgainFrom = 1.5;                // medians after which that view is drawn again
 constexpr size_t kLeastFrames = 10;               // quiet ones of a size, for a median
 constexpr double kGrowth = 0.05, kGrowthMiB = 8;  // of memory after the limit
 
@@ -223,7 +225,7 @@ class Soak {
     const double took = judged(outcome_, frame);
     std::vector<double>& same = quiet_[size_];
     same.push_back(took);
-    if (same.size() < kLeastFrames || took <= kLimit * quantile(same, 0.5)) return;
+    if (same.size() < kLeastFrames || took <= kAgainFrom * quantile(same, 0.5)) return;
     // Tells whether the view takes long, or what was new in it.
     outcome_.frames.back().again = judged(outcome_, timed(now, kind));
   }
@@ -273,24 +275,61 @@ BySize quietFrames(const Outcome& outcome) {
   return all;
 }
 
+// A quiet frame that takes over kLimit medians of its size.
+struct LongFrame {
+  const Frame* frame;
+  double took;    // judged(), ms
+  double median;  // of its size, ms
+  bool isOfView() const { return frame->again > 0 && took <= kViewLimit * frame->again; }
+};
+
+std::vector<LongFrame> longFrames(const Outcome& outcome) {
+  const BySize quiet = quietFrames(outcome);
+  std::vector<LongFrame> all;
+  for (const Frame& frame : outcome.frames) {
+    if (frame.kind != Kind::kQuiet) continue;
+    const auto& same = quiet.at({frame.size.x, frame.size.y});
+    const double median = quantile(same, 0.5), took = judged(outcome, frame);
+    if (same.size() < kLeastFrames || took <= kLimit * median) continue;
+    all.push_back({&frame, took, median});
+  }
+  return all;
+}
+
 void judgeFrames(const Outcome& outcome, std::vector<std::string>& faults) {
   const BySize quiet = quietFrames(outcome);
   if (std::ranges::none_of(quiet,
                            [](const auto& one) { return one.second.size() >= kLeastFrames; })) {
     faults.push_back(fmt::format("no size has {} frames that place no shots anew", kLeastFrames));
   }
-  for (const Frame& frame : outcome.frames) {
-    if (frame.kind != Kind::kQuiet) continue;
-    const auto& same = quiet.at({frame.size.x, frame.size.y});
-    const double median = quantile(same, 0.5), took = judged(outcome, frame);
-    if (same.size() < kLeastFrames || took <= kLimit * median) continue;
+  for (const LongFrame& one : longFrames(outcome)) {
+    if (one.isOfView()) continue;
+    const Frame& frame = *one.frame;
     faults.push_back(fmt::format(
         "the frame at {:.2f} s takes {:.1f} ms, {:.2f} times the median of "
         "{}x{}{}",
-        frame.second, took, took / median, frame.size.x, frame.size.y,
+        frame.second, one.took, one.took / one.median, frame.size.x, frame.size.y,
         frame.again > 0 ? fmt::format("; once more without new shots: {:.1f} ms", frame.again)
                         : ""));
   }
+}
+
+// Names the frames that take long because of what the camera sees.
+std::string longViewsOf(const Outcome& outcome) {
+  std::string text;
+  size_t count = 0;
+  double longest = 0, share = 0;
+  for (const LongFrame& one : longFrames(outcome)) {
+    if (!one.isOfView()) continue;
+    ++count;
+    longest = std::max(longest, one.took / one.median);
+    share = std::max(share, one.took / one.frame->again);
+    text += fmt::format("{}{:.2f}", text.empty() ? "" : ", ", one.frame->second);
+  }
+  return fmt::format(
+      "over twice the median because of the view: {}; at most {:.2f} medians, {:.2f} times the "
+      "view without new shots{}\n",
+      count, longest, share, text.empty() ? "" : "; at second " + text);
 }
 
 // Memory in MiB from when the limit is reached: the medians of the first and the last third.
@@ -367,10 +406,10 @@ std::string tableOf(const Outcome& outcome) {
   const auto count = [&](Event event) { return outcome.events[static_cast<size_t>(event)]; };
   return text + fmt::format(
                     "\nfired {}, undo {}, redo {}, objects loaded {}, effects reloaded {}, "
-                    "resized {}\nmemory at the limit: {:.0f} MiB at first, {:.0f} at last\n",
+                    "resized {}\nmemory at the limit: {:.0f} MiB at first, {:.0f} at last\n{}",
                     outcome.fired, count(Event::kUndo), count(Event::kRedo),
                     count(Event::kLoadObjects), count(Event::kReloadEffects), count(Event::kResize),
-                    first, last);
+                    first, last, longViewsOf(outcome));
 }
 
 }  // namespace grisaille::lab::soak

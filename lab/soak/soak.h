@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: MIT
-// Runs a soak on one device, and judges it: no frame over twice the median, and memory that stays
-// once the effect's limit is reached.
+// Runs a soak on one device, and judges it: no frame over twice the median but for views that take
+// as long without new shots, and memory that stays once the effect's limit is reached.
 #pragma once
 
 #include <memory>
