@@ -263,16 +263,21 @@ class Soak {
   Clock::time_point begin_;
 };
 
-using BySize = std::map<std::pair<uint32_t, uint32_t>, std::vector<double>>;
+// Width and height of the picture.
+using Size = std::pair<uint32_t, uint32_t>;
 
-// What the quiet frames of each size took.
-BySize quietFrames(const Outcome& outcome) {
-  BySize all;
+// Medians of what quiet frames took, ms, of the sizes that have enough of them.
+std::map<Size, double> mediansOf(const Outcome& outcome) {
+  std::map<Size, std::vector<double>> quiet;
   for (const Frame& frame : outcome.frames) {
     if (frame.kind != Kind::kQuiet) continue;
-    all[{frame.size.x, frame.size.y}].push_back(judged(outcome, frame));
+    quiet[{frame.size.x, frame.size.y}].push_back(judged(outcome, frame));
   }
-  return all;
+  std::map<Size, double> medians;
+  for (const auto& [size, took] : quiet) {
+    if (took.size() >= kLeastFrames) medians[size] = quantile(took, 0.5);
+  }
+  return medians;
 }
 
 // A quiet frame that takes over kLimit medians of its size.
@@ -284,22 +289,19 @@ struct LongFrame {
 };
 
 std::vector<LongFrame> longFrames(const Outcome& outcome) {
-  const BySize quiet = quietFrames(outcome);
+  const std::map<Size, double> medians = mediansOf(outcome);
   std::vector<LongFrame> all;
   for (const Frame& frame : outcome.frames) {
-    if (frame.kind != Kind::kQuiet) continue;
-    const auto& same = quiet.at({frame.size.x, frame.size.y});
-    const double median = quantile(same, 0.5), took = judged(outcome, frame);
-    if (same.size() < kLeastFrames || took <= kLimit * median) continue;
-    all.push_back({&frame, took, median});
+    const auto median = medians.find({frame.size.x, frame.size.y});
+    if (frame.kind != Kind::kQuiet || median == medians.end()) continue;
+    const double took = judged(outcome, frame);
+    if (took > kLimit * median->second) all.push_back({&frame, took, median->second});
   }
   return all;
 }
 
 void judgeFrames(const Outcome& outcome, std::vector<std::string>& faults) {
-  const BySize quiet = quietFrames(outcome);
-  if (std::ranges::none_of(quiet,
-                           [](const auto& one) { return one.second.size() >= kLeastFrames; })) {
+  if (mediansOf(outcome).empty()) {
     faults.push_back(fmt::format("no size has {} frames that place no shots anew", kLeastFrames));
   }
   for (const LongFrame& one : longFrames(outcome)) {
