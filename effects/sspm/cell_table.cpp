@@ -9,12 +9,26 @@ namespace {
 
 constexpr uint32_t kFree = ~0u;
 constexpr size_t kSlotWords = 6;
-constexpr size_t kUnitWords = 4;  // of an entry on the device
+// A list on the device consists of units: one per entry, and five before each group and each
+// block.
+constexpr size_t kUnitWords = 4, kReachUnits = 5;
+constexpr size_t kBlockGroups = 16;  // groups in a block
 constexpr size_t kFirstSlots = 1024;
 
-// Capacity of the run on the device of a list with `count` entries.
-uint32_t unitsFor(size_t count) {
-  return count == 0 ? 0 : Runs::capacityFor(static_cast<uint32_t>(count));
+// A block of one group needs no units of its own.
+bool isBlock(const Groups& groups, size_t first) {
+  return first % kBlockGroups == 0 && groups.size() - first > 1;
+}
+
+uint32_t unitsOf(const Cell& cell) {
+  const size_t groups = cell.groups.size();
+  const size_t blocks = (groups + kBlockGroups - 2) / kBlockGroups;
+  return static_cast<uint32_t>(cell.entries.size() + kReachUnits * (groups + blocks));
+}
+
+// Capacity of the run on the device for a cell's list.
+uint32_t capacityFor(const Cell& cell) {
+  return cell.entries.empty() ? 0 : Runs::capacityFor(unitsOf(cell));
 }
 
 }  // namespace
@@ -47,7 +61,7 @@ void CellTable::clear() {
 
 uint64_t CellTable::bytes() const {
   // An allocation takes 16 bytes more than its contents, on average.
-  return listBytes_ + runs_.bytes() + cells_.size() * (sizeof(Cell) + 2 * 16) +
+  return listBytes_ + runs_.bytes() + cells_.size() * (sizeof(Cell) + 3 * 16) +
          slotCells_.size() * sizeof(uint32_t) + slots_.peakBytes(slotCells_.size() * kSlotWords) +
          words_.peakBytes(units_ * kUnitWords);
 }
@@ -80,11 +94,11 @@ Cell& CellTable::at(const CellKey& key) {
 }
 
 void CellTable::change(Cell& cell) {
-  const size_t bytes =
-      cell.entries.capacity() * sizeof(Entry) + cell.known.capacity() * sizeof(KnownPoint);
+  const size_t bytes = cell.entries.capacity() * sizeof(Entry) +
+                       cell.known.capacity() * sizeof(KnownPoint) + cell.groups.bytes();
   listBytes_ = listBytes_ + bytes - cell.bytes;
   cell.bytes = static_cast<uint32_t>(bytes);
-  const uint32_t units = unitsFor(cell.entries.size());
+  const uint32_t units = capacityFor(cell);
   units_ = units_ + units - cell.units;
   cell.units = units;
   if (!std::exchange(cell.changed, true)) changed_.push_back(slotCells_[cell.slot]);
@@ -120,15 +134,37 @@ void CellTable::removeEmpty() {
 }
 
 std::span<uint32_t> CellTable::reserve(Cell& cell) {
-  const uint32_t count = static_cast<uint32_t>(cell.entries.size());
-  const uint32_t wanted = unitsFor(count);
+  const uint32_t units = unitsOf(cell), wanted = capacityFor(cell);
   if (wanted != cell.capacity) {
     if (cell.capacity > 0) runs_.give(cell.first, cell.capacity);
-    cell.first = count > 0 ? runs_.take(wanted) : 0;
+    cell.first = wanted > 0 ? runs_.take(wanted) : 0;
     cell.capacity = wanted;
   }
-  return count > 0 ? words_.write(size_t{cell.first} * 4, size_t{count} * 4)
-                   : std::span<uint32_t>();
+  return wanted > 0 ? words_.write(cell.first * kUnitWords, units * kUnitWords)
+                    : std::span<uint32_t>();
+}
+
+uint32_t* CellTable::writeBlock(const Groups& groups, size_t first, uint32_t* word) {
+  if (!isBlock(groups, first)) return word;
+  CellReach reach;
+  size_t units = 0;
+  for (size_t i = first; i < std::min(first + kBlockGroups, groups.size()); ++i) {
+    reach |= groups[i].reach;
+    units += kReachUnits + groups[i].count;
+  }
+  return writeReach(reach, 0, static_cast<uint32_t>(units), word);
+}
+
+uint32_t* CellTable::writeReach(const CellReach& reach, uint32_t entries, uint32_t units,
+                                uint32_t* word) {
+  for (size_t row = 0; row < reach.squares.rows.size(); row += 2) {
+    *word++ = reach.squares.rows[row] | uint32_t{reach.squares.rows[row + 1]} << 16;
+  }
+  *word++ = static_cast<uint32_t>(reach.parts);
+  *word++ = static_cast<uint32_t>(reach.parts >> 32);
+  *word++ = entries;
+  *word++ = units;
+  return word;
 }
 
 // Writes the slots of the changed cells, or all of them if their places have changed.
@@ -139,7 +175,7 @@ void CellTable::writeSlots() {
     }
     slot[3] = static_cast<uint32_t>(cell.key.code);
     slot[4] = cell.first;
-    slot[5] = static_cast<uint32_t>(cell.entries.size());
+    slot[5] = cell.entries.empty() ? 0 : unitsOf(cell);
   };
   if (rehashed_) {
     slots_.discard();

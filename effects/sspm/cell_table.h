@@ -10,6 +10,7 @@
 #include <vector>
 
 #include "device_words.h"
+#include "groups.h"
 #include "packed.h"
 
 namespace grisaille::sspm {
@@ -28,6 +29,11 @@ constexpr int32_t levelCode(int32_t exponent) {
 }
 constexpr int32_t exponentOf(int32_t code) {
   return code / 8 - 40;
+}
+
+// Axis of a key's facing, 0 to 2.
+constexpr int axisOf(int32_t code) {
+  return code % 8 / 2;
 }
 
 // Facing of a normal, 0 ... 5: twice the index of its largest component, plus 1 if that is
@@ -62,7 +68,8 @@ struct Entry {
 
 struct Cell {
   CellKey key;
-  Packed<Entry> entries;     // newest first
+  Packed<Entry> entries;     // newest first; insert() and eraseIf() of the cell change it
+  Groups groups;             // of `entries`
   Packed<KnownPoint> known;  // one per part and surface
   uint64_t crowded = 0;      // parts with surfaces that did not fit into `known`
   // Sealed pieces: newer shots hide every shot older than `sealedBelow` on them. `sealer` is the
@@ -76,12 +83,30 @@ struct Cell {
   uint32_t coverer = 0;
   uint32_t pruneAt = 0;   // number of entries at which the next prune() pays
   uint32_t slot = 0;      // in the hash table
-  uint32_t first = 0;     // first entry of its run on the device
-  uint32_t capacity = 0;  // entries of that run; 0: no run
+  uint32_t first = 0;     // first unit of its run on the device
+  uint32_t capacity = 0;  // units of that run; 0: no run
   uint32_t bytes = 0;     // of its lists, on the host
-  uint32_t units = 0;     // entries that its run on the device will take
+  uint32_t units = 0;     // that its run on the device will take
   bool changed = false;   // since the last upload
   bool fresh = true;      // a shot has come that is not older than `coveredBelow`
+
+  // reach: of `entry`.
+  void insert(size_t at, const Entry& entry, const CellReach& reach) {
+    entries.insert(at, entry);
+    groups.insert(at, reach);
+  }
+  // Returns the number of erased entries. Calls erased() once for each entry, in order.
+  template <typename Erased>
+  size_t eraseIf(const Erased& erased) {
+    Groups::Eraser eraser(groups);
+    const size_t count = entries.eraseIf([&](const Entry& entry) {
+      const bool isErased = erased(entry);
+      eraser.next(isErased);
+      return isErased;
+    });
+    if (count > 0) eraser.finish();
+    return count;
+  }
 
   // Forgets what is hidden, because a shot has left the list.
   void unseal() {
@@ -115,13 +140,18 @@ class CellTable {
     for (const uint32_t index : changed_) {
       Cell& cell = cells_[index];
       cell.changed = false;
-      const std::span<uint32_t> words = reserve(cell);
-      for (size_t i = 0; i < cell.entries.size(); ++i) {
-        const Entry& entry = cell.entries[i];
-        words[4 * i] = recordOf(entry);
-        words[4 * i + 1] = entry.reference;
-        words[4 * i + 2] = static_cast<uint32_t>(entry.touched);
-        words[4 * i + 3] = static_cast<uint32_t>(entry.touched >> 32);
+      uint32_t* word = reserve(cell).data();
+      const Entry* entry = cell.entries.begin();
+      for (size_t i = 0; i < cell.groups.size(); ++i) {
+        word = writeBlock(cell.groups, i, word);
+        const Groups::Group& group = cell.groups[i];
+        word = writeReach(group.reach, group.count, group.count, word);
+        for (const Entry* end = entry + group.count; entry != end; ++entry) {
+          *word++ = recordOf(*entry);
+          *word++ = entry->reference;
+          *word++ = static_cast<uint32_t>(entry->touched);
+          *word++ = static_cast<uint32_t>(entry->touched >> 32);
+        }
       }
     }
     writeSlots();
@@ -140,8 +170,15 @@ class CellTable {
   uint32_t after(uint32_t slot) const { return slot + 1 < slotCount() ? slot + 1 : 0; }
   void place(uint32_t cell);
   void rehash();
-  // The cell's run on the device, as long as its list.
+  // The cell's run on the device, as long as its list and its groups.
   std::span<uint32_t> reserve(Cell& cell);
+  // Writes what groups from `first` on reach together, if a block of them starts there. Returns the
+  // word after it.
+  static uint32_t* writeBlock(const Groups& groups, size_t first, uint32_t* word);
+  // Writes what the units after it reach. Returns the word after it.
+  // entries: number of the entries that follow. units: those of which `reach` tells.
+  static uint32_t* writeReach(const CellReach& reach, uint32_t entries, uint32_t units,
+                              uint32_t* word);
   void writeSlots();
 
   std::deque<Cell> cells_;           // a deque: references stay valid

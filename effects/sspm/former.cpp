@@ -129,22 +129,27 @@ void PaintWorld::spread() {
   for (size_t i = 0; i < count; ++i) spread(cells_.cells()[i]);
 }
 
-void PaintWorld::spread(const Cell& cell) {
+void PaintWorld::spread(Cell& cell) {
   const double edge = edgeOf(cell.key.code);
   // The former shots on surfaces of this cell whose range has grown. Newest first.
   std::vector<Grown> grown;
   double most = 0;  // by how much, cells
-  for (const Entry& entry : cell.entries) {
-    if (!entry.former || !entry.core) continue;
+  for (size_t i = 0; i < cell.entries.size(); ++i) {
+    const Entry& entry = cell.entries[i];
+    if (!entry.former) continue;
     const float range = rangeOf(entry.shot);
     const float more = range - placed_[recordOf(entry)].mapRange;
     if (more <= 0) continue;
     const Shot& shot = list_[entry.shot];
     const glm::dvec3 origin(shot.origin[0], shot.origin[1], shot.origin[2]);
-    grown.push_back({.shot = entry.shot,
-                     .muzzle = glm::vec3(origin / edge - glm::dvec3(cell.key.cell)),
-                     .direction = {shot.direction[0], shot.direction[1], shot.direction[2]},
-                     .range = static_cast<float>(range / edge)});
+    const Grown each = {.shot = entry.shot,
+                        .muzzle = glm::vec3(origin / edge - glm::dvec3(cell.key.cell)),
+                        .direction = {shot.direction[0], shot.direction[1], shot.direction[2]},
+                        .range = static_cast<float>(range / edge)};
+    cell.groups.extend(
+        i, reachOf(entry.touched, axisOf(cell.key.code), each.muzzle, each.direction, each.range));
+    if (!entry.core) continue;
+    grown.push_back(each);
     most = std::max(most, more / edge);
   }
   if (grown.empty()) return;
@@ -174,16 +179,19 @@ void PaintWorld::spreadTo(const CellKey& key, uint64_t near, std::span<const Gro
         partsInReach(near, each.muzzle - glm::vec3(offset), each.direction, each.range);
     if (parts == 0) continue;
     if (cell == nullptr) cell = &cells_.at(key);
+    const CellReach reach = reachOf(parts, axisOf(key.code), each.muzzle - glm::vec3(offset),
+                                    each.direction, each.range);
     auto& entries = cell->entries;
     while (at < entries.size() && entries[at].shot > each.shot) ++at;
     if (at < entries.size() && entries[at].shot == each.shot) {
       entries[at].touched |= parts;
+      cell->groups.extend(at, reach);
       continue;
     }
     Placed& placed = placed_[former_[each.shot]];
     const auto reference = static_cast<uint16_t>(placed.exact.root);
-    entries.insert(at,
-                   {.touched = parts, .shot = each.shot, .reference = reference, .former = true});
+    cell->insert(at, {.touched = parts, .shot = each.shot, .reference = reference, .former = true},
+                 reach);
     ++entries_;
     ++placed.others;
   }

@@ -155,12 +155,15 @@ void PaintWorld::join(uint32_t record, const ShotFrame& frame, const CellGrid& g
     return;
   }
   if (!entry.core && placed.cores == 0) return;
+  const CellReach reach = reachOf(entry.touched, axisOf(share.key.code), -corner / grid.edge,
+                                  frame.direction, frame.range / grid.edge);
   const auto position = std::ranges::lower_bound(cell.entries, id, std::greater<>(), &Entry::shot);
   if (position != cell.entries.end() && position->shot == id && position->former) {
     unlist(*position, 0);
     *position = entry;
+    cell.groups.extend(static_cast<size_t>(position - cell.entries.begin()), reach);
   } else {
-    cell.entries.insert(static_cast<size_t>(position - cell.entries.begin()), entry);
+    cell.insert(static_cast<size_t>(position - cell.entries.begin()), entry, reach);
   }
   if (id >= cell.coveredBelow) cell.fresh = true;
   ++entries_;
@@ -205,7 +208,7 @@ void PaintWorld::prune(Cell& cell) {
   cell.sealed = 0;
   cell.sealedBelow = kNone;
   cell.sealer = 0;
-  cell.entries.eraseIf([&](const Entry& entry) {
+  cell.eraseIf([&](const Entry& entry) {
     const uint32_t hider = hiderOf(cell, entry);
     if (isGone(entry) || hider > 0) {
       unlist(entry, isGone(entry) ? 0 : hider);

@@ -105,7 +105,7 @@ bool PaintWorld::sweep() {
 }
 
 void PaintWorld::sweepCell(Cell& cell) {
-  const auto erased = cell.entries.eraseIf([&](const Entry& entry) {
+  const auto erased = cell.eraseIf([&](const Entry& entry) {
     if (!isGone(entry)) return false;
     unlist(entry, 0);
     return true;

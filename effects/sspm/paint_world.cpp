@@ -162,7 +162,7 @@ void PaintWorld::forget(size_t count, Changed changed) {
 void PaintWorld::erase(const std::vector<bool>& gone) {
   size_t empty = 0;
   for (Cell& cell : cells_.cells()) {
-    const auto erased = cell.entries.eraseIf([&](const Entry& entry) { return gone[entry.shot]; });
+    const auto erased = cell.eraseIf([&](const Entry& entry) { return gone[entry.shot]; });
     empty += cell.entries.empty() ? 1 : 0;
     if (erased == 0) continue;
     entries_ -= erased;

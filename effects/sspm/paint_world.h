@@ -246,7 +246,7 @@ class PaintWorld {
   bool isSettled() const { return pending_.empty() && work_.empty(); }
   void dropFormer();
   void spread();
-  void spread(const Cell& cell);
+  void spread(Cell& cell);
   void spreadTo(const CellKey& key, uint64_t near, std::span<const Grown> grown,
                 const glm::ivec3& offset);
 

@@ -304,7 +304,7 @@ void PaintWorld::remove(uint32_t id, std::span<const CellKey> cells) {
     const auto listed = std::ranges::find_if(cell->entries, isIts);
     if (listed == cell->entries.end()) continue;
     const Entry entry = *listed;
-    cell->entries.eraseIf(isIts);
+    cell->eraseIf(isIts);
     cell->unseal();
     cells_.change(*cell);
     unlist(entry, 0);

@@ -131,7 +131,7 @@ void composite(inout Sum sum, vec2 across, float pixel, uint seed, float range, 
                float per_fade, float times, vec3 color, uint owner) {
   const float apart = length(across);
   const float alpha = min(1.0, full / max(apart, 1e-6));
-  const float fade = min(1.0, (1.0 - apart / range) * per_fade);
+  const float fade = clamp((1.0 - apart / range) * per_fade, 0.0, 1.0);
   const float strength = min(times * alpha * fade, 1.0);
   sum.strengths += strength;
   // Several weak shots together close gaps.

@@ -62,14 +62,11 @@ Sum compositeOwners(Corners corners, vec4 weights, bool served, Point point) {
     const float owner = dot(its, corners.owner) / sumOf(its);
     const uint record = uint(owner + 0.5) - 1u;
     const Shot shot = shots[record];
-    const vec3 q = point.from_camera - muzzleOf(shot);
-    const vec2 across = q * axesAcross(shot.direction);
-    const float along = dot(q, shot.direction);
     // At a silhouette that hides the pixel from the muzzle, the larger part of the samples decides.
     const float seen = dot(weights, vec4(greaterThanEqual(corners.number, uvec4(newest))));
     const float hidden = dot(weights, vec4(lessThan(abs(corners.blocked - owner), vec4(0.5))));
-    bool painted = seen >= hidden && length(across) < shot.range && along >= 0.0 && dot(q, point.normal) < 0.0;
-    if (painted) {
+    if (seen >= hidden && isReached(record, point)) {
+      const vec2 across = fromMuzzle(record, point.from_camera) * axesAcross(shot.direction);
       sum.strengths = max(sum.strengths, dot(its, corners.before) / sumOf(its));
       compositeShot(sum, record, shot, across, point.pixel);
     }

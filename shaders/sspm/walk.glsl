@@ -34,10 +34,13 @@ struct Shot {
   // the map was made for, as a share of `range`, a half float without its sign.
   uint root;
 };
-// Hash table with linear probing. Six words per slot: cell (3), code (-1: free), first entry,
-// count.
+// Hash table with linear probing. Six words per slot: cell (3), code (-1: free), first unit of the
+// list, number of units.
 layout(STORAGE(0), std430) readonly buffer Slots { int slots[]; };
-// Four words per entry: index into shots[], reference within its map, mask of the parts (2).
+// Lists of units of four words. An entry is a unit: index into shots[], reference within its map,
+// mask of the parts (2). Before a group of entries (effects/sspm/groups.h), and before a block of up
+// to 16 groups, five units tell what its shots reach: masks of the squares (16 words) and of the
+// parts (2), number of entries that follow, number of units to pass over if the point is not there.
 layout(STORAGE(1), std430) readonly buffer Entries { uint entries[]; };
 layout(STORAGE(2), std430) readonly buffer Shots { Shot shots[]; };
 layout(STORAGE(3), std430) readonly buffer Maps { uint blocks[]; };  // two words per block
@@ -141,8 +144,8 @@ uint hashCell(ivec3 cell, int code) {
   return h ^ h >> 12;
 }
 
-// Entries of a cell: x: first, y: end. Both 0 without paint. The search starts at the hash as a
-// share of all slots.
+// A list's units: x: first, y: end. Both 0 without paint. The search starts at the hash as a share
+// of all slots.
 uvec2 findCell(ivec3 cell, int code) {
   uint first, low;
   umulExtended(hashCell(cell, code), lists.slot_count, first, low);
@@ -162,20 +165,52 @@ int facingOf(vec3 normal) {
   return axis * 2 + (normal[axis] < 0.0 ? 1 : 0);
 }
 
-// The first entry in [first, end) whose shot may paint the part of the cell, 0 to 63; else `end`.
-uint nextEntry(uint first, uint end, uint part) {
-  const uint word = 2u + part / 32u, bit = 1u << (part & 31u);
-  bool found = false;
-  while (first < end && !found) {
-    found = (entries[first * 4u + word] & bit) != 0u;
-    if (!found) ++first;
-  }
-  return first;
+// A point of a surface.
+struct Point {
+  vec3 from_camera;  // position relative to the camera, world axes, metres
+  vec3 normal;       // of its facet
+  float pixel;       // width of a pixel there, metres
+};
+
+// Offset of a point from the muzzle of a shot, by its record.
+vec3 fromMuzzle(uint record, vec3 from_camera) {
+  return from_camera - (vec3(shots[record].cell - lists.camera_cell.xyz) +
+                        (shots[record].fraction - lists.camera_fraction.xyz));
 }
 
-// The muzzle's offset from the camera's position.
-vec3 muzzleOf(Shot shot) {
-  return vec3(shot.cell - lists.camera_cell.xyz) + (shot.fraction - lists.camera_fraction.xyz);
+// Whether the point lies in a shot's cylinder, and its facet faces the muzzle.
+bool isReached(uint record, Point point) {
+  const vec3 q = fromMuzzle(record, point.from_camera), direction = shots[record].direction;
+  return dot(q, direction) >= 0.0 && length(q * axesAcross(direction)) < shots[record].range &&
+         dot(q, point.normal) < 0.0;
+}
+
+// A list, and how far a walk has come in it.
+struct List {
+  uint next;   // unit
+  uint group;  // unit that tells of the next entries
+  uint end;
+  uint place;  // of the point: bits 0 to 5: part of the cell; from bit 6 on: square
+};
+
+// Goes on to the next entry whose masks have the point; else to the end.
+void findInMasks(inout List list) {
+  const uint square = list.place >> 6;
+  const uint part = list.place >> 5 & 1u, bit = 1u << (list.place & 31u);
+  bool found = false;
+  while (list.next < list.end && !found) {
+    const uint word = list.next * 4u;
+    if (list.next == list.group) {
+      const bool reaches = (entries[word + square / 32u] >> (square & 31u) & 1u) != 0u &&
+                           (entries[word + 16u + part] & bit) != 0u;
+      list.next += 5u;
+      list.group = list.next + entries[word + (reaches ? 18u : 19u)];
+      if (!reaches) list.next = list.group;
+    } else {
+      found = (entries[word + 2u + part] & bit) != 0u;
+      if (!found) ++list.next;
+    }
+  }
 }
 
 vec3 colorOf(Shot shot) {
@@ -189,22 +224,14 @@ void compositeShot(inout Sum sum, uint record, Shot shot, vec2 across, float pix
             colorOf(shot), record + 1u);
 }
 
-// A point of a surface.
-struct Point {
-  vec3 from_camera;  // position relative to the camera, world axes, metres
-  vec3 normal;       // of its facet
-  float pixel;       // width of a pixel there, metres
-};
-
-// Composites a list's entry, if the shot's muzzle sees the point. Otherwise `blocked` becomes
-// 1 + the shot's record, unless it is set.
+// Composites a list's entry, which reaches the point, if the shot's muzzle sees the point. Otherwise
+// `blocked` becomes 1 + the shot's record, unless it is set.
 void compositeEntry(inout Sum sum, inout uint blocked, uint entry, Point point) {
   const uint record = entries[entry * 4u];
   const Shot shot = shots[record];
-  const vec3 q = point.from_camera - muzzleOf(shot);
+  const vec3 q = fromMuzzle(record, point.from_camera);
   const float along = dot(q, shot.direction);
   const vec2 across = q * axesAcross(shot.direction);
-  if (along < 0.0 || length(across) >= shot.range || dot(q, point.normal) >= 0.0) return;
   // Entries refer into the exact map.
   const uint start = (shot.root & kCoarse) == 0u ? entries[entry * 4u + 1u] : shot.root & 0xFFFFu;
   if (inSight(shot, start, q, along, across, point.normal)) {
@@ -214,47 +241,65 @@ void compositeEntry(inout Sum sum, inout uint blocked, uint entry, Point point) 
   }
 }
 
-// List of the point's cell on a level. x: first entry for the point's part of the cell; y: end;
-// z: that part.
-uvec3 listOn(uint level, vec3 from_camera, int facing) {
-  const vec3 place = from_camera * lists.level_fraction[level].w + lists.level_fraction[level].xyz;
+// Goes on to the next entry whose shot reaches the point; else to the end. It has a loop of its own:
+// threads run in step, and none waits while others ask a shot's map (Aila and Laine 2009,
+// "Understanding the Efficiency of Ray Traversal on GPUs").
+void findEntry(inout List list, Point point) {
+  bool found = false;
+  do {
+    findInMasks(list);
+    found = list.next < list.end && isReached(entries[list.next * 4u], point);
+    if (!found) ++list.next;
+  } while (!found && list.next < list.end);
+}
+
+// List of the point's cell on a level.
+List listOn(uint level, Point point) {
+  const vec3 place = point.from_camera * lists.level_fraction[level].w + lists.level_fraction[level].xyz;
   const vec3 whole = floor(clamp(place, -1e9, 1e9));
-  const uvec3 in_cell = uvec3(clamp((place - whole) * 4.0, 0.0, 3.0));
-  const uint part = in_cell.x | in_cell.y << 2 | in_cell.z << 4;
+  const uvec3 square = uvec3(clamp((place - whole) * 16.0, 0.0, 15.0)), part = square >> 2;
+  const int facing = facingOf(point.normal), axis = facing >> 1;
   const uvec2 run =
       findCell(lists.level_cell[level].xyz + ivec3(whole), lists.level_cell[level].w + facing);
-  return uvec3(nextEntry(run.x, run.y, part), run.y, part);
+  return List(run.x, run.x, run.y,
+              part.x | part.y << 2 | part.z << 4 | square[(axis + 1) % 3] << 6 |
+                  square[(axis + 2) % 3] << 10 | part[axis] >> 1 << 14);
 }
 
 // Walk with one level. It needs no array of list heads.
 void walkOne(inout Sum sum, inout uint blocked, Point point, bool covered) {
-  uvec3 head = listOn(0u, point.from_camera, facingOf(point.normal));
-  while (head.x < head.y && isOpen(sum, covered)) {
-    compositeEntry(sum, blocked, head.x, point);
-    head.x = nextEntry(head.x + 1u, head.y, head.z);
-  }
+  List list = listOn(0u, point);
+  do {
+    findEntry(list, point);
+    if (list.next < list.end) compositeEntry(sum, blocked, list.next, point);
+    ++list.next;
+  } while (list.next < list.end && isOpen(sum, covered));
 }
 
 // Walk with several levels: merges their lists by the shots' numbers, newest first.
 void walkAll(inout Sum sum, inout uint blocked, Point point, bool covered) {
-  uvec3 heads[kLevels];
+  List heads[kLevels];
   uint live = 0u;
   for (uint i = 0u; i < uint(lists.camera_cell.w); ++i) {
-    const uvec3 list = listOn(i, point.from_camera, facingOf(point.normal));
-    if (list.x < list.y) heads[live++] = list;
+    List list = listOn(i, point);
+    findEntry(list, point);
+    if (list.next < list.end) heads[live++] = list;
   }
   while (live > 0u && isOpen(sum, covered)) {
-    uint newest = 0u, number = shots[entries[heads[0].x * 4u]].number;
+    uint newest = 0u, number = shots[entries[heads[0].next * 4u]].number;
     for (uint i = 1u; i < live; ++i) {
-      const uint other = shots[entries[heads[i].x * 4u]].number;
+      const uint other = shots[entries[heads[i].next * 4u]].number;
       if (other > number) {
         number = other;
         newest = i;
       }
     }
-    compositeEntry(sum, blocked, heads[newest].x, point);
-    heads[newest].x = nextEntry(heads[newest].x + 1u, heads[newest].y, heads[newest].z);
-    if (heads[newest].x >= heads[newest].y) heads[newest] = heads[--live];
+    List list = heads[newest];
+    compositeEntry(sum, blocked, list.next, point);
+    ++list.next;
+    findEntry(list, point);
+    if (list.next >= list.end) list = heads[--live];
+    heads[newest] = list;
   }
 }
 

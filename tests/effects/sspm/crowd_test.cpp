@@ -201,7 +201,7 @@ TEST_P(CrowdTest, UndoBringsBackWhatTheLimitTook) {
     EXPECT_EQ(frame.waiting(), 0u);
     return frame.read("paint").pixels;
   };
-  size_t count = 12'000, tested = 0;
+  size_t count = 11'000, tested = 0;
   auto before = pictureOf(count);
   for (; count + 100 <= shots.size(); count += 100) {
     const size_t givenUp = frame.givenUp();

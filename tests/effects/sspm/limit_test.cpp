@@ -248,7 +248,7 @@ TEST_P(LimitTest, ExactPaintComesBack) {
   EXPECT_EQ(frame.coarser(), 0u);
   EXPECT_EQ(frame.givenUp(), 0u);
   set(frame, "16");
-  look(frame, count);
+  look(frame, shots_.size());
   EXPECT_GT(frame.coarser() + frame.givenUp(), 0u);
   look(frame, 0);
   EXPECT_EQ(frame.coarser(), 0u);

@@ -1,0 +1,142 @@
+// SPDX-License-Identifier: MIT
+#include "groups.h"
+
+#include <algorithm>
+#include <cmath>
+#include <utility>
+
+namespace grisaille::sspm {
+namespace {
+
+constexpr int kParts = 4;  // of a cell, along an axis
+// Lines of points that stand for a cell: layers along axis a, and lines in each.
+constexpr int kLayers = 8, kLines = 32;
+// For rounding on the device: cells, and share of the distance to the muzzle.
+constexpr float kSlack = 1.0f / 256, kFarSlack = 1e-6f;
+
+// The squares with points of the line `from + b * step` that are within reach of 0, for b from 0 to
+// 1.
+uint32_t squaresWithin(const glm::vec3& from, const glm::vec3& step, float reach) {
+  constexpr float kAWay = Squares::kAWay;
+  const float length = std::max(glm::length(step), 1e-6f);
+  const float nearest = -glm::dot(from, step) / (length * length);
+  const glm::vec3 off = from + step * nearest;
+  const float left = reach * reach - glm::dot(off, off);
+  if (left < 0) return 0;
+  const float half = std::sqrt(left) / length;
+  const float low = std::floor(kAWay * (nearest - half)),
+              high = std::floor(kAWay * (nearest + half));
+  if (high < 0 || low >= kAWay) return 0;
+  const auto first = static_cast<uint32_t>(std::max(low, 0.0f));
+  const auto last = static_cast<uint32_t>(std::min(high, kAWay - 1));
+  return (0xFFFFu >> (Squares::kAWay - 1 - last)) & (0xFFFFu << first);
+}
+
+// The squares of a row in four parts.
+uint32_t squaresIn(uint32_t parts) {
+  const uint32_t spread = (parts & 1) | (parts & 2) << 3 | (parts & 4) << 6 | (parts & 8) << 9;
+  return spread * 0xFu;
+}
+
+// The parts in a row along axis b: in a layer along axis a, and in one along axis c.
+uint32_t partsAt(uint64_t parts, int axis, int layerA, int layerC) {
+  const int b = (axis + 1) % 3, c = (axis + 2) % 3;
+  const uint64_t from = parts >> (layerA << 2 * axis | layerC << 2 * c);
+  uint32_t row = 0;
+  for (int i = 0; i < kParts; ++i) row |= static_cast<uint32_t>(from >> (i << 2 * b) & 1) << i;
+  return row;
+}
+
+}  // namespace
+
+CellReach& CellReach::operator|=(const CellReach& other) {
+  parts |= other.parts;
+  for (size_t i = 0; i < squares.rows.size(); ++i) squares.rows[i] |= other.squares.rows[i];
+  return *this;
+}
+
+// In each line of points along axis b, those in range are within the roots of a quadratic. Lines
+// stand for what is near them: the range is larger by the farthest that the ray can be from there.
+CellReach reachOf(uint64_t parts, int axis, const glm::vec3& muzzle, const glm::vec3& direction,
+                  float range) {
+  const int b = (axis + 1) % 3, c = (axis + 2) % 3;
+  const auto across = [&](int of) {
+    glm::vec3 unit(0);
+    unit[of] = 1;
+    return glm::cross(unit, direction);
+  };
+  // A point's offset from the ray is linear in the point's place.
+  const glm::vec3 from = glm::cross(-muzzle, direction);
+  const glm::vec3 alongA = across(axis), alongB = across(b), alongC = across(c);
+  const float reach = range + glm::length(alongA) / (2 * kLayers) +
+                      glm::length(alongC) / (2 * kLines) + kSlack + kFarSlack * glm::length(muzzle);
+  CellReach result{.parts = parts, .squares = {}};
+  for (int layer = 0; layer < kLayers; ++layer) {
+    const int layerPart = layer / (kLayers / kParts), half = layerPart / 2;
+    const glm::vec3 middle = from + alongA * ((static_cast<float>(layer) + 0.5f) / kLayers);
+    for (int line = 0; line < kLines; ++line) {
+      const uint32_t columns = partsAt(parts, axis, layerPart, line / (kLines / kParts));
+      if (columns == 0) continue;
+      const glm::vec3 start = middle + alongC * ((static_cast<float>(line) + 0.5f) / kLines);
+      result.squares
+          .rows[static_cast<size_t>(half * Squares::kAWay + line / (kLines / Squares::kAWay))] |=
+          static_cast<uint16_t>(squaresWithin(start, alongB, reach) & squaresIn(columns));
+    }
+  }
+  return result;
+}
+
+// Index of the group with the shot at an index, which becomes an index within it. An index after
+// the last shot belongs to the last group.
+size_t Groups::find(size_t& at) const {
+  size_t i = 0;
+  while (i + 1 < groups_.size() && at >= groups_[i].count) at -= groups_[i++].count;
+  return i;
+}
+
+// A place between two groups is in both. Shots come at both ends of a list: groups there stay full.
+void Groups::insert(size_t at, const CellReach& reach) {
+  const auto takes = [&](size_t i) { return i < groups_.size() && groups_[i].count < kMost; };
+  size_t i = find(at);
+  if (at == 0 && i > 0 && takes(i - 1)) {
+    --i;
+  } else if (!takes(i)) {
+    if (at > 0 && at < groups_[i].count) {
+      Group rest = groups_[i];
+      rest.count -= static_cast<uint32_t>(at);
+      groups_[i].count = static_cast<uint32_t>(at);
+      groups_.insert(i + 1, rest);
+    }
+    i += at > 0 ? 1 : 0;
+    if (at == 0 || !takes(i)) groups_.insert(i, {});
+  }
+  groups_[i].reach |= reach;
+  ++groups_[i].count;
+}
+
+void Groups::extend(size_t at, const CellReach& reach) {
+  groups_[find(at)].reach |= reach;
+}
+
+void Groups::Eraser::next(bool erased) {
+  if (left_ == 0) left_ = groups_.groups_[next_++].count;
+  --left_;
+  if (erased) --groups_.groups_[next_ - 1].count;
+}
+
+// Joins neighbours that have become small.
+void Groups::merge() {
+  constexpr uint32_t kSmall = kMost * 3 / 4;
+  for (size_t i = 0; i + 1 < groups_.size(); ++i) {
+    Group &group = groups_[i], &next = groups_[i + 1];
+    if (next.count == 0) {
+      std::swap(group, next);
+    } else if (group.count + next.count <= kSmall) {
+      next.reach |= group.reach;
+      next.count += std::exchange(group.count, 0);
+    }
+  }
+  groups_.eraseIf([](const Group& group) { return group.count == 0; });
+}
+
+}  // namespace grisaille::sspm
