@@ -9,8 +9,8 @@ namespace grisaille::sspm {
 namespace {
 
 constexpr int kParts = 4;  // of a cell, along an axis
-// Lines of points that stand for a cell: layers along axis a, and lines in each.
-constexpr int kLayers = 8, kLines = 32;
+// Lines of points that stand for a part: layers along axis a, and lines in each.
+constexpr int kLayers = 2, kLines = 8;
 // For rounding on the device: cells, and share of the distance to the muzzle.
 constexpr float kSlack = 1.0f / 256, kFarSlack = 1e-6f;
 
@@ -68,20 +68,25 @@ CellReach reachOf(uint64_t parts, int axis, const glm::vec3& muzzle, const glm::
   // A point's offset from the ray is linear in the point's place.
   const glm::vec3 from = glm::cross(-muzzle, direction);
   const glm::vec3 alongA = across(axis), alongB = across(b), alongC = across(c);
-  const float reach = range + glm::length(alongA) / (2 * kLayers) +
-                      glm::length(alongC) / (2 * kLines) + kSlack + kFarSlack * glm::length(muzzle);
+  const float reach = range + glm::length(alongA) / (2 * kParts * kLayers) +
+                      glm::length(alongC) / (2 * kParts * kLines) + kSlack +
+                      kFarSlack * glm::length(muzzle);
   CellReach result{.parts = parts, .squares = {}};
-  for (int layer = 0; layer < kLayers; ++layer) {
-    const int layerPart = layer / (kLayers / kParts), half = layerPart / 2;
-    const glm::vec3 middle = from + alongA * ((static_cast<float>(layer) + 0.5f) / kLayers);
-    for (int line = 0; line < kLines; ++line) {
-      const uint32_t columns = partsAt(parts, axis, layerPart, line / (kLines / kParts));
-      if (columns == 0) continue;
-      const glm::vec3 start = middle + alongC * ((static_cast<float>(line) + 0.5f) / kLines);
-      result.squares
-          .rows[static_cast<size_t>(half * Squares::kAWay + line / (kLines / Squares::kAWay))] |=
-          static_cast<uint16_t>(squaresWithin(start, alongB, reach) & squaresIn(columns));
+  const auto add = [&](int partA, int partC, uint32_t columns) {
+    for (int layer = partA * kLayers; layer < (partA + 1) * kLayers; ++layer) {
+      for (int line = partC * kLines; line < (partC + 1) * kLines; ++line) {
+        const glm::vec3 start = from +
+                                alongA * ((static_cast<float>(layer) + 0.5f) / (kParts * kLayers)) +
+                                alongC * ((static_cast<float>(line) + 0.5f) / (kParts * kLines));
+        const int row = partA / 2 * Squares::kAWay + line * Squares::kAWay / (kParts * kLines);
+        result.squares.rows[static_cast<size_t>(row)] |=
+            static_cast<uint16_t>(squaresWithin(start, alongB, reach) & squaresIn(columns));
+      }
     }
+  };
+  for (int i = 0; i < kParts * kParts; ++i) {
+    const uint32_t columns = partsAt(parts, axis, i / kParts, i % kParts);
+    if (columns != 0) add(i / kParts, i % kParts, columns);
   }
   return result;
 }
@@ -129,6 +134,7 @@ void Groups::merge() {
   constexpr uint32_t kSmall = kMost * 3 / 4;
   for (size_t i = 0; i + 1 < groups_.size(); ++i) {
     Group &group = groups_[i], &next = groups_[i + 1];
+    if (group.count == 0) continue;
     if (next.count == 0) {
       std::swap(group, next);
     } else if (group.count + next.count <= kSmall) {

@@ -23,7 +23,8 @@ struct Squares {
   std::array<uint16_t, 2 * kAWay> rows = {};
 
   bool has(int half, int b, int row) const {
-    return (rows[static_cast<size_t>(half * kAWay + row)] >> b & 1) != 0;
+    const int index = half * kAWay + row;
+    return (rows[static_cast<size_t>(index)] >> b & 1) != 0;
   }
 };
 

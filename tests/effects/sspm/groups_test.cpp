@@ -123,6 +123,20 @@ TEST_F(GroupsTest, HoldWhatTheirShotsReach) {
   }
 }
 
+// Of a group whose shots have all gone, nothing stays.
+TEST_F(GroupsTest, ForgetShotsThatAreGone) {
+  Groups groups;
+  for (size_t i = 0; i < 3 * Groups::kMost; ++i) {
+    groups.insert(i, {.parts = uint64_t{1} << i / Groups::kMost, .squares = {}});
+  }
+  Groups::Eraser eraser(groups);
+  for (size_t i = 0; i < 3 * Groups::kMost; ++i) eraser.next(i < 2 * Groups::kMost);
+  eraser.finish();
+  ASSERT_EQ(groups.size(), 1u);
+  EXPECT_EQ(groups[0].reach.parts, 4u);
+  EXPECT_EQ(groups[0].count, Groups::kMost);
+}
+
 // Groups are full where shots come at the ends, newest or oldest first.
 TEST_F(GroupsTest, AreFullAtBothEnds) {
   Groups first, last;
