@@ -123,7 +123,24 @@ void PaintWorld::dropFormer() {
   }
 }
 
-// Lists former shots in the cells that a larger range reaches.
+// Groups of a cell become as tight as their shots again, once no former shot is left.
+void PaintWorld::tighten(Cell& cell) {
+  if (!cell.wide || !former_.empty()) return;
+  cell.wide = false;
+  cell.groups.clear();
+  const double edge = edgeOf(cell.key.code);
+  for (size_t i = 0; i < cell.entries.size(); ++i) {
+    const Entry& entry = cell.entries[i];
+    const Shot& shot = list_[entry.shot];
+    const glm::dvec3 origin(shot.origin[0], shot.origin[1], shot.origin[2]);
+    const glm::vec3 direction(shot.direction[0], shot.direction[1], shot.direction[2]);
+    cell.groups.insert(i, reachOf(entry.touched, axisOf(cell.key.code),
+                                  glm::vec3(origin / edge - glm::dvec3(cell.key.cell)), direction,
+                                  static_cast<float>(rangeOf(entry.shot) / edge)));
+  }
+}
+
+// Lists former shots in the cells that a larger range reaches. Groups get wide meanwhile.
 void PaintWorld::spread() {
   const size_t count = cells_.cells().size();
   for (size_t i = 0; i < count; ++i) spread(cells_.cells()[i]);
@@ -146,8 +163,8 @@ void PaintWorld::spread(Cell& cell) {
                         .muzzle = glm::vec3(origin / edge - glm::dvec3(cell.key.cell)),
                         .direction = {shot.direction[0], shot.direction[1], shot.direction[2]},
                         .range = static_cast<float>(range / edge)};
-    cell.groups.extend(
-        i, reachOf(entry.touched, axisOf(cell.key.code), each.muzzle, each.direction, each.range));
+    cell.groups.extend(i, wideReachOf(entry.touched));
+    cell.wide = true;
     if (!entry.core) continue;
     grown.push_back(each);
     most = std::max(most, more / edge);
@@ -179,8 +196,8 @@ void PaintWorld::spreadTo(const CellKey& key, uint64_t near, std::span<const Gro
         partsInReach(near, each.muzzle - glm::vec3(offset), each.direction, each.range);
     if (parts == 0) continue;
     if (cell == nullptr) cell = &cells_.at(key);
-    const CellReach reach = reachOf(parts, axisOf(key.code), each.muzzle - glm::vec3(offset),
-                                    each.direction, each.range);
+    cell->wide = true;
+    const CellReach reach = wideReachOf(parts);
     auto& entries = cell->entries;
     while (at < entries.size() && entries[at].shot > each.shot) ++at;
     if (at < entries.size() && entries[at].shot == each.shot) {

@@ -91,6 +91,12 @@ CellReach reachOf(uint64_t parts, int axis, const glm::vec3& muzzle, const glm::
   return result;
 }
 
+CellReach wideReachOf(uint64_t parts) {
+  CellReach reach{.parts = parts, .squares = {}};
+  reach.squares.rows.fill(0xFFFF);
+  return reach;
+}
+
 // Index of the group with the shot at an index, which becomes an index within it. An index after
 // the last shot belongs to the last group.
 size_t Groups::find(size_t& at) const {

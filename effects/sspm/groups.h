@@ -42,6 +42,9 @@ struct CellReach {
 CellReach reachOf(uint64_t parts, int axis, const glm::vec3& muzzle, const glm::vec3& direction,
                   float range);
 
+// Some parts and all squares, which takes less time to find.
+CellReach wideReachOf(uint64_t parts);
+
 // The groups of a list, in its order.
 class Groups {
  public:
@@ -56,6 +59,7 @@ class Groups {
   void insert(size_t at, const CellReach& reach);
   // The shot at an index reaches more.
   void extend(size_t at, const CellReach& reach);
+  void clear() { *this = {}; }
 
   // Erases shots. What the groups of the others reach does not shrink.
   class Eraser {

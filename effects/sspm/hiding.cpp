@@ -157,6 +157,7 @@ void PaintWorld::join(uint32_t record, const ShotFrame& frame, const CellGrid& g
   if (!entry.core && placed.cores == 0) return;
   const CellReach reach = reachOf(entry.touched, axisOf(share.key.code), -corner / grid.edge,
                                   frame.direction, frame.range / grid.edge);
+  tighten(cell);
   const auto position = std::ranges::lower_bound(cell.entries, id, std::greater<>(), &Entry::shot);
   if (position != cell.entries.end() && position->shot == id && position->former) {
     unlist(*position, 0);

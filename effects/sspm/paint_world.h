@@ -245,6 +245,7 @@ class PaintWorld {
   void retire(uint32_t id);
   bool isSettled() const { return pending_.empty() && work_.empty(); }
   void dropFormer();
+  void tighten(Cell& cell);
   void spread();
   void spread(Cell& cell);
   void spreadTo(const CellKey& key, uint64_t near, std::span<const Grown> grown,
