@@ -123,20 +123,27 @@ void PaintWorld::dropFormer() {
   }
 }
 
+// The shot of a cell's entry.
+PaintWorld::CellRay PaintWorld::rayIn(const Cell& cell, const Entry& entry) const {
+  const double edge = edgeOf(cell.key.code);
+  const Shot& shot = list_[entry.shot];
+  const glm::dvec3 origin(shot.origin[0], shot.origin[1], shot.origin[2]);
+  return {.shot = entry.shot,
+          .muzzle = glm::vec3(origin / edge - glm::dvec3(cell.key.cell)),
+          .direction = {shot.direction[0], shot.direction[1], shot.direction[2]},
+          .range = static_cast<float>(rangeOf(entry.shot) / edge)};
+}
+
 // Groups of a cell become as tight as their shots again, once no former shot is left.
 void PaintWorld::tighten(Cell& cell) {
   if (!cell.wide || !former_.empty()) return;
   cell.wide = false;
   cell.groups.clear();
-  const double edge = edgeOf(cell.key.code);
   for (size_t i = 0; i < cell.entries.size(); ++i) {
     const Entry& entry = cell.entries[i];
-    const Shot& shot = list_[entry.shot];
-    const glm::dvec3 origin(shot.origin[0], shot.origin[1], shot.origin[2]);
-    const glm::vec3 direction(shot.direction[0], shot.direction[1], shot.direction[2]);
-    cell.groups.insert(i, reachOf(entry.touched, axisOf(cell.key.code),
-                                  glm::vec3(origin / edge - glm::dvec3(cell.key.cell)), direction,
-                                  static_cast<float>(rangeOf(entry.shot) / edge)));
+    const CellRay ray = rayIn(cell, entry);
+    cell.groups.insert(
+        i, reachOf(entry.touched, axisOf(cell.key.code), ray.muzzle, ray.direction, ray.range));
   }
 }
 
@@ -149,24 +156,17 @@ void PaintWorld::spread() {
 void PaintWorld::spread(Cell& cell) {
   const double edge = edgeOf(cell.key.code);
   // The former shots on surfaces of this cell whose range has grown. Newest first.
-  std::vector<Grown> grown;
+  std::vector<CellRay> grown;
   double most = 0;  // by how much, cells
   for (size_t i = 0; i < cell.entries.size(); ++i) {
     const Entry& entry = cell.entries[i];
     if (!entry.former) continue;
-    const float range = rangeOf(entry.shot);
-    const float more = range - placed_[recordOf(entry)].mapRange;
+    const float more = rangeOf(entry.shot) - placed_[recordOf(entry)].mapRange;
     if (more <= 0) continue;
-    const Shot& shot = list_[entry.shot];
-    const glm::dvec3 origin(shot.origin[0], shot.origin[1], shot.origin[2]);
-    const Grown each = {.shot = entry.shot,
-                        .muzzle = glm::vec3(origin / edge - glm::dvec3(cell.key.cell)),
-                        .direction = {shot.direction[0], shot.direction[1], shot.direction[2]},
-                        .range = static_cast<float>(range / edge)};
     cell.groups.extend(i, wideReachOf(entry.touched));
     cell.wide = true;
     if (!entry.core) continue;
-    grown.push_back(each);
+    grown.push_back(rayIn(cell, entry));
     most = std::max(most, more / edge);
   }
   if (grown.empty()) return;
@@ -187,11 +187,11 @@ void PaintWorld::spread(Cell& cell) {
 
 // Lists former shots in a cell, or in more parts of it.
 // near: parts to list. offset: of the cell from that of the muzzles.
-void PaintWorld::spreadTo(const CellKey& key, uint64_t near, std::span<const Grown> grown,
+void PaintWorld::spreadTo(const CellKey& key, uint64_t near, std::span<const CellRay> grown,
                           const glm::ivec3& offset) {
   Cell* cell = nullptr;
   size_t at = 0;  // in its list
-  for (const Grown& each : grown) {
+  for (const CellRay& each : grown) {
     const uint64_t parts =
         partsInReach(near, each.muzzle - glm::vec3(offset), each.direction, each.range);
     if (parts == 0) continue;

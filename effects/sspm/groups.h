@@ -21,11 +21,6 @@ struct Squares {
   static constexpr int kAWay = 16;
 
   std::array<uint16_t, 2 * kAWay> rows = {};
-
-  bool has(int half, int b, int row) const {
-    const int index = half * kAWay + row;
-    return (rows[static_cast<size_t>(index)] >> b & 1) != 0;
-  }
 };
 
 // What a shot reaches in a cell.

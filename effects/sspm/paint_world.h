@@ -188,8 +188,8 @@ class PaintWorld {
     size_t shots = 0;
     Floors before;
   };
-  // A former shot whose range has grown. Lengths in cells, from a cell's lower corner.
-  struct Grown {
+  // A shot. Lengths in cells, from a cell's lower corner.
+  struct CellRay {
     uint32_t shot = 0;
     glm::vec3 muzzle, direction;
     float range = 0;
@@ -245,10 +245,11 @@ class PaintWorld {
   void retire(uint32_t id);
   bool isSettled() const { return pending_.empty() && work_.empty(); }
   void dropFormer();
+  CellRay rayIn(const Cell& cell, const Entry& entry) const;
   void tighten(Cell& cell);
   void spread();
   void spread(Cell& cell);
-  void spreadTo(const CellKey& key, uint64_t near, std::span<const Grown> grown,
+  void spreadTo(const CellKey& key, uint64_t near, std::span<const CellRay> grown,
                 const glm::ivec3& offset);
 
   // twins.cpp
