@@ -19,7 +19,7 @@ constexpr double kUploadMemory = 0.9;   // share of the longest upload that each
 // Longest step, seconds and share of the patience, whichever is more: short ones complete the
 // newest shots before others begin.
 constexpr double kLongestStep = 0.002, kStepShare = 0.016;
-// What is left for steps that take longer than usual: share of the patience, and seconds.
+// Set aside for steps that take longer than usual: least share of the patience, and most seconds.
 constexpr double kLateShare = 0.25, kMostLate = 0.002;
 // Of a record's root; same as in shaders/sspm/walk.glsl.
 constexpr uint32_t kCoarse = 1u << 16, kMapRangeShift = 17;
@@ -61,9 +61,10 @@ size_t PaintWorld::update(std::span<const Shot> shots, size_t kept, const PaintR
   follow(shots, kept, rules, limit);
   std::vector<uint32_t> unknown;
   askAgain(sight);
-  // Also after a large upload, a fourth of the patience or more is for placing.
-  const double late = std::min(kLateShare * patience, kMostLate);
-  const double placing = patience - late - std::min(uploadTime_, patience / 2);
+  // Of a patience up to 2.7 ms a fourth, of 4 ms half, of a longer one 2 ms.
+  const double late = std::min(std::max(kLateShare * patience, patience - kMostLate), kMostLate);
+  const double usual = patience - late;
+  const double placing = usual - std::min(uploadTime_, usual / 2);
   const auto left = [&] { return placing - secondsSince(start); };
   const size_t spots = std::isfinite(patience) ? kFewSpots : kManySpots;
   const double longest =
