@@ -61,7 +61,7 @@ size_t PaintWorld::update(std::span<const Shot> shots, size_t kept, const PaintR
   follow(shots, kept, rules, limit);
   std::vector<uint32_t> unknown;
   askAgain(sight);
-  // Of a patience up to 2.7 ms a fourth, of 4 ms half, of a longer one 2 ms.
+  // A fourth of a patience up to 2.7 ms; of a longer one what is over 2 ms, at most 2 ms.
   const double late = std::min(std::max(kLateShare * patience, patience - kMostLate), kMostLate);
   const double usual = patience - late;
   const double placing = usual - std::min(uploadTime_, usual / 2);
