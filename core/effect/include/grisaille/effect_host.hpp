@@ -65,12 +65,13 @@ class Owned {
   /// @param other afterwards owns nothing
   Owned(Owned&& other) noexcept
       : host_(std::exchange(other.host_, nullptr)), id_(std::exchange(other.id_, Id{0})) {}
-  /// Exchanges the resources of two owners.
-  /// @param other afterwards owns this owner's resource
+  /// Takes the resource of another owner, and destroys its own.
+  /// @param other afterwards owns nothing
   /// @return this
   Owned& operator=(Owned&& other) noexcept {
-    std::swap(host_, other.host_);
-    std::swap(id_, other.id_);
+    Owned taken(std::move(other));
+    std::swap(host_, taken.host_);
+    std::swap(id_, taken.id_);
     return *this;
   }
   ~Owned() {
