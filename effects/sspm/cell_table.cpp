@@ -9,21 +9,29 @@ namespace {
 
 constexpr uint32_t kFree = ~0u;
 constexpr size_t kSlotWords = 6;
-// A list on the device consists of units: one per entry, and five before each group and each
-// block.
-constexpr size_t kUnitWords = 4, kReachUnits = 5;
-constexpr size_t kBlockGroups = 16;  // groups in a block
+// A list on the device consists of units: one per entry, and five for each mask.
+constexpr size_t kUnitWords = 4, kMaskUnits = 5;
+constexpr uint32_t kMask = 0x80000000u;  // walk.glsl
+constexpr size_t kBlockGroups = 16;      // groups in a block
 constexpr size_t kFirstSlots = 1024;
 
-// A block of one group needs no units of its own.
-bool isBlock(const Groups& groups, size_t first) {
-  return first % kBlockGroups == 0 && groups.size() - first > 1;
+// Number of groups of the block that starts at a group; 0: none does. One group alone needs no
+// other mask, and a block with a group that misses little would miss less.
+size_t blockAt(const Groups& groups, size_t first) {
+  if (first % kBlockGroups != 0) return 0;
+  const size_t count = std::min(kBlockGroups, groups.size() - first);
+  for (size_t i = first; i < first + count; ++i) {
+    if (!groups[i].pays()) return 0;
+  }
+  return count > 1 ? count : 0;
 }
 
 uint32_t unitsOf(const Cell& cell) {
-  const size_t groups = cell.groups.size();
-  const size_t blocks = (groups + kBlockGroups - 2) / kBlockGroups;
-  return static_cast<uint32_t>(cell.entries.size() + kReachUnits * (groups + blocks));
+  size_t masks = 0;
+  for (size_t i = 0; i < cell.groups.size(); ++i) {
+    masks += (cell.groups[i].pays() ? 1 : 0) + (blockAt(cell.groups, i) > 0 ? 1 : 0);
+  }
+  return static_cast<uint32_t>(cell.entries.size() + kMaskUnits * masks);
 }
 
 // Capacity of the run on the device for a cell's list.
@@ -61,7 +69,7 @@ void CellTable::clear() {
 
 uint64_t CellTable::bytes() const {
   // An allocation takes 16 bytes more than its contents, on average.
-  return listBytes_ + runs_.bytes() + cells_.size() * (sizeof(Cell) + 3 * 16) +
+  return listBytes_ + runs_.bytes() + cells_.size() * (sizeof(Cell) + 4 * 16) +
          slotCells_.size() * sizeof(uint32_t) + slots_.peakBytes(slotCells_.size() * kSlotWords) +
          words_.peakBytes(units_ * kUnitWords);
 }
@@ -144,26 +152,27 @@ std::span<uint32_t> CellTable::reserve(Cell& cell) {
                     : std::span<uint32_t>();
 }
 
-uint32_t* CellTable::writeBlock(const Groups& groups, size_t first, uint32_t* word) {
-  if (!isBlock(groups, first)) return word;
-  CellReach reach;
+uint32_t* CellTable::writeBlock(const Groups& groups, size_t first, const CellReach* mask,
+                                uint32_t* word) {
+  const size_t count = blockAt(groups, first);
+  if (count == 0) return word;
+  CellReach all;
   size_t units = 0;
-  for (size_t i = first; i < std::min(first + kBlockGroups, groups.size()); ++i) {
-    reach |= groups[i].reach;
-    units += kReachUnits + groups[i].count;
+  for (size_t i = first; i < first + count; ++i) {
+    all |= *mask++;
+    units += kMaskUnits + groups[i].count;
   }
-  return writeReach(reach, 0, static_cast<uint32_t>(units), word);
+  return writeMask(all, units, word);
 }
 
-uint32_t* CellTable::writeReach(const CellReach& reach, uint32_t entries, uint32_t units,
-                                uint32_t* word) {
-  for (size_t row = 0; row < reach.squares.rows.size(); row += 2) {
-    *word++ = reach.squares.rows[row] | uint32_t{reach.squares.rows[row + 1]} << 16;
+uint32_t* CellTable::writeMask(const CellReach& mask, size_t units, uint32_t* word) {
+  *word++ = kMask | static_cast<uint32_t>(units);
+  *word++ = 0;
+  *word++ = static_cast<uint32_t>(mask.parts);
+  *word++ = static_cast<uint32_t>(mask.parts >> 32);
+  for (size_t row = 0; row < mask.squares.rows.size(); row += 2) {
+    *word++ = mask.squares.rows[row] | uint32_t{mask.squares.rows[row + 1]} << 16;
   }
-  *word++ = static_cast<uint32_t>(reach.parts);
-  *word++ = static_cast<uint32_t>(reach.parts >> 32);
-  *word++ = entries;
-  *word++ = units;
   return word;
 }
 

@@ -91,15 +91,16 @@ struct Cell {
   bool wide = false;      // its groups reach more than their shots: see former.cpp
   bool fresh = true;      // a shot has come that is not older than `coveredBelow`
 
-  // reach: of `entry`.
-  void insert(size_t at, const Entry& entry, const CellReach& reach) {
+  // reach(): of `entry`; called if that is needed.
+  template <typename Reach>
+  void insert(size_t at, const Entry& entry, const Reach& reach) {
     entries.insert(at, entry);
-    groups.insert(at, reach);
+    groups.insert(at, axisOf(key.code), reach);
   }
   // Returns the number of erased entries. Calls erased() once for each entry, in order.
   template <typename Erased>
   size_t eraseIf(const Erased& erased) {
-    Groups::Eraser eraser(groups);
+    Groups::Eraser eraser(groups, axisOf(key.code));
     const size_t count = entries.eraseIf([&](const Entry& entry) {
       const bool isErased = erased(entry);
       eraser.next(isErased);
@@ -143,10 +144,12 @@ class CellTable {
       cell.changed = false;
       uint32_t* word = reserve(cell).data();
       const Entry* entry = cell.entries.begin();
+      const CellReach* mask = cell.groups.masks();
       for (size_t i = 0; i < cell.groups.size(); ++i) {
-        word = writeBlock(cell.groups, i, word);
         const Groups::Group& group = cell.groups[i];
-        word = writeReach(group.reach, group.count, group.count, word);
+        word = writeBlock(cell.groups, i, mask, word);
+        if (group.pays()) word = writeMask(*mask, group.count, word);
+        if (group.mayPay()) ++mask;
         for (const Entry* end = entry + group.count; entry != end; ++entry) {
           *word++ = recordOf(*entry);
           *word++ = entry->reference;
@@ -171,15 +174,15 @@ class CellTable {
   uint32_t after(uint32_t slot) const { return slot + 1 < slotCount() ? slot + 1 : 0; }
   void place(uint32_t cell);
   void rehash();
-  // The cell's run on the device, as long as its list and its groups.
+  // The cell's run on the device, as long as its list and its masks.
   std::span<uint32_t> reserve(Cell& cell);
   // Writes what groups from `first` on reach together, if a block of them starts there. Returns the
   // word after it.
-  static uint32_t* writeBlock(const Groups& groups, size_t first, uint32_t* word);
-  // Writes what the units after it reach. Returns the word after it.
-  // entries: number of the entries that follow. units: those of which `reach` tells.
-  static uint32_t* writeReach(const CellReach& reach, uint32_t entries, uint32_t units,
+  // mask: of the first group.
+  static uint32_t* writeBlock(const Groups& groups, size_t first, const CellReach* mask,
                               uint32_t* word);
+  // Writes what the units after it reach. Returns the word after it.
+  static uint32_t* writeMask(const CellReach& mask, size_t units, uint32_t* word);
   void writeSlots();
 
   std::deque<Cell> cells_;           // a deque: references stay valid

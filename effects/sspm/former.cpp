@@ -139,11 +139,13 @@ void PaintWorld::tighten(Cell& cell) {
   if (!cell.wide || !former_.empty()) return;
   cell.wide = false;
   cell.groups.clear();
+  const int axis = axisOf(cell.key.code);
   for (size_t i = 0; i < cell.entries.size(); ++i) {
     const Entry& entry = cell.entries[i];
-    const CellRay ray = rayIn(cell, entry);
-    cell.groups.insert(
-        i, reachOf(entry.touched, axisOf(cell.key.code), ray.muzzle, ray.direction, ray.range));
+    cell.groups.insert(i, axis, [&] {
+      const CellRay ray = rayIn(cell, entry);
+      return reachOf(entry.touched, axis, ray.muzzle, ray.direction, ray.range);
+    });
   }
 }
 
@@ -163,7 +165,7 @@ void PaintWorld::spread(Cell& cell) {
     if (!entry.former) continue;
     const float more = rangeOf(entry.shot) - placed_[recordOf(entry)].mapRange;
     if (more <= 0) continue;
-    cell.groups.extend(i, wideReachOf(entry.touched));
+    cell.groups.widen(i);
     cell.wide = true;
     if (!entry.core) continue;
     grown.push_back(rayIn(cell, entry));
@@ -197,18 +199,18 @@ void PaintWorld::spreadTo(const CellKey& key, uint64_t near, std::span<const Cel
     if (parts == 0) continue;
     if (cell == nullptr) cell = &cells_.at(key);
     cell->wide = true;
-    const CellReach reach = wideReachOf(parts);
     auto& entries = cell->entries;
     while (at < entries.size() && entries[at].shot > each.shot) ++at;
     if (at < entries.size() && entries[at].shot == each.shot) {
       entries[at].touched |= parts;
-      cell->groups.extend(at, reach);
+      cell->groups.widen(at);
       continue;
     }
     Placed& placed = placed_[former_[each.shot]];
     const auto reference = static_cast<uint16_t>(placed.exact.root);
     cell->insert(at, {.touched = parts, .shot = each.shot, .reference = reference, .former = true},
-                 reach);
+                 [] { return CellReach{}; });
+    cell->groups.widen(at);
     ++entries_;
     ++placed.others;
   }

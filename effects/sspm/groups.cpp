@@ -2,8 +2,8 @@
 #include "groups.h"
 
 #include <algorithm>
+#include <bit>
 #include <cmath>
-#include <utility>
 
 namespace grisaille::sspm {
 namespace {
@@ -45,6 +45,21 @@ uint32_t partsAt(uint64_t parts, int axis, int layerA, int layerC) {
   uint32_t row = 0;
   for (int i = 0; i < kParts; ++i) row |= static_cast<uint32_t>(from >> (i << 2 * b) & 1) << i;
   return row;
+}
+
+// Share of the squares of its parts that a mask does not have.
+uint16_t missedBy(const CellReach& mask, int axis) {
+  uint32_t crossed = 0, reached = 0;
+  for (int i = 0; i < 2 * kParts; ++i) {
+    const int layer = i / kParts * 2, row = i % kParts;
+    const uint32_t columns =
+        partsAt(mask.parts, axis, layer, row) | partsAt(mask.parts, axis, layer + 1, row);
+    crossed += static_cast<uint32_t>(std::popcount(columns)) * (Squares::kAWay / kParts) *
+               (Squares::kAWay / kParts);
+  }
+  for (const uint16_t row : mask.squares.rows) reached += static_cast<uint32_t>(std::popcount(row));
+  if (reached >= crossed) return crossed == 0 ? Groups::kWhole : 0;
+  return static_cast<uint16_t>((crossed - reached) * Groups::kWhole / crossed);
 }
 
 }  // namespace
@@ -91,12 +106,6 @@ CellReach reachOf(uint64_t parts, int axis, const glm::vec3& muzzle, const glm::
   return result;
 }
 
-CellReach wideReachOf(uint64_t parts) {
-  CellReach reach{.parts = parts, .squares = {}};
-  reach.squares.rows.fill(0xFFFF);
-  return reach;
-}
-
 // Index of the group with the shot at an index, which becomes an index within it. An index after
 // the last shot belongs to the last group.
 size_t Groups::find(size_t& at) const {
@@ -105,28 +114,55 @@ size_t Groups::find(size_t& at) const {
   return i;
 }
 
-// A place between two groups is in both. Shots come at both ends of a list: groups there stay full.
-void Groups::insert(size_t at, const CellReach& reach) {
-  const auto takes = [&](size_t i) { return i < groups_.size() && groups_[i].count < kMost; };
-  size_t i = find(at);
-  if (at == 0 && i > 0 && takes(i - 1)) {
-    --i;
-  } else if (!takes(i)) {
-    if (at > 0 && at < groups_[i].count) {
-      Group rest = groups_[i];
-      rest.count -= static_cast<uint32_t>(at);
-      groups_[i].count = static_cast<uint32_t>(at);
-      groups_.insert(i + 1, rest);
-    }
-    i += at > 0 ? 1 : 0;
-    if (at == 0 || !takes(i)) groups_.insert(i, {});
-  }
-  groups_[i].reach |= reach;
-  ++groups_[i].count;
+// Index of the mask of a group that may pay, or of the first such group after it.
+size_t Groups::maskOf(size_t group) const {
+  return static_cast<size_t>(std::count_if(groups_.begin(), groups_.begin() + group,
+                                           [](const Group& each) { return each.mayPay(); }));
 }
 
-void Groups::extend(size_t at, const CellReach& reach) {
-  groups_[find(at)].reach |= reach;
+void Groups::insertGroup(size_t group, const Group& inserted, const CellReach& mask) {
+  if (inserted.mayPay()) masks_.insert(maskOf(group), mask);
+  groups_.insert(group, inserted);
+}
+
+// Index of the group for a shot at an index, which has room. A place between two groups is in both.
+// Shots come at both ends of a list: groups there stay full.
+size_t Groups::makeRoom(size_t at) {
+  const auto takes = [&](size_t i) { return i < groups_.size() && groups_[i].count < kMost; };
+  size_t i = find(at);
+  if (at == 0 && i > 0 && takes(i - 1)) return i - 1;
+  if (takes(i)) return i;
+  if (at > 0 && at < groups_[i].count) {
+    Group rest = groups_[i];
+    rest.count = static_cast<uint16_t>(rest.count - at);
+    groups_[i].count = static_cast<uint16_t>(at);
+    insertGroup(i + 1, rest, rest.mayPay() ? masks_[maskOf(i)] : CellReach{});
+  }
+  i += at > 0 ? 1 : 0;
+  if (at == 0 || !takes(i)) insertGroup(i, {}, {});
+  return i;
+}
+
+void Groups::extendGroup(size_t group, int axis, const CellReach& reach) {
+  CellReach& mask = masks_[maskOf(group)];
+  mask |= reach;
+  const uint16_t missed = missedBy(mask, axis);
+  if (Group{.missed = missed}.mayPay()) {
+    groups_[group].missed = missed;
+  } else {
+    dropMask(group);
+  }
+}
+
+void Groups::widen(size_t at) {
+  dropMask(find(at));
+}
+
+void Groups::dropMask(size_t group) {
+  if (!groups_[group].mayPay()) return;
+  const CellReach* dropped = &masks_[maskOf(group)];
+  masks_.eraseIf([&](const CellReach& mask) { return &mask == dropped; });
+  groups_[group].missed = 0;
 }
 
 void Groups::Eraser::next(bool erased) {
@@ -135,20 +171,29 @@ void Groups::Eraser::next(bool erased) {
   if (erased) --groups_.groups_[next_ - 1].count;
 }
 
-// Joins neighbours that have become small.
-void Groups::merge() {
+// Joins neighbours that have become small, if both may have a mask or neither.
+void Groups::merge(int axis) {
   constexpr uint32_t kSmall = kMost * 3 / 4;
-  for (size_t i = 0; i + 1 < groups_.size(); ++i) {
-    Group &group = groups_[i], &next = groups_[i + 1];
+  size_t kept = 0, keptMasks = 0;
+  const CellReach* mask = masks_.begin();
+  for (const Group& group : groups_) {
+    const bool masked = group.mayPay();
+    const CellReach* reach = masked ? mask++ : nullptr;
     if (group.count == 0) continue;
-    if (next.count == 0) {
-      std::swap(group, next);
-    } else if (group.count + next.count <= kSmall) {
-      next.reach |= group.reach;
-      next.count += std::exchange(group.count, 0);
+    Group* last = kept > 0 ? &groups_[kept - 1] : nullptr;
+    if (last == nullptr || last->mayPay() != masked || last->count + group.count > kSmall) {
+      groups_[kept++] = group;
+      if (masked) masks_[keptMasks++] = *reach;
+      continue;
     }
+    last->count = static_cast<uint16_t>(last->count + group.count);
+    if (!masked) continue;
+    masks_[keptMasks - 1] |= *reach;
+    last->missed = missedBy(masks_[keptMasks - 1], axis);
+    if (!last->mayPay()) --keptMasks;
   }
-  groups_.eraseIf([](const Group& group) { return group.count == 0; });
+  groups_.truncate(kept);
+  masks_.truncate(keptMasks);
 }
 
 }  // namespace grisaille::sspm

@@ -1,7 +1,8 @@
 // SPDX-License-Identifier: MIT
-// Groups of up to 16 shots in a cell's list, and what they reach. A pixel that a group does not
-// reach passes over it with one test: around a place at which many shots were fired, it need not
-// ask each of them.
+// Groups of up to 16 shots in a cell's list, and masks of what they reach. A pixel that a group
+// does not reach passes over it with one test: around a place at which many shots were fired, it
+// need not ask each of them. A mask takes as much memory as four shots in a list, so a group has
+// one only where it spares pixels as many.
 #pragma once
 
 #include <array>
@@ -37,49 +38,77 @@ struct CellReach {
 CellReach reachOf(uint64_t parts, int axis, const glm::vec3& muzzle, const glm::vec3& direction,
                   float range);
 
-// Some parts and all squares, which takes less time to find.
-CellReach wideReachOf(uint64_t parts);
-
 // The groups of a list, in its order.
 class Groups {
  public:
-  static constexpr uint32_t kMost = 16;  // shots
+  static constexpr uint32_t kMost = 16;    // shots
+  static constexpr uint32_t kSpared = 2;   // shots that a pixel passes over, on average, if it pays
+  static constexpr uint32_t kWhole = 256;  // of shares
 
   struct Group {
-    CellReach reach;  // of all its shots
-    uint32_t count = 0;
+    uint16_t count = 0;  // of shots
+    // Share of the squares of its shots' parts that none of them reaches.
+    uint16_t missed = kWhole;
+
+    // Whether its mask pays.
+    bool pays() const { return uint32_t{missed} * count >= kSpared * kWhole; }
+    // Whether its mask will pay once it is full, if its shots reach no more.
+    bool mayPay() const { return uint32_t{missed} * kMost >= kSpared * kWhole; }
   };
 
   // A shot is inserted at an index. Divides a full group.
-  void insert(size_t at, const CellReach& reach);
+  // axis: of the cell's facing, 0 to 2. reach(): what the shot reaches; called if that is needed.
+  template <typename Reach>
+  void insert(size_t at, int axis, const Reach& reach) {
+    const size_t group = makeRoom(at);
+    ++groups_[group].count;
+    if (groups_[group].mayPay()) extendGroup(group, axis, reach());
+  }
   // The shot at an index reaches more.
-  void extend(size_t at, const CellReach& reach);
+  template <typename Reach>
+  void extend(size_t at, int axis, const Reach& reach) {
+    const size_t group = find(at);
+    if (groups_[group].mayPay()) extendGroup(group, axis, reach());
+  }
+  // The shot at an index may reach all.
+  void widen(size_t at);
   void clear() { *this = {}; }
 
   // Erases shots. What the groups of the others reach does not shrink.
   class Eraser {
    public:
-    explicit Eraser(Groups& groups) : groups_(groups) {}
+    Eraser(Groups& groups, int axis) : groups_(groups), axis_(axis) {}
     // Call it once for each shot, in order.
     void next(bool erased);
     // Call it at the end.
-    void finish() { groups_.merge(); }
+    void finish() { groups_.merge(axis_); }
 
    private:
     Groups& groups_;
+    int axis_;
     size_t next_ = 0;    // group
     uint32_t left_ = 0;  // shots of the group before
   };
 
   size_t size() const { return groups_.size(); }
   const Group& operator[](size_t i) const { return groups_[i]; }
-  size_t bytes() const { return groups_.capacity() * sizeof(Group); }
+  // What the shots of each group that may pay reach together, in their order.
+  const CellReach* masks() const { return masks_.begin(); }
+  size_t bytes() const {
+    return groups_.capacity() * sizeof(Group) + masks_.capacity() * sizeof(CellReach);
+  }
 
  private:
   size_t find(size_t& at) const;
-  void merge();
+  size_t makeRoom(size_t at);
+  size_t maskOf(size_t group) const;
+  void insertGroup(size_t group, const Group& inserted, const CellReach& mask);
+  void extendGroup(size_t group, int axis, const CellReach& reach);
+  void dropMask(size_t group);
+  void merge(int axis);
 
   Packed<Group> groups_;
+  Packed<CellReach> masks_;
 };
 
 }  // namespace grisaille::sspm

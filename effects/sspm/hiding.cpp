@@ -155,14 +155,17 @@ void PaintWorld::join(uint32_t record, const ShotFrame& frame, const CellGrid& g
     return;
   }
   if (!entry.core && placed.cores == 0) return;
-  const CellReach reach = reachOf(entry.touched, axisOf(share.key.code), -corner / grid.edge,
-                                  frame.direction, frame.range / grid.edge);
+  const int axis = axisOf(share.key.code);
+  const auto reach = [&] {
+    return reachOf(entry.touched, axis, -corner / grid.edge, frame.direction,
+                   frame.range / grid.edge);
+  };
   tighten(cell);
   const auto position = std::ranges::lower_bound(cell.entries, id, std::greater<>(), &Entry::shot);
   if (position != cell.entries.end() && position->shot == id && position->former) {
     unlist(*position, 0);
     *position = entry;
-    cell.groups.extend(static_cast<size_t>(position - cell.entries.begin()), reach);
+    cell.groups.extend(static_cast<size_t>(position - cell.entries.begin()), axis, reach);
   } else {
     cell.insert(static_cast<size_t>(position - cell.entries.begin()), entry, reach);
   }

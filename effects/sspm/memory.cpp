@@ -20,7 +20,7 @@ constexpr uint64_t kFullShare = 32;       // of the limit: paint is about to go 
 constexpr uint64_t kPlanShare = 4;        // of the limit: when the array of maps is planned
 constexpr uint64_t kMoveShare = 8;        // of the limit: growth while an array moves
 constexpr double kMapsLeft = 0.42;        // of maps, once all but the newest quarter are coarse
-constexpr double kListsLeft = 0.8;        // of lists, with copies to grow, once groups are full
+constexpr double kListsLeft = 1.25;       // of lists, with the copies that they need to grow
 constexpr double kListsPlanned = 0.65;    // of lists on the device: cells have more shots each
 
 }  // namespace

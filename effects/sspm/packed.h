@@ -53,9 +53,14 @@ class Packed {
       if (!erased(*item)) *kept++ = *item;
     }
     const auto count = static_cast<size_t>(end() - kept);
-    size_ -= static_cast<uint32_t>(count);
-    if (count > 0 && size_ < capacity_ / 2) setCapacity(size_);
+    truncate(size_ - count);
     return count;
+  }
+  // Keeps the first items.
+  void truncate(size_t size) {
+    const bool fewer = size < size_;
+    size_ = static_cast<uint32_t>(size);
+    if (fewer && (size_ == 0 || size_ < capacity_ / 2)) setCapacity(size_);
   }
 
  private:

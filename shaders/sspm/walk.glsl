@@ -38,9 +38,9 @@ struct Shot {
 // list, number of units.
 layout(STORAGE(0), std430) readonly buffer Slots { int slots[]; };
 // Lists of units of four words. An entry is a unit: index into shots[], reference within its map,
-// mask of the parts (2). Before a group of entries (effects/sspm/groups.h), and before a block of up
-// to 16 groups, five units tell what its shots reach: masks of the squares (16 words) and of the
-// parts (2), number of entries that follow, number of units to pass over if the point is not there.
+// bits of the parts (2). Five units are a mask of what the entries after it reach, before a group of
+// them or a block of up to 16 groups (effects/sspm/groups.h): kMask plus the number of units to pass
+// over if the point is not there, 0, bits of the parts (2) and of the squares (16).
 layout(STORAGE(1), std430) readonly buffer Entries { uint entries[]; };
 layout(STORAGE(2), std430) readonly buffer Shots { Shot shots[]; };
 layout(STORAGE(3), std430) readonly buffer Maps { uint blocks[]; };  // two words per block
@@ -188,26 +188,26 @@ bool isReached(uint record, Point point) {
 // A list, and how far a walk has come in it.
 struct List {
   uint next;   // unit
-  uint group;  // unit that tells of the next entries
   uint end;
   uint place;  // of the point: bits 0 to 5: part of the cell; from bit 6 on: square
 };
 
-// Goes on to the next entry whose masks have the point; else to the end.
+const uint kMask = 0x80000000u;  // effects/sspm/cell_table.cpp
+
+// Goes on to the next entry whose bits and masks have the point; else to the end.
 void findInMasks(inout List list) {
   const uint square = list.place >> 6;
   const uint part = list.place >> 5 & 1u, bit = 1u << (list.place & 31u);
   bool found = false;
   while (list.next < list.end && !found) {
-    const uint word = list.next * 4u;
-    if (list.next == list.group) {
-      const bool reaches = (entries[word + square / 32u] >> (square & 31u) & 1u) != 0u &&
-                           (entries[word + 16u + part] & bit) != 0u;
-      list.next += 5u;
-      list.group = list.next + entries[word + (reaches ? 18u : 19u)];
-      if (!reaches) list.next = list.group;
+    const uint word = list.next * 4u, first = entries[word];
+    const bool touched = (entries[word + 2u + part] & bit) != 0u;
+    if (first >= kMask) {
+      const bool reaches =
+          touched && (entries[word + 4u + square / 32u] >> (square & 31u) & 1u) != 0u;
+      list.next += 5u + (reaches ? 0u : first - kMask);
     } else {
-      found = (entries[word + 2u + part] & bit) != 0u;
+      found = touched;
       if (!found) ++list.next;
     }
   }
@@ -261,7 +261,7 @@ List listOn(uint level, Point point) {
   const int facing = facingOf(point.normal), axis = facing >> 1;
   const uvec2 run =
       findCell(lists.level_cell[level].xyz + ivec3(whole), lists.level_cell[level].w + facing);
-  return List(run.x, run.x, run.y,
+  return List(run.x, run.y,
               part.x | part.y << 2 | part.z << 4 | square[(axis + 1) % 3] << 6 |
                   square[(axis + 2) % 3] << 10 | part[axis] >> 1 << 14);
 }

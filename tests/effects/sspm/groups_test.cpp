@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: MIT
 // What groups of shots reach in a cell: never less than their shots, and little more, so that
-// pixels beside many shots at one place pass over them.
+// pixels beside many shots at one place pass over them. They take memory only where that pays.
 #include "effects/sspm/groups.h"
 
 #include <gtest/gtest.h>
@@ -26,6 +26,22 @@ bool has(const CellReach& reach, const glm::vec3& at, int axis) {
   const glm::ivec3 square(glm::clamp(at * float{kAWay}, 0.0f, kAWay - 1.0f)), part = square / 4;
   return (reach.parts >> (part.x | part.y << 2 | part.z << 4) & 1) != 0 &&
          has(reach.squares, part[axis] / 2, square[(axis + 1) % 3], square[(axis + 2) % 3]);
+}
+
+constexpr uint64_t kAllParts = UINT64_MAX;
+
+// The two layers of parts of a wall across an axis.
+uint64_t wallParts(int axis) {
+  uint64_t parts = 0;
+  for (int part = 0; part < 64; ++part) {
+    if ((part >> 2 * axis & 3) < 2) parts |= uint64_t{1} << part;
+  }
+  return parts;
+}
+
+// A shot onto a wall across axis 1, from above. at: along axes 2 and 0, in cells.
+CellReach onWall(const glm::vec2& at, float range) {
+  return reachOf(wallParts(1), 1, {at.y, 3, at.x}, {0, -1, 0}, range);
 }
 
 class GroupsTest : public ::testing::Test {
@@ -70,7 +86,7 @@ TEST_F(GroupsTest, AShotReachesLittleBesideItsRange) {
     glm::vec3 way(0);
     way[axis] = -1;
     const glm::vec3 muzzle = glm::vec3(0.5f) - 3.0f * way;
-    const CellReach reach = reachOf(~uint64_t{0}, axis, muzzle, way, 0.3f);
+    const CellReach reach = reachOf(kAllParts, axis, muzzle, way, 0.3f);
     int count = 0;
     for (int b = 0; b < kAWay; ++b) {
       for (int row = 0; row < kAWay; ++row) {
@@ -85,38 +101,48 @@ TEST_F(GroupsTest, AShotReachesLittleBesideItsRange) {
   }
 }
 
-// Shots come and go at random. Each group reaches what its shots reach, and none is too large.
+// Shots come and go at random, around two places. Each mask has what the shots of its group reach,
+// and no group is too large.
 TEST_F(GroupsTest, HoldWhatTheirShotsReach) {
   Groups groups;
   std::vector<CellReach> shots;
+  size_t masks = 0, without = 0;
   const auto check = [&] {
     size_t at = 0;
+    const CellReach* mask = groups.masks();
     for (size_t i = 0; i < groups.size(); ++i) {
       const Groups::Group& group = groups[i];
       EXPECT_GT(group.count, 0u);
       EXPECT_LE(group.count, Groups::kMost);
+      ++(group.mayPay() ? masks : without);
       for (const size_t end = at + group.count; at < end; ++at) {
         ASSERT_LT(at, shots.size());
-        CellReach both = group.reach;
+        if (!group.mayPay()) continue;
+        CellReach both = *mask;
         both |= shots[at];
-        EXPECT_EQ(both.parts, group.reach.parts);
-        EXPECT_EQ(both.squares.rows, group.reach.squares.rows);
+        EXPECT_EQ(both.parts, mask->parts);
+        EXPECT_EQ(both.squares.rows, mask->squares.rows);
       }
+      if (group.mayPay()) ++mask;
     }
     EXPECT_EQ(at, shots.size());
   };
-  for (int i = 0; i < 3000; ++i) {
+  for (int i = 0; i < 6000; ++i) {
     const size_t at = i % 3 == 0 ? 0 : i % 3 == 1 ? shots.size() : random_() % (shots.size() + 1);
-    const CellReach reach = reachOf(uint64_t{1} << random_() % 64, 1, point(), direction(), 0.2f);
-    groups.insert(at, reach);
+    const float place = i / 40 % 3 == 0 ? unit() : 0.3f;
+    const CellReach reach = onWall({place, 0.2f * unit()}, 0.3f);
+    groups.insert(at, 1, [&] { return reach; });
     shots.insert(shots.begin() + static_cast<std::ptrdiff_t>(at), reach);
     if (i % 7 == 0) {
       const size_t which = random_() % shots.size();
-      groups.extend(which, {.parts = 3, .squares = {}});
-      shots[which].parts |= 3;
+      const CellReach more = onWall({unit(), unit()}, 0.02f);
+      groups.extend(which, 1, [&] { return more; });
+      shots[which] |= more;
     }
+    if (i % 50 == 0) groups.widen(random_() % shots.size());
     if (i % 100 != 0) continue;
-    Groups::Eraser eraser(groups);
+    check();
+    Groups::Eraser eraser(groups, 1);
     const size_t share = random_() % 5;
     std::erase_if(shots, [&](const CellReach&) {
       const bool erased = random_() % 4 < share;
@@ -126,28 +152,50 @@ TEST_F(GroupsTest, HoldWhatTheirShotsReach) {
     eraser.finish();
     check();
   }
+  EXPECT_GT(masks, 100u);
+  EXPECT_GT(without, 100u);
 }
 
 // Of a group whose shots have all gone, nothing stays.
 TEST_F(GroupsTest, ForgetShotsThatAreGone) {
   Groups groups;
   for (size_t i = 0; i < 3 * Groups::kMost; ++i) {
-    groups.insert(i, {.parts = uint64_t{1} << i / Groups::kMost, .squares = {}});
+    groups.insert(
+        i, 1, [&] { return CellReach{.parts = uint64_t{1} << i / Groups::kMost, .squares = {}}; });
   }
-  Groups::Eraser eraser(groups);
+  Groups::Eraser eraser(groups, 1);
   for (size_t i = 0; i < 3 * Groups::kMost; ++i) eraser.next(i < 2 * Groups::kMost);
   eraser.finish();
   ASSERT_EQ(groups.size(), 1u);
-  EXPECT_EQ(groups[0].reach.parts, 4u);
+  EXPECT_EQ(groups.masks()->parts, 4u);
   EXPECT_EQ(groups[0].count, Groups::kMost);
+}
+
+// Around one place, a full group has a mask that pays. Shots that are spread have none: it would
+// take memory, and spare pixels nothing.
+TEST_F(GroupsTest, HaveMasksWhereTheyPay) {
+  Groups place, spread, few;
+  for (size_t i = 0; i < 4 * Groups::kMost; ++i) {
+    place.insert(0, 1, [&] { return onWall(glm::vec2(0.3f) + 0.05f * unit(), 0.3f); });
+    spread.insert(0, 1, [&] { return onWall({unit(), unit()}, 0.5f); });
+  }
+  few.insert(0, 1, [&] { return onWall({0.3f, 0.3f}, 0.3f); });
+  for (size_t i = 0; i < 4; ++i) {
+    EXPECT_TRUE(place[i].pays()) << i;
+    EXPECT_FALSE(spread[i].mayPay()) << i;
+  }
+  EXPECT_TRUE(few[0].mayPay());
+  EXPECT_FALSE(few[0].pays());
+  EXPECT_GE(place.bytes(), 4 * sizeof(CellReach));
+  EXPECT_LT(spread.bytes(), sizeof(CellReach));
 }
 
 // Groups are full where shots come at the ends, newest or oldest first.
 TEST_F(GroupsTest, AreFullAtBothEnds) {
   Groups first, last;
   for (size_t i = 0; i < 20 * Groups::kMost; ++i) {
-    first.insert(0, {});
-    last.insert(i, {});
+    first.insert(0, 1, [] { return CellReach{}; });
+    last.insert(i, 1, [] { return CellReach{}; });
   }
   EXPECT_EQ(first.size(), 20u);
   EXPECT_EQ(last.size(), 20u);
