@@ -88,7 +88,7 @@ struct Cell {
   uint32_t bytes = 0;     // of its lists, on the host
   uint32_t units = 0;     // that its run on the device will take
   bool changed = false;   // since the last upload
-  bool wide = false;      // its groups reach more than their shots: see former.cpp
+  bool wide = false;      // some groups lack their masks: see former.cpp
   bool fresh = true;      // a shot has come that is not older than `coveredBelow`
 
   // reach(): of `entry`; called if that is needed.

@@ -134,7 +134,7 @@ PaintWorld::CellRay PaintWorld::rayIn(const Cell& cell, const Entry& entry) cons
           .range = static_cast<float>(rangeOf(entry.shot) / edge)};
 }
 
-// Groups of a cell become as tight as their shots again, once no former shot is left.
+// Groups of a cell get their masks back, once no former shot is left.
 void PaintWorld::tighten(Cell& cell) {
   if (!cell.wide || !former_.empty()) return;
   cell.wide = false;
@@ -149,7 +149,8 @@ void PaintWorld::tighten(Cell& cell) {
   }
 }
 
-// Lists former shots in the cells that a larger range reaches. Groups get wide meanwhile.
+// Lists former shots in the cells that a larger range reaches. Their groups have no masks
+// meanwhile.
 void PaintWorld::spread() {
   const size_t count = cells_.cells().size();
   for (size_t i = 0; i < count; ++i) spread(cells_.cells()[i]);

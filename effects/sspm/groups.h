@@ -1,8 +1,8 @@
 // SPDX-License-Identifier: MIT
 // Groups of up to 16 shots in a cell's list, and masks of what they reach. A pixel that a group
 // does not reach passes over it with one test: around a place at which many shots were fired, it
-// need not ask each of them. A mask takes as much memory as four shots in a list, so a group has
-// one only where it spares pixels as many.
+// need not ask each of them. A mask takes as much memory as four shots in a list. A group has one
+// only where it lets pixels pass over kSpared shots.
 #pragma once
 
 #include <array>
@@ -41,8 +41,9 @@ CellReach reachOf(uint64_t parts, int axis, const glm::vec3& muzzle, const glm::
 // The groups of a list, in its order.
 class Groups {
  public:
-  static constexpr uint32_t kMost = 16;    // shots
-  static constexpr uint32_t kSpared = 2;   // shots that a pixel passes over, on average, if it pays
+  static constexpr uint32_t kMost = 16;  // shots
+  // Shots that a pixel in their parts passes over, on average, if a mask pays.
+  static constexpr uint32_t kSpared = 2;
   static constexpr uint32_t kWhole = 256;  // of shares
 
   struct Group {
@@ -70,7 +71,7 @@ class Groups {
     const size_t group = find(at);
     if (groups_[group].mayPay()) extendGroup(group, axis, reach());
   }
-  // The shot at an index may reach all.
+  // The shot at an index may reach all: its group has no mask any more.
   void widen(size_t at);
   void clear() { *this = {}; }
 
