@@ -29,7 +29,7 @@ TEST_F(OwnedTest, AssignmentDestroysWhatWasOwned) {
     plugin::Buffer buffer = this->buffer(1), larger = this->buffer(2);
     buffer = std::move(larger);
     EXPECT_EQ(destroyed, std::vector<uint64_t>{1});
-    EXPECT_FALSE(larger);
+    EXPECT_FALSE(larger);  // NOLINT(bugprone-use-after-move): documented
     buffer = {};
     EXPECT_EQ(destroyed, (std::vector<uint64_t>{1, 2}));
     EXPECT_FALSE(buffer);
