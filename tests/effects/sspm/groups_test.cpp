@@ -28,20 +28,11 @@ bool has(const CellReach& reach, const glm::vec3& at, int axis) {
          has(reach.squares, part[axis] / 2, square[(axis + 1) % 3], square[(axis + 2) % 3]);
 }
 
-constexpr uint64_t kAllParts = UINT64_MAX;
-
-// The two layers of parts of a wall across an axis.
-uint64_t wallParts(int axis) {
-  uint64_t parts = 0;
-  for (int part = 0; part < 64; ++part) {
-    if ((part >> 2 * axis & 3) < 2) parts |= uint64_t{1} << part;
-  }
-  return parts;
-}
-
-// A shot onto a wall across axis 1, from above. at: along axes 2 and 0, in cells.
+// A shot onto a wall across axis 1, from above, in the lower two layers of parts.
+// at: along axes 2 and 0, in cells.
 CellReach onWall(const glm::vec2& at, float range) {
-  return reachOf(wallParts(1), 1, {at.y, 3, at.x}, {0, -1, 0}, range);
+  constexpr uint64_t kTwoLayers = 0x00FF'00FF'00FF'00FF;
+  return reachOf(kTwoLayers, 1, {at.y, 3, at.x}, {0, -1, 0}, range);
 }
 
 class GroupsTest : public ::testing::Test {
@@ -86,7 +77,7 @@ TEST_F(GroupsTest, AShotReachesLittleBesideItsRange) {
     glm::vec3 way(0);
     way[axis] = -1;
     const glm::vec3 muzzle = glm::vec3(0.5f) - 3.0f * way;
-    const CellReach reach = reachOf(kAllParts, axis, muzzle, way, 0.3f);
+    const CellReach reach = reachOf(~uint64_t{0}, axis, muzzle, way, 0.3f);
     int count = 0;
     for (int b = 0; b < kAWay; ++b) {
       for (int row = 0; row < kAWay; ++row) {
@@ -101,8 +92,8 @@ TEST_F(GroupsTest, AShotReachesLittleBesideItsRange) {
   }
 }
 
-// Shots come and go at random, around two places. Each mask has what the shots of its group reach,
-// and no group is too large.
+// Shots come and go at random, at one place and anywhere. Each mask has what the shots of its group
+// reach, and no group is too large.
 TEST_F(GroupsTest, HoldWhatTheirShotsReach) {
   Groups groups;
   std::vector<CellReach> shots;
