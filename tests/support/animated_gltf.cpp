@@ -20,6 +20,7 @@ class Writer {
  public:
   json document = json::parse(R"({"asset": {"version": "2.0"}, "scene": 0, "scenes": [{}],
                                   "buffers": [{}]})");
+  float slowness = 1;  // factor for the times of keys
 
   template <typename T>
   size_t accessor(const std::vector<T>& values, const char* type, size_t components) {
@@ -62,8 +63,9 @@ class Writer {
     return document["meshes"].back()["primitives"][0];
   }
 
-  void animate(size_t animation, size_t node, const char* path, const Floats& seconds,
+  void animate(size_t animation, size_t node, const char* path, Floats seconds,
                const Floats& values, const char* interpolation) {
+    for (float& second : seconds) second *= slowness;
     const std::string what = path;
     const char* type = what == "rotation" ? "VEC4" : what == "weights" ? "SCALAR" : "VEC3";
     const size_t width = what == "rotation" ? 4 : what == "weights" ? 1 : 3;
@@ -185,8 +187,9 @@ void addAnimations(Writer& writer) {
 
 }  // namespace
 
-std::string animatedGlb() {
+std::string animatedGlb(float slowness) {
   Writer writer;
+  writer.slowness = slowness;
   writer.document["scenes"][0]["nodes"] = {0, 1, 2, 3, 5};
   writer.document["nodes"] = json::parse(R"([
       {"name": "floor", "mesh": 0},

@@ -12,6 +12,8 @@ namespace grisaille::tests {
 //   1, "jump", 1 s: step keys of the same
 //   2, without a name, 0.5 s: the scale of the box
 //   3, "high", 1 s: the box rises by 12 m
-std::string animatedGlb();
+//
+// slowness: factor for the times of all keys, above 0. Cubic tangents keep their values.
+std::string animatedGlb(float slowness = 1);
 
 }  // namespace grisaille::tests
