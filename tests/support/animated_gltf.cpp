@@ -20,7 +20,7 @@ class Writer {
  public:
   json document = json::parse(R"({"asset": {"version": "2.0"}, "scene": 0, "scenes": [{}],
                                   "buffers": [{}]})");
-  float slowness = 1;  // factor for the times of keys
+  float slowness = 1;  // factor for the times of all keys
 
   template <typename T>
   size_t accessor(const std::vector<T>& values, const char* type, size_t components) {

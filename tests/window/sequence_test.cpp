@@ -56,7 +56,6 @@ TEST_P(SequenceTest, APathIsRecordedAndRendered) {
   expectQuits(viewer);
 }
 
-// The camera rests; the animation plays once.
 // ffmpeg is a stand-in, which writes down what it is given.
 TEST_P(SequenceTest, AVideoIsMadeOfThePictures) {
   namespace fs = std::filesystem;
@@ -106,8 +105,10 @@ TEST_P(SequenceTest, AVideoIsMadeOfThePictures) {
   expectQuits(viewer);
 }
 
+// The camera rests; the animation plays once.
 TEST_P(SequenceTest, AnAnimationIsRenderedAndCancelled) {
-  // Two minutes: on a busy machine, frames of seconds are all written before the click arrives.
+  // Renders two minutes of animation: a busy machine writes the pictures of two seconds before the
+  // click on Cancel arrives.
   folder_.write("a.glb", animatedGlb(60));
   DrivenViewer viewer(folder_, {"a.glb", "--backend", GetParam(), "--size", kWindow, "--effects",
                                 "ssao", "--view", "depth", "--set", "ssao.radius=0.3"});
