@@ -27,7 +27,9 @@ void leavingACore(const std::function<void()>& work) {
 }
 
 size_t loopThreads() {
-  return std::max<size_t>(1 + spared, std::thread::hardware_concurrency()) - spared;
+  // glibc opens a file of /sys to tell, which takes longer than a small loop.
+  static const size_t cores = std::thread::hardware_concurrency();
+  return std::max<size_t>(1 + spared, cores) - spared;
 }
 
 }  // namespace grisaille::trace

@@ -11,10 +11,14 @@
 
 namespace grisaille::lab {
 
-// Returns one value per element of `hits`. It is 1 if for any shot the hit lies less than the
-// shot's range from its ray, in front of its muzzle, faces the muzzle, and nothing blocks the
-// segment to the muzzle; else 0. `range`: for shots without one, in metres. Segments start 0.1 mm
-// off the surface.
+// Returns one value per element of `hits`: 1 + the index of the newest (last) shot that paints the
+// hit, 0 if none does. A shot paints a hit that lies less than the shot's range from its ray, in
+// front of its muzzle, and faces the muzzle, if nothing blocks the segment to the muzzle. `range`:
+// for shots without one, in metres. Segments start 0.1 mm off the surface.
+std::vector<uint32_t> paintOwners(const trace::RayTracer& tracer, std::span<const trace::Hit> hits,
+                                  std::span<const Shot> shots, double range);
+
+// The same as 1 where a shot paints and 0 elsewhere.
 std::vector<uint8_t> paintMask(const trace::RayTracer& tracer, std::span<const trace::Hit> hits,
                                std::span<const Shot> shots, double range);
 
