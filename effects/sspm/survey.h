@@ -113,7 +113,8 @@ class Survey {
     Kind kind = Kind::kUndecided;
     bool ragged = false;    // contains a depth discontinuity
     bool doubtful = false;  // lies beside one
-    bool blocked = false;   // something is in front of the plane that its corners see
+    bool blocked = false;   // one plane serves its corners, but not all of it
+    bool open = false;      // lies across an edge of the surface, and hides nothing
     enum class Step : uint8_t { kPlane, kCrease, kSilhouette } step = Step::kPlane;
     int32_t children = -1;            // index of the first of four, by rows
     int32_t first = -1, second = -1;  // samples of its planes
@@ -142,6 +143,7 @@ class Survey {
   };
   // For each corner of a square, how far the hits of all corners are from its plane: see misfit().
   using Misfits = std::array<std::array<float, 4>, 4>;
+  using Corners = std::array<bool, 4>;              // some of a square's corners
   enum class Found : uint8_t { kYes, kNo, kWait };  // kWait: rays were asked for
   struct SeenPlane {
     const Sample* sample;
@@ -189,6 +191,9 @@ class Survey {
   Found narrow(const Pair& pair, Bisection& side);
   Found confirm(const Square& square, const Pair& pair, const MapLine& line);
   void settle(Square& square);
+  Corners nearCorners(const Square& square) const;
+  bool lineBetween(const Square& square, const Corners& near, MapLine& line) const;
+  int32_t farthestPlane(const Square& square, const Corners& some) const;
 
   // survey_map.cpp
   class Writer;

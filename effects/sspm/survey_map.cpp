@@ -114,7 +114,7 @@ class Survey::Writer {
         return true;
       }
       case Kind::kOnePlane:
-        reference = planeFor(square, shifted(square), 0);
+        reference = most_ == 0 && square.open ? kOpen : planeFor(square, shifted(square), 0);
         return true;
       case Kind::kUntold:
         reference = plane(hidingPlane(survey_.frame_));

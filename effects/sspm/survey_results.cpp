@@ -125,7 +125,7 @@ bool Survey::serves(int32_t index, const glm::vec4& plane) const {
     case Kind::kNothing:
       return true;
     case Kind::kOnePlane:
-      return std::ranges::all_of(square.corners, [&](int32_t corner) {
+      return !square.open && std::ranges::all_of(square.corners, [&](int32_t corner) {
         return !sample(corner).hit ||
                sspm::serves(plane, sample(corner).at, sample(corner).plane, frame_.bias);
       });

@@ -3,6 +3,7 @@
 #include <algorithm>
 #include <array>
 #include <cmath>
+#include <functional>
 #include <limits>
 #include <utility>
 
@@ -13,6 +14,10 @@ namespace grisaille::sspm {
 namespace {
 
 constexpr float kSafety = 0.75f;  // share of the map's bias that planes may be off at corners
+// Of a finest square's width on the surface: by how much its far corners lie behind its near ones.
+constexpr float kGap = 2;
+// Of finest squares: width of squares across a surface's edge.
+constexpr int32_t kEdge = 2;
 // Corners of a square around it, of those by rows.
 constexpr std::array<size_t, 4> kAround = {0, 1, 3, 2};
 
@@ -100,9 +105,10 @@ Survey::Misfits Survey::misfitsOf(const Square& square) const {
   return misfits;
 }
 
-// Finds one plane for the whole square: that of the corner which serves all others best. A corner
-// without a hit agrees with every plane, since there is no surface to paint. Bent surfaces lie
-// partly behind the plane; it is moved back to the farthest corner.
+// Finds one plane for the whole square: that of the corner which serves all others best. Bent
+// surfaces lie partly behind the plane; it is moved back to the farthest corner. A corner without a
+// hit agrees with every plane. The square then lies across an edge of the surface, where the muzzle
+// often grazes further facets, far behind the plane: small squares there hide nothing.
 // within: the square has surfaces in range. Otherwise any plane does.
 Survey::Found Survey::findPlane(Square& square, const Misfits& misfits, bool within) {
   float least = within ? 1 : std::numeric_limits<float>::infinity();
@@ -123,6 +129,11 @@ Survey::Found Survey::findPlane(Square& square, const Misfits& misfits, bool wit
     square.shift = within ? behind : 0;
   }
   if (square.first < 0) return Found::kNo;
+  square.open = within && !isCoarse() && std::ranges::any_of(square.corners, [&](int32_t corner) {
+                  return !sample(corner).hit;
+                });
+  square.blocked = square.open && stage_ == Stage::kFine && square.size > kEdge * finestAt(square);
+  if (square.blocked) return Found::kNo;
   square.kind = Kind::kOnePlane;
   if (!square.doubtful) return Found::kYes;
   const int32_t centre = ask(square.corner + square.size / 2);
@@ -302,22 +313,85 @@ Survey::Found Survey::narrow(const Pair& pair, Bisection& side) {
   return Found::kYes;
 }
 
-// For a square that cannot be divided further: the plane behind which the fewest corners lie.
+// For a square that cannot be divided further: a line half-way between its near corners and its far
+// ones, or one plane for all.
 void Survey::settle(Square& square) {
+  square.ragged = true;
+  square.shift = 0;
+  const Corners near = nearCorners(square);
+  Corners far;
+  std::ranges::transform(near, far.begin(), std::logical_not());
+  if (std::ranges::count(near, true) > 0 && lineBetween(square, near, square.line)) {
+    square.kind = Kind::kTwoPlanes;
+    square.first = farthestPlane(square, far);
+    square.second = farthestPlane(square, near);
+  } else {
+    square.kind = Kind::kSeveral;
+    square.first = farthestPlane(square, {true, true, true, true});
+  }
+}
+
+// The corners before the widest gap between the distances of the corners' hits. None, if no gap is
+// much wider than the square.
+Survey::Corners Survey::nearCorners(const Square& square) const {
+  std::array<std::pair<float, size_t>, 4> hits;  // distance along the shot's direction, corner
+  size_t count = 0;
+  for (size_t i = 0; i < 4; ++i) {
+    const Sample& corner = sample(square.corners[i]);
+    constexpr float kFarthest = std::numeric_limits<float>::max();
+    hits[i] = {corner.hit ? glm::dot(corner.at, frame_.direction) : kFarthest, i};
+    count += corner.hit ? 1 : 0;
+  }
+  std::ranges::sort(hits);
+  float widest = kGap * sizeOf(square) * frame_.range;
+  size_t nearCount = 0;
+  for (size_t i = 1; i < count; ++i) {
+    const float gap = hits[i].first - hits[i - 1].first;
+    if (gap <= widest) continue;
+    widest = gap;
+    nearCount = i;
+  }
+  Corners near = {};
+  for (size_t i = 0; i < nearCount; ++i) near[hits[i].second] = true;
+  return near;
+}
+
+// The line through the middles of the two sides that lead from `near` corners to others. Returns
+// false if four sides do.
+bool Survey::lineBetween(const Square& square, const Corners& near, MapLine& line) const {
+  std::array<glm::vec2, 4> middles;
+  size_t count = 0;
+  glm::vec2 within(0);
+  for (size_t i = 0; i < 4; ++i) {
+    const size_t a = kAround[i], b = kAround[(i + 1) % 4];
+    const glm::vec2 place = unitsOf(sample(square.corners[a]).place);
+    if (near[a]) within += place / static_cast<float>(std::ranges::count(near, true));
+    if (near[a] == near[b]) continue;
+    middles[count++] = (place + unitsOf(sample(square.corners[b]).place)) / 2.0f;
+  }
+  if (count == 2) line = lineThrough(middles[0], middles[1], within);
+  return count == 2;
+}
+
+// The sample, of those at `some` corners, behind whose plane the fewest others lie. -1: no hits.
+int32_t Survey::farthestPlane(const Square& square, const Corners& some) const {
+  int32_t best = -1;
   std::ptrdiff_t most = 0;
-  for (const int32_t plane : square.corners) {
-    if (!sample(plane).hit) continue;
-    const auto served = std::ranges::count_if(square.corners, [&](int32_t other) {
-      const Sample& seen = sample(other);
-      return seen.hit &&
-             depthBehind(frame_, sample(plane).plane, seen.at, glm::vec3(seen.plane)) <= 1;
-    });
+  for (size_t i = 0; i < 4; ++i) {
+    const int32_t plane = square.corners[i];
+    if (!some[i] || !sample(plane).hit) continue;
+    std::ptrdiff_t served = 0;
+    for (size_t j = 0; j < 4; ++j) {
+      const Sample& seen = sample(square.corners[j]);
+      if (!some[j] || !seen.hit) continue;
+      const float behind = depthBehind(frame_, sample(plane).plane, seen.at, glm::vec3(seen.plane));
+      served += behind <= 1 ? 1 : 0;
+    }
     if (served <= most) continue;
     most = served;
-    square.first = plane;
+    best = plane;
   }
-  square.kind = Kind::kSeveral;
-  square.ragged = true;
+  return best;
 }
 
 }  // namespace grisaille::sspm

@@ -5,6 +5,7 @@
 
 #include <algorithm>
 #include <filesystem>
+#include <optional>
 
 #include "lab/paint/paint_mask.h"
 #include "tests/effects/sspm/paint_frame.h"
@@ -22,6 +23,11 @@ using Mask = std::vector<uint8_t>;
 struct Agreement {
   size_t traced = 0, both = 0, either = 0;
   size_t stray = 0;  // covered pixels more than 2 px from the mask
+  void add(bool truth, bool painted) {
+    traced += truth ? 1 : 0;
+    both += truth && painted ? 1 : 0;
+    either += truth || painted ? 1 : 0;
+  }
   double iou() const {
     return either > 0 ? static_cast<double>(both) / static_cast<double>(either) : 1;
   }
@@ -35,9 +41,7 @@ Agreement compare(const Mask& mask, const image::Image& coverage) {
     for (uint32_t x = 0; x < width; ++x) {
       const bool truth = traced(x, y);
       const bool painted = coverage.at(x, y) > 0;
-      result.traced += truth ? 1 : 0;
-      result.both += truth && painted ? 1 : 0;
-      result.either += truth || painted ? 1 : 0;
+      result.add(truth, painted);
       if (!painted || truth) continue;
       bool near = false;
       for (uint32_t v = y - std::min(y, 2u); v <= std::min(y + 2, height - 1); ++v) {
@@ -49,6 +53,22 @@ Agreement compare(const Mask& mask, const image::Image& coverage) {
     }
   }
   return result;
+}
+
+// At any pixel of the picture, from anywhere around the camera, with a range of `least` to `most`
+// metres. None if the pixel shows no surface.
+std::optional<lab::Shot> anyShot(std::mt19937& random, const scene::Camera& camera,
+                                 std::span<const trace::Hit> hits, double least, double most) {
+  std::uniform_real_distribution<double> unit(0, 1);
+  const auto x = static_cast<uint32_t>(kMaskWidth * (0.05 + 0.9 * unit(random)));
+  const auto y = static_cast<uint32_t>(kMaskHeight * (0.05 + 0.9 * unit(random)));
+  const trace::Hit& target = hits[y * kMaskWidth + x];
+  const glm::dvec3 muzzle =
+      camera.eye +
+      glm::dvec3(3 * unit(random) - 1.5, 1.5 * unit(random) - 0.7, 3 * unit(random) - 1.5);
+  if (target.viewDepth == 0) return {};
+  const double range = least + (most - least) * unit(random);
+  return shotAt(muzzle, target.position, glm::vec3(1, 0, 0), static_cast<float>(range));
 }
 
 class MaskTest : public BackendTest {
@@ -65,7 +85,6 @@ void MaskTest::expectMasks(bool byDepths) {
   TracedRays rays(scene);
   TracedDepths depths(rays.tracer());
   std::mt19937 random(11);
-  std::uniform_real_distribution<double> unit(0, 1);
   Agreement sum;
   size_t shotCount = 0;
   for (const char* name : {"atrium", "arcade", "gallery", "lion"}) {
@@ -79,23 +98,15 @@ void MaskTest::expectMasks(bool byDepths) {
       frame.setRays(&rays);
     }
     for (int i = 0; i < 8; ++i) {
-      // At any pixel of the picture, from anywhere around the camera.
-      const auto x = static_cast<uint32_t>(kMaskWidth * (0.05 + 0.9 * unit(random)));
-      const auto y = static_cast<uint32_t>(kMaskHeight * (0.05 + 0.9 * unit(random)));
-      const trace::Hit& target = hits[y * kMaskWidth + x];
-      const glm::dvec3 muzzle =
-          camera.eye +
-          glm::dvec3(3 * unit(random) - 1.5, 1.5 * unit(random) - 0.7, 3 * unit(random) - 1.5);
-      if (target.viewDepth == 0) continue;
-      const double range = 0.1 + 0.4 * unit(random);
-      const std::vector<lab::Shot> shots = {
-          shotAt(muzzle, target.position, glm::vec3(1, 0, 0), static_cast<float>(range))};
+      const std::optional<lab::Shot> shot = anyShot(random, camera, hits, 0.1, 0.5);
+      if (!shot) continue;
+      const auto shots = std::span(&*shot, 1);
       frame.set({{"edge_fade", "0"}});
       frame.render(camera, kMaskWidth, kMaskHeight, shots, {"paint_coverage"});
       const Agreement one =
-          compare(lab::paintMask(rays.tracer(), hits, shots, range), frame.read("paint_coverage"));
-      SCOPED_TRACE(fmt::format("{}, shot {} at pixel {},{} with range {}: {} px", name, i, x, y,
-                               range, one.traced));
+          compare(lab::paintMask(rays.tracer(), hits, shots, 0), frame.read("paint_coverage"));
+      SCOPED_TRACE(
+          fmt::format("{}, shot {} with range {}: {} px", name, i, shot->range, one.traced));
       // Smaller masks are mostly edge.
       if (one.traced >= 500) {
         EXPECT_GE(one.iou(), 0.97);
@@ -124,6 +135,44 @@ TEST_P(MaskTest, PaintLandsWhereTheMuzzleSees) {
 
 TEST_P(MaskTest, PaintLandsWhereADepthPictureOfTheMuzzleShowsASurface) {
   expectMasks(true);
+}
+
+// Many shots in one picture, of which the newest wins everywhere.
+TEST_P(MaskTest, AThousandAndTenThousandShotsTogether) {
+  const std::filesystem::path shared = SHARED_FOLDER;
+  if (!std::filesystem::exists(shared / "scenes/Sponza.glb")) GTEST_SKIP() << "Sponza is missing";
+  const scene::Scene scene = scene::loadGltf(shared / "scenes/Sponza.glb");
+  TracedRays rays(scene);
+  const scene::Camera camera = scene::loadCamera(shared / "cameras/atrium.json");
+  const std::vector<trace::Hit> hits = rays.tracer().castPrimary(camera, kMaskWidth, kMaskHeight);
+  std::mt19937 random(12);
+  std::vector<lab::Shot> shots;
+  while (shots.size() < 10'000) {
+    if (const auto shot = anyShot(random, camera, hits, 0.05, 0.25)) shots.push_back(*shot);
+  }
+  PaintFrame frame(device(), scene);
+  frame.setRays(&rays);
+  // Without these, two shots mix where the newer one is thin.
+  frame.set({{"edge_fade", "0"}, {"splat_sharpness", "1"}});
+  for (const size_t count : {1000u, 10'000u}) {
+    const auto some = std::span(shots).first(count);
+    frame.render(camera, kMaskWidth, kMaskHeight, some, {"paint_owner"});
+    const image::Image painted = frame.read("paint_owner");
+    const std::vector<uint32_t> traced = lab::paintOwners(rays.tracer(), hits, some, 0);
+    Agreement paint;
+    size_t newest = 0;
+    for (size_t i = 0; i < traced.size(); ++i) {
+      const auto owner = static_cast<uint32_t>(painted.pixels[i]);
+      paint.add(traced[i] != 0, owner != 0);
+      newest += owner != 0 && owner == traced[i] ? 1 : 0;
+    }
+    const double right = static_cast<double>(newest) / static_cast<double>(paint.either);
+    std::printf("%s: %zu shots, %zu px, intersection over union %.4f, right shot on %.4f\n",
+                GetParam().label.c_str(), count, paint.traced, paint.iou(), right);
+    EXPECT_GT(paint.traced, size_t{kMaskWidth} * kMaskHeight / 2);
+    EXPECT_GE(paint.iou(), 0.995);
+    EXPECT_GE(right, 0.98);
+  }
 }
 
 // The picture shows what lies behind such a wall, and so do depth pictures of the muzzle.
