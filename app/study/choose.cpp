@@ -129,8 +129,15 @@ std::vector<size_t> presetsOn(std::span<const Price> front,
 
 std::vector<size_t> worthwhile(std::span<const Price> prices, std::span<const size_t> front) {
   std::vector<size_t> worth;
+  double same = 0;  // up to this cost, points cost as much as the last one
   for (const size_t i : front) {
-    if (worth.empty() || prices[i].error < kWorth * prices[worth.back()].error) worth.push_back(i);
+    if (!worth.empty() && prices[i].error >= kWorth * prices[worth.back()].error) continue;
+    if (prices[i].cost <= same) {
+      worth.back() = i;
+    } else {
+      worth.push_back(i);
+      same = (1 + kClockNoise) * prices[i].cost;
+    }
   }
   return worth;
 }

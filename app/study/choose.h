@@ -25,10 +25,12 @@ struct Choice {
 std::vector<Choice> choicesOf(std::span<const Record> records);
 
 // The settings of a front that are worth their price: whose error is below kWorth times that of the
-// next cheaper one that is.
+// next cheaper one that is. Of those whose costs differ by less than clocks do from run to run, the
+// dearest.
 //
 // `front`: indices into `prices`, from frontOf().
 constexpr double kWorth = 0.99;
+constexpr double kClockNoise = 0.1;  // share of the cost
 std::vector<size_t> worthwhile(std::span<const Price> prices, std::span<const size_t> front);
 
 // How much more `dearer` errs than `cheaper` where it does worst: the largest difference of a

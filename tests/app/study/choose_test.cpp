@@ -77,6 +77,12 @@ TEST(Presets, WhatErrsHardlyLessIsNotWorthItsPrice) {
   EXPECT_EQ(worthwhile(prices, frontOf(prices)), (std::vector<size_t>{0, 1, 3}));
 }
 
+// As the clock may have it the other way round, the one that errs less is taken.
+TEST(Presets, OfSettingsThatCostTheSameTheBetterOneIsWorthIt) {
+  const std::vector<Price> prices = {{1, 0.9}, {1.08, 0.8}, {1.15, 0.7}, {2, 0.6}, {2.1, 0.5}};
+  EXPECT_EQ(worthwhile(prices, frontOf(prices)), (std::vector<size_t>{1, 2, 4}));
+}
+
 // Each error is near the next. Those that remain are apart, and no gap becomes wider than
 // necessary.
 TEST(Presets, AChainOfNearErrorsIsThinnedOut) {
