@@ -30,7 +30,7 @@ std::vector<Choice> choicesOf(std::span<const Record> records);
 //
 // `front`: indices into `prices`, from frontOf().
 constexpr double kWorth = 0.99;
-constexpr double kClockNoise = 0.1;  // share of the cost
+constexpr double kClockNoise = 0.08;  // share of the cost
 std::vector<size_t> worthwhile(std::span<const Price> prices, std::span<const size_t> front);
 
 // How much more `dearer` errs than `cheaper` where it does worst: the largest difference of a
