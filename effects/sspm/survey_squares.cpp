@@ -321,7 +321,7 @@ void Survey::settle(Square& square) {
   const Corners near = nearCorners(square);
   Corners far;
   std::ranges::transform(near, far.begin(), std::logical_not());
-  if (std::ranges::count(near, true) > 0 && lineBetween(square, near, square.line)) {
+  if (lineBetween(square, near, square.line)) {
     square.kind = Kind::kTwoPlanes;
     square.first = farthestPlane(square, far);
     square.second = farthestPlane(square, near);
@@ -357,7 +357,7 @@ Survey::Corners Survey::nearCorners(const Square& square) const {
 }
 
 // The line through the middles of the two sides that lead from `near` corners to others. Returns
-// false if four sides do.
+// false if none or four do.
 bool Survey::lineBetween(const Square& square, const Corners& near, MapLine& line) const {
   std::array<glm::vec2, 4> middles;
   size_t count = 0;

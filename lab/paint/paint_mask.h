@@ -18,7 +18,7 @@ namespace grisaille::lab {
 std::vector<uint32_t> paintOwners(const trace::RayTracer& tracer, std::span<const trace::Hit> hits,
                                   std::span<const Shot> shots, double range);
 
-// The same as 1 where a shot paints and 0 elsewhere.
+// Returns 1 for each hit that a shot paints, 0 for the others. Parameters as for paintOwners().
 std::vector<uint8_t> paintMask(const trace::RayTracer& tracer, std::span<const trace::Hit> hits,
                                std::span<const Shot> shots, double range);
 

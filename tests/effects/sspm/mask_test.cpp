@@ -152,7 +152,7 @@ TEST_P(MaskTest, AThousandAndTenThousandShotsTogether) {
   }
   PaintFrame frame(device(), scene);
   frame.setRays(&rays);
-  // Without these, two shots mix where the newer one is thin.
+  // With the defaults, two shots mix where the newer one is thin.
   frame.set({{"edge_fade", "0"}, {"splat_sharpness", "1"}});
   for (const size_t count : {1000u, 10'000u}) {
     const auto some = std::span(shots).first(count);
