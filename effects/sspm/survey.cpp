@@ -12,9 +12,13 @@
 namespace grisaille::sspm {
 namespace {
 
-constexpr float kFinestMetres = 0.008f;   // width on the surface below which nothing is divided
+// Width on the surface below which nothing is divided, but at least a 128th of the range and at
+// most a 32nd.
+constexpr float kFinestMetres = 0.008f;
 constexpr float kSurfaceMetres = 0.032f;  // largest width of a square with a surface in range
 constexpr int kMostProbes = 6;
+// Times the farthest surface so far: a farther one scales the map anew while probing, and later.
+constexpr float kFarther = 1.25f, kFartherLater = 2;
 constexpr size_t kMostSamples = 8192;  // rays after which no square is divided further
 constexpr int32_t kAcross = static_cast<int32_t>(2 * kMapReach) * kFinestAUnit;
 constexpr float kAtRim = 1.15f;  // times the range: hits up to here need squares as fine as inside
@@ -36,14 +40,19 @@ Survey::Survey(const Shot& shot, float range, Detail detail)
     : frame_(shot, range), detail_(detail) {
   const float finest = kFinestMetres / 2 * kFinestAUnit / range;
   finest_ = static_cast<int32_t>(
-      std::bit_floor(static_cast<uint32_t>(glm::clamp(finest, 1.0f, kFinestAUnit / 32.0f))));
+      std::bit_floor(static_cast<uint32_t>(glm::clamp(finest, 1.0f, kFinestAUnit / 64.0f))));
   probe(64 * range);
+}
+
+// Sets the map's scale, from the distance of the farthest surface in the cylinder, metres.
+void Survey::scaleTo(float farthest) {
+  farthest_ = farthest;
+  frame_.setFarthest(farthest);
 }
 
 // Rays in rings around the axis, which find the distance of the farthest surface in the cylinder.
 void Survey::probe(float farthest) {
-  farthest_ = farthest;
-  frame_.setFarthest(farthest);
+  scaleTo(farthest);
   samples_.assign(1, {});
   rays_.assign(1, rayTo(frame_, glm::vec2(0)));
   for (const float radius : {0.65f, 0.3f, 0.95f}) {
@@ -67,15 +76,20 @@ bool Survey::probed() {
   }
   if (found <= 0 && unknown) return false;
   const bool first = probes_ == 0;
-  if (++probes_ < kMostProbes && found > 0 && (first || found >= 1.25f * farthest_)) {
+  if (++probes_ < kMostProbes && found > 0 && (first || found >= kFarther * farthest_)) {
     probe(found);
     return true;
   }
   stage_ = Stage::kRough;
+  begin();
+  return true;
+}
+
+// Starts without samples.
+void Survey::begin() {
   samples_.clear();
   slots_.assign(2048, {});
   start();
-  return true;
 }
 
 // Starts with one square; keeps the samples.
@@ -216,6 +230,7 @@ void Survey::askAgain() {
 }
 
 bool Survey::take(std::span<const grisaille_hit> hits) {
+  float found = 0;
   for (size_t i = 0; i < asked_.size(); ++i) {
     Sample& sample = samples_[static_cast<size_t>(asked_[i])];
     sample.told = true;
@@ -226,10 +241,18 @@ bool Survey::take(std::span<const grisaille_hit> hits) {
     sample.at = hits[i].distance * glm::vec3(way[0], way[1], way[2]);
     sample.across = frame_.across(sample.at);
     sample.plane = planeOf({hits[i].normal[0], hits[i].normal[1], hits[i].normal[2]}, sample.at);
+    if (inRange(sample)) found = std::max(found, glm::dot(sample.at, frame_.direction));
   }
   rays_.clear();
   asked_.clear();
   if (stage_ == Stage::kProbing) return probed();
+  // Surfaces seen through a gap that no probe met would have too wide squares.
+  if (found >= kFartherLater * farthest_ && probes_ < kMostProbes) {
+    ++probes_;
+    scaleTo(found);
+    begin();
+    return true;
+  }
   advance();
   writeRays();
   return true;

@@ -155,12 +155,14 @@ class Survey {
   const Sample& sample(int32_t index) const { return samples_[static_cast<size_t>(index)]; }
 
   // survey.cpp: which rays to cast
+  void scaleTo(float farthest);
   void probe(float farthest);
   bool probed();
   size_t countUnknown(float within) const;
   int32_t ask(const glm::ivec2& place);
   glm::vec4 planeOf(const glm::vec3& normal, const glm::vec3& at) const;
   void writeRays();
+  void begin();
   void start();
   void advance();
   void doubt();

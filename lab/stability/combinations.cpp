@@ -219,8 +219,8 @@ std::vector<Case> randomCases(uint32_t count, uint32_t seed) {
 const std::vector<Edge>& edges() {
   static const std::vector<Edge> kEdges = {
       {"thin things before a muzzle", 0.02,
-       "A shot's map has squares no finer than 8 mm or a 128th of the range. Beside a thinner "
-       "object, the border of the paint is off by up to one square."},
+       "A shot's map has squares of 8 mm, but of at most a 32nd and at least a 128th of the range. "
+       "Beside a thinner object, the border of the paint is off by up to one square."},
       {"far muzzle", 0.08,
        "In `surface` mode the shader computes positions as offsets from the muzzle, in single "
        "precision. From 10^5 m on they are centimetres off, which moves rims. `per_shot` mode "
