@@ -20,6 +20,7 @@ constexpr int kMostProbes = 6;
 // Times the farthest surface so far: a farther one scales the map anew while probing, and later.
 constexpr float kFarther = 1.25f, kFartherLater = 2;
 constexpr size_t kMostSamples = 8192;  // rays after which no square is divided further
+constexpr int32_t kLeastFollowed = kFinestAUnit / 8;  // width of squares that follow() leaves
 constexpr int32_t kAcross = static_cast<int32_t>(2 * kMapReach) * kFinestAUnit;
 constexpr float kAtRim = 1.15f;  // times the range: hits up to here need squares as fine as inside
 
@@ -118,6 +119,7 @@ void Survey::advance() {
     }
     if (!waiting.empty() || stage_ != Stage::kFine) break;
     doubt();
+    if (undecided_.empty()) follow();
     if (undecided_.empty()) break;
   }
   undecided_ = std::move(waiting);
@@ -139,6 +141,29 @@ void Survey::doubt() {
       undecided_.push_back(index);
     }
   }
+}
+
+// Divides squares whose corners see nothing while a ray through one of their sides saw a surface in
+// range, which therefore goes on inside: a branch or a cable.
+void Survey::follow() {
+  const auto count = static_cast<int32_t>(squares_.size());
+  for (int32_t index = 0; index < count; ++index) {
+    const Square& square = at(index);
+    if (square.kind != Kind::kNothing || square.size <= kLeastFollowed) continue;
+    if (seesAtSides(square)) divide(index);
+  }
+}
+
+bool Survey::seesAtSides(const Square& square) const {
+  const int32_t step = std::max(kLeastFollowed, square.size / 8);
+  const auto sees = [&](int32_t x, int32_t y) {
+    const int32_t seen = known(square.corner + glm::ivec2(x, y));
+    return seen >= 0 && inRange(sample(seen));
+  };
+  for (int32_t i = step; i < square.size; i += step) {
+    if (sees(i, 0) || sees(i, square.size) || sees(0, i) || sees(square.size, i)) return true;
+  }
+  return false;
 }
 
 // The leaves beyond the middles of a square's four sides; -1 outside the map.

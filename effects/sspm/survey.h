@@ -166,6 +166,8 @@ class Survey {
   void start();
   void advance();
   void doubt();
+  void follow();
+  bool seesAtSides(const Square& square) const;
   std::array<int32_t, 4> neighboursOf(const Square& square) const;
   int32_t leafAt(const glm::ivec2& place) const;
   int32_t grainAt(const Square& square) const;
@@ -185,6 +187,7 @@ class Survey {
   float misfit(int32_t plane, int32_t other) const;
   Misfits misfitsOf(const Square& square) const;
   Found findPlane(Square& square, const Misfits& misfits, bool within);
+  bool isAcrossEdge(const Square& square) const;
   bool findPair(Square& square, const Misfits& misfits) const;
   Side sideOf(const Pair& pair, int32_t index) const;
   bool findCrease(const Square& square, const Pair& pair, MapLine& line) const;

@@ -32,6 +32,13 @@ inline glm::vec3 alongSlope(const ShotFrame& frame, const glm::vec2& slope) {
   return slope.x * frame.right + slope.y * frame.up + frame.direction;
 }
 
+// Reciprocal of the distance, along the shot's direction, of a plane at a place of the map. It
+// changes linearly across the map where slopes do.
+inline float nearness(const ShotFrame& frame, const glm::vec4& plane, const glm::vec2& place) {
+  const glm::vec3 along = alongSlope(frame, slopeOf(frame, place));
+  return glm::dot(glm::vec3(plane), along) / plane.w;
+}
+
 // Distance along the shot's direction at which a slope leaves the cylinder, metres.
 inline float exitOf(const ShotFrame& frame, const glm::vec2& slope) {
   const float length = glm::length(slope);

@@ -21,13 +21,6 @@ constexpr int32_t kEdge = 2;
 // Corners of a square around it, of those by rows.
 constexpr std::array<size_t, 4> kAround = {0, 1, 3, 2};
 
-// Reciprocal of the distance, along the shot's direction, of a plane at a place of the map. It
-// changes linearly across the map where slopes do.
-float nearness(const ShotFrame& frame, const glm::vec4& plane, const glm::vec2& place) {
-  const glm::vec3 along = alongSlope(frame, slopeOf(frame, place));
-  return glm::dot(glm::vec3(plane), along) / plane.w;
-}
-
 }  // namespace
 
 // Decides what a square sees, or divides it. Returns false if it asked for rays.
@@ -129,9 +122,7 @@ Survey::Found Survey::findPlane(Square& square, const Misfits& misfits, bool wit
     square.shift = within ? behind : 0;
   }
   if (square.first < 0) return Found::kNo;
-  square.open = within && !isCoarse() && std::ranges::any_of(square.corners, [&](int32_t corner) {
-                  return !sample(corner).hit;
-                });
+  square.open = within && !isCoarse() && isAcrossEdge(square);
   square.blocked = square.open && stage_ == Stage::kFine && square.size > kEdge * finestAt(square);
   if (square.blocked) return Found::kNo;
   square.kind = Kind::kOnePlane;
@@ -140,6 +131,11 @@ Survey::Found Survey::findPlane(Square& square, const Misfits& misfits, bool wit
   if (!sample(centre).told) return Found::kWait;
   square.blocked = sample(centre).hit && misfit(square.first, centre) > 1;
   return square.blocked ? Found::kNo : Found::kYes;
+}
+
+// Whether some corners see nothing.
+bool Survey::isAcrossEdge(const Square& square) const {
+  return std::ranges::any_of(square.corners, [&](int32_t corner) { return !sample(corner).hit; });
 }
 
 // Two planes that together serve all corners. Sets the square's first, which lies behind, and its
@@ -181,7 +177,12 @@ Survey::Found Survey::findLine(Square& square) {
   using Step = Square::Step;
   const Pair pair = {.far = square.first, .near = square.second};
   if (square.step == Step::kPlane) {
-    square.step = findCrease(square, pair, square.line) ? Step::kCrease : Step::kSilhouette;
+    const bool isCrease = findCrease(square, pair, square.line);
+    // As in findPlane().
+    if (isCrease && !isCoarse() && isAcrossEdge(square) && square.size > kEdge * finestAt(square)) {
+      return Found::kNo;
+    }
+    square.step = isCrease ? Step::kCrease : Step::kSilhouette;
   }
   square.kind = Kind::kTwoPlanes;
   square.shift = 0;

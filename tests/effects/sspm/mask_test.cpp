@@ -73,6 +73,15 @@ std::optional<lab::Shot> anyShot(std::mt19937& random, const scene::Camera& came
   return shotAt(muzzle, target.position, glm::vec3(1, 0, 0), static_cast<float>(range));
 }
 
+// A square bar between two places; thickness: half of its width, metres.
+void addBar(scene::Scene& scene, const glm::dvec3& from, const glm::dvec3& to, double thickness) {
+  const glm::dvec3 along = (to - from) / 2.0;
+  const glm::dvec3 side = thickness * glm::normalize(glm::cross(along, glm::dvec3(0.1, 1, 0.2)));
+  const glm::dvec3 up = thickness * glm::normalize(glm::cross(side, along));
+  addBox(scene, glm::dmat4(glm::dvec4(side, 0), glm::dvec4(up, 0), glm::dvec4(along, 0),
+                           glm::dvec4((from + to) / 2.0, 1)));
+}
+
 class MaskTest : public BackendTest {
  protected:
   struct Scenery {
@@ -84,6 +93,7 @@ class MaskTest : public BackendTest {
   };
   void expectMasks(bool byDepths);
   void expectAlone(const Scenery& scenery);
+  void expectMask(const scene::Scene& scene, const scene::Camera& camera, const lab::Shot& shot);
 };
 GRISAILLE_ON_EVERY_DEVICE(MaskTest);
 
@@ -145,6 +155,22 @@ TEST_P(MaskTest, PaintLandsWhereTheMuzzleSees) {
 
 TEST_P(MaskTest, PaintLandsWhereADepthPictureOfTheMuzzleShowsASurface) {
   expectMasks(true);
+}
+
+// Compares a single shot, at 640x360.
+void MaskTest::expectMask(const scene::Scene& scene, const scene::Camera& camera,
+                          const lab::Shot& shot) {
+  TracedRays rays(scene);
+  PaintFrame frame(device(), scene);
+  frame.setRays(&rays);
+  frame.set({{"edge_fade", "0"}});
+  const auto shots = std::span(&shot, 1);
+  frame.render(camera, 640, 360, shots, {"paint_coverage"});
+  const std::vector<trace::Hit> hits = rays.tracer().castPrimary(camera, 640, 360);
+  const Agreement one =
+      compare(lab::paintMask(rays.tracer(), hits, shots, 0), frame.read("paint_coverage"));
+  EXPECT_GT(one.traced, 1000);
+  EXPECT_GE(one.iou(), 0.97) << one.both << " of " << one.traced;
 }
 
 // Fires shots one by one, with ranges of a fifth of the scene's range to all of it. A shot is good
@@ -247,6 +273,29 @@ TEST_P(MaskTest, AThousandAndTenThousandShotsTogether) {
     EXPECT_GE(paint.iou(), 0.995);
     EXPECT_GE(right, 0.98);
   }
+}
+
+// A bar that is thin beside a map's coarse squares, and runs past the muzzle.
+TEST_P(MaskTest, PaintGoesAlongABarBesideTheMuzzle) {
+  scene::Scene scene = wallScene();
+  addBar(scene, {0, 0.05, 0.5}, {0.06, 0.14, 1.85}, 0.004);
+  expectMask(scene, {.eye = glm::dvec3(-0.6, 0.3, 1.5), .target = glm::dvec3(0.1, 0.03, 1.3)},
+             shotAt({0, 0, 2}, {0, 0, 0}, glm::vec3(1, 0, 0), 0.2f));
+}
+
+// A screen close to the muzzle has a gap, through which the shot paints bars on the wall.
+TEST_P(MaskTest, PaintIsAsFineBehindAGap) {
+  scene::Scene scene = wallScene();
+  for (const auto& [from, to] : {std::pair(-1.0f, 0.02f), std::pair(0.05f, 1.0f)}) {
+    addQuad(scene, {glm::vec3(from, -1, 1.7), {to, -1, 1.7}, {to, 1, 1.7}, {from, 1, 1.7}},
+            {0, 0, 1});
+  }
+  for (int i = 0; i < 5; ++i) {
+    const double x = 0.1 + 0.05 * i;
+    addBar(scene, {x, -0.4, 0.05}, {x, 0.4, 0.05}, 0.01);
+  }
+  expectMask(scene, {.eye = glm::dvec3(0.2, 0.1, 0.7), .target = glm::dvec3(0.15, 0, 0)},
+             shotAt({0, 0, 2}, {0, 0, 0}, glm::vec3(1, 0, 0), 0.2f));
 }
 
 // The picture shows what lies behind such a wall, and so do depth pictures of the muzzle.
