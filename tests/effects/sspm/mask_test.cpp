@@ -29,6 +29,12 @@ struct Agreement {
     both += truth && painted ? 1 : 0;
     either += truth || painted ? 1 : 0;
   }
+  void add(const Agreement& other) {
+    traced += other.traced;
+    both += other.both;
+    either += other.either;
+    stray += other.stray;
+  }
   double iou() const {
     return either > 0 ? static_cast<double>(both) / static_cast<double>(either) : 1;
   }
@@ -54,6 +60,13 @@ Agreement compare(const Mask& mask, const image::Image& coverage) {
     }
   }
   return result;
+}
+
+// Paint of the shots, compared with their mask at `hits`, those of the camera's pixels.
+Agreement shoot(PaintFrame& frame, const trace::RayTracer& tracer, const scene::Camera& camera,
+                std::span<const trace::Hit> hits, std::span<const lab::Shot> shots) {
+  frame.render(camera, kMaskWidth, kMaskHeight, shots, {"paint_coverage"});
+  return compare(lab::paintMask(tracer, hits, shots, 0), frame.read("paint_coverage"));
 }
 
 // At any pixel of the picture, from anywhere up to 1.5 `around` from the camera, with a range of
@@ -122,9 +135,7 @@ void MaskTest::expectMasks(bool byDepths) {
       if (!shot) continue;
       const auto shots = std::span(&*shot, 1);
       frame.set({{"edge_fade", "0"}});
-      frame.render(camera, kMaskWidth, kMaskHeight, shots, {"paint_coverage"});
-      const Agreement one =
-          compare(lab::paintMask(rays.tracer(), hits, shots, 0), frame.read("paint_coverage"));
+      const Agreement one = shoot(frame, rays.tracer(), camera, hits, shots);
       SCOPED_TRACE(
           fmt::format("{}, shot {} with range {}: {} px", name, i, shot->range, one.traced));
       // Smaller masks are mostly edge.
@@ -132,10 +143,7 @@ void MaskTest::expectMasks(bool byDepths) {
         EXPECT_GE(one.iou(), 0.97);
       }
       ++shotCount;
-      sum.traced += one.traced;
-      sum.both += one.both;
-      sum.either += one.either;
-      sum.stray += one.stray;
+      sum.add(one);
     }
   }
   std::printf(
@@ -157,7 +165,7 @@ TEST_P(MaskTest, PaintLandsWhereADepthPictureOfTheMuzzleShowsASurface) {
   expectMasks(true);
 }
 
-// Compares a single shot, at 640x360.
+// Compares a single shot.
 void MaskTest::expectMask(const scene::Scene& scene, const scene::Camera& camera,
                           const lab::Shot& shot) {
   TracedRays rays(scene);
@@ -165,11 +173,9 @@ void MaskTest::expectMask(const scene::Scene& scene, const scene::Camera& camera
   frame.setRays(&rays);
   frame.set({{"edge_fade", "0"}});
   const auto shots = std::span(&shot, 1);
-  frame.render(camera, 640, 360, shots, {"paint_coverage"});
-  const std::vector<trace::Hit> hits = rays.tracer().castPrimary(camera, 640, 360);
-  const Agreement one =
-      compare(lab::paintMask(rays.tracer(), hits, shots, 0), frame.read("paint_coverage"));
-  EXPECT_GT(one.traced, 1000);
+  const std::vector<trace::Hit> hits = rays.tracer().castPrimary(camera, kMaskWidth, kMaskHeight);
+  const Agreement one = shoot(frame, rays.tracer(), camera, hits, shots);
+  EXPECT_GT(one.traced, 4000);
   EXPECT_GE(one.iou(), 0.97) << one.both << " of " << one.traced;
 }
 
@@ -198,12 +204,8 @@ void MaskTest::expectAlone(const Scenery& scenery) {
       if (!shot) continue;
       ++shotCount;
       const auto shots = std::span(&*shot, 1);
-      frame.render(camera, kMaskWidth, kMaskHeight, shots, {"paint_coverage"});
-      const Agreement one =
-          compare(lab::paintMask(rays.tracer(), hits, shots, 0), frame.read("paint_coverage"));
-      sum.traced += one.traced;
-      sum.both += one.both;
-      sum.either += one.either;
+      const Agreement one = shoot(frame, rays.tracer(), camera, hits, shots);
+      sum.add(one);
       if (one.traced < 50) continue;
       ++counted;
       good += one.iou() >= 0.97 ? 1 : 0;
@@ -220,8 +222,8 @@ void MaskTest::expectAlone(const Scenery& scenery) {
   EXPECT_GE(static_cast<double>(good), scenery.leastGood * static_cast<double>(counted));
 }
 
-// Ranges as the program chooses them, but for Sponza the table's default. Most of what is wrong in
-// Sponza and on the trees are leaves, which are finer than a map's squares.
+// Ranges as the program chooses them, but for Sponza the table's default. The trees' leaves are
+// finer than a map's squares.
 TEST_P(MaskTest, ShotsAloneInScenesOfAllSizes) {
   for (const Scenery& scenery : {
            Scenery{"Sponza", {"atrium", "arcade", "gallery", "lion"}, 0.25, 0.995, 0.93},
